@@ -1,0 +1,132 @@
+// The core from end to end over an in-memory store: staging, building with
+// caches of several sizes, locating. What PostgreSQL adds is measured by
+// scripts/bench.sh.
+#include "support/memory_host.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <bit>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+using namespace abacus;
+
+constexpr std::size_t sort_bytes = std::size_t{64} << 20;
+
+void require(abacus_status status, const abacus_error &error) {
+    if (status != ABACUS_OK) throw std::runtime_error(error.message);
+}
+
+abacus_header empty_header() {
+    abacus_header header{};
+    header.dimension = 2;
+    return header;
+}
+
+/// Rows (id, x, y) as abacus_stage_add() takes them.
+std::vector<std::uint64_t> uniform_rows(std::size_t count) {
+    std::mt19937_64 engine(1);
+    std::vector<std::uint64_t> rows;
+    rows.reserve(3 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        rows.push_back(i);
+        for (int axis = 0; axis < 2; ++axis)
+            rows.push_back(std::bit_cast<std::uint64_t>(double(engine() >> 11) * 0x1p-53));
+    }
+    return rows;
+}
+
+void stage(MemoryHost &host, abacus_header &header, const std::vector<std::uint64_t> &rows) {
+    abacus_stage *handle = nullptr;
+    abacus_error error{};
+    require(abacus_stage_open(host.table(), &header, sort_bytes, &handle, &error), error);
+    require(abacus_stage_add(handle, rows.data(), rows.size() / 3, &error), error);
+    require(abacus_stage_finish(handle, &header, &error), error);
+    abacus_stage_close(handle);
+}
+
+void build(MemoryHost &host, abacus_header &header, std::size_t cache_bytes) {
+    abacus_build *handle = nullptr;
+    abacus_error error{};
+    require(abacus_build_open(host.table(), &header, cache_bytes, &handle, &error), error);
+    require(abacus_build_run(handle, 0, &header, &error), error);
+    abacus_build_close(handle);
+}
+
+/// Argument: points.
+void Stage(benchmark::State &state) {
+    const auto rows = uniform_rows(std::size_t(state.range(0)));
+    for (auto _ : state) {
+        MemoryHost host;
+        host.strict = false;
+        abacus_header header = empty_header();
+        stage(host, header, rows);
+    }
+    state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+
+/// Arguments: points, cache in MB.
+void Build(benchmark::State &state) {
+    const auto rows = uniform_rows(std::size_t(state.range(0)));
+    abacus_header header;
+    std::size_t page_bytes = 0;
+    for (auto _ : state) {
+        state.PauseTiming();
+        {
+            MemoryHost host;
+            host.strict = false;
+            header = empty_header();
+            stage(host, header, rows);
+            state.ResumeTiming();
+            build(host, header, std::size_t(state.range(1)) << 20);
+            state.PauseTiming();
+            page_bytes = 0;
+            for (const auto &[key, page] : host.pages) page_bytes += page.size;
+        }
+        state.ResumeTiming();
+    }
+    state.SetItemsProcessed(state.iterations() * state.range(0));
+    const auto &counters = header.counters;
+    state.counters["bytes/triangle"] = double(page_bytes) / double(header.simplices);
+    state.counters["loads"] = double(counters.loads);
+    state.counters["stores"] = double(counters.stores);
+    state.counters["hit_ratio"] = 1 - double(counters.misses) / double(counters.steps);
+}
+
+/// Arguments: points, cache in MB. Random places, one by one.
+void Locate(benchmark::State &state) {
+    MemoryHost host;
+    host.strict = false;
+    abacus_header header = empty_header();
+    stage(host, header, uniform_rows(std::size_t(state.range(0))));
+    build(host, header, std::size_t{64} << 20);
+    abacus_mesh *mesh = nullptr;
+    abacus_error error{};
+    require(abacus_mesh_open(host.table(), &header, std::size_t(state.range(1)) << 20, &mesh,
+                             &error),
+            error);
+    std::mt19937_64 engine(2);
+    abacus_simplex simplex;
+    for (auto _ : state) {
+        const double point[2] = {double(engine() >> 11) * 0x1p-53,
+                                 double(engine() >> 11) * 0x1p-53};
+        const abacus_status status = abacus_mesh_locate(mesh, point, &simplex, &error);
+        if (status != ABACUS_OK && status != ABACUS_END) require(status, error);
+    }
+    abacus_mesh_close(mesh);
+    state.SetItemsProcessed(state.iterations());
+}
+
+BENCHMARK(Stage)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
+BENCHMARK(Build)
+    ->Args({1'000'000, 1})
+    ->Args({1'000'000, 8})
+    ->Args({1'000'000, 64})
+    ->Args({1'000'000, 1024})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(Locate)->Args({1'000'000, 8})->Args({1'000'000, 256});
+
+} // namespace

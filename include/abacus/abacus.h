@@ -1,0 +1,375 @@
+/*
+ * abacus.h: the one bridge between PostgreSQL (C) and the Abacus core (C++).
+ *
+ * The core knows nothing of PostgreSQL. What it needs from a database it asks
+ * of an abacus_host: memory, pages found and stored by key, spool files, and
+ * a word about interrupts. What it offers is a handful of plain handles:
+ *
+ *   abacus_stage   points in, vertex pages in insertion order out   (dissertation §4.12.2)
+ *   abacus_build   staged points in, simplex pages out              (§4.12.3-5)
+ *   abacus_mesh    locate and walk over stored pages                (§4.11.3)
+ *   abacus_scan, abacus_vertex_scan, abacus_check, abacus_draw      whole-mesh readers
+ *
+ * Errors travel by return value only. A host function that fails returns
+ * ABACUS_HOST_FAILED and keeps its own error; the core unwinds and returns
+ * ABACUS_HOST_ERROR, and the caller re-raises what the host kept. An error of
+ * the core's own is returned as ABACUS_ERROR with an abacus_error filled in.
+ * No exception and no longjmp ever crosses this header. After any failure a
+ * handle may only be closed; closing calls nothing of the host but resize().
+ *
+ * Every handle is bound to one thread and to the host it was opened with,
+ * which must stay at its address until the handle is closed.
+ */
+#ifndef ABACUS_ABACUS_H
+#define ABACUS_ABACUS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define ABACUS_API __attribute__((visibility("default")))
+
+/* Largest dimension a mesh can have. */
+#define ABACUS_MAX_DIMENSION 3
+/* Largest number of attributes of a vertex: their names share one header page. */
+#define ABACUS_MAX_ATTRIBUTES 100
+/* Bytes of an attribute name, with its terminating zero (as NAMEDATALEN). */
+#define ABACUS_NAME_BYTES 64
+/* Largest page the core hands to the host, bytes. */
+#define ABACUS_PAGE_BYTES 7936
+
+/* ---- Status and errors ------------------------------------------------- */
+
+typedef enum abacus_status
+{
+	ABACUS_OK = 0,     /* done; results are filled in */
+	ABACUS_END,        /* done; there is no (further) result */
+	ABACUS_HOST_ERROR, /* a host function failed; the host holds the error */
+	ABACUS_ERROR       /* the core failed; see abacus_error */
+} abacus_status;
+
+typedef enum abacus_error_kind
+{
+	ABACUS_ERROR_INTERNAL = 0,
+	ABACUS_ERROR_CORRUPTED, /* stored bytes are not what the core wrote */
+	ABACUS_ERROR_MEMORY,    /* resize() returned NULL */
+	ABACUS_ERROR_ARGUMENT,  /* a value that the function does not take */
+	ABACUS_ERROR_STATE,     /* not possible in the mesh's present state */
+	ABACUS_ERROR_LIMIT      /* a limit of the format is exceeded */
+} abacus_error_kind;
+
+/* Zero-terminated texts in PostgreSQL's style; detail and hint may be empty. */
+typedef struct abacus_error
+{
+	abacus_error_kind kind;
+	char message[256];
+	char detail[512];
+	char hint[256];
+} abacus_error;
+
+/* ---- Keys and pages ---------------------------------------------------- */
+
+/*
+ * Key of a simplex and of the page that owns it: `code` is the locational
+ * code (Morton, 31 bits an axis in 2D, 21 in 3D; §4.8), below 2^63; `part`
+ * continues it, below 2^63, and is 0 unless more simplices than fit a page
+ * share one code. Keys are ordered by code, then part.
+ */
+typedef struct abacus_key
+{
+	uint64_t code;
+	uint64_t part;
+} abacus_key;
+
+/* One stored simplex page. */
+typedef struct abacus_page
+{
+	abacus_key key;             /* lower end of the page's interval */
+	const unsigned char *bytes; /* aligned to 8 */
+	size_t size;                /* bytes, at most ABACUS_PAGE_BYTES */
+	uint64_t location;          /* the host's own mark of the stored page; 0 = not stored yet */
+} abacus_page;
+
+/* ---- Counters (chapter 5 of the dissertation) --------------------------- */
+
+typedef struct abacus_counters
+{
+	uint64_t insertions;       /* vertices added */
+	uint64_t steps;            /* links followed: walk, cavity, rim */
+	uint64_t misses;           /* links that led out of the cache (§4.10) */
+	uint64_t link_probes;      /* page look-ups by a stored neighbour key */
+	uint64_t quick_probes;     /* §4.10.1 */
+	uint64_t ray_probes;       /* §4.10.2 */
+	uint64_t concentric_probes;/* §4.10.3 */
+	uint64_t incircle_tests;   /* insertions that asked the application cache (§4.12.4) */
+	uint64_t incircle_hits;    /* ... and were answered */
+	uint64_t walks;            /* point locations by walking */
+	uint64_t created;          /* simplices created */
+	uint64_t deleted;          /* simplices deleted */
+	uint64_t loads;            /* pages read into the cache */
+	uint64_t stores;           /* pages written from the cache */
+	uint64_t rewrites;         /* ... of them in place of an older version */
+	uint64_t splits;           /* blocks split */
+	uint64_t evictions;        /* blocks dropped from the cache */
+	uint64_t eviction_batches;
+	uint64_t bytes_read;
+	uint64_t bytes_written;
+	uint64_t translation_ns;   /* time between the two representations, host calls included */
+	uint64_t total_ns;         /* time in the core, host calls included */
+	uint64_t peak_bytes;       /* largest amount of memory the cache held */
+} abacus_counters;
+
+/* ---- Progress ------------------------------------------------------------ */
+
+typedef enum abacus_phase
+{
+	ABACUS_PHASE_READING = 1,  /* the source query */
+	ABACUS_PHASE_SORTING,      /* into insertion order */
+	ABACUS_PHASE_STAGING,      /* writing vertex pages */
+	ABACUS_PHASE_INSERTING,    /* triangulating */
+	ABACUS_PHASE_FLUSHING,     /* writing what the cache still holds */
+	ABACUS_PHASE_CHECKING
+} abacus_phase;
+
+typedef struct abacus_progress
+{
+	abacus_phase phase;
+	uint64_t done;          /* points (checking: pages) done in this phase */
+	uint64_t total;         /* 0 = not known */
+	uint64_t pages_read;
+	uint64_t pages_written;
+} abacus_progress;
+
+/* ---- The host: what a database gives the core ---------------------------- */
+
+typedef enum abacus_host_status
+{
+	ABACUS_HOST_OK = 0,
+	ABACUS_HOST_NONE,   /* no such page; end of spool */
+	ABACUS_HOST_FAILED  /* the host keeps the error */
+} abacus_host_status;
+
+/*
+ * Every function gets `context` first. None may longjmp or throw. `bytes`
+ * that a function hands out stay valid until the next call of a host function
+ * other than resize().
+ */
+typedef struct abacus_host
+{
+	void *context;
+
+	/* Like realloc(); size 0 frees and returns NULL; NULL also when out of memory. */
+	void *(*resize)(void *context, void *block, size_t size);
+
+	/* The core reads *interrupted often and calls poll() when it is not 0. */
+	const volatile int *interrupted;
+	abacus_host_status (*poll)(void *context);
+
+	/* Called at most a few hundred times a second, and at each change of phase. */
+	abacus_host_status (*progress)(void *context, const abacus_progress *progress);
+
+	/*
+	 * Simplex pages. find: the page with the greatest key <= `key`. next: the
+	 * page with the least key > `key` (from the first page when `key` is
+	 * NULL). The header row is never returned. put: stores page->bytes under
+	 * page->key, replacing the version at page->location unless that is 0,
+	 * and sets page->location.
+	 */
+	abacus_host_status (*find)(void *context, abacus_key key, abacus_page *page);
+	abacus_host_status (*next)(void *context, const abacus_key *key, abacus_page *page);
+	abacus_host_status (*put)(void *context, abacus_page *page);
+
+	/*
+	 * Vertex pages, keyed by the sequence number of their first record.
+	 * append: stores a new page. read: the page with the greatest first
+	 * sequence number <= `sequence`.
+	 */
+	abacus_host_status (*append_vertices)(void *context, uint64_t first,
+										  const unsigned char *bytes, size_t size);
+	abacus_host_status (*read_vertices)(void *context, uint64_t sequence, uint64_t *first,
+										const unsigned char **bytes, size_t *size);
+
+	/*
+	 * Spools: temporary files, written from start to end, then read from
+	 * start to end. `size` bytes are written or read whole; reading at the
+	 * end gives ABACUS_HOST_NONE. Open spools go away with the transaction.
+	 */
+	abacus_host_status (*spool_create)(void *context, void **spool);
+	abacus_host_status (*spool_write)(void *context, void *spool, const void *bytes, size_t size);
+	abacus_host_status (*spool_rewind)(void *context, void *spool);
+	abacus_host_status (*spool_read)(void *context, void *spool, void *bytes, size_t size);
+	abacus_host_status (*spool_close)(void *context, void *spool);
+} abacus_host;
+
+/* ---- Header of a mesh ----------------------------------------------------- */
+
+typedef struct abacus_header
+{
+	uint32_t dimension;    /* 2 or 3 */
+	uint32_t attributes;   /* number of attributes, 0 to ABACUS_MAX_ATTRIBUTES */
+	uint32_t has_domain;   /* 0 until given or taken from the first points */
+	double lower[ABACUS_MAX_DIMENSION]; /* domain; used for clustering only */
+	double upper[ABACUS_MAX_DIMENSION];
+	uint64_t stamp;        /* never repeats; set by the host at each change */
+	uint64_t points;       /* staged so far = sequence number of the next point */
+	uint64_t inserted;     /* points with a lower sequence number are triangulated */
+	uint64_t vertices;     /* distinct points among the inserted ones; 0 while they span no simplex */
+	uint64_t duplicates;   /* inserted points that equal an earlier one */
+	uint64_t simplices;
+	uint64_t ghosts;       /* hull facets */
+	uint64_t first_batch;  /* points of the first stage call (see abacus_vertex.vertex) */
+	abacus_counters counters; /* summed over all builds; peak_bytes: the largest */
+	char names[ABACUS_MAX_ATTRIBUTES][ABACUS_NAME_BYTES];
+} abacus_header;
+
+/* Bytes of the header row; `bytes` has room for ABACUS_PAGE_BYTES. Returns the size. */
+ABACUS_API size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes);
+/* Checks and reads a header row; ABACUS_ERROR (corrupted) if it is none. */
+ABACUS_API abacus_status abacus_header_decode(const unsigned char *bytes, size_t size,
+											  abacus_header *header, abacus_error *error);
+
+/* ---- Staging --------------------------------------------------------------- */
+
+typedef struct abacus_stage abacus_stage;
+
+/*
+ * Opens a stage for points of the header's dimension and attributes. `memory`
+ * bounds what it uses for sorting, in bytes (maintenance_work_mem); beyond it
+ * points go to spools.
+ */
+ABACUS_API abacus_status abacus_stage_open(const abacus_host *host, const abacus_header *header,
+										   size_t memory, abacus_stage **stage,
+										   abacus_error *error);
+/*
+ * Adds `count` points: each (1 + dimension + attributes) words of 8 bytes: id
+ * (int64_t), coordinates (double, finite), attributes (double; NaN = NULL).
+ */
+ABACUS_API abacus_status abacus_stage_add(abacus_stage *stage, const uint64_t *points,
+										  size_t count, abacus_error *error);
+/* Orders the points, writes the vertex pages, brings the header up to date. */
+ABACUS_API abacus_status abacus_stage_finish(abacus_stage *stage, abacus_header *header,
+											 abacus_error *error);
+ABACUS_API void abacus_stage_close(abacus_stage *stage);
+
+/* ---- Building --------------------------------------------------------------- */
+
+typedef struct abacus_build abacus_build;
+
+/* Opens a mesh for inserting, with a computational cache of `cache_bytes`. */
+ABACUS_API abacus_status abacus_build_open(const abacus_host *host, const abacus_header *header,
+										   size_t cache_bytes, abacus_build **build,
+										   abacus_error *error);
+/*
+ * Inserts staged points that are not in the mesh yet, at most `limit` of them
+ * (0 = all), writes every changed page, brings the header up to date.
+ */
+ABACUS_API abacus_status abacus_build_run(abacus_build *build, uint64_t limit,
+										  abacus_header *header, abacus_error *error);
+ABACUS_API void abacus_build_close(abacus_build *build);
+
+/* ---- Reading ------------------------------------------------------------------ */
+
+/* A simplex with its corners in positive orientation (§4.3.1); dimension + 1 of them are set. */
+typedef struct abacus_simplex
+{
+	uint64_t code;   /* locational code of the simplex's key */
+	int32_t ghost;   /* 1: hull facet; the last corner is the point at infinity and not set */
+	int64_t id[ABACUS_MAX_DIMENSION + 1];
+	double corner[ABACUS_MAX_DIMENSION + 1][ABACUS_MAX_DIMENSION];
+} abacus_simplex;
+
+typedef struct abacus_mesh abacus_mesh;
+
+ABACUS_API abacus_status abacus_mesh_open(const abacus_host *host, const abacus_header *header,
+										  size_t cache_bytes, abacus_mesh **mesh,
+										  abacus_error *error);
+ABACUS_API void abacus_mesh_close(abacus_mesh *mesh);
+/*
+ * The simplex that contains the point (`dimension` finite doubles); of several
+ * (the point lies on a facet) the one with the least code, then least ids, so
+ * that the answer depends on the mesh alone. ABACUS_END outside the hull.
+ */
+ABACUS_API abacus_status abacus_mesh_locate(abacus_mesh *mesh, const double *point,
+											abacus_simplex *simplex, abacus_error *error);
+/*
+ * The neighbour of the simplex with this code and these corner ids across its
+ * facet `facet` (the one opposite corner `facet`, 0 to dimension). ABACUS_END at
+ * the hull; ABACUS_ERROR (argument) if the mesh has no such simplex.
+ */
+ABACUS_API abacus_status abacus_mesh_walk(abacus_mesh *mesh, uint64_t code, const int64_t *ids,
+										  int facet, abacus_simplex *simplex, abacus_error *error);
+ABACUS_API void abacus_mesh_counters(const abacus_mesh *mesh, abacus_counters *counters);
+
+/* All simplices, page by page in key order; with `ghosts` the hull facets too. */
+typedef struct abacus_scan abacus_scan;
+ABACUS_API abacus_status abacus_scan_open(const abacus_host *host, const abacus_header *header,
+										  int ghosts, abacus_scan **scan, abacus_error *error);
+ABACUS_API abacus_status abacus_scan_next(abacus_scan *scan, abacus_simplex *simplex,
+										  abacus_error *error);
+ABACUS_API void abacus_scan_close(abacus_scan *scan);
+
+/* A staged point. */
+typedef struct abacus_vertex
+{
+	uint64_t sequence;       /* place in the insertion order */
+	int64_t id;
+	double point[ABACUS_MAX_DIMENSION];
+	const double *attributes; /* valid until the next call */
+	int32_t inserted;        /* 1: `vertex` is set */
+	int64_t vertex;          /* id of the vertex that stands for this point: its own
+								id unless an equal point was staged before it */
+} abacus_vertex;
+
+/* All staged points in insertion order. */
+typedef struct abacus_vertex_scan abacus_vertex_scan;
+ABACUS_API abacus_status abacus_vertex_scan_open(const abacus_host *host,
+												 const abacus_header *header, size_t cache_bytes,
+												 abacus_vertex_scan **scan, abacus_error *error);
+ABACUS_API abacus_status abacus_vertex_scan_next(abacus_vertex_scan *scan, abacus_vertex *vertex,
+												 abacus_error *error);
+ABACUS_API void abacus_vertex_scan_close(abacus_vertex_scan *scan);
+
+/* ---- Checking -------------------------------------------------------------------- */
+
+typedef struct abacus_fault
+{
+	abacus_key key;       /* page where the fault was seen; vertex page: code = first sequence number */
+	const char *kind;     /* a short fixed word, e.g. "orientation" */
+	char message[256];
+} abacus_fault;
+
+/* Verifies the mesh exactly, once, when opened; then hands out the faults (at most `limit`). */
+typedef struct abacus_check abacus_check;
+ABACUS_API abacus_status abacus_check_open(const abacus_host *host, const abacus_header *header,
+										   size_t cache_bytes, size_t limit, abacus_check **check,
+										   abacus_error *error);
+ABACUS_API abacus_status abacus_check_next(abacus_check *check, abacus_fault *fault);
+ABACUS_API void abacus_check_close(abacus_check *check);
+
+/* ---- Drawing ---------------------------------------------------------------------- */
+
+typedef struct abacus_drawing
+{
+	double lower[2], upper[2]; /* window in mesh coordinates; empty (lower >= upper) = whole mesh */
+	int32_t width, height;     /* pixels, 1 to 16384; height 0 = from the window's shape */
+	int32_t attribute;         /* vertex attribute that gives colour and relief; -1 = none */
+	int32_t edges;             /* 1: draw the edges of the triangles */
+	double exaggeration;       /* heights are multiplied by this for the hill shading; 0 = no shading */
+	double max_edge;           /* leave out simplices with a longer edge; 0 = none */
+} abacus_drawing;
+
+/*
+ * Draws the mesh as a PNG. *png comes from host->resize(), which also frees it.
+ */
+ABACUS_API abacus_status abacus_draw(const abacus_host *host, const abacus_header *header,
+									 const abacus_drawing *drawing, unsigned char **png,
+									 size_t *size, abacus_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,71 @@
+#!/usr/bin/python3
+"""Shorelines, borders and rivers of the world as a binary COPY stream.
+
+Reads the binned GSHHG files of the Debian packages gmt-gshhg-full (resolution
+f) and gmt-gshhg-high (h) and writes rows (id bigint, lon float8, lat float8)
+for `COPY points FROM STDIN (FORMAT binary)` to standard output.
+
+A bin is a square of a whole number of degrees; bins run eastward from
+Greenwich and southward from the pole. A point is two unsigned 16-bit fractions
+of its bin, counted from the south-west corner, so 65535 of one bin and 0 of
+the next are the same degree: the seams of the bins are full of duplicates.
+Bins own consecutive segments and segments own consecutive points.
+"""
+import sys
+
+import netCDF4
+import numpy as np
+
+FOLDER = "/usr/share/gmt-gshhg"
+KINDS = ("GSHHS", "border", "river")
+
+ROW = np.dtype([("fields", ">i2"),
+                ("id_bytes", ">i4"), ("id", ">i8"),
+                ("lon_bytes", ">i4"), ("lon", ">f8"),
+                ("lat_bytes", ">i4"), ("lat", ">f8")])
+HEADER = b"PGCOPY\n\xff\r\n\0" + bytes(8)
+TRAILER = b"\xff\xff"
+
+
+def points_of(path):
+    """Longitudes (-180 to 180) and latitudes of one file, in file order."""
+    with netCDF4.Dataset(path) as data:
+        data.set_auto_maskandscale(False)
+        degrees = int(data["Bin_size_in_minutes"][0]) / 60
+        columns = int(data["N_bins_in_360_longitude_range"][0])
+        first_segment = data["Id_of_first_segment_in_a_bin"][:].astype(np.int64)
+        first_point = data["Id_of_first_point_in_a_segment"][:].astype(np.int64)
+        east = data["Relative_longitude_from_SW_corner_of_bin"][:].view(np.uint16)
+        north = data["Relative_latitude_from_SW_corner_of_bin"][:].view(np.uint16)
+
+    points_before = np.append(first_point, len(east))[np.append(first_segment, len(first_point))]
+    bins = np.repeat(np.arange(len(first_segment)), np.diff(points_before))
+    west = (bins % columns) * degrees
+    west[west >= 180] -= 360
+    south = 90 - (bins // columns + 1) * degrees
+    return west + east * (degrees / 65535), south + north * (degrees / 65535)
+
+
+def main():
+    resolution = sys.argv[1] if len(sys.argv) > 1 else "f"
+    if resolution not in ("f", "h"):
+        sys.exit("usage: gshhg_points.py [f|h]")
+    out = sys.stdout.buffer
+    out.write(HEADER)
+    count = 0
+    for kind in KINDS:
+        lon, lat = points_of(f"{FOLDER}/binned_{kind}_{resolution}.nc")
+        rows = np.empty(len(lon), ROW)
+        rows["fields"] = 3
+        for field in ("id", "lon", "lat"):
+            rows[field + "_bytes"] = 8
+        rows["id"] = np.arange(count + 1, count + 1 + len(lon))
+        rows["lon"] = lon
+        rows["lat"] = lat
+        out.write(rows.data)
+        count += len(lon)
+    out.write(TRAILER)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,48 @@
+#!/bin/bash
+# Installs the Debian 12 packages that Abacus is built, shown and tested with;
+# does nothing (in a fraction of a second) when all are present.
+#
+#   install-dependencies.sh build     what the extension needs
+#   install-dependencies.sh demo      ... and the data of the demo
+#   install-dependencies.sh test      ... and all tests and benchmarks (default)
+set -euo pipefail
+
+packages=(
+    make g++ pkg-config
+    postgresql-15 postgresql-server-dev-15
+    libcgal-dev libgmp-dev libmpfr-dev libcairo2-dev
+)
+demo=(
+    gmt-gshhg-full gmt-gshhg-high   # shorelines, borders and rivers of the world
+    python3-netcdf4 python3-numpy   # to read them
+    python-matplotlib-data          # the Jacksboro fault elevation model
+)
+test=(
+    cmake clang libclang-rt-14-dev  # clang brings libFuzzer
+    libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
+    postgresql-15-pgtap libtap-parser-sourcehandler-pgtap-perl libipc-run-perl
+)
+
+case ${1:-test} in
+build) ;;
+demo) packages+=("${demo[@]}") ;;
+test) packages+=("${demo[@]}" "${test[@]}") ;;
+*) echo "usage: $0 [build|demo|test]" >&2; exit 2 ;;
+esac
+
+missing=()
+for package in "${packages[@]}"; do
+    status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+    [[ $status == installed ]] || missing+=("$package")
+done
+((${#missing[@]})) || exit 0
+
+echo "Installing ${missing[*]}"
+as_root=()
+if ((EUID != 0)); then
+    command -v sudo >/dev/null || { echo "neither root nor sudo: cannot install packages" >&2; exit 1; }
+    as_root=(sudo)
+fi
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -q -y --no-install-recommends "${missing[@]}"

@@ -1,0 +1,99 @@
+#!/bin/bash
+# All set-up and all tests, from a clean clone, re-runnable: packages, builds,
+# unit tests (plain and sanitized), a bounded fuzzing run, SQL tests, the
+# examples of the documentation, comparison with CGAL, a smoke run of the
+# benchmarks. Logs are left in build/test.
+set -uo pipefail
+. "$(dirname "$0")/common.sh"
+. scripts/cluster.sh
+
+FUZZ_SECONDS=${FUZZ_SECONDS:-30}
+logs=$ABACUS_BUILD/test
+mkdir -p "$logs"
+passed=0 failed=0
+
+# suite NAME COMMAND...: runs it, output into a log that is shown on failure.
+suite() {
+    local name=$1 start=$SECONDS log
+    shift
+    log=$logs/${name// /-}.log
+    if ("$@") >"$log" 2>&1; then
+        passed=$((passed + 1))
+        printf 'ok      %-28s %4d s   %s\n' "$name" $((SECONDS - start)) "$(summary "$log")"
+    else
+        failed=$((failed + 1))
+        printf 'FAILED  %-28s %4d s   (%s)\n' "$name" $((SECONDS - start)) "${log#"$ABACUS_ROOT"/}"
+        tail -n 40 "$log"
+    fi
+}
+
+# The line of a log that says how much was tested.
+summary() {
+    grep -E -o '[0-9]+% tests passed.*|^All [0-9]+ tests passed.*|^Files=.*Tests=[0-9]+|^[0-9]+ examples.*|^[0-9]+ meshes compared.*|^Done [0-9]+ runs.*' "$1" |
+        tail -n 1
+}
+
+build_sanitized() {
+    cmake -S . -B build/sanitize -DABACUS_SANITIZE=ON >/dev/null &&
+        cmake --build build/sanitize -j "$ABACUS_JOBS"
+}
+
+build_fuzz() {
+    cmake -S . -B build/fuzz -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
+        -DABACUS_FUZZ=ON >/dev/null &&
+        cmake --build build/fuzz -j "$ABACUS_JOBS"
+}
+
+unit_tests() {
+    ctest --test-dir "$1" -j "$ABACUS_JOBS" --output-on-failure --no-tests=error
+}
+
+# Every fuzz target in turn, FUZZ_SECONDS in all. What it finds stays in
+# build/fuzz/corpus for the next run; test/fuzz/corpus/<target> are its seeds.
+fuzz() {
+    local targets=() target corpus
+    for target in test/fuzz/*.cpp; do targets+=("$(basename "$target" .cpp)"); done
+    for target in "${targets[@]}"; do
+        corpus=build/fuzz/corpus/$target
+        mkdir -p "$corpus"
+        local folders=("$corpus")
+        if [[ -d test/fuzz/corpus/$target ]]; then folders+=("test/fuzz/corpus/$target"); fi
+        "build/fuzz/test/$target" -max_total_time=$((FUZZ_SECONDS / ${#targets[@]})) \
+            -artifact_prefix=build/fuzz/ -print_final_stats=1 -verbosity=1 "${folders[@]}" || return
+    done
+}
+
+regression_tests() {
+    make -s -f Makefile.pgxs installcheck PG_CONFIG="$PG_CONFIG" ||
+        { cat regression.diffs 2>/dev/null; return 1; }
+}
+
+pgtap_tests() {
+    psql -X -q -c "DROP DATABASE IF EXISTS abacus_pgtap" -c "CREATE DATABASE abacus_pgtap" &&
+        psql -X -q -d abacus_pgtap -c "CREATE EXTENSION pgtap" -c "CREATE EXTENSION abacus" &&
+        pg_prove -d abacus_pgtap test/pgtap/*.sql
+}
+
+documentation_examples() {
+    scripts/doc_examples.py docs/sql.md README.md
+}
+
+scripts/install-dependencies.sh test || fail "packages are missing"
+export ABACUS_BUILT=1 # tells the scripts below that all is built and installed
+suite "build" build_release
+suite "build sanitized" build_sanitized
+suite "build fuzz targets" build_fuzz
+suite "build extension" install_extension
+suite "unit tests" unit_tests build/release
+suite "unit tests sanitized" unit_tests build/sanitize
+suite "fuzz" fuzz
+
+cluster_start test
+suite "pg_regress" regression_tests
+suite "pgTAP" pgtap_tests
+suite "documentation examples" documentation_examples
+suite "acceptance quick" scripts/acceptance.sh quick
+suite "bench smoke" scripts/bench.sh smoke
+
+echo "$passed passed, $failed failed"
+((failed == 0))

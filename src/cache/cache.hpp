@@ -1,0 +1,276 @@
+// The computational cache (dissertation §4.4-4.10): simplices linked by direct
+// handles, as in a program that has the whole mesh in memory, over pages that hold
+// it really.
+//
+// A block owns an interval of keys and holds the simplices whose keys fall into
+// it; it maps to one stored page. The directory orders the cached intervals. The
+// intervals of all pages, cached or not, partition the curve.
+//
+//   miss     A link that is absent names a visible facet, which knows the key of
+//            the simplex beyond. One floor search finds its page (cache_load.cpp).
+//            Only a link without a usable key has to be probed for (probing.cpp).
+//   place    A new simplex goes to the block that owns its key. When that block is
+//            full or not cached, it goes to a limbo block for now, so that nothing
+//            is split or loaded in the middle of an insertion and handles stay
+//            valid; settle() brings limbo home afterwards (cache_place.cpp).
+//   evict    When the cache has outgrown its budget, trim() drops the least
+//            recently used blocks, a tenth at a time; changed ones are written
+//            first (cache_evict.cpp). Nothing is evicted during an insertion.
+//
+// Why links never go stale: an insertion looks at the simplex beyond every facet
+// of the cavity's rim, so both sides of a facet are cached whenever the simplex on
+// one side is replaced, and both their blocks are marked dirty.
+//
+// cross() and everything that loads may move the arrays: a reference to a simplex
+// or vertex does not survive it, a handle does. settle() changes handles; a slot
+// that a simplex left forwards to its new place until it is used again.
+#pragma once
+
+#include "cache/key.hpp"
+#include "cache/page_format.hpp"
+#include "cache/vertex_heap.hpp"
+#include "cache/visible_facets.hpp"
+#include "geometry/locational_code.hpp"
+#include "geometry/predicates.hpp"
+#include "host/host.hpp"
+#include "host/memory.hpp"
+#include "mesh/simplex.hpp"
+
+#include <map>
+
+namespace abacus {
+
+struct CacheOptions {
+    std::size_t budget = 64u << 20;  // bytes; exceeded only while one operation needs it
+    bool stored_links = true;        // false: probe at every miss, to measure §4.10
+};
+
+template <int D> class Cache {
+public:
+    Cache(const Host &host, const Domain<D> &domain, int attributes, const CacheOptions &options);
+    Cache(const Cache &) = delete;
+    Cache &operator=(const Cache &) = delete;
+
+    // ---- Topology ----------------------------------------------------------
+
+    const Simplex<D> &simplex(Handle h) const { return slots_[h]; }
+    const Point<D> &point(VertexIndex v) const { return vertices_.point(v); }
+    const VertexHeap<D> &vertices() const { return vertices_; }
+    /// Corners of a finite simplex.
+    Corners<D> corners(const Simplex<D> &s) const {
+        Corners<D> c;
+        for (int i = 0; i <= D; ++i) c[i] = &point(s.vertex[i]);
+        return c;
+    }
+    /// The neighbour's side of a facet, loaded if need be.
+    Link cross(Handle h, int facet) {
+        ++counters.steps;
+        const Link link = slots_[h].link[facet];
+        return is_absent(link) ? miss(h, facet) : link;
+    }
+    /// Whether a handle kept from earlier is a simplex still (perhaps another one).
+    bool is_live(Handle h) const {
+        if (h >= slots_.size()) return false;
+        const BlockIndex b = block_of<D>(h);
+        return blocks_[b].state == Block::cached &&
+               h - b * block_slots<D> < blocks_[b].high_water && !slots_[h].is_free();
+    }
+    /// Where settle() took the simplex, or no_handle.
+    Handle follow(Handle h) const;
+
+    // ---- Keys ----------------------------------------------------------------
+
+    const Domain<D> &domain() const { return domain_; }
+    std::uint64_t code(const Simplex<D> &s) const;
+    Key key(const Simplex<D> &s) const;
+    /// Whether the cached block around h owns the code.
+    bool near(Handle h, std::uint64_t code) const {
+        return blocks_[block_of<D>(h)].surely_owns(code);
+    }
+    /// Some simplex of the block that owns the code, loaded if need be, preferably
+    /// close to p; no_handle if the mesh has none there.
+    Handle start(std::uint64_t code, const Point<D> &p);
+
+    // ---- Change ----------------------------------------------------------------
+
+    /// Gives an empty mesh its first block.
+    void create_first_block();
+    VertexIndex create_vertex(const Point<D> &p, std::int64_t id, const double *attributes) {
+        return vertices_.create(p, domain_.cell(p), id, attributes);
+    }
+    void destroy_vertex(VertexIndex v) { vertices_.destroy(v); }
+    /// A new simplex with unset links.
+    Handle create(const std::array<VertexIndex, D + 1> &vertices);
+    /// Frees the slot; the neighbours keep their links to it.
+    void destroy(Handle h);
+    void connect(Link a, Link b) {
+        slots_[link_simplex(a)].link[link_facet(a)] = b;
+        slots_[link_simplex(b)].link[link_facet(b)] = a;
+    }
+    /// The block's page has to be written: call it for the neighbours of what changed.
+    void mark_dirty(Handle h) {
+        Block &block = blocks_[block_of<D>(h)];
+        block.dirty = true;
+        block.used_at = clock_;
+    }
+    void mark_used(Handle h) { blocks_[block_of<D>(h)].used_at = clock_; }
+    /// Ends an operation: brings limbo home. Sequential splits cut near `code`.
+    void settle(std::uint64_t code) {
+        ++clock_;
+        if (!limbo_.empty()) [[unlikely]] settle_limbo(code);
+    }
+    /// Evicts while the budget is exceeded. Handles may die: see is_live().
+    void trim() {
+        if (bytes() > options_.budget) [[unlikely]] shrink();
+    }
+    /// Writes every changed block; they stay cached.
+    void flush();
+
+    void poll() const { host_.poll(); }
+
+    std::size_t bytes() const {
+        return cached_blocks_ * block_bytes + vertices_.bytes() + visible_.bytes();
+    }
+    std::size_t cached_blocks() const { return cached_blocks_; }
+
+    abacus_counters counters{};
+
+private:
+    struct Block {
+        enum State : std::uint8_t { unused, cached, limbo };
+        Key lower, upper;
+        std::uint64_t sure_lower, sure_upper; // codes that it owns whatever their part
+        std::uint64_t location;               // of the stored page; 0 = none
+        std::uint64_t used_at;
+        std::uint32_t count;      // simplices
+        std::uint32_t high_water; // slots ever used
+        std::uint32_t free;       // chain of slots given back, by link[0]
+        State state;
+        bool dirty;
+        bool leaving; // being evicted
+
+        void own(const Key &from, const Key &to) {
+            lower = from;
+            upper = to;
+            sure_lower = from.code + (from.part != 0);
+            sure_upper = to.code;
+        }
+        bool surely_owns(std::uint64_t code) const {
+            return sure_lower <= code && code < sure_upper;
+        }
+        bool owns(const Key &key) const { return lower <= key && key < upper; }
+        bool has_parts() const { return lower.part != 0 || upper.part != 0; }
+    };
+    using BlockIndex = std::uint32_t;
+    static constexpr BlockIndex no_block = 0xffffffffu;
+    static constexpr std::uint32_t no_slot = 0xffffffffu;
+    static constexpr std::size_t block_bytes = sizeof(Block) + block_slots<D> * sizeof(Simplex<D>);
+
+    // cache.cpp
+    BlockIndex new_block(typename Block::State state);
+    void free_block(BlockIndex b);
+    BlockIndex cached_owner(const Key &key) const;
+    Handle take_slot(BlockIndex b);
+    template <class Visit> void for_each_simplex(BlockIndex b, Visit visit) {
+        for (std::uint32_t slot = 0; slot < blocks_[b].high_water; ++slot) {
+            const Handle h = b * block_slots<D> + slot;
+            if (!slots_[h].is_free()) visit(h);
+        }
+    }
+    FacetVertices<D, VertexIndex> facet(Handle h, int i) const {
+        return {slots_[h].vertex, i};
+    }
+    std::uint64_t part(const Simplex<D> &s) const;
+
+    // cache_place.cpp
+    void settle_limbo(std::uint64_t code);
+    Handle move(Handle h, BlockIndex to);
+    struct Place {
+        Key key;
+        Handle handle;
+    };
+    /// Fills places_ with the block's simplices in key order.
+    void collect_places(BlockIndex b);
+    /// The index next to `wanted` before which places_ can be cut.
+    std::size_t cut_near(std::size_t wanted) const;
+    void make_room(BlockIndex b, std::uint64_t code);
+    bool lend_left(BlockIndex b);
+    bool lend_right(BlockIndex b);
+    bool takes_loan(BlockIndex neighbour, BlockIndex b) const {
+        return blocks_[neighbour].count + capacity_ / 8 <= capacity_ &&
+               !blocks_[neighbour].has_parts() && !blocks_[b].has_parts();
+    }
+    /// Cuts the block collected; returns the new block, the upper part.
+    BlockIndex split_at(BlockIndex b, std::size_t wanted);
+    BlockIndex halve(BlockIndex b);
+
+    // cache_load.cpp
+    Link miss(Handle h, int facet);
+    bool follow_stored_link(Handle h, int facet, const Key &beyond);
+    bool present(Handle h, int facet) const { return !is_absent(slots_[h].link[facet]); }
+    /// The block that owns the key, loaded if need be; no_block if no page does.
+    BlockIndex owner(const Key &key);
+    BlockIndex load(const abacus_page &page);
+    void load_vertices(const PageView<D> &view);
+    void link_inside(int simplices, Handle first);
+    void link_outside(const PageView<D> &view, Handle first);
+
+    // probing.cpp
+    void probe(Handle h, int facet);
+    bool load_uncached(const Cell<D> &cell);
+    bool quick_probe(Handle h, int facet, const Cell<D> &middle);
+    bool ray_probe(Handle h, int facet, const Cell<D> &middle);
+    bool concentric_probe(Handle h, int facet, const Cell<D> &middle);
+    /// Edge, as a power of two, of the largest octant around a cell that lies in
+    /// the cached block owning it.
+    int octant_level(const Cell<D> &cell) const;
+
+    // cache_evict.cpp
+    void shrink();
+    void evict(Arena<BlockIndex> &victims);
+    void unlink(BlockIndex b);
+    void store(BlockIndex b);
+    bool encode(BlockIndex b);
+    Key key_beyond(Handle h, int facet) const;
+
+    const Host &host_;
+    HostMemory memory_;
+    Domain<D> domain_;
+    CacheOptions options_;
+    std::uint32_t capacity_; // simplices a block takes before it is split
+
+    Arena<Block> blocks_;
+    Arena<Simplex<D>> slots_; // block_slots of each block
+    VertexHeap<D> vertices_;
+    VisibleFacets<D> visible_;
+    std::pmr::map<Key, BlockIndex, KeyLess> directory_; // cached blocks by lower key
+    Arena<BlockIndex> unused_blocks_;
+    Arena<BlockIndex> limbo_;
+    Arena<Place> places_;
+    std::size_t cached_blocks_ = 0;
+    BlockIndex at_hand_ = no_block; // took the last simplex
+    std::uint64_t clock_ = 0;       // operations so far, for the replacement
+
+    // Page translation: reused from page to page.
+    struct LocalNumber {
+        std::uint32_t epoch;
+        std::uint32_t number;
+    };
+    struct LocalFacet {
+        std::uint64_t vertices;
+        std::uint32_t epoch;
+        Link link;
+        bool odd;
+    };
+    Arena<LocalNumber> local_;      // of each vertex, valid in the present epoch
+    Arena<VertexIndex> numbered_;   // vertices by local number
+    Arena<std::uint32_t> corners_;  // local numbers, D + 1 a simplex
+    Arena<Key> beyond_;             // keys of neighbours in other pages
+    Arena<LocalFacet> facets_;      // hash table of the facets inside a page
+    std::uint32_t epoch_ = 0;
+    void next_epoch();
+    alignas(8) unsigned char page_[ABACUS_PAGE_BYTES];
+    std::size_t page_size_ = 0;
+};
+
+} // namespace abacus

@@ -1,0 +1,205 @@
+// Eviction and storing: from linked simplices to pages (dissertation §4.5.2, §4.9).
+//
+// Blocks leave in batches. All changed ones are written while the topology is
+// whole; then the links between a leaving and a staying simplex become visible
+// facets, and vertices that no cached simplex uses any more are freed. Links
+// between two leaving blocks need nothing.
+#include "cache/cache.hpp"
+
+#include "cache/stopwatch.hpp"
+
+namespace abacus {
+
+template <int D> void Cache<D>::shrink() {
+    struct Age {
+        std::uint64_t used_at;
+        BlockIndex block;
+    };
+    counters.peak_bytes = std::max<std::uint64_t>(counters.peak_bytes, bytes());
+    Arena<Age> ages(host_);
+    Arena<BlockIndex> victims(host_);
+    // The last two stay: the next operation starts in one of them.
+    while (bytes() > options_.budget && cached_blocks_ > 2) {
+        ages.clear();
+        for (BlockIndex b = 0; b < blocks_.size(); ++b)
+            if (blocks_[b].state == Block::cached) ages.push_back({blocks_[b].used_at, b});
+        const std::size_t batch =
+            std::min(std::max<std::size_t>(1, ages.size() / 10), ages.size() - 2);
+        std::nth_element(ages.begin(), ages.begin() + batch, ages.end(),
+                         [](const Age &a, const Age &b) { return a.used_at < b.used_at; });
+        victims.clear();
+        for (std::size_t i = 0; i < batch; ++i) victims.push_back(ages[i].block);
+        evict(victims);
+        ++counters.eviction_batches;
+    }
+}
+
+template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
+    for (const BlockIndex b : victims) blocks_[b].leaving = true;
+    for (std::size_t i = 0; i < victims.size(); ++i) {
+        const BlockIndex b = victims[i];
+        if (!blocks_[b].dirty) continue;
+        while (!encode(b)) victims.push_back(halve(b)); // too many bytes, not too many slots
+        store(b);
+    }
+    const Stopwatch stopwatch(counters.translation_ns);
+    for (const BlockIndex b : victims) unlink(b);
+    for (const BlockIndex b : victims) {
+        directory_.erase(blocks_[b].lower);
+        free_block(b);
+        ++counters.evictions;
+    }
+}
+
+template <int D> void Cache<D>::unlink(BlockIndex b) {
+    for_each_simplex(b, [&](Handle h) {
+        for (int i = 0; i <= D; ++i) {
+            const Link link = slots_[h].link[i];
+            if (is_absent(link)) {
+                visible_.remove(link & ~absent);
+                continue;
+            }
+            const Handle neighbour = link_simplex(link);
+            if (blocks_[block_of<D>(neighbour)].leaving) continue;
+            Simplex<D> &s = slots_[h];
+            const Key key{code(s), blocks_[b].has_parts() ? part(s) : 0};
+            slots_[neighbour].link[link_facet(link)] =
+                absent | visible_.add(facet(h, i), key, link);
+        }
+        for (const VertexIndex v : slots_[h].vertex) vertices_.release(v);
+    });
+    // Once for each distinct vertex: the last one to see it finds no references.
+    next_epoch();
+    for_each_simplex(b, [&](Handle h) {
+        for (int i = 0; i < slots_[h].finite_vertices(); ++i) {
+            const VertexIndex v = slots_[h].vertex[i];
+            if (local_[v].epoch == epoch_) continue;
+            local_[v].epoch = epoch_;
+            if (vertices_.in_use(v)) vertices_.share(v);
+            else vertices_.destroy(v);
+        }
+    });
+}
+
+template <int D> void Cache<D>::flush() {
+    counters.peak_bytes = std::max<std::uint64_t>(counters.peak_bytes, bytes());
+    bool changed = true;
+    while (changed) { // a split while writing makes a block more
+        changed = false;
+        for (BlockIndex b = 0; b < blocks_.size(); ++b) {
+            if (blocks_[b].state != Block::cached || !blocks_[b].dirty) continue;
+            while (!encode(b)) halve(b);
+            store(b);
+            changed = true;
+        }
+        host_.poll();
+    }
+}
+
+template <int D> Key Cache<D>::key_beyond(Handle h, int facet) const {
+    const Link link = slots_[h].link[facet];
+    if (is_absent(link)) return visible_[link & ~absent].beyond;
+    const Handle neighbour = link_simplex(link);
+    const Simplex<D> &s = slots_[neighbour];
+    return {code(s), blocks_[block_of<D>(neighbour)].has_parts() ? part(s) : 0};
+}
+
+template <int D> bool Cache<D>::encode(BlockIndex b) {
+    const Stopwatch stopwatch(counters.translation_ns);
+    next_epoch();
+    numbered_.clear();
+    corners_.clear();
+    beyond_.clear();
+    const auto number = [&](VertexIndex v) {
+        LocalNumber &local = local_[v];
+        if (local.epoch != epoch_) {
+            local = {epoch_, static_cast<std::uint32_t>(numbered_.size())};
+            numbered_.push_back(v);
+        }
+        return local.number;
+    };
+
+    PageHeader header{};
+    for_each_simplex(b, [&](Handle h) {
+        for (int i = 0; i <= D; ++i) {
+            const Link link = slots_[h].link[i];
+            if (!is_absent(link) && block_of<D>(link_simplex(link)) == b) continue;
+            Key beyond = key_beyond(h, i);
+            if (beyond.part == unknown_part) beyond.part = 0;
+            if (beyond.part != 0) header.flags |= PageHeader::long_links;
+            beyond_.push_back(beyond);
+            for (int j = 0; j <= D; ++j)
+                if (j != i && slots_[h].vertex[j] != infinite_vertex) number(slots_[h].vertex[j]);
+        }
+    });
+    header.border_vertices = static_cast<std::uint16_t>(numbered_.size());
+    constexpr std::uint32_t at_infinity = 0xffffffffu;
+    for_each_simplex(b, [&](Handle h) {
+        for (const VertexIndex v : slots_[h].vertex)
+            corners_.push_back(v == infinite_vertex ? at_infinity : number(v));
+    });
+
+    const Block &block = blocks_[b];
+    header.magic = PageHeader::expected_magic;
+    header.version = PageHeader::expected_version;
+    header.dimension = D;
+    header.attributes = static_cast<std::uint8_t>(vertices_.attribute_count());
+    header.simplices = static_cast<std::uint16_t>(block.count);
+    header.vertices = static_cast<std::uint16_t>(numbered_.size());
+    header.links = static_cast<std::uint16_t>(beyond_.size());
+    header.lower = block.lower;
+    header.upper = block.upper;
+    if (numbered_.size() > 255) header.flags |= PageHeader::wide;
+    const PageLayout<D> layout(header);
+    if (layout.size > ABACUS_PAGE_BYTES) return false;
+
+    std::array<double, 2 * D> box;
+    std::fill(box.begin(), box.begin() + D, std::numeric_limits<double>::infinity());
+    std::fill(box.begin() + D, box.end(), -std::numeric_limits<double>::infinity());
+    const auto put = [&](std::size_t at, std::size_t i, const auto &value) {
+        std::memcpy(page_ + at + i * sizeof value, &value, sizeof value);
+    };
+    for (std::size_t n = 0; n < numbered_.size(); ++n) {
+        const VertexIndex v = numbered_[n];
+        const Point<D> &p = vertices_.point(v);
+        put(layout.ids, n, vertices_.id(v));
+        put(layout.points, n, p);
+        for (int i = 0; i < header.attributes; ++i)
+            put(layout.attributes, n * header.attributes + i, vertices_.attributes(v)[i]);
+        for (int axis = 0; axis < D; ++axis) {
+            box[axis] = std::min(box[axis], p[axis]);
+            box[D + axis] = std::max(box[D + axis], p[axis]);
+        }
+    }
+    put(0, 0, header);
+    put(layout.box, 0, box);
+    for (std::size_t i = 0; i < beyond_.size(); ++i) {
+        put(layout.links, i, beyond_[i].code);
+        if (header.flags & PageHeader::long_links) put(layout.parts, i, beyond_[i].part);
+    }
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+        const std::uint32_t corner = corners_[i] == at_infinity ? header.vertices : corners_[i];
+        if (header.flags & PageHeader::wide)
+            put(layout.simplices, i, static_cast<std::uint16_t>(corner));
+        else put(layout.simplices, i, static_cast<std::uint8_t>(corner));
+    }
+    page_size_ = layout.size;
+    return true;
+}
+
+template <int D> void Cache<D>::store(BlockIndex b) {
+    const Stopwatch stopwatch(counters.translation_ns);
+    Block &block = blocks_[b];
+    abacus_page page{block.lower, page_, page_size_, block.location};
+    ++counters.stores;
+    if (block.location != 0) ++counters.rewrites;
+    counters.bytes_written += page_size_;
+    host_.put(page);
+    block.location = page.location;
+    block.dirty = false;
+}
+
+template class Cache<2>;
+template class Cache<3>;
+
+} // namespace abacus

@@ -1,0 +1,158 @@
+// The vertices of the cached simplices (dissertation §4.4.1-2, §4.5.1).
+//
+// What the geometry reads is kept apart from what only pages need (the user's id
+// and attributes). Vertices are identified by their coordinates. Only those that
+// a page outside the cache may name as well are `shared` and entered in the hash
+// table: the vertices on the border of evicted or loaded blocks. A vertex made by
+// an insertion and surrounded by cached simplices is never hashed.
+#pragma once
+
+#include "geometry/locational_code.hpp"
+#include "host/arena.hpp"
+#include "mesh/simplex.hpp"
+
+#include <bit>
+#include <cstring>
+#include <limits>
+
+namespace abacus {
+
+template <int D> struct Vertex {
+    Point<D> point;
+    Cell<D> cell;             // quantized point: keys are computed from it
+    std::uint32_t references; // cached simplices that use the vertex; top bit: shared
+};
+
+template <int D> class VertexHeap {
+public:
+    VertexHeap(const Host &host, int attributes)
+        : attributes_(attributes), vertices_(host), ids_(host), values_(host), free_(host),
+          table_(host) {
+        // Vertex 0 is the point at infinity; NaN fails every floating-point filter.
+        Point<D> nowhere;
+        nowhere.fill(std::numeric_limits<double>::quiet_NaN());
+        create(nowhere, Cell<D>{}, 0, nullptr);
+        rehash(1024);
+    }
+
+    const Vertex<D> &operator[](VertexIndex v) const { return vertices_[v]; }
+    const Point<D> &point(VertexIndex v) const { return vertices_[v].point; }
+    std::int64_t id(VertexIndex v) const { return ids_[v]; }
+    const double *attributes(VertexIndex v) const {
+        return attributes_ == 0 ? nullptr : &values_[std::size_t(v) * attributes_];
+    }
+    int attribute_count() const { return attributes_; }
+
+    /// Vertices in use, the one at infinity included; the bytes they take.
+    std::size_t count() const { return vertices_.size() - free_.size(); }
+    std::size_t bytes() const {
+        return count() * (sizeof(Vertex<D>) + sizeof(std::int64_t) + sizeof(VertexIndex) +
+                          attributes_ * sizeof(double));
+    }
+    /// Above every vertex index in use.
+    std::size_t end() const { return vertices_.size(); }
+
+    /// A new vertex without references. `attributes` may be null when there are none.
+    VertexIndex create(const Point<D> &p, const Cell<D> &cell, std::int64_t id,
+                       const double *attributes) {
+        VertexIndex v;
+        if (!free_.empty()) {
+            v = free_.back();
+            free_.pop_back();
+        } else {
+            v = static_cast<VertexIndex>(vertices_.size());
+            vertices_.resize(v + 1);
+            ids_.resize(v + 1);
+            values_.resize((std::size_t(v) + 1) * attributes_);
+        }
+        vertices_[v] = {p, cell, 0};
+        ids_[v] = id;
+        if (attributes_ != 0 && attributes != nullptr)
+            std::memcpy(&values_[std::size_t(v) * attributes_], attributes,
+                        attributes_ * sizeof(double));
+        return v;
+    }
+
+    void acquire(VertexIndex v) { ++vertices_[v].references; }
+    /// Does not free the vertex, even without references: an insertion takes all
+    /// references away before it makes new ones.
+    void release(VertexIndex v) { --vertices_[v].references; }
+    bool in_use(VertexIndex v) const { return (vertices_[v].references & ~shared) != 0; }
+
+    void destroy(VertexIndex v) {
+        if (vertices_[v].references & shared) erase(v);
+        vertices_[v].references = 0;
+        free_.push_back(v);
+    }
+
+    /// Makes the vertex known to find_shared().
+    void share(VertexIndex v) {
+        if (vertices_[v].references & shared) return;
+        vertices_[v].references |= shared;
+        if (2 * ++entries_ > table_.size()) rehash(2 * table_.size());
+        else insert(v);
+    }
+
+    /// The shared vertex at p, or infinite_vertex.
+    VertexIndex find_shared(const Point<D> &p) const {
+        for (std::size_t i = hash(p);; i = (i + 1) & mask_) {
+            const VertexIndex v = table_[i];
+            if (v == infinite_vertex || vertices_[v].point == p) return v;
+        }
+    }
+
+private:
+    static constexpr std::uint32_t shared = 0x80000000u;
+
+    std::size_t hash(const Point<D> &p) const {
+        std::uint64_t h = 0;
+        for (const double x : p) {
+            h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ull;
+            h ^= h >> 32;
+        }
+        return h & mask_;
+    }
+
+    void insert(VertexIndex v) {
+        std::size_t i = hash(vertices_[v].point);
+        while (table_[i] != infinite_vertex) i = (i + 1) & mask_;
+        table_[i] = v;
+    }
+
+    // Linear probing without tombstones: later entries of the run move up.
+    void erase(VertexIndex v) {
+        std::size_t i = hash(vertices_[v].point);
+        while (table_[i] != v) i = (i + 1) & mask_;
+        for (std::size_t j = i;;) {
+            j = (j + 1) & mask_;
+            const VertexIndex w = table_[j];
+            if (w == infinite_vertex) break;
+            const std::size_t home = hash(vertices_[w].point);
+            if (((j - home) & mask_) >= ((j - i) & mask_)) {
+                table_[i] = w;
+                i = j;
+            }
+        }
+        table_[i] = infinite_vertex;
+        --entries_;
+    }
+
+    void rehash(std::size_t size) {
+        table_.resize(size);
+        std::fill(table_.begin(), table_.end(), infinite_vertex);
+        mask_ = size - 1;
+        for (VertexIndex v = 1; v < vertices_.size(); ++v)
+            if (vertices_[v].references & shared) insert(v);
+    }
+
+    int attributes_;
+    Arena<Vertex<D>> vertices_;
+    Arena<std::int64_t> ids_;
+    Arena<double> values_;
+    Arena<VertexIndex> free_;
+    Arena<VertexIndex> table_; // infinite_vertex = empty
+    std::size_t mask_ = 0;
+    std::size_t entries_ = 0;
+};
+
+} // namespace abacus

@@ -1,0 +1,72 @@
+// Where exceptions end. Every function of abacus.h that can fail runs its body
+// in guard(), which turns whatever is thrown into a status and an abacus_error,
+// and leaves the rounding mode as it found it: CGAL's interval arithmetic
+// changes the mode, and the caller is a server that computes on its own.
+#pragma once
+
+#include "host/host.hpp"
+
+#include <cfenv>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <string_view>
+
+namespace abacus {
+
+/// Copies a text, truncated before a character of UTF-8 that does not fit whole.
+template <std::size_t N> void copy_text(char (&to)[N], std::string_view from) noexcept {
+    std::size_t length = from.size();
+    if (length >= N) {
+        length = N - 1;
+        while (length > 0 && (static_cast<unsigned char>(from[length]) & 0xc0) == 0x80) --length;
+    }
+    std::memcpy(to, from.data(), length);
+    to[length] = '\0';
+}
+
+inline void fill_error(abacus_error *error, abacus_error_kind kind, std::string_view message,
+                       std::string_view detail = {}, std::string_view hint = {}) noexcept {
+    if (error == nullptr) return;
+    error->kind = kind;
+    copy_text(error->message, message);
+    copy_text(error->detail, detail);
+    copy_text(error->hint, hint);
+}
+
+/// The core computes in round-to-nearest and leaves the mode as it found it. It
+/// is set back without asking whether it changed: fegetround() reads the x87
+/// control word only, CGAL changes the one of SSE.
+class RoundingModeKept {
+public:
+    RoundingModeKept() noexcept : mode_(std::fegetround()) {
+        if (mode_ != FE_TONEAREST) std::fesetround(FE_TONEAREST);
+    }
+    RoundingModeKept(const RoundingModeKept &) = delete;
+    RoundingModeKept &operator=(const RoundingModeKept &) = delete;
+    ~RoundingModeKept() { std::fesetround(mode_); }
+
+private:
+    int mode_;
+};
+
+/// Runs `body`, which returns an abacus_status and may throw.
+template <class Body> abacus_status guard(abacus_error *error, Body &&body) noexcept {
+    const RoundingModeKept kept;
+    try {
+        return body();
+    } catch (const HostFailure &) {
+        return ABACUS_HOST_ERROR;
+    } catch (const Error &e) {
+        fill_error(error, e.kind, e.what(), e.detail, e.hint);
+    } catch (const std::bad_alloc &) {
+        fill_error(error, ABACUS_ERROR_MEMORY, "out of memory");
+    } catch (const std::exception &e) { // CGAL::Failure_exception included
+        fill_error(error, ABACUS_ERROR_INTERNAL, "unexpected failure", e.what());
+    } catch (...) {
+        fill_error(error, ABACUS_ERROR_INTERNAL, "unexpected failure");
+    }
+    return ABACUS_ERROR;
+}
+
+} // namespace abacus

@@ -1,0 +1,171 @@
+// The header row of a mesh, as bytes: little-endian, fixed fields, then the
+// names of the attributes. A user can write any bytes into the row, so decoding
+// checks every field; it accepts exactly what encoding can produce.
+#include "capi/guard.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace abacus {
+namespace {
+
+/// The bytes "ABACUS" and the version of the format.
+constexpr std::uint64_t magic = 0x0001535543414241;
+/// Sequence numbers are bigint in the database.
+constexpr std::uint64_t count_limit = std::uint64_t{1} << 63;
+
+// The counters are fields of one type without gaps: they go as an array.
+constexpr std::size_t counter_count = sizeof(abacus_counters) / sizeof(std::uint64_t);
+static_assert(sizeof(abacus_counters) == counter_count * sizeof(std::uint64_t));
+
+class Writer {
+public:
+    explicit Writer(unsigned char *bytes) : begin_(bytes), at_(bytes) {}
+
+    void operator()(std::uint64_t value) {
+        for (int i = 0; i < 8; ++i) *at_++ = static_cast<unsigned char>(value >> (8 * i));
+    }
+    void operator()(std::uint32_t value) { (*this)(std::uint64_t{value}); }
+    void operator()(double value) { (*this)(std::bit_cast<std::uint64_t>(value)); }
+    void text(const char *text, std::size_t size) {
+        const std::size_t length = strnlen(text, size - 1);
+        std::memcpy(at_, text, length);
+        std::memset(at_ + length, 0, size - length);
+        at_ += size;
+    }
+    std::size_t size() const { return static_cast<std::size_t>(at_ - begin_); }
+
+private:
+    unsigned char *begin_, *at_;
+};
+
+class Reader {
+public:
+    Reader(const unsigned char *bytes, std::size_t size) : at_(bytes), end_(bytes + size) {}
+
+    void operator()(std::uint64_t &value) {
+        const unsigned char *from = take(8);
+        value = 0;
+        for (int i = 0; i < 8; ++i) value |= std::uint64_t{from[i]} << (8 * i);
+    }
+    void operator()(std::uint32_t &value) {
+        std::uint64_t wide;
+        (*this)(wide);
+        if (wide > UINT32_MAX) throw_corrupted("A number in the header is out of range.");
+        value = static_cast<std::uint32_t>(wide);
+    }
+    void operator()(double &value) {
+        std::uint64_t bits;
+        (*this)(bits);
+        value = std::bit_cast<double>(bits);
+    }
+    const char *text(std::size_t size) { return reinterpret_cast<const char *>(take(size)); }
+    bool at_end() const { return at_ == end_; }
+
+private:
+    const unsigned char *take(std::size_t size) {
+        if (size > static_cast<std::size_t>(end_ - at_))
+            throw_corrupted("The header is too short.");
+        at_ += size;
+        return at_ - size;
+    }
+
+    const unsigned char *at_, *end_;
+};
+
+/// The fields of the header in their order in the row, up to the names.
+template <class Header, class Visit> void visit_fields(Header &header, Visit &visit) {
+    visit(header.dimension);
+    visit(header.attributes);
+    visit(header.has_domain);
+    for (auto &value : header.lower) visit(value);
+    for (auto &value : header.upper) visit(value);
+    visit(header.stamp);
+    visit(header.points);
+    visit(header.inserted);
+    visit(header.vertices);
+    visit(header.duplicates);
+    visit(header.simplices);
+    visit(header.ghosts);
+    visit(header.first_batch);
+}
+
+void check_domain(abacus_header &header) {
+    if (header.has_domain > 1) throw_corrupted("The header's domain is neither set nor unset.");
+    for (unsigned i = 0; i < ABACUS_MAX_DIMENSION; ++i) {
+        double &lower = header.lower[i], &upper = header.upper[i];
+        if (header.has_domain == 0 || i >= header.dimension) lower = upper = 0;
+        if (!std::isfinite(lower) || !std::isfinite(upper) || lower > upper)
+            throw_corrupted("The header's domain is not a finite box.");
+    }
+}
+
+void check_counts(const abacus_header &header) {
+    if (header.points >= count_limit || header.inserted > header.points ||
+        header.first_batch > header.points || header.vertices > header.inserted ||
+        header.duplicates > header.inserted - header.vertices)
+        throw_corrupted("The header's counts of points contradict each other.");
+    if (header.points > 0 && (header.has_domain == 0 || header.first_batch == 0))
+        throw_corrupted("The header has points but no domain or no first batch.");
+    if (header.simplices >= count_limit || header.ghosts >= count_limit ||
+        (header.vertices == 0 && (header.simplices > 0 || header.ghosts > 0)) ||
+        (header.vertices > 0 && (header.simplices == 0 || header.ghosts == 0)))
+        throw_corrupted("The header's counts of simplices contradict its count of vertices.");
+}
+
+void read_names(Reader &read, abacus_header &header) {
+    for (unsigned i = 0; i < header.attributes; ++i) {
+        const char *name = read.text(ABACUS_NAME_BYTES);
+        const std::size_t length = strnlen(name, ABACUS_NAME_BYTES);
+        if (length == 0 || length == ABACUS_NAME_BYTES)
+            throw_corrupted("The name of attribute " + std::to_string(i + 1) + " is not valid.");
+        std::memcpy(header.names[i], name, length);
+    }
+}
+
+void decode(const unsigned char *bytes, std::size_t size, abacus_header &header) {
+    Reader read(bytes, size);
+    std::uint64_t found;
+    read(found);
+    if (found != magic)
+        throw_corrupted("The row with the lowest key is not a header of this format version.");
+    visit_fields(header, read);
+    if (header.dimension < 2 || header.dimension > ABACUS_MAX_DIMENSION)
+        throw_corrupted("The header's dimension is " + std::to_string(header.dimension) + ".");
+    if (header.attributes > ABACUS_MAX_ATTRIBUTES)
+        throw_corrupted("The header has " + std::to_string(header.attributes) + " attributes.");
+    check_domain(header);
+    check_counts(header);
+    std::uint64_t counters[counter_count];
+    for (auto &counter : counters) read(counter);
+    std::memcpy(&header.counters, counters, sizeof counters);
+    read_names(read, header);
+    if (!read.at_end()) throw_corrupted("The header is too long.");
+}
+
+} // namespace
+} // namespace abacus
+
+size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes) {
+    using namespace abacus;
+    Writer write(bytes);
+    write(magic);
+    visit_fields(*header, write);
+    std::uint64_t counters[counter_count];
+    std::memcpy(counters, &header->counters, sizeof counters);
+    for (const auto counter : counters) write(counter);
+    for (unsigned i = 0; i < header->attributes; ++i)
+        write.text(header->names[i], ABACUS_NAME_BYTES);
+    return write.size();
+}
+
+abacus_status abacus_header_decode(const unsigned char *bytes, size_t size, abacus_header *header,
+                                   abacus_error *error) {
+    return abacus::guard(error, [&] {
+        abacus_header decoded{};
+        abacus::decode(bytes, size, decoded);
+        *header = decoded;
+        return ABACUS_OK;
+    });
+}

@@ -1,0 +1,69 @@
+// Point location by a remembering stochastic walk (Devillers, Pion, Teillaud,
+// "Walking in a Triangulation", 2002; dissertation §4.11.3): from simplex to
+// simplex across a facet that separates it from the target, never back through
+// the one it came in by, the first facet tried drawn at random. In a Delaunay
+// triangulation any such walk ends; in any other the random choice sees to it.
+#pragma once
+
+#include "cache/cache.hpp"
+
+namespace abacus {
+
+template <int D> class Walk {
+public:
+    explicit Walk(Cache<D> &cache) : cache_(cache) {}
+
+    /// The simplex that contains p in its closure; a ghost whose hull facet has p
+    /// strictly beyond it if p lies outside the hull.
+    Handle to(const Point<D> &p, Handle from) {
+        ++cache_.counters.walks;
+        Handle h = from;
+        int entered = -1;
+        if (cache_.simplex(h).is_ghost()) { // step inside through the hull facet
+            const Link link = cache_.cross(h, D);
+            h = link_simplex(link);
+            entered = link_facet(link);
+        }
+        // Only a damaged mesh can keep the walk going for long.
+        for (std::uint64_t steps = 0;; ++steps) {
+            if (steps % 4096 == 4095) cache_.poll();
+            if (steps == longest_walk) throw_corrupted("A walk in the mesh does not end.");
+            const Simplex<D> &s = cache_.simplex(h);
+            if (s.is_ghost()) return h;
+            Corners<D> corners = cache_.corners(s);
+            int separating = -1;
+            int facet = static_cast<int>(random() % (D + 1));
+            for (int i = 0; i <= D; ++i, facet = facet == D ? 0 : facet + 1) {
+                if (facet == entered) continue;
+                const Point<D> *const corner = corners[facet];
+                corners[facet] = &p;
+                const bool beyond = orientation<D>(corners) < 0;
+                corners[facet] = corner;
+                if (beyond) {
+                    separating = facet;
+                    break;
+                }
+            }
+            if (separating < 0) return h;
+            const Link link = cache_.cross(h, separating);
+            h = link_simplex(link);
+            entered = link_facet(link);
+        }
+    }
+
+private:
+    static constexpr std::uint64_t longest_walk = 1ull << 32;
+
+    // xorshift; the walk's path depends on it, its end does not.
+    std::uint32_t random() {
+        state_ ^= state_ << 13;
+        state_ ^= state_ >> 17;
+        state_ ^= state_ << 5;
+        return state_;
+    }
+
+    Cache<D> &cache_;
+    std::uint32_t state_ = 2463534242u;
+};
+
+} // namespace abacus

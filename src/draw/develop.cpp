@@ -1,0 +1,146 @@
+// From sums to colours: the two styles of a canvas. All mixing is done in linear
+// light, where half of white and half of black is what a half-covered pixel
+// sends to the eye; only the last step encodes it for the screen.
+
+#include "draw/canvas.hpp"
+#include "draw/relief.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace abacus {
+
+namespace {
+
+/// Lines give way to each other where they crowd: almost linear for one line,
+/// never above 1.
+float opacity(float ink) { return ink / std::cbrt(1 + ink * ink * ink); }
+
+/// Fits the palette to the densities of a picture: a histogram of their
+/// logarithms, of which a little at both ends may be cut off.
+class Exposure {
+public:
+    void add(float density) {
+        ++counts_[bin(density)];
+        ++total_;
+    }
+
+    void fit() {
+        low_ = quantile(0.002);
+        high_ = quantile(0.9997);
+        // A mesh of even density keeps even colours.
+        const float missing = least_range - (high_ - low_);
+        if (missing > 0) {
+            low_ -= missing * 0.5f;
+            high_ += missing * 0.5f;
+        }
+    }
+    /// Place in the palette.
+    float operator()(float density) const {
+        return (static_cast<float>(bin(density)) / per_octave - low_) / (high_ - low_);
+    }
+
+private:
+    static constexpr int octaves = 64, per_octave = 64;
+    static constexpr float least_range = 7;
+
+    static int bin(float density) {
+        const float place = (std::log2(density) + octaves / 2) * per_octave;
+        return static_cast<int>(std::clamp(place, 0.0f, octaves * per_octave - 1.0f));
+    }
+    float quantile(double share) const {
+        std::uint64_t passed = 0;
+        int i = 0;
+        while (i < octaves * per_octave - 1 && passed + counts_[i] <= share * total_)
+            passed += counts_[i++];
+        return static_cast<float>(i) / per_octave;
+    }
+
+    std::uint64_t counts_[octaves * per_octave] = {};
+    std::uint64_t total_ = 0;
+    float low_ = 0, high_ = 1;
+};
+
+// How much of a pixel must be covered to have a density of its own.
+constexpr float least_covered = 1e-4f;
+
+} // namespace
+
+Picture Canvas::mesh() const {
+    const Palette palette = Palette::shore();
+    const Color ground = color(0x03060f);
+    const Color light = color(0xfff6df);
+    const Encoder encode;
+    Picture picture(*host_, drawing_.width, drawing_.height);
+    Exposure exposure;
+    for (const Pixel &pixel : pixels_)
+        if (pixel.covered > least_covered) exposure.add(pixel.count / pixel.covered);
+    exposure.fit();
+    const Pixel *pixel = pixels_.begin();
+    for (std::int32_t y = 0; y < drawing_.height; ++y) {
+        host_->poll();
+        std::uint32_t *row = picture.row(y);
+        for (std::int32_t x = 0; x < drawing_.width; ++x, ++pixel) {
+            Color c = ground;
+            if (pixel->covered > least_covered) {
+                const float t = exposure(pixel->count / pixel->covered);
+                // Lines glow in the colour of somewhat finer triangles.
+                const Color line = mix(palette(t + 0.22f), light, 0.1f + 0.15f * t);
+                const Color tint = mix(palette(t), line, 0.8f * opacity(pixel->ink));
+                c = mix(ground, tint, std::min(pixel->covered, 1.0f));
+            }
+            row[x] = encode(c);
+        }
+    }
+    return picture;
+}
+
+void Canvas::raise(Relief &relief) const {
+    const Pixel *pixel = pixels_.begin();
+    for (std::int32_t y = 0; y < drawing_.height; ++y)
+        for (std::int32_t x = 0; x < drawing_.width; ++x, ++pixel) {
+            const bool is_land = pixel->valued > least_covered;
+            relief.height(x, y) = is_land ? pixel->value / pixel->valued : NAN;
+            // Two triangles a vertex.
+            relief.spacing(x, y) = is_land ? std::sqrt(2 * pixel->covered / pixel->count) : 0;
+        }
+    relief.smooth();
+}
+
+Picture Canvas::terrain() const {
+    const Palette palette = Palette::terrain();
+    const Color ground = color(0xf4f1ea);
+    const Color unknown = color(0xcfccc6);
+    const Color ink = color(0x1c2a2c);
+    const Encoder encode;
+    Picture picture(*host_, drawing_.width, drawing_.height);
+    std::optional<Relief> relief;
+    if (drawing_.exaggeration != 0 && low_ < high_) {
+        const double rise = (high_ - low_) * drawing_.exaggeration;
+        relief.emplace(*host_, drawing_.width, drawing_.height, rise * frame_.pixels_per_unit(0),
+                       rise * frame_.pixels_per_unit(1));
+        raise(*relief);
+    }
+    const Pixel *pixel = pixels_.begin();
+    for (std::int32_t y = 0; y < drawing_.height; ++y) {
+        host_->poll();
+        std::uint32_t *row = picture.row(y);
+        for (std::int32_t x = 0; x < drawing_.width; ++x, ++pixel) {
+            Color c = ground;
+            if (pixel->covered > least_covered) {
+                Color tint = unknown;
+                if (pixel->valued > least_covered)
+                    tint = mix(unknown, palette(pixel->value / pixel->valued),
+                               std::min(pixel->valued / pixel->covered, 1.0f));
+                if (relief) tint = tint * relief->light(x, y);
+                tint = mix(tint, ink, 0.5f * opacity(pixel->ink));
+                c = mix(ground, tint, std::min(pixel->covered, 1.0f));
+            }
+            row[x] = encode(c);
+        }
+    }
+    return picture;
+}
+
+} // namespace abacus

@@ -1,0 +1,102 @@
+// What a picture shows: the checked order, the extent of the mesh, and the
+// map from mesh coordinates to pixels.
+//
+// A mesh is streamed twice when its extent or the range of its attribute must
+// be found first; Extent is the first pass. Nothing here, nor in the other
+// files of this folder, grows with the number of triangles.
+#pragma once
+
+#include "host/host.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+namespace abacus {
+
+/// Three corners in the plane, in either orientation.
+using TriangleCorners = double[3][2];
+/// A value for each corner; none where it is not finite.
+using TriangleValues = double[3];
+
+/// Largest width and height, and the most pixels of a picture: each pixel takes
+/// 24 bytes while it is drawn, 32 with hill shading.
+inline constexpr std::int32_t max_side = 16384;
+inline constexpr std::int64_t max_pixels = std::int64_t{1} << 25;
+
+/// True if the drawing names no window of its own.
+inline bool shows_whole_mesh(const abacus_drawing &drawing) {
+    return !(drawing.lower[0] < drawing.upper[0] && drawing.lower[1] < drawing.upper[1]);
+}
+
+/// True if the drawing leaves this triangle out for its longest edge.
+inline bool is_too_long(const abacus_drawing &drawing, const TriangleCorners &corner) {
+    if (!(drawing.max_edge > 0)) return false;
+    for (int i = 0, j = 2; i < 3; j = i++)
+        if (std::hypot(corner[i][0] - corner[j][0], corner[i][1] - corner[j][1]) > drawing.max_edge)
+            return true;
+    return false;
+}
+
+/// First pass: window and value range of the triangles that the picture shows.
+class Extent {
+public:
+    /// Throws an Error unless this can be drawn.
+    explicit Extent(const abacus_drawing &drawing);
+
+    /// False if the picture can be drawn without a first pass.
+    static bool is_needed(const abacus_drawing &drawing) {
+        return shows_whole_mesh(drawing) || drawing.attribute >= 0;
+    }
+
+    void triangle(const TriangleCorners &corner, const TriangleValues &value);
+
+    /// The drawing with window and height filled in: the window given or, if that is
+    /// empty, the one that just holds the triangles. A height from the window's shape
+    /// is kept within the limits, at the cost of the shape.
+    abacus_drawing drawing() const;
+    /// Range of the values; NaN if there are none.
+    double low() const { return low_ <= high_ ? low_ : NAN; }
+    double high() const { return low_ <= high_ ? high_ : NAN; }
+
+private:
+    abacus_drawing drawing_;
+    bool whole_;
+    double lower_[2], upper_[2];
+    double low_, high_;
+};
+
+/// Position of `x` in [low, high] as a fraction of it; exact halves keep the
+/// difference of two finite numbers finite.
+class Scale {
+public:
+    Scale(double low, double high);
+    double operator()(double x) const { return (x * 0.5 - origin_) * factor_; }
+    /// Fractions of the range per unit.
+    double factor() const { return factor_ * 0.5; }
+
+private:
+    double origin_, factor_;
+};
+
+/// Map from mesh coordinates to pixels: the window fills the picture; y points
+/// up in the mesh and down in the picture.
+class Frame {
+public:
+    explicit Frame(const abacus_drawing &drawing);
+
+    double x(double x) const { return bounded(x_(x) * width_); }
+    double y(double y) const { return bounded(height_ - y_(y) * height_); }
+    /// Pixels per unit of the mesh along an axis.
+    double pixels_per_unit(int axis) const {
+        return axis == 0 ? x_.factor() * width_ : y_.factor() * height_;
+    }
+
+private:
+    // Far corners stay far, but their differences and products stay finite.
+    static double bounded(double pixel) { return std::fmin(std::fmax(pixel, -1e30), 1e30); }
+
+    double width_, height_;
+    Scale x_, y_;
+};
+
+} // namespace abacus

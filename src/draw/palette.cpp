@@ -1,0 +1,80 @@
+#include "draw/palette.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abacus {
+
+namespace {
+
+float decoded(std::uint32_t level) {
+    const double s = (level & 255) / 255.0;
+    return static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+}
+
+double encoded(double light) {
+    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+}
+
+struct Oklab {
+    double lightness, a, b;
+};
+
+Oklab to_oklab(const Color &c) {
+    const double l =
+        std::cbrt(0.4122214708 * c.red + 0.5363325363 * c.green + 0.0514459929 * c.blue);
+    const double m =
+        std::cbrt(0.2119034982 * c.red + 0.6806995451 * c.green + 0.1073969566 * c.blue);
+    const double s =
+        std::cbrt(0.0883024619 * c.red + 0.2817188376 * c.green + 0.6299787005 * c.blue);
+    return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+            1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+            0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
+}
+
+Color from_oklab(const Oklab &lab) {
+    const double l = lab.lightness + 0.3963377774 * lab.a + 0.2158037573 * lab.b;
+    const double m = lab.lightness - 0.1055613458 * lab.a - 0.0638541728 * lab.b;
+    const double s = lab.lightness - 0.0894841775 * lab.a - 1.2914855480 * lab.b;
+    const double l3 = l * l * l, m3 = m * m * m, s3 = s * s * s;
+    const auto light = [](double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); };
+    return {light(4.0767416621 * l3 - 3.3077115913 * m3 + 0.2309699292 * s3),
+            light(-1.2684380046 * l3 + 2.6097574011 * m3 - 0.3413193965 * s3),
+            light(-0.0041960863 * l3 - 0.7034186147 * m3 + 1.7076147010 * s3)};
+}
+
+} // namespace
+
+Color color(std::uint32_t rgb) { return {decoded(rgb >> 16), decoded(rgb >> 8), decoded(rgb)}; }
+
+Palette::Palette(std::initializer_list<std::uint32_t> stops) {
+    const auto last = static_cast<double>(stops.size() - 1);
+    for (int i = 0; i < steps; ++i) {
+        const double place = i * last / (steps - 1);
+        const double before = std::min(std::floor(place), last - 1);
+        const double share = place - before;
+        const auto *stop = stops.begin() + static_cast<int>(before);
+        const Oklab p = to_oklab(color(stop[0]));
+        const Oklab q = to_oklab(color(stop[1]));
+        ramp_[i] = from_oklab({p.lightness + (q.lightness - p.lightness) * share,
+                               p.a + (q.a - p.a) * share, p.b + (q.b - p.b) * share});
+    }
+}
+
+Palette Palette::terrain() {
+    return {0x24564f, 0x3f7a58, 0x75a065, 0xb0bf78, 0xdfd193,
+            0xdcb888, 0xcfa58d, 0xe3d2c8, 0xffffff};
+}
+
+Palette Palette::shore() {
+    return {0x050b1c, 0x08193a, 0x0b2d5b, 0x0f4c78, 0x1b7489,
+            0x4d9f95, 0xb9c184, 0xf8d27a, 0xfff5dc};
+}
+
+Encoder::Encoder() {
+    for (int i = 0; i < steps; ++i)
+        levels_[i] = static_cast<std::uint8_t>(
+            std::floor(encoded(static_cast<double>(i) / (steps - 1)) * 255 + 0.5));
+}
+
+} // namespace abacus

@@ -1,0 +1,98 @@
+#include "draw/relief.hpp"
+
+namespace abacus {
+
+namespace {
+
+// Where the sun stands: 45 degrees high in the north-west.
+constexpr float sun_east = -0.5f, sun_north = 0.5f, sun_up = 0.70710678f;
+// Sunlight is a little warm and skylight, which fills the shadows, a little blue.
+constexpr Color sunlight{1.04f, 1.0f, 0.92f};
+constexpr Color skylight{0.90f, 1.0f, 1.18f};
+constexpr float sky_share = 0.34f;
+
+constexpr double most_smoothing = 16; // pixels
+constexpr int passes = 3;
+
+bool is_height(float h) { return h == h; }
+
+/// Steeper than any picture can tell; its square is still a float.
+float bounded(double rise) { return static_cast<float>(std::fmin(std::fmax(rise, -1e12), 1e12)); }
+
+/// Share that a pixel takes over from its neighbour.
+float feedback(float spacing, double part) {
+    if (!(spacing > 1)) return 0;
+    const double radius = std::min((spacing - 1) * 0.6, most_smoothing) * part;
+    return std::exp(static_cast<float>(-1.41421356 / radius));
+}
+
+} // namespace
+
+Relief::Relief(const Host &host, std::int32_t width, std::int32_t height_in_pixels, double rise_x,
+               double rise_y)
+    : host_(&host), width_(width), height_(height_in_pixels), rise_x_(bounded(rise_x)),
+      rise_y_(bounded(rise_y)), heights_(host), spacings_(host) {
+    const auto pixels = static_cast<std::size_t>(width) * height_in_pixels;
+    heights_.resize(pixels);
+    spacings_.resize(pixels);
+}
+
+void Relief::smooth() {
+    // Spacing first: where it jumps, so would the smoothness, and that would show as
+    // a crack in the hill.
+    const Arena<float> &spacing = spacings_;
+    run(spacings_, [&](std::size_t p, std::size_t q) {
+        return feedback(std::max(spacing[p], spacing[q]), 1);
+    });
+    // Several narrow passes come close to a bell; their variances sum to that of one.
+    const double norm = std::sqrt(3.0 / (std::pow(4.0, passes) - 1));
+    for (int i = 1; i <= passes; ++i) {
+        const double part = norm * std::pow(2.0, passes - i);
+        run(heights_, [&](std::size_t p, std::size_t q) {
+            return feedback((spacing[p] + spacing[q]) * 0.5f, part);
+        });
+    }
+}
+
+template <class Weight> void Relief::run(Arena<float> &field, Weight &&weight) {
+    const auto feed = [&](std::size_t p, std::size_t q) {
+        if (!is_height(heights_[p]) || !is_height(heights_[q])) return;
+        const float w = weight(p, q);
+        field[p] += w * (field[q] - field[p]);
+    };
+    const auto width = static_cast<std::size_t>(width_);
+    for (std::int32_t y = 0; y < height_; ++y) {
+        host_->poll();
+        const std::size_t row = index(0, y);
+        for (std::size_t x = 1; x < width; ++x) feed(row + x, row + x - 1);
+        for (std::size_t x = width; x-- > 1;) feed(row + x - 1, row + x);
+        for (std::size_t x = 0; y > 0 && x < width; ++x) feed(row + x, row + x - width);
+    }
+    for (std::int32_t y = height_ - 1; y-- > 0;) {
+        host_->poll();
+        const std::size_t row = index(0, y);
+        for (std::size_t x = 0; x < width; ++x) feed(row + x, row + x + width);
+    }
+}
+
+float Relief::slope(std::size_t at, std::ptrdiff_t step, bool before, bool after) const {
+    const float here = heights_[at];
+    before = before && is_height(heights_[at - step]);
+    after = after && is_height(heights_[at + step]);
+    const float from = before ? heights_[at - step] : here;
+    const float to = after ? heights_[at + step] : here;
+    return before && after ? (to - from) * 0.5f : to - from;
+}
+
+Color Relief::light(std::int32_t x, std::int32_t y) const {
+    const std::size_t at = index(x, y);
+    if (!is_height(heights_[at])) return {1, 1, 1};
+    const float east = rise_x_ * slope(at, 1, x > 0, x + 1 < width_);
+    const float south = rise_y_ * slope(at, width_, y > 0, y + 1 < height_);
+    const float up = 1 / std::sqrt(1 + east * east + south * south);
+    const float sun = std::max(0.0f, (sun_up - sun_east * east + sun_north * south) * up) / sun_up;
+    const float sky = (1 + up) * 0.5f;
+    return sunlight * (sun * (1 - sky_share)) + skylight * (sky * sky_share);
+}
+
+} // namespace abacus

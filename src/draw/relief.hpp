@@ -1,0 +1,48 @@
+// Hill shading of a picture's heights, under a light in the north-west.
+//
+// A triangulated surface is flat within each triangle, so shading its true
+// slopes shows facets instead of hills where triangles are larger than pixels.
+// The heights are therefore smoothed, for the shading only, by about the local
+// spacing of the vertices: nothing where triangles are smaller than a pixel,
+// more where they are large. The filter is a recursive one run along rows and
+// columns in both directions (the domain transform of Gastal and Oliveira,
+// 2011): its cost does not depend on the radius, its strength may differ from
+// pixel to pixel, and it stops at holes.
+#pragma once
+
+#include "draw/frame.hpp"
+#include "draw/palette.hpp"
+#include "host/arena.hpp"
+
+namespace abacus {
+
+class Relief {
+public:
+    /// `height` is NaN where there is none; `spacing` is the distance between
+    /// vertices, in pixels. One row after the other, top row first. `rise_x` and
+    /// `rise_y` turn a difference of neighbouring pixels' heights into a slope.
+    Relief(const Host &host, std::int32_t width, std::int32_t height_in_pixels, double rise_x,
+           double rise_y);
+
+    float &height(std::int32_t x, std::int32_t y) { return heights_[index(x, y)]; }
+    float &spacing(std::int32_t x, std::int32_t y) { return spacings_[index(x, y)]; }
+
+    void smooth();
+
+    /// Light that falls on a pixel; flat ground gives white.
+    Color light(std::int32_t x, std::int32_t y) const;
+
+private:
+    std::size_t index(std::int32_t x, std::int32_t y) const {
+        return static_cast<std::size_t>(y) * width_ + x;
+    }
+    template <class Weight> void run(Arena<float> &field, Weight &&weight);
+    float slope(std::size_t at, std::ptrdiff_t step, bool before, bool after) const;
+
+    const Host *host_;
+    std::int32_t width_, height_;
+    float rise_x_, rise_y_;
+    Arena<float> heights_, spacings_;
+};
+
+} // namespace abacus

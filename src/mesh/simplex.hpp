@@ -1,0 +1,73 @@
+// Simplices in flat arrays: vertex numbers and links to the neighbours
+// (the dissertation's "Abacus triangle structure", §4.4).
+//
+// A handle numbers a simplex: block * block_slots + slot. A link names a facet
+// of a neighbour: handle << 2 | facet. It carries the mirror facet, so that the
+// way back needs no search. Facet i is the one opposite vertex i. When the
+// neighbour is not in memory, the link is `absent` and its other bits number an
+// entry of the table of visible facets, which knows where to find it.
+//
+// Ghosts join a hull facet to the point at infinity, which is vertex 0 and always
+// the last one of its simplex.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace abacus {
+
+using VertexIndex = std::uint32_t;
+using Handle = std::uint32_t;
+using Link = std::uint32_t;
+
+inline constexpr VertexIndex infinite_vertex = 0;
+inline constexpr VertexIndex free_mark = 0xffffffffu; // vertex[0] of a free slot
+inline constexpr Handle no_handle = 0xffffffffu;
+inline constexpr Link absent = 0x80000000u;
+
+constexpr Link make_link(Handle simplex, int facet) {
+    return simplex << 2 | static_cast<Link>(facet);
+}
+constexpr Handle link_simplex(Link link) { return link >> 2; }
+constexpr int link_facet(Link link) { return static_cast<int>(link & 3); }
+constexpr bool is_absent(Link link) { return (link & absent) != 0; }
+
+/// Slots of a block: more than a page of simplices can fill.
+template <int D> inline constexpr std::uint32_t block_slots = D == 2 ? 448 : 384;
+template <int D> constexpr std::uint32_t block_of(Handle h) { return h / block_slots<D>; }
+
+template <int D> struct Simplex {
+    std::array<VertexIndex, D + 1> vertex;
+    std::array<Link, D + 1> link;
+
+    bool is_ghost() const { return vertex[D] == infinite_vertex; }
+    bool is_free() const { return vertex[0] == free_mark; }
+    /// Vertices that are not at infinity.
+    int finite_vertices() const { return is_ghost() ? D : D + 1; }
+    int index_of(VertexIndex v) const {
+        for (int i = 0; i < D; ++i)
+            if (vertex[i] == v) return i;
+        return D;
+    }
+};
+
+/// Vertices of a facet in ascending order, and whether the order of the facet
+/// induced by its simplex is an odd permutation of it. Neighbours in an oriented
+/// mesh share the vertices and differ in `odd`.
+template <int D, class Index> struct FacetVertices {
+    std::array<Index, D> vertex;
+    bool odd;
+
+    template <class Vertices> FacetVertices(const Vertices &simplex, int facet) {
+        odd = facet & 1;
+        for (int i = 0, n = 0; i <= D; ++i) {
+            if (i == facet) continue;
+            int at = n++;
+            const Index v = static_cast<Index>(simplex[i]);
+            for (; at > 0 && vertex[at - 1] > v; --at, odd = !odd) vertex[at] = vertex[at - 1];
+            vertex[at] = v;
+        }
+    }
+};
+
+} // namespace abacus

@@ -1,0 +1,30 @@
+/*
+ * abacus.c: the module.
+ */
+#include "postgres.h"
+
+#include "fmgr.h"
+#include "utils/builtins.h"
+
+#include "pg/mesh_cache.h"
+#include "pg/settings.h"
+
+PG_MODULE_MAGIC;
+
+PG_FUNCTION_INFO_V1(abacus_sql_version);
+
+void		_PG_init(void);
+
+void
+_PG_init(void)
+{
+	settings_define();
+	mesh_cache_init();
+}
+
+/* Version of the module, which may differ from that of the extension's SQL objects. */
+Datum
+abacus_sql_version(PG_FUNCTION_ARGS)
+{
+	PG_RETURN_TEXT_P(cstring_to_text(ABACUS_VERSION));
+}

@@ -1,0 +1,125 @@
+/*
+ * fn_check.c: abacus_check, the exact verification of a mesh.
+ *
+ * The core verifies everything in the first call and keeps the faults. What
+ * keeps it from being asked at all (a header that is missing or cannot be
+ * read) is a fault as well, not an error.
+ */
+#include "postgres.h"
+
+#include "access/htup_details.h"
+#include "access/table.h"
+#include "funcapi.h"
+#include "utils/builtins.h"
+
+#include "pg/header.h"
+#include "pg/settings.h"
+#include "pg/simplex_row.h"
+
+PG_FUNCTION_INFO_V1(abacus_sql_check);
+
+typedef struct Checking
+{
+	Host	   *host;
+	bool		header_fault;	/* `fault` is the only one */
+	abacus_fault fault;
+} Checking;
+
+/* Notes a header that is missing or damaged; true if it is sound. */
+static bool
+read_header(Checking *checking, abacus_header *header)
+{
+	Host	   *host = checking->host;
+	StoredPage	row;
+
+	checking->fault.kind = "header";
+	if (!header_find(host, &row))
+		strlcpy(checking->fault.message, "the header row (-1, 0) is missing",
+				sizeof(checking->fault.message));
+	else if (abacus_header_decode(row.bytes, row.size, header, &host->failure) != ABACUS_OK)
+		snprintf(checking->fault.message, sizeof(checking->fault.message), "%s%s%s",
+				 host->failure.message, host->failure.detail[0] != '\0' ? ": " : "",
+				 host->failure.detail);
+	else
+		return true;
+	checking->header_fault = true;
+	return false;
+}
+
+static Checking *
+begin_check(Oid mesh, int32 limit, MemoryContext memory)
+{
+	Relation	table = mesh_table_open(mesh, MESH_READ);
+	Checking   *checking = MemoryContextAllocZero(memory, sizeof(Checking));
+	abacus_header header;
+	Host	   *host;
+
+	host = checking->host = host_create(memory, mesh, MESH_READ);
+	if (read_header(checking, &header))
+	{
+		abacus_check *check = NULL;
+
+		page_store_vertex_table(&host->store);
+		progress_begin(&host->progress, mesh);
+		host_run(host, abacus_check_open(&host->table, &header, setting_cache_bytes(), limit, &check,
+										 &host->failure));
+		progress_end(&host->progress);
+		host_own(host, check, (void (*) (void *)) abacus_check_close);
+	}
+	host_release(host);
+	table_close(table, NoLock);
+	return checking;
+}
+
+/* The next fault, if any. */
+static bool
+next_fault(Checking *checking, abacus_fault *fault, int64 *code)
+{
+	if (checking->header_fault)
+	{
+		*fault = checking->fault;
+		*code = -1;
+		checking->header_fault = false;
+		return true;
+	}
+	if (checking->host->handle == NULL ||
+		host_run(checking->host, abacus_check_next(checking->host->handle, fault)) == ABACUS_END)
+		return false;
+	*code = (int64) fault->key.code;
+	return true;
+}
+
+/* abacus_check(mesh regclass, max_faults int) -> fault, code, part, message */
+Datum
+abacus_sql_check(PG_FUNCTION_ARGS)
+{
+	FuncCallContext *set;
+	abacus_fault fault;
+	int64		code;
+	Datum		values[4];
+	bool		isnull[4] = {false};
+
+	if (SRF_IS_FIRSTCALL())
+	{
+		int32		limit = PG_GETARG_INT32(1);
+		MemoryContext old;
+
+		if (limit < 1)
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("max_faults must be at least 1")));
+		set = SRF_FIRSTCALL_INIT();
+		old = MemoryContextSwitchTo(set->multi_call_memory_ctx);
+		set->tuple_desc = result_row_type(fcinfo);
+		set->user_fctx = begin_check(PG_GETARG_OID(0), limit, set->multi_call_memory_ctx);
+		MemoryContextSwitchTo(old);
+	}
+	set = SRF_PERCALL_SETUP();
+	if (!next_fault(set->user_fctx, &fault, &code))
+		SRF_RETURN_DONE(set);
+	values[0] = CStringGetTextDatum(fault.kind);
+	values[1] = Int64GetDatum(code);
+	values[2] = Int64GetDatum((int64) fault.key.part);
+	values[3] = CStringGetTextDatum(fault.message);
+	SRF_RETURN_NEXT(set, HeapTupleGetDatum(heap_form_tuple(set->tuple_desc, values, isnull)));
+}

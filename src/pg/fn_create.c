@@ -1,0 +1,100 @@
+/*
+ * fn_create.c: abacus_create, an empty mesh.
+ */
+#include "postgres.h"
+
+#include "access/table.h"
+#include "access/xact.h"
+#include "catalog/namespace.h"
+#include "executor/spi.h"
+#include "fmgr.h"
+#include "miscadmin.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+#include "utils/varlena.h"
+
+#include "pg/build.h"
+
+PG_FUNCTION_INFO_V1(abacus_sql_create);
+
+/* CREATE TABLE of one of the extension's row types, through the usual utility path. */
+static Oid
+create_table(Oid namespace, const char *name, Oid type_namespace, const char *type,
+			 const char *primary_key)
+{
+	char	   *schema = get_namespace_name(namespace);
+	char	   *command = psprintf("CREATE TABLE %s OF %s (page WITH OPTIONS NOT NULL, "
+								   "PRIMARY KEY (%s)) USING heap",
+								   quote_qualified_identifier(schema, name),
+								   quote_qualified_identifier(get_namespace_name(type_namespace),
+															  type),
+								   primary_key);
+	int			result = SPI_execute(command, false, 0);
+
+	if (result != SPI_OK_UTILITY)
+		elog(ERROR, "could not create table \"%s\": %s", name, SPI_result_code_string(result));
+	return get_relname_relid(name, namespace);
+}
+
+/*
+ * Makes the two tables of a mesh and writes its header. CREATE TABLE runs as
+ * the caller and checks what it always checks: privileges, names taken.
+ */
+Oid
+build_create(text *name, Oid extension_namespace, abacus_header *header)
+{
+	RangeVar   *range = makeRangeVarFromNameList(textToQualifiedNameList(name));
+	char	   *vertices_name = psprintf("%s" VERTEX_TABLE_SUFFIX, range->relname);
+	Oid			namespace;
+	Oid			mesh;
+	Oid			vertices;
+	Host	   *host;
+
+	PreventCommandIfReadOnly("abacus_create()");
+	PreventCommandIfParallelMode("abacus_create()");
+	if (strlen(vertices_name) >= NAMEDATALEN)
+		ereport(ERROR,
+				(errcode(ERRCODE_NAME_TOO_LONG),
+				 errmsg("mesh name \"%s\" is too long", range->relname),
+				 errdetail("The table \"%s\" stands beside it; names have at most %d bytes.",
+						   vertices_name, NAMEDATALEN - 1)));
+	namespace = RangeVarGetCreationNamespace(range);
+
+	SPI_connect();
+	mesh = create_table(namespace, range->relname, extension_namespace, SIMPLEX_PAGE_TYPE,
+						"code, part");
+	vertices = create_table(namespace, vertices_name, extension_namespace, VERTEX_PAGE_TYPE,
+							"first");
+	SPI_finish();
+	mesh_bind_vertex_table(mesh, vertices);
+	CommandCounterIncrement();
+
+	host = host_create(CurrentMemoryContext, mesh, MESH_WRITE);
+	header_insert(host, header);
+	host_release(host);
+	host_destroy(host);
+	CommandCounterIncrement();
+	return mesh;
+}
+
+/*
+ * abacus_create(mesh text, dimension int, attributes text[], lower float8[],
+ * upper float8[]) -> regclass
+ */
+Datum
+abacus_sql_create(PG_FUNCTION_ARGS)
+{
+	abacus_header *header = palloc0(sizeof(abacus_header));
+
+	if (PG_ARGISNULL(0) || PG_ARGISNULL(1))
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("mesh and dimension must not be NULL")));
+	shape_dimension(header, PG_GETARG_INT32(1));
+	if (!PG_ARGISNULL(2))
+		shape_attributes(header, PG_GETARG_ARRAYTYPE_P(2));
+	shape_domain(header, PG_ARGISNULL(3) ? NULL : PG_GETARG_ARRAYTYPE_P(3),
+				 PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4));
+	PG_RETURN_OID(build_create(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid),
+							   header));
+}

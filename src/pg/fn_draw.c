@@ -1,0 +1,131 @@
+/*
+ * fn_draw.c: abacus_draw, a picture of a mesh as PNG.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "fmgr.h"
+#include "utils/builtins.h"
+#include "utils/memutils.h"
+
+#include "pg/build.h"
+#include "pg/reader.h"
+
+PG_FUNCTION_INFO_V1(abacus_sql_draw);
+
+#define MAX_PIXELS 16384
+
+/* Arguments of abacus_draw */
+enum
+{
+	DRAW_MESH,
+	DRAW_WIDTH,
+	DRAW_HEIGHT,
+	DRAW_LOWER,
+	DRAW_UPPER,
+	DRAW_ATTRIBUTE,
+	DRAW_EDGES,
+	DRAW_EXAGGERATION,
+	DRAW_MAX_EDGE
+};
+
+static int32
+pixels(FunctionCallInfo fcinfo, int argument, int32 otherwise, const char *name)
+{
+	int32		value;
+
+	if (PG_ARGISNULL(argument))
+		return otherwise;
+	value = PG_GETARG_INT32(argument);
+	if (value < 1 || value > MAX_PIXELS)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("%s must be between 1 and %d pixels, not %d", name, MAX_PIXELS, value)));
+	return value;
+}
+
+static double
+factor(FunctionCallInfo fcinfo, int argument, const char *name)
+{
+	double		value = PG_ARGISNULL(argument) ? 0 : PG_GETARG_FLOAT8(argument);
+
+	if (!isfinite(value) || value < 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("%s must be a finite number, at least 0", name)));
+	return value;
+}
+
+static int
+attribute(FunctionCallInfo fcinfo, const abacus_header *header)
+{
+	char	   *name;
+	int			number;
+
+	if (PG_ARGISNULL(DRAW_ATTRIBUTE))
+		return -1;
+	name = text_to_cstring(PG_GETARG_TEXT_PP(DRAW_ATTRIBUTE));
+	number = header_attribute(header, name);
+	if (number < 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_COLUMN),
+				 errmsg("mesh has no attribute \"%s\"", name)));
+	return number;
+}
+
+/* The window, by the same rules as the domain of a new mesh; empty if not given. */
+static void
+window(FunctionCallInfo fcinfo, const abacus_header *mesh, abacus_drawing *drawing)
+{
+	abacus_header *shape = palloc0(sizeof(abacus_header));
+
+	shape->dimension = mesh->dimension;
+	shape_domain(shape, PG_ARGISNULL(DRAW_LOWER) ? NULL : PG_GETARG_ARRAYTYPE_P(DRAW_LOWER),
+				 PG_ARGISNULL(DRAW_UPPER) ? NULL : PG_GETARG_ARRAYTYPE_P(DRAW_UPPER));
+	memcpy(drawing->lower, shape->lower, sizeof(drawing->lower));
+	memcpy(drawing->upper, shape->upper, sizeof(drawing->upper));
+	pfree(shape);
+}
+
+/*
+ * abacus_draw(mesh regclass, width int, height int, lower float8[],
+ * upper float8[], attribute text, edges boolean, exaggeration float8,
+ * max_edge float8) -> bytea
+ */
+Datum
+abacus_sql_draw(PG_FUNCTION_ARGS)
+{
+	Reader	   *reader;
+	Host	   *host;
+	abacus_drawing drawing = {0};
+	unsigned char *png = NULL;
+	size_t		size = 0;
+	bytea	   *result;
+
+	if (PG_ARGISNULL(DRAW_MESH))
+		PG_RETURN_NULL();
+	reader = reader_open(PG_GETARG_OID(DRAW_MESH), CurrentMemoryContext);
+	host = reader->host;
+	drawing.width = pixels(fcinfo, DRAW_WIDTH, 1024, "width");
+	drawing.height = pixels(fcinfo, DRAW_HEIGHT, 0, "height");
+	drawing.attribute = attribute(fcinfo, &reader->header);
+	drawing.edges = PG_ARGISNULL(DRAW_EDGES) || PG_GETARG_BOOL(DRAW_EDGES);
+	drawing.exaggeration = factor(fcinfo, DRAW_EXAGGERATION, "exaggeration");
+	drawing.max_edge = factor(fcinfo, DRAW_MAX_EDGE, "max_edge");
+	window(fcinfo, &reader->header, &drawing);
+
+	host_run(host, abacus_draw(&host->table, &reader->header, &drawing, &png, &size,
+							   &host->failure));
+	if (size > MaxAllocSize - VARHDRSZ)
+		ereport(ERROR,
+				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED), errmsg("picture is too large"),
+				 errhint("Draw fewer pixels.")));
+	result = palloc(VARHDRSZ + size);
+	SET_VARSIZE(result, VARHDRSZ + size);
+	memcpy(VARDATA(result), png, size);
+	host->table.resize(host, png, 0);
+	host_release(host);
+	host_destroy(host);
+	PG_RETURN_BYTEA_P(result);
+}

@@ -1,0 +1,147 @@
+/*
+ * fn_stats.c: abacus_stats, the figures of a mesh.
+ *
+ * Counts and counters come from the header, sizes from the files, and, if the
+ * session has the mesh in its cache, the counters of its own reading.
+ */
+#include "postgres.h"
+
+#include "access/table.h"
+#include "fmgr.h"
+#include "funcapi.h"
+#include "utils/builtins.h"
+
+#include "pg/mesh_cache.h"
+#include "pg/reader.h"
+
+PG_FUNCTION_INFO_V1(abacus_sql_stats);
+
+/* Where the rows go. */
+typedef struct Figures
+{
+	ReturnSetInfo *set;
+	const char *prefix;
+} Figures;
+
+static void
+put_figure(Figures *figures, const char *name, double value, const char *description)
+{
+	Datum		values[3];
+	bool		isnull[3] = {false};
+
+	values[0] = CStringGetTextDatum(psprintf("%s%s", figures->prefix, name));
+	values[1] = Float8GetDatum(value);
+	values[2] = CStringGetTextDatum(description);
+	tuplestore_putvalues(figures->set->setResult, figures->set->setDesc, values, isnull);
+}
+
+/* One row for each counter of chapter 5. */
+static void
+put_counters(Figures *figures, const abacus_counters *counters)
+{
+	const struct
+	{
+		const char *name;
+		uint64		value;
+		const char *description;
+	}			rows[] = {
+		{"insertions", counters->insertions, "vertices added"},
+		{"steps", counters->steps, "links followed between simplices"},
+		{"misses", counters->misses, "links that led out of the cache"},
+		{"link_probes", counters->link_probes, "page searches by a stored neighbour key"},
+		{"quick_probes", counters->quick_probes, "quick probes for an unknown neighbour"},
+		{"ray_probes", counters->ray_probes, "ray-casting probes for an unknown neighbour"},
+		{"concentric_probes", counters->concentric_probes,
+		"concentric probes for an unknown neighbour"},
+		{"incircle_tests", counters->incircle_tests,
+		"insertions that asked the last created simplices where to start"},
+		{"incircle_hits", counters->incircle_hits, "insertions that those answered"},
+		{"walks", counters->walks, "point locations by walking"},
+		{"created", counters->created, "simplices created"},
+		{"deleted", counters->deleted, "simplices deleted"},
+		{"loads", counters->loads, "pages read into the cache"},
+		{"stores", counters->stores, "pages written from the cache"},
+		{"rewrites", counters->rewrites, "pages written in place of an older version"},
+		{"splits", counters->splits, "simplex blocks split"},
+		{"evictions", counters->evictions, "simplex blocks dropped from the cache"},
+		{"eviction_batches", counters->eviction_batches, "batches of evictions"},
+		{"bytes_read", counters->bytes_read, "bytes of the pages read"},
+		{"bytes_written", counters->bytes_written, "bytes of the pages written"},
+		{"translation_ns", counters->translation_ns,
+		"nanoseconds spent between pages and memory, reading and writing included"},
+		{"total_ns", counters->total_ns, "nanoseconds spent in the core"},
+		{"peak_bytes", counters->peak_bytes, "largest amount of memory the cache held"},
+	};
+
+	for (int i = 0; i < lengthof(rows); i++)
+		put_figure(figures, rows[i].name, (double) rows[i].value, rows[i].description);
+	if (counters->steps > 0)
+		put_figure(figures, "hit_ratio", 1.0 - (double) counters->misses / counters->steps,
+				   "share of the followed links that stayed in the cache");
+}
+
+static double
+bytes_of(PGFunction function, Oid relid)
+{
+	return (double) DatumGetInt64(DirectFunctionCall1(function, ObjectIdGetDatum(relid)));
+}
+
+static void
+put_sizes(Figures *figures, const Reader *reader, Oid vertices)
+{
+	Oid			mesh = reader->host->store.mesh;
+	double		table = bytes_of(pg_table_size, mesh);
+	double		index = bytes_of(pg_indexes_size, mesh);
+
+	put_figure(figures, "simplex_table_bytes", table, "size of the simplex table");
+	put_figure(figures, "simplex_index_bytes", index, "size of its page index");
+	put_figure(figures, "vertex_table_bytes", bytes_of(pg_table_size, vertices),
+			   "size of the table of staged points");
+	put_figure(figures, "vertex_index_bytes", bytes_of(pg_indexes_size, vertices),
+			   "size of its index");
+	if (reader->header.simplices > 0)
+		put_figure(figures, "bytes_per_simplex", (table + index) / reader->header.simplices,
+				   "simplex table and index, per simplex");
+}
+
+static void
+put_counts(Figures *figures, const abacus_header *header)
+{
+	put_figure(figures, "dimension", header->dimension, "2 for triangles, 3 for tetrahedra");
+	put_figure(figures, "attributes", header->attributes, "attributes of a vertex");
+	put_figure(figures, "points", (double) header->points, "points staged");
+	put_figure(figures, "inserted", (double) header->inserted, "staged points triangulated");
+	put_figure(figures, "vertices", (double) header->vertices,
+			   "distinct points among them; 0 while they span no simplex");
+	put_figure(figures, "duplicates", (double) header->duplicates,
+			   "triangulated points that equal an earlier one");
+	put_figure(figures, "simplices", (double) header->simplices, "simplices of the mesh");
+	put_figure(figures, "hull_facets", (double) header->ghosts, "facets of its convex hull");
+}
+
+/* abacus_stats(mesh regclass) -> name, value, description */
+Datum
+abacus_sql_stats(PG_FUNCTION_ARGS)
+{
+	Oid			mesh = PG_GETARG_OID(0);
+	Figures		figures = {(ReturnSetInfo *) fcinfo->resultinfo, ""};
+	Reader	   *reader = reader_open(mesh, CurrentMemoryContext);
+	Oid			vertices = page_store_vertex_table(&reader->host->store);
+	const CachedMesh *cached = mesh_cache_peek(mesh);
+
+	host_release(reader->host);
+	InitMaterializedSRF(fcinfo, 0);
+	put_counts(&figures, &reader->header);
+	put_sizes(&figures, reader, vertices);
+	put_counters(&figures, &reader->header.counters);
+	if (cached != NULL)
+	{
+		abacus_counters counters;
+
+		abacus_mesh_counters(cached->mesh, &counters);
+		figures.prefix = "session_";
+		put_counters(&figures, &counters);
+	}
+	host_destroy(reader->host);
+	PG_RETURN_NULL();
+}

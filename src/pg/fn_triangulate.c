@@ -1,0 +1,76 @@
+/*
+ * fn_triangulate.c: abacus_triangulate, from staged points to simplex pages;
+ * or from a query to a finished mesh at once.
+ */
+#include "postgres.h"
+
+#include "fmgr.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+
+#include "pg/build.h"
+#include "pg/settings.h"
+#include "pg/writer.h"
+
+PG_FUNCTION_INFO_V1(abacus_sql_triangulate);
+PG_FUNCTION_INFO_V1(abacus_sql_triangulate_query);
+
+/* Inserts all staged points; returns the number of simplices. */
+uint64
+build_triangulate(Oid mesh)
+{
+	Writer		writer;
+	Host	   *host;
+	abacus_build *build = NULL;
+	uint64		simplices;
+
+	writer_begin(&writer, mesh, "abacus_triangulate()");
+	host = writer.host;
+	host_run(host, abacus_build_open(&host->table, writer.header, setting_cache_bytes(), &build,
+									 &host->failure));
+	host_own(host, build, (void (*) (void *)) abacus_build_close);
+	host_run(host, abacus_build_run(build, 0, writer.header, &host->failure));
+	simplices = writer.header->simplices;
+	writer_end(&writer);
+	return simplices;
+}
+
+/* abacus_triangulate(mesh regclass) -> bigint */
+Datum
+abacus_sql_triangulate(PG_FUNCTION_ARGS)
+{
+	PG_RETURN_INT64((int64) build_triangulate(PG_GETARG_OID(0)));
+}
+
+/*
+ * abacus_triangulate(mesh text, query text, attributes text[], dimension int,
+ * lower float8[], upper float8[]) -> bigint
+ */
+Datum
+abacus_sql_triangulate_query(PG_FUNCTION_ARGS)
+{
+	abacus_header *header = palloc0(sizeof(abacus_header));
+	Source		source;
+	Oid			mesh;
+	uint64		simplices;
+
+	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(3))
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("mesh, query and dimension must not be NULL")));
+	shape_dimension(header, PG_GETARG_INT32(3));
+	if (!PG_ARGISNULL(2))
+		shape_attributes(header, PG_GETARG_ARRAYTYPE_P(2));
+	shape_domain(header, PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4),
+				 PG_ARGISNULL(5) ? NULL : PG_GETARG_ARRAYTYPE_P(5));
+
+	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	if (PG_ARGISNULL(2))
+		for (int i = 1 + header->dimension; i < source_columns(&source); i++)
+			shape_attribute(header, source_column_name(&source, i));
+	mesh = build_create(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid), header);
+	build_stage(mesh, &source);
+	simplices = build_triangulate(mesh);
+	source_finish(&source);
+	PG_RETURN_INT64((int64) simplices);
+}

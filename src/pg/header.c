@@ -1,0 +1,89 @@
+/*
+ * header.c: the header of a mesh, a row of its simplex table.
+ *
+ * It stands under the key (-1, 0), below every page. Each change of a mesh
+ * rewrites it with a new random stamp; so a stamp names one state of the mesh
+ * for ever, also when the transaction that made it is rolled back, and a
+ * session's cache is good exactly as long as the header it sees has the stamp
+ * it was filled under.
+ */
+#include "postgres.h"
+
+#include "pg/header.h"
+
+static const int64 header_key[PAGE_TABLE_MAX_KEYS] = {-1, 0};
+
+static void
+new_stamp(abacus_header *header)
+{
+	if (!pg_strong_random(&header->stamp, sizeof(header->stamp)))
+		ereport(ERROR,
+				(errcode(ERRCODE_INTERNAL_ERROR), errmsg("could not generate a random number")));
+}
+
+/* Writes the header of a new mesh. */
+void
+header_insert(Host *host, abacus_header *header)
+{
+	unsigned char bytes[ABACUS_PAGE_BYTES];
+	ItemPointerData tid;
+	size_t		size;
+
+	new_stamp(header);
+	size = abacus_header_encode(header, bytes);
+	page_table_insert(&host->store.simplices, header_key, bytes, size, &tid);
+}
+
+/* The header row as the active snapshot sees it. */
+bool
+header_find(Host *host, StoredPage *row)
+{
+	return page_table_get(&host->store.simplices, header_key, row);
+}
+
+void
+header_decode(Host *host, const StoredPage *row, abacus_header *header)
+{
+	host_run(host, abacus_header_decode(row->bytes, row->size, header, &host->failure));
+}
+
+/* Finds and decodes the header, which must be there; its place goes to *tid unless NULL. */
+void
+header_read(Host *host, abacus_header *header, ItemPointer tid)
+{
+	StoredPage	row;
+
+	if (!header_find(host, &row))
+		ereport(ERROR,
+				(errcode(ERRCODE_DATA_CORRUPTED),
+				 errmsg("mesh \"%s\" has no header",
+						RelationGetRelationName(host->store.simplices.heap)),
+				 errdetail("The row (%d, %d) of the table is missing.", (int) header_key[0],
+						   (int) header_key[1]),
+				 errhint("Restore the mesh from a backup, or drop it and make it anew.")));
+	if (tid != NULL)
+		*tid = row.tid;
+	header_decode(host, &row, header);
+}
+
+/* Replaces the header at *tid, which the caller has locked. */
+void
+header_update(Host *host, abacus_header *header, ItemPointer tid)
+{
+	unsigned char bytes[ABACUS_PAGE_BYTES];
+	size_t		size;
+
+	new_stamp(header);
+	size = abacus_header_encode(header, bytes);
+	page_table_update(&host->store.simplices, header_key, bytes, size, tid);
+}
+
+/* Number of the attribute with this name, -1 if there is none. */
+int
+header_attribute(const abacus_header *header, const char *name)
+{
+	for (uint32 i = 0; i < header->attributes; i++)
+		if (strcmp(header->names[i], name) == 0)
+			return (int) i;
+	return -1;
+}

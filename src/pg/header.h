@@ -1,0 +1,17 @@
+/*
+ * header.h: the header of a mesh, a row of its simplex table.
+ */
+#ifndef ABACUS_HEADER_H
+#define ABACUS_HEADER_H
+
+#include "pg/host.h"
+
+extern void header_insert(Host *host, abacus_header *header);
+extern bool header_find(Host *host, StoredPage *row);
+extern void header_decode(Host *host, const StoredPage *row, abacus_header *header);
+extern void header_read(Host *host, abacus_header *header, ItemPointer tid);
+extern void header_update(Host *host, abacus_header *header, ItemPointer tid);
+
+extern int	header_attribute(const abacus_header *header, const char *name);
+
+#endif

@@ -1,0 +1,222 @@
+/*
+ * mesh.c: what a mesh is in the database.
+ *
+ * A mesh is an ordinary table of the type abacus_simplex_page together with
+ * one of the type abacus_vertex_page. No catalogue lists them: the row type
+ * in pg_class says what a table is, and an automatic dependency in pg_depend
+ * ties the vertex table to its mesh, so that either may be renamed or moved
+ * to another schema and DROP TABLE of the mesh drops both. A dump does not
+ * carry that entry; a restored mesh is found by name (<mesh>_vertices) until
+ * its owner changes it, which writes the entry again.
+ *
+ * The store reads and writes pages without the executor. What the executor
+ * would have checked is checked here: privileges, row-level security,
+ * temporary tables of other sessions.
+ */
+#include "postgres.h"
+
+#include "access/genam.h"
+#include "access/parallel.h"
+#include "access/relation.h"
+#include "access/table.h"
+#include "catalog/dependency.h"
+#include "catalog/indexing.h"
+#include "catalog/objectaddress.h"
+#include "catalog/pg_am.h"
+#include "catalog/pg_class.h"
+#include "catalog/pg_depend.h"
+#include "catalog/pg_type.h"
+#include "commands/extension.h"
+#include "miscadmin.h"
+#include "utils/acl.h"
+#include "utils/builtins.h"
+#include "utils/fmgroids.h"
+#include "utils/lsyscache.h"
+#include "utils/rls.h"
+#include "utils/syscache.h"
+
+#include "pg/mesh.h"
+
+/* Whether `type` is this extension's row type of that name; remembers the last yes. */
+static bool
+is_row_type(Oid type, const char *name, Oid *known)
+{
+	HeapTuple	tuple;
+	bool		same;
+
+	if (!OidIsValid(type))
+		return false;
+	if (type == *known)
+		return true;
+	tuple = SearchSysCache1(TYPEOID, ObjectIdGetDatum(type));
+	if (!HeapTupleIsValid(tuple))
+		return false;
+	same = strcmp(NameStr(((Form_pg_type) GETSTRUCT(tuple))->typname), name) == 0;
+	ReleaseSysCache(tuple);
+	if (!same || getExtensionOfObject(TypeRelationId, type) != get_extension_oid("abacus", true))
+		return false;
+	*known = type;
+	return true;
+}
+
+static Oid	simplex_row_type = InvalidOid;
+static Oid	vertex_row_type = InvalidOid;
+
+static bool
+is_table_of(Oid relid, const char *name, Oid *known)
+{
+	HeapTuple	tuple = SearchSysCache1(RELOID, ObjectIdGetDatum(relid));
+	Form_pg_class form;
+	bool		is;
+
+	if (!HeapTupleIsValid(tuple))
+		return false;
+	form = (Form_pg_class) GETSTRUCT(tuple);
+	is = form->relkind == RELKIND_RELATION && is_row_type(form->reloftype, name, known);
+	ReleaseSysCache(tuple);
+	return is;
+}
+
+static bool
+is_simplex_table(Oid relid)
+{
+	return is_table_of(relid, SIMPLEX_PAGE_TYPE, &simplex_row_type);
+}
+
+static bool
+is_vertex_table(Oid relid)
+{
+	return is_table_of(relid, VERTEX_PAGE_TYPE, &vertex_row_type);
+}
+
+/* What the executor would refuse. */
+static void
+check_access(Relation rel, MeshAccess access)
+{
+	Oid			relid = RelationGetRelid(rel);
+	AclMode		needed = access == MESH_WRITE ? ACL_SELECT | ACL_INSERT | ACL_UPDATE : ACL_SELECT;
+
+	if (pg_class_aclmask(relid, GetUserId(), needed, ACLMASK_ALL) != needed)
+		aclcheck_error(ACLCHECK_NO_PRIV, get_relkind_objtype(rel->rd_rel->relkind),
+					   RelationGetRelationName(rel));
+	if (check_enable_rls(relid, InvalidOid, false) == RLS_ENABLED)
+		ereport(ERROR,
+				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				 errmsg("row-level security on mesh table \"%s\" applies to user \"%s\"",
+						RelationGetRelationName(rel), GetUserNameFromId(GetUserId(), false)),
+				 errdetail("A page holds many simplices; policies on its rows have no meaning."),
+				 errhint("Disable row-level security on the table and use GRANT.")));
+	if (rel->rd_rel->relam != HEAP_TABLE_AM_OID)
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 errmsg("mesh table \"%s\" is not stored as heap", RelationGetRelationName(rel)),
+				 errhint("Use ALTER TABLE ... SET ACCESS METHOD heap.")));
+	if (RELATION_IS_OTHER_TEMP(rel))
+		ereport(ERROR,
+				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				 errmsg("cannot access temporary meshes of other sessions")));
+	if (IsParallelWorker() && RelationUsesLocalBuffers(rel))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_TRANSACTION_STATE),
+				 errmsg("cannot access a temporary mesh in a parallel worker"),
+				 errhint("SET max_parallel_workers_per_gather = 0 for this query.")));
+}
+
+/* Opens and locks the table of a mesh, or says why it cannot be used. */
+Relation
+mesh_table_open(Oid relid, MeshAccess access)
+{
+	Relation	rel = try_relation_open(relid,
+										access == MESH_WRITE ? RowExclusiveLock : AccessShareLock);
+
+	if (rel == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_TABLE),
+				 errmsg("mesh with OID %u does not exist", relid)));
+	if (rel->rd_rel->relkind != RELKIND_RELATION ||
+		!is_row_type(rel->rd_rel->reloftype, SIMPLEX_PAGE_TYPE, &simplex_row_type))
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 errmsg("\"%s\" is not a mesh", RelationGetRelationName(rel)),
+				 errhint("Meshes are made with abacus_create() or abacus_triangulate().")));
+	check_access(rel, access);
+	return rel;
+}
+
+/*
+ * The first table of the wanted kind that `relid` automatically depends on
+ * (`dependent`), or that depends on it.
+ */
+static Oid
+find_bound_table(Oid relid, bool dependent, bool (*wanted) (Oid))
+{
+	Relation	depend = table_open(DependRelationId, AccessShareLock);
+	ScanKeyData keys[2];
+	SysScanDesc scan;
+	HeapTuple	tuple;
+	Oid			found = InvalidOid;
+
+	ScanKeyInit(&keys[0], dependent ? Anum_pg_depend_classid : Anum_pg_depend_refclassid,
+				BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(RelationRelationId));
+	ScanKeyInit(&keys[1], dependent ? Anum_pg_depend_objid : Anum_pg_depend_refobjid,
+				BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(relid));
+	scan = systable_beginscan(depend, dependent ? DependDependerIndexId : DependReferenceIndexId,
+							  true, NULL, 2, keys);
+	while (!OidIsValid(found) && HeapTupleIsValid(tuple = systable_getnext(scan)))
+	{
+		Form_pg_depend entry = (Form_pg_depend) GETSTRUCT(tuple);
+		Oid			other = dependent ? entry->refobjid : entry->objid;
+
+		if (entry->deptype == DEPENDENCY_AUTO && entry->classid == RelationRelationId &&
+			entry->refclassid == RelationRelationId && entry->objsubid == 0 &&
+			entry->refobjsubid == 0 && wanted(other))
+			found = other;
+	}
+	systable_endscan(scan);
+	table_close(depend, AccessShareLock);
+	return found;
+}
+
+/* The table of the mesh's vertex pages, locked and checked; writers bind it when it is not. */
+Oid
+mesh_vertex_table(Relation mesh, MeshAccess access)
+{
+	Oid			relid = find_bound_table(RelationGetRelid(mesh), false, is_vertex_table);
+	bool		bound = OidIsValid(relid);
+	Relation	rel;
+
+	if (!bound)
+	{
+		char	   *name = psprintf("%s" VERTEX_TABLE_SUFFIX, RelationGetRelationName(mesh));
+
+		relid = get_relname_relid(name, RelationGetNamespace(mesh));
+		if (!OidIsValid(relid) || !is_vertex_table(relid) ||
+			OidIsValid(find_bound_table(relid, true, is_simplex_table)))
+			ereport(ERROR,
+					(errcode(ERRCODE_UNDEFINED_TABLE),
+					 errmsg("mesh \"%s\" has no vertex table", RelationGetRelationName(mesh)),
+					 errdetail("There is no table \"%s\" of type %s beside it.", name,
+							   VERTEX_PAGE_TYPE),
+					 errhint("After a restore, give the vertex table that name.")));
+		pfree(name);
+	}
+	rel = relation_open(relid, access == MESH_WRITE ? RowExclusiveLock : AccessShareLock);
+	check_access(rel, access);
+	if (!bound && access == MESH_WRITE && pg_class_ownercheck(relid, GetUserId()) &&
+		pg_class_ownercheck(RelationGetRelid(mesh), GetUserId()))
+		mesh_bind_vertex_table(RelationGetRelid(mesh), relid);
+	relation_close(rel, NoLock);
+	return relid;
+}
+
+/* From now on the vertex table goes where its mesh goes. */
+void
+mesh_bind_vertex_table(Oid mesh, Oid vertices)
+{
+	ObjectAddress dependent;
+	ObjectAddress referenced;
+
+	ObjectAddressSet(dependent, RelationRelationId, vertices);
+	ObjectAddressSet(referenced, RelationRelationId, mesh);
+	recordDependencyOn(&dependent, &referenced, DEPENDENCY_AUTO);
+}

@@ -1,0 +1,26 @@
+/*
+ * mesh.h: what a mesh is in the database: two typed tables, found, locked and
+ * checked for privileges.
+ */
+#ifndef ABACUS_MESH_H
+#define ABACUS_MESH_H
+
+#include "storage/lockdefs.h"
+#include "utils/rel.h"
+
+#define SIMPLEX_PAGE_TYPE "abacus_simplex_page"
+#define VERTEX_PAGE_TYPE "abacus_vertex_page"
+#define VERTEX_TABLE_SUFFIX "_vertices"
+
+/* What a caller is going to do, and so the lock and the privileges it needs. */
+typedef enum MeshAccess
+{
+	MESH_READ,
+	MESH_WRITE
+} MeshAccess;
+
+extern Relation mesh_table_open(Oid relid, MeshAccess access);
+extern Oid	mesh_vertex_table(Relation mesh, MeshAccess access);
+extern void mesh_bind_vertex_table(Oid mesh, Oid vertices);
+
+#endif

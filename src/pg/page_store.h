@@ -1,0 +1,32 @@
+/*
+ * page_store.h: the two tables of a mesh as the core's page operations.
+ */
+#ifndef ABACUS_PAGE_STORE_H
+#define ABACUS_PAGE_STORE_H
+
+#include "abacus/abacus.h"
+
+#include "pg/mesh.h"
+#include "pg/page_table.h"
+
+typedef struct PageStore
+{
+	Oid			mesh;
+	MeshAccess	access;
+	PageTable	simplices;
+	PageTable	vertices;		/* its OID is looked up when first needed */
+} PageStore;
+
+extern void page_store_init(PageStore *store, Oid mesh, MeshAccess access, MemoryContext memory);
+extern void page_store_close(PageStore *store);
+extern Oid	page_store_vertex_table(PageStore *store);
+
+extern bool page_store_find(PageStore *store, abacus_key key, abacus_page *page);
+extern bool page_store_next(PageStore *store, const abacus_key *key, abacus_page *page);
+extern void page_store_put(PageStore *store, abacus_page *page);
+extern void page_store_append_vertices(PageStore *store, uint64 first, const unsigned char *bytes,
+									   size_t size);
+extern bool page_store_read_vertices(PageStore *store, uint64 sequence, uint64 *first,
+									 const unsigned char **bytes, size_t *size);
+
+#endif

@@ -1,0 +1,71 @@
+/*
+ * page_table.h: pages of bytes in one heap table, found by key through its
+ * primary key's B-tree.
+ *
+ * Both tables of a mesh have this shape: one or two bigint key columns, then
+ * the page. Direct heap and nbtree calls; no SPI, no executor. A table is
+ * opened when first needed and closed before the SQL call returns.
+ */
+#ifndef ABACUS_PAGE_TABLE_H
+#define ABACUS_PAGE_TABLE_H
+
+#include "access/genam.h"
+#include "access/skey.h"
+#include "executor/tuptable.h"
+#include "nodes/execnodes.h"
+#include "utils/rel.h"
+
+#define PAGE_TABLE_MAX_KEYS 2
+
+/* A stored page as a search finds it; bytes stay valid until the next search. */
+typedef struct StoredPage
+{
+	int64		key[PAGE_TABLE_MAX_KEYS];
+	const unsigned char *bytes;
+	size_t		size;
+	ItemPointerData tid;
+} StoredPage;
+
+/* A kept-open index scan in one direction. */
+typedef struct PageScan
+{
+	IndexScanDesc scan;			/* NULL while not open */
+	TupleTableSlot *slot;
+} PageScan;
+
+typedef struct PageTable
+{
+	Oid			relid;
+	int			keys;			/* key columns: 1 or 2 */
+	bool		writable;
+
+	Relation	heap;			/* NULL while closed */
+	Relation	index;
+	IndexInfo  *index_info;		/* writers only */
+
+	PageScan	floor;			/* backward: greatest key <= given */
+	PageScan	forward;		/* least key > given, and onward */
+	bool		at_key;			/* forward stands at forward_key */
+	int64		forward_key[PAGE_TABLE_MAX_KEYS];
+
+	bool		wrote;			/* changes that our snapshot does not see yet */
+	uint64		span;			/* how far below a key its page is expected */
+	MemoryContext memory;		/* of what is open */
+	struct varlena *datum;		/* writers: room for one page */
+} PageTable;
+
+extern void page_table_init(PageTable *table, Oid relid, int keys, bool writable,
+							MemoryContext memory);
+extern void page_table_open(PageTable *table);
+extern void page_table_close(PageTable *table);
+
+extern bool page_table_get(PageTable *table, const int64 *key, StoredPage *page);
+extern bool page_table_floor(PageTable *table, const int64 *key, StoredPage *page);
+extern bool page_table_next(PageTable *table, const int64 *key, StoredPage *page);
+
+extern void page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes,
+							  size_t size, ItemPointer tid);
+extern void page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes,
+							  size_t size, ItemPointer tid);
+
+#endif

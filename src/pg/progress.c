@@ -1,0 +1,72 @@
+/*
+ * progress.c: live figures of a running build that other sessions can read.
+ *
+ * Every backend has progress slots in shared memory, but only for core
+ * commands. We report as CREATE INDEX, which also builds something ordered
+ * out of a scan: pg_stat_progress_create_index shows "building index" with
+ * tuples done and in all. What it has no name for goes into slots it does not
+ * use, and a magic value in the last of them tells the view abacus_progress
+ * (sql/install/80-progress.sql, which knows the numbers below) that the row
+ * is ours. An aborting transaction clears the slots by itself.
+ */
+#include "postgres.h"
+
+#include "commands/progress.h"
+#include "utils/backend_progress.h"
+#include "utils/timestamp.h"
+
+#include "pg/progress.h"
+
+/* Slots that CREATE INDEX leaves free; the view's param numbers are one higher. */
+#define PROGRESS_ABACUS_PAGES_READ 1
+#define PROGRESS_ABACUS_PAGES_WRITTEN 2
+#define PROGRESS_ABACUS_PHASE_START 17	/* microseconds since 2000-01-01 */
+#define PROGRESS_ABACUS_START 18
+#define PROGRESS_ABACUS_MAGIC 19
+
+#define PROGRESS_MAGIC INT64CONST(0x616261637573)	/* "abacus" */
+
+void
+progress_begin(Progress *state, Oid mesh)
+{
+	static const int slots[] = {
+		PROGRESS_CREATEIDX_PHASE, PROGRESS_ABACUS_START, PROGRESS_ABACUS_PHASE_START,
+		PROGRESS_ABACUS_MAGIC
+	};
+	int64		now = GetCurrentTimestamp();
+	int64		values[] = {PROGRESS_CREATEIDX_PHASE_BUILD, now, now, PROGRESS_MAGIC};
+
+	pgstat_progress_start_command(PROGRESS_COMMAND_CREATE_INDEX, mesh);
+	pgstat_progress_update_multi_param(lengthof(slots), slots, values);
+	state->phase = 0;
+	state->active = true;
+}
+
+void
+progress_report(Progress *state, const abacus_progress *progress)
+{
+	static const int slots[] = {
+		PROGRESS_CREATEIDX_SUBPHASE, PROGRESS_CREATEIDX_TUPLES_TOTAL,
+		PROGRESS_CREATEIDX_TUPLES_DONE, PROGRESS_ABACUS_PAGES_READ, PROGRESS_ABACUS_PAGES_WRITTEN
+	};
+	int64		values[] = {
+		progress->phase, (int64) progress->total, (int64) progress->done,
+		(int64) progress->pages_read, (int64) progress->pages_written
+	};
+
+	if (!state->active)
+		return;
+	if (progress->phase != state->phase)
+	{
+		pgstat_progress_update_param(PROGRESS_ABACUS_PHASE_START, GetCurrentTimestamp());
+		state->phase = progress->phase;
+	}
+	pgstat_progress_update_multi_param(lengthof(slots), slots, values);
+}
+
+void
+progress_end(Progress *state)
+{
+	pgstat_progress_end_command();
+	state->active = false;
+}

@@ -1,0 +1,38 @@
+/*
+ * row_packer.h: rows from the executor into the core's records of points.
+ */
+#ifndef ABACUS_ROW_PACKER_H
+#define ABACUS_ROW_PACKER_H
+
+#include "abacus/abacus.h"
+
+#include "tcop/dest.h"
+
+/* How a column's Datum becomes an eight-byte word. */
+typedef enum PackKind
+{
+	PACK_FLOAT8,
+	PACK_FLOAT4,
+	PACK_INT2,
+	PACK_INT4,
+	PACK_INT8,
+	PACK_NUMERIC
+} PackKind;
+
+typedef struct RowPacker
+{
+	DestReceiver receiver;
+	const abacus_header *header;
+	int			columns;		/* id, coordinates, attributes */
+	PackKind   *kinds;
+	bool		any_numeric;
+	uint64	   *points;			/* room for a batch */
+	size_t		count;
+	uint64		row;			/* rows seen, for messages */
+	MemoryContext scratch;		/* of conversions; emptied at each batch */
+} RowPacker;
+
+extern RowPacker *row_packer_create(TupleDesc desc, const abacus_header *header, size_t batch);
+extern void row_packer_reset(RowPacker *packer);
+
+#endif

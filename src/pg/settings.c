@@ -1,0 +1,42 @@
+/*
+ * settings.c: the extension's settings.
+ */
+#include "postgres.h"
+
+#include "utils/guc.h"
+
+#include "pg/host.h"
+#include "pg/settings.h"
+
+static int	cache_size_mb = 64;
+static int	fail_host_call = 0;
+
+static void
+assign_fail_host_call(int value, void *extra)
+{
+	host_calls_to_failure = value;
+}
+
+void
+settings_define(void)
+{
+	DefineCustomIntVariable("abacus.cache_size",
+							"Sets the size of the computational cache of a mesh.",
+							"A build has one; a session keeps one for each of the last four "
+							"meshes it has read.",
+							&cache_size_mb, 64, 1, 16 * 1024 * 1024, PGC_USERSET, GUC_UNIT_MB,
+							NULL, NULL, NULL);
+	DefineCustomIntVariable("abacus.fail_host_call",
+							"Makes the core's n-th call of the database fail, once.",
+							"Counted from the moment of setting; 0 means none. For tests.",
+							&fail_host_call, 0, 0, INT_MAX, PGC_SUSET,
+							GUC_NOT_IN_SAMPLE, NULL, assign_fail_host_call, NULL);
+	MarkGUCPrefixReserved("abacus");
+}
+
+/* Bytes that a computational cache may take. */
+size_t
+setting_cache_bytes(void)
+{
+	return (size_t) cache_size_mb * 1024 * 1024;
+}

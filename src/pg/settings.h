@@ -1,0 +1,10 @@
+/*
+ * settings.h: the extension's settings.
+ */
+#ifndef ABACUS_SETTINGS_H
+#define ABACUS_SETTINGS_H
+
+extern void settings_define(void);
+extern size_t setting_cache_bytes(void);
+
+#endif

@@ -1,0 +1,84 @@
+/*
+ * simplex_row.c: the composite type abacus_simplex, (code, v0, v1, v2, v3).
+ */
+#include "postgres.h"
+
+#include "access/htup_details.h"
+#include "funcapi.h"
+#include "utils/memutils.h"
+
+#include "pg/simplex_row.h"
+
+#define SIMPLEX_COLUMNS (2 + ABACUS_MAX_DIMENSION)
+
+/* Row type of the function's result, blessed, in the current memory context. */
+TupleDesc
+result_row_type(FunctionCallInfo fcinfo)
+{
+	TupleDesc	row_type;
+
+	if (get_call_result_type(fcinfo, NULL, &row_type) != TYPEFUNC_COMPOSITE)
+		elog(ERROR, "function must return a row");
+	return BlessTupleDesc(row_type);
+}
+
+/* The same for a function that is called for many rows: looked up once. */
+TupleDesc
+cached_row_type(FunctionCallInfo fcinfo)
+{
+	if (fcinfo->flinfo->fn_extra == NULL)
+	{
+		MemoryContext old = MemoryContextSwitchTo(fcinfo->flinfo->fn_mcxt);
+
+		fcinfo->flinfo->fn_extra = result_row_type(fcinfo);
+		MemoryContextSwitchTo(old);
+	}
+	return fcinfo->flinfo->fn_extra;
+}
+
+Datum
+simplex_row(TupleDesc row_type, const abacus_simplex *simplex, uint32 dimension)
+{
+	Datum		values[SIMPLEX_COLUMNS];
+	bool		isnull[SIMPLEX_COLUMNS];
+
+	values[0] = Int64GetDatum((int64) simplex->code);
+	isnull[0] = false;
+	for (uint32 i = 0; i <= ABACUS_MAX_DIMENSION; i++)
+	{
+		values[1 + i] = Int64GetDatum(simplex->id[i]);
+		isnull[1 + i] = i > dimension;
+	}
+	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
+}
+
+/* Code and corner ids of a simplex that SQL hands back. */
+void
+simplex_from_row(Datum row, TupleDesc row_type, uint32 dimension, uint64 *code, int64 *ids)
+{
+	HeapTupleHeader header = DatumGetHeapTupleHeader(row);
+	HeapTupleData tuple;
+	Datum		values[SIMPLEX_COLUMNS];
+	bool		isnull[SIMPLEX_COLUMNS];
+	bool		complete;
+
+	tuple.t_len = HeapTupleHeaderGetDatumLength(header);
+	ItemPointerSetInvalid(&tuple.t_self);
+	tuple.t_tableOid = InvalidOid;
+	tuple.t_data = header;
+	heap_deform_tuple(&tuple, row_type, values, isnull);
+
+	complete = !isnull[0];
+	for (uint32 i = 0; i <= dimension; i++)
+	{
+		complete &= !isnull[1 + i];
+		ids[i] = DatumGetInt64(values[1 + i]);
+	}
+	if (!complete)
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("simplex has a NULL where a mesh of dimension %u needs a value", dimension),
+				 errhint("Pass a simplex as abacus_locate(), abacus_walk() or abacus_simplices() "
+						 "returned it.")));
+	*code = (uint64) DatumGetInt64(values[0]);
+}

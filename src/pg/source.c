@@ -1,0 +1,99 @@
+/*
+ * source.c: the user's query, read through a portal in batches.
+ *
+ * SPI parses, plans and opens it as the caller, read-only; the rows then go
+ * from the executor straight into a DestReceiver (row_packer.c), so no row is
+ * ever copied into a tuple table and the result is never held as a whole.
+ *
+ * From source_prepare() to source_finish() SPI is connected.
+ */
+#include "postgres.h"
+
+#include "nodes/parsenodes.h"
+#include "tcop/pquery.h"
+#include "utils/memutils.h"
+#include "utils/plancache.h"
+#include "utils/portal.h"
+
+#include "pg/source.h"
+
+#define POINTS_A_BATCH 1024
+
+static CachedPlanSource *
+plan_source(const Source *source)
+{
+	return linitial(SPI_plan_get_plan_sources(source->plan));
+}
+
+/* Parses the query; anything but one plain SELECT is refused. */
+void
+source_prepare(Source *source, const char *query)
+{
+	List	   *sources;
+	bool		selects;
+
+	MemSet(source, 0, sizeof(*source));
+	SPI_connect();
+	source->plan = SPI_prepare_cursor(query, 0, NULL, CURSOR_OPT_NO_SCROLL);
+	if (source->plan == NULL)
+		elog(ERROR, "could not prepare the query: %s", SPI_result_code_string(SPI_result));
+
+	sources = SPI_plan_get_plan_sources(source->plan);
+	selects = list_length(sources) == 1;
+	if (selects)
+	{
+		List	   *queries = plan_source(source)->query_list;
+		Query	   *parsed = list_length(queries) == 1 ? linitial_node(Query, queries) : NULL;
+
+		selects = parsed != NULL && parsed->commandType == CMD_SELECT &&
+			!parsed->hasModifyingCTE && parsed->rowMarks == NIL;
+	}
+	if (!selects)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("source query must be a single SELECT that changes and locks nothing"),
+				 errhint("For example: SELECT id, x, y FROM points.")));
+}
+
+int
+source_columns(const Source *source)
+{
+	return plan_source(source)->resultDesc->natts;
+}
+
+const char *
+source_column_name(const Source *source, int column)
+{
+	return NameStr(TupleDescAttr(plan_source(source)->resultDesc, column)->attname);
+}
+
+/* Starts reading points for a mesh with this header. */
+void
+source_open(Source *source, const abacus_header *header)
+{
+	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
+	source->packer = row_packer_create(source->portal->tupDesc, header, POINTS_A_BATCH);
+}
+
+/* Reads on; the points stay valid until the next call. 0 at the end. */
+size_t
+source_fetch(Source *source, const uint64 **points)
+{
+	row_packer_reset(source->packer);
+	PortalRunFetch(source->portal, FETCH_FORWARD, POINTS_A_BATCH, &source->packer->receiver);
+	*points = source->packer->points;
+	return source->packer->count;
+}
+
+void
+source_close(Source *source)
+{
+	SPI_cursor_close(source->portal);
+	source->portal = NULL;
+}
+
+void
+source_finish(Source *source)
+{
+	SPI_finish();
+}

@@ -1,0 +1,107 @@
+/*
+ * writer.c: one change of a mesh.
+ *
+ * Writers of a mesh take turns by locking its header row; readers are never
+ * blocked. The whole change happens inside one SQL call: when it returns,
+ * every page and the new header are in the tables under the command's own
+ * transaction, so that savepoints, rollback and crash recovery need nothing
+ * of ours.
+ *
+ * Waiting for another writer means that the snapshot taken before is too old
+ * to see what that writer did. Under READ COMMITTED we then take a new one and
+ * start again, as a second statement would; under the stricter levels it is a
+ * serialization failure.
+ */
+#include "postgres.h"
+
+#include "access/tableam.h"
+#include "access/xact.h"
+#include "commands/tablecmds.h"
+#include "miscadmin.h"
+#include "utils/snapmgr.h"
+
+#include "pg/writer.h"
+
+/* Locks the header row as the active snapshot sees it; false if it has changed since. */
+static bool
+lock_header(Host *host, ItemPointer tid)
+{
+	Relation	heap = host->store.simplices.heap;
+	TupleTableSlot *slot = table_slot_create(heap, NULL);
+	TM_FailureData failure;
+	TM_Result	result;
+
+	result = table_tuple_lock(heap, tid, GetActiveSnapshot(), slot, GetCurrentCommandId(false),
+							  LockTupleExclusive, LockWaitBlock, 0, &failure);
+	ExecDropSingleTupleTableSlot(slot);
+	switch (result)
+	{
+		case TM_Ok:
+			return true;
+		case TM_Updated:
+		case TM_Deleted:
+			if (IsolationUsesXactSnapshot())
+				ereport(ERROR,
+						(errcode(ERRCODE_T_R_SERIALIZATION_FAILURE),
+						 errmsg("could not serialize access due to concurrent update"),
+						 errdetail("Another transaction has changed mesh \"%s\".",
+								   RelationGetRelationName(heap)),
+						 errhint("The transaction might succeed if retried.")));
+			return false;
+		default:
+			elog(ERROR, "unexpected result %d of locking the header of mesh \"%s\"", result,
+				 RelationGetRelationName(heap));
+	}
+	return false;
+}
+
+/*
+ * Opens a mesh for changing, with its header locked and an active snapshot
+ * that sees it. `command` names the function for messages.
+ */
+void
+writer_begin(Writer *writer, Oid mesh, const char *command)
+{
+	Relation	table;
+	Host	   *host;
+
+	PreventCommandIfReadOnly(command);
+	PreventCommandIfParallelMode(command);
+
+	table = mesh_table_open(mesh, MESH_WRITE);
+	/* also refuses a second writer inside the first one's source query */
+	CheckTableNotInUse(table, "change mesh");
+	host = host_create(CurrentMemoryContext, mesh, MESH_WRITE);
+	page_table_open(&host->store.simplices);
+	table_close(table, NoLock);
+	page_store_vertex_table(&host->store);
+
+	writer->host = host;
+	writer->header = MemoryContextAlloc(host->home, sizeof(abacus_header));
+	for (;;)
+	{
+		CommandCounterIncrement();
+		PushCopiedSnapshot(GetTransactionSnapshot());
+		header_read(host, writer->header, &writer->header_tid);
+		if (lock_header(host, &writer->header_tid))
+			break;
+		host_release(host);
+		PopActiveSnapshot();
+		page_table_open(&host->store.simplices);
+	}
+	progress_begin(&host->progress, mesh);
+}
+
+/* Writes the header and closes the mesh. */
+void
+writer_end(Writer *writer)
+{
+	Host	   *host = writer->host;
+
+	header_update(host, writer->header, &writer->header_tid);
+	host_release(host);
+	PopActiveSnapshot();
+	progress_end(&host->progress);
+	host_destroy(host);
+	writer->host = NULL;
+}

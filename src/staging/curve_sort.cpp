@@ -1,0 +1,80 @@
+#include "staging/curve_sort.hpp"
+
+#include <cstring>
+#include <utility>
+
+namespace abacus {
+
+template <int D>
+const std::uint64_t *CurveSort<D>::sort(const std::uint64_t *records, std::size_t n,
+                                        const Slice<D> &slice, Pacer &pacer) {
+    records_ = records;
+    memory_.reserve(2 * n);
+    words_ = memory_.data();
+    scratch_ = words_ + n;
+    pacer.each_piece(n, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            words_[i] = slice.first_key(record_point<D>(records + i * stride_)) << index_bits | i;
+    });
+    if (n == 0) return words_;
+    if (radix_sort(words_, scratch_, n, pacer) != words_) std::swap(words_, scratch_);
+    each_tie(0, n, [&](std::size_t begin, std::size_t end) { refine(begin, end, slice, pacer); });
+    return words_;
+}
+
+template <int D>
+template <class Key>
+void CurveSort<D>::set_keys(std::size_t begin, std::size_t end, Key key) {
+    for (std::size_t i = begin; i < end; ++i)
+        words_[i] = key(point(words_[i])) << index_bits | (words_[i] & index_mask);
+}
+
+template <int D>
+void CurveSort<D>::sort_words(std::size_t begin, std::size_t end, const Pacer &pacer) {
+    const std::size_t n = end - begin;
+    std::uint64_t *words = words_ + begin;
+    if (n <= few) return sort_few(words, n);
+    const std::uint64_t *sorted = radix_sort(words, scratch_ + begin, n, pacer);
+    if (sorted != words) std::memcpy(words, sorted, n * sizeof(std::uint64_t));
+}
+
+/// Calls each(begin, end) for all runs of two or more equal keys.
+template <int D>
+template <class Each>
+void CurveSort<D>::each_tie(std::size_t begin, std::size_t end, Each each) {
+    for (std::size_t i = begin + 1; i < end; ++i) {
+        const std::uint64_t key = words_[i - 1] >> index_bits;
+        if (words_[i] >> index_bits != key) [[likely]]
+            continue;
+        const std::size_t first = i - 1;
+        while (++i < end && words_[i] >> index_bits == key) {
+        }
+        each(first, i);
+    }
+}
+
+/// Orders records with equal first keys.
+template <int D>
+void CurveSort<D>::refine(std::size_t begin, std::size_t end, const Slice<D> &slice,
+                          const Pacer &pacer) {
+    if (slice.second_bits() == 0) return zoom(begin, end, pacer);
+    set_keys(begin, end, [&](const Point<D> &p) { return slice.second_key(p); });
+    sort_words(begin, end, pacer);
+    each_tie(begin, end, [&](std::size_t b, std::size_t e) { zoom(b, e, pacer); });
+}
+
+/// Orders records with equal codes: by the codes of their own bounding box.
+template <int D> void CurveSort<D>::zoom(std::size_t begin, std::size_t end, const Pacer &pacer) {
+    Box<D> box;
+    for (std::size_t i = begin; i < end; ++i) box.extend(point(words_[i]));
+    if (box.is_point()) return;
+    const Slice<D> slice{Domain<D>(box.lower, box.upper)};
+    set_keys(begin, end, [&](const Point<D> &p) { return slice.first_key(p); });
+    sort_words(begin, end, pacer);
+    each_tie(begin, end, [&](std::size_t b, std::size_t e) { refine(b, e, slice, pacer); });
+}
+
+template class CurveSort<2>;
+template class CurveSort<3>;
+
+} // namespace abacus

@@ -1,0 +1,48 @@
+// Insertion order of records in memory: by round, then along the Morton curve.
+//
+// What is sorted is one word a record: a piece of the record's code above the
+// record's number. The first 33 bits of the order separate nearly all points;
+// the few that share them get the next bits in the same words, and points that
+// share a whole code get codes of their own bounding box, again and again,
+// until the box is a single point. So clusters far below the resolution of the
+// codes are in the order of the curve as well, and equal points end up adjacent,
+// in the order of their numbers.
+#pragma once
+
+#include "host/arena.hpp"
+#include "staging/slice.hpp"
+#include "staging/vertex_page.hpp"
+
+namespace abacus {
+
+template <int D> class CurveSort {
+public:
+    CurveSort(const Host &host, std::size_t stride) : stride_(stride), memory_(host) {}
+
+    /// Sorts n records of `stride` words (at most most_sorted_records), all of them in the slice.
+    /// Their numbers in order are in the index_mask bits of the result, which is valid until the
+    /// next call.
+    const std::uint64_t *sort(const std::uint64_t *records, std::size_t n, const Slice<D> &slice,
+                              Pacer &pacer);
+    void release() { memory_.reset(); }
+
+private:
+    Point<D> point(std::uint64_t word) const {
+        return record_point<D>(records_ + (word & index_mask) * stride_);
+    }
+    template <class Key> void set_keys(std::size_t begin, std::size_t end, Key key);
+    void sort_words(std::size_t begin, std::size_t end, const Pacer &pacer);
+    template <class Each> void each_tie(std::size_t begin, std::size_t end, Each each);
+    void refine(std::size_t begin, std::size_t end, const Slice<D> &slice, const Pacer &pacer);
+    void zoom(std::size_t begin, std::size_t end, const Pacer &pacer);
+
+    const std::size_t stride_;
+    const std::uint64_t *records_ = nullptr;
+    Arena<std::uint64_t> memory_;
+    std::uint64_t *words_ = nullptr, *scratch_ = nullptr; ///< its halves
+};
+
+extern template class CurveSort<2>;
+extern template class CurveSort<3>;
+
+} // namespace abacus

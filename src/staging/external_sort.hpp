@@ -1,0 +1,73 @@
+// Brings any number of records into insertion order within a bound of memory.
+//
+// A slice of the order that fits in memory is sorted there (curve_sort.hpp) and
+// goes to the vertex pages. One that does not is distributed over spools, one for
+// each of the parts into which it is cut (splitters.hpp), and the parts are taken
+// in their order in the same way. Points that share one code are cut by the codes
+// of their bounding box; when that is a single point they are in order already.
+#pragma once
+
+#include "staging/curve_sort.hpp"
+#include "staging/sample.hpp"
+#include "staging/splitters.hpp"
+#include "staging/spool.hpp"
+#include "staging/vertex_page.hpp"
+
+namespace abacus {
+
+/// How a bound of memory is divided.
+struct SortBudget {
+    /// Taken at least: room for a few spools and a few hundred records.
+    static constexpr std::size_t least = std::size_t{512} << 10;
+
+    SortBudget(std::size_t memory, std::size_t record_bytes, std::size_t dimension);
+
+    std::size_t records; ///< held and sorted at once
+    std::size_t sampled; ///< points of a sample
+    unsigned spools;     ///< written at once
+    std::size_t piece;   ///< records that are read or written at once
+};
+
+template <int D> class ExternalSort {
+public:
+    ExternalSort(const Host &host, std::size_t stride, const SortBudget &budget, Sample<D> &sample,
+                 Pacer &pacer, VertexPageWriter &pages);
+
+    /// Sorts n records in memory, at most budget.records.
+    void run(const std::uint64_t *records, std::size_t n, const Slice<D> &slice);
+    /// Sorts a spool, of which `sample` is a sample, and closes it.
+    void run(Spool &spool, const Slice<D> &slice);
+
+private:
+    struct Part {
+        Spool spool;
+        Slice<D> slice;
+    };
+
+    void sort_spool(Spool &spool, const Slice<D> &slice);
+    void cut(Spool &spool, const Slice<D> &slice, Arena<Part> &parts, bool report);
+    unsigned parts_for(std::uint64_t records, const Slice<D> &slice) const;
+    void distribute(Spool &spool, const Splitters<D> &splitters, Arena<Part> &parts, bool report);
+    void sort_parts(Arena<Part> &parts);
+    Box<D> survey(Spool &spool);
+    void emit(const std::uint64_t *records, const std::uint64_t *order, std::size_t n);
+    void emit_as_is(Spool &spool);
+    void staged() { pacer_.reached(pages_.next() - first_, pages_.pages()); }
+    void close(Spool &spool);
+
+    const Host &host_;
+    const std::size_t stride_;
+    const SortBudget &budget_;
+    Sample<D> &sample_;
+    Pacer &pacer_;
+    VertexPageWriter &pages_;
+    const std::uint64_t first_;
+    CurveSort<D> sort_;
+    Arena<std::uint64_t> records_;
+    unsigned open_spools_ = 0;
+};
+
+extern template class ExternalSort<2>;
+extern template class ExternalSort<3>;
+
+} // namespace abacus

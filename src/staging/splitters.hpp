@@ -1,0 +1,52 @@
+// Where to cut a slice of the insertion order so that each part fits in memory.
+//
+// The cuts are quantiles of a sample. Where the cuts fall never shows in the
+// order of the points, only in how evenly the parts are filled; a part that
+// comes out too full is cut again. That ends, since a cut leaves either fewer
+// points or a narrower range of codes in each part: a code that is at several
+// quantiles, or the least of the range, becomes a part of its own.
+#pragma once
+
+#include "staging/sample.hpp"
+#include "staging/slice.hpp"
+
+namespace abacus {
+
+template <int D> class Splitters {
+public:
+    /// Cuts into about `parts` parts, at least two; at most two more for each round.
+    Splitters(const Host &host, const Slice<D> &slice, const Sample<D> &sample, unsigned parts);
+
+    /// Number of parts.
+    unsigned size() const { return first_part_[rounds_]; }
+
+    unsigned part(const Point<D> &p) const {
+        const unsigned round = slice_.rounds == nullptr ? 0 : slice_.rounds->round(p);
+        const std::uint64_t code = slice_.domain.code(p);
+        // The last lower end of a part of the round that is not above the code.
+        const std::uint64_t *ends = lower_.data() + first_part_[round];
+        unsigned count = first_part_[round + 1] - first_part_[round];
+        while (count > 1) {
+            const unsigned half = count / 2;
+            ends += ends[half] <= code ? half : 0;
+            count -= half;
+        }
+        return static_cast<unsigned>(ends - lower_.data());
+    }
+
+    /// The slice that is one of the parts.
+    Slice<D> slice(unsigned part) const;
+
+private:
+    void cut_round(const std::uint64_t *codes, std::size_t n, unsigned parts);
+
+    const Slice<D> &slice_;
+    unsigned rounds_;
+    unsigned first_part_[Rounds<D>::most + 1] = {};
+    Arena<std::uint64_t> lower_; ///< of each part; ascending inside a round
+};
+
+extern template class Splitters<2>;
+extern template class Splitters<3>;
+
+} // namespace abacus

@@ -1,0 +1,112 @@
+#include "staging/stage.hpp"
+
+#include <algorithm>
+
+namespace abacus {
+namespace {
+
+template <int D> std::optional<Domain<D>> domain_of(const abacus_header &header) {
+    if (header.has_domain == 0) return std::nullopt;
+    Point<D> lower, upper;
+    std::copy_n(header.lower, D, lower.begin());
+    std::copy_n(header.upper, D, upper.begin());
+    return Domain<D>(lower, upper);
+}
+
+[[noreturn]] void throw_not_finite(std::uint64_t id, int axis) {
+    throw Error(ABACUS_ERROR_ARGUMENT,
+                "point " + std::to_string(static_cast<std::int64_t>(id)) +
+                    " has a coordinate that is not a finite number",
+                std::string("The coordinate is ") + "xyz"[axis] + ".",
+                "Leave such points out in the source query.");
+}
+
+} // namespace
+
+template <int D>
+Stage<D>::Stage(const Host &host, const abacus_header &header, std::size_t memory)
+    : host_(host), attributes_(header.attributes), stride_(record_words(D, header.attributes)),
+      first_(header.points), domain_(domain_of<D>(header)), budget_(memory, 8 * stride_, D),
+      pacer_(host), sample_(host, budget_.sampled), buffer_(host), room_(budget_.records) {
+    pacer_.begin(ABACUS_PHASE_READING, 0);
+}
+
+template <int D> void Stage<D>::add(const std::uint64_t *points, std::size_t count) {
+    while (count > 0) {
+        if (buffered_ == room_) spill();
+        const std::size_t n = std::min({count, room_ - buffered_, Pacer::stride});
+        copy(points, n);
+        points += n * stride_;
+        count -= n;
+        pacer_.reached(this->points(), 0);
+    }
+}
+
+/// Copies records to the buffer, which has room for them, in canonical form.
+template <int D> void Stage<D>::copy(const std::uint64_t *points, std::size_t count) {
+    const std::size_t needed = (buffered_ + count) * stride_;
+    if (needed > buffer_.capacity())
+        buffer_.reserve(std::min(room_ * stride_,
+                                 std::max({needed, 2 * buffer_.capacity(), std::size_t{16384}})));
+    constexpr std::uint64_t exponent = 0x7ffull << 52, minus_zero = 1ull << 63;
+    std::uint64_t *to = buffer_.data() + buffered_ * stride_;
+    for (std::size_t i = 0; i < count; ++i, points += stride_, to += stride_) {
+        for (std::size_t word = 0; word < stride_; ++word) to[word] = points[word];
+        for (int axis = 0; axis < D; ++axis) {
+            std::uint64_t &coordinate = to[1 + axis];
+            if ((coordinate & exponent) == exponent) [[unlikely]]
+                throw_not_finite(to[0], axis);
+            if (coordinate == minus_zero) coordinate = 0;
+        }
+        box_.extend(record_point<D>(to));
+    }
+    buffered_ += count;
+}
+
+/// Moves the buffer to the spool. From the first time on, the buffer is small.
+template <int D> void Stage<D>::spill() {
+    for (std::size_t at = 0; at < buffered_;) {
+        const std::size_t n = std::min(buffered_ - at, budget_.piece);
+        const std::uint64_t *records = buffer_.data() + at * stride_;
+        for (std::size_t i = 0; i < n; ++i) sample_.add(record_point<D>(records + i * stride_));
+        spool_.write(host_, records, n, stride_);
+        at += n;
+        pacer_.poll();
+    }
+    buffered_ = 0;
+    if (room_ == budget_.piece) return;
+    buffer_.reset();
+    room_ = budget_.piece;
+}
+
+template <int D> void Stage<D>::finish(abacus_header &header) {
+    const std::uint64_t n = points();
+    if (n == 0) return;
+    if (n >= (std::uint64_t{1} << 63) - first_)
+        throw Error(ABACUS_ERROR_LIMIT, "a mesh cannot have that many points");
+    if (!domain_) domain_.emplace(box_.lower, box_.upper);
+    const Rounds<D> rounds(n);
+    const Slice<D> all{*domain_, rounds.size() > 1 ? &rounds : nullptr};
+    VertexPageWriter pages(host_, D, attributes_, first_);
+    ExternalSort<D> sort(host_, stride_, budget_, sample_, pacer_, pages);
+    if (spool_.size() == 0) {
+        sort.run(buffer_.data(), n, all);
+    } else {
+        spill();
+        buffer_.reset();
+        sort.run(spool_, all);
+    }
+    pages.finish();
+    pacer_.reached(n, pages.pages());
+
+    header.has_domain = 1;
+    std::copy_n(domain_->lower().begin(), D, header.lower);
+    std::copy_n(domain_->upper().begin(), D, header.upper);
+    header.points = first_ + n;
+    if (first_ == 0) header.first_batch = n;
+}
+
+template class Stage<2>;
+template class Stage<3>;
+
+} // namespace abacus

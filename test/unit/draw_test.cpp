@@ -1,0 +1,476 @@
+// Pictures: what they show, and that nothing a mesh can hold upsets them.
+#include "draw/canvas.hpp"
+#include "support/memory_host.hpp"
+
+#include <cairo.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace abacus {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+abacus_drawing square_drawing(std::int32_t pixels) {
+    abacus_drawing drawing{};
+    drawing.upper[0] = drawing.upper[1] = 1;
+    drawing.width = drawing.height = pixels;
+    drawing.attribute = 0;
+    return drawing;
+}
+
+struct Triangle {
+    TriangleCorners corner;
+    TriangleValues value;
+};
+
+// A square of n by n cells over the unit square, heights by a function.
+template <class Height> std::vector<Triangle> grid(int n, Height &&height) {
+    std::vector<Triangle> triangles;
+    const auto at = [&](int i) { return static_cast<double>(i) / n; };
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            const double a = at(x), b = at(y), c = at(x + 1), d = at(y + 1);
+            triangles.push_back(
+                {{{a, b}, {c, b}, {c, d}}, {height(a, b), height(c, b), height(c, d)}});
+            triangles.push_back(
+                {{{a, b}, {c, d}, {a, d}}, {height(a, b), height(c, d), height(a, d)}});
+        }
+    return triangles;
+}
+
+// A decoded PNG.
+struct Image {
+    int width = 0, height = 0;
+    std::vector<std::uint32_t> pixels;
+
+    std::uint32_t operator()(int x, int y) const { return pixels[y * width + x]; }
+};
+
+int red(std::uint32_t rgb) { return rgb >> 16 & 255; }
+int green(std::uint32_t rgb) { return rgb >> 8 & 255; }
+int blue(std::uint32_t rgb) { return rgb & 255; }
+int sum(std::uint32_t rgb) { return red(rgb) + green(rgb) + blue(rgb); }
+int difference(std::uint32_t a, std::uint32_t b) {
+    return std::max(
+        {std::abs(red(a) - red(b)), std::abs(green(a) - green(b)), std::abs(blue(a) - blue(b))});
+}
+
+Image decode(const Png &png) {
+    struct Reader {
+        const unsigned char *at, *end;
+    } reader{png.data(), png.data() + png.size()};
+    cairo_surface_t *surface = cairo_image_surface_create_from_png_stream(
+        [](void *closure, unsigned char *bytes, unsigned int size) {
+            auto &reader = *static_cast<Reader *>(closure);
+            if (size > static_cast<std::size_t>(reader.end - reader.at))
+                return CAIRO_STATUS_READ_ERROR;
+            std::memcpy(bytes, reader.at, size);
+            reader.at += size;
+            return CAIRO_STATUS_SUCCESS;
+        },
+        &reader);
+    EXPECT_EQ(cairo_surface_status(surface), CAIRO_STATUS_SUCCESS);
+    Image image;
+    image.width = cairo_image_surface_get_width(surface);
+    image.height = cairo_image_surface_get_height(surface);
+    for (int y = 0; y < image.height; ++y) {
+        const auto *row = reinterpret_cast<const std::uint32_t *>(
+            cairo_image_surface_get_data(surface) + y * cairo_image_surface_get_stride(surface));
+        for (int x = 0; x < image.width; ++x) image.pixels.push_back(row[x] & 0xffffff);
+    }
+    cairo_surface_destroy(surface);
+    return image;
+}
+
+class Draw : public ::testing::Test {
+protected:
+    Png png(const abacus_drawing &drawing, const std::vector<Triangle> &triangles) {
+        Extent extent(drawing);
+        for (const Triangle &t : triangles) extent.triangle(t.corner, t.value);
+        Canvas canvas(host, extent.drawing(), extent.low(), extent.high());
+        for (const Triangle &t : triangles) canvas.triangle(t.corner, t.value);
+        return canvas.png();
+    }
+    Image draw(const abacus_drawing &drawing, const std::vector<Triangle> &triangles) {
+        return decode(png(drawing, triangles));
+    }
+    void TearDown() override {
+        EXPECT_EQ(memory.bytes, 0u);
+        EXPECT_TRUE(memory.violations.empty());
+    }
+
+    MemoryHost memory;
+    Host host{memory.host()};
+    const Encoder encode;
+    const std::uint32_t ground = 0xf4f1ea;
+};
+
+TEST_F(Draw, HasTheSizeAskedFor) {
+    abacus_drawing drawing = square_drawing(7);
+    drawing.height = 5;
+    const Image image = draw(drawing, grid(2, [](double x, double) { return x; }));
+    EXPECT_EQ(image.width, 7);
+    EXPECT_EQ(image.height, 5);
+}
+
+TEST_F(Draw, TakesTheHeightFromTheWindow) {
+    abacus_drawing drawing = square_drawing(40);
+    drawing.height = 0;
+    drawing.upper[1] = 0.5;
+    EXPECT_EQ(draw(drawing, {}).height, 20);
+    drawing.upper[1] = 1e-9;
+    EXPECT_EQ(draw(drawing, {}).height, 1);
+    drawing.upper[1] = 1e9;
+    EXPECT_EQ(Extent(drawing).drawing().height, max_side);
+    drawing.width = max_side;
+    EXPECT_EQ(Extent(drawing).drawing().height, max_pixels / max_side);
+}
+
+TEST_F(Draw, FindsTheWindowOfTheMesh) {
+    abacus_drawing drawing = square_drawing(10);
+    drawing.lower[0] = 1; // empty
+    drawing.height = 0;
+    EXPECT_TRUE(Extent::is_needed(drawing));
+    Extent extent(drawing);
+    extent.triangle({{-3, 2}, {1, 2}, {0, 10}}, {4, -1, 2});
+    extent.triangle({{-3, 2}, {1, 2}, {0, 1}}, {NAN, 100, 2});
+    const abacus_drawing whole = extent.drawing();
+    EXPECT_EQ(whole.lower[0], -3);
+    EXPECT_EQ(whole.upper[0], 1);
+    EXPECT_EQ(whole.lower[1], 1);
+    EXPECT_EQ(whole.upper[1], 10);
+    EXPECT_EQ(whole.height, 23);
+    EXPECT_EQ(extent.low(), -1);
+    EXPECT_EQ(extent.high(), 4);
+}
+
+TEST_F(Draw, TakesTheRangeFromTheWindow) {
+    Extent extent(square_drawing(10));
+    extent.triangle({{2, 0}, {3, 0}, {2, 1}}, {7, 7, 7});
+    EXPECT_TRUE(std::isnan(extent.low()));
+    EXPECT_TRUE(std::isnan(extent.high()));
+    extent.triangle({{0.5, 0}, {3, 0}, {2, 1}}, {1, 2, 3});
+    EXPECT_EQ(extent.low(), 1);
+    EXPECT_EQ(extent.high(), 3);
+}
+
+TEST_F(Draw, TintsByHeightWithNorthUp) {
+    const Palette palette = Palette::terrain();
+    const Image image = draw(square_drawing(64), grid(4, [](double, double y) { return y; }));
+    EXPECT_LE(difference(image(0, 63), encode(palette(0.5f / 64))), 1);
+    EXPECT_LE(difference(image(63, 0), encode(palette(63.5f / 64))), 1);
+    EXPECT_LE(difference(image(30, 32), encode(palette(31.5f / 64))), 1);
+    EXPECT_EQ(image(0, 20), image(63, 20));
+}
+
+TEST_F(Draw, LeavesTheGroundWhereThereIsNoTriangle) {
+    const Image image = draw(square_drawing(20), {{{{0, 0}, {1, 0}, {0, 1}}, {0, 0, 0}}});
+    EXPECT_EQ(image(19, 0), ground);
+    EXPECT_EQ(image(19, 10), ground);
+    EXPECT_EQ(image(0, 18), encode(Palette::terrain()(0.5f)));
+    // The pixel on the edge is covered by half.
+    EXPECT_NE(image(10, 10), ground);
+    EXPECT_NE(image(10, 10), image(0, 18));
+}
+
+TEST_F(Draw, HasNoSeams) {
+    const std::vector<Triangle> odd = {{{{0, 0}, {1, 0}, {0.37, 0.71}}, {1, 1, 1}},
+                                       {{{1, 0}, {1, 1}, {0.37, 0.71}}, {1, 1, 1}},
+                                       {{{0.37, 0.71}, {0, 1}, {1, 1}}, {1, 1, 1}},
+                                       {{{0, 0}, {0.37, 0.71}, {0, 1}}, {1, 1, 1}}};
+    const Image image = draw(square_drawing(51), odd);
+    for (const std::uint32_t pixel : image.pixels) ASSERT_EQ(pixel, image(0, 0));
+}
+
+TEST_F(Draw, ManySmallTrianglesLookLikeAFewLargeOnes) {
+    const auto height = [](double x, double y) { return x + 2 * y; };
+    const Image coarse = draw(square_drawing(23), grid(1, height));
+    const Image fine = draw(square_drawing(23), grid(300, height));
+    for (std::size_t i = 0; i < coarse.pixels.size(); ++i)
+        ASSERT_LE(difference(coarse.pixels[i], fine.pixels[i]), 1);
+}
+
+TEST_F(Draw, DoesNotDependOnOrderOrOrientation) {
+    abacus_drawing drawing = square_drawing(64);
+    drawing.edges = 1;
+    drawing.exaggeration = 1;
+    std::vector<Triangle> triangles = grid(40, [](double x, double y) { return x * x - y; });
+    const Image image = draw(drawing, triangles);
+    for (Triangle &t : triangles) {
+        std::swap(t.corner[0], t.corner[1]);
+        std::swap(t.value[0], t.value[1]);
+    }
+    std::reverse(triangles.begin(), triangles.end());
+    const Image turned = draw(drawing, triangles);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        ASSERT_LE(difference(image.pixels[i], turned.pixels[i]), 1);
+}
+
+TEST_F(Draw, IsDeterministic) {
+    for (const int attribute : {-1, 0}) {
+        abacus_drawing drawing = square_drawing(50);
+        drawing.attribute = attribute;
+        drawing.edges = 1;
+        drawing.exaggeration = 0.3;
+        const auto triangles = grid(30, [](double x, double y) { return std::sin(9 * x) * y; });
+        const Png once = png(drawing, triangles);
+        const Png again = png(drawing, triangles);
+        ASSERT_EQ(once.size(), again.size());
+        EXPECT_EQ(std::memcmp(once.data(), again.data(), once.size()), 0);
+    }
+}
+
+TEST_F(Draw, ClipsToTheWindow) {
+    // One picture, and the same cut out of the middle of a larger one.
+    const auto height = [](double x, double y) { return x * y; };
+    abacus_drawing whole = square_drawing(60);
+    whole.height = 45; // no edge at 45 degrees, where rounding chooses the pixels
+    whole.edges = 1;
+    abacus_drawing part = whole;
+    part.lower[0] = part.lower[1] = 1.0 / 3;
+    part.upper[0] = part.upper[1] = 2.0 / 3;
+    part.width = 20;
+    part.height = 15;
+    const auto triangles = grid(7, height);
+    Canvas large(host, whole, 0, 1), small(host, part, 0, 1);
+    for (const Triangle &t : triangles) {
+        large.triangle(t.corner, t.value);
+        small.triangle(t.corner, t.value);
+    }
+    const Image a = decode(large.png()), b = decode(small.png());
+    // Lines of outside triangles may touch the outermost pixels.
+    for (int y = 1; y < 14; ++y)
+        for (int x = 1; x < 19; ++x) ASSERT_LE(difference(a(x + 20, y + 15), b(x, y)), 1);
+}
+
+TEST_F(Draw, SurvivesTheRangeOfDoubles) {
+    const double top = std::numeric_limits<double>::max();
+    const double tiny = std::numeric_limits<double>::denorm_min();
+    std::vector<Triangle> triangles = {
+        {{{-top, -top}, {top, -top}, {0, top}}, {-top, top, 0}},
+        {{{0, 0}, {tiny, 0}, {0, tiny}}, {0, 0, 0}},
+        {{{-1e300, 0.2}, {1e300, 0.3}, {1e-300, 0.9}}, {1e-300, -0.0, 1}},
+    };
+    for (const double exaggeration : {0.0, 1.0, 1e300})
+        for (const int attribute : {-1, 0}) {
+            abacus_drawing drawing = square_drawing(16);
+            drawing.attribute = attribute;
+            drawing.edges = 1;
+            drawing.exaggeration = exaggeration;
+            EXPECT_NE(draw(drawing, triangles)(8, 15), ground);
+            drawing.lower[0] = drawing.upper[0]; // whole mesh
+            drawing.max_edge = 1e301;
+            draw(drawing, triangles);
+            drawing.max_edge = 0;
+            draw(drawing, triangles);
+            draw(drawing, {triangles[1]});
+        }
+}
+
+TEST_F(Draw, CoversAWindowInsideOneTriangle) {
+    const Triangle wide{{{-1e6, -1e6}, {1e6, -1e6}, {0, 3e6}}, {5, 5, 5}};
+    const Image image = draw(square_drawing(9), {wide});
+    for (const std::uint32_t pixel : image.pixels)
+        ASSERT_EQ(pixel, encode(Palette::terrain()(0.5f)));
+}
+
+TEST_F(Draw, ShowsMissingValuesInGrey) {
+    const Triangle left{{{0, 0}, {0.5, 0}, {0, 4}}, {0, 1, 0}};
+    for (const double missing : {double{NAN}, infinity, -infinity}) {
+        const Triangle right{{{1, -3}, {1, 1}, {0.5, 1}}, {0, missing, 1}};
+        const std::uint32_t pixel = draw(square_drawing(16), {left, right})(15, 8);
+        EXPECT_NE(pixel, ground);
+        EXPECT_LT(std::abs(red(pixel) - blue(pixel)), 12);
+        // Nor does it matter if nothing has a value.
+        EXPECT_EQ(draw(square_drawing(16), {right})(15, 8), pixel);
+    }
+}
+
+TEST_F(Draw, TakesDegenerateTriangles) {
+    const std::vector<Triangle> triangles = {{{{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}}, {1, 1, 1}},
+                                             {{{0, 0}, {0.5, 0.5}, {1, 1}}, {0, 1, 2}},
+                                             {{{0, 0.5}, {0.5, 0.5}, {1, 0.5}}, {0, 1, 2}},
+                                             {{{1, 1}, {1, 1}, {0, 1}}, {0, 1, 2}},
+                                             {{{1, 0}, {1, 0.5}, {1, 1}}, {0, 1, 2}}};
+    for (const int edges : {0, 1})
+        for (const int attribute : {-1, 0}) {
+            abacus_drawing drawing = square_drawing(8);
+            drawing.edges = edges;
+            drawing.attribute = attribute;
+            drawing.exaggeration = 1;
+            const Image image = draw(drawing, triangles);
+            for (const std::uint32_t pixel : image.pixels) ASSERT_EQ(pixel, image(0, 7));
+        }
+}
+
+TEST_F(Draw, DrawsAnEmptyMesh) {
+    abacus_drawing drawing{};
+    drawing.width = 3;
+    for (const int attribute : {-1, 0}) {
+        drawing.attribute = attribute;
+        const Image image = draw(drawing, {});
+        EXPECT_EQ(image.width, 3);
+        EXPECT_EQ(image.height, 3);
+    }
+}
+
+TEST_F(Draw, DrawsASinglePixel) {
+    abacus_drawing drawing = square_drawing(1);
+    drawing.exaggeration = 1;
+    drawing.edges = 1;
+    for (const int attribute : {-1, 0}) {
+        drawing.attribute = attribute;
+        const Image image = draw(drawing, grid(50, [](double x, double y) { return x + y; }));
+        EXPECT_EQ(image.pixels.size(), 1u);
+        EXPECT_NE(image(0, 0), ground);
+    }
+}
+
+TEST_F(Draw, LeavesOutLongTriangles) {
+    abacus_drawing drawing = square_drawing(16);
+    drawing.max_edge = 1.2;
+    const Triangle large{{{0, 0}, {1, 0}, {0, 1}}, {0, 0, 0}};
+    const Triangle small{{{0, 0}, {0.5, 0}, {0, 0.5}}, {0, 0, 0}};
+    EXPECT_EQ(draw(drawing, {large})(1, 14), ground);
+    EXPECT_NE(draw(drawing, {small})(1, 14), ground);
+    Extent extent(drawing);
+    extent.triangle(large.corner, large.value);
+    EXPECT_TRUE(std::isnan(extent.low()));
+}
+
+TEST_F(Draw, LightComesFromTheNorthWest) {
+    abacus_drawing drawing = square_drawing(64);
+    drawing.exaggeration = 0.5;
+    // A pyramid, on equal tints at the four places looked at.
+    const auto triangles = grid(
+        64, [](double x, double y) { return std::min(std::min(x, 1 - x), std::min(y, 1 - y)); });
+    const Image image = draw(drawing, triangles);
+    const int west = sum(image(12, 32)), east = sum(image(51, 32));
+    const int north = sum(image(32, 12)), south = sum(image(32, 51));
+    EXPECT_GT(west, east + 60);
+    EXPECT_GT(north, south + 60);
+    drawing.exaggeration = -0.5;
+    const Image hollow = draw(drawing, triangles);
+    EXPECT_LT(sum(hollow(12, 32)), sum(hollow(51, 32)) - 60);
+}
+
+TEST_F(Draw, FlatGroundKeepsItsTint) {
+    abacus_drawing drawing = square_drawing(8);
+    Canvas plain(host, drawing, 0, 1);
+    drawing.exaggeration = 100;
+    Canvas shaded(host, drawing, 0, 1);
+    for (const Triangle &t : grid(3, [](double, double) { return 0.4; })) {
+        plain.triangle(t.corner, t.value);
+        shaded.triangle(t.corner, t.value);
+    }
+    const Image a = decode(plain.png()), b = decode(shaded.png());
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        ASSERT_LE(difference(a.pixels[i], b.pixels[i]), 4);
+}
+
+TEST_F(Draw, EdgesShowAndNeverBlot) {
+    abacus_drawing drawing = square_drawing(64);
+    drawing.edges = 1;
+    const auto flat = [](double, double) { return 1.0; };
+    const std::uint32_t tint = encode(Palette::terrain()(0.5f));
+    // A line is dark, the inside of a cell is clear.
+    const Image coarse = draw(drawing, grid(2, flat));
+    EXPECT_GT(difference(coarse(32, 20), tint), 20);
+    EXPECT_LE(difference(coarse(10, 40), tint), 1);
+    // A mesh far below the pixel is a light tone.
+    const Image fine = draw(drawing, grid(400, flat));
+    EXPECT_GT(difference(fine(20, 20), tint), 10);
+    EXPECT_GT(sum(fine(20, 20)), sum(tint) * 0.6);
+}
+
+TEST_F(Draw, FineTrianglesShineInTheDark) {
+    abacus_drawing drawing = square_drawing(64);
+    drawing.attribute = -1;
+    std::vector<Triangle> triangles = grid(64, [](double, double) { return NAN; });
+    for (Triangle &t : triangles)
+        for (auto &corner : t.corner) corner[0] *= 0.5;
+    triangles.push_back({{{0.5, 0}, {1, 0}, {1, 1}}, {NAN, NAN, NAN}});
+    triangles.push_back({{{0.5, 0}, {1, 1}, {0.5, 1}}, {NAN, NAN, NAN}});
+    const Image image = draw(drawing, triangles);
+    EXPECT_GT(sum(image(10, 30)), 4 * sum(image(50, 30)));
+}
+
+TEST_F(Draw, RefusesWhatCannotBeDrawn) {
+    const auto refused = [&](auto change) {
+        abacus_drawing drawing = square_drawing(10);
+        change(drawing);
+        try {
+            Canvas canvas(host, drawing, 0, 1);
+        } catch (const Error &error) {
+            return error.kind == ABACUS_ERROR_ARGUMENT;
+        }
+        return false;
+    };
+    EXPECT_FALSE(refused([](abacus_drawing &) {}));
+    EXPECT_TRUE(refused([](abacus_drawing &d) { d.width = 0; }));
+    EXPECT_TRUE(refused([](abacus_drawing &d) { d.width = max_side + 1; }));
+    EXPECT_TRUE(refused([](abacus_drawing &d) { d.width = INT32_MIN; }));
+    EXPECT_TRUE(refused([](abacus_drawing &d) { d.height = -1; }));
+    EXPECT_TRUE(refused([](abacus_drawing &d) { d.height = max_side + 1; }));
+    EXPECT_TRUE(refused([](abacus_drawing &d) { d.width = d.height = max_side; }));
+    EXPECT_TRUE(refused([](abacus_drawing &d) { d.lower[0] = NAN; }));
+    EXPECT_TRUE(refused([](abacus_drawing &d) { d.upper[1] = infinity; }));
+    EXPECT_TRUE(refused([](abacus_drawing &d) { d.exaggeration = NAN; }));
+    EXPECT_TRUE(refused([](abacus_drawing &d) { d.max_edge = NAN; }));
+    EXPECT_TRUE(refused([](abacus_drawing &d) { d.max_edge = -1; }));
+}
+
+TEST_F(Draw, MemoryDependsOnThePictureAlone) {
+    abacus_drawing drawing = square_drawing(100);
+    drawing.exaggeration = 1;
+    drawing.edges = 1;
+    Canvas canvas(host, drawing, 0, 1);
+    const std::size_t bytes = memory.bytes;
+    for (const Triangle &t : grid(200, [](double x, double) { return x; }))
+        canvas.triangle(t.corner, t.value);
+    EXPECT_EQ(memory.bytes, bytes);
+    canvas.png();
+    EXPECT_LE(memory.peak_bytes, 100u * 100 * 32 + 100000);
+}
+
+TEST_F(Draw, EveryWayOutReleasesItsMemory) {
+    abacus_drawing drawing = square_drawing(200);
+    drawing.exaggeration = 1;
+    const auto triangles = grid(90, [](double x, double y) { return std::sin(99 * x * y); });
+    // Each allocation in turn fails; TearDown looks for leaks.
+    int failures = 0;
+    for (bool done = false; !done; ++failures) {
+        memory.fail_resize_at(failures + 1);
+        try {
+            png(drawing, triangles);
+            done = true;
+        } catch (const std::bad_alloc &) {
+            EXPECT_EQ(memory.bytes, 0u);
+        }
+        memory.recover();
+    }
+    EXPECT_GT(failures, 5);
+    // A cancel arrives while the picture is made.
+    Canvas canvas(host, drawing, -1, 1);
+    for (const Triangle &t : triangles) canvas.triangle(t.corner, t.value);
+    memory.cancel();
+    EXPECT_THROW(canvas.png(), HostFailure);
+    memory.recover();
+}
+
+TEST_F(Draw, HandsItsBytesOver) {
+    Png png = this->png(square_drawing(4), {});
+    EXPECT_GT(memory.bytes, 0u);
+    const std::size_t size = png.size();
+    unsigned char *bytes = png.release();
+    ASSERT_GT(size, 8u);
+    EXPECT_EQ(std::memcmp(bytes, "\x89PNG\r\n\x1a\n", 8), 0);
+    host.release(bytes);
+}
+
+} // namespace
+} // namespace abacus

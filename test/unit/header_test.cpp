@@ -1,0 +1,147 @@
+// The header row of a mesh, as bytes.
+#include <abacus/abacus.h>
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+abacus_header full_header(unsigned attributes) {
+    abacus_header header{};
+    header.dimension = 3;
+    header.attributes = attributes;
+    header.has_domain = 1;
+    for (int i = 0; i < ABACUS_MAX_DIMENSION; ++i) {
+        header.lower[i] = -1.7e308 * (i + 1) / 3;
+        header.upper[i] = 5e-324 * i;
+    }
+    header.stamp = UINT64_MAX;
+    header.points = 1000;
+    header.inserted = 900;
+    header.vertices = 800;
+    header.duplicates = 100;
+    header.simplices = 4000;
+    header.ghosts = 90;
+    header.first_batch = 500;
+    header.counters.insertions = 1;
+    header.counters.peak_bytes = UINT64_MAX;
+    for (unsigned i = 0; i < attributes; ++i)
+        std::strcpy(header.names[i], ("attribute " + std::to_string(i)).c_str());
+    return header;
+}
+
+std::vector<unsigned char> encode(const abacus_header &header) {
+    std::vector<unsigned char> bytes(ABACUS_PAGE_BYTES);
+    bytes.resize(abacus_header_encode(&header, bytes.data()));
+    return bytes;
+}
+
+/// True if the bytes are accepted; checks that they are refused properly else.
+bool decodes(const std::vector<unsigned char> &bytes, abacus_header *header = nullptr) {
+    abacus_header decoded;
+    abacus_error error{};
+    // A copy of exactly this size, so that a sanitizer sees any read beyond it.
+    const std::vector<unsigned char> copy(bytes);
+    const abacus_status status =
+        abacus_header_decode(copy.data(), copy.size(), header ? header : &decoded, &error);
+    if (status == ABACUS_OK) return true;
+    EXPECT_EQ(status, ABACUS_ERROR);
+    EXPECT_EQ(error.kind, ABACUS_ERROR_CORRUPTED);
+    EXPECT_NE(error.message[0], '\0');
+    EXPECT_NE(error.detail[0], '\0');
+    return false;
+}
+
+TEST(Header, ComesBackAsItWas) {
+    for (const unsigned attributes : {0u, 1u, unsigned{ABACUS_MAX_ATTRIBUTES}}) {
+        const abacus_header header = full_header(attributes);
+        const auto bytes = encode(header);
+        EXPECT_LE(bytes.size(), std::size_t{ABACUS_PAGE_BYTES});
+        abacus_header decoded;
+        std::memset(&decoded, 0xff, sizeof decoded);
+        ASSERT_TRUE(decodes(bytes, &decoded));
+        EXPECT_EQ(encode(decoded), bytes);
+        EXPECT_EQ(decoded.lower[2], header.lower[2]);
+        EXPECT_EQ(decoded.simplices, header.simplices);
+        EXPECT_EQ(decoded.counters.peak_bytes, UINT64_MAX);
+        EXPECT_STREQ(decoded.names[0], attributes > 0 ? "attribute 0" : "");
+    }
+}
+
+TEST(Header, OfAnEmptyMesh) {
+    abacus_header header{};
+    header.dimension = 2;
+    EXPECT_TRUE(decodes(encode(header)));
+    // Bounds that do not count are not kept.
+    header.lower[0] = header.upper[2] = std::numeric_limits<double>::quiet_NaN();
+    abacus_header decoded;
+    ASSERT_TRUE(decodes(encode(header), &decoded));
+    EXPECT_EQ(decoded.lower[0], 0);
+    EXPECT_EQ(decoded.upper[2], 0);
+}
+
+TEST(Header, EveryTruncationIsRefused) {
+    auto bytes = encode(full_header(3));
+    auto longer = bytes;
+    longer.push_back(0);
+    EXPECT_FALSE(decodes(longer));
+    while (!bytes.empty()) {
+        bytes.pop_back();
+        EXPECT_FALSE(decodes(bytes));
+    }
+}
+
+TEST(Header, ContradictionsAreRefused) {
+    const auto refused = [](auto change) {
+        abacus_header header = full_header(1);
+        change(header);
+        return !decodes(encode(header));
+    };
+    EXPECT_FALSE(refused([](abacus_header &) {}));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.dimension = 1; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.dimension = 4; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.has_domain = 2; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.has_domain = 0; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.upper[1] = -1.7e308; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.lower[1] = std::nan(""); }));
+    EXPECT_TRUE(
+        refused([](abacus_header &h) { h.upper[0] = std::numeric_limits<double>::infinity(); }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.inserted = 1001; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.points = std::uint64_t{1} << 63; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.vertices = 801; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.vertices = UINT64_MAX; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.vertices = 0; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.simplices = 0; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.first_batch = 1001; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.first_batch = 0; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.names[0][0] = '\0'; }));
+}
+
+TEST(Header, DamagedBytesNeverCrash) {
+    const auto sound = encode(full_header(2));
+    for (std::size_t byte = 0; byte < sound.size(); ++byte) {
+        auto bytes = sound;
+        for (const unsigned char value : {0x00, 0x01, 0x7f, 0x80, 0xff}) {
+            bytes[byte] = value;
+            decodes(bytes);
+        }
+    }
+    std::mt19937 random(1);
+    for (int round = 0; round < 20000; ++round) {
+        auto bytes = sound;
+        for (int i = 0; i < 4; ++i)
+            bytes[random() % bytes.size()] = static_cast<unsigned char>(random());
+        decodes(bytes);
+    }
+    // A name that fills its room is not zero-terminated.
+    auto bytes = sound;
+    std::fill(bytes.end() - ABACUS_NAME_BYTES, bytes.end(), 'x');
+    EXPECT_FALSE(decodes(bytes));
+}
+
+} // namespace

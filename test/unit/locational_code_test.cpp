@@ -1,0 +1,174 @@
+// Positions on the curve.
+#include "geometry/locational_code.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace abacus {
+namespace {
+
+constexpr double largest = std::numeric_limits<double>::max();
+constexpr double least = std::numeric_limits<double>::denorm_min();
+
+template <class Dimension> class LocationalCode : public testing::Test {
+protected:
+    static constexpr int D = Dimension::value;
+    static constexpr std::uint32_t last_cell = (std::uint32_t{1} << code_bits<D>)-1;
+
+    static Point<D> all(double x) {
+        Point<D> p;
+        p.fill(x);
+        return p;
+    }
+    static Domain<D> cube(double lower, double upper) { return {all(lower), all(upper)}; }
+
+    /// Domains of every magnitude.
+    static std::vector<Domain<D>> domains() {
+        std::vector<Domain<D>> result = {
+            cube(0, 1),
+            cube(-180, 180),
+            cube(-1.7e308, 1.7e308),
+            cube(-largest, largest),
+            cube(1e308, largest),
+            cube(1e-300, 1e300),
+            cube(0, std::numeric_limits<double>::min()),
+            cube(0, least),
+            cube(least, 2 * least),
+            cube(3 * least, 4 * least),
+            cube(-least, least),
+            cube(-1e-310, 3e-320),
+            cube(1, std::nextafter(1, 2)),
+            cube(1e16, 1e16 + 2),
+            cube(std::nextafter(largest, 0), largest),
+        };
+        // Axes of very different extent and place.
+        Point<D> lower = all(0), upper = all(1e-300);
+        lower[0] = upper[0] = 1e300;
+        result.emplace_back(lower, upper);
+        upper[0] = largest;
+        result.emplace_back(lower, upper);
+        return result;
+    }
+};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(LocationalCode, Dimensions);
+
+TYPED_TEST(LocationalCode, InterleavesTheBits) {
+    constexpr int D = TypeParam::value;
+    std::mt19937 random(1);
+    for (int round = 0; round < 1000; ++round) {
+        Cell<D> cell;
+        for (auto &c : cell) c = random() & this->last_cell;
+        std::uint64_t expected = 0;
+        for (int bit = 0; bit < code_bits<D>; ++bit)
+            for (int axis = 0; axis < D; ++axis)
+                expected |= std::uint64_t{cell[axis] >> bit & 1} << (D * bit + axis);
+        EXPECT_EQ(morton<D>(cell), expected);
+    }
+}
+
+TYPED_TEST(LocationalCode, DomainReachesFromTheFirstCellToTheLast) {
+    constexpr int D = TypeParam::value;
+    for (const Domain<D> &domain : this->domains()) {
+        SCOPED_TRACE(domain.lower()[0]);
+        const Cell<D> lower = domain.cell(domain.lower()), upper = domain.cell(domain.upper());
+        EXPECT_EQ(lower, Cell<D>{});
+        // Rounding may cost a cell or two; less would waste bits, and the refinement of
+        // clusters relies on telling the ends apart.
+        EXPECT_GE(*std::max_element(upper.begin(), upper.end()), this->last_cell - 2);
+    }
+}
+
+TYPED_TEST(LocationalCode, IsMonotoneInEachAxis) {
+    constexpr int D = TypeParam::value;
+    std::mt19937_64 random(2);
+    for (const Domain<D> &domain : this->domains()) {
+        SCOPED_TRACE(domain.lower()[0]);
+        for (int axis = 0; axis < D; ++axis) {
+            std::vector<double> xs = {-largest, -1, -least, 0, least, 1, largest};
+            const double lower = domain.lower()[axis], upper = domain.upper()[axis];
+            std::uniform_real_distribution<double> unit(0, 1);
+            for (int i = 0; i < 1000; ++i) {
+                const double t = unit(random);
+                const double x = lower * (1 - t) + upper * t;
+                xs.insert(xs.end(), {x, std::nextafter(x, largest), std::nextafter(x, -largest)});
+            }
+            std::sort(xs.begin(), xs.end());
+            std::uint32_t before = 0;
+            Point<D> p = domain.lower();
+            for (const double x : xs) {
+                p[axis] = x;
+                const std::uint32_t cell = domain.cell(p)[axis];
+                EXPECT_LE(before, cell) << x;
+                EXPECT_LE(cell, this->last_cell);
+                before = cell;
+            }
+        }
+    }
+}
+
+TYPED_TEST(LocationalCode, ClampsPointsOutside) {
+    constexpr int D = TypeParam::value;
+    for (const Domain<D> &domain : this->domains()) {
+        EXPECT_EQ(domain.code(this->all(-largest)), 0u);
+        EXPECT_LT(domain.code(this->all(largest)), std::uint64_t{1} << 63);
+    }
+    const Domain<D> unit = this->cube(0, 1);
+    EXPECT_EQ(unit.cell(this->all(-1e300)), unit.cell(this->all(0)));
+    EXPECT_EQ(unit.cell(this->all(1e300)), unit.cell(this->all(1)));
+    EXPECT_EQ(unit.cell(this->all(1))[0], this->last_cell);
+}
+
+TYPED_TEST(LocationalCode, DomainWithoutExtentIsOneCell) {
+    constexpr int D = TypeParam::value;
+    for (const double at : {0.0, 1.0, -largest, largest, least}) {
+        const Domain<D> domain = this->cube(at, at);
+        for (const double x : {-largest, -1.0, 0.0, least, at, 1.0, largest})
+            EXPECT_EQ(domain.code(this->all(x)), 0u);
+    }
+}
+
+TYPED_TEST(LocationalCode, AxesShareOneScale) {
+    constexpr int D = TypeParam::value;
+    Point<D> upper = this->all(1);
+    upper[0] = 1024;
+    const Domain<D> domain(this->all(0), upper);
+    EXPECT_NEAR(domain.cell(this->all(1))[0], domain.cell(this->all(1))[1], 1);
+    EXPECT_NEAR(domain.cell(this->all(0.5))[1], std::ldexp(1.0, code_bits<D>) / 2048, 1);
+}
+
+TYPED_TEST(LocationalCode, CornersLieInTheirCells) {
+    constexpr int D = TypeParam::value;
+    std::mt19937 random(3);
+    const Domain<D> domain = this->cube(-3, 5);
+    for (int round = 0; round < 1000; ++round) {
+        Cell<D> cell;
+        for (auto &c : cell) c = random() & this->last_cell;
+        const Cell<D> back = domain.cell(domain.corner(cell));
+        for (int axis = 0; axis < D; ++axis) EXPECT_NEAR(back[axis], cell[axis], 1);
+    }
+}
+
+TYPED_TEST(LocationalCode, SubcellsFitTheirBits) {
+    constexpr int D = TypeParam::value;
+    std::mt19937_64 random(4);
+    for (const Domain<D> &domain : this->domains()) {
+        for (int round = 0; round < 200; ++round) {
+            Point<D> p;
+            for (int axis = 0; axis < D; ++axis) {
+                const double t = std::ldexp(static_cast<double>(random()), -64);
+                p[axis] = domain.lower()[axis] * (1 - t) + domain.upper()[axis] * t;
+            }
+            for (const std::uint32_t sub : domain.subcell(p))
+                EXPECT_LT(sub, std::uint32_t{1} << part_bits<D>);
+        }
+    }
+}
+
+} // namespace
+} // namespace abacus
