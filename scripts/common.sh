@@ -22,10 +22,13 @@ fail() {
     exit 1
 }
 
-# Builds and installs the extension as a packager does.
+# Builds and installs the extension as a packager does, but in a folder of its
+# own, so that the source tree stays clean.
 install_extension() {
-    make -s -f Makefile.pgxs -j"$ABACUS_JOBS" PG_CONFIG="$PG_CONFIG"
-    as_root make -s -f Makefile.pgxs install PG_CONFIG="$PG_CONFIG" >/dev/null
+    local make=(make -s -C "$ABACUS_BUILD/extension" -f "$ABACUS_ROOT/Makefile.pgxs"
+        PG_CONFIG="$PG_CONFIG")
+    mkdir -p "$ABACUS_BUILD/extension"
+    "${make[@]}" -j"$ABACUS_JOBS" all && as_root "${make[@]}" install >/dev/null
 }
 
 # Builds the given CMake targets (all by default) in build/release.

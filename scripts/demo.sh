@@ -37,9 +37,10 @@ show_progress() {
     local client=$1 line
     sleep 1
     while kill -0 "$client" 2>/dev/null; do
-        line=$(value "SELECT format('  %-12s %10s of %-10s  %9s points/s  %4s s left  %s pages read, %s written',
-                                    phase, done, total, round(points_per_second),
-                                    round(extract(epoch FROM time_left)), pages_read, pages_written)
+        line=$(value "SELECT format('  %-9s %9s of %-9s %8s a second %5s s left   %s pages read, %s written',
+                                    phase, done, coalesce(total::text, '?'), round(per_second),
+                                    coalesce(round(extract(epoch FROM time_left))::text, '?'),
+                                    pages_read, pages_written)
                       FROM abacus_progress LIMIT 1")
         if [[ -n $line ]]; then echo "$line"; fi
         sleep 1

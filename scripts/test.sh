@@ -64,8 +64,8 @@ fuzz() {
 }
 
 regression_tests() {
-    make -s -f Makefile.pgxs installcheck PG_CONFIG="$PG_CONFIG" ||
-        { cat regression.diffs 2>/dev/null; return 1; }
+    make -s -C build/extension -f "$ABACUS_ROOT/Makefile.pgxs" PG_CONFIG="$PG_CONFIG" installcheck ||
+        { cat build/extension/regression.diffs; return 1; }
 }
 
 pgtap_tests() {

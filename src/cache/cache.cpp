@@ -35,21 +35,6 @@ template <int D> Handle Cache<D>::follow(Handle h) const {
     return no_handle;
 }
 
-template <int D> std::uint64_t Cache<D>::code(const Simplex<D> &s) const {
-    std::array<std::uint64_t, D> sum{};
-    for (int i = 0; i < D; ++i)
-        for (int axis = 0; axis < D; ++axis) sum[axis] += vertices_[s.vertex[i]].cell[axis];
-    Cell<D> mean;
-    if (s.is_ghost()) {
-        for (int axis = 0; axis < D; ++axis) mean[axis] = static_cast<std::uint32_t>(sum[axis] / D);
-    } else {
-        for (int axis = 0; axis < D; ++axis)
-            mean[axis] = static_cast<std::uint32_t>(
-                (sum[axis] + vertices_[s.vertex[D]].cell[axis]) / (D + 1));
-    }
-    return morton<D>(mean);
-}
-
 template <int D> std::uint64_t Cache<D>::part(const Simplex<D> &s) const {
     const int n = s.finite_vertices();
     std::array<std::uint64_t, D> cells{}, subcells{};
@@ -202,8 +187,7 @@ template <int D> Handle Cache<D>::start(std::uint64_t code, const Point<D> &p) {
             return best;
         }
         if (block.lower == first_key) return no_handle;
-        key = block.lower.part > 0 ? Key{block.lower.code, block.lower.part - 1}
-                                   : Key{block.lower.code - 1, key_word_end - 1};
+        key = predecessor(block.lower);
     }
 }
 

@@ -43,6 +43,7 @@ namespace abacus {
 struct CacheOptions {
     std::size_t budget = 64u << 20;  // bytes; exceeded only while one operation needs it
     bool stored_links = true;        // false: probe at every miss, to measure §4.10
+    bool verify_links = false;       // compare every stored key with the simplex it leads to
 };
 
 template <int D> class Cache {
@@ -81,7 +82,11 @@ public:
     // ---- Keys ----------------------------------------------------------------
 
     const Domain<D> &domain() const { return domain_; }
-    std::uint64_t code(const Simplex<D> &s) const;
+    std::uint64_t code(const Simplex<D> &s) const {
+        std::array<const Cell<D> *, D + 1> cells;
+        for (int i = 0; i <= D; ++i) cells[i] = &vertices_[s.vertex[i]].cell;
+        return simplex_code<D>(cells, s.is_ghost());
+    }
     Key key(const Simplex<D> &s) const;
     /// Whether the cached block around h owns the code.
     bool near(Handle h, std::uint64_t code) const {
@@ -90,6 +95,11 @@ public:
     /// Some simplex of the block that owns the code, loaded if need be, preferably
     /// close to p; no_handle if the mesh has none there.
     Handle start(std::uint64_t code, const Point<D> &p);
+    /// The simplex with this code for which match(handle) holds, or no_handle.
+    template <class Match> Handle find(std::uint64_t code, Match match);
+    /// Calls visit(handle) for the simplices of the block that owns the key, loaded if
+    /// need be; returns the lower key of the next block, end_key after the last.
+    template <class Visit> Key visit(const Key &key, Visit visit);
 
     // ---- Change ----------------------------------------------------------------
 
@@ -126,6 +136,7 @@ public:
     /// Writes every changed block; they stay cached.
     void flush();
 
+    const Host &host() const { return host_; }
     void poll() const { host_.poll(); }
 
     std::size_t bytes() const {
@@ -272,5 +283,31 @@ private:
     alignas(8) unsigned char page_[ABACUS_PAGE_BYTES];
     std::size_t page_size_ = 0;
 };
+
+template <int D>
+template <class Match>
+Handle Cache<D>::find(std::uint64_t code, Match match) {
+    // Several blocks share the code when it has parts: from the last one back.
+    for (Key key{code, key_word_end - 1};;) {
+        const BlockIndex b = owner(key);
+        if (b == no_block) return no_handle;
+        Handle found = no_handle;
+        for_each_simplex(b, [&](Handle h) {
+            if (match(h) && this->code(slots_[h]) == code) found = h;
+        });
+        if (found != no_handle || blocks_[b].lower <= Key{code, 0}) return found;
+        key = predecessor(blocks_[b].lower);
+    }
+}
+
+template <int D>
+template <class Visit>
+Key Cache<D>::visit(const Key &key, Visit visit) {
+    const BlockIndex b = owner(key);
+    if (b == no_block) throw_corrupted("No page owns a part of the curve.");
+    // What visit() loads goes to other blocks: this one keeps its simplices.
+    for_each_simplex(b, visit);
+    return blocks_[b].upper;
+}
 
 } // namespace abacus

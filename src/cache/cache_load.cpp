@@ -17,10 +17,6 @@ namespace {
 constexpr Link unset = 0xffffffffu;
 constexpr std::size_t facet_table_size = 4096; // more than twice the facets of a page
 
-Key predecessor(const Key &key) {
-    return key.part > 0 ? Key{key.code, key.part - 1} : Key{key.code - 1, key_word_end - 1};
-}
-
 } // namespace
 
 template <int D> Link Cache<D>::miss(Handle h, int facet) {
@@ -28,7 +24,11 @@ template <int D> Link Cache<D>::miss(Handle h, int facet) {
     host_.poll();
     const Key beyond = visible_[slots_[h].link[facet] & ~absent].beyond;
     const bool known = options_.stored_links && beyond.code != unknown_code;
-    if (!known || !follow_stored_link(h, facet, beyond)) probe(h, facet);
+    if (!known || !follow_stored_link(h, facet, beyond)) {
+        if (known && options_.verify_links)
+            throw_corrupted("A link has a key under which its neighbour is not found.");
+        probe(h, facet);
+    }
     return slots_[h].link[facet];
 }
 
@@ -186,6 +186,10 @@ template <int D> void Cache<D>::link_outside(const PageView<D> &view, Handle fir
             const Link owner = visible_[number].owner;
             if (this->facet(link_simplex(owner), link_facet(owner)).odd == outer.odd)
                 throw_corrupted("Neighbours have different orientations.");
+            if (options_.verify_links &&
+                (visible_[number].beyond.code != code(slots_[h]) ||
+                 beyond.code != code(slots_[link_simplex(owner)])))
+                throw_corrupted("A link has the key of another simplex than its neighbour.");
             visible_.remove(number);
             connect(owner, link);
         }

@@ -21,6 +21,11 @@ inline constexpr std::uint64_t key_word_end = 1ull << 63; // above every code an
 inline constexpr Key first_key{0, 0};
 inline constexpr Key end_key{key_word_end, 0};
 
+/// The greatest key below one that is not the first.
+constexpr Key predecessor(const Key &key) {
+    return key.part > 0 ? Key{key.code, key.part - 1} : Key{key.code - 1, key_word_end - 1};
+}
+
 /// Part of a link that was stored as a code alone.
 inline constexpr std::uint64_t unknown_part = ~0ull;
 /// Code of a link to a neighbour that has to be probed for.

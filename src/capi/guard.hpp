@@ -7,7 +7,6 @@
 #include "host/host.hpp"
 
 #include <cfenv>
-#include <cstring>
 #include <exception>
 #include <new>
 #include <string_view>
@@ -21,7 +20,7 @@ template <std::size_t N> void copy_text(char (&to)[N], std::string_view from) no
         length = N - 1;
         while (length > 0 && (static_cast<unsigned char>(from[length]) & 0xc0) == 0x80) --length;
     }
-    std::memcpy(to, from.data(), length);
+    from.copy(to, length);
     to[length] = '\0';
 }
 

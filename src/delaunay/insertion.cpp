@@ -1,5 +1,7 @@
 #include "delaunay/insertion.hpp"
 
+#include "delaunay/conflict.hpp"
+
 #include <utility>
 
 namespace abacus {
@@ -12,27 +14,12 @@ Insertion<D>::Insertion(const Host &host, Cache<D> &cache, std::int64_t simplice
     recent_.fill(no_handle);
 }
 
-template <int D>
-typename Insertion<D>::Side Insertion<D>::side(const Simplex<D> &s, const Point<D> &p) const {
-    if (!s.is_ghost()) [[likely]] {
-        const int sign = in_sphere(cache_.corners(s), p);
-        return sign > 0 ? Side::inside : sign < 0 ? Side::outside : Side::vertex;
-    }
-    Corners<D> corners;
-    for (int i = 0; i < D; ++i) corners[i] = &cache_.point(s.vertex[i]);
-    corners[D] = &p;
-    const int sign = orientation<D>(corners);
-    if (sign != 0) return sign > 0 ? Side::inside : Side::outside;
-    const int place = in_hull_facet(corners, p);
-    return place > 0 ? Side::inside : place < 0 ? Side::outside : Side::vertex;
-}
-
 template <int D> Handle Insertion<D>::find_conflict(const Point<D> &p, std::uint64_t code) {
     Handle from = no_handle;
     ++cache_.counters.incircle_tests;
     for (const Handle h : recent_) {
         if (!cache_.is_live(h)) continue;
-        switch (side(cache_.simplex(h), p)) {
+        switch (side_of<D>(cache_, cache_.simplex(h), p)) {
         case Side::vertex: return no_handle;
         case Side::inside: ++cache_.counters.incircle_hits; return h;
         case Side::outside: from = h;
@@ -90,7 +77,7 @@ template <int D> void Insertion<D>::find_cavity(const Point<D> &p, Handle first)
         const Link outer = cache_.cross(link_simplex(inner), link_facet(inner));
         const Handle h = link_simplex(outer);
         const Simplex<D> &s = cache_.simplex(h);
-        if (side(s, p) == Side::inside) {
+        if (side_of<D>(cache_, s, p) == Side::inside) {
             cavity_.push_back(h);
             if (cavity_.size() % 4096 == 0) cache_.poll();
             const int from = link_facet(outer);

@@ -35,14 +35,12 @@ public:
     std::int64_t ghosts() const { return ghosts_; }
 
 private:
-    enum class Side { inside, outside, vertex };
     /// A facet of the rim, with its vertices as the simplex inside has them.
     struct Rim {
         Link outer;
         std::array<VertexIndex, D> vertex;
     };
 
-    Side side(const Simplex<D> &s, const Point<D> &p) const;
     /// A simplex of p's cavity, or no_handle if p is a vertex.
     Handle find_conflict(const Point<D> &p, std::uint64_t code);
     void find_cavity(const Point<D> &p, Handle first);

@@ -19,11 +19,8 @@ public:
         ++cache_.counters.walks;
         Handle h = from;
         int entered = -1;
-        if (cache_.simplex(h).is_ghost()) { // step inside through the hull facet
-            const Link link = cache_.cross(h, D);
-            h = link_simplex(link);
-            entered = link_facet(link);
-        }
+        // From a ghost inside through its hull facet, beyond which p may well lie.
+        if (cache_.simplex(h).is_ghost()) h = link_simplex(cache_.cross(h, D));
         // Only a damaged mesh can keep the walk going for long.
         for (std::uint64_t steps = 0;; ++steps) {
             if (steps % 4096 == 4095) cache_.poll();

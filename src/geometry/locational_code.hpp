@@ -59,6 +59,27 @@ template <int D> constexpr std::uint64_t morton(const Cell<D> &cell) {
     return code;
 }
 
+/// Code of the mean of n cells, rounded down.
+template <int D, int n> inline std::uint64_t mean_code(const std::array<const Cell<D> *, n> &cells) {
+    Cell<D> mean;
+    for (int axis = 0; axis < D; ++axis) {
+        std::uint64_t sum = 0;
+        for (const Cell<D> *cell : cells) sum += (*cell)[axis];
+        mean[axis] = static_cast<std::uint32_t>(sum / n);
+    }
+    return morton<D>(mean);
+}
+
+/// Key code of a simplex with these cells of its corners; of a ghost, whose last
+/// corner is not read, that of its hull facet.
+template <int D>
+inline std::uint64_t simplex_code(const std::array<const Cell<D> *, D + 1> &cells, bool ghost) {
+    if (!ghost) return mean_code<D, D + 1>(cells);
+    std::array<const Cell<D> *, D> facet;
+    std::copy(cells.begin(), cells.begin() + D, facet.begin());
+    return mean_code<D, D>(facet);
+}
+
 /// Box over which the codes of a mesh are taken.
 template <int D> class Domain {
 public:

@@ -72,6 +72,25 @@ template <int D> inline int orientation(const Corners<D> &c) {
     else return orientation(*c[0], *c[1], *c[2], *c[3]);
 }
 
+/// Whether p is affinely independent of the first n points, which are.
+inline bool is_independent(const Corners<2> &points, int n, const Point<2> &p) {
+    if (n == 0) return true;
+    if (n == 1) return !(*points[0] == p);
+    return orientation(*points[0], *points[1], p) != 0;
+}
+inline bool is_independent(const Corners<3> &points, int n, const Point<3> &p) {
+    if (n == 0) return true;
+    if (n == 1) return !(*points[0] == p);
+    if (n == 3) return orientation(*points[0], *points[1], *points[2], p) != 0;
+    // Collinear in space: in each of the three projections.
+    const Point<3> &a = *points[0], &b = *points[1];
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        if (orientation({a[i], a[j]}, {b[i], b[j]}, {p[i], p[j]}) != 0) return true;
+    }
+    return false;
+}
+
 /// Position of p to the circumsphere of positively oriented corners: +1 inside,
 /// -1 outside, points on the sphere perturbed to one or the other; 0 if and only
 /// if p equals a corner.

@@ -3,17 +3,17 @@
  */
 #include "postgres.h"
 
-#include "fmgr.h"
 #include "utils/builtins.h"
 
 #include "pg/mesh_cache.h"
 #include "pg/settings.h"
+#include "pg/sql_function.h"
 
 PG_MODULE_MAGIC;
 
-PG_FUNCTION_INFO_V1(abacus_sql_version);
+SQL_FUNCTION(abacus_sql_version);
 
-void		_PG_init(void);
+extern PGDLLEXPORT void _PG_init(void);
 
 void
 _PG_init(void)

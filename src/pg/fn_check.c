@@ -15,8 +15,9 @@
 #include "pg/header.h"
 #include "pg/settings.h"
 #include "pg/simplex_row.h"
+#include "pg/sql_function.h"
 
-PG_FUNCTION_INFO_V1(abacus_sql_check);
+SQL_FUNCTION(abacus_sql_check);
 
 typedef struct Checking
 {
@@ -37,9 +38,9 @@ read_header(Checking *checking, abacus_header *header)
 		strlcpy(checking->fault.message, "the header row (-1, 0) is missing",
 				sizeof(checking->fault.message));
 	else if (abacus_header_decode(row.bytes, row.size, header, &host->failure) != ABACUS_OK)
-		snprintf(checking->fault.message, sizeof(checking->fault.message), "%s%s%s",
-				 host->failure.message, host->failure.detail[0] != '\0' ? ": " : "",
-				 host->failure.detail);
+		strlcpy(checking->fault.message,
+				host->failure.detail[0] != '\0' ? host->failure.detail : host->failure.message,
+				sizeof(checking->fault.message));
 	else
 		return true;
 	checking->header_fault = true;

@@ -7,15 +7,15 @@
 #include "access/xact.h"
 #include "catalog/namespace.h"
 #include "executor/spi.h"
-#include "fmgr.h"
 #include "miscadmin.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 #include "utils/varlena.h"
 
 #include "pg/build.h"
+#include "pg/sql_function.h"
 
-PG_FUNCTION_INFO_V1(abacus_sql_create);
+SQL_FUNCTION(abacus_sql_create);
 
 /* CREATE TABLE of one of the extension's row types, through the usual utility path. */
 static Oid

@@ -5,14 +5,14 @@
 
 #include <math.h>
 
-#include "fmgr.h"
 #include "utils/builtins.h"
 #include "utils/memutils.h"
 
 #include "pg/build.h"
 #include "pg/reader.h"
+#include "pg/sql_function.h"
 
-PG_FUNCTION_INFO_V1(abacus_sql_draw);
+SQL_FUNCTION(abacus_sql_draw);
 
 #define MAX_PIXELS 16384
 

@@ -8,13 +8,12 @@
 
 #include <math.h>
 
-#include "fmgr.h"
-
 #include "pg/mesh_cache.h"
 #include "pg/simplex_row.h"
+#include "pg/sql_function.h"
 
-PG_FUNCTION_INFO_V1(abacus_sql_locate);
-PG_FUNCTION_INFO_V1(abacus_sql_walk);
+SQL_FUNCTION(abacus_sql_locate);
+SQL_FUNCTION(abacus_sql_walk);
 
 /* abacus_locate(mesh regclass, x float8, y float8, z float8) -> abacus_simplex */
 Datum

@@ -18,9 +18,10 @@
 #include "pg/reader.h"
 #include "pg/settings.h"
 #include "pg/simplex_row.h"
+#include "pg/sql_function.h"
 
-PG_FUNCTION_INFO_V1(abacus_sql_simplices);
-PG_FUNCTION_INFO_V1(abacus_sql_vertices);
+SQL_FUNCTION(abacus_sql_simplices);
+SQL_FUNCTION(abacus_sql_vertices);
 
 /* First call of a set: opens the mesh for the calls that follow. */
 static Reader *

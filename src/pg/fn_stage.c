@@ -7,14 +7,14 @@
  */
 #include "postgres.h"
 
-#include "fmgr.h"
 #include "miscadmin.h"
 #include "utils/builtins.h"
 
 #include "pg/build.h"
+#include "pg/sql_function.h"
 #include "pg/writer.h"
 
-PG_FUNCTION_INFO_V1(abacus_sql_stage);
+SQL_FUNCTION(abacus_sql_stage);
 
 /* Stages the rows of a prepared query; returns how many. */
 uint64

@@ -7,14 +7,14 @@
 #include "postgres.h"
 
 #include "access/table.h"
-#include "fmgr.h"
 #include "funcapi.h"
 #include "utils/builtins.h"
 
 #include "pg/mesh_cache.h"
 #include "pg/reader.h"
+#include "pg/sql_function.h"
 
-PG_FUNCTION_INFO_V1(abacus_sql_stats);
+SQL_FUNCTION(abacus_sql_stats);
 
 /* Where the rows go. */
 typedef struct Figures
@@ -35,46 +35,48 @@ put_figure(Figures *figures, const char *name, double value, const char *descrip
 	tuplestore_putvalues(figures->set->setResult, figures->set->setDesc, values, isnull);
 }
 
-/* One row for each counter of chapter 5. */
+/* One row for each counter of chapter 5; for a session's reading only those that move. */
 static void
-put_counters(Figures *figures, const abacus_counters *counters)
+put_counters(Figures *figures, const abacus_counters *counters, bool reading)
 {
 	const struct
 	{
 		const char *name;
 		uint64		value;
+		bool		moves_when_reading;
 		const char *description;
 	}			rows[] = {
-		{"insertions", counters->insertions, "vertices added"},
-		{"steps", counters->steps, "links followed between simplices"},
-		{"misses", counters->misses, "links that led out of the cache"},
-		{"link_probes", counters->link_probes, "page searches by a stored neighbour key"},
-		{"quick_probes", counters->quick_probes, "quick probes for an unknown neighbour"},
-		{"ray_probes", counters->ray_probes, "ray-casting probes for an unknown neighbour"},
-		{"concentric_probes", counters->concentric_probes,
+		{"insertions", counters->insertions, false, "vertices added"},
+		{"steps", counters->steps, true, "links followed between simplices"},
+		{"misses", counters->misses, true, "links that led out of the cache"},
+		{"link_probes", counters->link_probes, true, "page searches by a stored neighbour key"},
+		{"quick_probes", counters->quick_probes, true, "quick probes for an unknown neighbour"},
+		{"ray_probes", counters->ray_probes, true, "ray-casting probes for an unknown neighbour"},
+		{"concentric_probes", counters->concentric_probes, true,
 		"concentric probes for an unknown neighbour"},
-		{"incircle_tests", counters->incircle_tests,
+		{"incircle_tests", counters->incircle_tests, false,
 		"insertions that asked the last created simplices where to start"},
-		{"incircle_hits", counters->incircle_hits, "insertions that those answered"},
-		{"walks", counters->walks, "point locations by walking"},
-		{"created", counters->created, "simplices created"},
-		{"deleted", counters->deleted, "simplices deleted"},
-		{"loads", counters->loads, "pages read into the cache"},
-		{"stores", counters->stores, "pages written from the cache"},
-		{"rewrites", counters->rewrites, "pages written in place of an older version"},
-		{"splits", counters->splits, "simplex blocks split"},
-		{"evictions", counters->evictions, "simplex blocks dropped from the cache"},
-		{"eviction_batches", counters->eviction_batches, "batches of evictions"},
-		{"bytes_read", counters->bytes_read, "bytes of the pages read"},
-		{"bytes_written", counters->bytes_written, "bytes of the pages written"},
-		{"translation_ns", counters->translation_ns,
+		{"incircle_hits", counters->incircle_hits, false, "insertions that those answered"},
+		{"walks", counters->walks, true, "point locations by walking"},
+		{"created", counters->created, false, "simplices created"},
+		{"deleted", counters->deleted, false, "simplices deleted"},
+		{"loads", counters->loads, true, "pages read into the cache"},
+		{"stores", counters->stores, false, "pages written from the cache"},
+		{"rewrites", counters->rewrites, false, "pages written in place of an older version"},
+		{"splits", counters->splits, false, "simplex blocks split"},
+		{"evictions", counters->evictions, true, "simplex blocks dropped from the cache"},
+		{"eviction_batches", counters->eviction_batches, true, "batches of evictions"},
+		{"bytes_read", counters->bytes_read, true, "bytes of the pages read"},
+		{"bytes_written", counters->bytes_written, false, "bytes of the pages written"},
+		{"translation_ns", counters->translation_ns, true,
 		"nanoseconds spent between pages and memory, reading and writing included"},
-		{"total_ns", counters->total_ns, "nanoseconds spent in the core"},
-		{"peak_bytes", counters->peak_bytes, "largest amount of memory the cache held"},
+		{"total_ns", counters->total_ns, true, "nanoseconds spent in the core"},
+		{"peak_bytes", counters->peak_bytes, true, "largest amount of memory the cache held"},
 	};
 
 	for (int i = 0; i < lengthof(rows); i++)
-		put_figure(figures, rows[i].name, (double) rows[i].value, rows[i].description);
+		if (!reading || rows[i].moves_when_reading)
+			put_figure(figures, rows[i].name, (double) rows[i].value, rows[i].description);
 	if (counters->steps > 0)
 		put_figure(figures, "hit_ratio", 1.0 - (double) counters->misses / counters->steps,
 				   "share of the followed links that stayed in the cache");
@@ -133,14 +135,14 @@ abacus_sql_stats(PG_FUNCTION_ARGS)
 	InitMaterializedSRF(fcinfo, 0);
 	put_counts(&figures, &reader->header);
 	put_sizes(&figures, reader, vertices);
-	put_counters(&figures, &reader->header.counters);
+	put_counters(&figures, &reader->header.counters, false);
 	if (cached != NULL)
 	{
 		abacus_counters counters;
 
 		abacus_mesh_counters(cached->mesh, &counters);
 		figures.prefix = "session_";
-		put_counters(&figures, &counters);
+		put_counters(&figures, &counters, true);
 	}
 	host_destroy(reader->host);
 	PG_RETURN_NULL();

@@ -4,16 +4,16 @@
  */
 #include "postgres.h"
 
-#include "fmgr.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
 #include "pg/build.h"
 #include "pg/settings.h"
+#include "pg/sql_function.h"
 #include "pg/writer.h"
 
-PG_FUNCTION_INFO_V1(abacus_sql_triangulate);
-PG_FUNCTION_INFO_V1(abacus_sql_triangulate_query);
+SQL_FUNCTION(abacus_sql_triangulate);
+SQL_FUNCTION(abacus_sql_triangulate_query);
 
 /* Inserts all staged points; returns the number of simplices. */
 uint64

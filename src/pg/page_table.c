@@ -195,7 +195,7 @@ search(PageTable *table, PageScan *scan, ScanKey keys, int count)
 
 /* "key <strategy> given" over all key columns, as one scan key. */
 static void
-bound_key(PageTable *table, ScanKey bound, ScanKeyData *members, StrategyNumber strategy,
+bound_key(PageTable *table, PageScan *scan, ScanKey bound, StrategyNumber strategy,
 		  const int64 *key)
 {
 	if (table->keys == 1)
@@ -206,14 +206,14 @@ bound_key(PageTable *table, ScanKey bound, ScanKeyData *members, StrategyNumber 
 	}
 	for (int i = 0; i < table->keys; i++)
 	{
-		ScanKeyInit(&members[i], i + 1, strategy, F_BTINT8CMP, Int64GetDatum(key[i]));
-		members[i].sk_flags = SK_ROW_MEMBER | (i == table->keys - 1 ? SK_ROW_END : 0);
+		ScanKeyInit(&scan->members[i], i + 1, strategy, F_BTINT8CMP, Int64GetDatum(key[i]));
+		scan->members[i].sk_flags = SK_ROW_MEMBER | (i == table->keys - 1 ? SK_ROW_END : 0);
 	}
 	MemSet(bound, 0, sizeof(*bound));
 	bound->sk_flags = SK_ROW_HEADER;
 	bound->sk_attno = 1;
 	bound->sk_strategy = strategy;
-	bound->sk_argument = PointerGetDatum(members);
+	bound->sk_argument = PointerGetDatum(scan->members);
 }
 
 /* The row with exactly this key. */
@@ -244,7 +244,6 @@ bool
 page_table_floor(PageTable *table, const int64 *key, StoredPage *page)
 {
 	ScanKeyData keys[2];
-	ScanKeyData members[PAGE_TABLE_MAX_KEYS];
 	uint64		reach = table->span != 0 ? 2 * table->span : PG_INT64_MAX;
 
 	page_table_open(table);
@@ -253,7 +252,7 @@ page_table_floor(PageTable *table, const int64 *key, StoredPage *page)
 	{
 		bool		everywhere = reach >= (uint64) key[0];
 
-		bound_key(table, &keys[0], members, BTLessEqualStrategyNumber, key);
+		bound_key(table, &table->floor, &keys[0], BTLessEqualStrategyNumber, key);
 		ScanKeyInit(&keys[1], 1, BTGreaterEqualStrategyNumber, F_INT8GE,
 					Int64GetDatum(everywhere ? 0 : key[0] - (int64) reach));
 		search(table, &table->floor, keys, 2);
@@ -288,11 +287,10 @@ page_table_next(PageTable *table, const int64 *key, StoredPage *page)
 	if (!table->at_key || memcmp(key, table->forward_key, table->keys * sizeof(int64)) != 0)
 	{
 		ScanKeyData bound;
-		ScanKeyData members[PAGE_TABLE_MAX_KEYS];
 
 		if (table->forward.scan != NULL && table->forward.scan->numberOfKeys != 1)
 			close_scan(&table->forward);
-		bound_key(table, &bound, members, BTGreaterStrategyNumber, key);
+		bound_key(table, &table->forward, &bound, BTGreaterStrategyNumber, key);
 		search(table, &table->forward, &bound, 1);
 	}
 	if (!index_getnext_slot(table->forward.scan, ForwardScanDirection, table->forward.slot))

@@ -31,6 +31,8 @@ typedef struct PageScan
 {
 	IndexScanDesc scan;			/* NULL while not open */
 	TupleTableSlot *slot;
+	/* columns of the row comparison; the scan points here as long as it runs */
+	ScanKeyData members[PAGE_TABLE_MAX_KEYS];
 } PageScan;
 
 typedef struct PageTable

@@ -7,18 +7,18 @@
  */
 #include "postgres.h"
 
-#include "fmgr.h"
 #include "libpq/pqformat.h"
 #include "utils/builtins.h"
 
 #include "pg/page_type.h"
+#include "pg/sql_function.h"
 
-PG_FUNCTION_INFO_V1(abacus_sql_page_in);
-PG_FUNCTION_INFO_V1(abacus_sql_page_out);
-PG_FUNCTION_INFO_V1(abacus_sql_page_recv);
-PG_FUNCTION_INFO_V1(abacus_sql_page_send);
-PG_FUNCTION_INFO_V1(abacus_sql_page_from_bytea);
-PG_FUNCTION_INFO_V1(abacus_sql_page_to_bytea);
+SQL_FUNCTION(abacus_sql_page_in);
+SQL_FUNCTION(abacus_sql_page_out);
+SQL_FUNCTION(abacus_sql_page_recv);
+SQL_FUNCTION(abacus_sql_page_send);
+SQL_FUNCTION(abacus_sql_page_from_bytea);
+SQL_FUNCTION(abacus_sql_page_to_bytea);
 
 static Datum
 make_page(const void *bytes, size_t size)

@@ -31,6 +31,12 @@ public:
         const auto now = Clock::now();
         if (now - last_ >= std::chrono::milliseconds(10)) report(now);
     }
+    /// The phase ends with `done` records.
+    void end(std::uint64_t done, std::uint64_t pages_written) {
+        progress_.done = done;
+        progress_.pages_written = pages_written;
+        report(Clock::now());
+    }
     void poll() const { host_.poll(); }
 
     /// Calls body(begin, end) for consecutive pieces of [0, n) and polls between them.

@@ -97,7 +97,7 @@ template <int D> void Stage<D>::finish(abacus_header &header) {
         sort.run(spool_, all);
     }
     pages.finish();
-    pacer_.reached(n, pages.pages());
+    pacer_.end(n, pages.pages());
 
     header.has_domain = 1;
     std::copy_n(domain_->lower().begin(), D, header.lower);

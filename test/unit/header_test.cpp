@@ -17,7 +17,7 @@ abacus_header full_header(unsigned attributes) {
     header.attributes = attributes;
     header.has_domain = 1;
     for (int i = 0; i < ABACUS_MAX_DIMENSION; ++i) {
-        header.lower[i] = -1.7e308 * (i + 1) / 3;
+        header.lower[i] = -1.7e308 / (i + 1);
         header.upper[i] = 5e-324 * i;
     }
     header.stamp = UINT64_MAX;

@@ -1,0 +1,1 @@
+\echo Use "CREATE EXTENSION abacus" to load this file. \quit

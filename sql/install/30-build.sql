@@ -1,0 +1,40 @@
+-- Making a mesh.
+
+CREATE FUNCTION abacus_create(
+    mesh text,
+    dimension integer,
+    attributes text[] DEFAULT '{}',
+    lower double precision[] DEFAULT NULL,
+    upper double precision[] DEFAULT NULL)
+RETURNS regclass
+AS 'MODULE_PATHNAME', 'abacus_sql_create'
+LANGUAGE C VOLATILE PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_create(text, integer, text[], double precision[], double precision[]) IS
+    'makes an empty mesh: the table of this name and <name>_vertices; without lower and upper the domain comes from the first points';
+
+CREATE FUNCTION abacus_stage(mesh regclass, query text)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_stage'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_stage(regclass, text) IS
+    'stages the points of a query (id, x, y[, z][, attribute...]) for triangulation; returns how many';
+
+CREATE FUNCTION abacus_triangulate(mesh regclass)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_triangulate'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_triangulate(regclass) IS
+    'inserts all staged points into the Delaunay triangulation; returns the number of simplices';
+
+CREATE FUNCTION abacus_triangulate(
+    mesh text,
+    query text,
+    attributes text[] DEFAULT NULL,
+    dimension integer DEFAULT 2,
+    lower double precision[] DEFAULT NULL,
+    upper double precision[] DEFAULT NULL)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_triangulate_query'
+LANGUAGE C VOLATILE PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_triangulate(text, text, text[], integer, double precision[], double precision[]) IS
+    'makes a mesh, stages the points of the query and triangulates them; attributes are named after the query''s columns unless given';

@@ -1,0 +1,41 @@
+-- Asking a mesh.
+
+CREATE FUNCTION abacus_locate(
+    mesh regclass,
+    x double precision,
+    y double precision,
+    z double precision DEFAULT NULL)
+RETURNS abacus_simplex
+AS 'MODULE_PATHNAME', 'abacus_sql_locate'
+LANGUAGE C STABLE PARALLEL SAFE COST 500;
+COMMENT ON FUNCTION abacus_locate(regclass, double precision, double precision, double precision) IS
+    'the simplex that contains the point; NULL outside the convex hull';
+
+CREATE FUNCTION abacus_walk(mesh regclass, simplex abacus_simplex, facet integer)
+RETURNS abacus_simplex
+AS 'MODULE_PATHNAME', 'abacus_sql_walk'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
+COMMENT ON FUNCTION abacus_walk(regclass, abacus_simplex, integer) IS
+    'the neighbour of a simplex across its facet opposite vertex i; NULL at the convex hull';
+
+CREATE FUNCTION abacus_simplices(mesh regclass)
+RETURNS SETOF abacus_simplex
+AS 'MODULE_PATHNAME', 'abacus_sql_simplices'
+LANGUAGE C STABLE STRICT PARALLEL RESTRICTED ROWS 100000;
+COMMENT ON FUNCTION abacus_simplices(regclass) IS
+    'all simplices, in the order of the curve';
+
+CREATE FUNCTION abacus_vertices(
+    mesh regclass,
+    OUT sequence bigint,
+    OUT id bigint,
+    OUT x double precision,
+    OUT y double precision,
+    OUT z double precision,
+    OUT attributes double precision[],
+    OUT vertex bigint)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_vertices'
+LANGUAGE C STABLE STRICT PARALLEL RESTRICTED ROWS 100000;
+COMMENT ON FUNCTION abacus_vertices(regclass) IS
+    'all staged points in insertion order; vertex is the id of the vertex that stands for the point (its own unless an equal point came first), NULL before triangulation';

@@ -1,0 +1,17 @@
+-- Pictures.
+
+CREATE FUNCTION abacus_draw(
+    mesh regclass,
+    width integer DEFAULT 1024,
+    height integer DEFAULT NULL,
+    lower double precision[] DEFAULT NULL,
+    upper double precision[] DEFAULT NULL,
+    attribute text DEFAULT NULL,
+    edges boolean DEFAULT true,
+    exaggeration double precision DEFAULT 0,
+    max_edge double precision DEFAULT NULL)
+RETURNS bytea
+AS 'MODULE_PATHNAME', 'abacus_sql_draw'
+LANGUAGE C STABLE PARALLEL RESTRICTED COST 1000000;
+COMMENT ON FUNCTION abacus_draw(regclass, integer, integer, double precision[], double precision[], text, boolean, double precision, double precision) IS
+    'a PNG of the mesh, or of the window from lower to upper; an attribute gives colour and, with exaggeration above 0, hill shading';

@@ -1,0 +1,54 @@
+-- Live figures of the builds that run in any session.
+--
+-- The slots are those that src/pg/progress.c fills. Like the progress views
+-- of PostgreSQL it shows figures of other users' sessions only to members of
+-- pg_read_all_stats.
+
+CREATE VIEW abacus_progress AS
+WITH build AS (
+    SELECT s.pid,
+           CASE WHEN s.datid = d.oid THEN s.relid END AS relid,
+           s.param11 AS phase,
+           s.param13 AS done,
+           nullif(s.param12, 0) AS total,
+           extract(epoch FROM clock_timestamp()) - 946684800 - s.param18 / 1e6 AS phase_seconds,
+           extract(epoch FROM clock_timestamp()) - 946684800 - s.param19 / 1e6 AS seconds,
+           s.param2 AS pages_read,
+           s.param3 AS pages_written
+    FROM pg_catalog.pg_stat_get_progress_info('CREATE INDEX') AS s,
+         pg_catalog.pg_database AS d
+    WHERE d.datname = current_database()
+      AND s.param20 = 107075168597363 -- 0x616261637573, "abacus"
+)
+SELECT pid,
+       relid::regclass AS mesh,
+       CASE phase
+           WHEN 0 THEN 'starting'
+           WHEN 1 THEN 'reading'
+           WHEN 2 THEN 'sorting'
+           WHEN 3 THEN 'staging'
+           WHEN 4 THEN 'inserting'
+           WHEN 5 THEN 'flushing'
+           WHEN 6 THEN 'checking'
+       END AS phase,
+       done,
+       total,
+       (done / nullif(phase_seconds, 0))::double precision AS per_second,
+       make_interval(secs => ((total - done) * phase_seconds / nullif(done, 0))::double precision)
+           AS time_left,
+       make_interval(secs => seconds::double precision) AS elapsed,
+       pages_read,
+       pages_written
+FROM build;
+COMMENT ON VIEW abacus_progress IS 'live figures of the builds and checks that run in any session';
+COMMENT ON COLUMN abacus_progress.pid IS 'process id of the session';
+COMMENT ON COLUMN abacus_progress.mesh IS 'the mesh; a number while its creation is not committed';
+COMMENT ON COLUMN abacus_progress.phase IS 'reading, sorting, staging, inserting, flushing or checking';
+COMMENT ON COLUMN abacus_progress.done IS 'points (checking: pages) done in this phase';
+COMMENT ON COLUMN abacus_progress.total IS 'of how many; NULL if not known';
+COMMENT ON COLUMN abacus_progress.per_second IS 'mean rate in this phase';
+COMMENT ON COLUMN abacus_progress.time_left IS 'in this phase, at that rate';
+COMMENT ON COLUMN abacus_progress.elapsed IS 'since the function began';
+COMMENT ON COLUMN abacus_progress.pages_read IS 'pages read back into the cache';
+COMMENT ON COLUMN abacus_progress.pages_written IS 'pages written';
+GRANT SELECT ON abacus_progress TO PUBLIC;

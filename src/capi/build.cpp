@@ -1,0 +1,32 @@
+// Building behind the C interface.
+#include "delaunay/build.hpp"
+
+#include "capi/dimension.hpp"
+#include "capi/guard.hpp"
+#include "capi/handle.hpp"
+
+struct abacus_build {
+    abacus_build(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
+        : host(*table), build(host, header, cache_bytes) {}
+
+    const abacus::Host host;
+    abacus::ByDimension<abacus::Build> build;
+};
+
+abacus_status abacus_build_open(const abacus_host *host, const abacus_header *header,
+                                size_t cache_bytes, abacus_build **build, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        *build = abacus::create_handle<abacus_build>(host, *header, cache_bytes);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_build_run(abacus_build *build, uint64_t limit, abacus_header *header,
+                               abacus_error *error) {
+    return abacus::guard(error, [&] {
+        build->build.visit([&](auto &run) { run.run(limit, *header); });
+        return ABACUS_OK;
+    });
+}
+
+void abacus_build_close(abacus_build *build) { abacus::destroy_handle(build); }

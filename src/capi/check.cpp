@@ -1,0 +1,31 @@
+// Verification behind the C interface.
+#include "query/check.hpp"
+
+#include "capi/dimension.hpp"
+#include "capi/guard.hpp"
+#include "capi/handle.hpp"
+
+struct abacus_check {
+    abacus_check(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes,
+                 std::size_t limit)
+        : host(*table), check(host, header, cache_bytes, limit) {}
+
+    const abacus::Host host;
+    abacus::ByDimension<abacus::Check> check;
+};
+
+abacus_status abacus_check_open(const abacus_host *host, const abacus_header *header,
+                                size_t cache_bytes, size_t limit, abacus_check **check,
+                                abacus_error *error) {
+    return abacus::guard(error, [&] {
+        *check = abacus::create_handle<abacus_check>(host, *header, cache_bytes, limit);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_check_next(abacus_check *check, abacus_fault *fault) {
+    return check->check.visit(
+        [&](auto &faults) { return faults.next(*fault) ? ABACUS_OK : ABACUS_END; });
+}
+
+void abacus_check_close(abacus_check *check) { abacus::destroy_handle(check); }

@@ -1,0 +1,65 @@
+// Exact verification of a stored mesh: what §4.11.2 of the dissertation asks for.
+//
+// Three passes, each independent of how the mesh was made:
+//
+//   pages     every page decodes; the intervals partition the curve; each simplex is
+//             in the page that owns its key and positively oriented; the counts add up
+//   topology  every link leads, by its stored key, to the simplex with the same facet
+//             in the opposite orientation; across every facet the empty-sphere
+//             criterion holds under the perturbation, and the hull is convex
+//   points    every staged point that counts as inserted is a vertex of the mesh with
+//             the id and attributes of the first such point; the staged sequence has
+//             no gap; in 2D, Euler's relation ties the counts together
+//
+// Locally Delaunay across every facet, with a convex hull and one component (Euler),
+// is globally Delaunay (Delaunay 1934), and under the perturbation unique.
+#pragma once
+
+#include "query/page_scan.hpp"
+#include "query/reader.hpp"
+#include "staging/vertex_reader.hpp"
+
+#include <memory_resource>
+#include <vector>
+
+namespace abacus {
+
+template <int D> class Check {
+public:
+    /// Verifies at once; keeps at most `limit` faults.
+    Check(const Host &host, const abacus_header &header, std::size_t cache_bytes,
+          std::size_t limit);
+
+    /// False after the last fault.
+    bool next(abacus_fault &fault) {
+        if (at_ == faults_.size()) return false;
+        fault = faults_[at_++];
+        return true;
+    }
+
+private:
+    void check_pages();
+    void check_page(const PageView<D> &page);
+    void check_topology();
+    void check_simplex(Cache<D> &cache, Handle h);
+    void check_points();
+
+    /// A fault; false when there is no room for more.
+    void fault(const char *kind, const Key &key, const char *message);
+    /// Runs a pass; a page so damaged that the pass cannot go on is a fault of its own.
+    template <class Pass> void run(const char *kind, Pass pass);
+    void report(std::uint64_t pages);
+
+    const Host &host_;
+    const abacus_header &header_;
+    std::size_t cache_bytes_, limit_;
+    HostMemory memory_;
+    Domain<D> domain_;
+    std::pmr::vector<abacus_fault> faults_;
+    std::size_t at_ = 0;
+    Key at_key_{}; // page at hand
+    std::uint64_t pages_ = 0;
+    std::uint64_t simplices_ = 0, ghosts_ = 0;
+};
+
+} // namespace abacus

@@ -1,0 +1,182 @@
+// The mesh equals CGAL's Delaunay triangulation, triangle by triangle, on inputs
+// that are hard in different ways, whatever the order of the points and the size of
+// the cache.
+#include "support/oracle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace abacus::test {
+namespace {
+
+using Points = std::vector<Point<2>>;
+using Random = std::mt19937_64;
+
+double unit(Random &random) { return std::uniform_real_distribution<double>(0, 1)(random); }
+
+Points make(int n, const std::function<Point<2>(int)> &point) {
+    Points points;
+    for (int i = 0; i < n; ++i) points.push_back(point(i));
+    return points;
+}
+
+struct DataSet {
+    const char *name;
+    std::function<Points(Random &)> points;
+};
+
+const DataSet data_sets[] = {
+    {"uniform",
+     [](Random &r) { return make(20000, [&](int) { return Point<2>{unit(r), unit(r)}; }); }},
+    {"grid",
+     [](Random &) {
+         return make(120 * 120, [](int i) { return Point<2>{i % 120 + 0.0, i / 120 + 0.0}; });
+     }},
+    {"negative_grid_with_duplicates",
+     [](Random &r) {
+         return make(9000, [&](int) {
+             return Point<2>{std::floor(unit(r) * 60) - 30, std::floor(unit(r) * 60) - 30};
+         });
+     }},
+    {"circle_and_centre",
+     [](Random &r) {
+         Points points = make(4000, [&](int) {
+             const double angle = 6.283185307179586 * unit(r);
+             return Point<2>{std::cos(angle), std::sin(angle)};
+         });
+         points.push_back({0, 0});
+         return points;
+     }},
+    {"exactly_cocircular", // integer points on one circle
+     [](Random &) {
+         constexpr int radius = 5 * 13 * 17 * 29;
+         Points points;
+         for (int x = -radius; x <= radius; ++x) {
+             const double y = std::sqrt(double(radius) * radius - double(x) * x);
+             if (y == std::floor(y)) {
+                 points.push_back({x + 0.0, y});
+                 if (y > 0) points.push_back({x + 0.0, -y});
+             }
+         }
+         return points;
+     }},
+    {"lines",
+     [](Random &r) {
+         return make(3000, [&](int i) {
+             const double t = unit(r) * 1000;
+             return i % 3 == 0 ? Point<2>{t, 0} : i % 3 == 1 ? Point<2>{t, t} : Point<2>{7, t};
+         });
+     }},
+    {"clusters_below_the_code",
+     [](Random &r) {
+         return make(8000, [&](int i) {
+             return Point<2>{i % 5 * 0.2 + unit(r) * 1e-12, i % 3 * 0.3 + unit(r) * 1e-12};
+         });
+     }},
+    {"cluster_at_zero",
+     [](Random &r) {
+         Points points = make(6000, [&](int) {
+             return Point<2>{(unit(r) - 0.5) * 1e-30, (unit(r) - 0.5) * 1e-30};
+         });
+         for (const double x : {-1.0, 1.0})
+             for (const double y : {-1.0, 1.0}) points.push_back({x, y});
+         return points;
+     }},
+    {"exponents",
+     [](Random &r) {
+         const auto any = [&] { return std::ldexp(unit(r) - 0.5, int(r() % 1990) - 995); };
+         return make(1500, [&](int) { return Point<2>{any(), any()}; });
+     }},
+    {"largest_doubles",
+     [](Random &r) {
+         return make(800, [&](int) {
+             return Point<2>{(2 * unit(r) - 1) * 1.7e308, (2 * unit(r) - 1) * 1.7e308};
+         });
+     }},
+    {"denormals",
+     [](Random &r) {
+         return make(800, [&](int) {
+             return Point<2>{5e-324 * std::floor(unit(r) * 100), 5e-324 * std::floor(unit(r) * 100)};
+         });
+     }},
+};
+
+// Caches of three blocks, of some, and of all.
+constexpr std::size_t cache_sizes[] = {60 << 10, 600 << 10, std::size_t(1) << 30};
+
+class Triangulation : public testing::TestWithParam<DataSet> {};
+
+TEST_P(Triangulation, EqualsCgalForEveryOrderAndCacheSize) {
+    Random random(7);
+    Points points = GetParam().points(random);
+    const std::vector<Triangle> expected = cgal_triangles(points);
+    for (const std::size_t cache : cache_sizes) {
+        std::shuffle(points.begin(), points.end(), random);
+        Mesh mesh(0, cache);
+        ASSERT_EQ(mesh.stage(number(points)), ABACUS_OK) << mesh.error.message;
+        ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message << ' ' << mesh.error.detail;
+        EXPECT_EQ(mesh.header.simplices, expected.size());
+        EXPECT_EQ(mesh.header.vertices + mesh.header.duplicates, points.size());
+        EXPECT_EQ(mesh.triangles(), expected) << "cache of " << cache << " bytes";
+        EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+        EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Inputs, Triangulation, testing::ValuesIn(data_sets),
+                         [](const auto &info) { return info.param.name; });
+
+TEST(Triangulation, AddsToAMeshThatIsThere) {
+    Random random(3);
+    Points points = make(12000, [&](int) { return Point<2>{unit(random), unit(random)}; });
+    // The second half reaches outside the domain of the first, and repeats points.
+    for (std::size_t i = 6000; i < points.size(); ++i)
+        if (i % 10 == 0) points[i] = points[i - 6000];
+        else points[i] = {points[i][0] * 3 - 1, points[i][1] * 3 - 1};
+    const std::vector<Input> all = number(points);
+    Mesh mesh(0, 100 << 10);
+    ASSERT_EQ(mesh.stage({all.begin(), all.begin() + 6000}), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK);
+    ASSERT_EQ(mesh.stage({all.begin() + 6000, all.end()}), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.detail;
+    EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+    EXPECT_EQ(mesh.header.duplicates, 600u);
+    EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+}
+
+TEST(Triangulation, TheFourPointsThatGeosGetsWrong) {
+    // libgeos issue 1286: these coordinates' exact triangulation, by rational arithmetic.
+    const Points points = {{-118.3, 34.0}, {-118.2, 34.0}, {-118.2, 34.1}, {-118.3, 34.1}};
+    Mesh mesh;
+    ASSERT_EQ(mesh.stage(number(points)), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK);
+    EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+}
+
+TEST(Triangulation, FewerDimensionsMakeAnEmptyMeshThatCanGrow) {
+    const std::vector<Points> inputs = {
+        {}, {{1, 2}}, {{1, 2}, {3, 4}}, {{1, 2}, {1, 2}, {1, 2}}, {{0, 0}, {1, 1}, {2, 2}, {1, 1}}};
+    for (const Points &points : inputs) {
+        Mesh mesh;
+        ASSERT_EQ(mesh.stage(number(points)), ABACUS_OK);
+        ASSERT_EQ(mesh.build(), ABACUS_OK);
+        EXPECT_EQ(mesh.header.simplices, 0u);
+        EXPECT_EQ(mesh.header.points, points.size());
+        EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+        abacus_simplex simplex;
+        EXPECT_EQ(mesh.locate({1, 2}, simplex), ABACUS_END);
+
+        Points more = points;
+        more.insert(more.end(), {{5, 0}, {0, 7}, {9, 9}});
+        ASSERT_EQ(mesh.stage(number({{5, 0}, {0, 7}, {9, 9}})), ABACUS_OK);
+        ASSERT_EQ(mesh.build(), ABACUS_OK);
+        EXPECT_EQ(mesh.triangles(), cgal_triangles(more));
+        EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+    }
+}
+
+} // namespace
+} // namespace abacus::test
