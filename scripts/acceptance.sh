@@ -15,13 +15,13 @@ mode=${1:-quick}
 case $mode in
 quick)
     sets=(uniform:100000 grid:100000 circle:20000 rounded_circle:20000 wheel:20000 lines:50000
-        clusters:100000 exponents:20000 duplicates:100000)
+        clusters:100000 exponents:5000 duplicates:100000)
     # cache (MB, or the smallest, largest or default size):order
     runs=(smallest:made default:shuffled largest:sorted smallest:reversed)
     ;;
 full)
     sets=(uniform:1000000 grid:4000000 circle:100000 rounded_circle:100000 wheel:100000
-        lines:1000000 clusters:1000000 exponents:1000000 duplicates:1000000
+        lines:1000000 clusters:1000000 exponents:20000 duplicates:1000000
         shorelines:0 uniform:10000000)
     runs=(smallest:made 8:made 64:made largest:made default:shuffled smallest:sorted 8:reversed)
     ;;
@@ -57,17 +57,21 @@ cache_size() {
 
 # One build of the table points: faults of abacus_check, then the comparison.
 compare() {
-    local cache=$1 order=$2 faults result
+    local cache=$1 order=$2 faults result start built checked
+    start=${EPOCHREALTIME/./}
     run_psql -o /dev/null -c "SET abacus.cache_size = '${cache}MB'" \
         -c "SELECT abacus_triangulate('mesh', 'SELECT id, x, y FROM points ${order_by[$order]}')"
+    built=${EPOCHREALTIME/./}
     faults=$(run_psql -A -t -c "SELECT * FROM abacus_check('mesh') LIMIT 3")
+    checked=${EPOCHREALTIME/./}
     result=$(run_psql -c "COPY (SELECT code, v0, v1, v2 FROM abacus_simplices('mesh'))
                           TO STDOUT (FORMAT binary)" |
         ABACUS_ORACLE_FIRST_IDS=$([[ $order == made ]] && echo 1 || echo 0) \
             "$oracle/oracle_compare" 2 "$folder/points.copy" - "$folder/kept") || true
     run_psql -c "DROP TABLE mesh, mesh_vertices"
     compared=$((compared + 1))
-    printf '%-15s cache %7s MB  %-8s %s\n' "$name" "$cache" "$order" "${result##*$'\n'}"
+    printf '%-15s cache %8s MB  %-8s  built in %6d ms, checked in %6d ms  %s\n' "$name" "$cache" \
+        "$order" $(((built - start) / 1000)) $(((checked - built) / 1000)) "${result##*$'\n'}"
     if [[ ${result##*$'\n'} != equal:* || -n $faults ]]; then
         differing=$((differing + 1))
         printf '%s\n%s\n' "$result" "$faults"

@@ -108,12 +108,14 @@ timed "triangulate it" run_psql -c \
     "SELECT abacus_triangulate('terrain', 'SELECT id, x, y, height FROM terrain_points') AS triangles"
 
 heading "Pictures"
+timed "draw the world, all of its triangles" draw world.png \
+    "SELECT abacus_draw('shorelines', width => 1600)"
 timed "draw the Aegean" draw aegean.png \
-    "SELECT abacus_draw('shorelines', lower => '{22.5,35.2}', upper => '{28.5,40.6}', width => 1200, max_edge => 0.25)"
-timed "draw the fjords of Norway" draw fjords.png \
-    "SELECT abacus_draw('shorelines', lower => '{4.8,60.6}', upper => '{7.8,62.2}', width => 1200, max_edge => 0.1)"
-timed "draw the terrain" draw terrain.png \
-    "SELECT abacus_draw('terrain', width => 1200, attribute => 'height', exaggeration => 2)"
+    "SELECT abacus_draw('shorelines', width => 1200, lower => '{22.5,35.2}', upper => '{28.5,40.6}')"
+timed "draw the fjords around Bergen, short edges only" draw fjords.png \
+    "SELECT abacus_draw('shorelines', width => 1200, lower => '{4.7,59.9}', upper => '{6.7,61.1}', max_edge => 0.12)"
+timed "draw the terrain, shaded" draw terrain.png \
+    "SELECT abacus_draw('terrain', width => 1200, attribute => 'height', edges => false, exaggeration => 2)"
 
 note "points of the shorelines" "$(value 'SELECT count(*) FROM shorelines_points')"
 note "triangles" "$(value "SELECT count(*) FROM abacus_simplices('shorelines')")"

@@ -23,7 +23,7 @@ Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
     : host_(host), memory_(host), domain_(domain), options_(options),
       capacity_(block_capacity<D>(attributes)), blocks_(host), slots_(host),
       vertices_(host, attributes), visible_(host), directory_(&memory_), unused_blocks_(host),
-      limbo_(host), places_(host), local_(host), numbered_(host), corners_(host), beyond_(host), facets_(host) {}
+      limbo_(host), places_(host), local_(host), numbered_(host), corners_(host), outside_(host), beyond_(host), facets_(host) {}
 
 template <int D> Handle Cache<D>::follow(Handle h) const {
     // A simplex moves at most from limbo to a block that is then split.
@@ -109,52 +109,16 @@ typename Cache<D>::BlockIndex Cache<D>::cached_owner(const Key &key) const {
     return blocks_[at->second].owns(key) ? at->second : no_block;
 }
 
-template <int D> Handle Cache<D>::take_slot(BlockIndex b) {
-    Block &block = blocks_[b];
-    std::uint32_t slot = block.free;
-    if (slot != no_slot) block.free = slots_[b * block_slots<D> + slot].link[0];
-    else slot = block.high_water++;
-    ++block.count;
-    block.dirty = true;
-    block.used_at = clock_;
-    return b * block_slots<D> + slot;
-}
-
-template <int D> Handle Cache<D>::create(const std::array<VertexIndex, D + 1> &vertices) {
-    Simplex<D> s;
-    s.vertex = vertices;
-    const std::uint64_t code = this->code(s);
-    BlockIndex b = at_hand_;
-    if (b == no_block || !blocks_[b].surely_owns(code)) {
-        b = cached_owner({code, 0});
-        if (b != no_block && blocks_[b].surely_owns(code)) at_hand_ = b;
-        else b = no_block;
+template <int D>
+typename Cache<D>::BlockIndex Cache<D>::place_elsewhere(const Cell<D> &cell) {
+    const BlockIndex b = cached_owner({morton<D>(cell), 0});
+    if (b != no_block && blocks_[b].surely_owns(cell)) {
+        at_hand_ = b;
+        if (blocks_[b].count < capacity_) return b;
     }
-    if (b == no_block || blocks_[b].count >= capacity_) {
-        if (limbo_.empty() || blocks_[limbo_.back()].count >= block_slots<D>)
-            limbo_.push_back(new_block(Block::limbo));
-        b = limbo_.back();
-    }
-    const Handle h = take_slot(b);
-    slots_[h].vertex = vertices;
-    for (const VertexIndex v : vertices) vertices_.acquire(v);
-    ++counters.created;
-    return h;
-}
-
-template <int D> void Cache<D>::destroy(Handle h) {
-    const BlockIndex b = block_of<D>(h);
-    Block &block = blocks_[b];
-    Simplex<D> &s = slots_[h];
-    for (const VertexIndex v : s.vertex) vertices_.release(v);
-    s.vertex[0] = free_mark;
-    s.link[0] = block.free;
-    s.link[1] = no_handle;
-    block.free = h - b * block_slots<D>;
-    --block.count;
-    block.dirty = true;
-    block.used_at = clock_;
-    ++counters.deleted;
+    if (limbo_.empty() || blocks_[limbo_.back()].count >= block_slots<D>)
+        limbo_.push_back(new_block(Block::limbo));
+    return limbo_.back();
 }
 
 template <int D> Handle Cache<D>::start(std::uint64_t code, const Point<D> &p) {

@@ -82,12 +82,20 @@ public:
     // ---- Keys ----------------------------------------------------------------
 
     const Domain<D> &domain() const { return domain_; }
-    std::uint64_t code(const Simplex<D> &s) const {
+    Cell<D> cell(const std::array<VertexIndex, D + 1> &vertices) const {
         std::array<const Cell<D> *, D + 1> cells;
-        for (int i = 0; i <= D; ++i) cells[i] = &vertices_[s.vertex[i]].cell;
-        return simplex_code<D>(cells, s.is_ghost());
+        for (int i = 0; i <= D; ++i) cells[i] = &vertices_[vertices[i]].cell;
+        return mean_cell<D>(cells, vertices[D] == infinite_vertex);
     }
+    std::uint64_t code(const Simplex<D> &s) const { return morton<D>(cell(s.vertex)); }
     Key key(const Simplex<D> &s) const;
+    /// Whether the simplex is in the block that owns its key.
+    bool is_home(Handle h) const {
+        const Simplex<D> &s = slots_[h];
+        const Block &block = blocks_[block_of<D>(h)];
+        const std::uint64_t code = this->code(s);
+        return block.surely_owns(code) || block.owns({code, part(s)});
+    }
     /// Whether the cached block around h owns the code.
     bool near(Handle h, std::uint64_t code) const {
         return blocks_[block_of<D>(h)].surely_owns(code);
@@ -110,9 +118,26 @@ public:
     }
     void destroy_vertex(VertexIndex v) { vertices_.destroy(v); }
     /// A new simplex with unset links.
-    Handle create(const std::array<VertexIndex, D + 1> &vertices);
+    Handle create(const std::array<VertexIndex, D + 1> &vertices) {
+        const Cell<D> cell = this->cell(vertices);
+        BlockIndex b = at_hand_;
+        if (b == no_block || blocks_[b].count >= capacity_ || !blocks_[b].surely_owns(cell))
+            [[unlikely]]
+            b = place_elsewhere(cell);
+        const Handle h = take_slot(b);
+        for (int i = 0; i <= D; ++i) {
+            slots_[h].vertex[i] = vertices[i];
+            vertices_.acquire(vertices[i]);
+        }
+        ++counters.created;
+        return h;
+    }
     /// Frees the slot; the neighbours keep their links to it.
-    void destroy(Handle h);
+    void destroy(Handle h) {
+        for (const VertexIndex v : slots_[h].vertex) vertices_.release(v);
+        give_back(h, no_handle);
+        ++counters.deleted;
+    }
     void connect(Link a, Link b) {
         slots_[link_simplex(a)].link[link_facet(a)] = b;
         slots_[link_simplex(b)].link[link_facet(b)] = a;
@@ -124,10 +149,13 @@ public:
         block.used_at = clock_;
     }
     void mark_used(Handle h) { blocks_[block_of<D>(h)].used_at = clock_; }
-    /// Ends an operation: brings limbo home. Sequential splits cut near `code`.
-    void settle(std::uint64_t code) {
+    /// Ends an operation: brings limbo home. Sequential splits cut near `code`. Returns
+    /// whether simplices moved: see follow().
+    bool settle(std::uint64_t code) {
         ++clock_;
-        if (!limbo_.empty()) [[unlikely]] settle_limbo(code);
+        if (limbo_.empty()) [[likely]] return false;
+        settle_limbo(code);
+        return true;
     }
     /// Evicts while the budget is exceeded. Handles may die: see is_live().
     void trim() {
@@ -151,6 +179,7 @@ private:
         enum State : std::uint8_t { unused, cached, limbo };
         Key lower, upper;
         std::uint64_t sure_lower, sure_upper; // codes that it owns whatever their part
+        Cell<D> sure_lower_cell, sure_upper_cell;
         std::uint64_t location;               // of the stored page; 0 = none
         std::uint64_t used_at;
         std::uint32_t count;      // simplices
@@ -164,7 +193,12 @@ private:
             lower = from;
             upper = to;
             sure_lower = from.code + (from.part != 0);
-            sure_upper = to.code;
+            sure_upper = std::min<std::uint64_t>(to.code, 1ull << (D * code_bits<D>));
+            sure_lower_cell = cell_of<D>(sure_lower);
+            sure_upper_cell = cell_of<D>(sure_upper);
+        }
+        bool surely_owns(const Cell<D> &cell) const {
+            return !morton_less<D>(cell, sure_lower_cell) && morton_less<D>(cell, sure_upper_cell);
         }
         bool surely_owns(std::uint64_t code) const {
             return sure_lower <= code && code < sure_upper;
@@ -181,7 +215,30 @@ private:
     BlockIndex new_block(typename Block::State state);
     void free_block(BlockIndex b);
     BlockIndex cached_owner(const Key &key) const;
-    Handle take_slot(BlockIndex b);
+    BlockIndex place_elsewhere(const Cell<D> &cell);
+    Handle take_slot(BlockIndex b) {
+        Block &block = blocks_[b];
+        std::uint32_t slot = block.free;
+        if (slot != no_slot) block.free = slots_[b * block_slots<D> + slot].link[0];
+        else slot = block.high_water++;
+        ++block.count;
+        block.dirty = true;
+        block.used_at = clock_;
+        return b * block_slots<D> + slot;
+    }
+    /// Frees a slot; `moved` is where its simplex went.
+    void give_back(Handle h, Handle moved) {
+        const BlockIndex b = block_of<D>(h);
+        Block &block = blocks_[b];
+        Simplex<D> &s = slots_[h];
+        s.vertex[0] = free_mark;
+        s.link[0] = block.free;
+        s.link[1] = moved;
+        block.free = h - b * block_slots<D>;
+        --block.count;
+        block.dirty = true;
+        block.used_at = clock_;
+    }
     template <class Visit> void for_each_simplex(BlockIndex b, Visit visit) {
         for (std::uint32_t slot = 0; slot < blocks_[b].high_water; ++slot) {
             const Handle h = b * block_slots<D> + slot;
@@ -200,10 +257,11 @@ private:
         Key key;
         Handle handle;
     };
-    /// Fills places_ with the block's simplices in key order.
+    /// Fills places_ with the block's simplices and their keys.
     void collect_places(BlockIndex b);
-    /// The index next to `wanted` before which places_ can be cut.
-    std::size_t cut_near(std::size_t wanted) const;
+    /// Parts places_ at about `wanted`: all keys below the returned index are less than
+    /// the one there, which is the least from there on. places_.size() if impossible.
+    std::size_t cut_near(std::size_t wanted);
     void make_room(BlockIndex b, std::uint64_t code);
     bool lend_left(BlockIndex b);
     bool lend_right(BlockIndex b);
@@ -225,6 +283,7 @@ private:
     void load_vertices(const PageView<D> &view);
     void link_inside(int simplices, Handle first);
     void link_outside(const PageView<D> &view, Handle first);
+    bool leads_to(const Key &link, Handle h) const;
 
     // probing.cpp
     void probe(Handle h, int facet);
@@ -241,6 +300,7 @@ private:
     void evict(Arena<BlockIndex> &victims);
     void unlink(BlockIndex b);
     void store(BlockIndex b);
+    void prefetch(BlockIndex b);
     bool encode(BlockIndex b);
     Key key_beyond(Handle h, int facet) const;
 
@@ -276,6 +336,7 @@ private:
     Arena<LocalNumber> local_;      // of each vertex, valid in the present epoch
     Arena<VertexIndex> numbered_;   // vertices by local number
     Arena<std::uint32_t> corners_;  // local numbers, D + 1 a simplex
+    Arena<Handle> outside_;         // simplices beyond the border of a block
     Arena<Key> beyond_;             // keys of neighbours in other pages
     Arena<LocalFacet> facets_;      // hash table of the facets inside a page
     std::uint32_t epoch_ = 0;

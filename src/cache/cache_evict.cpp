@@ -4,11 +4,20 @@
 // whole; then the links between a leaving and a staying simplex become visible
 // facets, and vertices that no cached simplex uses any more are freed. Links
 // between two leaving blocks need nothing.
+//
+// What leaves has not been used for long, so it is in no processor cache, and a page
+// is made from some hundred places in memory: the vertices, and the simplices beyond
+// its border. encode() asks for all of them before it reads the first. A batch is
+// small enough for what encode() read to be near still when unlink() needs it.
 #include "cache/cache.hpp"
 
 #include "cache/stopwatch.hpp"
 
 namespace abacus {
+
+namespace {
+constexpr std::size_t largest_batch = 64; // blocks
+} // namespace
 
 template <int D> void Cache<D>::shrink() {
     struct Age {
@@ -23,8 +32,8 @@ template <int D> void Cache<D>::shrink() {
         ages.clear();
         for (BlockIndex b = 0; b < blocks_.size(); ++b)
             if (blocks_[b].state == Block::cached) ages.push_back({blocks_[b].used_at, b});
-        const std::size_t batch =
-            std::min(std::max<std::size_t>(1, ages.size() / 10), ages.size() - 2);
+        const std::size_t batch = std::min(
+            std::clamp<std::size_t>(ages.size() / 10, 1, largest_batch), ages.size() - 2);
         std::nth_element(ages.begin(), ages.begin() + batch, ages.end(),
                          [](const Age &a, const Age &b) { return a.used_at < b.used_at; });
         victims.clear();
@@ -104,9 +113,27 @@ template <int D> Key Cache<D>::key_beyond(Handle h, int facet) const {
     return {code(s), blocks_[block_of<D>(neighbour)].has_parts() ? part(s) : 0};
 }
 
+template <int D> void Cache<D>::prefetch(BlockIndex b) {
+    outside_.clear();
+    for_each_simplex(b, [&](Handle h) {
+        for (int i = 0; i <= D; ++i) {
+            const VertexIndex v = slots_[h].vertex[i];
+            __builtin_prefetch(&vertices_[v]);
+            __builtin_prefetch(&local_[v]);
+            const Link link = slots_[h].link[i];
+            if (is_absent(link) || block_of<D>(link_simplex(link)) == b) continue;
+            __builtin_prefetch(&slots_[link_simplex(link)]);
+            outside_.push_back(link_simplex(link));
+        }
+    });
+    for (const Handle h : outside_)
+        for (const VertexIndex v : slots_[h].vertex) __builtin_prefetch(&vertices_[v]);
+}
+
 template <int D> bool Cache<D>::encode(BlockIndex b) {
     const Stopwatch stopwatch(counters.translation_ns);
     next_epoch();
+    prefetch(b);
     numbered_.clear();
     corners_.clear();
     beyond_.clear();

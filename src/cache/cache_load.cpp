@@ -17,6 +17,9 @@ namespace {
 constexpr Link unset = 0xffffffffu;
 constexpr std::size_t facet_table_size = 4096; // more than twice the facets of a page
 
+// Place of a vertex in the page that is being loaded.
+constexpr std::uint32_t inner = 0, on_border = 1;
+
 } // namespace
 
 template <int D> Link Cache<D>::miss(Handle h, int facet) {
@@ -24,11 +27,9 @@ template <int D> Link Cache<D>::miss(Handle h, int facet) {
     host_.poll();
     const Key beyond = visible_[slots_[h].link[facet] & ~absent].beyond;
     const bool known = options_.stored_links && beyond.code != unknown_code;
-    if (!known || !follow_stored_link(h, facet, beyond)) {
-        if (known && options_.verify_links)
-            throw_corrupted("A link has a key under which its neighbour is not found.");
-        probe(h, facet);
-    }
+    if (!known) probe(h, facet);
+    else if (!follow_stored_link(h, facet, beyond))
+        throw_corrupted("A link has a key under which its neighbour is not found.");
     return slots_[h].link[facet];
 }
 
@@ -133,8 +134,12 @@ template <int D> void Cache<D>::load_vertices(const PageView<D> &view) {
             throw_corrupted("A page has the same vertex twice.");
         } else if (vertices_.id(v) != view.id(n)) {
             throw_corrupted("Two pages have different ids for one vertex.");
+        } else if (view.attributes() > 0 &&
+                   std::memcmp(vertices_.attributes(v), view.attributes(n),
+                               view.attributes() * sizeof(double)) != 0) {
+            throw_corrupted("Two pages have different attributes for one vertex.");
         }
-        local_[v].epoch = epoch_;
+        local_[v] = {epoch_, inner};
         numbered_[n] = v;
     }
 }
@@ -164,11 +169,20 @@ template <int D> void Cache<D>::link_inside(int simplices, Handle first) {
 }
 
 template <int D> void Cache<D>::link_outside(const PageView<D> &view, Handle first) {
-    int links = 0;
+    int links = 0, border_vertices = 0;
     for (int s = 0; s < view.simplices(); ++s) {
         for (int i = 0; i <= D; ++i) {
             const Handle h = first + s;
             if (slots_[h].link[i] != unset) continue;
+            for (int j = 0; j <= D; ++j) {
+                const std::uint32_t n = corners_[s * (D + 1) + j];
+                if (j == i || n >= numbered_.size()) continue;
+                if (static_cast<int>(n) >= view.border_vertices())
+                    throw_corrupted("A page counts a vertex on its border as an inner one.");
+                std::uint32_t &place = local_[numbered_[n]].number;
+                border_vertices += place == inner;
+                place = on_border;
+            }
             if (links == view.links()) throw_corrupted("A page has too few links.");
             const Key beyond = view.link(links++);
             if ((beyond.code >= key_word_end && beyond.code != unknown_code) ||
@@ -186,15 +200,22 @@ template <int D> void Cache<D>::link_outside(const PageView<D> &view, Handle fir
             const Link owner = visible_[number].owner;
             if (this->facet(link_simplex(owner), link_facet(owner)).odd == outer.odd)
                 throw_corrupted("Neighbours have different orientations.");
-            if (options_.verify_links &&
-                (visible_[number].beyond.code != code(slots_[h]) ||
-                 beyond.code != code(slots_[link_simplex(owner)])))
+            if (options_.verify_links && !(leads_to(visible_[number].beyond, h) &&
+                                           leads_to(beyond, link_simplex(owner))))
                 throw_corrupted("A link has the key of another simplex than its neighbour.");
             visible_.remove(number);
             connect(owner, link);
         }
     }
     if (links != view.links()) throw_corrupted("A page has too many links.");
+    if (border_vertices != view.border_vertices())
+        throw_corrupted("A page counts an inner vertex as one on its border.");
+}
+
+template <int D> bool Cache<D>::leads_to(const Key &link, Handle h) const {
+    if (link.code != code(slots_[h])) return false;
+    // A part of 0 may stand for any: there was none when the link was stored.
+    return link.part == unknown_part || link.part == 0 || link.part == part(slots_[h]);
 }
 
 template class Cache<2>;

@@ -53,47 +53,51 @@ template <int D> Handle Cache<D>::move(Handle h, BlockIndex to) {
         if (is_absent(link)) visible_[link & ~absent].owner = make_link(moved, i);
         else slots_[link_simplex(link)].link[link_facet(link)] = make_link(moved, i);
     }
-    const BlockIndex from = block_of<D>(h);
-    Block &block = blocks_[from];
-    slots_[h].vertex[0] = free_mark;
-    slots_[h].link[0] = block.free;
-    slots_[h].link[1] = moved;
-    block.free = h - from * block_slots<D>;
-    --block.count;
-    block.dirty = true;
+    give_back(h, moved);
     return moved;
 }
 
 template <int D> void Cache<D>::collect_places(BlockIndex b) {
     places_.clear();
-    for_each_simplex(b, [&](Handle h) { places_.push_back({{code(slots_[h]), 0}, h}); });
-    const auto by_key = [](const Place &a, const Place &b) { return a.key < b.key; };
-    std::sort(places_.begin(), places_.end(), by_key);
+    std::uint64_t least = key_word_end, greatest = 0;
+    for_each_simplex(b, [&](Handle h) {
+        const std::uint64_t c = code(slots_[h]);
+        least = std::min(least, c);
+        greatest = std::max(greatest, c);
+        places_.push_back({{c, 0}, h});
+    });
     // Parts are dear to compute and rarely matter: only inside one code.
-    if (!places_.empty() &&
-        (places_[0].key.code == places_.back().key.code || blocks_[b].has_parts())) {
+    if (least == greatest || blocks_[b].has_parts())
         for (Place &place : places_) place.key.part = part(slots_[place.handle]);
-        std::sort(places_.begin(), places_.end(), by_key);
-    }
 }
 
-template <int D> std::size_t Cache<D>::cut_near(std::size_t wanted) const {
-    // Equal keys stay together.
-    const auto changes = [&](std::size_t i) { return places_[i - 1].key < places_[i].key; };
-    std::size_t up = std::max<std::size_t>(wanted, 1), down = up;
-    while (up < places_.size() && !changes(up)) ++up;
-    while (down > 0 && !changes(down)) --down;
-    if (down == 0 || (up < places_.size() && up - wanted <= wanted - down)) return up;
-    return down;
+template <int D> std::size_t Cache<D>::cut_near(std::size_t wanted) {
+    const auto by_key = [](const Place &a, const Place &b) { return a.key < b.key; };
+    const std::size_t n = places_.size();
+    wanted = std::clamp<std::size_t>(wanted, 1, n - 1);
+    std::nth_element(places_.begin(), places_.begin() + wanted, places_.end(), by_key);
+    // Equal keys stay together: all that equal the wanted one go to the upper part, or,
+    // when nothing would be left below, to the lower one.
+    const Key border = places_[wanted].key;
+    const auto below = static_cast<std::size_t>(
+        std::partition(places_.begin(), places_.begin() + wanted,
+                       [&](const Place &p) { return p.key < border; }) -
+        places_.begin());
+    if (below > 0) return below;
+    const auto equal = static_cast<std::size_t>(
+        std::partition(places_.begin() + wanted, places_.end(),
+                       [&](const Place &p) { return p.key == border; }) -
+        places_.begin());
+    if (equal < n) std::nth_element(places_.begin() + equal, places_.begin() + equal,
+                                    places_.end(), by_key);
+    return equal;
 }
 
 template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
     collect_places(b);
     const std::size_t n = places_.size();
-    const auto behind = static_cast<std::size_t>(
-        std::lower_bound(places_.begin(), places_.end(), code,
-                         [](const Place &a, std::uint64_t c) { return a.key.code < c; }) -
-        places_.begin());
+    const auto behind = static_cast<std::size_t>(std::count_if(
+        places_.begin(), places_.end(), [&](const Place &p) { return p.key.code < code; }));
     if (behind >= sequential_from * n && behind < finished_from * n) {
         split_at(b, std::min(behind, static_cast<std::size_t>(sequential_to * n)));
         return;

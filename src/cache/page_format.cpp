@@ -30,6 +30,8 @@ PageView<D> PageView<D>::parse(const unsigned char *bytes, std::size_t size, int
                 header.simplices <= block_slots<D> && header.border_vertices <= header.vertices &&
                 header.links <= header.simplices * (D + 1),
             "A simplex page has impossible counts.");
+    require(((header.flags & PageHeader::wide) != 0) == (header.vertices > 255),
+            "A simplex page's vertex numbers have the wrong size.");
     require(header.lower < header.upper && header.upper <= end_key &&
                 header.lower.part < key_word_end && header.upper.part < key_word_end,
             "A simplex page has an impossible interval.");
@@ -37,8 +39,10 @@ PageView<D> PageView<D>::parse(const unsigned char *bytes, std::size_t size, int
     const PageView page(bytes, header);
     require(page.layout_.size == size, "A simplex page's size does not fit its counts.");
     for (int v = 0; v < page.vertices(); ++v)
-        for (const double x : page.point(v))
+        for (const double x : page.point(v)) {
             require(std::isfinite(x), "A simplex page has a coordinate that is not finite.");
+            require(x != 0 || !std::signbit(x), "A simplex page has a coordinate of minus zero.");
+        }
     for (int s = 0; s < page.simplices(); ++s) {
         for (int i = 0; i <= D; ++i) {
             const int corner = page.corner(s, i);

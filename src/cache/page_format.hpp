@@ -82,15 +82,16 @@ public:
     /// Whether the box of the page's vertices meets the box [lower, upper].
     bool meets(const Point<D> &lower, const Point<D> &upper) const {
         for (int i = 0; i < D; ++i)
-            if (upper[i] < get<double>(layout_.box, i) || get<double>(layout_.box, D + i) < lower[i])
-                return false;
+            if (upper[i] < box(i) || box(D + i) < lower[i]) return false;
         return true;
     }
+    /// The box's lower bounds, then its upper ones.
+    double box(int i) const { return get<double>(layout_.box, i); }
+    bool has_parts() const { return (header_.flags & PageHeader::long_links) != 0; }
     std::int64_t id(int vertex) const { return get<std::int64_t>(layout_.ids, vertex); }
     Point<D> point(int vertex) const {
         Point<D> p;
         std::memcpy(p.data(), bytes_ + layout_.points + vertex * sizeof p, sizeof p);
-        for (double &x : p) x += 0.0; // -0.0 is +0.0
         return p;
     }
     double attribute(int vertex, int i) const {
@@ -102,8 +103,7 @@ public:
     }
     Key link(int i) const {
         return {get<std::uint64_t>(layout_.links, i),
-                header_.flags & PageHeader::long_links ? get<std::uint64_t>(layout_.parts, i)
-                                                       : unknown_part};
+                has_parts() ? get<std::uint64_t>(layout_.parts, i) : unknown_part};
     }
     /// Vertex number of a corner; vertices() for the point at infinity.
     int corner(int simplex, int i) const {

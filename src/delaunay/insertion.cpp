@@ -39,7 +39,7 @@ template <int D> Handle Insertion<D>::find_conflict(const Point<D> &p, std::uint
     }
     if (from == no_handle) from = cache_.start(code, p);
     if (from == no_handle) throw_corrupted("The mesh has no simplices.");
-    const Handle h = walk_.to(p, from);
+    const Handle h = walk_.to(p, from, static_cast<std::uint64_t>(simplices_ + ghosts_));
     const Simplex<D> &s = cache_.simplex(h);
     for (int i = 0; i < s.finite_vertices(); ++i)
         if (cache_.point(s.vertex[i]) == p) return no_handle;
@@ -53,11 +53,11 @@ bool Insertion<D>::insert(const Point<D> &p, std::int64_t id, const double *attr
     if (first == no_handle) return false;
     find_cavity(p, first);
     fill_cavity(cache_.create_vertex(p, id, attributes));
-    cache_.settle(code);
-    // The last ones are nearest to the hand of the placement.
+    const bool moved = cache_.settle(code);
     for (std::size_t i = 0; i < recent_.size(); ++i)
-        recent_[i] = i < created_.size() ? cache_.follow(created_[created_.size() - 1 - i])
-                                         : no_handle;
+        recent_[i] = i >= created_.size() ? no_handle
+                     : moved              ? cache_.follow(created_[i])
+                                          : created_[i];
     ++cache_.counters.insertions;
     cache_.trim();
     return true;
@@ -80,72 +80,46 @@ template <int D> void Insertion<D>::find_cavity(const Point<D> &p, Handle first)
         if (side_of<D>(cache_, s, p) == Side::inside) {
             cavity_.push_back(h);
             if (cavity_.size() % 4096 == 0) cache_.poll();
-            const int from = link_facet(outer);
-            for (int i = D; i > 0; --i) stack_.push_back(make_link(h, (from + i) % (D + 1)));
+            for (int i = D, facet = link_facet(outer); i > 0; --i) {
+                facet = facet == 0 ? D : facet - 1;
+                stack_.push_back(make_link(h, facet));
+            }
         } else {
-            const Simplex<D> &inside = cache_.simplex(link_simplex(inner));
-            Rim rim;
-            rim.outer = outer;
-            for (int i = 0; i < D; ++i)
-                rim.vertex[i] = inside.vertex[(link_facet(inner) + 1 + i) % (D + 1)];
-            rim_.push_back(rim);
+            rim_.push_back({outer, link_facet(inner), cache_.simplex(link_simplex(inner)).vertex});
         }
-        if (static_cast<std::int64_t>(cavity_.size()) > simplices_ + ghosts_)
+        if (cavity_.size() > cache_.cached_blocks() * std::size_t(block_slots<D>))
             throw_corrupted("The simplices around a point are not a triangulation.");
     }
 }
 
-template <int D>
-Handle Insertion<D>::create(std::array<VertexIndex, D + 1> &vertices,
-                            std::array<int, D + 1> &facet_at) {
-    // A ghost has the point at infinity last: an even permutation takes it there.
-    for (int i = 0; i <= D; ++i) facet_at[i] = i;
-    if (vertices[D] != infinite_vertex) {
-        for (int i = 0; i < D; ++i) {
-            if (vertices[i] != infinite_vertex) continue;
-            std::array<VertexIndex, D + 1> turned;
-            if constexpr (D == 2) { // rotation
-                for (int j = 0; j <= D; ++j) {
-                    facet_at[j] = (j + D - i) % (D + 1);
-                    turned[facet_at[j]] = vertices[j];
-                }
-            } else { // two transpositions
-                const int other = i == 0 ? 1 : 0, third = 3 - i - other;
-                facet_at[i] = D;
-                facet_at[D] = i;
-                facet_at[other] = third;
-                facet_at[third] = other;
-                for (int j = 0; j <= D; ++j) turned[facet_at[j]] = vertices[j];
-            }
-            vertices = turned;
-            break;
-        }
-    }
-    ++(vertices[D] == infinite_vertex ? ghosts_ : simplices_);
-    return cache_.create(vertices);
-}
-
 template <int D> void Insertion<D>::fill_cavity(VertexIndex v) {
     for (const Handle h : cavity_) {
+        // Only where the triangulation is no Delaunay one can the search come back.
+        if (cache_.simplex(h).is_free())
+            throw_corrupted("The simplices around a point are not a triangulation.");
         --(cache_.simplex(h).is_ghost() ? ghosts_ : simplices_);
         cache_.destroy(h);
     }
     created_.clear();
     static_assert(D == 2, "the rim is a cycle in 2D only");
-    // Triangle (a, b, v) on each edge ab of the rim; the next edge begins at b.
-    Link first = 0, last = 0; // facets across which the first and last triangles meet
+    // On each facet of the rim, the simplex inside with v for the vertex opposite it: v
+    // lies on the same side, so the orientation stays, and a ghost's point at infinity
+    // stays last. Around the rim, each new triangle meets the next across the edge
+    // opposite the vertex with which its own edge begins.
+    Link first = 0, last = 0;
     for (std::size_t i = 0; i < rim_.size(); ++i) {
-        const Rim &rim = rim_[i];
-        std::array<VertexIndex, D + 1> vertices{rim.vertex[0], rim.vertex[1], v};
-        std::array<int, D + 1> facet_at;
-        const Handle h = create(vertices, facet_at);
+        Rim &rim = rim_[i];
+        rim.vertex[rim.facet] = v;
+        const Handle h = create(rim.vertex);
         created_.push_back(h);
-        cache_.connect(make_link(h, facet_at[2]), rim.outer);
+        cache_.connect(make_link(h, rim.facet), rim.outer);
         cache_.mark_dirty(link_simplex(rim.outer));
-        const Link to_previous = make_link(h, facet_at[1]);
+        const int begin = rim.facet == D ? 0 : rim.facet + 1;
+        const int end = begin == D ? 0 : begin + 1;
+        const Link to_previous = make_link(h, end);
         if (i == 0) first = to_previous;
         else cache_.connect(last, to_previous);
-        last = make_link(h, facet_at[0]);
+        last = make_link(h, begin);
     }
     cache_.connect(last, first);
 }
@@ -158,15 +132,16 @@ template <int D> void Insertion<D>::start(const std::array<VertexIndex, D + 1> &
 
     cache_.create_first_block();
     created_.clear();
-    std::array<int, D + 1> facet_at;
-    created_.push_back(create(corners, facet_at));
+    created_.push_back(create(corners));
     for (int i = 0; i <= D; ++i) {
-        // The point at infinity is on the other side of facet i than corner i: two
-        // corners change places to keep the orientation positive.
+        // The point at infinity is on the other side of facet i than corner i: one
+        // exchange of corners turns the orientation back. It brings infinity to its place,
+        // or, if it is there already, exchanges two others.
         std::array<VertexIndex, D + 1> ghost = corners;
         ghost[i] = infinite_vertex;
-        std::swap(ghost[(i + 1) % (D + 1)], ghost[(i + 2) % (D + 1)]);
-        created_.push_back(create(ghost, facet_at));
+        if (i == D) std::swap(ghost[0], ghost[1]);
+        else std::swap(ghost[i], ghost[D]);
+        created_.push_back(create(ghost));
     }
     for (std::size_t a = 0; a < created_.size(); ++a)
         for (std::size_t b = a + 1; b < created_.size(); ++b)

@@ -35,17 +35,21 @@ public:
     std::int64_t ghosts() const { return ghosts_; }
 
 private:
-    /// A facet of the rim, with its vertices as the simplex inside has them.
+    /// A facet of the rim: the simplex outside, and the vertices of the one inside.
     struct Rim {
         Link outer;
-        std::array<VertexIndex, D> vertex;
+        int facet; // of the simplex inside
+        std::array<VertexIndex, D + 1> vertex;
     };
 
     /// A simplex of p's cavity, or no_handle if p is a vertex.
     Handle find_conflict(const Point<D> &p, std::uint64_t code);
     void find_cavity(const Point<D> &p, Handle first);
     void fill_cavity(VertexIndex v);
-    Handle create(std::array<VertexIndex, D + 1> &vertices, std::array<int, D + 1> &facet_at);
+    Handle create(const std::array<VertexIndex, D + 1> &vertices) {
+        ++(vertices[D] == infinite_vertex ? ghosts_ : simplices_);
+        return cache_.create(vertices);
+    }
 
     Cache<D> &cache_;
     Walk<D> walk_;

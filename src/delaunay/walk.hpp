@@ -2,7 +2,8 @@
 // "Walking in a Triangulation", 2002; dissertation §4.11.3): from simplex to
 // simplex across a facet that separates it from the target, never back through
 // the one it came in by, the first facet tried drawn at random. In a Delaunay
-// triangulation any such walk ends; in any other the random choice sees to it.
+// triangulation no such walk visits a simplex twice, so one that is longer than the
+// mesh has simplices shows that the mesh is damaged.
 #pragma once
 
 #include "cache/cache.hpp"
@@ -14,17 +15,17 @@ public:
     explicit Walk(Cache<D> &cache) : cache_(cache) {}
 
     /// The simplex that contains p in its closure; a ghost whose hull facet has p
-    /// strictly beyond it if p lies outside the hull.
-    Handle to(const Point<D> &p, Handle from) {
+    /// strictly beyond it if p lies outside the hull. `longest`: simplices of the mesh,
+    /// ghosts included.
+    Handle to(const Point<D> &p, Handle from, std::uint64_t longest) {
         ++cache_.counters.walks;
         Handle h = from;
         int entered = -1;
         // From a ghost inside through its hull facet, beyond which p may well lie.
         if (cache_.simplex(h).is_ghost()) h = link_simplex(cache_.cross(h, D));
-        // Only a damaged mesh can keep the walk going for long.
         for (std::uint64_t steps = 0;; ++steps) {
             if (steps % 4096 == 4095) cache_.poll();
-            if (steps == longest_walk) throw_corrupted("A walk in the mesh does not end.");
+            if (steps > longest) throw_corrupted("A walk in the mesh does not end.");
             const Simplex<D> &s = cache_.simplex(h);
             if (s.is_ghost()) return h;
             Corners<D> corners = cache_.corners(s);
@@ -49,8 +50,6 @@ public:
     }
 
 private:
-    static constexpr std::uint64_t longest_walk = 1ull << 32;
-
     // xorshift; the walk's path depends on it, its end does not.
     std::uint32_t random() {
         state_ ^= state_ << 13;

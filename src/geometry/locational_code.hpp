@@ -59,25 +59,43 @@ template <int D> constexpr std::uint64_t morton(const Cell<D> &cell) {
     return code;
 }
 
-/// Code of the mean of n cells, rounded down.
-template <int D, int n> inline std::uint64_t mean_code(const std::array<const Cell<D> *, n> &cells) {
+/// The cell with this code; the end of the curve, 2^63 in 3D and 2^62 in 2D, has the
+/// cell just beyond axis 0.
+template <int D> constexpr Cell<D> cell_of(std::uint64_t code) {
+    Cell<D> cell{};
+    for (int bit = 0; bit < 64; ++bit)
+        cell[bit % D] |= static_cast<std::uint32_t>(code >> bit & 1) << (bit / D);
+    return cell;
+}
+
+/// Whether a comes before b on the curve, without computing their codes: the axis with
+/// the highest differing bit decides (Chan, "A minimalist's implementation of an
+/// approximate nearest neighbor algorithm", 2006).
+template <int D> constexpr bool morton_less(const Cell<D> &a, const Cell<D> &b) {
+    int axis = D - 1;
+    std::uint32_t top = a[axis] ^ b[axis];
+    for (int i = D - 2; i >= 0; --i) {
+        const std::uint32_t differing = a[i] ^ b[i];
+        if (top < (differing & ~top)) {
+            axis = i;
+            top = differing;
+        }
+    }
+    return a[axis] < b[axis];
+}
+
+/// Mean, rounded down, of the cells of a simplex's corners; of a ghost, whose last
+/// corner is not read, that of its hull facet's. Its code is the simplex's key.
+template <int D>
+inline Cell<D> mean_cell(const std::array<const Cell<D> *, D + 1> &cells, bool ghost) {
     Cell<D> mean;
     for (int axis = 0; axis < D; ++axis) {
         std::uint64_t sum = 0;
-        for (const Cell<D> *cell : cells) sum += (*cell)[axis];
-        mean[axis] = static_cast<std::uint32_t>(sum / n);
+        for (int i = 0; i < D; ++i) sum += (*cells[i])[axis];
+        mean[axis] = static_cast<std::uint32_t>(ghost ? sum / D
+                                                      : (sum + (*cells[D])[axis]) / (D + 1));
     }
-    return morton<D>(mean);
-}
-
-/// Key code of a simplex with these cells of its corners; of a ghost, whose last
-/// corner is not read, that of its hull facet.
-template <int D>
-inline std::uint64_t simplex_code(const std::array<const Cell<D> *, D + 1> &cells, bool ghost) {
-    if (!ghost) return mean_code<D, D + 1>(cells);
-    std::array<const Cell<D> *, D> facet;
-    std::copy(cells.begin(), cells.begin() + D, facet.begin());
-    return mean_code<D, D>(facet);
+    return mean;
 }
 
 /// Box over which the codes of a mesh are taken.

@@ -5,9 +5,10 @@
 // exact form in predicates.cpp, which is CGAL's filtered kernel. The bounds are
 // Shewchuk's ("Adaptive Precision Floating-Point Arithmetic and Fast Robust
 // Geometric Predicates", 1997, the A estimates) for the very expressions below;
-// in-sphere bounds the permanent by the largest coordinate differences. They
+// the 3D in-sphere bounds the permanent by the largest coordinate differences. They
 // hold while nothing underflows or overflows, so magnitudes outside a safe range
-// go to the exact form too.
+// go to the exact form too: within it, what an underflow can change is far below the
+// bound.
 //
 // Degeneracy: cospherical points are resolved by perturbing the lifting to the
 // paraboloid symbolically, in the lexicographic order of the points (Devillers
@@ -38,8 +39,6 @@ int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c, const P
 template <int D> int in_sphere(const Corners<D> &corners, const Point<D> &p);
 } // namespace exact
 
-inline int sign_of(double x) { return (x > 0) - (x < 0); }
-
 /// +1 if a, b, c are counterclockwise, -1 if clockwise, 0 if collinear.
 inline int orientation(const Point<2> &a, const Point<2> &b, const Point<2> &c) {
     const double left = (a[0] - c[0]) * (b[1] - c[1]);
@@ -47,7 +46,10 @@ inline int orientation(const Point<2> &a, const Point<2> &b, const Point<2> &c) 
     const double det = left - right;
     const double sum = std::fabs(left) + std::fabs(right);
     const double bound = 3.3306690738754716e-16 * sum;
-    if ((det > bound || -det > bound) && sum > 1e-290) [[likely]] return sign_of(det);
+    if (sum > 1e-290) [[likely]] {
+        if (det > bound) return 1;
+        if (det < -bound) return -1;
+    }
     return exact::orientation(a, b, c);
 }
 
@@ -63,7 +65,10 @@ inline int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c,
                              std::fabs(bz) * (std::fabs(ca) + std::fabs(ac)) +
                              std::fabs(cz) * (std::fabs(ab) + std::fabs(ba));
     const double bound = 7.7715611723761027e-16 * permanent;
-    if ((det > bound || -det > bound) && permanent > 1e-250) [[likely]] return -sign_of(det);
+    if (permanent > 1e-250) [[likely]] {
+        if (det > bound) return -1;
+        if (det < -bound) return 1;
+    }
     return exact::orientation(a, b, c, d);
 }
 
@@ -98,16 +103,17 @@ inline int in_sphere(const Corners<2> &corners, const Point<2> &p) {
     const double ax = (*corners[0])[0] - p[0], ay = (*corners[0])[1] - p[1];
     const double bx = (*corners[1])[0] - p[0], by = (*corners[1])[1] - p[1];
     const double cx = (*corners[2])[0] - p[0], cy = (*corners[2])[1] - p[1];
-    const double det = (ax * ax + ay * ay) * (bx * cy - cx * by) +
-                       (bx * bx + by * by) * (cx * ay - ax * cy) +
-                       (cx * cx + cy * cy) * (ax * by - bx * ay);
-    const double mx = std::max(std::max(std::fabs(ax), std::fabs(bx)), std::fabs(cx));
-    const double my = std::max(std::max(std::fabs(ay), std::fabs(by)), std::fabs(cy));
-    // 10 u times the permanent, which is at most 6 mx my (mx^2 + my^2).
-    const double bound = 6.6613381477509402e-15 * (mx * my) * (mx * mx + my * my);
-    if ((det > bound || -det > bound) && std::min(mx, my) > 1e-73 && std::max(mx, my) < 1e76)
-        [[likely]]
-        return sign_of(det);
+    const double bc = bx * cy, cb = cx * by, ca = cx * ay, ac = ax * cy, ab = ax * by, ba = bx * ay;
+    const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
+    const double det = a2 * (bc - cb) + b2 * (ca - ac) + c2 * (ab - ba);
+    const double permanent = a2 * (std::fabs(bc) + std::fabs(cb)) +
+                             b2 * (std::fabs(ca) + std::fabs(ac)) +
+                             c2 * (std::fabs(ab) + std::fabs(ba));
+    const double bound = 1.1102230246251577e-15 * permanent;
+    if (permanent > 1e-250 && a2 + b2 + c2 < 1e50) [[likely]] {
+        if (det > bound) return 1;
+        if (det < -bound) return -1;
+    }
     return exact::in_sphere<2>(corners, p);
 }
 
@@ -132,10 +138,11 @@ inline int in_sphere(const Corners<3> &corners, const Point<3> &p) {
     const double dab = z[3] * ab + z[0] * bd + z[1] * da;
     const double det = (lift[3] * abc - lift[2] * dab) + (lift[1] * cda - lift[0] * bcd);
     // 16 u times the permanent, which is at most 24 mx my mz (mx^2 + my^2 + mz^2).
-    const double bound = 4.2632564145606023e-14 * (mx * my * mz) * (mx * mx + my * my + mz * mz);
-    if ((det > bound || -det > bound) && std::min({mx, my, mz}) > 1e-58 &&
-        std::max({mx, my, mz}) < 1e61) [[likely]]
-        return -sign_of(det);
+    const double bound = 4.2632564145606087e-14 * (mx * my * mz) * (mx * mx + my * my + mz * mz);
+    if (std::min({mx, my, mz}) > 1e-58 && std::max({mx, my, mz}) < 1e61) [[likely]] {
+        if (det > bound) return -1;
+        if (det < -bound) return 1;
+    }
     return exact::in_sphere<3>(corners, p);
 }
 

@@ -75,7 +75,8 @@ abacus_sql_walk(PG_FUNCTION_ARGS)
 				 errmsg("facet %d does not exist", facet),
 				 errhint("Facets are numbered 0 to %u; facet i is the one opposite vertex i.",
 						 cached->dimension)));
-	simplex_from_row(PG_GETARG_DATUM(1), row_type, cached->dimension, &code, ids);
+	if (!simplex_from_row(PG_GETARG_DATUM(1), row_type, cached->dimension, &code, ids))
+		PG_RETURN_NULL();
 	status = host_run(host, abacus_mesh_walk(cached->mesh, code, ids, facet, &simplex,
 											 &host->failure));
 	host_release(host);

@@ -207,6 +207,7 @@ mesh_cache_get(Oid relid)
 	Entry	   *entry = find(relid);
 
 	if (unlikely(entry == NULL || entry->cached.host->busy || entry->user != GetUserId() ||
+				 entry->bytes != setting_cache_bytes() ||
 				 !same_snapshot(&entry->valid, GetActiveSnapshot())))
 		entry = validate(relid, entry);
 	entry->last_use = ++uses;

@@ -42,7 +42,8 @@ shape_attribute(abacus_header *header, const char *name)
 		ereport(ERROR,
 				(errcode(ERRCODE_DUPLICATE_COLUMN),
 				 errmsg("attribute \"%s\" is named twice", name),
-				 errhint("Give each column of the query its own name with AS.")));
+				 errhint("Attributes taken from a query have the names of its columns; "
+						 "give each its own with AS.")));
 	strlcpy(header->names[header->attributes++], name, ABACUS_NAME_BYTES);
 }
 
@@ -98,8 +99,8 @@ shape_domain(abacus_header *header, ArrayType *lower, ArrayType *upper)
 	if (lower == NULL || upper == NULL)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("the domain needs both lower and upper"),
-				 errhint("Leave both out to take the domain from the points.")));
+				 errmsg("lower and upper must be given together"),
+				 errhint("Leave both out to take them from the points.")));
 	read_corner(header, lower, "lower", header->lower);
 	read_corner(header, upper, "upper", header->upper);
 	for (uint32 i = 0; i < header->dimension; i++)

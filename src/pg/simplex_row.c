@@ -52,8 +52,11 @@ simplex_row(TupleDesc row_type, const abacus_simplex *simplex, uint32 dimension)
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
 }
 
-/* Code and corner ids of a simplex that SQL hands back. */
-void
+/*
+ * Code and corner ids of a simplex that SQL hands back. False for a row of
+ * NULLs, which is what no simplex becomes in a FROM clause.
+ */
+bool
 simplex_from_row(Datum row, TupleDesc row_type, uint32 dimension, uint64 *code, int64 *ids)
 {
 	HeapTupleHeader header = DatumGetHeapTupleHeader(row);
@@ -61,6 +64,7 @@ simplex_from_row(Datum row, TupleDesc row_type, uint32 dimension, uint64 *code, 
 	Datum		values[SIMPLEX_COLUMNS];
 	bool		isnull[SIMPLEX_COLUMNS];
 	bool		complete;
+	bool		empty;
 
 	tuple.t_len = HeapTupleHeaderGetDatumLength(header);
 	ItemPointerSetInvalid(&tuple.t_self);
@@ -69,11 +73,15 @@ simplex_from_row(Datum row, TupleDesc row_type, uint32 dimension, uint64 *code, 
 	heap_deform_tuple(&tuple, row_type, values, isnull);
 
 	complete = !isnull[0];
+	empty = isnull[0];
 	for (uint32 i = 0; i <= dimension; i++)
 	{
 		complete &= !isnull[1 + i];
+		empty &= isnull[1 + i];
 		ids[i] = DatumGetInt64(values[1 + i]);
 	}
+	if (empty)
+		return false;
 	if (!complete)
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
@@ -81,4 +89,5 @@ simplex_from_row(Datum row, TupleDesc row_type, uint32 dimension, uint64 *code, 
 				 errhint("Pass a simplex as abacus_locate(), abacus_walk() or abacus_simplices() "
 						 "returned it.")));
 	*code = (uint64) DatumGetInt64(values[0]);
+	return true;
 }

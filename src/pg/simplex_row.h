@@ -12,7 +12,7 @@
 extern TupleDesc result_row_type(FunctionCallInfo fcinfo);
 extern TupleDesc cached_row_type(FunctionCallInfo fcinfo);
 extern Datum simplex_row(TupleDesc row_type, const abacus_simplex *simplex, uint32 dimension);
-extern void simplex_from_row(Datum row, TupleDesc row_type, uint32 dimension, uint64 *code,
+extern bool simplex_from_row(Datum row, TupleDesc row_type, uint32 dimension, uint64 *code,
 							 int64 *ids);
 
 #endif

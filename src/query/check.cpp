@@ -2,8 +2,10 @@
 
 #include "cache/domain_of.hpp"
 #include "delaunay/conflict.hpp"
+#include "query/repeats.hpp"
 
 #include <bit>
+#include <cmath>
 #include <cstdio>
 
 namespace abacus {
@@ -13,7 +15,8 @@ Check<D>::Check(const Host &host, const abacus_header &header, std::size_t cache
                 std::size_t limit)
     : host_(host), header_(header), cache_bytes_(cache_bytes), limit_(limit), memory_(host),
       domain_(domain_of<D>(header)), faults_(&memory_) {
-    run("page", [&] { check_pages(); });
+    check_header();
+    check_pages();
     // A mesh with broken pages has no topology to speak of.
     if (faults_.empty() && pages_ > 0) run("link", [&] { check_topology(); });
     if (faults_.empty()) run("point", [&] { check_points(); });
@@ -39,29 +42,80 @@ template <int D> void Check<D>::report(std::uint64_t pages) {
     if (pages % 64 == 0) host_.progress({ABACUS_PHASE_CHECKING, pages, pages_, pages, 0});
 }
 
+template <int D> void Check<D>::check_header() {
+    const abacus_header &h = header_;
+    if (h.inserted > h.points || h.first_batch > h.points ||
+        (h.points > 0) != (h.first_batch > 0) || (h.points > 0 && h.has_domain == 0))
+        fault("count", first_key, "The header's counts of points contradict each other.");
+    if (h.vertices > h.inserted || h.duplicates != h.inserted - h.vertices)
+        fault("count", first_key, "The header counts more or fewer vertices than points.");
+    if ((h.simplices > 0) != (h.vertices > 0) || (h.ghosts > 0) != (h.vertices > 0))
+        fault("count", first_key, "The header has vertices without simplices or the other way round.");
+    if (D == 2 && h.simplices > 0 && h.simplices + h.ghosts + 2 != 2 * h.vertices)
+        fault("euler", first_key, "Vertices, triangles and hull edges do not add up.");
+    for (int i = 0; i < D; ++i)
+        if (!(std::isfinite(h.lower[i]) && std::isfinite(h.upper[i]) && h.lower[i] <= h.upper[i]))
+            fault("domain", first_key, "The mesh's domain is not a finite box.");
+}
+
 template <int D> void Check<D>::check_pages() {
     Key expected = first_key;
+    bool expecting = true; // not after a page that tells nothing
     PageScan<D> scan(host_, header_.attributes);
-    for (;;) {
-        bool more = false;
-        run("page", [&] { more = scan.advance(); });
-        if (!more) break;
+    while (scan.fetch()) {
         at_key_ = scan.key();
         report(++pages_);
-        if (!(scan.page().lower() == scan.key()))
-            fault("interval", at_key_, "A page is stored under another page's key.");
-        if (!(scan.page().lower() == expected))
-            fault("interval", at_key_, "The pages leave out or share a part of the curve.");
-        expected = scan.page().upper();
-        check_page(scan.page());
+        bool sound = false;
+        run("page", [&] {
+            scan.parse();
+            sound = true;
+        });
+        if (sound) {
+            if (!(scan.page().lower() == scan.key()))
+                fault("interval", at_key_, "A page is stored under another page's key.");
+            if (expecting && !(scan.page().lower() == expected))
+                fault("interval", at_key_, "The pages leave out or share a part of the curve.");
+            expected = scan.page().upper();
+            check_page(scan.page());
+        }
+        expecting = sound;
     }
-    if (pages_ > 0 && faults_.empty() && !(expected == end_key))
+    if (pages_ > 0 && expecting && !(expected == end_key))
         fault("interval", at_key_, "The last page does not reach the end of the curve.");
     if (simplices_ != header_.simplices || ghosts_ != header_.ghosts)
         fault("count", first_key, "The header counts other simplices than the pages hold.");
 }
 
 template <int D> void Check<D>::check_page(const PageView<D> &page) {
+    check_vertices(page);
+    check_simplices(page);
+    bool has_parts = false;
+    for (int i = 0; i < page.links(); ++i) has_parts = has_parts || page.link(i).part != 0;
+    if (page.has_parts() && !has_parts)
+        fault("link", at_key_, "A page has room for parts of keys but none in it.");
+}
+
+template <int D> void Check<D>::check_vertices(const PageView<D> &page) {
+    std::array<double, 2 * D> box;
+    std::fill(box.begin(), box.begin() + D, std::numeric_limits<double>::infinity());
+    std::fill(box.begin() + D, box.end(), -std::numeric_limits<double>::infinity());
+    std::pmr::vector<bool> used(page.vertices() + 1, false, &memory_);
+    for (int s = 0; s < page.simplices(); ++s)
+        for (int i = 0; i <= D; ++i) used[page.corner(s, i)] = true;
+    for (int v = 0; v < page.vertices(); ++v) {
+        const Point<D> p = page.point(v);
+        for (int i = 0; i < D; ++i) {
+            box[i] = std::min(box[i], p[i]);
+            box[D + i] = std::max(box[D + i], p[i]);
+        }
+        if (!used[v]) fault("vertex", at_key_, "A page has a vertex without simplices.");
+    }
+    for (int i = 0; i < 2 * D; ++i)
+        if (std::bit_cast<std::uint64_t>(box[i]) != std::bit_cast<std::uint64_t>(page.box(i)))
+            fault("box", at_key_, "A page's box is not that of its vertices.");
+}
+
+template <int D> void Check<D>::check_simplices(const PageView<D> &page) {
     for (int s = 0; s < page.simplices(); ++s) {
         const bool ghost = page.is_ghost(s);
         ++(ghost ? ghosts_ : simplices_);
@@ -75,11 +129,11 @@ template <int D> void Check<D>::check_page(const PageView<D> &page) {
             cell[i] = &cells[i];
             corners[i] = &points[i];
         }
-        const std::uint64_t code = simplex_code<D>(cell, ghost);
-        // Parts are compared by the topology pass, when a neighbour looks for its key.
-        if (code < page.lower().code || page.upper() <= Key{code, 0})
-            if (code != page.upper().code || page.upper().part == 0)
-                fault("key", at_key_, "A simplex lies in a page that does not own its key.");
+        const std::uint64_t code = morton<D>(mean_cell<D>(cell, ghost));
+        // Parts are compared by the topology pass, which has to compute them.
+        const Key lowest{code, 0}, highest{code, key_word_end - 1};
+        if (highest < page.lower() || page.upper() <= lowest)
+            fault("key", at_key_, "A simplex lies in a page that does not own its key.");
         if (!ghost && orientation<D>(corners) <= 0)
             fault("orientation", at_key_, "A simplex is flat or negatively oriented.");
     }
@@ -91,7 +145,11 @@ template <int D> void Check<D>::check_topology() {
     std::uint64_t pages = 0;
     for (Key key = first_key; key < end_key;) {
         at_key_ = key;
-        key = cache.visit(key, [&](Handle h) { check_simplex(cache, h); });
+        key = cache.visit(key, [&](Handle h) {
+            if (!cache.is_home(h))
+                fault("key", at_key_, "A simplex lies in a page that does not own its key.");
+            check_simplex(cache, h);
+        });
         cache.trim();
         host_.poll();
         report(++pages);
@@ -118,41 +176,55 @@ template <int D> void Check<D>::check_simplex(Cache<D> &cache, Handle h) {
 }
 
 template <int D> void Check<D>::check_points() {
-    if (header_.inserted > header_.points ||
-        header_.vertices + header_.duplicates != header_.inserted)
-        fault("count", first_key, "The header counts more or fewer vertices than points.");
-    if (D == 2 && header_.simplices > 0 &&
-        header_.simplices + header_.ghosts + 2 != 2 * header_.vertices)
-        fault("euler", first_key, "Vertices, triangles and hull edges do not add up.");
-    if ((header_.simplices == 0) != (pages_ == 0))
-        fault("count", first_key, "A mesh without simplices has pages, or the other way round.");
-
+    check_end_of_points();
+    if (header_.simplices == 0) return;
     Reader<D> mesh(host_, header_, cache_bytes_);
-    VertexReader<D> points(host_, header_.attributes, 0, header_.points);
+    VertexReader<D> points(host_, header_.attributes, 0, header_.inserted);
+    Repeats<D> repeats(host_, header_.attributes, cache_bytes_, &memory_);
+    const auto wrong = [&](std::uint64_t sequence) {
+        fault("vertex", {sequence, 0}, "A vertex has another id or attribute than its point.");
+    };
     std::pmr::vector<double> values(header_.attributes, &memory_);
+    std::uint64_t distinct = 0;
     Point<D> previous{};
     while (points.advance()) {
         const std::uint64_t sequence = points.sequence();
         at_key_ = {sequence, 0};
         const Point<D> p = points.point();
-        if (header_.simplices == 0 || sequence >= header_.inserted) continue;
-        const bool repeated = sequence > 0 && previous == p;
+        if (sequence > 0 && previous == p) continue;
         previous = p;
-        if (repeated) continue;
+        ++distinct;
         const auto vertex = mesh.vertex_at(p);
         if (!vertex) {
             fault("point", at_key_, "An inserted point is no vertex of the mesh.");
             continue;
         }
-        // Later batches may repeat a point under another id.
-        if (sequence >= header_.first_batch) continue;
         points.attributes(values.data());
-        bool same = vertex->id == points.id();
-        for (std::size_t i = 0; i < values.size(); ++i)
-            same = same && std::bit_cast<std::uint64_t>(values[i]) ==
-                               std::bit_cast<std::uint64_t>(vertex->attributes[i]);
-        if (!same) fault("vertex", at_key_, "A vertex has another id or attribute than its point.");
+        if (vertex->id == points.id() &&
+            same_attributes(vertex->attributes, values.data(), values.size()))
+            continue;
+        if (sequence < header_.first_batch) wrong(sequence);
+        else repeats.add(sequence, p, vertex->id, vertex->attributes);
+        if (repeats.is_full()) repeats.settle(wrong);
     }
+    repeats.settle(wrong);
+    if (header_.inserted <= header_.first_batch && distinct != header_.vertices)
+        fault("count", first_key, "The header counts other vertices than there are points.");
+}
+
+template <int D> void Check<D>::check_end_of_points() {
+    if (header_.points == 0) return;
+    std::uint64_t first;
+    const unsigned char *bytes;
+    std::size_t size;
+    if (!host_.read_vertices(key_word_end - 1, first, bytes, size))
+        throw_corrupted("A vertex page is missing.");
+    at_key_ = {first, 0};
+    const VertexPage<D> last(bytes, size, header_.attributes, first);
+    if (first + last.size() != header_.points)
+        fault("count", at_key_, "The header counts more or fewer points than are staged.");
+    VertexReader<D> rest(host_, header_.attributes, header_.inserted, header_.points);
+    while (rest.advance()) at_key_ = {rest.sequence(), 0}; // reads every page
 }
 
 template class Check<2>;

@@ -1,15 +1,22 @@
 // Exact verification of a stored mesh: what §4.11.2 of the dissertation asks for.
 //
-// Three passes, each independent of how the mesh was made:
+// A look at the header and three passes, each independent of how the mesh was made:
 //
-//   pages     every page decodes; the intervals partition the curve; each simplex is
-//             in the page that owns its key and positively oriented; the counts add up
+//   header    the counts do not contradict each other; in 2D, Euler's relation holds
+//   pages     every page decodes and is as the core writes it, its box included; the
+//             intervals partition the curve; each simplex is in the page that owns its
+//             key and positively oriented; the counts add up
 //   topology  every link leads, by its stored key, to the simplex with the same facet
-//             in the opposite orientation; across every facet the empty-sphere
-//             criterion holds under the perturbation, and the hull is convex
+//             in the opposite orientation; pages agree about the vertices they share;
+//             across every facet the empty-sphere criterion holds under the
+//             perturbation, and the hull is convex
 //   points    every staged point that counts as inserted is a vertex of the mesh with
-//             the id and attributes of the first such point; the staged sequence has
-//             no gap; in 2D, Euler's relation ties the counts together
+//             the id and attributes of the first such point; the staged sequence is
+//             whole
+//
+// So every byte of a simplex page is verified against something else. Of a vertex page
+// the records of repeated points are not, nor those of points still to be inserted:
+// nothing else knows of them.
 //
 // Locally Delaunay across every facet, with a convex hull and one component (Euler),
 // is globally Delaunay (Delaunay 1934), and under the perturbation unique.
@@ -38,13 +45,17 @@ public:
     }
 
 private:
+    void check_header();
     void check_pages();
     void check_page(const PageView<D> &page);
+    void check_vertices(const PageView<D> &page);
+    void check_simplices(const PageView<D> &page);
     void check_topology();
     void check_simplex(Cache<D> &cache, Handle h);
     void check_points();
+    void check_end_of_points();
 
-    /// A fault; false when there is no room for more.
+    /// Keeps a fault, if there is room for more.
     void fault(const char *kind, const Key &key, const char *message);
     /// Runs a pass; a page so damaged that the pass cannot go on is a fault of its own.
     template <class Pass> void run(const char *kind, Pass pass);

@@ -6,6 +6,7 @@
 #include "cache/page_format.hpp"
 #include "host/host.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace abacus {
@@ -16,15 +17,23 @@ public:
 
     /// Goes to the next page; false after the last. Throws if it is damaged.
     bool advance() {
+        if (!fetch()) return false;
+        parse();
+        return true;
+    }
+    /// The halves of advance(), for who wants to go on after a damaged page.
+    bool fetch() {
         host_.poll();
         abacus_page page{};
         if (!host_.next(started_ ? &key_ : nullptr, page)) return false;
         started_ = true;
         key_ = page.key;
-        if (page.size > sizeof copy_) throw_corrupted("A simplex page has an impossible size.");
-        std::memcpy(copy_, page.bytes, page.size);
-        view_.emplace(PageView<D>::parse(copy_, page.size, static_cast<int>(attributes_)));
+        size_ = page.size;
+        std::memcpy(copy_, page.bytes, std::min(size_, sizeof copy_));
         return true;
+    }
+    void parse() {
+        view_.emplace(PageView<D>::parse(copy_, size_, static_cast<int>(attributes_)));
     }
     /// Key under which the page at hand is stored.
     const Key &key() const { return key_; }
@@ -35,6 +44,7 @@ private:
     unsigned attributes_;
     bool started_ = false;
     Key key_{};
+    std::size_t size_ = 0;
     std::optional<PageView<D>> view_;
     alignas(8) unsigned char copy_[ABACUS_PAGE_BYTES];
 };

@@ -12,19 +12,19 @@ namespace abacus {
 template <int D>
 Reader<D>::Reader(const Host &host, const abacus_header &header, std::size_t cache_bytes,
                   bool verify_links)
-    : empty_(header.simplices == 0),
+    : size_(header.simplices == 0 ? 0 : header.simplices + header.ghosts),
       cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
              CacheOptions{.budget = cache_bytes, .verify_links = verify_links}),
       walk_(cache_) {}
 
 template <int D> Handle Reader<D>::find(const Point<D> &p) {
-    if (empty_) return no_handle;
+    if (size_ == 0) return no_handle;
     cache_.trim();
     const std::uint64_t code = cache_.domain().code(p);
     Handle from = last_;
     if (!cache_.is_live(from) || !cache_.near(from, code)) from = cache_.start(code, p);
     if (from == no_handle) throw_corrupted("The mesh has no simplices.");
-    return last_ = walk_.to(p, from);
+    return last_ = walk_.to(p, from, size_);
 }
 
 template <int D> void Reader<D>::describe(Handle h, abacus_simplex &simplex) const {
@@ -74,7 +74,7 @@ bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
                      abacus_simplex &simplex) {
     Handle h = no_handle;
     int crossed = 0;
-    if (!empty_ && facet >= 0 && facet <= D && code < key_word_end) {
+    if (size_ != 0 && facet >= 0 && facet <= D && code < key_word_end) {
         cache_.trim();
         h = cache_.find(code, [&](Handle candidate) {
             const Simplex<D> &s = cache_.simplex(candidate);

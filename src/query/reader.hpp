@@ -37,7 +37,7 @@ private:
     /// All simplices around a point on a facet of h; the first of them.
     void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex);
 
-    bool empty_;
+    std::uint64_t size_; // simplices and ghosts
     Cache<D> cache_;
     Walk<D> walk_;
     Handle last_ = no_handle;

@@ -29,7 +29,7 @@ template <int D> bool SimplexScan<D>::next(abacus_simplex &simplex) {
                 cells[i] = domain_.cell(points[i]);
                 cell[i] = &cells[i];
             }
-            SimplexWriter<D> writer(simplex, simplex_code<D>(cell, ghost), ghost);
+            SimplexWriter<D> writer(simplex, morton<D>(mean_cell<D>(cell, ghost)), ghost);
             for (int i = 0; i < D + !ghost; ++i)
                 writer.corner(i, page.id(page.corner(s, i)), points[i]);
             writer.finish();

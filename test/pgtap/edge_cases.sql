@@ -1,0 +1,70 @@
+-- Small numbers of points, wrong objects, NULL arguments.
+BEGIN;
+SELECT no_plan();
+
+CREATE FUNCTION pg_temp.state(command text) RETURNS text LANGUAGE plpgsql AS $$
+BEGIN
+    EXECUTE command;
+    RETURN '00000';
+EXCEPTION WHEN OTHERS THEN
+    RETURN SQLSTATE;
+END $$;
+
+-- 0 to 6 points on a convex curve: max(n - 2, 0) triangles
+SELECT is(abacus_triangulate('few' || n, format('SELECT i, i, i * i FROM generate_series(1, %s) i', n)),
+          greatest(n - 2, 0)::bigint, n || ' points in convex position')
+FROM generate_series(0, 6) n;
+SELECT is_empty(format('SELECT * FROM abacus_check(''few%s'')', n), n || ' points checked') FROM generate_series(0, 6) n;
+SELECT is((SELECT count(*) FROM abacus_simplices(('few' || n)::regclass)), greatest(n - 2, 0)::bigint, n || ' points listed')
+FROM generate_series(0, 6) n;
+
+-- NULL arguments
+SELECT is(abacus_stage(NULL, 'SELECT 1, 2, 3'), NULL, 'stage NULL');
+SELECT is(abacus_triangulate(NULL::regclass), NULL, 'triangulate NULL');
+SELECT is(abacus_locate(NULL, 1, 2), NULL, 'locate in NULL');
+SELECT is(abacus_locate('few3', NULL, 2), NULL, 'locate at NULL');
+SELECT is(abacus_walk('few3', NULL, 0), NULL, 'walk from NULL');
+SELECT is(abacus_walk('few3', ROW(NULL, NULL, NULL, NULL, NULL)::abacus_simplex, 0), NULL, 'walk from a row of NULLs');
+SELECT is_empty('SELECT * FROM abacus_simplices(NULL)', 'simplices of NULL');
+SELECT is_empty('SELECT * FROM abacus_vertices(NULL)', 'vertices of NULL');
+SELECT is_empty('SELECT * FROM abacus_check(NULL)', 'check of NULL');
+SELECT is_empty('SELECT * FROM abacus_stats(NULL)', 'stats of NULL');
+SELECT is(abacus_draw(NULL), NULL, 'draw NULL');
+SELECT is(pg_temp.state('SELECT abacus_create(NULL, 2)'), '22004', 'create NULL');
+SELECT is(pg_temp.state('SELECT * FROM abacus_check(''few3'', 0)'), '22023', 'check for no fault');
+
+-- objects that are no mesh, for each function
+CREATE TEMP TABLE thing (code bigint, part bigint, page bytea);
+CREATE TEMP VIEW looks AS TABLE few3;
+CREATE TEMP SEQUENCE counter;
+SELECT is(pg_temp.state(format(f, o)), '42809', format(f, o))
+FROM (VALUES ('thing'), ('looks'), ('counter'), ('few3_vertices'), ('few3_pkey'), ('pg_class')) AS o (o),
+     (VALUES ('SELECT abacus_stage(%L, ''SELECT 1, 2, 3'')'), ('SELECT abacus_triangulate(%L::regclass)'),
+             ('SELECT abacus_locate(%L, 1, 2)'), ('SELECT abacus_walk(%L, ROW(1,2,3,4,5)::abacus_simplex, 0)'),
+             ('SELECT * FROM abacus_simplices(%L)'), ('SELECT * FROM abacus_vertices(%L)'),
+             ('SELECT * FROM abacus_check(%L)'), ('SELECT * FROM abacus_stats(%L)'), ('SELECT abacus_draw(%L)')) AS f (f);
+SELECT is(pg_temp.state('SELECT abacus_locate(0::regclass, 1, 2)'), '42P01', 'no object');
+-- a row type of the same name is not ours
+CREATE SCHEMA forged;
+CREATE TYPE forged.abacus_simplex_page AS (code bigint, part bigint, page bytea);
+CREATE TABLE forged.mesh OF forged.abacus_simplex_page (PRIMARY KEY (code, part));
+INSERT INTO forged.mesh VALUES (-1, 0, '\x00');
+SELECT is(pg_temp.state('SELECT abacus_locate(''forged.mesh'', 1, 2)'), '42809', 'a forged mesh');
+
+-- a mesh made by hand is one without a header
+CREATE TABLE by_hand OF abacus_simplex_page (PRIMARY KEY (code, part));
+CREATE TABLE by_hand_vertices OF abacus_vertex_page (PRIMARY KEY (first));
+SELECT is(pg_temp.state('SELECT abacus_locate(''by_hand'', 1, 2)'), 'XX001', 'no header');
+INSERT INTO by_hand SELECT * FROM few6;
+INSERT INTO by_hand_vertices SELECT * FROM few6_vertices;
+SELECT is_empty($$ SELECT * FROM abacus_check('by_hand') $$, 'copied with SQL, it is a mesh');
+SELECT is(abacus_stage('by_hand', 'SELECT 7, 7, 49') + abacus_triangulate('by_hand'), 6::bigint, 'that can grow');
+INSERT INTO by_hand VALUES (0, -5, '');
+SELECT is(pg_temp.state('SELECT count(*) FROM abacus_simplices(''by_hand'')'), 'XX001', 'a negative part');
+DELETE FROM by_hand WHERE part = -5;
+ALTER TABLE by_hand ALTER page DROP NOT NULL;
+UPDATE by_hand SET page = NULL WHERE code >= 0;
+SELECT is(pg_temp.state('SELECT count(*) FROM abacus_simplices(''by_hand'')'), 'XX001', 'a NULL page');
+
+SELECT * FROM finish();
+ROLLBACK;

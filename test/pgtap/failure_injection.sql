@@ -1,0 +1,82 @@
+-- Every call of the database, and every allocation, that the core makes is
+-- made to fail once: each time there is an ERROR of the expected kind, no
+-- relation stays open, nothing is half done, and the session works on.
+BEGIN;
+SELECT no_plan();
+
+CREATE TABLE points AS
+SELECT i AS id, (i * 7919) % 1009 AS x, (i * 104729) % 997 AS y, i AS height FROM generate_series(1, 3000) i;
+
+-- Runs `command` with the n-th call failing, for n = 1, 2, ... until it succeeds.
+-- After each failure `verify` must return true. Late failures are sampled.
+CREATE FUNCTION pg_temp.inject(what text, command text, verify text) RETURNS SETOF text LANGUAGE plpgsql AS $$
+DECLARE
+    n int := 0;
+    done boolean := false;
+    sound boolean := true;
+    states text[] := '{}';
+    verified boolean;
+BEGIN
+    WHILE NOT done LOOP
+        n := n + 1 + n / 40;
+        BEGIN
+            PERFORM set_config('abacus.fail_host_call', n::text, false);
+            EXECUTE command;
+            done := true;
+            PERFORM set_config('abacus.fail_host_call', '0', false);
+        EXCEPTION WHEN io_error OR out_of_memory THEN
+            PERFORM set_config('abacus.fail_host_call', '0', false);
+            states := states || SQLSTATE::text;
+            EXECUTE verify INTO verified;
+            sound := sound AND verified;
+        END;
+    END LOOP;
+    RETURN NEXT ok(cardinality(states) > 0, format('%s fails (%s times, up to call %s) and then succeeds', what, cardinality(states), n));
+    RETURN NEXT ok(sound, format('%s leaves everything as it was', what));
+    RETURN NEXT ok('58030' = ANY (states), format('%s: the database''s own error comes through', what));
+END $$;
+
+SELECT pg_temp.inject('triangulate from a query',
+    $$ SELECT abacus_triangulate('made', 'TABLE points') $$,
+    $$ SELECT to_regclass('made') IS NULL AND to_regclass('made_vertices') IS NULL AND NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
+SELECT is_empty($$ SELECT * FROM abacus_check('made') $$, 'the mesh is sound');
+
+SELECT isnt(abacus_create('field', 2, '{height}'), NULL, 'a mesh');
+SELECT pg_temp.inject('stage', $$ SELECT abacus_stage('field', 'TABLE points') $$,
+    $$ SELECT count(*) = 0 FROM abacus_vertices('field') $$);
+SET LOCAL abacus.cache_size = '1MB';
+SELECT pg_temp.inject('triangulate', $$ SELECT abacus_triangulate('field') $$,
+    $$ SELECT (SELECT count(*) FROM abacus_simplices('field')) = 0 AND (SELECT count(vertex) FROM abacus_vertices('field')) = 0 $$);
+SELECT is_empty($$ SELECT * FROM abacus_check('field') $$, 'the mesh is sound');
+SELECT results_eq($$ SELECT v0, v1, v2 FROM abacus_simplices('field') s ORDER BY least(v0, v1, v2), v0 + v1 + v2 $$,
+                  $$ SELECT v0, v1, v2 FROM abacus_simplices('made') s ORDER BY least(v0, v1, v2), v0 + v1 + v2 $$, 'and the same as the other');
+
+-- growing a mesh that has pages already
+SELECT is(abacus_stage('field', 'SELECT 10000 + id, x + 0.5, y + 0.5, height FROM points WHERE id <= 500'), 500::bigint, 'more points');
+SELECT pg_temp.inject('growing', $$ SELECT abacus_triangulate('field') $$,
+    $$ SELECT (SELECT count(*) FROM abacus_simplices('field')) = (SELECT count(*) FROM abacus_simplices('made')) $$);
+SELECT is_empty($$ SELECT * FROM abacus_check('field') $$, 'the grown mesh is sound');
+
+-- readers
+CREATE FUNCTION pg_temp.answers() RETURNS bigint LANGUAGE sql AS
+    $$ SELECT sum((abacus_locate('field', x + 0.25, y + 0.25)).v0 % 1000003) FROM points $$;
+CREATE TEMP TABLE answer AS SELECT pg_temp.answers();
+-- another cache size than the verification's makes the session read the mesh anew
+SELECT pg_temp.inject('locate', $$ DO 'BEGIN SET LOCAL abacus.cache_size = ''3MB''; PERFORM pg_temp.answers(); END' $$,
+    $$ SELECT pg_temp.answers() = (TABLE answer) $$);
+SELECT pg_temp.inject('walk', $$ DO 'BEGIN SET LOCAL abacus.cache_size = ''4MB''; PERFORM abacus_walk(''field'', s, 0) FROM abacus_simplices(''field'') s; END' $$,
+    $$ SELECT pg_temp.answers() = (TABLE answer) $$);
+SELECT pg_temp.inject('simplices', $$ SELECT count(*) FROM abacus_simplices('field') $$, 'SELECT true');
+SELECT pg_temp.inject('vertices', $$ SELECT count(*) FROM abacus_vertices('field') $$, 'SELECT true');
+SELECT pg_temp.inject('check', $$ SELECT count(*) FROM abacus_check('field') $$,
+    $$ SELECT NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
+SELECT pg_temp.inject('draw', $$ SELECT abacus_draw('field', 100) $$, 'SELECT true');
+
+-- nothing but the locks of a transaction that has read and written is held
+SELECT is_empty($$ SELECT locktype, mode FROM pg_locks
+                   WHERE pid = pg_backend_pid() AND locktype NOT IN ('relation', 'virtualxid', 'transactionid', 'object') $$, 'no other lock');
+SELECT is((SELECT count(*) FROM pg_cursors WHERE name LIKE '<unnamed%'), 0::bigint, 'no portal');
+SELECT is((SELECT count(*) FROM pg_backend_memory_contexts WHERE name IN ('Abacus host', 'Abacus core', 'Abacus error') AND parent <> 'TopMemoryContext' AND level > 4), 0::bigint, 'no memory of failed calls');
+
+SELECT * FROM finish();
+ROLLBACK;

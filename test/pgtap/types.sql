@@ -1,0 +1,55 @@
+-- Signatures, results, volatility and marks of every function, type and view.
+BEGIN;
+SELECT no_plan();
+
+SELECT has_type('abacus_page');
+SELECT has_type('abacus_simplex');
+SELECT has_type('abacus_simplex_page');
+SELECT has_type('abacus_vertex_page');
+SELECT is(typstorage::text || typalign::text, 'pd', 'pages are plain and aligned to doubles')
+FROM pg_type WHERE typname = 'abacus_page';
+SELECT has_cast('bytea', 'abacus_page');
+SELECT has_cast('abacus_page', 'bytea');
+SELECT results_eq(
+    $$ SELECT attname::text COLLATE "default", format_type(atttypid, NULL) FROM pg_attribute
+       WHERE attrelid = (SELECT typrelid FROM pg_type WHERE typname = 'abacus_simplex') ORDER BY attnum $$,
+    $$ VALUES ('code', 'bigint'), ('v0', 'bigint'), ('v1', 'bigint'), ('v2', 'bigint'), ('v3', 'bigint') $$,
+    'columns of abacus_simplex');
+
+CREATE TEMP TABLE wanted (name text, arguments text, result text, volatility "char", strict boolean, parallel "char");
+INSERT INTO wanted VALUES
+    ('abacus_create', 'mesh text, dimension integer, attributes text[] DEFAULT ''{}''::text[], lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[]', 'regclass', 'v', false, 'u'),
+    ('abacus_stage', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
+    ('abacus_triangulate', 'mesh regclass', 'bigint', 'v', true, 'u'),
+    ('abacus_triangulate', 'mesh text, query text, attributes text[] DEFAULT NULL::text[], dimension integer DEFAULT 2, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[]', 'bigint', 'v', false, 'u'),
+    ('abacus_locate', 'mesh regclass, x double precision, y double precision, z double precision DEFAULT NULL::double precision', 'abacus_simplex', 's', false, 's'),
+    ('abacus_walk', 'mesh regclass, simplex abacus_simplex, facet integer', 'abacus_simplex', 's', true, 's'),
+    ('abacus_simplices', 'mesh regclass', 'SETOF abacus_simplex', 's', true, 'r'),
+    ('abacus_vertices', 'mesh regclass, OUT sequence bigint, OUT id bigint, OUT x double precision, OUT y double precision, OUT z double precision, OUT attributes double precision[], OUT vertex bigint', 'SETOF record', 's', true, 'r'),
+    ('abacus_check', 'mesh regclass, max_faults integer DEFAULT 1000, OUT fault text, OUT code bigint, OUT part bigint, OUT message text', 'SETOF record', 's', true, 'r'),
+    ('abacus_stats', 'mesh regclass, OUT name text, OUT value double precision, OUT description text', 'SETOF record', 'v', true, 'r'),
+    ('abacus_draw', 'mesh regclass, width integer DEFAULT 1024, height integer DEFAULT NULL::integer, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], attribute text DEFAULT NULL::text, edges boolean DEFAULT true, exaggeration double precision DEFAULT 0, max_edge double precision DEFAULT NULL::double precision', 'bytea', 's', false, 'r'),
+    ('abacus_version', '', 'text', 'i', false, 's');
+
+SELECT set_eq(
+    $$ SELECT p.proname::text COLLATE "default", pg_get_function_arguments(p.oid), pg_get_function_result(p.oid), p.provolatile, p.proisstrict, p.proparallel
+       FROM pg_proc p JOIN pg_depend d ON d.objid = p.oid AND d.classid = 'pg_proc'::regclass AND d.deptype = 'e'
+            JOIN pg_extension e ON e.oid = d.refobjid AND e.extname = 'abacus'
+       WHERE p.proname !~ '^abacus_page_' $$,
+    'TABLE wanted', 'signatures and marks');
+SELECT is_empty(
+    $$ SELECT p.proname FROM pg_proc p JOIN pg_depend d ON d.objid = p.oid AND d.classid = 'pg_proc'::regclass AND d.deptype = 'e'
+       JOIN pg_extension e ON e.oid = d.refobjid AND e.extname = 'abacus' WHERE p.prosecdef $$,
+    'nothing runs with its owner''s rights');
+
+SELECT has_view('abacus_progress');
+SELECT ok(has_table_privilege('public', 'abacus_progress', 'SELECT'), 'progress is for everyone');
+SELECT columns_are('abacus_progress', ARRAY['pid', 'mesh', 'phase', 'done', 'total', 'per_second', 'time_left', 'elapsed', 'pages_read', 'pages_written']);
+
+SELECT isnt(abacus_version(), NULL, 'the module is loaded');
+SELECT is(current_setting('abacus.cache_size'), '64MB', 'default cache');
+SELECT is((SELECT context FROM pg_settings WHERE name = 'abacus.cache_size'), 'user', 'anyone may set the cache size');
+SELECT is((SELECT context FROM pg_settings WHERE name = 'abacus.fail_host_call'), 'superuser', 'failing is for superusers');
+
+SELECT * FROM finish();
+ROLLBACK;

@@ -1,0 +1,479 @@
+// abacus_check finds every kind of damage. A sound mesh is built, one thing in it is
+// spoilt, and there has to be a fault.
+#include "geometry/predicates.hpp"
+#include "staging/vertex_page.hpp"
+#include "support/oracle.hpp"
+#include "support/page_editor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace abacus::test {
+namespace {
+
+std::vector<Input> random_points(int n, int attributes, unsigned seed = 1) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<Input> inputs;
+    for (int i = 0; i < n; ++i) {
+        inputs.push_back({1000 + i, {unit(random), unit(random)}});
+        for (int k = 0; k < attributes; ++k) inputs.back().attributes.push_back(unit(random));
+    }
+    return inputs;
+}
+
+/// A mesh and its sound state, to which it returns after each damage.
+class Patient {
+public:
+    Patient(int points, int attributes, std::size_t cache_bytes = 64 << 20)
+        : Patient(random_points(points, attributes), cache_bytes) {}
+    explicit Patient(const std::vector<Input> &points, std::size_t cache_bytes = 64 << 20)
+        : mesh(static_cast<int>(points[0].attributes.size()), cache_bytes), input(points) {
+        EXPECT_EQ(mesh.stage(input), ABACUS_OK);
+        EXPECT_EQ(mesh.build(), ABACUS_OK) << mesh.error.detail;
+        pages_ = mesh.host.pages;
+        vertex_pages_ = mesh.host.vertex_pages;
+        header_ = mesh.header;
+        EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+    }
+
+    /// The faults after `damage`; the mesh is sound again afterwards.
+    std::vector<std::string> faults(const std::function<void()> &damage) {
+        damage();
+        const std::vector<std::string> found = mesh.check();
+        EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
+        EXPECT_EQ(mesh.host.bytes, 0u);
+        mesh.host.pages = pages_;
+        mesh.host.vertex_pages = vertex_pages_;
+        mesh.header = header_;
+        return found;
+    }
+    void expect_fault(const char *what, const char *kind, const std::function<void()> &damage) {
+        const std::vector<std::string> found = faults(damage);
+        const std::string start = std::string(kind) + ": ";
+        const bool has_kind = std::any_of(found.begin(), found.end(), [&](const std::string &f) {
+            return f.compare(0, start.size(), start) == 0;
+        });
+        EXPECT_TRUE(has_kind) << what << " gives " << testing::PrintToString(found);
+    }
+
+    MemoryHost::Page &page(std::size_t i = 0) {
+        return std::next(mesh.host.pages.begin(), static_cast<std::ptrdiff_t>(i))->second;
+    }
+    MemoryHost::Page &middle() { return page(mesh.host.pages.size() / 2); }
+    /// Changes a page, taken apart.
+    void edit(MemoryHost::Page &page, const std::function<void(PageEditor &)> &change) {
+        PageEditor editor(page);
+        change(editor);
+        editor.write(page);
+    }
+    /// Changes every page that has the vertex at p: change(page, vertex number).
+    void edit_vertex(const Point<2> &p, const std::function<void(PageEditor &, int)> &change) {
+        for (auto &[key, page] : mesh.host.pages) {
+            PageEditor editor(page);
+            const int v = editor.number_of(p);
+            if (v < 0) continue;
+            change(editor, v);
+            editor.write(page);
+        }
+    }
+
+    Mesh mesh;
+    std::vector<Input> input;
+
+private:
+    std::map<abacus_key, MemoryHost::Page, KeyLess> pages_;
+    std::map<std::uint64_t, MemoryHost::Page> vertex_pages_;
+    abacus_header header_;
+};
+
+/// Is the quadrilateral around the edge opposite corner i of simplex s one that can be
+/// flipped? Then the two triangles after the flip.
+bool flip(const PageEditor &page, int s, int i, std::array<int, 3> &first,
+          std::array<int, 3> &second) {
+    const int n = page.neighbour(s, i);
+    if (n < 0 || page.is_ghost(s) || page.is_ghost(n)) return false;
+    const int top = page.simplices[s][i];
+    const int a = page.simplices[s][(i + 1) % 3], b = page.simplices[s][(i + 2) % 3];
+    int bottom = 0;
+    for (const int v : page.simplices[n])
+        if (v != a && v != b) bottom = v;
+    first = {top, a, bottom};
+    second = {top, bottom, b};
+    const auto area = [&](const std::array<int, 3> &t) {
+        return orientation(page.points[t[0]], page.points[t[1]], page.points[t[2]]);
+    };
+    return area(first) > 0 && area(second) > 0;
+}
+
+TEST(Check, FindsGeometricDamageInsideAPage) {
+    Patient small(60, 0);
+    ASSERT_EQ(small.mesh.host.pages.size(), 1u);
+    small.expect_fault("an exchange of corners", "link", [&] {
+        small.edit(small.page(), [](PageEditor &page) {
+            auto &t = page.simplices[0];
+            if (page.is_ghost(0)) std::swap(t[0], t[1]);
+            else std::swap(t[1], t[2]);
+        });
+    });
+    small.expect_fault("all triangles turned over", "orientation", [&] {
+        small.edit(small.page(), [](PageEditor &page) {
+            for (auto &t : page.simplices) std::swap(t[0], t[1]);
+        });
+    });
+    small.expect_fault("a flipped edge", "delaunay", [&] {
+        small.edit(small.page(), [](PageEditor &page) {
+            std::array<int, 3> first, second;
+            for (int s = 0;; ++s)
+                for (int i = 0; i < 3; ++i)
+                    if (flip(page, s, i, first, second)) {
+                        page.simplices[page.neighbour(s, i)] = second;
+                        page.simplices[s] = first;
+                        return;
+                    }
+        });
+    });
+    small.expect_fault("a dent in the hull", "hull", [&] {
+        small.edit(small.page(), [](PageEditor &page) {
+            const auto on_hull = [&](int v) {
+                for (const auto &c : page.simplices)
+                    if (c[2] == PageEditor::infinity && (c[0] == v || c[1] == v)) return true;
+                return false;
+            };
+            for (int g = 0;; ++g) {
+                if (!page.is_ghost(g)) continue;
+                const int s = page.neighbour(g, 2);
+                const int q = page.simplices[g][0], p = page.simplices[g][1];
+                int r = 0;
+                for (const int v : page.simplices[s])
+                    if (v != p && v != q) r = v;
+                if (on_hull(r)) continue;
+                page.simplices[g] = {q, r, PageEditor::infinity};
+                page.simplices[s] = {r, p, PageEditor::infinity};
+                return;
+            }
+        });
+        --small.mesh.header.simplices;
+        ++small.mesh.header.ghosts;
+    });
+    small.expect_fault("a moved vertex", "point", [&] {
+        small.edit_vertex(small.input[30].point, [](PageEditor &page, int v) {
+            page.points[v][0] = std::nextafter(page.points[v][0], 2.0);
+        });
+    });
+    small.expect_fault("a vertex moved far", "orientation", [&] {
+        small.edit_vertex(small.input[30].point,
+                          [](PageEditor &page, int v) { page.points[v][0] += 0.7; });
+    });
+    small.expect_fault("a minus zero", "page", [&] {
+        small.edit_vertex(small.input[30].point,
+                          [](PageEditor &page, int v) { page.points[v][0] = -0.0; });
+    });
+}
+
+TEST(Check, FindsWhatPagesDisagreeAbout) {
+    for (const std::size_t cache : {std::size_t(40) << 10, std::size_t(64) << 20}) {
+        Patient big(2500, 2, cache);
+        ASSERT_GT(big.mesh.host.pages.size(), 10u);
+        const auto shared = [&] { // a vertex that several pages have
+            PageEditor page(big.middle());
+            return page.points[0];
+        }();
+        const auto in_one_page = [&](auto change) {
+            return [&, change] {
+                big.edit(big.middle(),
+                         [&](PageEditor &page) { change(page, page.number_of(shared)); });
+            };
+        };
+        const auto in_all_pages = [&](auto change) {
+            return [&, change] { big.edit_vertex(shared, change); };
+        };
+        const auto id = [](PageEditor &page, int v) { page.ids[v] = 7; };
+        const auto attribute = [](PageEditor &page, int v) { page.attributes[v][1] += 1e-9; };
+        const auto point = [](PageEditor &page, int v) {
+            page.points[v][1] = std::nextafter(page.points[v][1], 2.0);
+        };
+        big.expect_fault("an id in one page", "link", in_one_page(id));
+        big.expect_fault("an id in all pages", "vertex", in_all_pages(id));
+        big.expect_fault("an attribute in one page", "link", in_one_page(attribute));
+        big.expect_fault("an attribute in all pages", "vertex", in_all_pages(attribute));
+        big.expect_fault("a point in one page", "link", in_one_page(point));
+        big.expect_fault("a point in all pages", "point", in_all_pages(point));
+        big.expect_fault("an inner vertex's id", "vertex", [&] {
+            big.edit(big.middle(), [](PageEditor &page) { page.ids.back() = 7; });
+        });
+    }
+}
+
+TEST(Check, FindsWrongLinksAndPlaces) {
+    Patient big(2500, 0);
+    big.expect_fault("a wrong link", "link", [&] {
+        big.edit(big.middle(), [](PageEditor &page) { page.links[3].code += 1u << 20; });
+    });
+    big.expect_fault("a link to the end of the curve", "link", [&] {
+        big.edit(big.middle(), [](PageEditor &page) { page.links[0].code = key_word_end - 1; });
+    });
+    big.expect_fault("a link that says nothing", "link", [&] {
+        big.edit(big.middle(), [](PageEditor &page) { page.links[3].code = unknown_code; });
+    });
+    big.expect_fault("a part where there is none", "link", [&] {
+        big.edit(big.middle(), [](PageEditor &page) { page.links[3].part = 1; });
+    });
+    big.expect_fault("exchanged links", "link", [&] {
+        big.edit(big.middle(), [](PageEditor &page) { std::swap(page.links[0], page.links[1]); });
+    });
+    big.expect_fault("a link too few", "link", [&] {
+        big.edit(big.middle(), [](PageEditor &page) { page.links.pop_back(); });
+    });
+    big.expect_fault("a link too many", "link", [&] {
+        big.edit(big.middle(), [](PageEditor &page) { page.links.push_back(page.links[0]); });
+    });
+    for (const int step : {-1, 1})
+        big.expect_fault("a wrong number of border vertices", "link", [&] {
+            big.edit(big.middle(), [&](PageEditor &page) {
+                page.header.border_vertices =
+                    static_cast<std::uint16_t>(page.header.border_vertices + step);
+            });
+        });
+    big.expect_fault("a vertex without triangles", "vertex", [&] {
+        big.edit(big.middle(), [](PageEditor &page) {
+            page.ids.push_back(1);
+            page.points.push_back({0.5, 0.5});
+            page.attributes.emplace_back();
+        });
+    });
+    big.expect_fault("a wrong box", "box", [&] {
+        PageEditor page(big.middle());
+        page.box[2] = std::nextafter(page.box[2], 2.0);
+        page.write(big.middle(), true);
+    });
+    big.expect_fault("a dropped triangle", "count", [&] {
+        big.edit(big.middle(), [](PageEditor &page) { page.simplices.pop_back(); });
+    });
+    big.expect_fault("a dropped triangle that is not counted", "euler", [&] {
+        big.edit(big.middle(), [](PageEditor &page) {
+            int s = 0;
+            while (page.is_ghost(s)) ++s;
+            page.simplices.erase(page.simplices.begin() + s);
+        });
+        --big.mesh.header.simplices;
+    });
+    big.expect_fault("a triangle twice in a page", "link", [&] {
+        big.edit(big.middle(),
+                 [](PageEditor &page) { page.simplices.push_back(page.simplices[0]); });
+        ++big.mesh.header.simplices;
+        --big.mesh.header.ghosts;
+    });
+    big.expect_fault("a triangle in another page too", "key", [&] {
+        PageEditor from(big.page(2));
+        big.edit(big.middle(), [&](PageEditor &page) {
+            std::array<int, 3> copy;
+            int s = 0;
+            while (from.is_ghost(s)) ++s;
+            for (int i = 0; i < 3; ++i) {
+                const int v = from.simplices[s][i];
+                copy[i] = static_cast<int>(page.ids.size());
+                page.ids.push_back(from.ids[v]);
+                page.points.push_back(from.points[v]);
+                page.attributes.push_back(from.attributes[v]);
+            }
+            page.simplices.push_back(copy);
+        });
+    });
+}
+
+TEST(Check, FindsPagesMissingOrOutOfPlace) {
+    Patient big(2500, 0);
+    auto &pages = big.mesh.host.pages;
+    for (std::size_t i = 0; i < pages.size(); ++i)
+        big.expect_fault("a missing page", "interval",
+                         [&] { pages.erase(std::next(pages.begin(), std::ptrdiff_t(i))); });
+    big.expect_fault("all pages missing", "count", [&] { pages.clear(); });
+    big.expect_fault("a page stored twice", "interval", [&] {
+        const auto at = std::next(pages.begin(), 3);
+        pages[{at->first.code + 1, 0}] = at->second;
+    });
+    big.expect_fault("a page under another's key", "interval", [&] {
+        std::swap(std::next(pages.begin(), 3)->second, std::next(pages.begin(), 4)->second);
+    });
+    const auto border = [&](int lower_by, int upper_by) {
+        return [&, lower_by, upper_by] {
+            const auto at = std::next(pages.begin(), 4);
+            PageEditor page(at->second);
+            page.header.lower.code += static_cast<std::uint64_t>(lower_by);
+            page.header.upper.code += static_cast<std::uint64_t>(upper_by);
+            MemoryHost::Page changed = at->second;
+            page.write(changed);
+            pages.erase(at);
+            pages[page.header.lower] = changed;
+        };
+    };
+    big.expect_fault("a gap below", "interval", border(1, 0));
+    big.expect_fault("an overlap below", "interval", border(-1, 0));
+    big.expect_fault("an overlap above", "interval", border(0, 1));
+    big.expect_fault("a gap above", "interval", border(0, -1));
+    big.expect_fault("a border in another place", "key", [&] {
+        // Both pages agree about it, but triangles lie on the wrong side.
+        const auto at = std::next(pages.begin(), 4);
+        const Key lower = at->first, moved{lower.code + (lower.code >> 4), 0};
+        PageEditor before(std::prev(at)->second), after(at->second);
+        before.header.upper = after.header.lower = moved;
+        before.write(std::prev(at)->second);
+        MemoryHost::Page changed;
+        after.write(changed);
+        pages.erase(at);
+        pages[moved] = changed;
+    });
+}
+
+TEST(Check, FindsDamageOfTheStagedPoints) {
+    Patient big(2500, 1);
+    auto &pages = big.mesh.host.vertex_pages;
+    ASSERT_GT(pages.size(), 3u);
+    for (std::size_t i = 0; i < pages.size(); ++i)
+        big.expect_fault("a missing vertex page", "point",
+                         [&] { pages.erase(std::next(pages.begin(), std::ptrdiff_t(i))); });
+    big.expect_fault("a staged point that is no vertex", "point", [&] {
+        auto &page = std::next(pages.begin())->second;
+        page.words[VertexPageHeader::words + 1] += 1; // its x
+    });
+    big.expect_fault("a staged point with another id", "vertex", [&] {
+        ++std::next(pages.begin())->second.words[VertexPageHeader::words];
+    });
+    big.expect_fault("a staged point with another attribute", "vertex", [&] {
+        ++std::next(pages.begin())->second.words[VertexPageHeader::words + 3];
+    });
+}
+
+TEST(Check, FindsEveryWrongCountOfTheHeader) {
+    Patient big(800, 0);
+    using Field = std::uint64_t abacus_header::*;
+    for (const Field field : {&abacus_header::points, &abacus_header::inserted,
+                              &abacus_header::vertices, &abacus_header::duplicates,
+                              &abacus_header::simplices, &abacus_header::ghosts})
+        for (const std::uint64_t value : {std::uint64_t(0), std::uint64_t(1) << 40})
+            big.expect_fault("a count", "count", [&] {
+                big.mesh.header.*field = value == big.mesh.header.*field ? 1 : value;
+            });
+    for (const int step : {-1, 1}) {
+        big.expect_fault("points", "count", [&] { big.mesh.header.points += step; });
+        big.expect_fault("inserted", "count", [&] { big.mesh.header.inserted += step; });
+        big.expect_fault("inserted and duplicates", "count", [&] {
+            big.mesh.header.inserted += step;
+            big.mesh.header.duplicates += step;
+        });
+        big.expect_fault("vertices and duplicates", "euler", [&] {
+            big.mesh.header.vertices += step;
+            big.mesh.header.duplicates -= step;
+        });
+        big.expect_fault("triangles and ghosts", "count", [&] {
+            big.mesh.header.simplices += step;
+            big.mesh.header.ghosts -= step;
+        });
+    }
+    big.expect_fault("first batch", "count", [&] { big.mesh.header.first_batch = 0; });
+    big.expect_fault("first batch", "count", [&] { big.mesh.header.first_batch = 801; });
+    big.expect_fault("no domain", "count", [&] { big.mesh.header.has_domain = 0; });
+    big.expect_fault("a domain", "key", [&] { big.mesh.header.upper[0] *= 2; });
+    big.expect_fault("a domain", "domain", [&] { big.mesh.header.lower[1] = NAN; });
+    big.expect_fault("attributes", "page", [&] { big.mesh.header.attributes = 1; });
+}
+
+TEST(Check, FindsPointsStagedBeyondTheHeadersCount) {
+    // Staged, but not inserted: here no count of simplices depends on them.
+    Patient patient(300, 0);
+    ASSERT_EQ(patient.mesh.stage(random_points(100, 0, 2)), ABACUS_OK);
+    ASSERT_EQ(patient.mesh.check(), std::vector<std::string>{});
+    ++patient.mesh.header.points;
+    EXPECT_NE(patient.mesh.check(), std::vector<std::string>{});
+    patient.mesh.header.points -= 2;
+    EXPECT_NE(patient.mesh.check(), std::vector<std::string>{});
+}
+
+TEST(Check, TellsARepeatedPointFromAWrongVertex) {
+    // The second staging repeats points of the first under other ids, and its own later.
+    Mesh mesh(1, 40 << 10);
+    std::vector<Input> first = random_points(400, 1), second = random_points(400, 1, 2);
+    for (int i = 0; i < 100; ++i) second[i].point = first[3 * i].point;
+    for (Input &input : second) input.id += 5000;
+    std::vector<Input> third(second.begin() + 50, second.begin() + 250);
+    for (Input &input : third) input.id += 5000;
+    for (const auto &batch : {first, second, third}) {
+        ASSERT_EQ(mesh.stage(batch), ABACUS_OK);
+        ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.detail;
+        ASSERT_EQ(mesh.check(), std::vector<std::string>{});
+    }
+    EXPECT_EQ(mesh.header.duplicates, 300u);
+    // A vertex that came with the second staging: its id, then the repetition's.
+    for (const std::int64_t id : {std::int64_t(1), third[150].id}) {
+        auto pages = mesh.host.pages;
+        for (auto &[key, page] : mesh.host.pages) {
+            PageEditor editor(page);
+            const int v = editor.number_of(third[150].point);
+            if (v < 0) continue;
+            EXPECT_EQ(editor.ids[v], second[200].id);
+            editor.ids[v] = id;
+            editor.attributes[v] = third[150].attributes;
+            editor.write(page);
+        }
+        const auto faults = mesh.check();
+        ASSERT_GE(faults.size(), 1u);
+        EXPECT_EQ(faults[0].substr(0, 7), "vertex:");
+        mesh.host.pages = pages;
+    }
+}
+
+/// Flips bits all over a store of pages: each must be found.
+template <class Pages> void flip_bits(Patient &patient, Pages &pages, int flips, unsigned seed) {
+    std::mt19937_64 random(seed);
+    for (int i = 0; i < flips; ++i) {
+        auto at = std::next(pages.begin(), static_cast<std::ptrdiff_t>(random() % pages.size()));
+        // Half of them in the header, where there is something new in every byte.
+        const std::size_t limit = random() % 2 ? at->second.size : std::min<std::size_t>(at->second.size, 80);
+        const std::size_t byte = random() % limit;
+        const int bit = static_cast<int>(random() % 8);
+        const auto found = patient.faults([&] { at->second.bytes()[byte] ^= 1 << bit; });
+        ASSERT_FALSE(found.empty()) << "bit " << bit << " of byte " << byte << " of page "
+                                    << std::distance(pages.begin(), at);
+        ASSERT_NE(found[0].substr(0, 7), "status:") << found[0];
+    }
+}
+
+TEST(Check, FindsEveryFlippedBitOfASinglePage) {
+    Patient patient(25, 1);
+    ASSERT_EQ(patient.mesh.host.pages.size(), 1u);
+    const std::size_t size = patient.page().size;
+    for (std::size_t bit = 0; bit < 8 * size; ++bit) {
+        const auto found = patient.faults([&] { patient.page().bytes()[bit / 8] ^= 1 << bit % 8; });
+        ASSERT_FALSE(found.empty()) << "bit " << bit % 8 << " of byte " << bit / 8;
+        ASSERT_NE(found[0].substr(0, 7), "status:") << found[0];
+    }
+}
+
+TEST(Check, FindsFlippedBitsAnywhere) {
+    Patient plain(1200, 0), small_cache(1200, 1, 40 << 10), wide(60, 100);
+    for (Patient *patient : {&plain, &small_cache, &wide}) {
+        flip_bits(*patient, patient->mesh.host.pages, 300, 3);
+        flip_bits(*patient, patient->mesh.host.vertex_pages, 100, 4);
+    }
+}
+
+TEST(Check, FindsFlippedBitsInPagesThatShareACode) {
+    // Clusters below the resolution of the codes: links have parts.
+    std::vector<Input> points = random_points(1500, 0);
+    for (Input &input : points) {
+        const double corner = static_cast<double>(input.id % 3) / 4;
+        for (double &x : input.point) x = corner + 0.1 + x * 1e-11;
+    }
+    Patient patient(points);
+    ASSERT_TRUE(std::any_of(patient.mesh.host.pages.begin(), patient.mesh.host.pages.end(),
+                            [](const auto &page) { return page.first.part != 0; }));
+    flip_bits(patient, patient.mesh.host.pages, 300, 6);
+}
+
+} // namespace
+} // namespace abacus::test
