@@ -23,7 +23,7 @@ RETURNS SETOF abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_simplices'
 LANGUAGE C STABLE STRICT PARALLEL RESTRICTED ROWS 100000;
 COMMENT ON FUNCTION abacus_simplices(regclass) IS
-    'all simplices, in the order of the curve';
+    'all simplices, page by page along the curve';
 
 CREATE FUNCTION abacus_vertices(
     mesh regclass,

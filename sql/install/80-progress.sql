@@ -42,8 +42,8 @@ SELECT pid,
 FROM build;
 COMMENT ON VIEW abacus_progress IS 'live figures of the builds and checks that run in any session';
 COMMENT ON COLUMN abacus_progress.pid IS 'process id of the session';
-COMMENT ON COLUMN abacus_progress.mesh IS 'the mesh; a number while its creation is not committed';
-COMMENT ON COLUMN abacus_progress.phase IS 'reading, sorting, staging, inserting, flushing or checking';
+COMMENT ON COLUMN abacus_progress.mesh IS 'the mesh; a number while its creation is not committed, NULL in another database';
+COMMENT ON COLUMN abacus_progress.phase IS 'starting, reading, sorting, staging, inserting, flushing or checking';
 COMMENT ON COLUMN abacus_progress.done IS 'points (checking: pages) done in this phase';
 COMMENT ON COLUMN abacus_progress.total IS 'of how many; NULL if not known';
 COMMENT ON COLUMN abacus_progress.per_second IS 'mean rate in this phase';

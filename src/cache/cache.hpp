@@ -283,6 +283,8 @@ private:
     void load_vertices(const PageView<D> &view);
     void link_inside(int simplices, Handle first);
     void link_outside(const PageView<D> &view, Handle first);
+    void link_outside(Link link, const Key &beyond);
+    void check_border(const PageView<D> &view, Handle first) const;
     bool leads_to(const Key &link, Handle h) const;
 
     // probing.cpp
@@ -330,13 +332,12 @@ private:
     struct LocalFacet {
         std::uint64_t vertices;
         std::uint32_t epoch;
-        Link link;
-        bool odd;
+        Link link; // with `absent` for an odd facet
     };
     Arena<LocalNumber> local_;      // of each vertex, valid in the present epoch
     Arena<VertexIndex> numbered_;   // vertices by local number
     Arena<std::uint32_t> corners_;  // local numbers, D + 1 a simplex
-    Arena<Handle> outside_;         // simplices beyond the border of a block
+    Arena<Link> outside_;           // facets on the border of a block
     Arena<Key> beyond_;             // keys of neighbours in other pages
     Arena<LocalFacet> facets_;      // hash table of the facets inside a page
     std::uint32_t epoch_ = 0;

@@ -61,6 +61,15 @@ template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
 }
 
 template <int D> void Cache<D>::unlink(BlockIndex b) {
+    for_each_simplex(b, [&](Handle h) { // what the next loop will touch
+        for (int i = 0; i <= D; ++i) {
+            const Link link = slots_[h].link[i];
+            if (is_absent(link) || block_of<D>(link_simplex(link)) == b) continue;
+            visible_.prefetch_bucket(facet(h, i));
+            for (int j = 0; j <= D; ++j)
+                if (j != i) vertices_.prefetch_slot(point(slots_[h].vertex[j]));
+        }
+    });
     for_each_simplex(b, [&](Handle h) {
         for (int i = 0; i <= D; ++i) {
             const Link link = slots_[h].link[i];
@@ -123,11 +132,12 @@ template <int D> void Cache<D>::prefetch(BlockIndex b) {
             const Link link = slots_[h].link[i];
             if (is_absent(link) || block_of<D>(link_simplex(link)) == b) continue;
             __builtin_prefetch(&slots_[link_simplex(link)]);
-            outside_.push_back(link_simplex(link));
+            outside_.push_back(link);
         }
     });
-    for (const Handle h : outside_)
-        for (const VertexIndex v : slots_[h].vertex) __builtin_prefetch(&vertices_[v]);
+    for (const Link link : outside_)
+        for (const VertexIndex v : slots_[link_simplex(link)].vertex)
+            __builtin_prefetch(&vertices_[v]);
 }
 
 template <int D> bool Cache<D>::encode(BlockIndex b) {

@@ -15,10 +15,6 @@ namespace abacus {
 namespace {
 
 constexpr Link unset = 0xffffffffu;
-constexpr std::size_t facet_table_size = 4096; // more than twice the facets of a page
-
-// Place of a vertex in the page that is being loaded.
-constexpr std::uint32_t inner = 0, on_border = 1;
 
 } // namespace
 
@@ -106,7 +102,7 @@ template <int D> void Cache<D>::next_epoch() {
     local_.resize(std::max(known, vertices_.end()));
     std::fill(local_.begin() + known, local_.end(), LocalNumber{});
     if (facets_.empty()) {
-        facets_.resize(facet_table_size);
+        facets_.resize(std::bit_ceil(std::size_t(block_slots<D>) * (D + 1) + 1));
         std::fill(facets_.begin(), facets_.end(), LocalFacet{});
     }
     if (++epoch_ == 0) { // once in four billion pages
@@ -118,6 +114,8 @@ template <int D> void Cache<D>::next_epoch() {
 
 template <int D> void Cache<D>::load_vertices(const PageView<D> &view) {
     numbered_.resize(view.vertices());
+    for (int n = 0; n < view.border_vertices(); ++n) vertices_.prefetch_slot(view.point(n));
+    for (int n = 0; n < view.border_vertices(); ++n) vertices_.prefetch_vertex(view.point(n));
     for (int n = 0; n < view.vertices(); ++n) {
         const Point<D> p = view.point(n);
         VertexIndex v = infinite_vertex;
@@ -139,29 +137,33 @@ template <int D> void Cache<D>::load_vertices(const PageView<D> &view) {
                                view.attributes() * sizeof(double)) != 0) {
             throw_corrupted("Two pages have different attributes for one vertex.");
         }
-        local_[v] = {epoch_, inner};
+        local_[v].epoch = epoch_;
         numbered_[n] = v;
     }
 }
 
 template <int D> void Cache<D>::link_inside(int simplices, Handle first) {
+    // As small as can be: at most one entry a facet, about half as many in a sound page.
+    const std::size_t mask = std::bit_ceil(std::size_t(simplices) * (D + 1) + 1) - 1;
+    const int shift = 64 - std::bit_width(mask);
     for (int s = 0; s < simplices; ++s) {
         for (int i = 0; i <= D; ++i) {
             const FacetVertices<D, std::uint32_t> facet(&corners_[s * (D + 1)], i);
             std::uint64_t vertices = 0;
             for (const std::uint32_t v : facet.vertex) vertices = vertices << 16 | v;
             const Link link = make_link(first + s, i);
-            std::size_t at = (vertices * 0x9e3779b97f4a7c15ull) >> 52;
+            const Link odd = facet.odd ? absent : 0;
+            std::size_t at = mask == 0 ? 0 : (vertices * 0x9e3779b97f4a7c15ull) >> shift;
             while (facets_[at].epoch == epoch_ && facets_[at].vertices != vertices)
-                at = (at + 1) % facet_table_size;
+                at = (at + 1) & mask;
             LocalFacet &entry = facets_[at];
             if (entry.epoch != epoch_) {
-                entry = {vertices, epoch_, link, facet.odd};
+                entry = {vertices, epoch_, link | odd};
             } else {
                 if (entry.link == unset) throw_corrupted("Three simplices share a facet.");
-                if (entry.odd == facet.odd)
+                if ((entry.link & absent) == odd)
                     throw_corrupted("Neighbours have different orientations.");
-                connect(entry.link, link);
+                connect(entry.link & ~absent, link);
                 entry.link = unset;
             }
         }
@@ -169,45 +171,58 @@ template <int D> void Cache<D>::link_inside(int simplices, Handle first) {
 }
 
 template <int D> void Cache<D>::link_outside(const PageView<D> &view, Handle first) {
-    int links = 0, border_vertices = 0;
-    for (int s = 0; s < view.simplices(); ++s) {
+    outside_.clear();
+    for (int s = 0; s < view.simplices(); ++s)
+        for (int i = 0; i <= D; ++i)
+            if (slots_[first + s].link[i] == unset) outside_.push_back(make_link(first + s, i));
+    if (static_cast<int>(outside_.size()) != view.links())
+        throw_corrupted("A page has another number of links than of facets on its border.");
+    check_border(view, first);
+    const auto facet_of = [&](Link link) { return facet(link_simplex(link), link_facet(link)); };
+    for (const Link link : outside_) visible_.prefetch_bucket(facet_of(link));
+    for (const Link link : outside_) visible_.prefetch_entry(facet_of(link));
+    for (std::size_t i = 0; i < outside_.size(); ++i)
+        link_outside(outside_[i], view.link(static_cast<int>(i)));
+}
+
+template <int D> void Cache<D>::link_outside(Link link, const Key &beyond) {
+    if ((beyond.code >= key_word_end && beyond.code != unknown_code) ||
+        (beyond.part >= key_word_end && beyond.part != unknown_part))
+        throw_corrupted("A page has a link to an impossible key.");
+    const Handle h = link_simplex(link);
+    const auto outer = facet(h, link_facet(link));
+    const std::uint32_t number = visible_.find(outer, [&](Link owner) {
+        return facet(link_simplex(owner), link_facet(owner)).vertex == outer.vertex;
+    });
+    if (number == VisibleFacets<D>::none) {
+        slots_[h].link[link_facet(link)] = absent | visible_.add(outer, beyond, link);
+        return;
+    }
+    const Link owner = visible_[number].owner;
+    if (facet(link_simplex(owner), link_facet(owner)).odd == outer.odd)
+        throw_corrupted("Neighbours have different orientations.");
+    if (options_.verify_links &&
+        !(leads_to(visible_[number].beyond, h) && leads_to(beyond, link_simplex(owner))))
+        throw_corrupted("A link has the key of another simplex than its neighbour.");
+    visible_.remove(number);
+    connect(owner, link);
+}
+
+template <int D>
+void Cache<D>::check_border(const PageView<D> &view, Handle first) const {
+    // The vertices of the facets on the border, and only they, come first in the page.
+    std::array<bool, block_slots<D> *(D + 1)> on_border{};
+    int border_vertices = 0;
+    for (const Link link : outside_) {
+        const std::uint32_t *corner = &corners_[(link_simplex(link) - first) * (D + 1)];
         for (int i = 0; i <= D; ++i) {
-            const Handle h = first + s;
-            if (slots_[h].link[i] != unset) continue;
-            for (int j = 0; j <= D; ++j) {
-                const std::uint32_t n = corners_[s * (D + 1) + j];
-                if (j == i || n >= numbered_.size()) continue;
-                if (static_cast<int>(n) >= view.border_vertices())
-                    throw_corrupted("A page counts a vertex on its border as an inner one.");
-                std::uint32_t &place = local_[numbered_[n]].number;
-                border_vertices += place == inner;
-                place = on_border;
-            }
-            if (links == view.links()) throw_corrupted("A page has too few links.");
-            const Key beyond = view.link(links++);
-            if ((beyond.code >= key_word_end && beyond.code != unknown_code) ||
-                (beyond.part >= key_word_end && beyond.part != unknown_part))
-                throw_corrupted("A page has a link to an impossible key.");
-            const auto outer = this->facet(h, i);
-            const std::uint32_t number = visible_.find(outer, [&](Link owner) {
-                return this->facet(link_simplex(owner), link_facet(owner)).vertex == outer.vertex;
-            });
-            const Link link = make_link(h, i);
-            if (number == VisibleFacets<D>::none) {
-                slots_[h].link[i] = absent | visible_.add(outer, beyond, link);
-                continue;
-            }
-            const Link owner = visible_[number].owner;
-            if (this->facet(link_simplex(owner), link_facet(owner)).odd == outer.odd)
-                throw_corrupted("Neighbours have different orientations.");
-            if (options_.verify_links && !(leads_to(visible_[number].beyond, h) &&
-                                           leads_to(beyond, link_simplex(owner))))
-                throw_corrupted("A link has the key of another simplex than its neighbour.");
-            visible_.remove(number);
-            connect(owner, link);
+            if (i == link_facet(link) || corner[i] >= numbered_.size()) continue;
+            if (static_cast<int>(corner[i]) >= view.border_vertices())
+                throw_corrupted("A page counts a vertex on its border as an inner one.");
+            border_vertices += !on_border[corner[i]];
+            on_border[corner[i]] = true;
         }
     }
-    if (links != view.links()) throw_corrupted("A page has too many links.");
     if (border_vertices != view.border_vertices())
         throw_corrupted("A page counts an inner vertex as one on its border.");
 }

@@ -101,6 +101,12 @@ public:
         }
     }
 
+    /// Two steps of find_shared() or share() in advance, for many points at once.
+    void prefetch_slot(const Point<D> &p) const { __builtin_prefetch(&table_[hash(p)]); }
+    void prefetch_vertex(const Point<D> &p) const {
+        __builtin_prefetch(&vertices_[table_[hash(p)]]);
+    }
+
 private:
     static constexpr std::uint32_t shared = 0x80000000u;
 

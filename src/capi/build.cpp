@@ -24,7 +24,9 @@ abacus_status abacus_build_open(const abacus_host *host, const abacus_header *he
 abacus_status abacus_build_run(abacus_build *build, uint64_t limit, abacus_header *header,
                                abacus_error *error) {
     return abacus::guard(error, [&] {
-        build->build.visit([&](auto &run) { run.run(limit, *header); });
+        abacus_header changed = *header; // the caller's stays as it is if the run fails
+        build->build.visit([&](auto &run) { run.run(limit, changed); });
+        *header = changed;
         return ABACUS_OK;
     });
 }

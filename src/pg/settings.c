@@ -8,7 +8,7 @@
 #include "pg/host.h"
 #include "pg/settings.h"
 
-static int	cache_size_mb = 64;
+static int	cache_size_mb = 128;
 static int	fail_host_call = 0;
 
 static void
@@ -24,7 +24,7 @@ settings_define(void)
 							"Sets the size of the computational cache of a mesh.",
 							"A build has one; a session keeps one for each of the last four "
 							"meshes it has read.",
-							&cache_size_mb, 64, 1, 16 * 1024 * 1024, PGC_USERSET, GUC_UNIT_MB,
+							&cache_size_mb, 128, 1, 16 * 1024 * 1024, PGC_USERSET, GUC_UNIT_MB,
 							NULL, NULL, NULL);
 	DefineCustomIntVariable("abacus.fail_host_call",
 							"Makes the core's n-th call of the database fail, once.",

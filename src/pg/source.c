@@ -33,6 +33,7 @@ source_prepare(Source *source, const char *query)
 	bool		selects;
 
 	MemSet(source, 0, sizeof(*source));
+	source->query = query;
 	SPI_connect();
 	source->plan = SPI_prepare_cursor(query, 0, NULL, CURSOR_OPT_NO_SCROLL);
 	if (source->plan == NULL)
@@ -75,12 +76,24 @@ source_open(Source *source, const abacus_header *header)
 	source->packer = row_packer_create(source->portal->tupDesc, header, POINTS_A_BATCH);
 }
 
+/* Errors while reading say which query they come from, as SPI's do. */
+static void
+describe_query(void *query)
+{
+	errcontext("SQL statement \"%s\"", (const char *) query);
+}
+
 /* Reads on; the points stay valid until the next call. 0 at the end. */
 size_t
 source_fetch(Source *source, const uint64 **points)
 {
+	ErrorContextCallback context = {error_context_stack, describe_query,
+									unconstify(char *, source->query)};
+
+	error_context_stack = &context;
 	row_packer_reset(source->packer);
 	PortalRunFetch(source->portal, FETCH_FORWARD, POINTS_A_BATCH, &source->packer->receiver);
+	error_context_stack = context.previous;
 	*points = source->packer->points;
 	return source->packer->count;
 }

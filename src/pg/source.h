@@ -10,6 +10,7 @@
 
 typedef struct Source
 {
+	const char *query;
 	SPIPlanPtr	plan;
 	Portal		portal;			/* NULL while not reading */
 	RowPacker  *packer;

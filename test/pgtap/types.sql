@@ -47,7 +47,7 @@ SELECT ok(has_table_privilege('public', 'abacus_progress', 'SELECT'), 'progress 
 SELECT columns_are('abacus_progress', ARRAY['pid', 'mesh', 'phase', 'done', 'total', 'per_second', 'time_left', 'elapsed', 'pages_read', 'pages_written']);
 
 SELECT isnt(abacus_version(), NULL, 'the module is loaded');
-SELECT is(current_setting('abacus.cache_size'), '64MB', 'default cache');
+SELECT is(current_setting('abacus.cache_size'), '128MB', 'default cache');
 SELECT is((SELECT context FROM pg_settings WHERE name = 'abacus.cache_size'), 'user', 'anyone may set the cache size');
 SELECT is((SELECT context FROM pg_settings WHERE name = 'abacus.fail_host_call'), 'superuser', 'failing is for superusers');
 

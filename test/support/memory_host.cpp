@@ -18,6 +18,13 @@ std::uint64_t MemoryHost::Calls::fallible() const {
            spool_write + spool_rewind + spool_read + spool_close;
 }
 
+void MemoryHost::restore(const MemoryHost &other) {
+    pages = other.pages;
+    vertex_pages = other.vertex_pages;
+    keys_by_location_ = other.keys_by_location_;
+    next_location_ = other.next_location_;
+}
+
 void MemoryHost::recover() {
     failed = cancelled = false;
     interrupted = 0;

@@ -63,6 +63,8 @@ public:
     void fail_at(std::uint64_t n) { fail_at_ = n == 0 ? 0 : calls.fallible() + n; }
     /// The n-th call from now that asks for memory gets none; 0 = none.
     void fail_resize_at(std::uint64_t n) { fail_resize_at_ = n == 0 ? 0 : calls.resize + n; }
+    /// Takes over the stored pages of another host.
+    void restore(const MemoryHost &other);
     /// Forgets a failure, so that the host can serve further handles.
     void recover();
     /// The next poll() fails, and the core is told to poll.

@@ -3,6 +3,8 @@
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <bit>
 
@@ -51,16 +53,24 @@ abacus_status Mesh::build() {
 
 std::vector<Triangle> Mesh::triangles() {
     std::vector<Triangle> result;
-    abacus_scan *scan = nullptr;
-    if (abacus_scan_open(host.table(), &header, 0, &scan, &error) != ABACUS_OK) return result;
-    abacus_simplex s;
-    while (abacus_scan_next(scan, &s, &error) == ABACUS_OK) {
+    for (const abacus_simplex &s : simplices(false)) {
         Triangle t;
         for (int i = 0; i < 3; ++i) t[i] = {s.corner[i][0], s.corner[i][1]};
         result.push_back(canonical(t));
     }
-    abacus_scan_close(scan);
     std::sort(result.begin(), result.end());
+    return result;
+}
+
+std::vector<abacus_simplex> Mesh::simplices(bool ghosts) {
+    std::vector<abacus_simplex> result;
+    abacus_scan *scan = nullptr;
+    abacus_status status = abacus_scan_open(host.table(), &header, ghosts, &scan, &error);
+    abacus_simplex s;
+    while (status == ABACUS_OK && (status = abacus_scan_next(scan, &s, &error)) == ABACUS_OK)
+        result.push_back(s);
+    EXPECT_EQ(status, ABACUS_END) << error.message << ' ' << error.detail;
+    abacus_scan_close(scan);
     return result;
 }
 
@@ -84,6 +94,17 @@ abacus_status Mesh::locate(const Point<2> &p, abacus_simplex &simplex) {
     status = abacus_mesh_locate(mesh, p.data(), &simplex, &error);
     abacus_mesh_close(mesh);
     return status;
+}
+
+OpenMesh::OpenMesh(Mesh &mesh, std::size_t cache_bytes) {
+    EXPECT_EQ(abacus_mesh_open(mesh.host.table(), &mesh.header, cache_bytes, &handle_, &error),
+              ABACUS_OK);
+}
+
+abacus_counters OpenMesh::counters() const {
+    abacus_counters counters;
+    abacus_mesh_counters(handle_, &counters);
+    return counters;
 }
 
 std::vector<Input> number(const std::vector<Point<2>> &points) {

@@ -30,6 +30,8 @@ struct Mesh {
     abacus_status stage(const std::vector<Input> &points, std::size_t memory = 16 << 20);
     abacus_status build();
     std::vector<Triangle> triangles();
+    /// What a scan gives; fails the test if it does not end well.
+    std::vector<abacus_simplex> simplices(bool ghosts);
     /// "kind: message" of each fault.
     std::vector<std::string> check();
     abacus_status locate(const Point<2> &p, abacus_simplex &simplex);
@@ -38,6 +40,28 @@ struct Mesh {
     abacus_header header{};
     abacus_error error{};
     std::size_t cache_bytes;
+};
+
+/// A mesh open for reading. Its functions return the status and keep the error.
+class OpenMesh {
+public:
+    OpenMesh(Mesh &mesh, std::size_t cache_bytes);
+    OpenMesh(const OpenMesh &) = delete;
+    OpenMesh &operator=(const OpenMesh &) = delete;
+    ~OpenMesh() { abacus_mesh_close(handle_); }
+
+    abacus_status locate(const Point<2> &p, abacus_simplex &simplex) {
+        return abacus_mesh_locate(handle_, p.data(), &simplex, &error);
+    }
+    abacus_status walk(const abacus_simplex &from, int facet, abacus_simplex &simplex) {
+        return abacus_mesh_walk(handle_, from.code, from.id, facet, &simplex, &error);
+    }
+    abacus_counters counters() const;
+
+    abacus_error error{};
+
+private:
+    abacus_mesh *handle_ = nullptr;
 };
 
 std::vector<Input> number(const std::vector<Point<2>> &points);

@@ -148,12 +148,17 @@ TEST(Triangulation, AddsToAMeshThatIsThere) {
 }
 
 TEST(Triangulation, TheFourPointsThatGeosGetsWrong) {
-    // libgeos issue 1286: these coordinates' exact triangulation, by rational arithmetic.
-    const Points points = {{-118.3, 34.0}, {-118.2, 34.0}, {-118.2, 34.1}, {-118.3, 34.1}};
+    // libgeos issue 1286: GEOS gives {p1 p2 p3, p1 p3 p4}. The first three are nearly
+    // collinear, and the hull has only three corners.
+    const Point<2> p1{-1.3890020986020145e-10, 4.860466764224401},
+        p2{-1.3889120965221466e-10, -5.531838081766228},
+        p3{-1.388852095135568e-10, -12.460041312426647},
+        p4{0.9999999999166641, -3.799787274101123};
     Mesh mesh;
-    ASSERT_EQ(mesh.stage(number(points)), ABACUS_OK);
+    ASSERT_EQ(mesh.stage(number({p1, p2, p3, p4})), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK);
-    EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+    EXPECT_EQ(mesh.triangles(), (std::vector<Triangle>{{p1, p2, p4}, {p2, p3, p4}}));
+    EXPECT_EQ(mesh.triangles(), cgal_triangles({p1, p2, p3, p4}));
 }
 
 TEST(Triangulation, FewerDimensionsMakeAnEmptyMeshThatCanGrow) {

@@ -1,0 +1,322 @@
+// The computational cache: probing, parts, attributes, budget, handles, counters.
+#include "cache/cache.hpp"
+#include "delaunay/insertion.hpp"
+#include "support/oracle.hpp"
+#include "support/page_editor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <random>
+
+namespace abacus::test {
+namespace {
+
+using Random = std::mt19937_64;
+
+constexpr std::size_t little = 40 << 10, ample = 64 << 20;
+
+// Inputs that take long under a sanitizer are smaller there.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr int scale = 10;
+#else
+constexpr int scale = 1;
+#endif
+
+double unit(Random &random) { return std::uniform_real_distribution<double>(0, 1)(random); }
+
+std::vector<Point<2>> random_points(int n, unsigned seed) {
+    Random random(seed);
+    std::vector<Point<2>> points(n);
+    for (auto &p : points) p = {unit(random), unit(random)};
+    return points;
+}
+
+/// Inserts points with a cache of these options into a mesh, as a build does.
+abacus_counters insert(Mesh &mesh, const std::vector<Point<2>> &points,
+                       const CacheOptions &options) {
+    mesh.header.has_domain = 1;
+    mesh.header.upper[0] = mesh.header.upper[1] = 1;
+    const Host host = mesh.host.host();
+    Cache<2> cache(host, Domain<2>({0, 0}, {1, 1}), 0, options);
+    Insertion<2> insertion(host, cache, 0, 0);
+    std::array<VertexIndex, 3> first;
+    for (int i = 0; i < 3; ++i) first[i] = cache.create_vertex(points[i], i, nullptr);
+    insertion.start(first);
+    for (std::size_t i = 3; i < points.size(); ++i)
+        EXPECT_TRUE(insertion.insert(points[i], static_cast<std::int64_t>(i), nullptr));
+    cache.flush();
+    mesh.header.points = mesh.header.inserted = mesh.header.vertices = points.size();
+    mesh.header.simplices = static_cast<std::uint64_t>(insertion.simplices());
+    mesh.header.ghosts = static_cast<std::uint64_t>(insertion.ghosts());
+    return cache.counters;
+}
+
+/// Makes all links of the stored pages say nothing of their neighbours.
+void forget_links(Mesh &mesh) {
+    for (auto &[key, page] : mesh.host.pages) {
+        PageEditor editor(page);
+        for (Key &link : editor.links) link = {unknown_code, 0};
+        editor.write(page);
+    }
+}
+
+TEST(Probing, GivesTheSameMeshAsStoredLinks) {
+    const auto points = random_points(1500, 1);
+    Mesh stored, probed;
+    const auto with = insert(stored, points, {.budget = little});
+    const auto without = insert(probed, points, {.budget = little, .stored_links = false});
+    EXPECT_EQ(stored.triangles(), cgal_triangles(points));
+    EXPECT_EQ(probed.triangles(), stored.triangles());
+    EXPECT_GT(with.link_probes, 0u);
+    EXPECT_EQ(with.quick_probes + with.ray_probes + with.concentric_probes, 0u);
+    EXPECT_EQ(without.link_probes, 0u);
+    EXPECT_GT(without.quick_probes, 0u);
+    EXPECT_GT(without.ray_probes, 0u);
+    EXPECT_EQ(probed.host.violations, std::vector<std::string>{});
+}
+
+TEST(Probing, FindsDistantNeighboursInEveryPage) {
+    // Long thin triangles: the page at the middle of a facet is seldom the neighbour's.
+    Random random(2);
+    std::vector<Point<2>> points;
+    for (int i = 0; i < 800; ++i)
+        points.push_back({i % 2 ? 0.01 * unit(random) : 1 - 0.01 * unit(random), unit(random)});
+    Mesh mesh;
+    const auto counters = insert(mesh, points, {.budget = little, .stored_links = false});
+    EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+    EXPECT_GT(counters.concentric_probes, 0u);
+}
+
+TEST(Probing, ServesLinksWithoutAKey) {
+    auto points = random_points(2500, 3);
+    Mesh mesh(0, little);
+    ASSERT_EQ(mesh.stage(number(points)), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK);
+    const auto triangles = mesh.simplices(false);
+    forget_links(mesh);
+    OpenMesh open(mesh, little);
+    for (std::size_t i = 0; i < triangles.size(); i += 7) {
+        const auto &s = triangles[i];
+        abacus_simplex found;
+        const Point<2> middle{(s.corner[0][0] + s.corner[1][0] + s.corner[2][0]) / 3,
+                              (s.corner[0][1] + s.corner[1][1] + s.corner[2][1]) / 3};
+        ASSERT_EQ(open.locate(middle, found), ABACUS_OK) << open.error.detail;
+        EXPECT_EQ(found.id[0], s.id[0]);
+    }
+    // A page that was evicted is found again by the key it had.
+    EXPECT_GT(open.counters().quick_probes, open.counters().link_probes);
+    // And such a mesh can grow.
+    const auto more = random_points(500, 4);
+    ASSERT_EQ(mesh.stage(number(more)), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.detail;
+    points.insert(points.end(), more.begin(), more.end());
+    EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+}
+
+TEST(Cache, TellsALinkToTheWrongPlaceFromAMissingOne) {
+    Mesh mesh(0, ample);
+    ASSERT_EQ(mesh.stage(number(random_points(2500, 5))), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK);
+    for (auto &[key, page] : mesh.host.pages) {
+        PageEditor editor(page);
+        for (Key &link : editor.links) link.code = 0;
+        editor.write(page);
+    }
+    OpenMesh open(mesh, ample);
+    abacus_status status = ABACUS_OK;
+    for (const auto &s : mesh.simplices(false)) {
+        abacus_simplex found;
+        for (int i = 0; i < 3 && status != ABACUS_ERROR; ++i) status = open.walk(s, i, found);
+        if (status == ABACUS_ERROR) break;
+    }
+    EXPECT_EQ(status, ABACUS_ERROR);
+    EXPECT_EQ(open.error.kind, ABACUS_ERROR_CORRUPTED);
+}
+
+TEST(Cache, SplitsACodeIntoParts) {
+    // Clusters far below the resolution of the codes, more than a page at each.
+    Random random(6);
+    std::vector<Point<2>> points = random_points(100, 7);
+    for (int i = 0; i < 3000; ++i) {
+        const double centre = i % 2 ? 0.3 : 0.6;
+        points.push_back({centre + unit(random) * 1e-13, centre + unit(random) * 1e-13});
+    }
+    for (const std::size_t cache : {little, ample}) {
+        Mesh mesh(0, cache);
+        ASSERT_EQ(mesh.stage(number(points)), ABACUS_OK);
+        ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message << mesh.error.detail;
+        EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+        EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+        const auto parts =
+            std::count_if(mesh.host.pages.begin(), mesh.host.pages.end(),
+                          [](const auto &page) { return page.first.part != 0; });
+        EXPECT_GT(parts, 3);
+        // Walking finds simplices by their code, whatever the part.
+        OpenMesh open(mesh, cache);
+        for (const auto &s : mesh.simplices(false)) {
+            abacus_simplex found;
+            ASSERT_NE(open.walk(s, 0, found), ABACUS_ERROR) << open.error.message;
+        }
+    }
+}
+
+TEST(Cache, CarriesAttributesThroughPagesBitForBit) {
+    for (const int attributes : {1, 3, 17, ABACUS_MAX_ATTRIBUTES}) {
+        Random random(8);
+        const auto points = random_points(attributes == ABACUS_MAX_ATTRIBUTES ? 150 : 600, 9);
+        std::vector<Input> inputs = number(points);
+        for (Input &input : inputs) {
+            input.id = std::bit_cast<std::int64_t>(random());
+            for (int i = 0; i < attributes; ++i) {
+                std::uint64_t bits = random();
+                // NaNs with payloads, infinities and both zeros among them.
+                if (bits % 3 == 0) bits |= 0x7ff8ull << 48;
+                if (bits % 7 == 0) bits = (bits & 1) << 63 | (bits & 2 ? 0x7ffull << 52 : 0);
+                input.attributes.push_back(std::bit_cast<double>(bits));
+            }
+        }
+        std::map<Point<2>, const Input *> expected;
+        for (const Input &input : inputs) expected[input.point] = &input;
+        Mesh mesh(attributes, little);
+        ASSERT_EQ(mesh.stage(inputs), ABACUS_OK);
+        ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message;
+        EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+        EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+        EXPECT_GT(mesh.header.counters.rewrites, 0u);
+        for (const auto &[key, page] : mesh.host.pages) {
+            const PageEditor editor(page);
+            for (std::size_t v = 0; v < editor.ids.size(); ++v) {
+                const Input &input = *expected.at(editor.points[v]);
+                EXPECT_EQ(editor.ids[v], input.id);
+                for (int i = 0; i < attributes; ++i)
+                    ASSERT_EQ(std::bit_cast<std::uint64_t>(editor.attributes[v][i]),
+                              std::bit_cast<std::uint64_t>(input.attributes[i]));
+            }
+        }
+    }
+}
+
+TEST(Cache, KeepsToItsBudget) {
+    const std::vector<Input> points = number(random_points(60000 / scale, 10));
+    for (const std::size_t budget : {128u << 10, 512u << 10, 2048u << 10}) {
+        Mesh mesh(0, budget);
+        ASSERT_EQ(mesh.stage(points), ABACUS_OK);
+        mesh.host.peak_bytes = 0;
+        ASSERT_EQ(mesh.build(), ABACUS_OK);
+        // One operation may load more, and is not interrupted for that.
+        EXPECT_LE(mesh.header.counters.peak_bytes, budget + (512 << 10));
+        // Arrays and tables grow by steps.
+        EXPECT_LE(mesh.host.peak_bytes, budget + budget / 2 + (1024 << 10));
+        EXPECT_EQ(mesh.host.bytes, 0u);
+    }
+}
+
+TEST(Cache, CountsWhatItDoes) {
+    Mesh mesh(0, 100 << 10);
+    ASSERT_EQ(mesh.stage(number(random_points(8000, 11))), ABACUS_OK);
+    const MemoryHost::Calls before = mesh.host.calls;
+    ASSERT_EQ(mesh.build(), ABACUS_OK);
+    const MemoryHost::Calls &after = mesh.host.calls;
+    const abacus_counters &c = mesh.header.counters;
+    std::size_t stored_bytes = 0;
+    for (const auto &[key, page] : mesh.host.pages) stored_bytes += page.size;
+    EXPECT_EQ(c.insertions, mesh.header.vertices - 3);
+    EXPECT_EQ(c.created - c.deleted, mesh.header.simplices + mesh.header.ghosts);
+    EXPECT_EQ(c.stores, after.put - before.put);
+    EXPECT_EQ(c.stores - c.rewrites, mesh.host.pages.size());
+    EXPECT_EQ(c.splits, mesh.host.pages.size() - 1);
+    EXPECT_EQ(c.loads, after.find - before.find);
+    EXPECT_EQ(c.link_probes, c.misses); // one look-up a miss
+    EXPECT_GE(c.misses, c.loads / 2);
+    EXPECT_GT(c.evictions, 0u);
+    EXPECT_LE(c.eviction_batches, c.evictions);
+    EXPECT_GE(c.bytes_written, stored_bytes);
+    EXPECT_LE(c.bytes_read, c.loads * ABACUS_PAGE_BYTES);
+    EXPECT_EQ(c.incircle_tests, c.insertions);
+    EXPECT_EQ(c.incircle_hits + c.walks, c.incircle_tests);
+    EXPECT_GT(c.steps, c.created);
+    EXPECT_GT(c.total_ns, c.translation_ns);
+    EXPECT_GT(c.translation_ns, 0u);
+    // A second build that changes nothing writes nothing and adds nothing.
+    const abacus_counters sum = c;
+    ASSERT_EQ(mesh.build(), ABACUS_OK);
+    EXPECT_EQ(mesh.header.counters.stores, sum.stores);
+    EXPECT_EQ(mesh.header.counters.insertions, sum.insertions);
+}
+
+TEST(Cache, MovesSimplicesHomeAndTellsWhere) {
+    MemoryHost memory;
+    const Host host = memory.host();
+    Cache<2> cache(host, Domain<2>({0, 0}, {1, 1}), 0, {.budget = ample});
+    cache.create_first_block();
+    // Pairs of triangles back to back: many more than a block takes, in one operation.
+    Random random(12);
+    std::map<Handle, std::array<VertexIndex, 3>> made;
+    for (int pair = 0; pair < 1000; ++pair) {
+        std::array<VertexIndex, 3> v;
+        for (auto &vertex : v)
+            vertex = cache.create_vertex({unit(random), unit(random)}, 0, nullptr);
+        const Handle front = cache.create(v);
+        made[front] = v;
+        std::swap(v[0], v[1]);
+        const Handle back = cache.create(v);
+        made[back] = v;
+        constexpr std::array<int, 3> opposite{1, 0, 2};
+        for (int i = 0; i < 3; ++i)
+            cache.connect(make_link(front, i), make_link(back, opposite[i]));
+    }
+    EXPECT_TRUE(cache.settle(1ull << 61));
+    EXPECT_FALSE(cache.settle(0));
+    EXPECT_GT(cache.cached_blocks(), 4u);
+    // A handle from before tells the new place, unless its slot is used again.
+    std::size_t told = 0;
+    for (const auto &[handle, vertices] : made) {
+        const Handle now = cache.follow(handle);
+        told += now != no_handle && cache.simplex(now).vertex == vertices;
+    }
+    EXPECT_GT(told, made.size() / 2);
+    // All are there, at home and linked as before.
+    std::size_t found = 0;
+    for (Key key = first_key; key < end_key;)
+        key = cache.visit(key, [&](Handle h) {
+            ++found;
+            EXPECT_TRUE(cache.is_home(h));
+            for (int i = 0; i < 3; ++i) {
+                const Link across = cache.cross(h, i);
+                EXPECT_EQ(cache.cross(link_simplex(across), link_facet(across)), make_link(h, i));
+                EXPECT_TRUE(cache.is_live(link_simplex(across)));
+            }
+        });
+    EXPECT_EQ(found, made.size());
+}
+
+TEST(Cache, TakesAHubLargerThanItself) {
+    // The centre of a circle, inserted last, is joined to all of its points.
+    const int n = 100000 / scale;
+    std::vector<Point<2>> points(n);
+    Random random(13);
+    for (auto &p : points) {
+        const double angle = 2 * M_PI * unit(random);
+        p = {std::cos(angle), std::sin(angle)};
+    }
+    Mesh mesh(0, 256 << 10);
+    ASSERT_EQ(mesh.stage(number(points)), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message;
+    ASSERT_EQ(mesh.stage({{n, {0, 0}}}), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message;
+    EXPECT_GE(mesh.header.simplices, mesh.header.vertices - 1);
+    points.push_back({0, 0});
+    EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+    EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
+    // And afterwards it goes on with what its budget allows.
+    ASSERT_EQ(mesh.stage({{n + 1, {0.1, 0.2}}, {n + 2, {0.1, 0.3}}}), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message;
+    EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+}
+
+} // namespace
+} // namespace abacus::test

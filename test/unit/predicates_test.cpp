@@ -1,0 +1,201 @@
+// The predicates equal CGAL's exact ones, in sign and in the perturbation of
+// degenerate cases, on input that makes floating-point filters fail.
+#include "geometry/predicates.hpp"
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <random>
+
+namespace abacus {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Random = std::mt19937_64;
+
+template <int D> auto cgal(const Point<D> &p) {
+    if constexpr (D == 2) return Kernel::Point_2(p[0], p[1]);
+    else return Kernel::Point_3(p[0], p[1], p[2]);
+}
+
+template <int D> int exact_orientation(const Corners<D> &c) {
+    if constexpr (D == 2) return CGAL::orientation(cgal<D>(*c[0]), cgal<D>(*c[1]), cgal<D>(*c[2]));
+    else
+        return CGAL::orientation(cgal<D>(*c[0]), cgal<D>(*c[1]), cgal<D>(*c[2]), cgal<D>(*c[3]));
+}
+
+/// CGAL's triangulations own the perturbation; what decides is protected.
+class Perturbed2 : public CGAL::Delaunay_triangulation_2<Kernel> {
+public:
+    int in_sphere(const Corners<2> &c, const abacus::Point<2> &p) const {
+        return side_of_oriented_circle(cgal<2>(*c[0]), cgal<2>(*c[1]), cgal<2>(*c[2]), cgal<2>(p),
+                                       true);
+    }
+};
+class Perturbed3 : public CGAL::Delaunay_triangulation_3<Kernel> {
+public:
+    int in_sphere(const Corners<3> &c, const abacus::Point<3> &p) const {
+        return side_of_oriented_sphere(cgal<3>(*c[0]), cgal<3>(*c[1]), cgal<3>(*c[2]),
+                                       cgal<3>(*c[3]), cgal<3>(p), true);
+    }
+};
+template <int D> using Perturbed = std::conditional_t<D == 2, Perturbed2, Perturbed3>;
+
+/// Coordinates that are hard in different ways.
+struct Source {
+    const char *name;
+    std::function<double(Random &)> coordinate;
+};
+
+double unit(Random &r) { return std::uniform_real_distribution<double>(-1, 1)(r); }
+
+const Source sources[] = {
+    {"uniform", unit},
+    {"tiny_grid", [](Random &r) { return double(r() % 4); }},
+    {"grid", [](Random &r) { return double(r() % 1000) - 500; }},
+    {"grid_far_from_zero", [](Random &r) { return 1e6 + double(r() % 8) * 0.125; }},
+    {"decimals", [](Random &r) { return double(r() % 10) * 0.1; }},
+    {"nearly_a_grid",
+     [](Random &r) {
+         const double x = double(r() % 4) + 1;
+         return r() % 2 ? x : std::nextafter(x, r() % 2 ? 0.0 : 9.0);
+     }},
+    {"near_one_point", [](Random &r) { return 1 + unit(r) * 1e-15; }},
+    {"subnormal", [](Random &r) { return 5e-324 * double(r() % 6); }},
+    {"small", [](Random &r) { return unit(r) * 1e-120; }},
+    {"tiny_normal", [](Random &r) { return unit(r) * 1e-300; }},
+    {"large", [](Random &r) { return unit(r) * 1e120; }},
+    {"largest", [](Random &r) { return unit(r) * std::numeric_limits<double>::max(); }},
+    {"largest_grid",
+     [](Random &r) { return (double(r() % 3) - 1) * std::numeric_limits<double>::max(); }},
+    {"all_exponents",
+     [](Random &r) { return std::ldexp(unit(r), int(r() % 2040) - 1020); }},
+    {"mixed",
+     [](Random &r) { return r() % 3 ? double(r() % 3) : std::ldexp(unit(r), int(r() % 400) - 200); }},
+};
+
+template <int D> Point<D> point(const Source &source, Random &random) {
+    Point<D> p;
+    for (double &x : p) x = source.coordinate(random) + 0.0;
+    return p;
+}
+
+class Predicates : public testing::TestWithParam<Source> {
+protected:
+    template <int D> void compare(int rounds) {
+        Random random(42);
+        const Perturbed<D> triangulation;
+        int degenerate = 0;
+        for (int round = 0; round < rounds; ++round) {
+            std::array<Point<D>, D + 1> points;
+            Corners<D> corners;
+            for (int i = 0; i <= D; ++i) {
+                points[i] = point<D>(GetParam(), random);
+                corners[i] = &points[i];
+            }
+            Point<D> p = point<D>(GetParam(), random);
+            if (round % 16 == 0) p = points[random() % (D + 1)];
+            const int sign = orientation<D>(corners);
+            ASSERT_EQ(sign, exact_orientation<D>(corners));
+            degenerate += sign == 0;
+            if (sign < 0) std::swap(corners[0], corners[1]);
+            if (sign == 0) continue;
+            ASSERT_EQ(orientation<D>(corners), 1);
+            const int side = in_sphere(corners, p);
+            const bool is_corner = std::find(points.begin(), points.end(), p) != points.end();
+            ASSERT_EQ(side == 0, is_corner);
+            if (is_corner) continue;
+            ASSERT_EQ(side, triangulation.in_sphere(corners, p));
+            // The same for every even order of the corners.
+            std::rotate(corners.begin(), corners.begin() + 1, corners.begin() + 3);
+            ASSERT_EQ(in_sphere(corners, p), side);
+        }
+        RecordProperty("degenerate", degenerate);
+    }
+
+    template <int D> void compare_independence() {
+        Random random(43);
+        for (int round = 0; round < 2000; ++round) {
+            std::array<Point<D>, D + 1> points;
+            Corners<D> corners;
+            int n = 0;
+            for (int i = 0; i < 12 && n <= D; ++i) {
+                const Point<D> p = point<D>(GetParam(), random);
+                bool independent = true;
+                if (n == 1) independent = p != points[0];
+                if (n == 2) independent = !CGAL::collinear(cgal<D>(points[0]), cgal<D>(points[1]), cgal<D>(p));
+                if constexpr (D == 3)
+                    if (n == 3)
+                        independent = !CGAL::coplanar(cgal<D>(points[0]), cgal<D>(points[1]),
+                                                      cgal<D>(points[2]), cgal<D>(p));
+                ASSERT_EQ(is_independent(corners, n, p), independent);
+                if (!independent) continue;
+                points[n] = p;
+                corners[n] = &points[n];
+                ++n;
+            }
+        }
+    }
+};
+
+TEST_P(Predicates, EqualCgalsInThePlane) { compare<2>(20000); }
+TEST_P(Predicates, EqualCgalsInSpace) { compare<3>(10000); }
+TEST_P(Predicates, KnowIndependentPoints) {
+    compare_independence<2>();
+    compare_independence<3>();
+}
+
+INSTANTIATE_TEST_SUITE_P(Inputs, Predicates, testing::ValuesIn(sources),
+                         [](const auto &info) { return info.param.name; });
+
+TEST(Predicates, HaveTheSignsOfTheirConvention) {
+    // Counterclockwise; the right hand's fingers along three corners, its thumb up.
+    EXPECT_EQ(orientation({0, 0}, {1, 0}, {0, 1}), 1);
+    EXPECT_EQ(orientation({0, 0}, {0, 1}, {1, 0}), -1);
+    EXPECT_EQ(orientation({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}), 1);
+    EXPECT_EQ(orientation({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}), -1);
+    const Point<2> a{0, 0}, b{1, 0}, c{0, 1};
+    EXPECT_EQ(in_sphere({&a, &b, &c}, {0.5, 0.5 - 1e-9}), 1);
+    EXPECT_EQ(in_sphere({&a, &b, &c}, {2, 2}), -1);
+    const Point<3> e{0, 0, 0}, f{1, 0, 0}, g{0, 1, 0}, h{0, 0, 1};
+    EXPECT_EQ(in_sphere({&e, &f, &g, &h}, {0.25, 0.25, 0.25}), 1);
+    EXPECT_EQ(in_sphere({&e, &f, &g, &h}, {2, 2, 2}), -1);
+}
+
+TEST(Predicates, PerturbationDecidesConsistently) {
+    // Of the two ways to cut a square exactly one is Delaunay, whatever the order.
+    std::array<Point<2>, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    for (int i = 0; i < 4; ++i) {
+        const auto &a = square[i], &b = square[(i + 1) % 4], &c = square[(i + 2) % 4],
+                   &d = square[(i + 3) % 4];
+        EXPECT_EQ(in_sphere({&a, &b, &c}, d), in_sphere({&c, &d, &a}, b));
+        EXPECT_EQ(in_sphere({&a, &b, &c}, d), -in_sphere({&b, &c, &d}, a));
+    }
+}
+
+TEST(Predicates, HullFacetHoldsWhatLiesStrictlyBetweenItsEnds) {
+    const auto place = [](Point<2> a, Point<2> b, Point<2> p) {
+        return in_hull_facet({&a, &b, nullptr}, p);
+    };
+    Random random(1);
+    for (int round = 0; round < 1000; ++round) {
+        // On a line with exact points.
+        const double dx = double(random() % 7) - 3, dy = double(random() % 7) - 3;
+        if (dx == 0 && dy == 0) continue;
+        const auto at = [&](int t) { return Point<2>{5 + t * dx, -3 + t * dy}; };
+        const int a = int(random() % 9), b = a + 2 + int(random() % 5);
+        for (int t = a - 3; t < b + 3; ++t) {
+            const int expected = t == a || t == b ? 0 : t > a && t < b ? 1 : -1;
+            EXPECT_EQ(place(at(a), at(b), at(t)), expected);
+            EXPECT_EQ(place(at(b), at(a), at(t)), expected);
+        }
+    }
+}
+
+} // namespace
+} // namespace abacus
