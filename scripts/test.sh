@@ -29,7 +29,7 @@ suite() {
 
 # The line of a log that says how much was tested.
 summary() {
-    grep -E -o '[0-9]+% tests passed.*|^All [0-9]+ tests passed.*|^Files=.*Tests=[0-9]+|^[0-9]+ examples.*|^[0-9]+ meshes compared.*|^Done [0-9]+ runs.*' "$1" |
+    grep -E -o '[0-9]+% tests passed.*|All [0-9]+ tests passed|^Files=.*Tests=[0-9]+|^[0-9]+ examples.*|^[0-9]+ meshes compared.*|^Done [0-9]+ runs.*' "$1" |
         tail -n 1
 }
 

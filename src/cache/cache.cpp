@@ -20,9 +20,9 @@ template <int D> std::uint32_t block_capacity(int attributes) {
 template <int D>
 Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
                 const CacheOptions &options)
-    : host_(host), memory_(host), domain_(domain), options_(options),
+    : host_(host), domain_(domain), options_(options),
       capacity_(block_capacity<D>(attributes)), blocks_(host), slots_(host),
-      vertices_(host, attributes), visible_(host), directory_(&memory_), unused_blocks_(host),
+      vertices_(host, attributes), visible_(host), directory_(host), unused_blocks_(host),
       limbo_(host), places_(host), local_(host), numbered_(host), corners_(host), outside_(host), beyond_(host), facets_(host) {}
 
 template <int D> Handle Cache<D>::follow(Handle h) const {
@@ -98,15 +98,13 @@ template <int D> void Cache<D>::create_first_block() {
     const BlockIndex b = new_block(Block::cached);
     blocks_[b].own(first_key, end_key);
     blocks_[b].dirty = true;
-    directory_.emplace(first_key, b);
+    directory_.insert(first_key, b);
 }
 
 template <int D>
 typename Cache<D>::BlockIndex Cache<D>::cached_owner(const Key &key) const {
-    auto at = directory_.upper_bound(key);
-    if (at == directory_.begin()) return no_block;
-    --at;
-    return blocks_[at->second].owns(key) ? at->second : no_block;
+    const BlockIndex b = directory_.floor(key);
+    return b != no_block && blocks_[b].owns(key) ? b : no_block;
 }
 
 template <int D>

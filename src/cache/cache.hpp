@@ -26,6 +26,7 @@
 // that a simplex left forwards to its new place until it is used again.
 #pragma once
 
+#include "cache/directory.hpp"
 #include "cache/key.hpp"
 #include "cache/page_format.hpp"
 #include "cache/vertex_heap.hpp"
@@ -33,10 +34,7 @@
 #include "geometry/locational_code.hpp"
 #include "geometry/predicates.hpp"
 #include "host/host.hpp"
-#include "host/memory.hpp"
 #include "mesh/simplex.hpp"
-
-#include <map>
 
 namespace abacus {
 
@@ -207,7 +205,7 @@ private:
         bool has_parts() const { return lower.part != 0 || upper.part != 0; }
     };
     using BlockIndex = std::uint32_t;
-    static constexpr BlockIndex no_block = 0xffffffffu;
+    static constexpr BlockIndex no_block = Directory::none;
     static constexpr std::uint32_t no_slot = 0xffffffffu;
     static constexpr std::size_t block_bytes = sizeof(Block) + block_slots<D> * sizeof(Simplex<D>);
 
@@ -307,7 +305,6 @@ private:
     Key key_beyond(Handle h, int facet) const;
 
     const Host &host_;
-    HostMemory memory_;
     Domain<D> domain_;
     CacheOptions options_;
     std::uint32_t capacity_; // simplices a block takes before it is split
@@ -316,7 +313,7 @@ private:
     Arena<Simplex<D>> slots_; // block_slots of each block
     VertexHeap<D> vertices_;
     VisibleFacets<D> visible_;
-    std::pmr::map<Key, BlockIndex, KeyLess> directory_; // cached blocks by lower key
+    Directory directory_;
     Arena<BlockIndex> unused_blocks_;
     Arena<BlockIndex> limbo_;
     Arena<Place> places_;

@@ -63,9 +63,10 @@ template <int D> typename Cache<D>::BlockIndex Cache<D>::load(const abacus_page 
     counters.bytes_read += page.size;
     const auto view = PageView<D>::parse(page.bytes, page.size, vertices_.attribute_count());
     if (!(view.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
-    const auto after = directory_.lower_bound(view.lower());
-    if ((after != directory_.end() && after->first < view.upper()) ||
-        (after != directory_.begin() && view.lower() < blocks_[std::prev(after)->second].upper))
+    const BlockIndex before = directory_.floor(view.lower());
+    const BlockIndex after = directory_.after(view.lower());
+    if ((before != no_block && view.lower() < blocks_[before].upper) ||
+        (after != no_block && blocks_[after].lower < view.upper()))
         throw_corrupted("Two pages own the same part of the curve.");
 
     next_epoch();
@@ -75,7 +76,7 @@ template <int D> typename Cache<D>::BlockIndex Cache<D>::load(const abacus_page 
     block.own(view.lower(), view.upper());
     block.location = page.location;
     block.count = block.high_water = static_cast<std::uint32_t>(view.simplices());
-    directory_.emplace(block.lower, b);
+    directory_.insert(block.lower, b);
 
     const Handle first = b * block_slots<D>;
     corners_.resize(std::size_t(view.simplices()) * (D + 1));

@@ -107,25 +107,23 @@ template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
 }
 
 template <int D> bool Cache<D>::lend_left(BlockIndex b) {
-    const auto at = directory_.find(blocks_[b].lower);
-    if (blocks_[b].location != 0 || at == directory_.begin()) return false;
-    const BlockIndex left = std::prev(at)->second;
+    const BlockIndex left = directory_.before(blocks_[b].lower);
+    if (blocks_[b].location != 0 || left == no_block) return false;
     if (!takes_loan(left, b) || !(blocks_[left].upper == blocks_[b].lower)) return false;
     const std::size_t cut = cut_near((capacity_ - blocks_[left].count) / 2);
     if (cut >= places_.size() || blocks_[left].count + cut > capacity_) return false;
     for (std::size_t i = 0; i < cut; ++i) move(places_[i].handle, left);
     const Key border = places_[cut].key;
-    directory_.erase(at);
+    directory_.erase(blocks_[b].lower);
     blocks_[left].own(blocks_[left].lower, border);
     blocks_[b].own(border, blocks_[b].upper);
-    directory_.emplace(border, b);
+    directory_.insert(border, b);
     return true;
 }
 
 template <int D> bool Cache<D>::lend_right(BlockIndex b) {
-    const auto at = std::next(directory_.find(blocks_[b].lower));
-    if (at == directory_.end()) return false;
-    const BlockIndex right = at->second;
+    const BlockIndex right = directory_.after(blocks_[b].lower);
+    if (right == no_block) return false;
     if (blocks_[right].location != 0 || !takes_loan(right, b) ||
         !(blocks_[right].lower == blocks_[b].upper))
         return false;
@@ -134,10 +132,10 @@ template <int D> bool Cache<D>::lend_right(BlockIndex b) {
     if (cut >= n || blocks_[right].count + (n - cut) > capacity_) return false;
     for (std::size_t i = cut; i < n; ++i) move(places_[i].handle, right);
     const Key border = places_[cut].key;
-    directory_.erase(at);
+    directory_.erase(blocks_[right].lower);
     blocks_[b].own(blocks_[b].lower, border);
     blocks_[right].own(border, blocks_[right].upper);
-    directory_.emplace(border, right);
+    directory_.insert(border, right);
     return true;
 }
 
@@ -156,7 +154,7 @@ typename Cache<D>::BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t wante
     blocks_[right].used_at = left.used_at;
     left.own(left.lower, places_[cut].key);
     left.dirty = true;
-    directory_.emplace(blocks_[right].lower, right);
+    directory_.insert(blocks_[right].lower, right);
     for (std::size_t i = cut; i < places_.size(); ++i) move(places_[i].handle, right);
     return right;
 }

@@ -31,10 +31,4 @@ inline constexpr std::uint64_t unknown_part = ~0ull;
 /// Code of a link to a neighbour that has to be probed for.
 inline constexpr std::uint64_t unknown_code = ~0ull;
 
-/// For ordered containers: abacus_key is a C type of the global namespace, where
-/// std::less would not find the operators above.
-struct KeyLess {
-    constexpr bool operator()(const Key &a, const Key &b) const { return a < b; }
-};
-
 } // namespace abacus

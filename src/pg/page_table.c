@@ -4,11 +4,9 @@
  * Searching: "greatest key <= K" is a backward scan of the primary key's
  * B-tree that takes its first row. The scan is kept open and only rescanned;
  * for two key columns the bound is one row comparison, so equal codes with
- * many parts still cost one descent. nbtree copies every match on a leaf page
- * before it returns the first, about 150 of them; a lower bound some way
- * below K spares that (measured by others: 2.4 -> 1.0 us). How far below is
- * learnt from the distances met so far; when nothing is found there, the
- * search is repeated without the bound.
+ * many parts still cost one descent. (A second bound some way below K, to keep
+ * nbtree from copying all matches of a leaf page, gained nothing when
+ * measured.)
  *
  * Writing: heap_insert and index_insert, as the executor does it. No
  * BulkInsertState (its ring would evict the pages that are about to be read
@@ -239,37 +237,20 @@ page_table_get(PageTable *table, const int64 *key, StoredPage *page)
 	return true;
 }
 
-/* The row with the greatest key <= `key`; the header row (negative key) is never found. */
+/* The row with the greatest key <= `key`; the header row (negative key) does not count. */
 bool
 page_table_floor(PageTable *table, const int64 *key, StoredPage *page)
 {
-	ScanKeyData keys[2];
-	uint64		reach = table->span != 0 ? 2 * table->span : PG_INT64_MAX;
+	ScanKeyData bound;
 
 	page_table_open(table);
 	see_own_changes(table);
-	for (;;)
-	{
-		bool		everywhere = reach >= (uint64) key[0];
-
-		bound_key(table, &table->floor, &keys[0], BTLessEqualStrategyNumber, key);
-		ScanKeyInit(&keys[1], 1, BTGreaterEqualStrategyNumber, F_INT8GE,
-					Int64GetDatum(everywhere ? 0 : key[0] - (int64) reach));
-		search(table, &table->floor, keys, 2);
-		if (index_getnext_slot(table->floor.scan, BackwardScanDirection, table->floor.slot))
-			break;
-		if (everywhere)
-			return false;
-		reach = PG_INT64_MAX;
-	}
+	bound_key(table, &table->floor, &bound, BTLessEqualStrategyNumber, key);
+	search(table, &table->floor, &bound, 1);
+	if (!index_getnext_slot(table->floor.scan, BackwardScanDirection, table->floor.slot))
+		return false;
 	read_row(table, table->floor.slot, page);
-	{
-		/* a running mean of the distances, eight searches long */
-		uint64		distance = (uint64) (key[0] - page->key[0]);
-
-		table->span = table->span - table->span / 8 + distance / 8 + 1;
-	}
-	return true;
+	return page->key[0] >= 0;
 }
 
 /* The row with the least key > `key`, from the first page when NULL. */

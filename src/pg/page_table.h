@@ -51,7 +51,6 @@ typedef struct PageTable
 	int64		forward_key[PAGE_TABLE_MAX_KEYS];
 
 	bool		wrote;			/* changes that our snapshot does not see yet */
-	uint64		span;			/* how far below a key its page is expected */
 	MemoryContext memory;		/* of what is open */
 	struct varlena *datum;		/* writers: room for one page */
 } PageTable;

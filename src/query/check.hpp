@@ -26,6 +26,8 @@
 #include "query/reader.hpp"
 #include "staging/vertex_reader.hpp"
 
+#include "host/memory.hpp"
+
 #include <memory_resource>
 #include <vector>
 

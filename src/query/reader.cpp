@@ -1,7 +1,10 @@
 #include "query/reader.hpp"
 
 #include "cache/domain_of.hpp"
+#include "host/memory.hpp"
 #include "query/describe.hpp"
+
+#include "host/memory.hpp"
 
 #include <memory_resource>
 #include <string>

@@ -17,6 +17,12 @@
 
 namespace abacus {
 
+/// abacus_key is a C type of the global namespace, where std::less would not find the
+/// operators of cache/key.hpp.
+struct KeyLess {
+    bool operator()(const abacus_key &a, const abacus_key &b) const { return a < b; }
+};
+
 class MemoryHost {
 public:
     /// Bytes in words, so that they are aligned to 8.

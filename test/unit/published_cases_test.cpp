@@ -39,8 +39,8 @@ TEST(PublishedCases, CrossingEdgesInJts20) {
 }
 
 TEST(PublishedCases, OverlappingTrianglesInJts298) {
-    // The part of the point set that the report's summary shows: neighbours one unit in
-    // the last place apart, and one point twice.
+    // The first 28 of its 79 points: some are one unit in the last place apart, one is
+    // there twice.
     const Points points = from_bits({{0x405086a22cd54a24, 0x405125abd3a4f458},
                                      {0x406255c867993562, 0x405e6b90cf326ac5},
                                      {0x40601bce0028da11, 0x405d50c14a8c905a},

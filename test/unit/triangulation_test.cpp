@@ -149,7 +149,7 @@ TEST(Triangulation, AddsToAMeshThatIsThere) {
 
 TEST(Triangulation, TheFourPointsThatGeosGetsWrong) {
     // libgeos issue 1286: GEOS gives {p1 p2 p3, p1 p3 p4}. The first three are nearly
-    // collinear, and the hull has only three corners.
+    // collinear; p2 is a corner of the hull, by rational arithmetic.
     const Point<2> p1{-1.3890020986020145e-10, 4.860466764224401},
         p2{-1.3889120965221466e-10, -5.531838081766228},
         p3{-1.388852095135568e-10, -12.460041312426647},

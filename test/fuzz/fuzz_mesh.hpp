@@ -1,0 +1,289 @@
+// What the fuzz targets share: a small sound mesh of several pages, built once, and all
+// that can be done with a mesh, run on a damaged copy of it. Whatever the damage, every
+// call has to end with a clean status, in bounded time and without a leak.
+#pragma once
+
+#include "support/memory_host.hpp"
+
+#include <bit>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace abacus::fuzz {
+
+[[noreturn]] inline void fail(const std::string &what) {
+    std::fprintf(stderr, "%s\n", what.c_str());
+    std::abort();
+}
+
+inline void require(bool condition, const char *what) {
+    if (!condition) fail(what);
+}
+
+class Mesh {
+public:
+    MemoryHost host;
+    abacus_header header{};
+    std::size_t cache_bytes = 1 << 20;
+
+    /// Runs a call that returns a status; any but an internal error is well.
+    template <class Call> abacus_status run(Call call) {
+        abacus_error error{};
+        const abacus_status status = call(error);
+        if (status == ABACUS_ERROR && error.kind == ABACUS_ERROR_INTERNAL)
+            fail(std::string("internal error: ") + error.message + ' ' + error.detail);
+        if (status == ABACUS_HOST_ERROR) {
+            // Pages that overlap make a database refuse a second one under one key.
+            require(host.violations.size() == 1 &&
+                        host.violations[0] == "a second page is put under one key",
+                    "a host error without a cause");
+        } else {
+            require(host.violations.empty(), "the host was used wrongly");
+        }
+        host.violations.clear();
+        host.recover();
+        return status;
+    }
+
+    void stage(int points, unsigned seed) {
+        std::mt19937_64 random(seed);
+        std::uniform_real_distribution<double> unit(0, 1);
+        run([&](abacus_error &error) {
+            abacus_stage *stage = nullptr;
+            abacus_status status =
+                abacus_stage_open(host.table(), &header, 1 << 20, &stage, &error);
+            for (int i = 0; i < points && status == ABACUS_OK; ++i) {
+                std::vector<std::uint64_t> record{random() % 1000};
+                for (unsigned j = 0; j < 2 + header.attributes; ++j)
+                    record.push_back(std::bit_cast<std::uint64_t>(unit(random)));
+                status = abacus_stage_add(stage, record.data(), 1, &error);
+            }
+            if (status == ABACUS_OK) status = abacus_stage_finish(stage, &header, &error);
+            abacus_stage_close(stage);
+            return status;
+        });
+    }
+
+    abacus_status build() {
+        return run([&](abacus_error &error) {
+            abacus_build *build = nullptr;
+            abacus_status status =
+                abacus_build_open(host.table(), &header, cache_bytes, &build, &error);
+            if (status != ABACUS_OK) return status;
+            status = abacus_build_run(build, 0, &header, &error);
+            abacus_build_close(build);
+            return status;
+        });
+    }
+
+    void locate_and_walk() {
+        for (int i = 0; i < 6; ++i)
+            run([&](abacus_error &error) {
+                abacus_mesh *mesh = nullptr;
+                abacus_status status =
+                    abacus_mesh_open(host.table(), &header, cache_bytes, &mesh, &error);
+                if (status != ABACUS_OK) return status;
+                const double p[] = {0.1 + 0.15 * i, 0.8 - 0.1 * i};
+                abacus_simplex s;
+                status = abacus_mesh_locate(mesh, p, &s, &error);
+                for (int step = 0; step < 12 && status == ABACUS_OK; ++step)
+                    status = abacus_mesh_walk(mesh, s.code, s.id, step % 3, &s, &error);
+                abacus_mesh_close(mesh);
+                return status;
+            });
+    }
+
+    void scan() {
+        run([&](abacus_error &error) {
+            abacus_scan *scan = nullptr;
+            abacus_status status = abacus_scan_open(host.table(), &header, 1, &scan, &error);
+            if (status != ABACUS_OK) return status;
+            abacus_simplex s;
+            while ((status = abacus_scan_next(scan, &s, &error)) == ABACUS_OK) {}
+            abacus_scan_close(scan);
+            return status;
+        });
+    }
+
+    void vertex_scan() {
+        run([&](abacus_error &error) {
+            abacus_vertex_scan *scan = nullptr;
+            abacus_status status =
+                abacus_vertex_scan_open(host.table(), &header, cache_bytes, &scan, &error);
+            if (status != ABACUS_OK) return status;
+            abacus_vertex v;
+            while ((status = abacus_vertex_scan_next(scan, &v, &error)) == ABACUS_OK) {}
+            abacus_vertex_scan_close(scan);
+            return status;
+        });
+    }
+
+    /// Returns the number of faults.
+    int check() {
+        int faults = 0;
+        run([&](abacus_error &error) {
+            abacus_check *check = nullptr;
+            const abacus_status status =
+                abacus_check_open(host.table(), &header, cache_bytes, 20, &check, &error);
+            if (status != ABACUS_OK) return status;
+            for (abacus_fault fault; abacus_check_next(check, &fault) == ABACUS_OK;) ++faults;
+            abacus_check_close(check);
+            return status;
+        });
+        return faults;
+    }
+
+    void draw() {
+        run([&](abacus_error &error) {
+            abacus_drawing drawing{};
+            drawing.width = drawing.height = 16;
+            drawing.edges = 1;
+            drawing.exaggeration = 1;
+            unsigned char *png = nullptr;
+            std::size_t size = 0;
+            const abacus_status status =
+                abacus_draw(host.table(), &header, &drawing, &png, &size, &error);
+            if (status == ABACUS_OK) host.host().release(png);
+            return status;
+        });
+    }
+
+    /// All of it; the build, which changes pages, last.
+    void do_everything() {
+        locate_and_walk();
+        scan();
+        vertex_scan();
+        check();
+        draw();
+        build();
+        check();
+        require(host.bytes == 0, "memory is not given back");
+    }
+};
+
+/// The sound mesh: five attributes make small pages; some points are staged only.
+inline const Mesh &sound_mesh() {
+    static const Mesh &mesh = []() -> const Mesh & {
+        static Mesh made;
+        made.header.dimension = 2;
+        made.header.attributes = 5;
+        for (int i = 0; i < 5; ++i) std::strcpy(made.header.names[i], "height");
+        made.stage(160, 1);
+        require(made.build() == ABACUS_OK, "the sound mesh cannot be built");
+        made.stage(40, 2);
+        require(made.check() == 0, "the sound mesh is not sound");
+        return made;
+    }();
+    return mesh;
+}
+
+/// Calls act(mesh) with a fresh copy of the sound mesh.
+inline void with_copy(std::size_t cache_bytes, const std::function<void(Mesh &)> &act) {
+    Mesh mesh;
+    mesh.host.restore(sound_mesh().host);
+    mesh.header = sound_mesh().header;
+    mesh.cache_bytes = cache_bytes;
+    act(mesh);
+}
+
+/// Reads numbers off the input; 0 when it is used up.
+class Bytes {
+public:
+    Bytes(const std::uint8_t *data, std::size_t size) : at_(data), end_(data + size) {}
+
+    template <class T> T next() {
+        T value{};
+        const std::size_t n = std::min(sizeof value, rest());
+        if (n > 0) std::memcpy(&value, at_, n);
+        at_ += n;
+        return value;
+    }
+    std::size_t rest() const { return static_cast<std::size_t>(end_ - at_); }
+    const std::uint8_t *data() const { return at_; }
+
+private:
+    const std::uint8_t *at_, *end_;
+};
+
+/// Changes stored pages as the input says: either one becomes the input's bytes, or
+/// single bytes, 16-bit numbers and words of any of them change.
+template <class Pages> void damage(Pages &pages, Bytes &input) {
+    const auto page = [&]() -> MemoryHost::Page & {
+        const auto n = input.next<std::uint8_t>() % pages.size();
+        return std::next(pages.begin(), static_cast<std::ptrdiff_t>(n))->second;
+    };
+    const auto change = [&](auto value) {
+        MemoryHost::Page &changed = page();
+        const std::size_t at = input.next<std::uint16_t>();
+        value = input.next<decltype(value)>();
+        if (changed.size < sizeof value) return;
+        // Aligned to its size, as everything in a page is.
+        const std::size_t slot = at % (changed.size / sizeof value);
+        std::memcpy(changed.bytes() + slot * sizeof value, &value, sizeof value);
+    };
+    if (input.next<std::uint8_t>() % 4 == 0) {
+        MemoryHost::Page &replaced = page();
+        const std::uint64_t location = replaced.location;
+        replaced.assign(input.data(), std::min<std::size_t>(input.rest(), ABACUS_PAGE_BYTES));
+        replaced.location = location;
+        return;
+    }
+    while (input.rest() > 0) {
+        switch (input.next<std::uint8_t>() % 4) {
+        case 0: change(std::uint8_t{}); break;
+        case 1: change(std::uint16_t{}); break;
+        case 2: change(std::uint64_t{}); break;
+        default: { // a word from another place: plausible keys and coordinates
+            MemoryHost::Page &from = page(), &to = page();
+            const std::size_t a = input.next<std::uint16_t>(), b = input.next<std::uint16_t>();
+            if (!from.words.empty() && !to.words.empty())
+                to.words[b % to.words.size()] = from.words[a % from.words.size()];
+        }
+        }
+    }
+}
+
+/// libFuzzer starts from the files of a folder: those that `seeds` gives go to the first
+/// folder on the command line, if it is empty.
+inline void write_seeds(int argc, char **argv, const std::vector<std::vector<std::uint8_t>> &seeds) {
+    for (int i = 1; i < argc; ++i) {
+        const std::filesystem::path folder = argv[i];
+        if (argv[i][0] == '-' || !std::filesystem::is_directory(folder)) continue;
+        if (!std::filesystem::is_empty(folder)) return;
+        for (std::size_t n = 0; n < seeds.size(); ++n) {
+            std::ofstream file(folder / ("seed-" + std::to_string(n)), std::ios::binary);
+            file.write(reinterpret_cast<const char *>(seeds[n].data()),
+                       static_cast<std::streamsize>(seeds[n].size()));
+        }
+        return;
+    }
+}
+
+/// Inputs for damage(): every page whole, behind `prefix`, and a few single changes.
+template <class Pages>
+std::vector<std::vector<std::uint8_t>> page_seeds(const Pages &pages,
+                                                  const std::vector<std::uint8_t> &prefix) {
+    std::vector<std::vector<std::uint8_t>> seeds;
+    std::uint8_t n = 0;
+    for (const auto &[key, page] : pages) {
+        seeds.push_back(prefix);
+        seeds.back().insert(seeds.back().end(), {0, n++});
+        const auto *bytes = reinterpret_cast<const std::uint8_t *>(page.words.data());
+        seeds.back().insert(seeds.back().end(), bytes, bytes + page.size);
+    }
+    for (std::uint8_t kind = 0; kind < 4; ++kind) {
+        seeds.push_back(prefix);
+        seeds.back().insert(seeds.back().end(),
+                            {1, kind, 2, 40, 1, 0, 0, 0, 0, 1, 0, 0, 0, kind, 1, 60, 0, 9, 9, 9});
+    }
+    return seeds;
+}
+
+} // namespace abacus::fuzz

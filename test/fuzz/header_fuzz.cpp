@@ -1,0 +1,42 @@
+// Damaged header rows: decoded or refused, and what is decoded describes a mesh that it
+// need not fit.
+#include "fuzz/fuzz_mesh.hpp"
+
+using namespace abacus::fuzz;
+
+namespace {
+
+std::vector<std::uint8_t> encode(const abacus_header &header) {
+    std::vector<std::uint8_t> bytes(ABACUS_PAGE_BYTES);
+    bytes.resize(abacus_header_encode(&header, bytes.data()));
+    return bytes;
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerInitialize(int *argc, char ***argv) {
+    abacus_header empty{};
+    empty.dimension = 3;
+    write_seeds(*argc, *argv, {encode(sound_mesh().header), encode(empty)});
+    return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+    abacus_header header;
+    abacus_error error{};
+    if (abacus_header_decode(data, size, &header, &error) != ABACUS_OK) {
+        require(error.kind == ABACUS_ERROR_CORRUPTED, "a header is refused for another reason");
+        return 0;
+    }
+    const std::vector<std::uint8_t> bytes = encode(header);
+    abacus_header again;
+    require(bytes.size() == size, "a header changes its size");
+    require(abacus_header_decode(bytes.data(), bytes.size(), &again, &error) == ABACUS_OK &&
+                std::memcmp(&header, &again, sizeof header) == 0,
+            "a header changes on its way");
+    with_copy(1 << 20, [&](Mesh &mesh) {
+        mesh.header = header;
+        mesh.do_everything();
+    });
+    return 0;
+}

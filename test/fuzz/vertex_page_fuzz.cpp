@@ -1,0 +1,27 @@
+// Damaged vertex pages.
+#include "fuzz/fuzz_mesh.hpp"
+
+using namespace abacus::fuzz;
+
+extern "C" int LLVMFuzzerInitialize(int *argc, char ***argv) {
+    write_seeds(*argc, *argv, page_seeds(sound_mesh().host.vertex_pages, {}));
+    return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+    Bytes input(data, size);
+    with_copy(1 << 20, [&](Mesh &mesh) {
+        damage(mesh.host.vertex_pages, input);
+        mesh.vertex_scan();
+        mesh.check();
+        mesh.build();
+        mesh.check();
+        // And from the points alone.
+        mesh.host.pages.clear();
+        mesh.header.inserted = mesh.header.vertices = mesh.header.duplicates = 0;
+        mesh.header.simplices = mesh.header.ghosts = 0;
+        mesh.build();
+        require(mesh.host.bytes == 0, "memory is not given back");
+    });
+    return 0;
+}
