@@ -105,9 +105,9 @@ void Locate(benchmark::State &state) {
     build(host, header, std::size_t{64} << 20);
     abacus_mesh *mesh = nullptr;
     abacus_error error{};
-    require(abacus_mesh_open(host.table(), &header, std::size_t(state.range(1)) << 20, &mesh,
-                             &error),
-            error);
+    require(
+        abacus_mesh_open(host.table(), &header, std::size_t(state.range(1)) << 20, &mesh, &error),
+        error);
     std::mt19937_64 engine(2);
     abacus_simplex simplex;
     for (auto _ : state) {

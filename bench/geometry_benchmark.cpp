@@ -36,8 +36,8 @@ template <int D> Corners<D> corners_at(const std::vector<Point<D>> &points, std:
     return corners;
 }
 
-template <int D> void measure_orientation(benchmark::State &state,
-                                          const std::vector<Point<D>> &points) {
+template <int D>
+void measure_orientation(benchmark::State &state, const std::vector<Point<D>> &points) {
     std::size_t i = 0;
     for (auto _ : state) benchmark::DoNotOptimize(orientation<D>(corners_at<D>(points, ++i)));
 }
@@ -48,8 +48,8 @@ void Orientation2Degenerate(benchmark::State &state) {
     measure_orientation<2>(state, degenerate_points<2>());
 }
 
-template <int D> void measure_in_sphere(benchmark::State &state,
-                                        const std::vector<Point<D>> &points) {
+template <int D>
+void measure_in_sphere(benchmark::State &state, const std::vector<Point<D>> &points) {
     std::vector<Corners<D>> positive;
     for (std::size_t i = 0; i < count; ++i)
         if (const Corners<D> corners = corners_at<D>(points, i); orientation<D>(corners) > 0)

@@ -119,6 +119,28 @@ typename Cache<D>::BlockIndex Cache<D>::place_elsewhere(const Cell<D> &cell) {
     return limbo_.back();
 }
 
+template <int D> Handle Cache<D>::closest_of_some(BlockIndex b, const Point<D> &p) const {
+    // A few samples: the walk is shorter by more than they cost.
+    constexpr std::uint32_t samples = 8;
+    Handle best = no_handle;
+    double best_distance = 0;
+    const std::uint32_t end = blocks_[b].high_water, stride = std::max(1u, end / samples);
+    for (std::uint32_t slot = 0; slot < end; slot += best == no_handle ? 1 : stride) {
+        const Handle h = b * block_slots<D> + slot;
+        if (slots_[h].is_free()) continue;
+        double distance = 0;
+        for (int i = 0; i < D; ++i) {
+            const double d = point(slots_[h].vertex[0])[i] - p[i];
+            distance += d * d;
+        }
+        if (best == no_handle || distance < best_distance) {
+            best = h;
+            best_distance = distance;
+        }
+    }
+    return best;
+}
+
 template <int D> Handle Cache<D>::start(std::uint64_t code, const Point<D> &p) {
     // A page between others is never empty for long, but it can be: then any other
     // simplex is as good, and the block before it in curve order is the nearest.
@@ -127,27 +149,7 @@ template <int D> Handle Cache<D>::start(std::uint64_t code, const Point<D> &p) {
         const BlockIndex b = owner(key);
         if (b == no_block) throw_corrupted("No page owns a part of the curve.");
         const Block &block = blocks_[b];
-        if (block.count > 0) {
-            // A few samples: the walk is shorter by more than they cost.
-            Handle best = no_handle;
-            double best_distance = 0;
-            const std::uint32_t stride = std::max(1u, block.high_water / 8);
-            for (std::uint32_t slot = 0; slot < block.high_water; ++slot) {
-                if (best != no_handle && slot % stride != 0) continue;
-                const Handle h = b * block_slots<D> + slot;
-                if (slots_[h].is_free()) continue;
-                double distance = 0;
-                for (int i = 0; i < D; ++i) {
-                    const double d = point(slots_[h].vertex[0])[i] - p[i];
-                    distance += d * d;
-                }
-                if (best == no_handle || distance < best_distance) {
-                    best = h;
-                    best_distance = distance;
-                }
-            }
-            return best;
-        }
+        if (block.count > 0) return closest_of_some(b, p);
         if (block.lower == first_key) return no_handle;
         key = predecessor(block.lower);
     }

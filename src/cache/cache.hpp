@@ -214,6 +214,7 @@ private:
     void free_block(BlockIndex b);
     BlockIndex cached_owner(const Key &key) const;
     BlockIndex place_elsewhere(const Cell<D> &cell);
+    Handle closest_of_some(BlockIndex b, const Point<D> &p) const;
     Handle take_slot(BlockIndex b) {
         Block &block = blocks_[b];
         std::uint32_t slot = block.free;

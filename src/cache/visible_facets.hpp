@@ -77,7 +77,8 @@ public:
         __builtin_prefetch(&buckets_[hash(facet) & mask_]);
     }
     void prefetch_entry(const Vertices &facet) const {
-        __builtin_prefetch(entries_.data() + buckets_[hash(facet) & mask_]);
+        const std::uint32_t number = buckets_[hash(facet) & mask_];
+        if (number != none) __builtin_prefetch(&entries_[number]);
     }
 
     static constexpr std::uint32_t none = 0xffffffffu;

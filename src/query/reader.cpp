@@ -4,8 +4,6 @@
 #include "host/memory.hpp"
 #include "query/describe.hpp"
 
-#include "host/memory.hpp"
-
 #include <memory_resource>
 #include <string>
 #include <unordered_set>

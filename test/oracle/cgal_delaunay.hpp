@@ -23,15 +23,15 @@ template <> struct Delaunay<2> {
     static Point point(const Coordinates<2> &p) { return {p[0], p[1]}; }
 
     template <class Visit> static void for_each_cell(const Triangulation &t, Visit visit) {
-        for (auto face = t.finite_faces_begin(); face != t.finite_faces_end(); ++face)
-            visit(*face);
+        for (auto face = t.finite_faces_begin(); face != t.finite_faces_end(); ++face) visit(*face);
     }
 };
 
 template <int D> bool is_positive(const std::vector<Coordinates<D>> &points, const Simplex<D> &s) {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
         return CGAL::orientation(Delaunay<D>::point(points[s[I]])...) == CGAL::POSITIVE;
-    }(std::make_index_sequence<D + 1>());
+    }
+    (std::make_index_sequence<D + 1>());
 }
 
 template <int D> std::vector<Simplex<D>> delaunay(const std::vector<Coordinates<D>> &points) {

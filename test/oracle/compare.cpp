@@ -104,10 +104,10 @@ template <int D> int compare(char **argv, const char *kept) {
     const Exported<D> mesh(argv[3], table, first_ids != nullptr && *first_ids == '1');
 
     std::vector<Simplex<D>> missing, extra;
-    std::set_difference(wanted.begin(), wanted.end(), mesh.simplices.begin(),
-                        mesh.simplices.end(), std::back_inserter(missing));
-    std::set_difference(mesh.simplices.begin(), mesh.simplices.end(), wanted.begin(),
-                        wanted.end(), std::back_inserter(extra));
+    std::set_difference(wanted.begin(), wanted.end(), mesh.simplices.begin(), mesh.simplices.end(),
+                        std::back_inserter(missing));
+    std::set_difference(mesh.simplices.begin(), mesh.simplices.end(), wanted.begin(), wanted.end(),
+                        std::back_inserter(extra));
     const std::size_t differences =
         report<D>("missing", table, missing) + report<D>("extra", table, extra) + mesh.faults;
     std::printf("%s: %zu points, %zu distinct; %zu simplices, CGAL %zu; %zu missing, %zu extra, "

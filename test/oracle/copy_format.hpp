@@ -53,8 +53,8 @@ inline std::uint16_t big_endian(std::uint16_t word) { return __builtin_bswap16(w
 inline std::uint32_t big_endian(std::uint32_t word) { return __builtin_bswap32(word); }
 inline std::uint64_t big_endian(std::uint64_t word) { return __builtin_bswap64(word); }
 
-inline constexpr unsigned char copy_header[19] = {'P', 'G', 'C', 'O', 'P', 'Y', '\n', 0xff,
-                                                  '\r', '\n', 0};
+inline constexpr unsigned char copy_header[19] = {'P',  'G',  'C',  'O',  'P', 'Y',
+                                                  '\n', 0xff, '\r', '\n', 0};
 
 /// Rows of `Fields` 8-byte fields (bigint or float8, none NULL).
 template <std::size_t Fields> class CopyReader {

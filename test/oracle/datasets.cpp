@@ -49,7 +49,7 @@ std::vector<Point2> grid(std::size_t size, Random &) {
 /// of the two per prime is another point. 17 primes stay below 2^50.
 std::vector<Point2> circle(std::size_t size, Random &random) {
     static constexpr std::pair<std::int64_t, std::int64_t> primes[] = {
-        {2, 1}, {3, 2}, {4, 1}, {5, 2}, {6, 1},  {5, 4},  {7, 2},  {6, 5},  {8, 3},
+        {2, 1}, {3, 2}, {4, 1},  {5, 2},  {6, 1}, {5, 4},  {7, 2},  {6, 5}, {8, 3},
         {8, 5}, {9, 4}, {10, 1}, {10, 3}, {8, 7}, {11, 4}, {10, 7}, {11, 6}};
     std::vector<std::pair<std::int64_t, std::int64_t>> quarter = {{1, 0}};
     for (const auto &[a, b] : primes) {

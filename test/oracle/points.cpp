@@ -53,9 +53,9 @@ void write(const std::vector<Point2> &points, const std::vector<std::uint64_t> &
     } else if (format == "text") {
         char line[128];
         for (const std::uint64_t i : places)
-            file.write(line, std::size_t(std::snprintf(line, sizeof line,
-                                                       "%" PRIu64 "\t%.17g\t%.17g\n", i + 1,
-                                                       points[i].x, points[i].y)));
+            file.write(line,
+                       std::size_t(std::snprintf(line, sizeof line, "%" PRIu64 "\t%.17g\t%.17g\n",
+                                                 i + 1, points[i].x, points[i].y)));
     } else {
         throw std::invalid_argument("no format " + format);
     }
