@@ -12,15 +12,20 @@ template <template <int> class T> class ByDimension {
 public:
     template <class... Args>
     ByDimension(const Host &host, const abacus_header &header, Args &&...args) {
-        if (header.dimension != 2)
-            throw Error(ABACUS_ERROR_ARGUMENT, "this version of Abacus has meshes of dimension 2");
-        flat_.emplace(host, header, std::forward<Args>(args)...);
+        switch (header.dimension) {
+        case 2: flat_.emplace(host, header, std::forward<Args>(args)...); break;
+        case 3: solid_.emplace(host, header, std::forward<Args>(args)...); break;
+        default: throw Error(ABACUS_ERROR_ARGUMENT, "a mesh has 2 or 3 dimensions");
+        }
     }
 
-    template <class Visit> decltype(auto) visit(Visit &&visit) { return visit(*flat_); }
+    template <class Visit> decltype(auto) visit(Visit &&visit) {
+        return flat_ ? visit(*flat_) : visit(*solid_);
+    }
 
 private:
     std::optional<T<2>> flat_;
+    std::optional<T<3>> solid_;
 };
 
 } // namespace abacus

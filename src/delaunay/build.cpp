@@ -102,5 +102,6 @@ void add_counters(abacus_counters &sum, const abacus_counters &more) {
 }
 
 template class Build<2>;
+template class Build<3>;
 
 } // namespace abacus

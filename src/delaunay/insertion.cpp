@@ -9,7 +9,7 @@ namespace abacus {
 template <int D>
 Insertion<D>::Insertion(const Host &host, Cache<D> &cache, std::int64_t simplices,
                         std::int64_t ghosts)
-    : cache_(cache), walk_(cache), cavity_(host), rim_(host), stack_(host), created_(host),
+    : cache_(cache), walk_(cache), marks_(host), ridges_(host), cavity_(host), rim_(host), stack_(host), created_(host),
       simplices_(simplices), ghosts_(ghosts) {
     recent_.fill(no_handle);
 }
@@ -68,6 +68,7 @@ template <int D> void Insertion<D>::find_cavity(const Point<D> &p, Handle first)
     rim_.clear();
     stack_.clear();
     cavity_.push_back(first);
+    if constexpr (D == 3) marks_.set(first, Marks::inside);
     for (int i = D; i >= 0; --i) stack_.push_back(make_link(first, i));
     // An entry is the inner side of a facet: the outer handle is asked for anew,
     // since loading for an earlier entry may have linked it.
@@ -76,8 +77,20 @@ template <int D> void Insertion<D>::find_cavity(const Point<D> &p, Handle first)
         stack_.pop_back();
         const Link outer = cache_.cross(link_simplex(inner), link_facet(inner));
         const Handle h = link_simplex(outer);
-        const Simplex<D> &s = cache_.simplex(h);
-        if (side_of<D>(cache_, s, p) == Side::inside) {
+        bool inside;
+        if constexpr (D == 2) {
+            inside = side_of<D>(cache_, cache_.simplex(h), p) == Side::inside;
+        } else {
+            Marks::Mark mark = marks_.get(h);
+            if (mark == Marks::inside) continue; // came back to the cavity from within
+            if (mark == Marks::none) {
+                mark = side_of<D>(cache_, cache_.simplex(h), p) == Side::inside ? Marks::inside
+                                                                                : Marks::outside;
+                marks_.set(h, mark);
+            }
+            inside = mark == Marks::inside;
+        }
+        if (inside) {
             cavity_.push_back(h);
             if (cavity_.size() % 4096 == 0) cache_.poll();
             for (int i = D, facet = link_facet(outer); i > 0; --i) {
@@ -101,7 +114,16 @@ template <int D> void Insertion<D>::fill_cavity(VertexIndex v) {
         cache_.destroy(h);
     }
     created_.clear();
-    static_assert(D == 2, "the rim is a cycle in 2D only");
+    if constexpr (D == 2) {
+        wire_cycle(v);
+    } else {
+        for (const Handle h : cavity_) marks_.set(h, Marks::none);
+        for (const Rim &rim : rim_) marks_.set(link_simplex(rim.outer), Marks::none);
+        wire_ridges(v);
+    }
+}
+
+template <int D> void Insertion<D>::wire_cycle(VertexIndex v) {
     // On each facet of the rim, the simplex inside with v for the vertex opposite it: v
     // lies on the same side, so the orientation stays, and a ghost's point at infinity
     // stays last. Around the rim, each new triangle meets the next across the edge
@@ -122,6 +144,27 @@ template <int D> void Insertion<D>::fill_cavity(VertexIndex v) {
         last = make_link(h, begin);
     }
     cache_.connect(last, first);
+}
+
+template <int D> void Insertion<D>::wire_ridges(VertexIndex v) {
+    ridges_.reset(rim_.size() * D);
+    for (Rim &rim : rim_) {
+        rim.vertex[rim.facet] = v;
+        const Handle h = create(rim.vertex);
+        created_.push_back(h);
+        cache_.connect(make_link(h, rim.facet), rim.outer);
+        cache_.mark_dirty(link_simplex(rim.outer));
+        // The other facets: each has v and one edge of the rim's facet.
+        for (int i = 0; i <= D; ++i) {
+            if (i == rim.facet) continue;
+            std::array<VertexIndex, 2> edge{};
+            for (int j = 0, n = 0; j <= D; ++j)
+                if (j != i && j != rim.facet) edge[n++] = rim.vertex[j];
+            const Link link = make_link(h, i);
+            const Link other = ridges_.match(edge[0], edge[1], link);
+            if (other != Ridges::unmatched) cache_.connect(other, link);
+        }
+    }
 }
 
 template <int D> void Insertion<D>::start(const std::array<VertexIndex, D + 1> &vertices) {
@@ -156,5 +199,6 @@ template <int D> void Insertion<D>::start(const std::array<VertexIndex, D + 1> &
 }
 
 template class Insertion<2>;
+template class Insertion<3>;
 
 } // namespace abacus

@@ -10,10 +10,13 @@
 // In 2D the cavity's triangles form a tree (the polygon has no vertex inside), so a
 // depth-first search that keeps the order of the edges around each triangle visits
 // each once and lists the rim as a cycle: the new triangles are wired without any
-// search.
+// search. In 3D the search marks what it has seen, and the new tetrahedra find one
+// another by their ridges, the edges of the rim, in a small hash table.
 #pragma once
 
 #include "cache/cache.hpp"
+#include "delaunay/marks.hpp"
+#include "delaunay/ridges.hpp"
 #include "delaunay/walk.hpp"
 
 namespace abacus {
@@ -46,6 +49,8 @@ private:
     Handle find_conflict(const Point<D> &p, std::uint64_t code);
     void find_cavity(const Point<D> &p, Handle first);
     void fill_cavity(VertexIndex v);
+    void wire_cycle(VertexIndex v);
+    void wire_ridges(VertexIndex v);
     Handle create(const std::array<VertexIndex, D + 1> &vertices) {
         ++(vertices[D] == infinite_vertex ? ghosts_ : simplices_);
         return cache_.create(vertices);
@@ -59,6 +64,8 @@ private:
     static constexpr int recent_size = D == 2 ? 4 : 16;
     std::array<Handle, recent_size> recent_;
 
+    Marks marks_; // of simplices seen by the search; 3D only
+    Ridges ridges_;
     Arena<Handle> cavity_;
     Arena<Rim> rim_;
     Arena<Link> stack_;

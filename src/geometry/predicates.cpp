@@ -56,6 +56,33 @@ template <int D> int in_sphere(const Corners<D> &corners, const Point<D> &p) {
     return -1; // not reached: p itself is in the order
 }
 
+int in_hull_facet(const Corners<3> &corners, const Point<3> &p) {
+    const auto coplanar_orientation = [](const Corners<3> &c) {
+        return static_cast<int>(
+            Kernel().coplanar_orientation_3_object()(cgal(*c[0]), cgal(*c[1]), cgal(*c[2])));
+    };
+    const int side = Kernel().coplanar_side_of_bounded_circle_3_object()(
+        cgal(*corners[0]), cgal(*corners[1]), cgal(*corners[2]), cgal(p));
+    if (side != 0) return side;
+    for (int i = 0; i < 3; ++i)
+        if (*corners[i] == p) return 0;
+
+    // On the circle: as in in_sphere(), with areas in the plane for volumes. Their sign
+    // depends on the side from which the plane is seen, hence the product.
+    const int facing = coplanar_orientation(corners);
+    std::array<int, 4> order{0, 1, 2, 3}; // 3 stands for p
+    const auto point = [&](int i) -> const Point<3> & { return i < 3 ? *corners[i] : p; };
+    std::sort(order.begin(), order.end(),
+              [&](int i, int j) { return lexicographically_less<3>(point(j), point(i)); });
+    for (const int i : order) {
+        if (i == 3) return -1;
+        Corners<3> replaced = corners;
+        replaced[i] = &p;
+        if (const int sign = coplanar_orientation(replaced)) return sign * facing;
+    }
+    return -1; // not reached: p itself is in the order
+}
+
 template int in_sphere<2>(const Corners<2> &, const Point<2> &);
 template int in_sphere<3>(const Corners<3> &, const Point<3> &);
 

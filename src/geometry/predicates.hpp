@@ -37,6 +37,8 @@ int orientation(const Point<2> &a, const Point<2> &b, const Point<2> &c);
 int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c, const Point<3> &d);
 /// As in_sphere() below.
 template <int D> int in_sphere(const Corners<D> &corners, const Point<D> &p);
+/// As in_hull_facet() below.
+int in_hull_facet(const Corners<3> &corners, const Point<3> &p);
 } // namespace exact
 
 /// +1 if a, b, c are counterclockwise, -1 if clockwise, 0 if collinear.
@@ -153,6 +155,12 @@ inline int in_hull_facet(const Corners<2> &corners, const Point<2> &p) {
     const Point<2> &a = *corners[0], &b = *corners[1];
     if (p == a || p == b) return 0;
     return lexicographically_less<2>(a, p) == lexicographically_less<2>(p, b) ? 1 : -1;
+}
+
+/// The same for p on the plane of the hull facet corners[0..2]: its place to the
+/// facet's circumcircle in that plane, perturbed.
+inline int in_hull_facet(const Corners<3> &corners, const Point<3> &p) {
+    return exact::in_hull_facet(corners, p);
 }
 
 } // namespace abacus

@@ -228,5 +228,6 @@ template <int D> void Check<D>::check_end_of_points() {
 }
 
 template class Check<2>;
+template class Check<3>;
 
 } // namespace abacus

@@ -119,5 +119,6 @@ std::optional<typename Reader<D>::Found> Reader<D>::vertex_at(const Point<D> &p)
 }
 
 template class Reader<2>;
+template class Reader<3>;
 
 } // namespace abacus

@@ -77,6 +77,8 @@ std::int64_t VertexScan<D>::vertex_of(std::uint64_t sequence, const Point<D> &p,
 }
 
 template class SimplexScan<2>;
+template class SimplexScan<3>;
 template class VertexScan<2>;
+template class VertexScan<3>;
 
 } // namespace abacus

@@ -230,6 +230,7 @@ template <class Pages> void damage(Pages &pages, Bytes &input) {
     };
     if (input.next<std::uint8_t>() % 4 == 0) {
         MemoryHost::Page &replaced = page();
+        if (input.rest() == 0) return; // a database has no values of no bytes
         const std::uint64_t location = replaced.location;
         replaced.assign(input.data(), std::min<std::size_t>(input.rest(), ABACUS_PAGE_BYTES));
         replaced.location = location;
