@@ -113,6 +113,7 @@ typedef struct abacus_counters
 	uint64_t stores;           /* pages written from the cache */
 	uint64_t rewrites;         /* ... of them in place of an older version */
 	uint64_t splits;           /* blocks split */
+	uint64_t merges;           /* blocks dissolved into their neighbours on the curve */
 	uint64_t evictions;        /* blocks dropped from the cache */
 	uint64_t eviction_batches;
 	uint64_t bytes_read;

@@ -268,6 +268,9 @@ private:
         return blocks_[neighbour].count + capacity_ / 8 <= capacity_ &&
                !blocks_[neighbour].has_parts() && !blocks_[b].has_parts();
     }
+    /// Gives all simplices of a block that was never stored to its neighbours on the
+    /// curve, if they take them; so that no page is written half empty.
+    bool dissolve(BlockIndex b);
     /// Cuts the block collected; returns the new block, the upper part.
     BlockIndex split_at(BlockIndex b, std::size_t wanted);
     BlockIndex halve(BlockIndex b);

@@ -44,6 +44,10 @@ template <int D> void Cache<D>::shrink() {
 }
 
 template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
+    std::size_t kept = 0; // those that do not go up in their neighbours
+    for (const BlockIndex b : victims)
+        if (!dissolve(b)) victims[kept++] = b;
+    victims.resize(kept);
     for (const BlockIndex b : victims) blocks_[b].leaving = true;
     for (std::size_t i = 0; i < victims.size(); ++i) {
         const BlockIndex b = victims[i];
@@ -101,6 +105,8 @@ template <int D> void Cache<D>::unlink(BlockIndex b) {
 
 template <int D> void Cache<D>::flush() {
     counters.peak_bytes = std::max<std::uint64_t>(counters.peak_bytes, bytes());
+    for (BlockIndex b = 0; b < blocks_.size(); ++b)
+        if (blocks_[b].state == Block::cached) dissolve(b);
     bool changed = true;
     while (changed) { // a split while writing makes a block more
         changed = false;

@@ -20,6 +20,7 @@ namespace {
 constexpr double sequential_from = 0.5;
 constexpr double finished_from = 0.95;
 constexpr double sequential_to = 0.85; // leaves room for what will still change there
+constexpr double dissolve_to = 0.93;
 } // namespace
 
 template <int D> void Cache<D>::settle_limbo(std::uint64_t code) {
@@ -136,6 +137,52 @@ template <int D> bool Cache<D>::lend_right(BlockIndex b) {
     blocks_[b].own(blocks_[b].lower, border);
     blocks_[right].own(border, blocks_[right].upper);
     directory_.insert(border, right);
+    return true;
+}
+
+template <int D> bool Cache<D>::dissolve(BlockIndex b) {
+    if (blocks_[b].location != 0 || blocks_[b].has_parts()) return false;
+    const Key lower = blocks_[b].lower, upper = blocks_[b].upper;
+    const BlockIndex left = directory_.before(lower), right = directory_.after(lower);
+    // The left neighbour keeps its key, but is only worth writing if it is written anyway;
+    // the right one's key changes.
+    const auto room = [&](BlockIndex n, bool suits) -> std::size_t {
+        const auto full = static_cast<std::uint32_t>(dissolve_to * capacity_);
+        return suits && !blocks_[n].has_parts() && blocks_[n].count < full ? full - blocks_[n].count
+                                                                            : 0;
+    };
+    const std::size_t n = blocks_[b].count;
+    const std::size_t room_left =
+        left == no_block ? 0 : room(left, blocks_[left].upper == lower && blocks_[left].dirty);
+    const std::size_t room_right =
+        right == no_block ? 0 : room(right, blocks_[right].lower == upper && blocks_[right].location == 0);
+    if (n == 0 || room_left + room_right < n) return false;
+
+    collect_places(b);
+    std::size_t cut = room_left >= n ? n : std::min(room_left, (room_left + n - room_right + 1) / 2);
+    if (room_right >= n) cut = 0;
+    if (cut > 0 && cut < n) {
+        cut = cut_near(cut);
+        if (cut > room_left || n - cut > room_right) return false;
+    }
+    const Key border = cut == 0 ? lower : cut == n ? upper : places_[cut].key;
+    // Their age stays: they are no more in use than before.
+    const std::uint64_t left_used = cut > 0 ? blocks_[left].used_at : 0;
+    const std::uint64_t right_used = cut < n ? blocks_[right].used_at : 0;
+    for (std::size_t i = 0; i < n; ++i) move(places_[i].handle, i < cut ? left : right);
+    directory_.erase(lower);
+    if (cut > 0) {
+        blocks_[left].own(blocks_[left].lower, border);
+        blocks_[left].used_at = left_used;
+    }
+    if (cut < n) {
+        directory_.erase(upper);
+        blocks_[right].own(border, blocks_[right].upper);
+        blocks_[right].used_at = right_used;
+        directory_.insert(border, right);
+    }
+    free_block(b);
+    ++counters.merges;
     return true;
 }
 

@@ -113,7 +113,7 @@ private:
         return (entry - 1)->block;
     }
 
-    void add_piece(std::size_t p, const Key &first) {
+    void add_piece(std::size_t p, Key first) { // a copy: it may be in entries_
         std::uint32_t number;
         if (!unused_.empty()) {
             number = unused_.back();

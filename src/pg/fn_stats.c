@@ -64,6 +64,7 @@ put_counters(Figures *figures, const abacus_counters *counters, bool reading)
 		{"stores", counters->stores, false, "pages written from the cache"},
 		{"rewrites", counters->rewrites, false, "pages written in place of an older version"},
 		{"splits", counters->splits, false, "simplex blocks split"},
+		{"merges", counters->merges, false, "simplex blocks merged into their neighbours"},
 		{"evictions", counters->evictions, true, "simplex blocks dropped from the cache"},
 		{"eviction_batches", counters->eviction_batches, true, "batches of evictions"},
 		{"bytes_read", counters->bytes_read, true, "bytes of the pages read"},
