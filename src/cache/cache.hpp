@@ -304,7 +304,9 @@ private:
     void evict(Arena<BlockIndex> &victims);
     void unlink(BlockIndex b);
     void store(BlockIndex b);
-    void prefetch(BlockIndex b);
+    /// Lists the block's facets on its border, and has what belongs to the block and
+    /// lies next to it brought near.
+    void collect_border(BlockIndex b);
     bool encode(BlockIndex b);
     Key key_beyond(Handle h, int facet) const;
 
@@ -338,7 +340,7 @@ private:
     Arena<LocalNumber> local_;      // of each vertex, valid in the present epoch
     Arena<VertexIndex> numbered_;   // vertices by local number
     Arena<std::uint32_t> corners_;  // local numbers, D + 1 a simplex
-    Arena<Link> outside_;           // facets on the border of a block
+    Arena<Link> border_;            // facets on the border of a block, from inside
     Arena<Key> beyond_;             // keys of neighbours in other pages
     Arena<LocalFacet> facets_;      // hash table of the facets inside a page
     std::uint32_t epoch_ = 0;

@@ -65,15 +65,13 @@ template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
 }
 
 template <int D> void Cache<D>::unlink(BlockIndex b) {
-    for_each_simplex(b, [&](Handle h) { // what the next loop will touch
-        for (int i = 0; i <= D; ++i) {
-            const Link link = slots_[h].link[i];
-            if (is_absent(link) || block_of<D>(link_simplex(link)) == b) continue;
-            visible_.prefetch_bucket(facet(h, i));
-            for (int j = 0; j <= D; ++j)
-                if (j != i) vertices_.prefetch_slot(point(slots_[h].vertex[j]));
-        }
-    });
+    collect_border(b);
+    for (const Link link : border_) {
+        const Handle h = link_simplex(link);
+        visible_.prefetch_bucket(facet(h, link_facet(link)));
+        for (int i = 0; i <= D; ++i)
+            if (i != link_facet(link)) vertices_.prefetch_slot(point(slots_[h].vertex[i]));
+    }
     for_each_simplex(b, [&](Handle h) {
         for (int i = 0; i <= D; ++i) {
             const Link link = slots_[h].link[i];
@@ -128,28 +126,33 @@ template <int D> Key Cache<D>::key_beyond(Handle h, int facet) const {
     return {code(s), blocks_[block_of<D>(neighbour)].has_parts() ? part(s) : 0};
 }
 
-template <int D> void Cache<D>::prefetch(BlockIndex b) {
-    outside_.clear();
+template <int D> void Cache<D>::collect_border(BlockIndex b) {
+    border_.clear();
+    const Handle first = b * block_slots<D>;
     for_each_simplex(b, [&](Handle h) {
         for (int i = 0; i <= D; ++i) {
             const VertexIndex v = slots_[h].vertex[i];
             __builtin_prefetch(&vertices_[v]);
             __builtin_prefetch(&local_[v]);
             const Link link = slots_[h].link[i];
-            if (is_absent(link) || block_of<D>(link_simplex(link)) == b) continue;
-            __builtin_prefetch(&slots_[link_simplex(link)]);
-            outside_.push_back(link);
+            // An absent link is far above the handles of any block.
+            if (link_simplex(link) - first < block_slots<D>) continue;
+            if (!is_absent(link)) __builtin_prefetch(&slots_[link_simplex(link)]);
+            border_.push_back(make_link(h, i));
         }
     });
-    for (const Link link : outside_)
+    for (const Link inner : border_) {
+        const Link link = slots_[link_simplex(inner)].link[link_facet(inner)];
+        if (is_absent(link)) continue;
         for (const VertexIndex v : slots_[link_simplex(link)].vertex)
             __builtin_prefetch(&vertices_[v]);
+    }
 }
 
 template <int D> bool Cache<D>::encode(BlockIndex b) {
     const Stopwatch stopwatch(counters.translation_ns);
     next_epoch();
-    prefetch(b);
+    collect_border(b);
     numbered_.clear();
     corners_.clear();
     beyond_.clear();
@@ -163,18 +166,16 @@ template <int D> bool Cache<D>::encode(BlockIndex b) {
     };
 
     PageHeader header{};
-    for_each_simplex(b, [&](Handle h) {
-        for (int i = 0; i <= D; ++i) {
-            const Link link = slots_[h].link[i];
-            if (!is_absent(link) && block_of<D>(link_simplex(link)) == b) continue;
-            Key beyond = key_beyond(h, i);
-            if (beyond.part == unknown_part) beyond.part = 0;
-            if (beyond.part != 0) header.flags |= PageHeader::long_links;
-            beyond_.push_back(beyond);
-            for (int j = 0; j <= D; ++j)
-                if (j != i && slots_[h].vertex[j] != infinite_vertex) number(slots_[h].vertex[j]);
-        }
-    });
+    for (const Link link : border_) {
+        const Handle h = link_simplex(link);
+        const int facet = link_facet(link);
+        Key beyond = key_beyond(h, facet);
+        if (beyond.part == unknown_part) beyond.part = 0;
+        if (beyond.part != 0) header.flags |= PageHeader::long_links;
+        beyond_.push_back(beyond);
+        for (int i = 0; i <= D; ++i)
+            if (i != facet && slots_[h].vertex[i] != infinite_vertex) number(slots_[h].vertex[i]);
+    }
     header.border_vertices = static_cast<std::uint16_t>(numbered_.size());
     constexpr std::uint32_t at_infinity = 0xffffffffu;
     for_each_simplex(b, [&](Handle h) {

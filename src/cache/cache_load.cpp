@@ -172,18 +172,18 @@ template <int D> void Cache<D>::link_inside(int simplices, Handle first) {
 }
 
 template <int D> void Cache<D>::link_outside(const PageView<D> &view, Handle first) {
-    outside_.clear();
+    border_.clear();
     for (int s = 0; s < view.simplices(); ++s)
         for (int i = 0; i <= D; ++i)
-            if (slots_[first + s].link[i] == unset) outside_.push_back(make_link(first + s, i));
-    if (static_cast<int>(outside_.size()) != view.links())
+            if (slots_[first + s].link[i] == unset) border_.push_back(make_link(first + s, i));
+    if (static_cast<int>(border_.size()) != view.links())
         throw_corrupted("A page has another number of links than of facets on its border.");
     check_border(view, first);
     const auto facet_of = [&](Link link) { return facet(link_simplex(link), link_facet(link)); };
-    for (const Link link : outside_) visible_.prefetch_bucket(facet_of(link));
-    for (const Link link : outside_) visible_.prefetch_entry(facet_of(link));
-    for (std::size_t i = 0; i < outside_.size(); ++i)
-        link_outside(outside_[i], view.link(static_cast<int>(i)));
+    for (const Link link : border_) visible_.prefetch_bucket(facet_of(link));
+    for (const Link link : border_) visible_.prefetch_entry(facet_of(link));
+    for (std::size_t i = 0; i < border_.size(); ++i)
+        link_outside(border_[i], view.link(static_cast<int>(i)));
 }
 
 template <int D> void Cache<D>::link_outside(Link link, const Key &beyond) {
@@ -214,7 +214,7 @@ void Cache<D>::check_border(const PageView<D> &view, Handle first) const {
     // The vertices of the facets on the border, and only they, come first in the page.
     std::array<bool, block_slots<D> *(D + 1)> on_border{};
     int border_vertices = 0;
-    for (const Link link : outside_) {
+    for (const Link link : border_) {
         const std::uint32_t *corner = &corners_[(link_simplex(link) - first) * (D + 1)];
         for (int i = 0; i <= D; ++i) {
             if (i == link_facet(link) || corner[i] >= numbered_.size()) continue;

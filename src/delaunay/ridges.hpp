@@ -4,6 +4,7 @@
 #include "mesh/simplex.hpp"
 
 #include <bit>
+#include <utility>
 
 namespace abacus {
 
@@ -31,12 +32,17 @@ public:
     }
 
     /// The link given before for the edge ab, or `unmatched` when this is the first.
+    /// Throws when there are more than two: the cavity is no ball then.
     Link match(VertexIndex a, VertexIndex b, Link link) {
         const std::uint64_t edge = a < b ? std::uint64_t(a) << 32 | b : std::uint64_t(b) << 32 | a;
         std::size_t at = (edge * 0x9e3779b97f4a7c15ull >> 32) & mask_;
         while (entries_[at].epoch == epoch_ && entries_[at].edge != edge) at = (at + 1) & mask_;
         Entry &entry = entries_[at];
-        if (entry.epoch == epoch_) return entry.link;
+        if (entry.epoch == epoch_) {
+            if (entry.link == unmatched)
+                throw_corrupted("The simplices around a point are not a triangulation.");
+            return std::exchange(entry.link, unmatched);
+        }
         entry = {edge, epoch_, link};
         return unmatched;
     }

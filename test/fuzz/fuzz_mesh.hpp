@@ -61,7 +61,7 @@ public:
                 abacus_stage_open(host.table(), &header, 1 << 20, &stage, &error);
             for (int i = 0; i < points && status == ABACUS_OK; ++i) {
                 std::vector<std::uint64_t> record{random() % 1000};
-                for (unsigned j = 0; j < 2 + header.attributes; ++j)
+                for (unsigned j = 0; j < header.dimension + header.attributes; ++j)
                     record.push_back(std::bit_cast<std::uint64_t>(unit(random)));
                 status = abacus_stage_add(stage, record.data(), 1, &error);
             }
@@ -90,7 +90,7 @@ public:
                 abacus_status status =
                     abacus_mesh_open(host.table(), &header, cache_bytes, &mesh, &error);
                 if (status != ABACUS_OK) return status;
-                const double p[] = {0.1 + 0.15 * i, 0.8 - 0.1 * i};
+                const double p[] = {0.1 + 0.15 * i, 0.8 - 0.1 * i, 0.2 + 0.1 * i};
                 abacus_simplex s;
                 status = abacus_mesh_locate(mesh, p, &s, &error);
                 for (int step = 0; step < 12 && status == ABACUS_OK; ++step)
@@ -169,26 +169,27 @@ public:
 };
 
 /// The sound mesh: five attributes make small pages; some points are staged only.
-inline const Mesh &sound_mesh() {
-    static const Mesh &mesh = []() -> const Mesh & {
-        static Mesh made;
-        made.header.dimension = 2;
-        made.header.attributes = 5;
-        for (int i = 0; i < 5; ++i) std::strcpy(made.header.names[i], "height");
-        made.stage(160, 1);
-        require(made.build() == ABACUS_OK, "the sound mesh cannot be built");
-        made.stage(40, 2);
-        require(made.check() == 0, "the sound mesh is not sound");
-        return made;
-    }();
+inline const Mesh &sound_mesh(int dimension) {
+    static Mesh meshes[2];
+    Mesh &mesh = meshes[dimension - 2];
+    if (mesh.header.dimension == 0) {
+        mesh.header.dimension = static_cast<std::uint32_t>(dimension);
+        mesh.header.attributes = 5;
+        for (int i = 0; i < 5; ++i) std::strcpy(mesh.header.names[i], "height");
+        mesh.stage(160, 1);
+        require(mesh.build() == ABACUS_OK, "the sound mesh cannot be built");
+        mesh.stage(40, 2);
+        require(mesh.check() == 0, "the sound mesh is not sound");
+    }
     return mesh;
 }
 
 /// Calls act(mesh) with a fresh copy of the sound mesh.
-inline void with_copy(std::size_t cache_bytes, const std::function<void(Mesh &)> &act) {
+inline void with_copy(int dimension, std::size_t cache_bytes,
+                      const std::function<void(Mesh &)> &act) {
     Mesh mesh;
-    mesh.host.restore(sound_mesh().host);
-    mesh.header = sound_mesh().header;
+    mesh.host.restore(sound_mesh(dimension).host);
+    mesh.header = sound_mesh(dimension).header;
     mesh.cache_bytes = cache_bytes;
     act(mesh);
 }

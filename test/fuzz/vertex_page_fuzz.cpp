@@ -4,13 +4,13 @@
 using namespace abacus::fuzz;
 
 extern "C" int LLVMFuzzerInitialize(int *argc, char ***argv) {
-    write_seeds(*argc, *argv, page_seeds(sound_mesh().host.vertex_pages, {}));
+    write_seeds(*argc, *argv, page_seeds(sound_mesh(2).host.vertex_pages, {}));
     return 0;
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
     Bytes input(data, size);
-    with_copy(1 << 20, [&](Mesh &mesh) {
+    with_copy(2, 1 << 20, [&](Mesh &mesh) {
         damage(mesh.host.vertex_pages, input);
         mesh.vertex_scan();
         mesh.check();

@@ -461,10 +461,10 @@ TEST(Check, FindsEveryFlippedBitOfASinglePage) {
 }
 
 TEST(Check, FindsFlippedBitsAnywhere) {
-    Patient plain(1200, 0), small_cache(1200, 1, 40 << 10), wide(60, 100);
+    Patient plain(800, 0), small_cache(800, 1, 40 << 10), wide(60, 100);
     for (Patient *patient : {&plain, &small_cache, &wide}) {
-        flip_bits(*patient, patient->mesh.host.pages, 300, 3);
-        flip_bits(*patient, patient->mesh.host.vertex_pages, 100, 4);
+        flip_bits(*patient, patient->mesh.host.pages, 150, 3);
+        flip_bits(*patient, patient->mesh.host.vertex_pages, 30, 4);
     }
 }
 
@@ -478,7 +478,7 @@ TEST(Check, FindsFlippedBitsInPagesThatShareACode) {
     Patient patient(points);
     ASSERT_TRUE(std::any_of(patient.mesh.host.pages.begin(), patient.mesh.host.pages.end(),
                             [](const auto &page) { return page.first.part != 0; }));
-    flip_bits(patient, patient.mesh.host.pages, 300, 6);
+    flip_bits(patient, patient.mesh.host.pages, 200, 6);
 }
 
 } // namespace

@@ -78,7 +78,7 @@ const DataSet data_sets[] = {
      }},
     {"cluster_at_zero",
      [](Random &r) {
-         Points points = make(6000, [&](int) {
+         Points points = make(3000, [&](int) {
              return Point<2>{(unit(r) - 0.5) * 1e-30, (unit(r) - 0.5) * 1e-30};
          });
          for (const double x : {-1.0, 1.0})
@@ -88,7 +88,7 @@ const DataSet data_sets[] = {
     {"exponents",
      [](Random &r) {
          const auto any = [&] { return std::ldexp(unit(r) - 0.5, int(r() % 1990) - 995); };
-         return make(1500, [&](int) { return Point<2>{any(), any()}; });
+         return make(1000, [&](int) { return Point<2>{any(), any()}; });
      }},
     {"largest_doubles",
      [](Random &r) {

@@ -1,0 +1,70 @@
+// abacus_check on meshes of tetrahedra: nothing wrong with a sound one, and a fault for
+// every flipped bit.
+#include "support/staged_points.hpp"
+
+#include <gtest/gtest.h>
+
+namespace abacus {
+namespace {
+
+struct Solid {
+    explicit Solid(const std::vector<Point<3>> &points) {
+        abacus_error error{};
+        EXPECT_EQ(stage<3>(host, header, with_ids<3>(points), ample, error), ABACUS_OK);
+        abacus_build *build = nullptr;
+        EXPECT_EQ(abacus_build_open(host.table(), &header, ample, &build, &error), ABACUS_OK);
+        EXPECT_EQ(abacus_build_run(build, 0, &header, &error), ABACUS_OK) << error.detail;
+        abacus_build_close(build);
+        EXPECT_EQ(faults(), 0);
+    }
+    /// -1 if the check itself fails.
+    int faults() {
+        abacus_error error{};
+        abacus_check *check = nullptr;
+        if (abacus_check_open(host.table(), &header, ample, 10, &check, &error) != ABACUS_OK)
+            return -1;
+        int count = 0;
+        for (abacus_fault fault; abacus_check_next(check, &fault) == ABACUS_OK;) ++count;
+        abacus_check_close(check);
+        return count;
+    }
+    MemoryHost host;
+    abacus_header header = empty_header<3>();
+};
+
+TEST(CheckInSpace, FindsNothingInSoundMeshes) {
+    for (const Kind kind : all_kinds) {
+        SCOPED_TRACE(static_cast<int>(kind));
+        Solid solid(points<3>(kind, 600));
+        EXPECT_EQ(solid.host.bytes, 0u);
+        EXPECT_TRUE(solid.host.violations.empty());
+    }
+}
+
+TEST(CheckInSpace, FindsEveryFlippedBitOfASinglePage) {
+    Solid solid(points<3>(Kind::uniform, 20));
+    ASSERT_EQ(solid.host.pages.size(), 1u);
+    MemoryHost::Page &page = solid.host.pages.begin()->second;
+    for (std::size_t bit = 0; bit < 8 * page.size; ++bit) {
+        page.bytes()[bit / 8] ^= 1 << bit % 8;
+        ASSERT_GT(solid.faults(), 0) << "bit " << bit % 8 << " of byte " << bit / 8;
+        page.bytes()[bit / 8] ^= 1 << bit % 8;
+    }
+}
+
+TEST(CheckInSpace, FindsFlippedBitsAnywhere) {
+    Solid solid(points<3>(Kind::uniform, 500));
+    ASSERT_GT(solid.host.pages.size(), 5u);
+    std::mt19937_64 random(1);
+    for (int round = 0; round < 150; ++round) {
+        auto &[key, page] = *std::next(solid.host.pages.begin(),
+                                       std::ptrdiff_t(random() % solid.host.pages.size()));
+        const std::size_t bit = random() % (8 * (round % 2 ? page.size : 96));
+        page.bytes()[bit / 8] ^= 1 << bit % 8;
+        ASSERT_GT(solid.faults(), 0) << "bit " << bit;
+        page.bytes()[bit / 8] ^= 1 << bit % 8;
+    }
+}
+
+} // namespace
+} // namespace abacus
