@@ -142,11 +142,13 @@ public:
     }
     /// The block's page has to be written: call it for the neighbours of what changed.
     void mark_dirty(Handle h) {
-        Block &block = blocks_[block_of<D>(h)];
-        block.dirty = true;
-        block.used_at = clock_;
+        const BlockIndex b = block_of<D>(h);
+        if (b == marked_ && clock_ == marked_at_) return; // most often
+        marked_ = b;
+        marked_at_ = clock_;
+        blocks_[b].dirty = true;
+        blocks_[b].used_at = clock_;
     }
-    void mark_used(Handle h) { blocks_[block_of<D>(h)].used_at = clock_; }
     /// Ends an operation: brings limbo home. Sequential splits cut near `code`. Returns
     /// whether simplices moved: see follow().
     bool settle(std::uint64_t code) {
@@ -326,6 +328,8 @@ private:
     std::size_t cached_blocks_ = 0;
     BlockIndex at_hand_ = no_block; // took the last simplex
     std::uint64_t clock_ = 0;       // operations so far, for the replacement
+    BlockIndex marked_ = no_block;  // by the last mark_dirty()
+    std::uint64_t marked_at_ = 0;
 
     // Page translation: reused from page to page.
     struct LocalNumber {

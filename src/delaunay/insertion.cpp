@@ -9,8 +9,7 @@ namespace abacus {
 template <int D>
 Insertion<D>::Insertion(const Host &host, Cache<D> &cache, std::int64_t simplices,
                         std::int64_t ghosts)
-    : cache_(cache), walk_(cache), marks_(host), ridges_(host), cavity_(host), rim_(host), stack_(host), created_(host),
-      simplices_(simplices), ghosts_(ghosts) {
+    : cache_(cache), walk_(cache), marks_(host), ridges_(host), cavity_(host), rim_(host), stack_(host), simplices_(simplices), ghosts_(ghosts) {
     recent_.fill(no_handle);
 }
 
@@ -53,11 +52,8 @@ bool Insertion<D>::insert(const Point<D> &p, std::int64_t id, const double *attr
     if (first == no_handle) return false;
     find_cavity(p, first);
     fill_cavity(cache_.create_vertex(p, id, attributes));
-    const bool moved = cache_.settle(code);
-    for (std::size_t i = 0; i < recent_.size(); ++i)
-        recent_[i] = i >= created_.size() ? no_handle
-                     : moved              ? cache_.follow(created_[i])
-                                          : created_[i];
+    if (cache_.settle(code))
+        for (Handle &h : recent_) h = cache_.follow(h);
     ++cache_.counters.insertions;
     cache_.trim();
     return true;
@@ -69,7 +65,8 @@ template <int D> void Insertion<D>::find_cavity(const Point<D> &p, Handle first)
     stack_.clear();
     cavity_.push_back(first);
     if constexpr (D == 3) marks_.set(first, Marks::inside);
-    for (int i = D; i >= 0; --i) stack_.push_back(make_link(first, i));
+    Link *top = stack_.extend(D + 1);
+    for (int i = D; i >= 0; --i) *top++ = make_link(first, i);
     // An entry is the inner side of a facet: the outer handle is asked for anew,
     // since loading for an earlier entry may have linked it.
     while (!stack_.empty()) {
@@ -92,16 +89,19 @@ template <int D> void Insertion<D>::find_cavity(const Point<D> &p, Handle first)
         }
         if (inside) {
             cavity_.push_back(h);
-            if (cavity_.size() % 4096 == 0) cache_.poll();
+            if (cavity_.size() % 4096 == 0) {
+                cache_.poll();
+                if (cavity_.size() > cache_.cached_blocks() * std::size_t(block_slots<D>))
+                    throw_corrupted("The simplices around a point are not a triangulation.");
+            }
+            top = stack_.extend(D);
             for (int i = D, facet = link_facet(outer); i > 0; --i) {
                 facet = facet == 0 ? D : facet - 1;
-                stack_.push_back(make_link(h, facet));
+                *top++ = make_link(h, facet);
             }
         } else {
             rim_.push_back({outer, link_facet(inner), cache_.simplex(link_simplex(inner)).vertex});
         }
-        if (cavity_.size() > cache_.cached_blocks() * std::size_t(block_slots<D>))
-            throw_corrupted("The simplices around a point are not a triangulation.");
     }
 }
 
@@ -113,7 +113,7 @@ template <int D> void Insertion<D>::fill_cavity(VertexIndex v) {
         --(cache_.simplex(h).is_ghost() ? ghosts_ : simplices_);
         cache_.destroy(h);
     }
-    created_.clear();
+    recent_.fill(no_handle);
     if constexpr (D == 2) {
         wire_cycle(v);
     } else {
@@ -133,7 +133,7 @@ template <int D> void Insertion<D>::wire_cycle(VertexIndex v) {
         Rim &rim = rim_[i];
         rim.vertex[rim.facet] = v;
         const Handle h = create(rim.vertex);
-        created_.push_back(h);
+        remember(i, h);
         cache_.connect(make_link(h, rim.facet), rim.outer);
         cache_.mark_dirty(link_simplex(rim.outer));
         const int begin = rim.facet == D ? 0 : rim.facet + 1;
@@ -148,10 +148,11 @@ template <int D> void Insertion<D>::wire_cycle(VertexIndex v) {
 
 template <int D> void Insertion<D>::wire_ridges(VertexIndex v) {
     ridges_.reset(rim_.size() * D);
-    for (Rim &rim : rim_) {
+    for (std::size_t n = 0; n < rim_.size(); ++n) {
+        Rim &rim = rim_[n];
         rim.vertex[rim.facet] = v;
         const Handle h = create(rim.vertex);
-        created_.push_back(h);
+        remember(n, h);
         cache_.connect(make_link(h, rim.facet), rim.outer);
         cache_.mark_dirty(link_simplex(rim.outer));
         // The other facets: each has v and one edge of the rim's facet.
@@ -174,8 +175,8 @@ template <int D> void Insertion<D>::start(const std::array<VertexIndex, D + 1> &
     if (orientation<D>(points) < 0) std::swap(corners[0], corners[1]);
 
     cache_.create_first_block();
-    created_.clear();
-    created_.push_back(create(corners));
+    std::array<Handle, D + 2> created;
+    created[D + 1] = create(corners);
     for (int i = 0; i <= D; ++i) {
         // The point at infinity is on the other side of facet i than corner i: one
         // exchange of corners turns the orientation back. It brings infinity to its place,
@@ -184,16 +185,16 @@ template <int D> void Insertion<D>::start(const std::array<VertexIndex, D + 1> &
         ghost[i] = infinite_vertex;
         if (i == D) std::swap(ghost[0], ghost[1]);
         else std::swap(ghost[i], ghost[D]);
-        created_.push_back(create(ghost));
+        created[i] = create(ghost);
     }
-    for (std::size_t a = 0; a < created_.size(); ++a)
-        for (std::size_t b = a + 1; b < created_.size(); ++b)
+    for (std::size_t a = 0; a < created.size(); ++a)
+        for (std::size_t b = a + 1; b < created.size(); ++b)
             for (int i = 0; i <= D; ++i)
                 for (int j = 0; j <= D; ++j) {
-                    const FacetVertices<D, VertexIndex> f(cache_.simplex(created_[a]).vertex, i);
-                    const FacetVertices<D, VertexIndex> g(cache_.simplex(created_[b]).vertex, j);
+                    const FacetVertices<D, VertexIndex> f(cache_.simplex(created[a]).vertex, i);
+                    const FacetVertices<D, VertexIndex> g(cache_.simplex(created[b]).vertex, j);
                     if (f.vertex == g.vertex)
-                        cache_.connect(make_link(created_[a], i), make_link(created_[b], j));
+                        cache_.connect(make_link(created[a], i), make_link(created[b], j));
                 }
     cache_.settle(0);
 }

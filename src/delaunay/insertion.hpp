@@ -63,13 +63,15 @@ private:
     // likely to lie in the circumsphere of one of them.
     static constexpr int recent_size = D == 2 ? 4 : 16;
     std::array<Handle, recent_size> recent_;
+    void remember(std::size_t n, Handle h) {
+        if (n < recent_.size()) recent_[n] = h;
+    }
 
     Marks marks_; // of simplices seen by the search; 3D only
     Ridges ridges_;
     Arena<Handle> cavity_;
     Arena<Rim> rim_;
     Arena<Link> stack_;
-    Arena<Handle> created_;
     std::int64_t simplices_;
     std::int64_t ghosts_;
 };

@@ -48,9 +48,14 @@ public:
         size_ = n;
     }
     void push_back(const T &value) {
-        const T copy = value;
-        resize(size_ + 1);
-        data_[size_ - 1] = copy;
+        const T copy = value; // value may be an element
+        *extend(1) = copy;
+    }
+    /// Adds n uninitialized elements; returns the first.
+    T *extend(std::size_t n) {
+        if (size_ + n > capacity_) [[unlikely]] resize(size_ + n);
+        else size_ += n;
+        return data_ + (size_ - n);
     }
     void pop_back() { --size_; }
     void clear() { size_ = 0; }

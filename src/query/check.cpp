@@ -50,7 +50,8 @@ template <int D> void Check<D>::check_header() {
     if (h.vertices > h.inserted || h.duplicates != h.inserted - h.vertices)
         fault("count", first_key, "The header counts more or fewer vertices than points.");
     if ((h.simplices > 0) != (h.vertices > 0) || (h.ghosts > 0) != (h.vertices > 0))
-        fault("count", first_key, "The header has vertices without simplices or the other way round.");
+        fault("count", first_key,
+              "The header has vertices without simplices or the other way round.");
     if (D == 2 && h.simplices > 0 && h.simplices + h.ghosts + 2 != 2 * h.vertices)
         fault("euler", first_key, "Vertices, triangles and hull edges do not add up.");
     for (int i = 0; i < D; ++i)
@@ -164,13 +165,16 @@ template <int D> void Check<D>::check_simplex(Cache<D> &cache, Handle h) {
         if (opposite == infinite_vertex) continue;
         const Simplex<D> &s = cache.simplex(h);
         switch (side_of<D>(cache, s, cache.point(opposite))) {
-        case Side::outside: break;
+        case Side::outside:
+            break;
         case Side::vertex:
             fault("vertex", at_key_, "Two vertices have the same coordinates.");
             break;
         case Side::inside:
-            if (s.is_ghost()) fault("hull", at_key_, "The convex hull is not convex.");
-            else fault("delaunay", at_key_, "A vertex lies inside a circumsphere.");
+            if (s.is_ghost())
+                fault("hull", at_key_, "The convex hull is not convex.");
+            else
+                fault("delaunay", at_key_, "A vertex lies inside a circumsphere.");
         }
     }
 }
@@ -203,8 +207,10 @@ template <int D> void Check<D>::check_points() {
         if (vertex->id == points.id() &&
             same_attributes(vertex->attributes, values.data(), values.size()))
             continue;
-        if (sequence < header_.first_batch) wrong(sequence);
-        else repeats.add(sequence, p, vertex->id, vertex->attributes);
+        if (sequence < header_.first_batch)
+            wrong(sequence);
+        else
+            repeats.add(sequence, p, vertex->id, vertex->attributes);
         if (repeats.is_full()) repeats.settle(wrong);
     }
     repeats.settle(wrong);

@@ -26,8 +26,8 @@ public:
     Repeats(const Host &host, unsigned attributes, std::size_t bytes,
             std::pmr::memory_resource *memory)
         : host_(host), attributes_(attributes),
-          most_(std::max<std::size_t>(
-              1024, bytes / (sizeof(Repeat) + attributes * sizeof(double)))),
+          most_(
+              std::max<std::size_t>(1024, bytes / (sizeof(Repeat) + attributes * sizeof(double)))),
           repeats_(memory), values_(memory) {}
 
     bool is_full() const { return repeats_.size() >= most_; }
@@ -50,8 +50,7 @@ public:
         Repeat staged{};
         while (earlier.advance()) {
             staged.point = earlier.point();
-            auto [at, last] =
-                std::equal_range(repeats_.begin(), repeats_.end(), staged, by_point);
+            auto [at, last] = std::equal_range(repeats_.begin(), repeats_.end(), staged, by_point);
             if (at == last) continue;
             earlier.attributes(values.data());
             for (; at != last; ++at)

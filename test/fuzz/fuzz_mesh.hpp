@@ -106,7 +106,8 @@ public:
             abacus_status status = abacus_scan_open(host.table(), &header, 1, &scan, &error);
             if (status != ABACUS_OK) return status;
             abacus_simplex s;
-            while ((status = abacus_scan_next(scan, &s, &error)) == ABACUS_OK) {}
+            while ((status = abacus_scan_next(scan, &s, &error)) == ABACUS_OK) {
+            }
             abacus_scan_close(scan);
             return status;
         });
@@ -119,7 +120,8 @@ public:
                 abacus_vertex_scan_open(host.table(), &header, cache_bytes, &scan, &error);
             if (status != ABACUS_OK) return status;
             abacus_vertex v;
-            while ((status = abacus_vertex_scan_next(scan, &v, &error)) == ABACUS_OK) {}
+            while ((status = abacus_vertex_scan_next(scan, &v, &error)) == ABACUS_OK) {
+            }
             abacus_vertex_scan_close(scan);
             return status;
         });
@@ -239,9 +241,15 @@ template <class Pages> void damage(Pages &pages, Bytes &input) {
     }
     while (input.rest() > 0) {
         switch (input.next<std::uint8_t>() % 4) {
-        case 0: change(std::uint8_t{}); break;
-        case 1: change(std::uint16_t{}); break;
-        case 2: change(std::uint64_t{}); break;
+        case 0:
+            change(std::uint8_t{});
+            break;
+        case 1:
+            change(std::uint16_t{});
+            break;
+        case 2:
+            change(std::uint64_t{});
+            break;
         default: { // a word from another place: plausible keys and coordinates
             MemoryHost::Page &from = page(), &to = page();
             const std::size_t a = input.next<std::uint16_t>(), b = input.next<std::uint16_t>();
@@ -254,7 +262,8 @@ template <class Pages> void damage(Pages &pages, Bytes &input) {
 
 /// libFuzzer starts from the files of a folder: those that `seeds` gives go to the first
 /// folder on the command line, if it is empty.
-inline void write_seeds(int argc, char **argv, const std::vector<std::vector<std::uint8_t>> &seeds) {
+inline void write_seeds(int argc, char **argv,
+                        const std::vector<std::vector<std::uint8_t>> &seeds) {
     for (int i = 1; i < argc; ++i) {
         const std::filesystem::path folder = argv[i];
         if (argv[i][0] == '-' || !std::filesystem::is_directory(folder)) continue;

@@ -109,7 +109,8 @@ abacus_counters OpenMesh::counters() const {
 
 std::vector<Input> number(const std::vector<Point<2>> &points) {
     std::vector<Input> inputs;
-    for (const Point<2> &p : points) inputs.push_back({static_cast<std::int64_t>(inputs.size()), p});
+    for (const Point<2> &p : points)
+        inputs.push_back({static_cast<std::int64_t>(inputs.size()), p});
     return inputs;
 }
 

@@ -65,8 +65,10 @@ void PageEditor::write(MemoryHost::Page &page, bool keep_box) const {
     for (const auto &corners : simplices)
         for (const int corner : corners) {
             const int number = corner == infinity ? h.vertices : corner;
-            if (h.flags & PageHeader::wide) put(static_cast<std::uint16_t>(number));
-            else put(static_cast<std::uint8_t>(number));
+            if (h.flags & PageHeader::wide)
+                put(static_cast<std::uint16_t>(number));
+            else
+                put(static_cast<std::uint8_t>(number));
         }
     page.assign(bytes.data(), bytes.size());
 }

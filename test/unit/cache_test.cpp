@@ -151,9 +151,8 @@ TEST(Cache, SplitsACodeIntoParts) {
         ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message << mesh.error.detail;
         EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
-        const auto parts =
-            std::count_if(mesh.host.pages.begin(), mesh.host.pages.end(),
-                          [](const auto &page) { return page.first.part != 0; });
+        const auto parts = std::count_if(mesh.host.pages.begin(), mesh.host.pages.end(),
+                                         [](const auto &page) { return page.first.part != 0; });
         EXPECT_GT(parts, 3);
         // Walking finds simplices by their code, whatever the part.
         OpenMesh open(mesh, cache);

@@ -2,8 +2,7 @@
 // spoilt, and there has to be a fault.
 #include "geometry/predicates.hpp"
 #include "staging/vertex_page.hpp"
-#include "support/oracle.hpp"
-#include "support/page_editor.hpp"
+#include "support/patient.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,89 +13,6 @@
 
 namespace abacus::test {
 namespace {
-
-std::vector<Input> random_points(int n, int attributes, unsigned seed = 1) {
-    std::mt19937_64 random(seed);
-    std::uniform_real_distribution<double> unit(0, 1);
-    std::vector<Input> inputs;
-    for (int i = 0; i < n; ++i) {
-        inputs.push_back({1000 + i, {unit(random), unit(random)}});
-        for (int k = 0; k < attributes; ++k) inputs.back().attributes.push_back(unit(random));
-    }
-    return inputs;
-}
-
-/// A mesh and its sound state, to which it returns after each damage.
-class Patient {
-public:
-    Patient(int points, int attributes, std::size_t cache_bytes = 64 << 20)
-        : Patient(random_points(points, attributes), cache_bytes) {}
-    explicit Patient(const std::vector<Input> &points, std::size_t cache_bytes = 64 << 20)
-        : mesh(static_cast<int>(points[0].attributes.size()), cache_bytes), input(points) {
-        EXPECT_EQ(mesh.stage(input), ABACUS_OK);
-        EXPECT_EQ(mesh.build(), ABACUS_OK) << mesh.error.detail;
-        pages_ = mesh.host.pages;
-        vertex_pages_ = mesh.host.vertex_pages;
-        header_ = mesh.header;
-        EXPECT_EQ(mesh.check(), std::vector<std::string>{});
-    }
-
-    /// The faults after `damage`; the mesh is sound again afterwards.
-    std::vector<std::string> faults(const std::function<void()> &damage) {
-        damage();
-        const std::vector<std::string> found = mesh.check();
-        EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
-        EXPECT_EQ(mesh.host.bytes, 0u);
-        mesh.host.pages = pages_;
-        mesh.host.vertex_pages = vertex_pages_;
-        mesh.header = header_;
-        return found;
-    }
-    void expect_fault(const char *what, const char *kind, const std::function<void()> &damage) {
-        const std::vector<std::string> found = faults(damage);
-        const std::string start = std::string(kind) + ": ";
-        const bool has_kind = std::any_of(found.begin(), found.end(), [&](const std::string &f) {
-            return f.compare(0, start.size(), start) == 0;
-        });
-        EXPECT_TRUE(has_kind) << what << " gives " << testing::PrintToString(found);
-    }
-
-    MemoryHost::Page &page(std::size_t i = 0) {
-        return std::next(mesh.host.pages.begin(), static_cast<std::ptrdiff_t>(i))->second;
-    }
-    MemoryHost::Page &smallest() {
-        return std::min_element(mesh.host.pages.begin(), mesh.host.pages.end(),
-                                [](const auto &a, const auto &b) {
-                                    return a.second.size < b.second.size;
-                                })
-            ->second;
-    }
-    MemoryHost::Page &middle() { return page(mesh.host.pages.size() / 2); }
-    /// Changes a page, taken apart.
-    void edit(MemoryHost::Page &page, const std::function<void(PageEditor &)> &change) {
-        PageEditor editor(page);
-        change(editor);
-        editor.write(page);
-    }
-    /// Changes every page that has the vertex at p: change(page, vertex number).
-    void edit_vertex(const Point<2> &p, const std::function<void(PageEditor &, int)> &change) {
-        for (auto &[key, page] : mesh.host.pages) {
-            PageEditor editor(page);
-            const int v = editor.number_of(p);
-            if (v < 0) continue;
-            change(editor, v);
-            editor.write(page);
-        }
-    }
-
-    Mesh mesh;
-    std::vector<Input> input;
-
-private:
-    std::map<abacus_key, MemoryHost::Page, KeyLess> pages_;
-    std::map<std::uint64_t, MemoryHost::Page> vertex_pages_;
-    abacus_header header_;
-};
 
 /// Is the quadrilateral around the edge opposite corner i of simplex s one that can be
 /// flipped? Then the two triangles after the flip.
@@ -347,9 +263,8 @@ TEST(Check, FindsDamageOfTheStagedPoints) {
         auto &page = std::next(pages.begin())->second;
         page.words[VertexPageHeader::words + 1] += 1; // its x
     });
-    big.expect_fault("a staged point with another id", "vertex", [&] {
-        ++std::next(pages.begin())->second.words[VertexPageHeader::words];
-    });
+    big.expect_fault("a staged point with another id", "vertex",
+                     [&] { ++std::next(pages.begin())->second.words[VertexPageHeader::words]; });
     big.expect_fault("a staged point with another attribute", "vertex", [&] {
         ++std::next(pages.begin())->second.words[VertexPageHeader::words + 3];
     });
@@ -358,9 +273,9 @@ TEST(Check, FindsDamageOfTheStagedPoints) {
 TEST(Check, FindsEveryWrongCountOfTheHeader) {
     Patient big(800, 0);
     using Field = std::uint64_t abacus_header::*;
-    for (const Field field : {&abacus_header::points, &abacus_header::inserted,
-                              &abacus_header::vertices, &abacus_header::duplicates,
-                              &abacus_header::simplices, &abacus_header::ghosts})
+    for (const Field field :
+         {&abacus_header::points, &abacus_header::inserted, &abacus_header::vertices,
+          &abacus_header::duplicates, &abacus_header::simplices, &abacus_header::ghosts})
         for (const std::uint64_t value : {std::uint64_t(0), std::uint64_t(1) << 40})
             big.expect_fault("a count", "count", [&] {
                 big.mesh.header.*field = value == big.mesh.header.*field ? 1 : value;
@@ -431,54 +346,6 @@ TEST(Check, TellsARepeatedPointFromAWrongVertex) {
         EXPECT_EQ(faults[0].substr(0, 7), "vertex:");
         mesh.host.pages = pages;
     }
-}
-
-/// Flips bits all over a store of pages: each must be found.
-template <class Pages> void flip_bits(Patient &patient, Pages &pages, int flips, unsigned seed) {
-    std::mt19937_64 random(seed);
-    for (int i = 0; i < flips; ++i) {
-        auto at = std::next(pages.begin(), static_cast<std::ptrdiff_t>(random() % pages.size()));
-        // Half of them in the header, where there is something new in every byte.
-        const std::size_t limit = random() % 2 ? at->second.size : std::min<std::size_t>(at->second.size, 80);
-        const std::size_t byte = random() % limit;
-        const int bit = static_cast<int>(random() % 8);
-        const auto found = patient.faults([&] { at->second.bytes()[byte] ^= 1 << bit; });
-        ASSERT_FALSE(found.empty()) << "bit " << bit << " of byte " << byte << " of page "
-                                    << std::distance(pages.begin(), at);
-        ASSERT_NE(found[0].substr(0, 7), "status:") << found[0];
-    }
-}
-
-TEST(Check, FindsEveryFlippedBitOfASinglePage) {
-    Patient patient(25, 1);
-    ASSERT_EQ(patient.mesh.host.pages.size(), 1u);
-    const std::size_t size = patient.page().size;
-    for (std::size_t bit = 0; bit < 8 * size; ++bit) {
-        const auto found = patient.faults([&] { patient.page().bytes()[bit / 8] ^= 1 << bit % 8; });
-        ASSERT_FALSE(found.empty()) << "bit " << bit % 8 << " of byte " << bit / 8;
-        ASSERT_NE(found[0].substr(0, 7), "status:") << found[0];
-    }
-}
-
-TEST(Check, FindsFlippedBitsAnywhere) {
-    Patient plain(800, 0), small_cache(800, 1, 40 << 10), wide(60, 100);
-    for (Patient *patient : {&plain, &small_cache, &wide}) {
-        flip_bits(*patient, patient->mesh.host.pages, 150, 3);
-        flip_bits(*patient, patient->mesh.host.vertex_pages, 30, 4);
-    }
-}
-
-TEST(Check, FindsFlippedBitsInPagesThatShareACode) {
-    // Clusters below the resolution of the codes: links have parts.
-    std::vector<Input> points = random_points(1500, 0);
-    for (Input &input : points) {
-        const double corner = static_cast<double>(input.id % 3) / 4;
-        for (double &x : input.point) x = corner + 0.1 + x * 1e-11;
-    }
-    Patient patient(points);
-    ASSERT_TRUE(std::any_of(patient.mesh.host.pages.begin(), patient.mesh.host.pages.end(),
-                            [](const auto &page) { return page.first.part != 0; }));
-    flip_bits(patient, patient.mesh.host.pages, 200, 6);
 }
 
 } // namespace

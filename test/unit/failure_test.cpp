@@ -24,7 +24,7 @@ std::vector<Input> random_points(int n, unsigned seed) {
 /// A piece of work on a mesh, from opening to closing handles.
 struct Work {
     const char *name;
-    int staged, built;  // points that the mesh starts with; points of these that are in it
+    int staged, built; // points that the mesh starts with; points of these that are in it
     std::function<abacus_status(Mesh &)> run;
 };
 
@@ -43,11 +43,11 @@ abacus_status draw(Mesh &mesh) {
 
 abacus_status scan(Mesh &mesh) {
     abacus_scan *scan = nullptr;
-    abacus_status status =
-        abacus_scan_open(mesh.host.table(), &mesh.header, 1, &scan, &mesh.error);
+    abacus_status status = abacus_scan_open(mesh.host.table(), &mesh.header, 1, &scan, &mesh.error);
     if (status != ABACUS_OK) return status;
     abacus_simplex s;
-    while ((status = abacus_scan_next(scan, &s, &mesh.error)) == ABACUS_OK) {}
+    while ((status = abacus_scan_next(scan, &s, &mesh.error)) == ABACUS_OK) {
+    }
     abacus_scan_close(scan);
     return status;
 }
@@ -58,7 +58,8 @@ abacus_status vertex_scan(Mesh &mesh) {
                                                    mesh.cache_bytes, &scan, &mesh.error);
     if (status != ABACUS_OK) return status;
     abacus_vertex v;
-    while ((status = abacus_vertex_scan_next(scan, &v, &mesh.error)) == ABACUS_OK) {}
+    while ((status = abacus_vertex_scan_next(scan, &v, &mesh.error)) == ABACUS_OK) {
+    }
     abacus_vertex_scan_close(scan);
     return status;
 }
@@ -77,8 +78,8 @@ abacus_status check(Mesh &mesh) {
 /// Locates and walks along a line through the whole mesh.
 abacus_status read(Mesh &mesh) {
     abacus_mesh *handle = nullptr;
-    abacus_status status = abacus_mesh_open(mesh.host.table(), &mesh.header, mesh.cache_bytes,
-                                            &handle, &mesh.error);
+    abacus_status status =
+        abacus_mesh_open(mesh.host.table(), &mesh.header, mesh.cache_bytes, &handle, &mesh.error);
     if (status != ABACUS_OK) return status;
     for (int i = 0; i < 40; ++i) {
         const double p[] = {0.1 + i * 0.02, 0.9 - i * 0.02};

@@ -19,12 +19,15 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Random = std::mt19937_64;
 
 template <int D> auto cgal(const Point<D> &p) {
-    if constexpr (D == 2) return Kernel::Point_2(p[0], p[1]);
-    else return Kernel::Point_3(p[0], p[1], p[2]);
+    if constexpr (D == 2)
+        return Kernel::Point_2(p[0], p[1]);
+    else
+        return Kernel::Point_3(p[0], p[1], p[2]);
 }
 
 template <int D> int exact_orientation(const Corners<D> &c) {
-    if constexpr (D == 2) return CGAL::orientation(cgal<D>(*c[0]), cgal<D>(*c[1]), cgal<D>(*c[2]));
+    if constexpr (D == 2)
+        return CGAL::orientation(cgal<D>(*c[0]), cgal<D>(*c[1]), cgal<D>(*c[2]));
     else
         return CGAL::orientation(cgal<D>(*c[0]), cgal<D>(*c[1]), cgal<D>(*c[2]), cgal<D>(*c[3]));
 }
@@ -73,10 +76,11 @@ const Source sources[] = {
     {"largest", [](Random &r) { return unit(r) * std::numeric_limits<double>::max(); }},
     {"largest_grid",
      [](Random &r) { return (double(r() % 3) - 1) * std::numeric_limits<double>::max(); }},
-    {"all_exponents",
-     [](Random &r) { return std::ldexp(unit(r), int(r() % 2040) - 1020); }},
+    {"all_exponents", [](Random &r) { return std::ldexp(unit(r), int(r() % 2040) - 1020); }},
     {"mixed",
-     [](Random &r) { return r() % 3 ? double(r() % 3) : std::ldexp(unit(r), int(r() % 400) - 200); }},
+     [](Random &r) {
+         return r() % 3 ? double(r() % 3) : std::ldexp(unit(r), int(r() % 400) - 200);
+     }},
 };
 
 template <int D> Point<D> point(const Source &source, Random &random) {
@@ -128,7 +132,9 @@ protected:
                 const Point<D> p = point<D>(GetParam(), random);
                 bool independent = true;
                 if (n == 1) independent = p != points[0];
-                if (n == 2) independent = !CGAL::collinear(cgal<D>(points[0]), cgal<D>(points[1]), cgal<D>(p));
+                if (n == 2)
+                    independent =
+                        !CGAL::collinear(cgal<D>(points[0]), cgal<D>(points[1]), cgal<D>(p));
                 if constexpr (D == 3)
                     if (n == 3)
                         independent = !CGAL::coplanar(cgal<D>(points[0]), cgal<D>(points[1]),

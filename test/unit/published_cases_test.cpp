@@ -41,34 +41,21 @@ TEST(PublishedCases, CrossingEdgesInJts20) {
 TEST(PublishedCases, OverlappingTrianglesInJts298) {
     // The first 28 of its 79 points: some are one unit in the last place apart, one is
     // there twice.
-    const Points points = from_bits({{0x405086a22cd54a24, 0x405125abd3a4f458},
-                                     {0x406255c867993562, 0x405e6b90cf326ac5},
-                                     {0x40601bce0028da11, 0x405d50c14a8c905a},
-                                     {0x405086a22cd54a26, 0x405125abd3a4f459},
-                                     {0x406531ab20cee179, 0x40624447e5bc1be2},
-                                     {0x405fa847f66a4940, 0x4066a390a081a031},
-                                     {0x40529bce0028da10, 0x4053a860a546482c},
-                                     {0x405e472141034060, 0x40632bdc04cadb60},
-                                     {0x4058b8debefcbf9c, 0x40675423fb35249f},
-                                     {0x404a5490ccfdd279, 0x404f96da5fedf036},
-                                     {0x40555490ccfdd279, 0x405596da5fedf035},
-                                     {0x406033b3dc3f533e, 0x4065bcdb992e1040},
-                                     {0x4056e16f27a019ee, 0x40644b15257d2d60},
-                                     {0x406127b5df76f1d8, 0x405c0f6bbeede3af},
-                                     {0x405757b80995b6c0, 0x4063dc6f5f7e5fcf},
-                                     {0x4065e00000000000, 0x4062c00000000000},
-                                     {0x405f0918c003e155, 0x4067048c6001f0ad},
-                                     {0x40580d5399d2cae4, 0x405785541a95983f},
-                                     {0x4058b8debefcbfa3, 0x40632bdc04cadb5e},
-                                     {0x405d7ed9337cbbb8, 0x405b62478fe4e851},
-                                     {0x405d0c7233684eaf, 0x405b11173d41c43a},
-                                     {0x404b298538664b8c, 0x404f2735fbf24a6d},
-                                     {0x403ee30b3353e1a6, 0x4047dcf3754f5012},
-                                     {0x405ac61666a7c34e, 0x405973cdd53d4048},
-                                     {0x40437235a3b86bd8, 0x404a4c23c27af290},
-                                     {0x406255c867993562, 0x405e6b90cf326ac3},
-                                     {0x4057f6e73ffc1eaa, 0x40637b739ffe0f53},
-                                     {0x404b298538664b8b, 0x404f2735fbf24a6c}});
+    const Points points = from_bits(
+        {{0x405086a22cd54a24, 0x405125abd3a4f458}, {0x406255c867993562, 0x405e6b90cf326ac5},
+         {0x40601bce0028da11, 0x405d50c14a8c905a}, {0x405086a22cd54a26, 0x405125abd3a4f459},
+         {0x406531ab20cee179, 0x40624447e5bc1be2}, {0x405fa847f66a4940, 0x4066a390a081a031},
+         {0x40529bce0028da10, 0x4053a860a546482c}, {0x405e472141034060, 0x40632bdc04cadb60},
+         {0x4058b8debefcbf9c, 0x40675423fb35249f}, {0x404a5490ccfdd279, 0x404f96da5fedf036},
+         {0x40555490ccfdd279, 0x405596da5fedf035}, {0x406033b3dc3f533e, 0x4065bcdb992e1040},
+         {0x4056e16f27a019ee, 0x40644b15257d2d60}, {0x406127b5df76f1d8, 0x405c0f6bbeede3af},
+         {0x405757b80995b6c0, 0x4063dc6f5f7e5fcf}, {0x4065e00000000000, 0x4062c00000000000},
+         {0x405f0918c003e155, 0x4067048c6001f0ad}, {0x40580d5399d2cae4, 0x405785541a95983f},
+         {0x4058b8debefcbfa3, 0x40632bdc04cadb5e}, {0x405d7ed9337cbbb8, 0x405b62478fe4e851},
+         {0x405d0c7233684eaf, 0x405b11173d41c43a}, {0x404b298538664b8c, 0x404f2735fbf24a6d},
+         {0x403ee30b3353e1a6, 0x4047dcf3754f5012}, {0x405ac61666a7c34e, 0x405973cdd53d4048},
+         {0x40437235a3b86bd8, 0x404a4c23c27af290}, {0x406255c867993562, 0x405e6b90cf326ac3},
+         {0x4057f6e73ffc1eaa, 0x40637b739ffe0f53}, {0x404b298538664b8b, 0x404f2735fbf24a6c}});
     expect_exact(points);
 }
 

@@ -154,8 +154,10 @@ TEST(Walk, CrossesEveryFacetOfEveryTriangle) {
                 abacus_simplex found;
                 const abacus_status status = open.walk(s, i, found);
                 ASSERT_EQ(status, beyond == by_edge.end() ? ABACUS_END : ABACUS_OK);
-                if (status == ABACUS_OK) expect_same(found, *beyond->second);
-                else ++hull;
+                if (status == ABACUS_OK)
+                    expect_same(found, *beyond->second);
+                else
+                    ++hull;
             }
         EXPECT_EQ(hull, mesh.header.ghosts);
         EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
