@@ -26,16 +26,8 @@ template <int D> Handle Insertion<D>::find_conflict(const Point<D> &p, std::uint
     }
     // Walk from the last insertion if p is in its neighbourhood, measured by the
     // size of the simplices there; else from the block that owns p's code.
-    if (from != no_handle) {
-        const Simplex<D> &s = cache_.simplex(from);
-        const Point<D> &a = cache_.point(s.vertex[0]), &b = cache_.point(s.vertex[1]);
-        double size = 0, distance = 0;
-        for (int i = 0; i < D; ++i) {
-            size += (b[i] - a[i]) * (b[i] - a[i]);
-            distance += (p[i] - a[i]) * (p[i] - a[i]);
-        }
-        if (!(distance <= 64 * size) && !cache_.near(from, code)) from = no_handle;
-    }
+    if (from != no_handle && !walk_.is_close(from, p) && !cache_.near(from, code))
+        from = no_handle;
     if (from == no_handle) from = cache_.start(code, p);
     if (from == no_handle) throw_corrupted("The mesh has no simplices.");
     const Handle h = walk_.to(p, from, static_cast<std::uint64_t>(simplices_ + ghosts_));

@@ -14,6 +14,19 @@ template <int D> class Walk {
 public:
     explicit Walk(Cache<D> &cache) : cache_(cache) {}
 
+    /// Whether p is so close to a simplex, measured by the simplex's own size, that a walk
+    /// from there is short, thin simplices included.
+    bool is_close(Handle h, const Point<D> &p) const {
+        const Simplex<D> &s = cache_.simplex(h);
+        const Point<D> &a = cache_.point(s.vertex[0]), &b = cache_.point(s.vertex[1]);
+        double size = 0, distance = 0;
+        for (int i = 0; i < D; ++i) {
+            size += (b[i] - a[i]) * (b[i] - a[i]);
+            distance += (p[i] - a[i]) * (p[i] - a[i]);
+        }
+        return distance <= 64 * size;
+    }
+
     /// The simplex that contains p in its closure; a ghost whose hull facet has p
     /// strictly beyond it if p lies outside the hull. `longest`: simplices of the mesh,
     /// ghosts included.

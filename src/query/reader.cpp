@@ -23,7 +23,8 @@ template <int D> Handle Reader<D>::find(const Point<D> &p) {
     cache_.trim();
     const std::uint64_t code = cache_.domain().code(p);
     Handle from = last_;
-    if (!cache_.is_live(from) || !cache_.near(from, code)) from = cache_.start(code, p);
+    if (!cache_.is_live(from) || !(cache_.near(from, code) || walk_.is_close(from, p)))
+        from = cache_.start(code, p);
     if (from == no_handle) throw_corrupted("The mesh has no simplices.");
     return last_ = walk_.to(p, from, size_);
 }
