@@ -115,19 +115,25 @@ template <int D> void Insertion<D>::fill_cavity(VertexIndex v) {
     }
 }
 
+template <int D> Handle Insertion<D>::join(std::size_t n, VertexIndex v) {
+    // The simplex inside, with v for the vertex opposite the facet: v lies on the same
+    // side, so the orientation stays, and a ghost's point at infinity stays last.
+    Rim &rim = rim_[n];
+    rim.vertex[rim.facet] = v;
+    const Handle h = create(rim.vertex);
+    if (n < recent_.size()) recent_[n] = h;
+    cache_.connect(make_link(h, rim.facet), rim.outer);
+    cache_.mark_dirty(link_simplex(rim.outer));
+    return h;
+}
+
 template <int D> void Insertion<D>::wire_cycle(VertexIndex v) {
-    // On each facet of the rim, the simplex inside with v for the vertex opposite it: v
-    // lies on the same side, so the orientation stays, and a ghost's point at infinity
-    // stays last. Around the rim, each new triangle meets the next across the edge
-    // opposite the vertex with which its own edge begins.
+    // Around the rim, each new triangle meets the next across the edge opposite the
+    // vertex with which its own edge begins.
     Link first = 0, last = 0;
     for (std::size_t i = 0; i < rim_.size(); ++i) {
-        Rim &rim = rim_[i];
-        rim.vertex[rim.facet] = v;
-        const Handle h = create(rim.vertex);
-        remember(i, h);
-        cache_.connect(make_link(h, rim.facet), rim.outer);
-        cache_.mark_dirty(link_simplex(rim.outer));
+        const Handle h = join(i, v);
+        const Rim &rim = rim_[i];
         const int begin = rim.facet == D ? 0 : rim.facet + 1;
         const int end = begin == D ? 0 : begin + 1;
         const Link to_previous = make_link(h, end);
@@ -141,18 +147,14 @@ template <int D> void Insertion<D>::wire_cycle(VertexIndex v) {
 template <int D> void Insertion<D>::wire_ridges(VertexIndex v) {
     ridges_.reset(rim_.size() * D);
     for (std::size_t n = 0; n < rim_.size(); ++n) {
-        Rim &rim = rim_[n];
-        rim.vertex[rim.facet] = v;
-        const Handle h = create(rim.vertex);
-        remember(n, h);
-        cache_.connect(make_link(h, rim.facet), rim.outer);
-        cache_.mark_dirty(link_simplex(rim.outer));
+        const Handle h = join(n, v);
+        const Rim &rim = rim_[n];
         // The other facets: each has v and one edge of the rim's facet.
         for (int i = 0; i <= D; ++i) {
             if (i == rim.facet) continue;
             std::array<VertexIndex, 2> edge{};
-            for (int j = 0, n = 0; j <= D; ++j)
-                if (j != i && j != rim.facet) edge[n++] = rim.vertex[j];
+            for (int j = 0, k = 0; j <= D; ++j)
+                if (j != i && j != rim.facet) edge[k++] = rim.vertex[j];
             const Link link = make_link(h, i);
             const Link other = ridges_.match(edge[0], edge[1], link);
             if (other != Ridges::unmatched) cache_.connect(other, link);

@@ -49,6 +49,8 @@ private:
     Handle find_conflict(const Point<D> &p, std::uint64_t code);
     void find_cavity(const Point<D> &p, Handle first);
     void fill_cavity(VertexIndex v);
+    /// The new simplex on the n-th facet of the rim, connected to the one outside.
+    Handle join(std::size_t n, VertexIndex v);
     void wire_cycle(VertexIndex v);
     void wire_ridges(VertexIndex v);
     Handle create(const std::array<VertexIndex, D + 1> &vertices) {
@@ -63,9 +65,6 @@ private:
     // likely to lie in the circumsphere of one of them.
     static constexpr int recent_size = D == 2 ? 4 : 16;
     std::array<Handle, recent_size> recent_;
-    void remember(std::size_t n, Handle h) {
-        if (n < recent_.size()) recent_[n] = h;
-    }
 
     Marks marks_; // of simplices seen by the search; 3D only
     Ridges ridges_;
