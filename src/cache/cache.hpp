@@ -74,7 +74,8 @@ public:
         return blocks_[b].state == Block::cached &&
                h - b * block_slots<D> < blocks_[b].high_water && !slots_[h].is_free();
     }
-    /// Where settle() took the simplex, or no_handle.
+    /// Where settle() took the simplex, or no_handle; another simplex, if its slot has been
+    /// taken meanwhile, so no more than a hint.
     Handle follow(Handle h) const;
 
     // ---- Keys ----------------------------------------------------------------
@@ -114,7 +115,6 @@ public:
     VertexIndex create_vertex(const Point<D> &p, std::int64_t id, const double *attributes) {
         return vertices_.create(p, domain_.cell(p), id, attributes);
     }
-    void destroy_vertex(VertexIndex v) { vertices_.destroy(v); }
     /// A new simplex with unset links.
     Handle create(const std::array<VertexIndex, D + 1> &vertices) {
         const Cell<D> cell = this->cell(vertices);

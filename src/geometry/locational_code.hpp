@@ -135,14 +135,6 @@ public:
 
     std::uint64_t code(const Point<D> &p) const { return morton<D>(cell(p)); }
 
-    /// Corner of a cell in the mesh's coordinates, rounded: for probing only.
-    Point<D> corner(const Cell<D> &cell) const {
-        Point<D> p;
-        for (int i = 0; i < D; ++i)
-            p[i] = factor_ > 0 ? (cell[i] / factor_ + origin_[i]) / scale_ : lower_[i];
-        return p;
-    }
-
     /// Bits of the coordinates below the cell, for `part`. Around zero, where the
     /// magnitudes of doubles are densest, the bits of the number itself (sign,
     /// exponent, mantissa) tell more than any fixed grid.

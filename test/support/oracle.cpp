@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <random>
 
 namespace abacus::test {
 
@@ -105,6 +106,14 @@ abacus_counters OpenMesh::counters() const {
     abacus_counters counters;
     abacus_mesh_counters(handle_, &counters);
     return counters;
+}
+
+std::vector<Point<2>> unit_square_points(int n, unsigned seed) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<Point<2>> points(n);
+    for (auto &p : points) p = {unit(random), unit(random)};
+    return points;
 }
 
 std::vector<Input> number(const std::vector<Point<2>> &points) {

@@ -64,6 +64,8 @@ private:
     abacus_mesh *handle_ = nullptr;
 };
 
+/// n points of the unit square, drawn from the seed.
+std::vector<Point<2>> unit_square_points(int n, unsigned seed);
 std::vector<Input> number(const std::vector<Point<2>> &points);
 /// CGAL's Delaunay triangles of the points, sorted.
 std::vector<Triangle> cgal_triangles(const std::vector<Point<2>> &points);

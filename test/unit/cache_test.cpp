@@ -28,13 +28,6 @@ constexpr int scale = 1;
 
 double unit(Random &random) { return std::uniform_real_distribution<double>(0, 1)(random); }
 
-std::vector<Point<2>> random_points(int n, unsigned seed) {
-    Random random(seed);
-    std::vector<Point<2>> points(n);
-    for (auto &p : points) p = {unit(random), unit(random)};
-    return points;
-}
-
 /// Inserts points with a cache of these options into a mesh, as a build does.
 abacus_counters insert(Mesh &mesh, const std::vector<Point<2>> &points,
                        const CacheOptions &options) {
@@ -65,7 +58,7 @@ void forget_links(Mesh &mesh) {
 }
 
 TEST(Probing, GivesTheSameMeshAsStoredLinks) {
-    const auto points = random_points(1500, 1);
+    const auto points = unit_square_points(1500, 1);
     Mesh stored, probed;
     const auto with = insert(stored, points, {.budget = little});
     const auto without = insert(probed, points, {.budget = little, .stored_links = false});
@@ -92,7 +85,7 @@ TEST(Probing, FindsDistantNeighboursInEveryPage) {
 }
 
 TEST(Probing, ServesLinksWithoutAKey) {
-    auto points = random_points(2500, 3);
+    auto points = unit_square_points(2500, 3);
     Mesh mesh(0, little);
     ASSERT_EQ(mesh.stage(number(points)), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK);
@@ -110,7 +103,7 @@ TEST(Probing, ServesLinksWithoutAKey) {
     // A page that was evicted is found again by the key it had.
     EXPECT_GT(open.counters().quick_probes, open.counters().link_probes);
     // And such a mesh can grow.
-    const auto more = random_points(500, 4);
+    const auto more = unit_square_points(500, 4);
     ASSERT_EQ(mesh.stage(number(more)), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.detail;
     points.insert(points.end(), more.begin(), more.end());
@@ -119,7 +112,7 @@ TEST(Probing, ServesLinksWithoutAKey) {
 
 TEST(Cache, TellsALinkToTheWrongPlaceFromAMissingOne) {
     Mesh mesh(0, ample);
-    ASSERT_EQ(mesh.stage(number(random_points(2500, 5))), ABACUS_OK);
+    ASSERT_EQ(mesh.stage(number(unit_square_points(2500, 5))), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK);
     for (auto &[key, page] : mesh.host.pages) {
         PageEditor editor(page);
@@ -140,7 +133,7 @@ TEST(Cache, TellsALinkToTheWrongPlaceFromAMissingOne) {
 TEST(Cache, SplitsACodeIntoParts) {
     // Clusters far below the resolution of the codes, more than a page at each.
     Random random(6);
-    std::vector<Point<2>> points = random_points(100, 7);
+    std::vector<Point<2>> points = unit_square_points(100, 7);
     for (int i = 0; i < 3000; ++i) {
         const double centre = i % 2 ? 0.3 : 0.6;
         points.push_back({centre + unit(random) * 1e-13, centre + unit(random) * 1e-13});
@@ -167,7 +160,7 @@ TEST(Cache, SplitsACodeIntoParts) {
 TEST(Cache, CarriesAttributesThroughPagesBitForBit) {
     for (const int attributes : {1, 3, 17, ABACUS_MAX_ATTRIBUTES}) {
         Random random(8);
-        const auto points = random_points(attributes == ABACUS_MAX_ATTRIBUTES ? 150 : 600, 9);
+        const auto points = unit_square_points(attributes == ABACUS_MAX_ATTRIBUTES ? 150 : 600, 9);
         std::vector<Input> inputs = number(points);
         for (Input &input : inputs) {
             input.id = std::bit_cast<std::int64_t>(random());
@@ -201,7 +194,7 @@ TEST(Cache, CarriesAttributesThroughPagesBitForBit) {
 }
 
 TEST(Cache, KeepsToItsBudget) {
-    const std::vector<Input> points = number(random_points(60000 / scale, 10));
+    const std::vector<Input> points = number(unit_square_points(60000 / scale, 10));
     for (const std::size_t budget : {128u << 10, 512u << 10, 2048u << 10}) {
         Mesh mesh(0, budget);
         ASSERT_EQ(mesh.stage(points), ABACUS_OK);
@@ -217,7 +210,7 @@ TEST(Cache, KeepsToItsBudget) {
 
 TEST(Cache, CountsWhatItDoes) {
     Mesh mesh(0, 100 << 10);
-    ASSERT_EQ(mesh.stage(number(random_points(8000, 11))), ABACUS_OK);
+    ASSERT_EQ(mesh.stage(number(unit_square_points(8000, 11))), ABACUS_OK);
     const MemoryHost::Calls before = mesh.host.calls;
     ASSERT_EQ(mesh.build(), ABACUS_OK);
     const MemoryHost::Calls &after = mesh.host.calls;

@@ -142,18 +142,6 @@ TYPED_TEST(LocationalCode, AxesShareOneScale) {
     EXPECT_NEAR(domain.cell(this->all(0.5))[1], std::ldexp(1.0, code_bits<D>) / 2048, 1);
 }
 
-TYPED_TEST(LocationalCode, CornersLieInTheirCells) {
-    constexpr int D = TypeParam::value;
-    std::mt19937 random(3);
-    const Domain<D> domain = this->cube(-3, 5);
-    for (int round = 0; round < 1000; ++round) {
-        Cell<D> cell;
-        for (auto &c : cell) c = random() & this->last_cell;
-        const Cell<D> back = domain.cell(domain.corner(cell));
-        for (int axis = 0; axis < D; ++axis) EXPECT_NEAR(back[axis], cell[axis], 1);
-    }
-}
-
 TYPED_TEST(LocationalCode, SubcellsFitTheirBits) {
     constexpr int D = TypeParam::value;
     std::mt19937_64 random(4);

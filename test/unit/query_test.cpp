@@ -24,13 +24,6 @@ constexpr std::size_t little = 40 << 10, ample = 64 << 20;
 
 double unit(Random &random) { return std::uniform_real_distribution<double>(0, 1)(random); }
 
-std::vector<Point<2>> random_points(int n, unsigned seed) {
-    Random random(seed);
-    std::vector<Point<2>> points(n);
-    for (auto &p : points) p = {unit(random), unit(random)};
-    return points;
-}
-
 std::vector<Point<2>> grid(int n) {
     std::vector<Point<2>> points;
     for (int x = 0; x < n; ++x)
@@ -61,7 +54,7 @@ void expect_same(const abacus_simplex &a, const abacus_simplex &b) {
 }
 
 TEST(Locate, GivesTheFirstOfTheTrianglesAroundThePoint) {
-    for (const auto &points : {grid(20), random_points(400, 1)}) {
+    for (const auto &points : {grid(20), unit_square_points(400, 1)}) {
         std::vector<Point<2>> targets = points; // vertices
         Random random(2);
         for (int i = 0; i < 300; ++i) {
@@ -90,7 +83,7 @@ TEST(Locate, GivesTheFirstOfTheTrianglesAroundThePoint) {
 }
 
 TEST(Locate, EqualsCgals) {
-    const auto points = random_points(20000, 3);
+    const auto points = unit_square_points(20000, 3);
     Mesh mesh(0, ample);
     build(mesh, number(points));
     CGAL::Delaunay_triangulation_2<Kernel> reference;
@@ -141,7 +134,7 @@ TEST(Locate, TreatsOddCoordinatesProperly) {
 TEST(Walk, CrossesEveryFacetOfEveryTriangle) {
     for (const std::size_t cache : {little, ample}) {
         Mesh mesh(0, cache);
-        build(mesh, number(random_points(3000, 6)));
+        build(mesh, number(unit_square_points(3000, 6)));
         const auto all = mesh.simplices(false);
         std::map<std::pair<std::int64_t, std::int64_t>, const abacus_simplex *> by_edge;
         for (const auto &s : all)
@@ -166,7 +159,7 @@ TEST(Walk, CrossesEveryFacetOfEveryTriangle) {
 
 TEST(Walk, TakesTheIdsInAnyOrder) {
     Mesh mesh(0, ample);
-    build(mesh, number(random_points(100, 7)));
+    build(mesh, number(unit_square_points(100, 7)));
     OpenMesh open(mesh, ample);
     for (abacus_simplex s : mesh.simplices(false)) {
         abacus_simplex expected, found;
@@ -179,7 +172,7 @@ TEST(Walk, TakesTheIdsInAnyOrder) {
 
 TEST(Walk, RefusesWhatTheMeshDoesNotHave) {
     Mesh mesh(0, ample), empty(0, ample);
-    build(mesh, number(random_points(500, 8)));
+    build(mesh, number(unit_square_points(500, 8)));
     const auto refused = [](Mesh &mesh, const abacus_simplex &s, int facet) {
         OpenMesh open(mesh, ample);
         abacus_simplex found;
@@ -203,7 +196,7 @@ TEST(Walk, RefusesWhatTheMeshDoesNotHave) {
 }
 
 TEST(Scan, IsTheSameForEveryOrderOfTheInput) {
-    for (const auto &points : {grid(30), random_points(3000, 9)}) {
+    for (const auto &points : {grid(30), unit_square_points(3000, 9)}) {
         Mesh first(0, ample), second(0, little);
         build(first, number(points));
         build(second, number(points), 11);
@@ -223,7 +216,7 @@ TEST(Scan, IsTheSameForEveryOrderOfTheInput) {
 
 TEST(Scan, GivesTheHullAsGhosts) {
     Mesh mesh(0, ample);
-    build(mesh, number(random_points(2000, 12)));
+    build(mesh, number(unit_square_points(2000, 12)));
     std::map<std::int64_t, std::int64_t> next;
     std::uint64_t triangles = 0;
     for (const auto &s : mesh.simplices(true)) {
