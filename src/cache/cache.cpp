@@ -23,7 +23,8 @@ Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
     : host_(host), domain_(domain), options_(options),
       capacity_(block_capacity<D>(attributes)), blocks_(host), slots_(host),
       vertices_(host, attributes), visible_(host), directory_(host), unused_blocks_(host),
-      limbo_(host), places_(host), local_(host), numbered_(host), corners_(host), border_(host), beyond_(host), facets_(host) {}
+      limbo_(host), places_(host), numbered_(host), corners_(host), uses_(host), left_(host),
+      border_(host), beyond_(host), facets_(host) {}
 
 template <int D> Handle Cache<D>::follow(Handle h) const {
     // A simplex moves at most from limbo to a block that is then split.

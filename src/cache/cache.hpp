@@ -304,12 +304,14 @@ private:
     // cache_evict.cpp
     void shrink();
     void evict(Arena<BlockIndex> &victims);
-    void unlink(BlockIndex b);
-    void store(BlockIndex b);
-    /// Lists the block's facets on its border, and has what belongs to the block and
-    /// lies next to it brought near.
-    void collect_border(BlockIndex b);
+    /// Lists the block's facets on its border, and numbers its vertices, those on the
+    /// border first.
+    void survey(BlockIndex b);
+    /// Surveys the block and makes its page; false if that has too many bytes.
     bool encode(BlockIndex b);
+    void store(BlockIndex b);
+    /// Parts the block, just surveyed, from those that stay.
+    void unlink(BlockIndex b);
     Key key_beyond(Handle h, int facet) const;
 
     const Host &host_;
@@ -332,23 +334,21 @@ private:
     std::uint64_t marked_at_ = 0;
 
     // Page translation: reused from page to page.
-    struct LocalNumber {
-        std::uint32_t epoch;
-        std::uint32_t number;
-    };
     struct LocalFacet {
         std::uint64_t vertices;
         std::uint32_t epoch;
         Link link; // with `absent` for an odd facet
     };
-    Arena<LocalNumber> local_;      // of each vertex, valid in the present epoch
+    static constexpr std::uint32_t at_infinity = 0xffffffffu;
     Arena<VertexIndex> numbered_;   // vertices by local number
-    Arena<std::uint32_t> corners_;  // local numbers, D + 1 a simplex
+    std::size_t border_vertices_ = 0; // of them are on the border
+    Arena<std::uint32_t> corners_;  // local numbers, or at_infinity; D + 1 a simplex
+    Arena<std::uint32_t> uses_;     // of the vertices among corners_, by 1 + number
+    Arena<VertexIndex> left_;       // border vertices of the blocks evicted together
     Arena<Link> border_;            // facets on the border of a block, from inside
     Arena<Key> beyond_;             // keys of neighbours in other pages
     Arena<LocalFacet> facets_;      // hash table of the facets inside a page
-    std::uint32_t epoch_ = 0;
-    void next_epoch();
+    std::uint32_t epoch_ = 0;       // of facets_
     alignas(8) unsigned char page_[ABACUS_PAGE_BYTES];
     std::size_t page_size_ = 0;
 };

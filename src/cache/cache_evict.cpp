@@ -1,14 +1,15 @@
 // Eviction and storing: from linked simplices to pages (dissertation §4.5.2, §4.9).
 //
-// Blocks leave in batches. All changed ones are written while the topology is
-// whole; then the links between a leaving and a staying simplex become visible
-// facets, and vertices that no cached simplex uses any more are freed. Links
-// between two leaving blocks need nothing.
+// Blocks leave in batches, one after the other: each is surveyed, written if it has
+// changed, and unlinked. Its links to simplices that stay become visible facets. Those
+// to blocks of the same batch need nothing: what has left stays readable, for the keys
+// in the pages of its neighbours, until the whole batch has left. Then the vertices on
+// the borders that no cached simplex uses any more are freed; those off the borders went
+// with their blocks.
 //
 // What leaves has not been used for long, so it is in no processor cache, and a page
 // is made from some hundred places in memory: the vertices, and the simplices beyond
-// its border. encode() asks for all of them before it reads the first. A batch is
-// small enough for what encode() read to be near still when unlink() needs it.
+// its border. survey() asks for all of them before it reads the first.
 #include "cache/cache.hpp"
 
 #include "cache/stopwatch.hpp"
@@ -49,14 +50,27 @@ template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
         if (!dissolve(b)) victims[kept++] = b;
     victims.resize(kept);
     for (const BlockIndex b : victims) blocks_[b].leaving = true;
+    left_.clear();
     for (std::size_t i = 0; i < victims.size(); ++i) {
         const BlockIndex b = victims[i];
-        if (!blocks_[b].dirty) continue;
-        while (!encode(b)) victims.push_back(halve(b)); // too many bytes, not too many slots
-        store(b);
+        if (blocks_[b].dirty) {
+            while (!encode(b)) victims.push_back(halve(b)); // too many bytes, not too many slots
+            store(b);
+        } else {
+            survey(b);
+        }
+        unlink(b);
     }
     const Stopwatch stopwatch(counters.translation_ns);
-    for (const BlockIndex b : victims) unlink(b);
+    for (const VertexIndex v : left_)
+        if (vertices_.in_use(v)) vertices_.prefetch_slot(point(v));
+    vertices_.start_numbering();
+    for (const VertexIndex v : left_) {
+        if (vertices_.is_numbered(v)) continue; // on the border of several
+        vertices_.set_number(v, 0);
+        if (vertices_.in_use(v)) vertices_.share(v);
+        else vertices_.destroy(v);
+    }
     for (const BlockIndex b : victims) {
         directory_.erase(blocks_[b].lower);
         free_block(b);
@@ -65,40 +79,35 @@ template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
 }
 
 template <int D> void Cache<D>::unlink(BlockIndex b) {
-    collect_border(b);
-    for (const Link link : border_) {
-        const Handle h = link_simplex(link);
-        visible_.prefetch_bucket(facet(h, link_facet(link)));
-        for (int i = 0; i <= D; ++i)
-            if (i != link_facet(link)) vertices_.prefetch_slot(point(slots_[h].vertex[i]));
+    const Stopwatch stopwatch(counters.translation_ns);
+    for (const Link inner : border_)
+        visible_.prefetch_bucket(facet(link_simplex(inner), link_facet(inner)));
+    for (const Link inner : border_) {
+        const Handle h = link_simplex(inner);
+        const Link link = slots_[h].link[link_facet(inner)];
+        if (is_absent(link)) {
+            visible_.remove(link & ~absent);
+            continue;
+        }
+        const Handle neighbour = link_simplex(link);
+        if (blocks_[block_of<D>(neighbour)].leaving) continue;
+        const Simplex<D> &s = slots_[h];
+        const Key key{code(s), blocks_[b].has_parts() ? part(s) : 0};
+        slots_[neighbour].link[link_facet(link)] =
+            absent | visible_.add(facet(h, link_facet(inner)), key, link);
     }
-    for_each_simplex(b, [&](Handle h) {
-        for (int i = 0; i <= D; ++i) {
-            const Link link = slots_[h].link[i];
-            if (is_absent(link)) {
-                visible_.remove(link & ~absent);
-                continue;
-            }
-            const Handle neighbour = link_simplex(link);
-            if (blocks_[block_of<D>(neighbour)].leaving) continue;
-            Simplex<D> &s = slots_[h];
-            const Key key{code(s), blocks_[b].has_parts() ? part(s) : 0};
-            slots_[neighbour].link[link_facet(link)] =
-                absent | visible_.add(facet(h, i), key, link);
-        }
-        for (const VertexIndex v : slots_[h].vertex) vertices_.release(v);
-    });
-    // Once for each distinct vertex: the last one to see it finds no references.
-    next_epoch();
-    for_each_simplex(b, [&](Handle h) {
-        for (int i = 0; i < slots_[h].finite_vertices(); ++i) {
-            const VertexIndex v = slots_[h].vertex[i];
-            if (local_[v].epoch == epoch_) continue;
-            local_[v].epoch = epoch_;
-            if (vertices_.in_use(v)) vertices_.share(v);
-            else vertices_.destroy(v);
-        }
-    });
+    // A vertex off the border has no other simplices than these.
+    uses_.resize(numbered_.size() + 1);
+    std::fill(uses_.begin(), uses_.end(), 0);
+    for (const std::uint32_t corner : corners_) ++uses_[corner + 1]; // 0 for at_infinity
+    vertices_.release(infinite_vertex, uses_[0]);
+    for (std::size_t n = 0; n < numbered_.size(); ++n) {
+        const VertexIndex v = numbered_[n];
+        vertices_.release(v, uses_[n + 1]);
+        if (n < border_vertices_) left_.push_back(v);
+        else if (vertices_.in_use(v)) throw_corrupted("A vertex has two separate stars.");
+        else vertices_.destroy(v);
+    }
 }
 
 template <int D> void Cache<D>::flush() {
@@ -126,63 +135,60 @@ template <int D> Key Cache<D>::key_beyond(Handle h, int facet) const {
     return {code(s), blocks_[block_of<D>(neighbour)].has_parts() ? part(s) : 0};
 }
 
-template <int D> void Cache<D>::collect_border(BlockIndex b) {
+template <int D> void Cache<D>::survey(BlockIndex b) {
     border_.clear();
     const Handle first = b * block_slots<D>;
     for_each_simplex(b, [&](Handle h) {
+        const Simplex<D> &s = slots_[h];
+        // Nearly every vertex is the first of some simplex.
+        __builtin_prefetch(&vertices_[s.vertex[0]]);
         for (int i = 0; i <= D; ++i) {
-            const VertexIndex v = slots_[h].vertex[i];
-            __builtin_prefetch(&vertices_[v]);
-            __builtin_prefetch(&local_[v]);
-            const Link link = slots_[h].link[i];
             // An absent link is far above the handles of any block.
-            if (link_simplex(link) - first < block_slots<D>) continue;
-            if (!is_absent(link)) __builtin_prefetch(&slots_[link_simplex(link)]);
+            if (link_simplex(s.link[i]) - first < block_slots<D>) continue;
+            if (!is_absent(s.link[i])) __builtin_prefetch(&slots_[link_simplex(s.link[i])]);
             border_.push_back(make_link(h, i));
         }
     });
+
+    vertices_.start_numbering();
+    numbered_.clear();
+    const auto number = [&](VertexIndex v) {
+        if (!vertices_.is_numbered(v)) {
+            vertices_.set_number(v, numbered_.size());
+            numbered_.push_back(v);
+        }
+        return vertices_.number(v);
+    };
     for (const Link inner : border_) {
-        const Link link = slots_[link_simplex(inner)].link[link_facet(inner)];
-        if (is_absent(link)) continue;
-        for (const VertexIndex v : slots_[link_simplex(link)].vertex)
-            __builtin_prefetch(&vertices_[v]);
+        const Simplex<D> &s = slots_[link_simplex(inner)];
+        for (int i = 0; i <= D; ++i)
+            if (i != link_facet(inner) && s.vertex[i] != infinite_vertex) number(s.vertex[i]);
+        // Its opposite vertex is all of the neighbour that is not the facet's.
+        const Link link = s.link[link_facet(inner)];
+        if (!is_absent(link))
+            __builtin_prefetch(&vertices_[slots_[link_simplex(link)].vertex[link_facet(link)]]);
     }
+    border_vertices_ = numbered_.size();
+    corners_.clear();
+    for_each_simplex(b, [&](Handle h) {
+        const Simplex<D> &s = slots_[h];
+        std::uint32_t *const corner = corners_.extend(D + 1);
+        for (int i = 0; i < D; ++i) corner[i] = number(s.vertex[i]);
+        corner[D] = s.is_ghost() ? at_infinity : number(s.vertex[D]);
+    });
 }
 
 template <int D> bool Cache<D>::encode(BlockIndex b) {
     const Stopwatch stopwatch(counters.translation_ns);
-    next_epoch();
-    collect_border(b);
-    numbered_.clear();
-    corners_.clear();
-    beyond_.clear();
-    const auto number = [&](VertexIndex v) {
-        LocalNumber &local = local_[v];
-        if (local.epoch != epoch_) {
-            local = {epoch_, static_cast<std::uint32_t>(numbered_.size())};
-            numbered_.push_back(v);
-        }
-        return local.number;
-    };
-
+    survey(b);
     PageHeader header{};
-    for (const Link link : border_) {
-        const Handle h = link_simplex(link);
-        const int facet = link_facet(link);
-        Key beyond = key_beyond(h, facet);
+    beyond_.clear();
+    for (const Link inner : border_) {
+        Key beyond = key_beyond(link_simplex(inner), link_facet(inner));
         if (beyond.part == unknown_part) beyond.part = 0;
         if (beyond.part != 0) header.flags |= PageHeader::long_links;
         beyond_.push_back(beyond);
-        for (int i = 0; i <= D; ++i)
-            if (i != facet && slots_[h].vertex[i] != infinite_vertex) number(slots_[h].vertex[i]);
     }
-    header.border_vertices = static_cast<std::uint16_t>(numbered_.size());
-    constexpr std::uint32_t at_infinity = 0xffffffffu;
-    for_each_simplex(b, [&](Handle h) {
-        for (const VertexIndex v : slots_[h].vertex)
-            corners_.push_back(v == infinite_vertex ? at_infinity : number(v));
-    });
-
     const Block &block = blocks_[b];
     header.magic = PageHeader::expected_magic;
     header.version = PageHeader::expected_version;
@@ -190,6 +196,7 @@ template <int D> bool Cache<D>::encode(BlockIndex b) {
     header.attributes = static_cast<std::uint8_t>(vertices_.attribute_count());
     header.simplices = static_cast<std::uint16_t>(block.count);
     header.vertices = static_cast<std::uint16_t>(numbered_.size());
+    header.border_vertices = static_cast<std::uint16_t>(border_vertices_);
     header.links = static_cast<std::uint16_t>(beyond_.size());
     header.lower = block.lower;
     header.upper = block.upper;
@@ -221,12 +228,13 @@ template <int D> bool Cache<D>::encode(BlockIndex b) {
         put(layout.links, i, beyond_[i].code);
         if (header.flags & PageHeader::long_links) put(layout.parts, i, beyond_[i].part);
     }
-    for (std::size_t i = 0; i < corners_.size(); ++i) {
-        const std::uint32_t corner = corners_[i] == at_infinity ? header.vertices : corners_[i];
-        if (header.flags & PageHeader::wide)
-            put(layout.simplices, i, static_cast<std::uint16_t>(corner));
-        else put(layout.simplices, i, static_cast<std::uint8_t>(corner));
-    }
+    const auto put_corners = [&]<class Number>(Number) {
+        for (std::size_t i = 0; i < corners_.size(); ++i)
+            put(layout.simplices, i,
+                static_cast<Number>(corners_[i] == at_infinity ? header.vertices : corners_[i]));
+    };
+    if (header.flags & PageHeader::wide) put_corners(std::uint16_t{});
+    else put_corners(std::uint8_t{});
     page_size_ = layout.size;
     return true;
 }

@@ -69,7 +69,6 @@ template <int D> typename Cache<D>::BlockIndex Cache<D>::load(const abacus_page 
         (after != no_block && blocks_[after].lower < view.upper()))
         throw_corrupted("Two pages own the same part of the curve.");
 
-    next_epoch();
     load_vertices(view);
     const BlockIndex b = new_block(Block::cached);
     Block &block = blocks_[b];
@@ -98,22 +97,8 @@ template <int D> typename Cache<D>::BlockIndex Cache<D>::load(const abacus_page 
     return b;
 }
 
-template <int D> void Cache<D>::next_epoch() {
-    const std::size_t known = local_.size();
-    local_.resize(std::max(known, vertices_.end()));
-    std::fill(local_.begin() + known, local_.end(), LocalNumber{});
-    if (facets_.empty()) {
-        facets_.resize(std::bit_ceil(std::size_t(block_slots<D>) * (D + 1) + 1));
-        std::fill(facets_.begin(), facets_.end(), LocalFacet{});
-    }
-    if (++epoch_ == 0) { // once in four billion pages
-        std::fill(local_.begin(), local_.end(), LocalNumber{});
-        std::fill(facets_.begin(), facets_.end(), LocalFacet{});
-        epoch_ = 1;
-    }
-}
-
 template <int D> void Cache<D>::load_vertices(const PageView<D> &view) {
+    vertices_.start_numbering();
     numbered_.resize(view.vertices());
     for (int n = 0; n < view.border_vertices(); ++n) vertices_.prefetch_slot(view.point(n));
     for (int n = 0; n < view.border_vertices(); ++n) vertices_.prefetch_vertex(view.point(n));
@@ -124,12 +109,7 @@ template <int D> void Cache<D>::load_vertices(const PageView<D> &view) {
         if (v == infinite_vertex) {
             v = vertices_.create(p, domain_.cell(p), view.id(n), view.attributes(n));
             if (n < view.border_vertices()) vertices_.share(v);
-            if (v >= local_.size()) {
-                const std::size_t known = local_.size();
-                local_.resize(v + 1);
-                std::fill(local_.begin() + known, local_.end(), LocalNumber{});
-            }
-        } else if (local_[v].epoch == epoch_) {
+        } else if (vertices_.is_numbered(v)) {
             throw_corrupted("A page has the same vertex twice.");
         } else if (vertices_.id(v) != view.id(n)) {
             throw_corrupted("Two pages have different ids for one vertex.");
@@ -138,12 +118,17 @@ template <int D> void Cache<D>::load_vertices(const PageView<D> &view) {
                                view.attributes() * sizeof(double)) != 0) {
             throw_corrupted("Two pages have different attributes for one vertex.");
         }
-        local_[v].epoch = epoch_;
+        vertices_.set_number(v, n);
         numbered_[n] = v;
     }
 }
 
 template <int D> void Cache<D>::link_inside(int simplices, Handle first) {
+    if (facets_.empty() || ++epoch_ == 0) { // at first, and once in four billion pages
+        facets_.resize(std::bit_ceil(std::size_t(block_slots<D>) * (D + 1) + 1));
+        std::fill(facets_.begin(), facets_.end(), LocalFacet{});
+        epoch_ = 1;
+    }
     // As small as can be: at most one entry a facet, about half as many in a sound page.
     const std::size_t mask = std::bit_ceil(std::size_t(simplices) * (D + 1) + 1) - 1;
     const int shift = 64 - std::bit_width(mask);

@@ -21,6 +21,8 @@ template <int D> struct Vertex {
     Point<D> point;
     Cell<D> cell;             // quantized point: keys are computed from it
     std::uint32_t references; // cached simplices that use the vertex; top bit: shared
+    std::uint16_t numbering;  // in which the vertex was given
+    std::uint16_t number;     // this number
 };
 
 template <int D> class VertexHeap {
@@ -65,7 +67,7 @@ public:
             ids_.resize(v + 1);
             values_.resize((std::size_t(v) + 1) * attributes_);
         }
-        vertices_[v] = {p, cell, 0};
+        vertices_[v] = {p, cell, 0, 0, 0};
         ids_[v] = id;
         if (attributes_ != 0 && attributes != nullptr)
             std::memcpy(&values_[std::size_t(v) * attributes_], attributes,
@@ -77,12 +79,26 @@ public:
     /// Does not free the vertex, even without references: an insertion takes all
     /// references away before it makes new ones.
     void release(VertexIndex v) { --vertices_[v].references; }
+    void release(VertexIndex v, std::uint32_t times) { vertices_[v].references -= times; }
     bool in_use(VertexIndex v) const { return (vertices_[v].references & ~shared) != 0; }
 
     void destroy(VertexIndex v) {
         if (vertices_[v].references & shared) erase(v);
         vertices_[v].references = 0;
         free_.push_back(v);
+    }
+
+    /// Starts to number vertices anew, for a page: none has a number.
+    void start_numbering() {
+        if (++numbering_ != 0) return;
+        for (Vertex<D> &vertex : vertices_) vertex.numbering = 0; // once in 65535 times
+        numbering_ = 1;
+    }
+    bool is_numbered(VertexIndex v) const { return vertices_[v].numbering == numbering_; }
+    std::uint32_t number(VertexIndex v) const { return vertices_[v].number; }
+    void set_number(VertexIndex v, std::size_t number) {
+        vertices_[v].numbering = numbering_;
+        vertices_[v].number = static_cast<std::uint16_t>(number);
     }
 
     /// Makes the vertex known to find_shared().
@@ -159,6 +175,7 @@ private:
     Arena<VertexIndex> table_; // infinite_vertex = empty
     std::size_t mask_ = 0;
     std::size_t entries_ = 0;
+    std::uint16_t numbering_ = 0;
 };
 
 } // namespace abacus

@@ -4,11 +4,12 @@
 // a bound on the rounding error; only when that does not decide does it call the
 // exact form in predicates.cpp, which is CGAL's filtered kernel. The bounds are
 // Shewchuk's ("Adaptive Precision Floating-Point Arithmetic and Fast Robust
-// Geometric Predicates", 1997, the A estimates) for the very expressions below;
-// the 3D in-sphere bounds the permanent by the largest coordinate differences. They
-// hold while nothing underflows or overflows, so magnitudes outside a safe range
-// go to the exact form too: within it, what an underflow can change is far below the
-// bound.
+// Geometric Predicates", 1997, the A estimates) for the very expressions below; the
+// in-sphere tests take instead of the permanent in them what is no less and quicker to
+// compute, and a constant rounded up far enough for the roundings of that. They hold
+// while nothing underflows or overflows. An overflow makes the bound infinite, which
+// nothing exceeds; magnitudes so small that an underflow could count go to the exact
+// form too.
 //
 // Degeneracy: cospherical points are resolved by perturbing the lifting to the
 // paraboloid symbolically, in the lexicographic order of the points (Devillers
@@ -22,7 +23,7 @@
 // that is det(b-a, c-a, d-a) > 0.
 #pragma once
 
-#include "geometry/point.hpp"
+#include "geometry/pair.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -102,17 +103,19 @@ inline bool is_independent(const Corners<3> &points, int n, const Point<3> &p) {
 /// -1 outside, points on the sphere perturbed to one or the other; 0 if and only
 /// if p equals a corner.
 inline int in_sphere(const Corners<2> &corners, const Point<2> &p) {
-    const double ax = (*corners[0])[0] - p[0], ay = (*corners[0])[1] - p[1];
-    const double bx = (*corners[1])[0] - p[0], by = (*corners[1])[1] - p[1];
-    const double cx = (*corners[2])[0] - p[0], cy = (*corners[2])[1] - p[1];
-    const double bc = bx * cy, cb = cx * by, ca = cx * ay, ac = ax * cy, ab = ax * by, ba = bx * ay;
-    const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
-    const double det = a2 * (bc - cb) + b2 * (ca - ac) + c2 * (ab - ba);
-    const double permanent = a2 * (std::fabs(bc) + std::fabs(cb)) +
-                             b2 * (std::fabs(ca) + std::fabs(ac)) +
-                             c2 * (std::fabs(ab) + std::fabs(ba));
-    const double bound = 1.1102230246251577e-15 * permanent;
-    if (permanent > 1e-250 && a2 + b2 + c2 < 1e50) [[likely]] {
+    const Pair a = pair(*corners[0]) - pair(p), b = pair(*corners[1]) - pair(p),
+               c = pair(*corners[2]) - pair(p);
+    const Pair bc = b * swapped(c), ca = c * swapped(a), ab = a * swapped(b);
+    const Pair minors = firsts(bc, ca) - seconds(bc, ca);
+    const Pair aa = a * a, bb = b * b, cc = c * c;
+    const Pair lifts = firsts(aa, bb) + seconds(aa, bb);
+    const double lift_c = cc[0] + cc[1];
+    const Pair terms = lifts * minors;
+    const double det = terms[0] + terms[1] + lift_c * (ab[0] - ab[1]);
+    // No less than the permanent, since |bx cy| + |by cx| <= |b||c| <= (b^2 + c^2) / 2.
+    const double permanent = lifts[0] * lifts[1] + lift_c * (lifts[0] + lifts[1]);
+    const double bound = 1.1103e-15 * permanent;
+    if (permanent > 1e-250) [[likely]] {
         if (det > bound) return 1;
         if (det < -bound) return -1;
     }
@@ -120,28 +123,31 @@ inline int in_sphere(const Corners<2> &corners, const Point<2> &p) {
 }
 
 inline int in_sphere(const Corners<3> &corners, const Point<3> &p) {
-    double x[4], y[4], z[4], lift[4];
-    double mx = 0, my = 0, mz = 0;
-    for (int i = 0; i < 4; ++i) {
-        x[i] = (*corners[i])[0] - p[0];
-        y[i] = (*corners[i])[1] - p[1];
-        z[i] = (*corners[i])[2] - p[2];
-        lift[i] = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
-        mx = std::max(mx, std::fabs(x[i]));
-        my = std::max(my, std::fabs(y[i]));
-        mz = std::max(mz, std::fabs(z[i]));
-    }
-    const double ab = x[0] * y[1] - x[1] * y[0], bc = x[1] * y[2] - x[2] * y[1];
-    const double cd = x[2] * y[3] - x[3] * y[2], da = x[3] * y[0] - x[0] * y[3];
-    const double ac = x[0] * y[2] - x[2] * y[0], bd = x[1] * y[3] - x[3] * y[1];
-    const double abc = z[0] * bc - z[1] * ac + z[2] * ab;
-    const double bcd = z[1] * cd - z[2] * bd + z[3] * bc;
-    const double cda = z[2] * da + z[3] * ac + z[0] * cd;
-    const double dab = z[3] * ab + z[0] * bd + z[1] * da;
-    const double det = (lift[3] * abc - lift[2] * dab) + (lift[1] * cda - lift[0] * bcd);
-    // 16 u times the permanent, which is at most 24 mx my mz (mx^2 + my^2 + mz^2).
-    const double bound = 4.2632564145606087e-14 * (mx * my * mz) * (mx * mx + my * my + mz * mz);
-    if (std::min({mx, my, mz}) > 1e-58 && std::max({mx, my, mz}) < 1e61) [[likely]] {
+    const Point<3> &a = *corners[0], &b = *corners[1], &c = *corners[2], &d = *corners[3];
+    const Pair px = pair(p[0], p[0]), py = pair(p[1], p[1]), pz = pair(p[2], p[2]);
+    const Pair x_ac = pair(a[0], c[0]) - px, x_bd = pair(b[0], d[0]) - px;
+    const Pair y_ac = pair(a[1], c[1]) - py, y_bd = pair(b[1], d[1]) - py;
+    const Pair z_ac = pair(a[2], c[2]) - pz, z_bd = pair(b[2], d[2]) - pz;
+    const Pair lift_ac = x_ac * x_ac + y_ac * y_ac + z_ac * z_ac;
+    const Pair lift_bd = x_bd * x_bd + y_bd * y_bd + z_bd * z_bd;
+    const Pair ab_cd = x_ac * y_bd - x_bd * y_ac;
+    const Pair bc_da = x_bd * swapped(y_ac) - swapped(x_ac) * y_bd;
+    const Pair ac_bd = firsts(x_ac, x_bd) * seconds(y_ac, y_bd) -
+                       seconds(x_ac, x_bd) * firsts(y_ac, y_bd);
+    const Pair ac = firsts(-ac_bd, ac_bd), bd = seconds(-ac_bd, ac_bd);
+    const Pair abc_cda = z_ac * bc_da + z_bd * ac + swapped(z_ac) * ab_cd;
+    const Pair bcd_dab = z_bd * swapped(ab_cd) + swapped(z_ac) * bd + swapped(z_bd) * bc_da;
+    const Pair terms = swapped(lift_bd) * abc_cda - swapped(lift_ac * bcd_dab);
+    const double det = terms[0] + terms[1];
+    // The permanent of a 3x3 matrix is at most 2/sqrt(3) times the product of its rows'
+    // lengths (Carlen, Lieb, Loss, "An inequality of Hadamard type for permanents",
+    // 2006); so the whole is, for four corners whose lifts have this sum, at most
+    // 1/(4 sqrt(3)) < 0.1444 times its power of 5/2.
+    const Pair lifts = lift_ac + lift_bd;
+    const double sum = lifts[0] + lifts[1];
+    const double power = sum * sum * std::sqrt(sum);
+    const double bound = 2.57e-16 * power; // 16 u times 0.1444, and some more
+    if (power > 1e-200) [[likely]] {
         if (det > bound) return -1;
         if (det < -bound) return 1;
     }
