@@ -1,5 +1,6 @@
 # The one list of sources: read by Makefile.pgxs (make) and CMakeLists.txt
 # (line by line). One file a line.
+CORE_SOURCES += src/geometry/locational_code.cpp
 CORE_SOURCES += src/geometry/predicates.cpp
 CORE_SOURCES += src/draw/canvas.cpp
 CORE_SOURCES += src/draw/develop.cpp

@@ -37,29 +37,10 @@ template <int D> Handle Cache<D>::follow(Handle h) const {
 }
 
 template <int D> std::uint64_t Cache<D>::part(const Simplex<D> &s) const {
+    std::array<const Point<D> *, D + 1> corners;
     const int n = s.finite_vertices();
-    std::array<std::uint64_t, D> cells{}, subcells{};
-    std::uint64_t hash = 0; // a sum: the same for every order of the vertices
-    for (int i = 0; i < n; ++i) {
-        const Vertex<D> &v = vertices_[s.vertex[i]];
-        const Cell<D> sub = domain_.subcell(v.point);
-        std::uint64_t h = 0;
-        for (int axis = 0; axis < D; ++axis) {
-            cells[axis] += v.cell[axis];
-            subcells[axis] += sub[axis];
-            h = (h ^ std::bit_cast<std::uint64_t>(v.point[axis])) * 0x9e3779b97f4a7c15ull;
-            h ^= h >> 29;
-        }
-        hash += h;
-    }
-    // What the mean of the cells left over counts on in the subcells: one bit more.
-    Cell<D> mean;
-    for (int axis = 0; axis < D; ++axis)
-        mean[axis] = static_cast<std::uint32_t>(
-            (((cells[axis] % n) << part_bits<D>)+subcells[axis]) / n);
-    constexpr int hash_bits = 63 - D * (part_bits<D> + 1);
-    hash *= 0xd6e8feb86659fd93ull;
-    return morton<D>(mean) << hash_bits | hash >> (64 - hash_bits);
+    for (int i = 0; i < n; ++i) corners[i] = &point(s.vertex[i]);
+    return domain_.part(corners, n);
 }
 
 template <int D> Key Cache<D>::key(const Simplex<D> &s) const { return {code(s), part(s)}; }
@@ -109,9 +90,9 @@ typename Cache<D>::BlockIndex Cache<D>::cached_owner(const Key &key) const {
 }
 
 template <int D>
-typename Cache<D>::BlockIndex Cache<D>::place_elsewhere(const Cell<D> &cell) {
-    const BlockIndex b = cached_owner({morton<D>(cell), 0});
-    if (b != no_block && blocks_[b].surely_owns(cell)) {
+typename Cache<D>::BlockIndex Cache<D>::place_elsewhere(std::uint64_t code) {
+    const BlockIndex b = cached_owner({code, 0});
+    if (b != no_block && blocks_[b].surely_owns(code)) {
         at_hand_ = b;
         if (blocks_[b].count < capacity_) return b;
     }

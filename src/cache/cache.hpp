@@ -81,12 +81,13 @@ public:
     // ---- Keys ----------------------------------------------------------------
 
     const Domain<D> &domain() const { return domain_; }
-    Cell<D> cell(const std::array<VertexIndex, D + 1> &vertices) const {
-        std::array<const Cell<D> *, D + 1> cells;
-        for (int i = 0; i <= D; ++i) cells[i] = &vertices_[vertices[i]].cell;
-        return mean_cell<D>(cells, vertices[D] == infinite_vertex);
+    /// Greatest code of the vertices.
+    std::uint64_t code(const std::array<VertexIndex, D + 1> &vertices) const {
+        std::uint64_t greatest = 0;
+        for (const VertexIndex v : vertices) greatest = std::max(greatest, vertices_[v].code);
+        return greatest;
     }
-    std::uint64_t code(const Simplex<D> &s) const { return morton<D>(cell(s.vertex)); }
+    std::uint64_t code(const Simplex<D> &s) const { return code(s.vertex); }
     Key key(const Simplex<D> &s) const;
     /// Whether the simplex is in the block that owns its key.
     bool is_home(Handle h) const {
@@ -112,16 +113,18 @@ public:
 
     /// Gives an empty mesh its first block.
     void create_first_block();
-    VertexIndex create_vertex(const Point<D> &p, std::int64_t id, const double *attributes) {
-        return vertices_.create(p, domain_.cell(p), id, attributes);
+    /// `code` is that of p.
+    VertexIndex create_vertex(const Point<D> &p, std::uint64_t code, std::int64_t id,
+                              const double *attributes) {
+        return vertices_.create(p, code, id, attributes);
     }
     /// A new simplex with unset links.
     Handle create(const std::array<VertexIndex, D + 1> &vertices) {
-        const Cell<D> cell = this->cell(vertices);
+        const std::uint64_t code = this->code(vertices);
         BlockIndex b = at_hand_;
-        if (b == no_block || blocks_[b].count >= capacity_ || !blocks_[b].surely_owns(cell))
+        if (b == no_block || blocks_[b].count >= capacity_ || !blocks_[b].surely_owns(code))
             [[unlikely]]
-            b = place_elsewhere(cell);
+            b = place_elsewhere(code);
         const Handle h = take_slot(b);
         for (int i = 0; i <= D; ++i) {
             slots_[h].vertex[i] = vertices[i];
@@ -179,7 +182,6 @@ private:
         enum State : std::uint8_t { unused, cached, limbo };
         Key lower, upper;
         std::uint64_t sure_lower, sure_upper; // codes that it owns whatever their part
-        Cell<D> sure_lower_cell, sure_upper_cell;
         std::uint64_t location;               // of the stored page; 0 = none
         std::uint64_t used_at;
         std::uint32_t count;      // simplices
@@ -193,12 +195,7 @@ private:
             lower = from;
             upper = to;
             sure_lower = from.code + (from.part != 0);
-            sure_upper = std::min<std::uint64_t>(to.code, 1ull << (D * code_bits<D>));
-            sure_lower_cell = cell_of<D>(sure_lower);
-            sure_upper_cell = cell_of<D>(sure_upper);
-        }
-        bool surely_owns(const Cell<D> &cell) const {
-            return !morton_less<D>(cell, sure_lower_cell) && morton_less<D>(cell, sure_upper_cell);
+            sure_upper = to.code;
         }
         bool surely_owns(std::uint64_t code) const {
             return sure_lower <= code && code < sure_upper;
@@ -215,7 +212,7 @@ private:
     BlockIndex new_block(typename Block::State state);
     void free_block(BlockIndex b);
     BlockIndex cached_owner(const Key &key) const;
-    BlockIndex place_elsewhere(const Cell<D> &cell);
+    BlockIndex place_elsewhere(std::uint64_t code);
     Handle closest_of_some(BlockIndex b, const Point<D> &p) const;
     Handle take_slot(BlockIndex b) {
         Block &block = blocks_[b];

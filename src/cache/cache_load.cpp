@@ -107,7 +107,7 @@ template <int D> void Cache<D>::load_vertices(const PageView<D> &view) {
         VertexIndex v = infinite_vertex;
         if (n < view.border_vertices()) v = vertices_.find_shared(p);
         if (v == infinite_vertex) {
-            v = vertices_.create(p, domain_.cell(p), view.id(n), view.attributes(n));
+            v = vertices_.create(p, domain_.code(p), view.id(n), view.attributes(n));
             if (n < view.border_vertices()) vertices_.share(v);
         } else if (vertices_.is_numbered(v)) {
             throw_corrupted("A page has the same vertex twice.");

@@ -54,7 +54,7 @@ template <int D> void Cache<D>::probe(Handle h, int facet) {
     int n = 0;
     for (int i = 0; i <= D; ++i) {
         if (i == facet || slots_[h].vertex[i] == infinite_vertex) continue;
-        for (int axis = 0; axis < D; ++axis) sum[axis] += vertices_[slots_[h].vertex[i]].cell[axis];
+        for (int axis = 0; axis < D; ++axis) sum[axis] += domain_.cell(point(slots_[h].vertex[i]))[axis];
         ++n;
     }
     for (int axis = 0; axis < D; ++axis) middle[axis] = static_cast<std::uint32_t>(sum[axis] / n);
@@ -99,7 +99,7 @@ template <int D> bool Cache<D>::ray_probe(Handle h, int facet, const Cell<D> &mi
     Vector<D> outward{};
     if (!from_ghost)
         for (int axis = 0; axis < D; ++axis)
-            outward[axis] = double(middle[axis]) - double(vertices_[s.vertex[facet]].cell[axis]);
+            outward[axis] = double(middle[axis]) - double(domain_.cell(point(s.vertex[facet]))[axis]);
 
     struct Ray {
         Vector<D> at, along;

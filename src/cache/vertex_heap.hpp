@@ -19,7 +19,7 @@ namespace abacus {
 
 template <int D> struct Vertex {
     Point<D> point;
-    Cell<D> cell;             // quantized point: keys are computed from it
+    std::uint64_t code;       // of the point: keys are computed from it
     std::uint32_t references; // cached simplices that use the vertex; top bit: shared
     std::uint16_t numbering;  // in which the vertex was given
     std::uint16_t number;     // this number
@@ -33,7 +33,7 @@ public:
         // Vertex 0 is the point at infinity; NaN fails every floating-point filter.
         Point<D> nowhere;
         nowhere.fill(std::numeric_limits<double>::quiet_NaN());
-        create(nowhere, Cell<D>{}, 0, nullptr);
+        create(nowhere, 0, 0, nullptr); // the code is below all others
         rehash(1024);
     }
 
@@ -55,7 +55,7 @@ public:
     std::size_t end() const { return vertices_.size(); }
 
     /// A new vertex without references. `attributes` may be null when there are none.
-    VertexIndex create(const Point<D> &p, const Cell<D> &cell, std::int64_t id,
+    VertexIndex create(const Point<D> &p, std::uint64_t code, std::int64_t id,
                        const double *attributes) {
         VertexIndex v;
         if (!free_.empty()) {
@@ -67,7 +67,7 @@ public:
             ids_.resize(v + 1);
             values_.resize((std::size_t(v) + 1) * attributes_);
         }
-        vertices_[v] = {p, cell, 0, 0, 0};
+        vertices_[v] = {p, code, 0, 0, 0};
         ids_[v] = id;
         if (attributes_ != 0 && attributes != nullptr)
             std::memcpy(&values_[std::size_t(v) * attributes_], attributes,

@@ -43,7 +43,7 @@ bool Insertion<D>::insert(const Point<D> &p, std::int64_t id, const double *attr
     const Handle first = find_conflict(p, code);
     if (first == no_handle) return false;
     find_cavity(p, first);
-    fill_cavity(cache_.create_vertex(p, id, attributes));
+    fill_cavity(cache_.create_vertex(p, code, id, attributes));
     if (cache_.settle(code))
         for (Handle &h : recent_) h = cache_.follow(h);
     ++cache_.counters.insertions;

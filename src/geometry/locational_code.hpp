@@ -1,17 +1,17 @@
 // Locational codes: positions on a Morton (Z-order) curve over the mesh's
 // domain (dissertation §4.8).
 //
-// A coordinate is first quantized to `bits` bits. The key of a simplex is the
-// code of the integer mean of its vertices' quantized coordinates. Integer
-// sums do not depend on the order of the summands, so every writer and reader
-// computes the same key, whatever the order of the vertices and the rounding
-// mode, and none has to sort them first.
+// A coordinate is first quantized to `code_bits` bits. The code of a simplex is the
+// greatest of its vertices' codes: no arithmetic, and the same for every writer and
+// reader, whatever the order of the vertices. When points are inserted along the curve,
+// every new simplex has a code no less than the point's, so what lies behind is finished.
 //
 // Codes serve for clustering only: no geometric decision depends on them, and
 // points outside the domain clamp to its border. Where many simplices share one
-// code (a tight cluster, coordinates of very different magnitude), the key goes
-// on in a second word, `part`: further bits of the coordinates inside the
-// cell, then a hash of the vertices that tells apart what no position can.
+// code (the star of one vertex, a tight cluster, coordinates of very different
+// magnitude), the key goes on in a second word, `part`: further bits of the vertex's
+// position inside the cell, then where the other vertices lie as seen from it, then a
+// hash of all that tells apart what no position can.
 #pragma once
 
 #include "geometry/point.hpp"
@@ -27,8 +27,9 @@ namespace abacus {
 
 /// Bits an axis of a code.
 template <int D> inline constexpr int code_bits = D == 2 ? 31 : 21;
-/// Bits an axis that a part adds.
-template <int D> inline constexpr int part_bits = D == 2 ? 20 : 14;
+/// Bits an axis of a part: inside the cell, and of the others' place around the vertex.
+template <int D> inline constexpr int inner_bits = D == 2 ? 16 : 12;
+template <int D> inline constexpr int around_bits = D == 2 ? 12 : 7;
 
 template <int D> using Cell = std::array<std::uint32_t, D>;
 
@@ -57,45 +58,6 @@ template <int D> constexpr std::uint64_t morton(const Cell<D> &cell) {
     std::uint64_t code = 0;
     for (int i = 0; i < D; ++i) code |= spread_bits<D>(cell[i]) << i;
     return code;
-}
-
-/// The cell with this code; the end of the curve, 2^63 in 3D and 2^62 in 2D, has the
-/// cell just beyond axis 0.
-template <int D> constexpr Cell<D> cell_of(std::uint64_t code) {
-    Cell<D> cell{};
-    for (int bit = 0; bit < 64; ++bit)
-        cell[bit % D] |= static_cast<std::uint32_t>(code >> bit & 1) << (bit / D);
-    return cell;
-}
-
-/// Whether a comes before b on the curve, without computing their codes: the axis with
-/// the highest differing bit decides (Chan, "A minimalist's implementation of an
-/// approximate nearest neighbor algorithm", 2006).
-template <int D> constexpr bool morton_less(const Cell<D> &a, const Cell<D> &b) {
-    int axis = D - 1;
-    std::uint32_t top = a[axis] ^ b[axis];
-    for (int i = D - 2; i >= 0; --i) {
-        const std::uint32_t differing = a[i] ^ b[i];
-        if (top < (differing & ~top)) {
-            axis = i;
-            top = differing;
-        }
-    }
-    return a[axis] < b[axis];
-}
-
-/// Mean, rounded down, of the cells of a simplex's corners; of a ghost, whose last
-/// corner is not read, that of its hull facet's. Its code is the simplex's key.
-template <int D>
-inline Cell<D> mean_cell(const std::array<const Cell<D> *, D + 1> &cells, bool ghost) {
-    Cell<D> mean;
-    for (int axis = 0; axis < D; ++axis) {
-        std::uint64_t sum = 0;
-        for (int i = 0; i < D; ++i) sum += (*cells[i])[axis];
-        mean[axis] = static_cast<std::uint32_t>(ghost ? sum / D
-                                                      : (sum + (*cells[D])[axis]) / (D + 1));
-    }
-    return mean;
 }
 
 /// Box over which the codes of a mesh are taken.
@@ -135,26 +97,13 @@ public:
 
     std::uint64_t code(const Point<D> &p) const { return morton<D>(cell(p)); }
 
-    /// Bits of the coordinates below the cell, for `part`. Around zero, where the
-    /// magnitudes of doubles are densest, the bits of the number itself (sign,
-    /// exponent, mantissa) tell more than any fixed grid.
-    Cell<D> subcell(const Point<D> &p) const {
-        constexpr double sub = static_cast<double>(1u << part_bits<D>);
-        Cell<D> result;
-        for (int i = 0; i < D; ++i) {
-            const double t = (p[i] * scale_ - origin_[i]) * factor_;
-            const double zero = -origin_[i] * factor_;
-            if (std::floor(t) == std::floor(zero)) {
-                const auto bits = std::bit_cast<std::uint64_t>(p[i] + 0.0);
-                const auto ordered = bits >> 63 ? ~bits : bits | 1ull << 63;
-                result[i] = static_cast<std::uint32_t>(ordered >> (64 - part_bits<D>));
-            } else {
-                const double rest = (t - std::floor(t)) * sub;
-                result[i] = static_cast<std::uint32_t>(clamp(rest, sub - 1));
-            }
-        }
-        return result;
-    }
+    /// Second word of the key of a simplex with these n finite corners.
+    std::uint64_t part(const std::array<const Point<D> *, D + 1> &corners, int n) const;
+
+    /// Bits of the coordinates below the cell. Around zero, where the magnitudes of
+    /// doubles are densest, the bits of the number itself (sign, exponent, mantissa) tell
+    /// more than any fixed grid.
+    Cell<D> inner_cell(const Point<D> &p) const;
 
 private:
     static double clamp(double t, double most) { return std::min(most, std::max(0.0, t)); }

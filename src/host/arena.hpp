@@ -47,10 +47,7 @@ public:
         if (n > capacity_) reserve(std::max(n, capacity_ + capacity_ / 4 + 64));
         size_ = n;
     }
-    void push_back(const T &value) {
-        const T copy = value; // value may be an element
-        *extend(1) = copy;
-    }
+    void push_back(T value) { *extend(1) = value; } // by value: it may be an element
     /// Adds n uninitialized elements; returns the first.
     T *extend(std::size_t n) {
         if (size_ + n > capacity_) [[unlikely]] resize(size_ + n);

@@ -22,14 +22,12 @@ template <int D> bool SimplexScan<D>::next(abacus_simplex &simplex) {
             const bool ghost = page.is_ghost(s);
             if (ghost && !ghosts_) continue;
             std::array<Point<D>, D + 1> points;
-            std::array<Cell<D>, D + 1> cells;
-            std::array<const Cell<D> *, D + 1> cell;
+            std::uint64_t code = 0;
             for (int i = 0; i < D + !ghost; ++i) {
                 points[i] = page.point(page.corner(s, i));
-                cells[i] = domain_.cell(points[i]);
-                cell[i] = &cells[i];
+                code = std::max(code, domain_.code(points[i]));
             }
-            SimplexWriter<D> writer(simplex, morton<D>(mean_cell<D>(cell, ghost)), ghost);
+            SimplexWriter<D> writer(simplex, code, ghost);
             for (int i = 0; i < D + !ghost; ++i)
                 writer.corner(i, page.id(page.corner(s, i)), points[i]);
             writer.finish();
