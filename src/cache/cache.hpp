@@ -152,7 +152,7 @@ public:
         blocks_[b].dirty = true;
         blocks_[b].used_at = clock_;
     }
-    /// Ends an operation: brings limbo home. Sequential splits cut near `code`. Returns
+    /// Ends an operation: brings limbo home. Sequential splits cut at `code`. Returns
     /// whether simplices moved: see follow().
     bool settle(std::uint64_t code) {
         ++clock_;
@@ -261,17 +261,13 @@ private:
     /// the one there, which is the least from there on. places_.size() if impossible.
     std::size_t cut_near(std::size_t wanted);
     void make_room(BlockIndex b, std::uint64_t code);
-    bool lend_left(BlockIndex b);
-    bool lend_right(BlockIndex b);
-    bool takes_loan(BlockIndex neighbour, BlockIndex b) const {
-        return blocks_[neighbour].count + capacity_ / 8 <= capacity_ &&
-               !blocks_[neighbour].has_parts() && !blocks_[b].has_parts();
-    }
     /// Gives all simplices of a block that was never stored to its neighbours on the
     /// curve, if they take them; so that no page is written half empty.
     bool dissolve(BlockIndex b);
-    /// Cuts the block collected; returns the new block, the upper part.
-    BlockIndex split_at(BlockIndex b, std::size_t wanted);
+    /// Cuts the block, whose simplices from places_[cut] on, and no others, have keys from
+    /// `border` on; returns the new block, the upper part.
+    BlockIndex split_at(BlockIndex b, std::size_t cut, const Key &border);
+    BlockIndex split_at_median(BlockIndex b);
     BlockIndex halve(BlockIndex b);
 
     // cache_load.cpp

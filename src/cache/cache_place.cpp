@@ -4,22 +4,16 @@
 
 namespace abacus {
 
-// A full block makes room in one of three ways, by where the point being inserted
-// lies among its simplices, in curve order. Points come in the same order.
+// A full block makes room in one of two ways, by where the point being inserted lies
+// among its simplices, in curve order. Points come in the same order.
 //
-//   Somewhere in the upper half: what lies behind the point is nearly finished. A
-//   cut just ahead of the point leaves a well-filled page there that will hardly be
-//   touched again (the sequential split).
-//
-//   Behind it: the whole block was finished and overflows now, because a
-//   neighbour in the plane got its points. It lends simplices to a cached
-//   neighbour on the curve, as B*-trees do, if neither's stored key changes by it.
+//   Somewhere in the upper half: what lies behind the point is finished, since a
+//   simplex of the point has no smaller code than it. A cut at the point's code leaves a
+//   well-filled page there that will hardly be touched again (the sequential split).
 //
 //   Otherwise the block is cut at the median key.
 namespace {
 constexpr double sequential_from = 0.5;
-constexpr double finished_from = 0.95;
-constexpr double sequential_to = 0.85; // leaves room for what will still change there
 constexpr double dissolve_to = 0.93;
 } // namespace
 
@@ -96,48 +90,11 @@ template <int D> std::size_t Cache<D>::cut_near(std::size_t wanted) {
 
 template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
     collect_places(b);
-    const std::size_t n = places_.size();
-    const auto behind = static_cast<std::size_t>(std::count_if(
-        places_.begin(), places_.end(), [&](const Place &p) { return p.key.code < code; }));
-    if (behind >= sequential_from * n && behind < finished_from * n) {
-        split_at(b, std::min(behind, static_cast<std::size_t>(sequential_to * n)));
-        return;
-    }
-    if (behind >= finished_from * n && (lend_left(b) || lend_right(b))) return;
-    split_at(b, n / 2);
-}
-
-template <int D> bool Cache<D>::lend_left(BlockIndex b) {
-    const BlockIndex left = directory_.before(blocks_[b].lower);
-    if (blocks_[b].location != 0 || left == no_block) return false;
-    if (!takes_loan(left, b) || !(blocks_[left].upper == blocks_[b].lower)) return false;
-    const std::size_t cut = cut_near((capacity_ - blocks_[left].count) / 2);
-    if (cut >= places_.size() || blocks_[left].count + cut > capacity_) return false;
-    for (std::size_t i = 0; i < cut; ++i) move(places_[i].handle, left);
-    const Key border = places_[cut].key;
-    directory_.erase(blocks_[b].lower);
-    blocks_[left].own(blocks_[left].lower, border);
-    blocks_[b].own(border, blocks_[b].upper);
-    directory_.insert(border, b);
-    return true;
-}
-
-template <int D> bool Cache<D>::lend_right(BlockIndex b) {
-    const BlockIndex right = directory_.after(blocks_[b].lower);
-    if (right == no_block) return false;
-    if (blocks_[right].location != 0 || !takes_loan(right, b) ||
-        !(blocks_[right].lower == blocks_[b].upper))
-        return false;
-    const std::size_t n = places_.size();
-    const std::size_t cut = cut_near(n - (capacity_ - blocks_[right].count) / 2);
-    if (cut >= n || blocks_[right].count + (n - cut) > capacity_) return false;
-    for (std::size_t i = cut; i < n; ++i) move(places_[i].handle, right);
-    const Key border = places_[cut].key;
-    directory_.erase(blocks_[right].lower);
-    blocks_[b].own(blocks_[b].lower, border);
-    blocks_[right].own(border, blocks_[right].upper);
-    directory_.insert(border, right);
-    return true;
+    const auto ahead = std::partition(places_.begin(), places_.end(),
+                                      [&](const Place &p) { return p.key.code < code; });
+    const auto behind = static_cast<std::size_t>(ahead - places_.begin());
+    if (behind >= sequential_from * places_.size()) split_at(b, behind, {code, 0});
+    else split_at_median(b);
 }
 
 template <int D> bool Cache<D>::dissolve(BlockIndex b) {
@@ -187,29 +144,32 @@ template <int D> bool Cache<D>::dissolve(BlockIndex b) {
 }
 
 template <int D>
-typename Cache<D>::BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t wanted) {
-    const std::size_t cut = cut_near(wanted);
-    if (cut == 0 || cut >= places_.size())
-        throw Error(ABACUS_ERROR_LIMIT, "too many simplices share one key",
-                    "More simplices than fit a page cannot be told apart on the curve.");
+typename Cache<D>::BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t cut, const Key &border) {
     ++counters.splits;
     const BlockIndex right = new_block(Block::cached);
     Block &left = blocks_[b];
-    blocks_[right].own(places_[cut].key, left.upper);
+    blocks_[right].own(border, left.upper);
     blocks_[right].dirty = true;
     blocks_[right].leaving = left.leaving;
     blocks_[right].used_at = left.used_at;
-    left.own(left.lower, places_[cut].key);
+    left.own(left.lower, border);
     left.dirty = true;
-    directory_.insert(blocks_[right].lower, right);
+    directory_.insert(border, right);
     for (std::size_t i = cut; i < places_.size(); ++i) move(places_[i].handle, right);
     return right;
 }
 
-template <int D>
-typename Cache<D>::BlockIndex Cache<D>::halve(BlockIndex b) {
+template <int D> typename Cache<D>::BlockIndex Cache<D>::split_at_median(BlockIndex b) {
+    const std::size_t cut = cut_near(places_.size() / 2);
+    if (cut == 0 || cut >= places_.size())
+        throw Error(ABACUS_ERROR_LIMIT, "too many simplices share one key",
+                    "More simplices than fit a page cannot be told apart on the curve.");
+    return split_at(b, cut, places_[cut].key);
+}
+
+template <int D> typename Cache<D>::BlockIndex Cache<D>::halve(BlockIndex b) {
     collect_places(b);
-    return split_at(b, places_.size() / 2);
+    return split_at_median(b);
 }
 
 template class Cache<2>;
