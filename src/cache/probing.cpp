@@ -66,7 +66,7 @@ template <int D> void Cache<D>::probe(Handle h, int facet) {
 
 /// Whether a page came in.
 template <int D> bool Cache<D>::load_uncached(const Cell<D> &cell) {
-    const Key key{morton<D>(cell), 0};
+    const Key key{curve_code<D>(cell), 0};
     if (cached_owner(key) != no_block) return false;
     return owner(key) != no_block;
 }
@@ -79,7 +79,7 @@ bool Cache<D>::quick_probe(Handle h, int facet, const Cell<D> &middle) {
 }
 
 template <int D> int Cache<D>::octant_level(const Cell<D> &cell) const {
-    const std::uint64_t code = morton<D>(cell);
+    const std::uint64_t code = curve_code<D>(cell);
     const BlockIndex b = cached_owner({code, 0});
     int level = 0;
     while (b != no_block && level < code_bits<D>) {

@@ -1,5 +1,5 @@
-// Locational codes: positions on a Morton (Z-order) curve over the mesh's
-// domain (dissertation §4.8).
+// Locational codes: positions on a Hilbert curve over the mesh's domain (dissertation
+// §4.8, there on a Z-order curve).
 //
 // A coordinate is first quantized to `code_bits` bits. The code of a simplex is the
 // greatest of its vertices' codes: no arithmetic, and the same for every writer and
@@ -14,6 +14,7 @@
 // hash of all that tells apart what no position can.
 #pragma once
 
+#include "geometry/hilbert.hpp"
 #include "geometry/point.hpp"
 
 #include <algorithm>
@@ -53,11 +54,16 @@ template <int D> constexpr std::uint64_t spread_bits(std::uint64_t x) {
     return x;
 }
 
-/// Locational code of a cell: axis 0 in the least significant bit of each group.
+/// Morton code of a cell: axis 0 in the least significant bit of each group.
 template <int D> constexpr std::uint64_t morton(const Cell<D> &cell) {
     std::uint64_t code = 0;
     for (int i = 0; i < D; ++i) code |= spread_bits<D>(cell[i]) << i;
     return code;
+}
+
+/// Locational code of a cell: its place on the Hilbert curve.
+template <int D> constexpr std::uint64_t curve_code(const Cell<D> &cell) {
+    return Hilbert<D>::template place<D * code_bits<D>>(morton<D>(cell));
 }
 
 /// Box over which the codes of a mesh are taken.
@@ -95,7 +101,7 @@ public:
         return result;
     }
 
-    std::uint64_t code(const Point<D> &p) const { return morton<D>(cell(p)); }
+    std::uint64_t code(const Point<D> &p) const { return curve_code<D>(cell(p)); }
 
     /// Second word of the key of a simplex with these n finite corners.
     std::uint64_t part(const std::array<const Point<D> *, D + 1> &corners, int n) const;
