@@ -63,7 +63,7 @@ private:
 
     // The application cache (§4.12.4): simplices created last; the next point is
     // likely to lie in the circumsphere of one of them.
-    static constexpr int recent_size = D == 2 ? 4 : 16;
+    static constexpr int recent_size = D == 2 ? 8 : 24;
     std::array<Handle, recent_size> recent_;
 
     Marks marks_; // of simplices seen by the search; 3D only
