@@ -78,6 +78,11 @@ public:
     /// taken meanwhile, so no more than a hint.
     Handle follow(Handle h) const;
 
+    /// Number of a vertex in a numbering of the caller's.
+    std::uint32_t number(typename VertexHeap<D>::Numbering &numbering, VertexIndex v) {
+        return numbering.number(vertices_, v);
+    }
+
     // ---- Keys ----------------------------------------------------------------
 
     const Domain<D> &domain() const { return domain_; }
@@ -286,8 +291,8 @@ private:
 
     // probing.cpp
     void probe(Handle h, int facet);
-    bool load_uncached(const Cell<D> &cell);
-    bool quick_probe(Handle h, int facet, const Cell<D> &middle);
+    bool load_uncached(std::uint64_t code);
+    bool quick_probe(Handle h, int facet, std::uint64_t greatest);
     bool ray_probe(Handle h, int facet, const Cell<D> &middle);
     bool concentric_probe(Handle h, int facet, const Cell<D> &middle);
     /// Edge, as a power of two, of the largest octant around a cell that lies in
@@ -333,7 +338,7 @@ private:
         Link link; // with `absent` for an odd facet
     };
     static constexpr std::uint32_t at_infinity = 0xffffffffu;
-    Arena<VertexIndex> numbered_;   // vertices by local number
+    typename VertexHeap<D>::Numbering numbered_; // vertices by local number
     std::size_t border_vertices_ = 0; // of them are on the border
     Arena<std::uint32_t> corners_;  // local numbers, or at_infinity; D + 1 a simplex
     Arena<std::uint32_t> uses_;     // of the vertices among corners_, by 1 + number

@@ -64,10 +64,10 @@ template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
     const Stopwatch stopwatch(counters.translation_ns);
     for (const VertexIndex v : left_)
         if (vertices_.in_use(v)) vertices_.prefetch_slot(point(v));
-    vertices_.start_numbering();
+    numbered_.clear();
     for (const VertexIndex v : left_) {
-        if (vertices_.is_numbered(v)) continue; // on the border of several
-        vertices_.set_number(v, 0);
+        if (numbered_.contains(vertices_, v)) continue; // on the border of several
+        numbered_.number(vertices_, v);
         if (vertices_.in_use(v)) vertices_.share(v);
         else vertices_.destroy(v);
     }
@@ -150,15 +150,8 @@ template <int D> void Cache<D>::survey(BlockIndex b) {
         }
     });
 
-    vertices_.start_numbering();
     numbered_.clear();
-    const auto number = [&](VertexIndex v) {
-        if (!vertices_.is_numbered(v)) {
-            vertices_.set_number(v, numbered_.size());
-            numbered_.push_back(v);
-        }
-        return vertices_.number(v);
-    };
+    const auto number = [&](VertexIndex v) { return numbered_.number(vertices_, v); };
     for (const Link inner : border_) {
         const Simplex<D> &s = slots_[link_simplex(inner)];
         for (int i = 0; i <= D; ++i)

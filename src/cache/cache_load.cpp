@@ -90,16 +90,15 @@ template <int D> typename Cache<D>::BlockIndex Cache<D>::load(const abacus_page 
             vertices_.acquire(simplex.vertex[i]);
         }
     }
-    for (const VertexIndex v : numbered_)
-        if (!vertices_.in_use(v)) throw_corrupted("A page has a vertex without simplices.");
+    for (std::size_t n = 0; n < numbered_.size(); ++n)
+        if (!vertices_.in_use(numbered_[n])) throw_corrupted("A page has a vertex without simplices.");
     link_inside(view.simplices(), first);
     link_outside(view, first);
     return b;
 }
 
 template <int D> void Cache<D>::load_vertices(const PageView<D> &view) {
-    vertices_.start_numbering();
-    numbered_.resize(view.vertices());
+    numbered_.clear();
     for (int n = 0; n < view.border_vertices(); ++n) vertices_.prefetch_slot(view.point(n));
     for (int n = 0; n < view.border_vertices(); ++n) vertices_.prefetch_vertex(view.point(n));
     for (int n = 0; n < view.vertices(); ++n) {
@@ -109,7 +108,7 @@ template <int D> void Cache<D>::load_vertices(const PageView<D> &view) {
         if (v == infinite_vertex) {
             v = vertices_.create(p, domain_.code(p), view.id(n), view.attributes(n));
             if (n < view.border_vertices()) vertices_.share(v);
-        } else if (vertices_.is_numbered(v)) {
+        } else if (numbered_.contains(vertices_, v)) {
             throw_corrupted("A page has the same vertex twice.");
         } else if (vertices_.id(v) != view.id(n)) {
             throw_corrupted("Two pages have different ids for one vertex.");
@@ -118,8 +117,7 @@ template <int D> void Cache<D>::load_vertices(const PageView<D> &view) {
                                view.attributes() * sizeof(double)) != 0) {
             throw_corrupted("Two pages have different attributes for one vertex.");
         }
-        vertices_.set_number(v, n);
-        numbered_[n] = v;
+        numbered_.number(vertices_, v);
     }
 }
 

@@ -1,11 +1,12 @@
 // Probing: finding the page of a neighbour of which only the shared facet is known
 // (dissertation §4.10). Three methods, from speculative to certain:
 //
-//   quick       the page at the facet's middle point
-//   ray         the pages along rays from there into the half-space beyond, all
-//               rays one page at a time; octant by octant, with the ray-box
+//   quick       the page of the facet's greatest vertex, which gives the neighbour its key
+//               unless the neighbour's other vertex is greater still
+//   ray         the pages along rays from the facet's middle into the half-space beyond,
+//               all rays one page at a time; octant by octant, with the ray-box
 //               intersection of Kay and Kajiya
-//   concentric  rings of growing size around it, and at last every page
+//   concentric  rings of growing size around the middle, and at last every page
 //
 // Stored links need none of this: a link carries its neighbour's key. Probing
 // serves links without a key (a triangulation made elsewhere), and measurements.
@@ -51,29 +52,33 @@ template <int D> Vector<D> direction(int i, int n) {
 template <int D> void Cache<D>::probe(Handle h, int facet) {
     Cell<D> middle{};
     std::array<std::uint64_t, D> sum{};
+    std::uint64_t greatest = 0;
     int n = 0;
     for (int i = 0; i <= D; ++i) {
-        if (i == facet || slots_[h].vertex[i] == infinite_vertex) continue;
-        for (int axis = 0; axis < D; ++axis) sum[axis] += domain_.cell(point(slots_[h].vertex[i]))[axis];
+        const VertexIndex v = slots_[h].vertex[i];
+        if (i == facet || v == infinite_vertex) continue;
+        const Cell<D> cell = domain_.cell(point(v));
+        for (int axis = 0; axis < D; ++axis) sum[axis] += cell[axis];
+        greatest = std::max(greatest, vertices_[v].code);
         ++n;
     }
     for (int axis = 0; axis < D; ++axis) middle[axis] = static_cast<std::uint32_t>(sum[axis] / n);
-    if (quick_probe(h, facet, middle) || ray_probe(h, facet, middle) ||
+    if (quick_probe(h, facet, greatest) || ray_probe(h, facet, middle) ||
         concentric_probe(h, facet, middle))
         return;
     throw_corrupted("A facet has no simplex on its other side.");
 }
 
 /// Whether a page came in.
-template <int D> bool Cache<D>::load_uncached(const Cell<D> &cell) {
-    const Key key{curve_code<D>(cell), 0};
+template <int D> bool Cache<D>::load_uncached(std::uint64_t code) {
+    const Key key{code, 0};
     if (cached_owner(key) != no_block) return false;
     return owner(key) != no_block;
 }
 
 template <int D>
-bool Cache<D>::quick_probe(Handle h, int facet, const Cell<D> &middle) {
-    if (!load_uncached(middle)) return false;
+bool Cache<D>::quick_probe(Handle h, int facet, std::uint64_t greatest) {
+    if (!load_uncached(greatest)) return false;
     ++counters.quick_probes;
     return present(h, facet);
 }
@@ -117,7 +122,7 @@ template <int D> bool Cache<D>::ray_probe(Handle h, int facet, const Cell<D> &mi
             if (!ray.alive) continue;
             Cell<D> cell;
             for (int axis = 0; axis < D; ++axis) cell[axis] = static_cast<std::uint32_t>(ray.at[axis]);
-            if (load_uncached(cell)) {
+            if (load_uncached(curve_code<D>(cell))) {
                 ++counters.ray_probes;
                 if (present(h, facet)) return true;
             }
@@ -155,7 +160,7 @@ template <int D> bool Cache<D>::concentric_probe(Handle h, int facet, const Cell
                 inside = inside && at >= 0 && at < end;
                 cell[axis] = static_cast<std::uint32_t>(at);
             }
-            if (surface && inside && load_uncached(cell)) {
+            if (surface && inside && load_uncached(curve_code<D>(cell))) {
                 ++counters.concentric_probes;
                 if (present(h, facet)) return true;
             }

@@ -21,8 +21,7 @@ template <int D> struct Vertex {
     Point<D> point;
     std::uint64_t code;       // of the point: keys are computed from it
     std::uint32_t references; // cached simplices that use the vertex; top bit: shared
-    std::uint16_t numbering;  // in which the vertex was given
-    std::uint16_t number;     // this number
+    std::uint32_t number;     // in the Numbering at hand, if any
 };
 
 template <int D> class VertexHeap {
@@ -67,13 +66,42 @@ public:
             ids_.resize(v + 1);
             values_.resize((std::size_t(v) + 1) * attributes_);
         }
-        vertices_[v] = {p, code, 0, 0, 0};
+        vertices_[v] = {p, code, 0, 0};
         ids_[v] = id;
         if (attributes_ != 0 && attributes != nullptr)
             std::memcpy(&values_[std::size_t(v) * attributes_], attributes,
                         attributes_ * sizeof(double));
         return v;
     }
+
+    /// A list of distinct vertices, each of which knows its place in it: a sparse set
+    /// (Briggs and Torczon, 1993), empty at once whatever the vertices still hold. One
+    /// at a time is valid.
+    class Numbering {
+    public:
+        explicit Numbering(const Host &host) : list_(host) {}
+
+        void clear() { list_.clear(); }
+        std::size_t size() const { return list_.size(); }
+        VertexIndex operator[](std::size_t number) const { return list_[number]; }
+
+        bool contains(const VertexHeap &heap, VertexIndex v) const {
+            const std::uint32_t number = heap.vertices_[v].number;
+            return number < list_.size() && list_[number] == v;
+        }
+        /// The vertex's number, the next one if it had none.
+        std::uint32_t number(VertexHeap &heap, VertexIndex v) {
+            std::uint32_t &number = heap.vertices_[v].number;
+            if (!(number < list_.size() && list_[number] == v)) {
+                number = static_cast<std::uint32_t>(list_.size());
+                list_.push_back(v);
+            }
+            return number;
+        }
+
+    private:
+        Arena<VertexIndex> list_;
+    };
 
     void acquire(VertexIndex v) { ++vertices_[v].references; }
     /// Does not free the vertex, even without references: an insertion takes all
@@ -86,19 +114,6 @@ public:
         if (vertices_[v].references & shared) erase(v);
         vertices_[v].references = 0;
         free_.push_back(v);
-    }
-
-    /// Starts to number vertices anew, for a page: none has a number.
-    void start_numbering() {
-        if (++numbering_ != 0) return;
-        for (Vertex<D> &vertex : vertices_) vertex.numbering = 0; // once in 65535 times
-        numbering_ = 1;
-    }
-    bool is_numbered(VertexIndex v) const { return vertices_[v].numbering == numbering_; }
-    std::uint32_t number(VertexIndex v) const { return vertices_[v].number; }
-    void set_number(VertexIndex v, std::size_t number) {
-        vertices_[v].numbering = numbering_;
-        vertices_[v].number = static_cast<std::uint16_t>(number);
     }
 
     /// Makes the vertex known to find_shared().
@@ -175,7 +190,6 @@ private:
     Arena<VertexIndex> table_; // infinite_vertex = empty
     std::size_t mask_ = 0;
     std::size_t entries_ = 0;
-    std::uint16_t numbering_ = 0;
 };
 
 } // namespace abacus

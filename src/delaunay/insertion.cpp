@@ -9,7 +9,7 @@ namespace abacus {
 template <int D>
 Insertion<D>::Insertion(const Host &host, Cache<D> &cache, std::int64_t simplices,
                         std::int64_t ghosts)
-    : cache_(cache), walk_(cache), marks_(host), ridges_(host), cavity_(host), rim_(host), stack_(host), simplices_(simplices), ghosts_(ghosts) {
+    : cache_(cache), walk_(cache), marks_(host), ridges_(host), rim_vertices_(host), cavity_(host), rim_(host), stack_(host), simplices_(simplices), ghosts_(ghosts) {
     recent_.fill(no_handle);
 }
 
@@ -146,18 +146,21 @@ template <int D> void Insertion<D>::wire_cycle(VertexIndex v) {
 
 template <int D> void Insertion<D>::wire_ridges(VertexIndex v) {
     ridges_.reset(rim_.size() * D);
+    rim_vertices_.clear();
     for (std::size_t n = 0; n < rim_.size(); ++n) {
         const Handle h = join(n, v);
         const Rim &rim = rim_[n];
-        // The other facets: each has v and one edge of the rim's facet.
-        for (int i = 0; i <= D; ++i) {
+        // The facets besides the rim's: each has v and one edge of that.
+        std::array<std::uint32_t, D> number;
+        std::array<Link, D> link;
+        for (int i = 0, k = 0; i <= D; ++i) {
             if (i == rim.facet) continue;
-            std::array<VertexIndex, 2> edge{};
-            for (int j = 0, k = 0; j <= D; ++j)
-                if (j != i && j != rim.facet) edge[k++] = rim.vertex[j];
-            const Link link = make_link(h, i);
-            const Link other = ridges_.match(edge[0], edge[1], link);
-            if (other != Ridges::unmatched) cache_.connect(other, link);
+            number[k] = cache_.number(rim_vertices_, rim.vertex[i]);
+            link[k++] = make_link(h, i);
+        }
+        for (int i = 0; i < D; ++i) {
+            const Link other = ridges_.match(number[(i + 1) % D], number[(i + 2) % D], link[i]);
+            if (other != Ridges::unmatched) cache_.connect(other, link[i]);
         }
     }
 }

@@ -68,6 +68,7 @@ private:
 
     Marks marks_; // of simplices seen by the search; 3D only
     Ridges ridges_;
+    typename VertexHeap<D>::Numbering rim_vertices_;
     Arena<Handle> cavity_;
     Arena<Rim> rim_;
     Arena<Link> stack_;

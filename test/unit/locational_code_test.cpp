@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <vector>
 
@@ -69,6 +70,56 @@ TYPED_TEST(LocationalCode, InterleavesTheBits) {
             for (int axis = 0; axis < D; ++axis)
                 expected |= std::uint64_t{cell[axis] >> bit & 1} << (D * bit + axis);
         EXPECT_EQ(morton<D>(cell), expected);
+    }
+}
+
+TYPED_TEST(LocationalCode, StepsFromCellToNeighbour) {
+    constexpr int D = TypeParam::value;
+    constexpr std::uint32_t edge = 16;
+    // Octants at both ends of the curve and inside it.
+    for (const std::uint32_t corner : {0u, edge, 5 * edge, (this->last_cell + 1) / 2,
+                                       this->last_cell + 1 - edge}) {
+        std::map<std::uint64_t, Cell<D>> place;
+        Cell<D> step{};
+        for (int axis = 0; axis < D;) {
+            Cell<D> cell;
+            for (int i = 0; i < D; ++i) cell[i] = corner + step[i];
+            place[curve_code<D>(cell)] = cell;
+            for (axis = 0; axis < D && ++step[axis] == edge; ++axis) step[axis] = 0;
+        }
+        ASSERT_EQ(place.size(), std::size_t(std::pow(edge, D)));
+        EXPECT_EQ(place.begin()->first % place.size(), 0u);
+        EXPECT_EQ(place.rbegin()->first - place.begin()->first, place.size() - 1);
+        for (auto at = place.begin(), next = std::next(at); next != place.end(); ++at, ++next) {
+            std::uint32_t distance = 0;
+            for (int i = 0; i < D; ++i)
+                distance += std::max(at->second[i], next->second[i]) -
+                            std::min(at->second[i], next->second[i]);
+            EXPECT_EQ(distance, 1u);
+        }
+    }
+}
+
+TYPED_TEST(LocationalCode, PartDoesNotDependOnTheOrderOfTheCorners) {
+    constexpr int D = TypeParam::value;
+    std::mt19937_64 random(5);
+    for (const Domain<D> &domain : this->domains()) {
+        for (int round = 0; round < 50; ++round) {
+            std::array<Point<D>, D + 1> points;
+            for (Point<D> &p : points)
+                for (int axis = 0; axis < D; ++axis) {
+                    const double t = std::ldexp(static_cast<double>(random()), -64);
+                    p[axis] = domain.lower()[axis] * (1 - t) + domain.upper()[axis] * t;
+                }
+            if (round % 2) points[0] = points[1]; // equal in their cells
+            std::array<const Point<D> *, D + 1> corners;
+            for (int i = 0; i <= D; ++i) corners[i] = &points[i];
+            const std::uint64_t part = domain.part(corners, D + 1);
+            EXPECT_LT(part, std::uint64_t{1} << 63);
+            std::sort(corners.begin(), corners.end());
+            do EXPECT_EQ(domain.part(corners, D + 1), part);
+            while (std::next_permutation(corners.begin(), corners.end()));
+        }
     }
 }
 
@@ -142,7 +193,7 @@ TYPED_TEST(LocationalCode, AxesShareOneScale) {
     EXPECT_NEAR(domain.cell(this->all(0.5))[1], std::ldexp(1.0, code_bits<D>) / 2048, 1);
 }
 
-TYPED_TEST(LocationalCode, SubcellsFitTheirBits) {
+TYPED_TEST(LocationalCode, InnerCellsFitTheirBits) {
     constexpr int D = TypeParam::value;
     std::mt19937_64 random(4);
     for (const Domain<D> &domain : this->domains()) {
@@ -152,8 +203,8 @@ TYPED_TEST(LocationalCode, SubcellsFitTheirBits) {
                 const double t = std::ldexp(static_cast<double>(random()), -64);
                 p[axis] = domain.lower()[axis] * (1 - t) + domain.upper()[axis] * t;
             }
-            for (const std::uint32_t sub : domain.subcell(p))
-                EXPECT_LT(sub, std::uint32_t{1} << part_bits<D>);
+            for (const std::uint32_t inner : domain.inner_cell(p))
+                EXPECT_LT(inner, std::uint32_t{1} << inner_bits<D>);
         }
     }
 }
