@@ -92,19 +92,26 @@ template <int D> void Insertion<D>::find_cavity(const Point<D> &p, Handle first)
                 *top++ = make_link(h, facet);
             }
         } else {
-            rim_.push_back({outer, link_facet(inner), cache_.simplex(link_simplex(inner)).vertex});
+            Rim &rim = *rim_.extend(1);
+            rim.outer = outer;
+            rim.facet = link_facet(inner);
+            rim.vertex = cache_.simplex(link_simplex(inner)).vertex;
         }
     }
 }
 
 template <int D> void Insertion<D>::fill_cavity(VertexIndex v) {
+    std::int64_t ghosts = 0;
     for (const Handle h : cavity_) {
         // Only where the triangulation is no Delaunay one can the search come back.
         if (cache_.simplex(h).is_free())
             throw_corrupted("The simplices around a point are not a triangulation.");
-        --(cache_.simplex(h).is_ghost() ? ghosts_ : simplices_);
+        ghosts -= cache_.simplex(h).is_ghost();
         cache_.destroy(h);
     }
+    for (const Rim &rim : rim_) ghosts += rim.vertex[D] == infinite_vertex && rim.facet != D;
+    ghosts_ += ghosts;
+    simplices_ += static_cast<std::int64_t>(rim_.size() - cavity_.size()) - ghosts;
     recent_.fill(no_handle);
     if constexpr (D == 2) {
         wire_cycle(v);
@@ -120,7 +127,7 @@ template <int D> Handle Insertion<D>::join(std::size_t n, VertexIndex v) {
     // side, so the orientation stays, and a ghost's point at infinity stays last.
     Rim &rim = rim_[n];
     rim.vertex[rim.facet] = v;
-    const Handle h = create(rim.vertex);
+    const Handle h = cache_.create(rim.vertex);
     if (n < recent_.size()) recent_[n] = h;
     cache_.connect(make_link(h, rim.facet), rim.outer);
     cache_.mark_dirty(link_simplex(rim.outer));
@@ -173,7 +180,9 @@ template <int D> void Insertion<D>::start(const std::array<VertexIndex, D + 1> &
 
     cache_.create_first_block();
     std::array<Handle, D + 2> created;
-    created[D + 1] = create(corners);
+    created[D + 1] = cache_.create(corners);
+    simplices_ = 1;
+    ghosts_ = D + 1;
     for (int i = 0; i <= D; ++i) {
         // The point at infinity is on the other side of facet i than corner i: one
         // exchange of corners turns the orientation back. It brings infinity to its place,
@@ -182,7 +191,7 @@ template <int D> void Insertion<D>::start(const std::array<VertexIndex, D + 1> &
         ghost[i] = infinite_vertex;
         if (i == D) std::swap(ghost[0], ghost[1]);
         else std::swap(ghost[i], ghost[D]);
-        created[i] = create(ghost);
+        created[i] = cache_.create(ghost);
     }
     for (std::size_t a = 0; a < created.size(); ++a)
         for (std::size_t b = a + 1; b < created.size(); ++b)

@@ -53,10 +53,6 @@ private:
     Handle join(std::size_t n, VertexIndex v);
     void wire_cycle(VertexIndex v);
     void wire_ridges(VertexIndex v);
-    Handle create(const std::array<VertexIndex, D + 1> &vertices) {
-        ++(vertices[D] == infinite_vertex ? ghosts_ : simplices_);
-        return cache_.create(vertices);
-    }
 
     Cache<D> &cache_;
     Walk<D> walk_;
