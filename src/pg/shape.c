@@ -17,11 +17,6 @@ shape_dimension(abacus_header *header, int32 dimension)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("dimension must be 2 or 3, not %d", dimension)));
-	if (dimension == 3)
-		ereport(ERROR,
-				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
-				 errmsg("meshes of dimension 3 are not supported yet"),
-				 errhint("Use dimension 2.")));
 	header->dimension = (uint32) dimension;
 }
 
