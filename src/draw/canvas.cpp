@@ -126,7 +126,8 @@ void Canvas::add(const Patch &patch) {
 double Canvas::density(double spacing) const {
     // Two triangles a vertex.
     const double x = spacing * frame_.pixels_per_unit(0), y = spacing * frame_.pixels_per_unit(1);
-    return std::min(2 / (x * y), most_density);
+    const double density = 2 / (x * y);
+    return density < most_density ? density : most_density; // also where there is no number
 }
 
 void Canvas::fill(const Patch &patch, double area, double density) {

@@ -16,12 +16,12 @@ double length(const Point<3> &a, const Point<3> &b) {
 }
 
 /// What both views know of a simplex.
-template <int D> class View {
+template <int D> class MeshView {
 public:
     static constexpr int dimension = D;
 
 protected:
-    explicit View(const abacus_drawing &drawing)
+    explicit MeshView(const abacus_drawing &drawing)
         : attribute_(drawing.attribute), max_edge_(drawing.max_edge) {}
 
     double value(const PageView<D> &page, int vertex) const {
@@ -44,9 +44,9 @@ private:
 };
 
 /// The triangles of a mesh.
-class FlatView : public View<2> {
+class FlatView : public MeshView<2> {
 public:
-    explicit FlatView(const abacus_drawing &drawing) : View(drawing) {}
+    explicit FlatView(const abacus_drawing &drawing) : MeshView(drawing) {}
 
     /// False if nothing of the page is in the window.
     bool enter(const PageView<2> &page, const abacus_drawing &window) {
@@ -67,9 +67,10 @@ public:
 };
 
 /// The sections of the tetrahedra of a mesh by a plane.
-class SectionView : public View<3> {
+class SectionView : public MeshView<3> {
 public:
-    SectionView(const Plane &plane, const abacus_drawing &drawing) : View(drawing), plane_(plane) {}
+    SectionView(const Plane &plane, const abacus_drawing &drawing)
+        : MeshView(drawing), plane_(plane) {}
 
     bool enter(const PageView<3> &page, const abacus_drawing &) {
         if (plane_.misses({page.box(0), page.box(1), page.box(2)},

@@ -44,6 +44,26 @@ std::vector<Point<3>> octree() {
     return result;
 }
 
+// Area of the convex hull of points in the plane.
+double hull_area(std::vector<Point<2>> points) {
+    std::sort(points.begin(), points.end());
+    double sum = 0;
+    for (const int side : {1, -1}) { // lower chain, upper chain
+        std::vector<Point<2>> chain;
+        for (const Point<2> &p : points) {
+            const auto turns_back = [&] {
+                const Point<2> &a = chain[chain.size() - 2], &b = chain.back();
+                return side * ((b[0] - a[0]) * (p[1] - a[1]) - (p[0] - a[0]) * (b[1] - a[1])) <= 0;
+            };
+            while (chain.size() > 1 && turns_back()) chain.pop_back();
+            chain.push_back(p);
+        }
+        for (std::size_t i = 1; i < chain.size(); ++i)
+            sum -= side * (chain[i][0] - chain[i - 1][0]) * (chain[i][1] + chain[i - 1][1]) / 2;
+    }
+    return sum;
+}
+
 struct Order : abacus_section {
     Order(Point<3> through, Point<3> normal, double exaggeration = 1) : abacus_section{} {
         std::copy_n(through.begin(), 3, this->through);
@@ -95,8 +115,8 @@ protected:
         return image;
     }
     /// The areas of all sections together, which is that of the cut if they overlap
-    /// nowhere.
-    double area(const abacus_section &section) {
+    /// nowhere; adds their corners to `corners`.
+    double area(const abacus_section &section, std::vector<Point<2>> *corners = nullptr) {
         const Plane plane(section);
         double sum = 0;
         abacus_scan *scan = nullptr;
@@ -110,6 +130,9 @@ protected:
             if (s.ghost ? !cut_ghost(facet, patch) : !cut_tetrahedron(cut, patch)) continue;
             sum += std::fabs(patch.turn(0, 1, 2)) / 2;
             if (patch.corners == 4) sum += std::fabs(patch.turn(0, 2, 3)) / 2;
+            for (int i = 0; corners != nullptr && i < patch.corners; ++i)
+                corners->push_back(
+                    {patch.corner[i][0] / Plane::scale, patch.corner[i][1] / Plane::scale});
         }
         abacus_scan_close(scan);
         return sum / (Plane::scale * Plane::scale);
@@ -163,8 +186,8 @@ TEST_F(Section, FillsLayersOfAGrid) {
                         const Image image = draw(Order(through, normal, exaggeration), drawing(60));
                         EXPECT_EQ(image.height, 60);
                         expect_full(image);
-                        EXPECT_NEAR(area(Order(through, normal, exaggeration)),
-                                    36 * step * step, 1e-9);
+                        EXPECT_NEAR(area(Order(through, normal, exaggeration)), 36 * step * step,
+                                    1e-9);
                     }
                 }
     }
@@ -194,6 +217,31 @@ TEST_F(Section, FillsAnOctree) {
             EXPECT_NEAR(area(order), 256, 1e-9);
         }
     expect_full(draw(Order({8, 8, 8}, {1, -1, 0}), drawing(64)));
+}
+
+TEST_F(Section, TilesTheHullOfAnyPoints) {
+    std::mt19937_64 random(3);
+    std::uniform_int_distribution<int> small(-3, 3);
+    std::vector<Point<3>> blurred = cube(4); // layers that are not quite flat
+    for (Point<3> &p : blurred)
+        for (double &x : p) x += 1e-12 * small(random);
+    for (const auto &input : {points<3>(Kind::uniform, 400), points<3>(Kind::grid, 400),
+                              points<3>(Kind::heavy, 400), cube(5), octree(), blurred}) {
+        build(input);
+        double total = 0;
+        for (int round = 0; round < 100; ++round) {
+            // Through points, in directions that meet others in a grid.
+            const Point<3> normal{double(small(random)), double(small(random)),
+                                  double(small(random))};
+            if (normal == Point<3>{0, 0, 0}) continue;
+            std::vector<Point<2>> corners;
+            const double sum = area(Order(input[random() % input.size()], normal), &corners);
+            const double hull = hull_area(corners);
+            ASSERT_NEAR(sum, hull, 1e-9 * (1 + hull)) << round;
+            total += hull;
+        }
+        EXPECT_GT(total, 20);
+    }
 }
 
 TEST_F(Section, HasTheAreaOfTheCut) {
@@ -385,6 +433,9 @@ TEST_F(Section, SurvivesEveryKindOfPoints) {
                     const double far = std::numeric_limits<double>::max();
                     draw(Order(input[17], normal, exaggeration),
                          boxed(lines, {-far, -far, -far}, {far, far, far}));
+                    Point<3> next = input[17];
+                    for (double &x : next) x = std::nextafter(x, far);
+                    try_draw(Order(input[17], normal, exaggeration), boxed(lines, input[17], next));
                 }
     }
 }
