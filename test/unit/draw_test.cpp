@@ -1,9 +1,7 @@
 // Pictures: what they show, and that nothing a mesh can hold upsets them.
 #include "draw/canvas.hpp"
 #include "support/image.hpp"
-#include "support/memory_host.hpp"
-
-#include <gtest/gtest.h>
+#include "support/staged_points.hpp"
 
 #include <cstring>
 #include <limits>
@@ -276,6 +274,33 @@ TEST_F(Draw, DrawsASinglePixel) {
         const Image image = draw(drawing, grid(50, [](double x, double y) { return x + y; }));
         EXPECT_EQ(image.pixels.size(), 1u);
         EXPECT_NE(image(0, 0), ground);
+    }
+}
+
+TEST_F(Draw, LeavesOutLongTriangles) {
+    // Two squares apart; what joins them is long.
+    const std::vector<Point<2>> corners = {{0, 0}, {2, 0},  {0, 2}, {2, 2},
+                                           {8, 0}, {10, 0}, {8, 2}, {10, 2}};
+    abacus_header header = empty_header<2>();
+    abacus_error error{};
+    ASSERT_EQ(stage<2>(memory, header, with_ids<2>(corners), ample, error), ABACUS_OK);
+    abacus_build *build = nullptr;
+    ASSERT_EQ(abacus_build_open(memory.table(), &header, ample, &build, &error), ABACUS_OK);
+    ASSERT_EQ(abacus_build_run(build, 0, &header, &error), ABACUS_OK);
+    abacus_build_close(build);
+    for (const double max_edge : {0.0, 3.0}) {
+        abacus_drawing drawing{};
+        drawing.width = 100;
+        drawing.attribute = -1;
+        drawing.max_edge = max_edge;
+        unsigned char *png = nullptr;
+        std::size_t size = 0;
+        ASSERT_EQ(abacus_draw(memory.table(), &header, &drawing, &png, &size, &error), ABACUS_OK);
+        const Image image = decode(png, size);
+        host.release(png);
+        EXPECT_EQ(image.height, 20);
+        EXPECT_EQ(image(50, 10) == 0x03060f, max_edge > 0);
+        EXPECT_NE(image(10, 10), 0x03060fu);
     }
 }
 
