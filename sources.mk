@@ -7,6 +7,7 @@ CORE_SOURCES += src/draw/develop.cpp
 CORE_SOURCES += src/draw/frame.cpp
 CORE_SOURCES += src/draw/palette.cpp
 CORE_SOURCES += src/draw/picture.cpp
+CORE_SOURCES += src/draw/plane.cpp
 CORE_SOURCES += src/draw/raster.cpp
 CORE_SOURCES += src/draw/relief.cpp
 CORE_SOURCES += src/staging/vertex_page.cpp

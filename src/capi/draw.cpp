@@ -3,16 +3,37 @@
 
 #include "capi/guard.hpp"
 
+namespace {
+
+void require_dimension(const abacus_header &header, unsigned dimension) {
+    if (header.dimension != dimension)
+        throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the mesh has another dimension");
+}
+
+abacus_status hand_over(abacus::Png picture, unsigned char **png, std::size_t *size) {
+    *size = picture.size();
+    *png = picture.release();
+    return ABACUS_OK;
+}
+
+} // namespace
+
 abacus_status abacus_draw(const abacus_host *host, const abacus_header *header,
                           const abacus_drawing *drawing, unsigned char **png, size_t *size,
                           abacus_error *error) {
     return abacus::guard(error, [&] {
-        if (header->dimension != 2)
-            throw abacus::Error(ABACUS_ERROR_ARGUMENT, "only a mesh of dimension 2 can be drawn");
+        require_dimension(*header, 2);
         const abacus::Host wrapped(*host);
-        abacus::Png picture = abacus::draw_mesh(wrapped, *header, *drawing);
-        *size = picture.size();
-        *png = picture.release();
-        return ABACUS_OK;
+        return hand_over(abacus::draw_mesh(wrapped, *header, *drawing), png, size);
+    });
+}
+
+abacus_status abacus_draw_section(const abacus_host *host, const abacus_header *header,
+                                  const abacus_section *section, const abacus_drawing *drawing,
+                                  unsigned char **png, size_t *size, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        require_dimension(*header, 3);
+        const abacus::Host wrapped(*host);
+        return hand_over(abacus::draw_section(wrapped, *header, *section, *drawing), png, size);
     });
 }

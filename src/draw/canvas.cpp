@@ -7,28 +7,68 @@ namespace abacus {
 
 namespace {
 
-// Width of the edges of a large triangle, pixels.
+// Width of the edges of a large patch, pixels.
 constexpr double full_width = 1.0;
 // Radius of the inscribed circle, in pixels, at which the width has halved.
 constexpr double half_radius = 2.0;
 // Below this radius edges are no longer told apart: their ink is a tone.
 constexpr double tone_radius = 0.6;
 
-// A triangle with an inscribed circle of radius r has a perimeter of 2 area / r;
-// with half an edge's width on its own side, edges of width w cover w / r of it.
-// With this width that is at most full_width / half_radius, for any triangle.
+// A triangle with an inscribed circle of radius r has a perimeter of 2 area / r, and
+// by that ratio r is defined for other patches; with half an edge's width on its own
+// side, edges of width w cover w / r of it. With this width that is at most
+// full_width / half_radius, for any patch.
 double edge_width(double radius) { return full_width * radius / (radius + half_radius); }
 
 double edge_tone(double radius) { return full_width / (radius + half_radius); }
-
-bool has_value(const TriangleValues &value) {
-    return std::isfinite(value[0]) && std::isfinite(value[1]) && std::isfinite(value[2]);
-}
 
 double distance(const double (&a)[2], const double (&b)[2]) {
     const double x = a[0] - b[0], y = a[1] - b[1];
     return std::sqrt(x * x + y * y);
 }
+
+double perimeter(const Patch &p) {
+    double sum = 0;
+    for (int i = 0, j = p.corners - 1; i < p.corners; j = i++)
+        sum += distance(p.corner[j], p.corner[i]);
+    return sum;
+}
+
+double area_of(const Patch &p) {
+    return 0.5 * (std::fabs(p.turn(0, 1, 2)) + (p.corners == 4 ? std::fabs(p.turn(0, 2, 3)) : 0));
+}
+
+/// The value of a patch as a function of the position.
+class Ramp {
+public:
+    explicit Ramp(const Patch &p) : start_{p.corner[0][0], p.corner[0][1]}, at_start_(p.value[0]) {
+        // Three corners say it all; the larger half of a quadrilateral says it best.
+        const bool second =
+            p.corners == 4 && std::fabs(p.turn(0, 2, 3)) > std::fabs(p.turn(0, 1, 2));
+        const int b = second ? 2 : 1, c = b + 1;
+        const double scale = 1 / p.turn(0, b, c);
+        const double ux = p.corner[b][0] - start_[0], uy = p.corner[b][1] - start_[1];
+        const double wx = p.corner[c][0] - start_[0], wy = p.corner[c][1] - start_[1];
+        const double du = p.value[b] - at_start_, dw = p.value[c] - at_start_;
+        slope_[0] = (du * wy - dw * uy) * scale;
+        slope_[1] = (dw * ux - du * wx) * scale;
+        low_ = *std::min_element(p.value, p.value + p.corners);
+        high_ = *std::max_element(p.value, p.value + p.corners);
+    }
+    /// Pixels on the outline, whose centres may lie outside, stay within the values of
+    /// the corners.
+    double operator()(double x, double y) const {
+        const double at = at_start_ + slope_[0] * (x - start_[0]) + slope_[1] * (y - start_[1]);
+        // NaN passes both comparisons unchanged.
+        return at < low_ ? low_ : at > high_ ? high_ : at;
+    }
+
+private:
+    double start_[2], at_start_, slope_[2], low_, high_;
+};
+
+// Shares below the resolution of the coverage must not be blown up to a patch.
+constexpr double most_density = 1e6;
 
 } // namespace
 
@@ -51,71 +91,70 @@ inline void Canvas::deposit(std::int32_t x, std::int32_t y, double covered, doub
     pixel.ink += static_cast<float>(ink);
 }
 
-void Canvas::triangle(const TriangleCorners &corner, const TriangleValues &value) {
-    const TriangleCorners p = {{frame_.x(corner[0][0]), frame_.y(corner[0][1])},
-                       {frame_.x(corner[1][0]), frame_.y(corner[1][1])},
-                       {frame_.x(corner[2][0]), frame_.y(corner[2][1])}};
-    const double left = std::min({p[0][0], p[1][0], p[2][0]});
-    const double right = std::max({p[0][0], p[1][0], p[2][0]});
-    const double top = std::min({p[0][1], p[1][1], p[2][1]});
-    const double bottom = std::max({p[0][1], p[1][1], p[2][1]});
+void Canvas::add(const Patch &patch) {
+    Patch p = patch;
+    double left = 1e30, right = -1e30, top = 1e30, bottom = -1e30;
+    bool has_value = has_values();
+    for (int i = 0; i < p.corners; ++i) {
+        const double x = p.corner[i][0] = frame_.x(patch.corner[i][0]);
+        const double y = p.corner[i][1] = frame_.y(patch.corner[i][1]);
+        left = std::min(left, x);
+        right = std::max(right, x);
+        top = std::min(top, y);
+        bottom = std::max(bottom, y);
+        has_value = has_value && std::isfinite(patch.value[i]);
+    }
     if (!(right > 0 && left < drawing_.width && bottom > 0 && top < drawing_.height)) return;
-    if (is_too_long(drawing_, corner)) return;
 
-    TriangleValues v = {NAN, NAN, NAN};
-    if (has_values() && has_value(value))
-        for (int i = 0; i < 3; ++i) v[i] = low_ < high_ ? range_(value[i]) : 0.5;
-    const double area = 0.5 * std::fabs((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) -
-                                        (p[2][0] - p[0][0]) * (p[1][1] - p[0][1]));
-
-    // In huge meshes, most triangles lie within one pixel.
+    double mean = 0;
+    for (int i = 0; i < p.corners; ++i) {
+        p.value[i] = !has_value ? NAN : low_ < high_ ? range_(patch.value[i]) : 0.5;
+        mean += p.value[i] / p.corners;
+    }
+    const double area = area_of(p);
+    // In huge meshes, most patches lie within one pixel.
     const double x = std::floor(left), y = std::floor(top);
     if (x >= 0 && y >= 0 && right <= x + 1 && bottom <= y + 1) {
-        deposit(static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), area, 1,
-                (v[0] + v[1] + v[2]) / 3, drawing_.edges ? area * edge_tone(0) : 0);
+        const double count = p.spacing > 0 ? area * density(p.spacing) : 1;
+        deposit(static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), area, count, mean,
+                drawing_.edges ? area * edge_tone(0) : 0);
         return;
     }
-    fill(p, v, area);
+    fill(p, area, p.spacing > 0 ? density(p.spacing) : std::min(1 / area, most_density));
 }
 
-void Canvas::fill(const TriangleCorners &p, const TriangleValues &value, double area) {
-    const double perimeter = distance(p[0], p[1]) + distance(p[1], p[2]) + distance(p[2], p[0]);
-    const double radius = 2 * area / perimeter;
+double Canvas::density(double spacing) const {
+    // Two triangles a vertex.
+    const double x = spacing * frame_.pixels_per_unit(0), y = spacing * frame_.pixels_per_unit(1);
+    const double density = 2 / (x * y);
+    return density < most_density ? density : most_density; // also where there is no number
+}
+
+void Canvas::fill(const Patch &patch, double area, double density) {
+    const double radius = 2 * area / perimeter(patch);
     const bool is_outlined = drawing_.edges && radius > tone_radius;
-    if (is_outlined) outline(p, edge_width(radius));
+    if (is_outlined) outline(patch, edge_width(radius));
     if (!(area > 0)) return;
 
     const double tone = drawing_.edges && !is_outlined ? edge_tone(radius) : 0;
-    // Shares below the resolution of the coverage must not be blown up to a triangle.
-    const double density = std::min(1 / area, 1e6);
-    // The value is linear over the plane; pixels on the outline, whose centres may
-    // lie outside, stay within the values of the corners.
-    const double scale = 0.5 / area;
-    const double ux = p[1][0] - p[0][0], uy = p[1][1] - p[0][1];
-    const double wx = p[2][0] - p[0][0], wy = p[2][1] - p[0][1];
-    const double turn = ux * wy - wx * uy > 0 ? scale : -scale;
-    const double du = value[1] - value[0], dw = value[2] - value[0];
-    const double slope_x = (du * wy - dw * uy) * turn;
-    const double slope_y = (dw * ux - du * wx) * turn;
-    const double low = std::min({value[0], value[1], value[2]});
-    const double high = std::max({value[0], value[1], value[2]});
-    raster_.triangle(p, [&](std::int32_t x, std::int32_t y, double covered) {
-        const double at = value[0] + slope_x * (x + 0.5 - p[0][0]) + slope_y * (y + 0.5 - p[0][1]);
-        // NaN passes both comparisons unchanged.
-        const double bounded = at < low ? low : at > high ? high : at;
-        deposit(x, y, covered, covered * density, bounded, covered * tone);
+    const Ramp value(patch);
+    raster_.fill(patch, [&](std::int32_t x, std::int32_t y, double covered) {
+        deposit(x, y, covered, covered * density, value(x + 0.5, y + 0.5), covered * tone);
     });
 }
 
-void Canvas::outline(const TriangleCorners &p, double width) {
+void Canvas::outline(const Patch &p, double width) {
     // The neighbour across each edge draws the other half of the line.
     const auto ink = [&](std::int32_t x, std::int32_t y, double covered) {
         pixels_[static_cast<std::size_t>(y) * drawing_.width + x].ink +=
             static_cast<float>(covered * 0.5);
     };
-    for (int i = 0, j = 2; i < 3; j = i++) raster_.line(p[j], p[i], width, ink);
+    for (int i = 0, j = p.corners - 1; i < p.corners; j = i++)
+        raster_.line(p.corner[j], p.corner[i], width, ink);
 }
 
-Png Canvas::png() const { return (drawing_.attribute >= 0 ? terrain() : mesh()).png(); }
+Png Canvas::png(const Palette &palette) const {
+    return (drawing_.attribute >= 0 ? values(palette) : mesh()).png();
+}
 
 } // namespace abacus

@@ -1,16 +1,19 @@
-// The canvas on which a mesh is drawn, triangle by triangle.
+// The canvas on which a mesh is drawn, patch by patch: triangle by triangle, or one
+// tetrahedron's section after the other.
 //
-// Each pixel keeps a few sums over what the triangles cover of it; the colour is
+// Each pixel keeps a few sums over what the patches cover of it; the colour is
 // made of them at the end. So memory depends on the picture alone, the order of
-// the triangles does not matter, and a pixel that holds a thousand triangles
-// shows their mean, not the last of them.
+// the patches does not matter, and a pixel that holds a thousand of them shows
+// their mean, not the last of them.
 //
-// There are two styles. With an attribute, the surface is tinted by height and
+// There are two styles. With an attribute, the surface is tinted by its value and
 // shaded as hills. Without one, the mesh itself is the subject: the tint tells
-// how many triangles share a pixel's area, on a log scale fitted to the picture,
-// so that fine detail lights up and wide triangles recede into the dark.
+// how many patches share a pixel's area, on a log scale fitted to the picture,
+// so that fine detail lights up and wide triangles recede into the dark. A plane
+// cuts small corners off large tetrahedra; patches of a section therefore bring
+// the mesh's own spacing, by which they count as triangles of that size would.
 //
-// Edges lose width with the size of their triangle (see edge_width), so that
+// Edges lose width with the size of their patch (see edge_width), so that
 // their tone stays below a bound however fine the mesh: an etching, no blot.
 #pragma once
 
@@ -30,30 +33,33 @@ public:
     /// of the attribute, NaN if there is none. Throws an Error if it cannot be drawn.
     Canvas(const Host &host, const abacus_drawing &drawing, double low, double high);
 
-    /// TriangleCorners outside the window are welcome, values may be NaN.
-    void triangle(const TriangleCorners &corner, const TriangleValues &value);
+    /// Corners outside the window are welcome, values may be NaN.
+    void add(const Patch &patch);
 
-    /// The picture of all triangles so far.
-    Png png() const;
+    /// The picture of all patches so far; `palette` gives the colours of values.
+    Png png(const Palette &palette) const;
 
 private:
-    /// Sums over the shares of a pixel that triangles cover.
+    /// Sums over the shares of a pixel that patches cover.
     struct Pixel {
         float covered; // the shares themselves
-        float count;   // ... in triangles: share of the triangle in this pixel
-        float valued;  // the shares of triangles with values
+        float count;   // ... in patches: share of the patch in this pixel
+        float valued;  // the shares of patches with values
         float value;   // ... times value, as a fraction of the range
         float ink;     // share under edges
     };
 
-    void fill(const TriangleCorners &p, const TriangleValues &value, double area);
-    void outline(const TriangleCorners &p, double width);
+    /// Both take the patch in pixels, with values as fractions of the range.
+    void fill(const Patch &patch, double area, double density);
+    void outline(const Patch &patch, double width);
+    /// Patches a pixel where vertices are this far apart.
+    double density(double spacing) const;
     void deposit(std::int32_t x, std::int32_t y, double covered, double count, double value,
                  double ink);
 
     bool has_values() const { return low_ <= high_; }
     void raise(Relief &relief) const;
-    Picture terrain() const;
+    Picture values(const Palette &palette) const;
     Picture mesh() const;
 
     const Host *host_;

@@ -108,8 +108,7 @@ void Canvas::raise(Relief &relief) const {
     relief.smooth();
 }
 
-Picture Canvas::terrain() const {
-    const Palette palette = Palette::terrain();
+Picture Canvas::values(const Palette &palette) const {
     const Color ground = color(0xf4f1ea);
     const Color unknown = color(0xcfccc6);
     const Color ink = color(0x1c2a2c);

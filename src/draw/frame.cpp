@@ -37,7 +37,7 @@ void check_drawing(const abacus_drawing &drawing) {
 } // namespace
 
 Extent::Extent(const abacus_drawing &drawing)
-    : drawing_(drawing), whole_(shows_whole_mesh(drawing)),
+    : drawing_(drawing), whole_(shows_whole<2>(drawing)),
       low_(std::numeric_limits<double>::infinity()), high_(-low_) {
     check_drawing(drawing);
     for (int axis = 0; axis < 2; ++axis) {
@@ -46,23 +46,25 @@ Extent::Extent(const abacus_drawing &drawing)
     }
 }
 
-void Extent::triangle(const TriangleCorners &corner, const TriangleValues &value) {
+void Extent::add(const Patch &patch) {
     double lower[2], upper[2];
     for (int axis = 0; axis < 2; ++axis) {
-        lower[axis] = std::min({corner[0][axis], corner[1][axis], corner[2][axis]});
-        upper[axis] = std::max({corner[0][axis], corner[1][axis], corner[2][axis]});
+        lower[axis] = upper[axis] = patch.corner[0][axis];
+        for (int i = 1; i < patch.corners; ++i) {
+            lower[axis] = std::min(lower[axis], patch.corner[i][axis]);
+            upper[axis] = std::max(upper[axis], patch.corner[i][axis]);
+        }
         if (!whole_ && !(lower[axis] < drawing_.upper[axis] && upper[axis] > drawing_.lower[axis]))
             return;
     }
-    if (is_too_long(drawing_, corner)) return;
     for (int axis = 0; axis < 2; ++axis) {
         lower_[axis] = std::min(lower_[axis], lower[axis]);
         upper_[axis] = std::max(upper_[axis], upper[axis]);
     }
-    if (std::isfinite(value[0]) && std::isfinite(value[1]) && std::isfinite(value[2])) {
-        low_ = std::min({low_, value[0], value[1], value[2]});
-        high_ = std::max({high_, value[0], value[1], value[2]});
-    }
+    const double *value = patch.value, *end = value + patch.corners;
+    if (!std::all_of(value, end, [](double v) { return std::isfinite(v); })) return;
+    low_ = std::min(low_, *std::min_element(value, end));
+    high_ = std::max(high_, *std::max_element(value, end));
 }
 
 abacus_drawing Extent::drawing() const {

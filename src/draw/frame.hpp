@@ -3,7 +3,7 @@
 //
 // A mesh is streamed twice when its extent or the range of its attribute must
 // be found first; Extent is the first pass. Nothing here, nor in the other
-// files of this folder, grows with the number of triangles.
+// files of this folder, grows with the number of triangles or tetrahedra.
 #pragma once
 
 #include "host/host.hpp"
@@ -13,31 +13,35 @@
 
 namespace abacus {
 
-/// Three corners in the plane, in either orientation.
-using TriangleCorners = double[3][2];
-/// A value for each corner; none where it is not finite.
-using TriangleValues = double[3];
+/// What pictures are made of: a triangle of a mesh, or the plane section of a
+/// tetrahedron. A convex polygon, its corners in order, in either orientation; a
+/// value for each corner, linear in between, none where it is not finite.
+struct Patch {
+    double corner[4][2];
+    double value[4];
+    int corners = 3;    // 3 or 4
+    double spacing = 0; // distance between vertices of the mesh around here; 0 = as the area tells
+
+    /// Twice the area of three corners; positive if they turn left where y points up.
+    double turn(int a, int b, int c) const {
+        return (corner[b][0] - corner[a][0]) * (corner[c][1] - corner[a][1]) -
+               (corner[c][0] - corner[a][0]) * (corner[b][1] - corner[a][1]);
+    }
+};
 
 /// Largest width and height, and the most pixels of a picture: each pixel takes
 /// 24 bytes while it is drawn, 32 with hill shading.
 inline constexpr std::int32_t max_side = 16384;
 inline constexpr std::int64_t max_pixels = std::int64_t{1} << 25;
 
-/// True if the drawing names no window of its own.
-inline bool shows_whole_mesh(const abacus_drawing &drawing) {
-    return !(drawing.lower[0] < drawing.upper[0] && drawing.lower[1] < drawing.upper[1]);
-}
-
-/// True if the drawing leaves this triangle out for its longest edge.
-inline bool is_too_long(const abacus_drawing &drawing, const TriangleCorners &corner) {
-    if (!(drawing.max_edge > 0)) return false;
-    for (int i = 0, j = 2; i < 3; j = i++)
-        if (std::hypot(corner[i][0] - corner[j][0], corner[i][1] - corner[j][1]) > drawing.max_edge)
-            return true;
+/// True if the drawing names no window of its own, by its first D axes.
+template <int D> bool shows_whole(const abacus_drawing &drawing) {
+    for (int axis = 0; axis < D; ++axis)
+        if (!(drawing.lower[axis] < drawing.upper[axis])) return true;
     return false;
 }
 
-/// First pass: window and value range of the triangles that the picture shows.
+/// First pass: window and value range of the patches that the picture shows.
 class Extent {
 public:
     /// Throws an Error unless this can be drawn.
@@ -45,13 +49,13 @@ public:
 
     /// False if the picture can be drawn without a first pass.
     static bool is_needed(const abacus_drawing &drawing) {
-        return shows_whole_mesh(drawing) || drawing.attribute >= 0;
+        return shows_whole<2>(drawing) || drawing.attribute >= 0;
     }
 
-    void triangle(const TriangleCorners &corner, const TriangleValues &value);
+    void add(const Patch &patch);
 
     /// The drawing with window and height filled in: the window given or, if that is
-    /// empty, the one that just holds the triangles. A height from the window's shape
+    /// empty, the one that just holds the patches. A height from the window's shape
     /// is kept within the limits, at the cost of the shape.
     abacus_drawing drawing() const;
     /// Range of the values; NaN if there are none.

@@ -41,6 +41,8 @@ public:
 
     /// Heights: valley green, through meadow and straw, to bare rock and snow.
     static Palette terrain();
+    /// Values inside the earth: soft and slow to hard and fast.
+    static Palette strata();
     /// Density of a mesh: night water, through shoals, to lit shore.
     static Palette shore();
 

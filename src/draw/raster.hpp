@@ -1,4 +1,4 @@
-// From shapes to pixels: the exact share of every pixel that a triangle covers,
+// From shapes to pixels: the exact share of every pixel that a polygon covers,
 // and antialiased lines.
 //
 // Exact coverage is what makes huge meshes come out right. A triangle of a
@@ -60,8 +60,8 @@ public:
     Raster(const Host &host, std::int32_t width, std::int32_t height)
         : width_(width), height_(height), row_(host, width) {}
 
-    /// Calls sink(x, y, coverage) for every pixel that the triangle covers.
-    template <class Sink> void triangle(const TriangleCorners &p, Sink &&sink);
+    /// Calls sink(x, y, coverage) for every pixel that the patch, in pixels, covers.
+    template <class Sink> void fill(const Patch &patch, Sink &&sink);
 
     /// Calls sink(x, y, coverage) along a line of this width, at most about one pixel.
     template <class Sink>
@@ -81,11 +81,12 @@ private:
     CoverageRow row_;
 };
 
-template <class Sink> void Raster::triangle(const TriangleCorners &p, Sink &&sink) {
-    Edge edges[3];
+template <class Sink> void Raster::fill(const Patch &patch, Sink &&sink) {
+    const auto &p = patch.corner;
+    Edge edges[4];
     int count = 0;
     double top = height_, bottom = 0;
-    for (int i = 0, j = 2; i < 3; j = i++) {
+    for (int i = 0, j = patch.corners - 1; i < patch.corners; j = i++) {
         const bool down = p[j][1] < p[i][1];
         const double *upper = down ? p[j] : p[i];
         const double *lower = down ? p[i] : p[j];

@@ -12,6 +12,8 @@
 extern void shape_dimension(abacus_header *header, int32 dimension);
 extern void shape_attribute(abacus_header *header, const char *name);
 extern void shape_attributes(abacus_header *header, ArrayType *names);
+extern void shape_point(const abacus_header *header, ArrayType *point, const char *what,
+						double *values);
 extern void shape_domain(abacus_header *header, ArrayType *lower, ArrayType *upper);
 
 extern Oid	build_create(text *name, Oid extension_namespace, abacus_header *header);

@@ -69,11 +69,12 @@ shape_attributes(abacus_header *header, ArrayType *names)
 		shape_attribute(header, TextDatumGetCString(elements[i]));
 }
 
-static void
-read_corner(const abacus_header *header, ArrayType *corner, const char *what, double *values)
+/* Reads a float8[] with as many elements as the mesh has dimensions. */
+void
+shape_point(const abacus_header *header, ArrayType *point, const char *what, double *values)
 {
 	int			count;
-	Datum	   *elements = plain_elements(corner, what, FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
+	Datum	   *elements = plain_elements(point, what, FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
 										  TYPALIGN_DOUBLE, &count);
 
 	if (count != (int) header->dimension)
@@ -96,8 +97,8 @@ shape_domain(abacus_header *header, ArrayType *lower, ArrayType *upper)
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("lower and upper must be given together"),
 				 errhint("Leave both out to take them from the points.")));
-	read_corner(header, lower, "lower", header->lower);
-	read_corner(header, upper, "upper", header->upper);
+	shape_point(header, lower, "lower", header->lower);
+	shape_point(header, upper, "upper", header->upper);
 	for (uint32 i = 0; i < header->dimension; i++)
 		if (!isfinite(header->lower[i]) || !isfinite(header->upper[i]) ||
 			!(header->lower[i] < header->upper[i]))

@@ -1,51 +1,173 @@
 #include "query/portrait.hpp"
 
+#include "draw/section.hpp"
 #include "query/page_scan.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace abacus {
 
 namespace {
 
-/// Shows every finite triangle to `picture`, an Extent or a Canvas.
-template <class Sink>
-void stream(const Host &host, const abacus_header &header, const abacus_drawing &drawing,
-            Sink &picture) {
-    const Point<2> lower{drawing.lower[0], drawing.lower[1]};
-    const Point<2> upper{drawing.upper[0], drawing.upper[1]};
-    const bool whole = shows_whole_mesh(drawing);
-    PageScan<2> scan(host, header.attributes);
-    while (scan.advance()) {
-        const PageView<2> &page = scan.page();
-        if (!whole && !page.meets(lower, upper)) continue;
-        for (int s = 0; s < page.simplices(); ++s) {
-            if (page.is_ghost(s)) continue;
-            TriangleCorners corner;
-            TriangleValues value;
-            for (int i = 0; i < 3; ++i) {
-                const int v = page.corner(s, i);
-                const Point<2> p = page.point(v);
-                corner[i][0] = p[0];
-                corner[i][1] = p[1];
-                value[i] = drawing.attribute >= 0 ? page.attribute(v, drawing.attribute) : NAN;
-            }
-            picture.triangle(corner, value);
-        }
+double length(const Point<2> &a, const Point<2> &b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+double length(const Point<3> &a, const Point<3> &b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/// What both views know of a simplex.
+template <int D> class MeshView {
+public:
+    static constexpr int dimension = D;
+
+protected:
+    explicit MeshView(const abacus_drawing &drawing)
+        : attribute_(drawing.attribute), max_edge_(drawing.max_edge) {}
+
+    double value(const PageView<D> &page, int vertex) const {
+        return attribute_ >= 0 ? page.attribute(vertex, attribute_) : NAN;
     }
+    /// Whether the drawing leaves out the simplex with these first `n` corners.
+    bool is_too_long(const PageView<D> &page, int simplex, int n) const {
+        if (!(max_edge_ > 0)) return false;
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < i; ++j)
+                if (length(page.point(page.corner(simplex, i)),
+                           page.point(page.corner(simplex, j))) > max_edge_)
+                    return true;
+        return false;
+    }
+
+private:
+    std::int32_t attribute_;
+    double max_edge_;
+};
+
+/// The triangles of a mesh.
+class FlatView : public MeshView<2> {
+public:
+    explicit FlatView(const abacus_drawing &drawing) : MeshView(drawing) {}
+
+    /// False if nothing of the page is in the window.
+    bool enter(const PageView<2> &page, const abacus_drawing &window) {
+        return shows_whole<2>(window) ||
+               page.meets({window.lower[0], window.lower[1]}, {window.upper[0], window.upper[1]});
+    }
+    bool show(const PageView<2> &page, int simplex, Patch &patch) const {
+        if (page.is_ghost(simplex) || is_too_long(page, simplex, 3)) return false;
+        for (int i = 0; i < 3; ++i) {
+            const int v = page.corner(simplex, i);
+            const Point<2> p = page.point(v);
+            patch.corner[i][0] = p[0];
+            patch.corner[i][1] = p[1];
+            patch.value[i] = value(page, v);
+        }
+        return true;
+    }
+};
+
+/// The sections of the tetrahedra of a mesh by a plane.
+class SectionView : public MeshView<3> {
+public:
+    SectionView(const Plane &plane, const abacus_drawing &drawing)
+        : MeshView(drawing), plane_(plane) {}
+
+    bool enter(const PageView<3> &page, const abacus_drawing &) {
+        if (plane_.misses({page.box(0), page.box(1), page.box(2)},
+                          {page.box(3), page.box(4), page.box(5)}))
+            return false;
+        for (int v = 0; v < page.vertices(); ++v) places_[v] = plane_.place(page.point(v));
+        return true;
+    }
+    bool show(const PageView<3> &page, int simplex, Patch &patch) const {
+        const int finite = page.is_ghost(simplex) ? 3 : 4;
+        return (finite == 3 ? cut<cut_ghost, 3>(page, simplex, patch)
+                            : cut<cut_tetrahedron, 4>(page, simplex, patch)) &&
+               !is_too_long(page, simplex, finite);
+    }
+
+private:
+    template <auto section, int n>
+    bool cut(const PageView<3> &page, int simplex, Patch &patch) const {
+        int sides = 0;
+        for (int i = 0; i < n; ++i) sides += places_[page.corner(simplex, i)].side;
+        if (std::abs(sides) == n) return false;
+        Cut corner[n];
+        for (int i = 0; i < n; ++i) {
+            const int v = page.corner(simplex, i);
+            corner[i] = {places_[v], value(page, v)};
+        }
+        if (!section(corner, patch)) return false;
+        patch.spacing = spacing(page, simplex, n);
+        return true;
+    }
+    /// Root of the mean square of the edges of a simplex with n finite corners: as far
+    /// as its vertices lie apart, however flat it is.
+    static double spacing(const PageView<3> &page, int simplex, int n) {
+        double sum = 0;
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < i; ++j) {
+                const Point<3> p = page.point(page.corner(simplex, i));
+                const Point<3> q = page.point(page.corner(simplex, j));
+                for (int axis = 0; axis < 3; ++axis) {
+                    const double side = (p[axis] - q[axis]) * Plane::scale;
+                    sum += side * side;
+                }
+            }
+        return std::sqrt(sum / (n * (n - 1) / 2));
+    }
+
+    // As many vertices as fit into a page.
+    static constexpr std::size_t most_vertices =
+        ABACUS_PAGE_BYTES / (sizeof(std::int64_t) + sizeof(Point<3>));
+
+    Plane plane_;
+    std::array<Place, most_vertices> places_;
+};
+
+/// Shows everything in the window to `picture`, an Extent or a Canvas.
+template <class View, class Picture>
+void stream(const Host &host, const abacus_header &header, const abacus_drawing &window, View &view,
+            Picture &picture) {
+    PageScan<View::dimension> scan(host, header.attributes);
+    Patch patch;
+    while (scan.advance()) {
+        const auto &page = scan.page();
+        if (!view.enter(page, window)) continue;
+        for (int s = 0; s < page.simplices(); ++s)
+            if (view.show(page, s, patch)) picture.add(patch);
+    }
+}
+
+template <class View>
+Png draw(const Host &host, const abacus_header &header, const abacus_drawing &drawing, View &&view,
+         const Palette &palette) {
+    if (drawing.attribute >= static_cast<std::int32_t>(header.attributes))
+        throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
+    Extent extent(drawing);
+    if (Extent::is_needed(drawing)) stream(host, header, drawing, view, extent);
+    const abacus_drawing window = extent.drawing();
+    Canvas canvas(host, window, extent.low(), extent.high());
+    stream(host, header, window, view, canvas);
+    return canvas.png(palette);
 }
 
 } // namespace
 
 Png draw_mesh(const Host &host, const abacus_header &header, const abacus_drawing &drawing) {
-    if (drawing.attribute >= static_cast<std::int32_t>(header.attributes))
-        throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
-    Extent extent(drawing);
-    if (Extent::is_needed(drawing)) stream(host, header, drawing, extent);
-    const abacus_drawing whole = extent.drawing();
-    Canvas canvas(host, whole, extent.low(), extent.high());
-    stream(host, header, whole, canvas);
-    return canvas.png();
+    return draw(host, header, drawing, FlatView(drawing), Palette::terrain());
+}
+
+Png draw_section(const Host &host, const abacus_header &header, const abacus_section &section,
+                 const abacus_drawing &drawing) {
+    const Plane plane(section);
+    abacus_drawing sheet = drawing;
+    const Window window = shows_whole<3>(drawing) ? Window{}
+                                                  : plane.window(std::to_array(drawing.lower),
+                                                                 std::to_array(drawing.upper));
+    std::copy_n(window.lower, 2, sheet.lower);
+    std::copy_n(window.upper, 2, sheet.upper);
+    return draw(host, header, sheet, SectionView(plane, drawing), Palette::strata());
 }
 
 } // namespace abacus

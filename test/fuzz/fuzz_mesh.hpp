@@ -148,10 +148,14 @@ public:
             drawing.width = drawing.height = 16;
             drawing.edges = 1;
             drawing.exaggeration = 1;
+            const abacus_section section{{0.5, 0.5, 0.5}, {1, 2, 3}, 1};
             unsigned char *png = nullptr;
             std::size_t size = 0;
             const abacus_status status =
-                abacus_draw(host.table(), &header, &drawing, &png, &size, &error);
+                header.dimension == 2
+                    ? abacus_draw(host.table(), &header, &drawing, &png, &size, &error)
+                    : abacus_draw_section(host.table(), &header, &section, &drawing, &png, &size,
+                                          &error);
             if (status == ABACUS_OK) host.host().release(png);
             return status;
         });

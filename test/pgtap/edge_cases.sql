@@ -30,6 +30,7 @@ SELECT is_empty('SELECT * FROM abacus_vertices(NULL)', 'vertices of NULL');
 SELECT is_empty('SELECT * FROM abacus_check(NULL)', 'check of NULL');
 SELECT is_empty('SELECT * FROM abacus_stats(NULL)', 'stats of NULL');
 SELECT is(abacus_draw(NULL), NULL, 'draw NULL');
+SELECT is(abacus_draw_section(NULL, '{0,0,0}', '{0,0,1}'), NULL, 'draw a section of NULL');
 SELECT is(pg_temp.state('SELECT abacus_create(NULL, 2)'), '22004', 'create NULL');
 SELECT is(pg_temp.state('SELECT * FROM abacus_check(''few3'', 0)'), '22023', 'check for no fault');
 
@@ -42,7 +43,8 @@ FROM (VALUES ('thing'), ('looks'), ('counter'), ('few3_vertices'), ('few3_pkey')
      (VALUES ('SELECT abacus_stage(%L, ''SELECT 1, 2, 3'')'), ('SELECT abacus_triangulate(%L::regclass)'),
              ('SELECT abacus_locate(%L, 1, 2)'), ('SELECT abacus_walk(%L, ROW(1,2,3,4,5)::abacus_simplex, 0)'),
              ('SELECT * FROM abacus_simplices(%L)'), ('SELECT * FROM abacus_vertices(%L)'),
-             ('SELECT * FROM abacus_check(%L)'), ('SELECT * FROM abacus_stats(%L)'), ('SELECT abacus_draw(%L)')) AS f (f);
+             ('SELECT * FROM abacus_check(%L)'), ('SELECT * FROM abacus_stats(%L)'), ('SELECT abacus_draw(%L)'),
+             ('SELECT abacus_draw_section(%L, ''{0,0,0}'', ''{0,0,1}'')')) AS f (f);
 SELECT is(pg_temp.state('SELECT abacus_locate(0::regclass, 1, 2)'), '42P01', 'no object');
 -- a row type of the same name is not ours
 CREATE SCHEMA forged;
@@ -50,6 +52,24 @@ CREATE TYPE forged.abacus_simplex_page AS (code bigint, part bigint, page bytea)
 CREATE TABLE forged.mesh OF forged.abacus_simplex_page (PRIMARY KEY (code, part));
 INSERT INTO forged.mesh VALUES (-1, 0, '\x00');
 SELECT is(pg_temp.state('SELECT abacus_locate(''forged.mesh'', 1, 2)'), '42809', 'a forged mesh');
+
+-- sections of meshes of dimension 3 with few tetrahedra or none
+SELECT is(abacus_triangulate('solid' || n, format('SELECT i, i, i * i, i * i * i FROM generate_series(1, %s) i', n), dimension => 3) > 0,
+          n > 3, n || ' points in space')
+FROM generate_series(0, 6) n;
+SELECT is(substr(abacus_draw_section(('solid' || n)::regclass, '{2,4,8}', normal::float8[], 20), 2, 3), 'PNG',
+          format('a section of %s points, normal %s', n, normal))
+FROM generate_series(0, 6) n, (VALUES ('{0,0,1}'), ('{1,0,0}'), ('{-1,1,0.5}'), ('{1e-300,0,1e300}')) AS f (normal);
+SELECT is(pg_temp.state(format('SELECT abacus_draw_section(%s)', arguments)), state, format('abacus_draw_section(%s)', arguments))
+FROM (VALUES ($$'few6', '{0,0,0}', '{0,0,1}'$$, '22023'), ($$'solid6', '{}', '{0,0,1}'$$, '2202E'),
+             ($$'solid6', '{0,0,0}', '{{0,0,1}}'$$, '2202E'), ($$'solid6', '{0,0,0}', '{-0,0,-0}'$$, '22023'),
+             ($$'solid6', '{0,0,0}', '{0,0,5e-324}'$$, '00000'), ($$'solid6', '{0,0,-Infinity}', '{0,0,1}'$$, '22023'),
+             ($$'solid6', '{0,0,0}', '{0,0,1}', 16385$$, '22023'), ($$'solid6', '{0,0,0}', '{0,0,1}', 8, -1$$, '22023'),
+             ($$'solid6', '{0,0,0}', '{0,0,1}', attribute => 'vs'$$, '42703'),
+             ($$'solid6', '{0,0,0}', '{0,0,1}', attribute => ''$$, '42703'),
+             ($$'solid6', '{0,0,0}', '{0,0,1}', upper => '{1,1,1}'$$, '22023'),
+             ($$'solid6', '{0,0,0}', '{0,0,1}', lower => '{1,1,1}', upper => '{2,2,2}'$$, '22023')) AS f (arguments, state);
+SELECT is(pg_temp.state('SELECT abacus_draw(''solid6'')'), '22023', 'abacus_draw of a mesh in space');
 
 -- a mesh made by hand is one without a header
 CREATE TABLE by_hand OF abacus_simplex_page (PRIMARY KEY (code, part));

@@ -71,6 +71,8 @@ SELECT pg_temp.inject('vertices', $$ SELECT count(*) FROM abacus_vertices('field
 SELECT pg_temp.inject('check', $$ SELECT count(*) FROM abacus_check('field') $$,
     $$ SELECT NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
 SELECT pg_temp.inject('draw', $$ SELECT abacus_draw('field', 100) $$, 'SELECT true');
+SELECT abacus_triangulate('solid', 'SELECT id, x, y, (id * 37) % 101 FROM points', dimension => 3);
+SELECT pg_temp.inject('draw a section', $$ SELECT abacus_draw_section('solid', '{0,0,50}', '{1,2,3}', 100) $$, 'SELECT true');
 
 -- nothing but the locks of a transaction that has read and written is held
 SELECT is_empty($$ SELECT locktype, mode FROM pg_locks

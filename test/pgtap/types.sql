@@ -29,6 +29,7 @@ INSERT INTO wanted VALUES
     ('abacus_check', 'mesh regclass, max_faults integer DEFAULT 1000, OUT fault text, OUT code bigint, OUT part bigint, OUT message text', 'SETOF record', 's', true, 'r'),
     ('abacus_stats', 'mesh regclass, OUT name text, OUT value double precision, OUT description text', 'SETOF record', 'v', true, 'r'),
     ('abacus_draw', 'mesh regclass, width integer DEFAULT 1024, height integer DEFAULT NULL::integer, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], attribute text DEFAULT NULL::text, edges boolean DEFAULT true, exaggeration double precision DEFAULT 0, max_edge double precision DEFAULT NULL::double precision', 'bytea', 's', false, 'r'),
+    ('abacus_draw_section', 'mesh regclass, through double precision[], normal double precision[], width integer DEFAULT 1024, height integer DEFAULT NULL::integer, attribute text DEFAULT NULL::text, edges boolean DEFAULT true, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], exaggeration double precision DEFAULT 1, max_edge double precision DEFAULT NULL::double precision', 'bytea', 's', false, 'r'),
     ('abacus_version', '', 'text', 'i', false, 's');
 
 SELECT set_eq(
