@@ -1,17 +1,19 @@
 #!/bin/bash
-# The demonstration: all shorelines, borders and rivers of the world, 14.35
-# million points, become a triangulation inside a throw-away PostgreSQL cluster,
-# in which we then locate, walk, and check; and a mountain range becomes a shaded
-# terrain. Pictures are left in build/demo.
+# The demonstration, inside a throw-away PostgreSQL cluster. In the plane: all
+# shorelines, borders and rivers of the world, 14.35 million points, become a
+# triangulation in which we then locate, walk, and check; and a mountain range
+# becomes a shaded terrain. In space: a million points of an earthquake model
+# become tetrahedra, in which we ask for the ground under seismographs. Pictures
+# are left in build/demo.
 #
 #   demo.sh          everything (a few minutes)
-#   demo.sh quick    shorelines at a fifth of the resolution
+#   demo.sh quick    shorelines at a fifth of the resolution, a coarser earthquake model
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh
 
-resolution=f
-if [[ ${1:-} == quick ]]; then resolution=h; fi
+resolution=f frequency=0.25
+if [[ ${1:-} == quick ]]; then resolution=h frequency=0.1; fi
 pictures=$ABACUS_BUILD/demo
 summary=()
 
@@ -23,14 +25,24 @@ timed() {
     shift
     start=$(now)
     "$@"
-    summary+=("$(awk -v l="$label" -v a="$start" -v b="$(now)" 'BEGIN {printf "%-58s %9.2f s", l, b - a}')")
+    summary+=("$(awk -v l="$label" -v a="$start" -v b="$(now)" 'BEGIN {printf "%-60s %9.2f s", l, b - a}')")
 }
 
 note() {
-    summary+=("$(printf '%-58s %11s' "$1" "$2")")
+    summary+=("$(printf '%-60s %11s' "$1" "$2")")
 }
 
 value() { run_psql -A -t -c "$1"; }
+
+# Notes what is stored of mesh $1, whose points are in the table $1_points.
+note_mesh() {
+    note "$1: points" "$(value "SELECT count(*) FROM $1_points")"
+    note "$1: simplices" "$(value "SELECT value FROM abacus_stats('$1') WHERE name = 'simplices'")"
+    note "$1: the table of points" "$(value "SELECT pg_size_pretty(pg_table_size('$1_points'))")"
+    note "$1: simplex pages with index" "$(value "SELECT pg_size_pretty(pg_total_relation_size('$1'))")"
+    note "$1: vertex pages with index" \
+        "$(value "SELECT pg_size_pretty(pg_total_relation_size('$1_vertices'))")"
+}
 
 # Shows abacus_progress from another session, once a second, while $1 lives.
 show_progress() {
@@ -72,6 +84,30 @@ load_terrain() {
     scripts/terrain_points.py | run_psql -c "COPY terrain_points FROM STDIN"
 }
 
+load_quake() {
+    run_psql -c "CREATE TABLE quake_points AS SELECT (abacus_quake($frequency)).*" \
+        -c "ALTER TABLE quake_points ADD PRIMARY KEY (id)"
+}
+
+# Linear interpolation in a tetrahedron: the weight of a corner is the volume of
+# the tetrahedron in which the point stands in its place.
+define_velocity() {
+    run_psql <<'SQL'
+CREATE FUNCTION volume(a quake_points, b quake_points, c quake_points, d quake_points)
+RETURNS float8 IMMUTABLE
+RETURN (b.x - a.x) * ((c.y - a.y) * (d.z - a.z) - (d.y - a.y) * (c.z - a.z))
+     + (c.x - a.x) * ((d.y - a.y) * (b.z - a.z) - (b.y - a.y) * (d.z - a.z))
+     + (d.x - a.x) * ((b.y - a.y) * (c.z - a.z) - (c.y - a.y) * (b.z - a.z));
+CREATE FUNCTION velocity(x float8, y float8, z float8) RETURNS float8 STABLE
+RETURN (SELECT (volume(p, b, c, d) * a.vs + volume(a, p, c, d) * b.vs
+              + volume(a, b, p, d) * c.vs + volume(a, b, c, p) * d.vs) / volume(a, b, c, d)
+        FROM abacus_locate('quake', x, y, z) AS t
+             JOIN quake_points AS a ON a.id = t.v0 JOIN quake_points AS b ON b.id = t.v1
+             JOIN quake_points AS c ON c.id = t.v2 JOIN quake_points AS d ON d.id = t.v3,
+             (VALUES (ROW(0, x, y, z, 0, 0, 0)::quake_points)) AS point (p));
+SQL
+}
+
 scripts/install-dependencies.sh demo
 heading "Building and installing the extension"
 timed "build and install the extension" install_extension
@@ -80,8 +116,8 @@ cluster_start demo
 run_psql -c "CREATE EXTENSION abacus"
 
 heading "The shorelines of the world"
-timed "load the points with COPY" load_shorelines
-timed "triangulate them: stage, insert, commit" with_progress \
+timed "load the shorelines with COPY" load_shorelines
+timed "triangulate the shorelines: stage, insert, commit" with_progress \
     "SELECT abacus_triangulate('shorelines', 'SELECT id, lon, lat FROM shorelines_points') AS triangles"
 
 heading "Which triangle holds the harbour of Bergen? And its neighbours?"
@@ -94,18 +130,42 @@ FROM abacus_locate('shorelines', 5.3185, 60.3990) AS here,
 SQL
 
 heading "A hundred thousand places, located one by one"
-timed "locate 100,000 points of the table" run_psql <<'SQL'
+timed "locate 100,000 places among the shorelines" run_psql <<'SQL'
 SELECT count(abacus_locate('shorelines', lon + 0.001, lat + 0.001)) AS located
 FROM (SELECT * FROM shorelines_points WHERE id % 100 = 0 LIMIT 100000) AS sample;
 SQL
 
 heading "Exact verification of every triangle"
-timed "check the mesh" with_progress "SELECT count(*) AS faults FROM abacus_check('shorelines')"
+timed "check the shorelines" with_progress "SELECT count(*) AS faults FROM abacus_check('shorelines')"
 
 heading "The Jacksboro fault as a terrain"
 timed "load the elevation model" load_terrain
-timed "triangulate it" run_psql -c \
+timed "triangulate the elevation model" run_psql -c \
     "SELECT abacus_triangulate('terrain', 'SELECT id, x, y, height FROM terrain_points') AS triangles"
+
+heading "An earthquake model: points over a basin that resolve waves of $frequency Hz"
+timed "make the points of the earthquake model" load_quake
+timed "triangulate the earthquake model: stage, insert, commit" with_progress \
+    "SELECT abacus_triangulate('quake', 'TABLE quake_points', dimension => 3) AS tetrahedra"
+
+heading "Shear waves under six seismographs, metres a second"
+define_velocity
+timed "interpolate below six stations" run_psql <<'SQL'
+SELECT station, round(velocity(x, y, 0)) AS surface, round(velocity(x, y, -100)) AS "100 m",
+       round(velocity(x, y, -1000)) AS "1 km", round(velocity(x, y, -5000)) AS "5 km",
+       round(velocity(x, y, -20000)) AS "20 km"
+FROM (VALUES ('valley', 51200, 46300), ('harbour', 36100, 30700), ('airport', 24900, 75600),
+             ('university', 61300, 80200), ('observatory', 42500, 70900), ('dam', 93700, 91100))
+         AS stations (station, x, y);
+SQL
+timed "interpolate at 10,000 places of the surface" run_psql <<'SQL'
+SELECT count(*) AS places, round(min(v)) AS slowest, round(avg(v)) AS mean, round(max(v)) AS fastest
+FROM generate_series(0, 99) AS i, generate_series(0, 99) AS j,
+     velocity(1000 * i + 497, 1000 * j + 503, 0) AS v;
+SQL
+
+heading "Exact verification of every tetrahedron"
+timed "check the earthquake model" with_progress "SELECT count(*) AS faults FROM abacus_check('quake')"
 
 heading "Pictures"
 timed "draw the world, all of its triangles" draw world.png \
@@ -116,11 +176,14 @@ timed "draw the fjords around Bergen, short edges only" draw fjords.png \
     "SELECT abacus_draw('shorelines', width => 1200, lower => '{4.7,59.9}', upper => '{6.7,61.1}', max_edge => 0.12)"
 timed "draw the terrain, shaded" draw terrain.png \
     "SELECT abacus_draw('terrain', width => 1200, attribute => 'height', edges => false, exaggeration => 2)"
+timed "draw a section across the basin" draw basin_section.png \
+    "SELECT abacus_draw_section('quake', '{52000,45000,0}', '{0.6,0.8,0}', width => 1600, attribute => 'vs')"
+timed "draw the rim of the basin, closer" draw basin_rim.png \
+    "SELECT abacus_draw_section('quake', '{0,45000,0}', '{0,1,0}', width => 1200, attribute => 'vs', lower => '{28000,0,-6000}', upper => '{44000,100000,0}')"
+timed "draw the ground at a depth of 200 m" draw basin_map.png \
+    "SELECT abacus_draw_section('quake', '{0,0,-200}', '{0,0,1}', width => 1200, attribute => 'vs', edges => false)"
 
-note "points of the shorelines" "$(value 'SELECT count(*) FROM shorelines_points')"
-note "triangles" "$(value "SELECT count(*) FROM abacus_simplices('shorelines')")"
-note "the table of points" "$(value "SELECT pg_size_pretty(pg_total_relation_size('shorelines_points'))")"
-note "simplex pages with index" "$(value "SELECT pg_size_pretty(pg_total_relation_size('shorelines'))")"
-note "vertex pages with index" "$(value "SELECT pg_size_pretty(pg_total_relation_size('shorelines_vertices'))")"
+note_mesh shorelines
+note_mesh quake
 heading "Times and sizes"
 printf '%s\n' "${summary[@]}"
