@@ -1,8 +1,14 @@
-// The exact ends of the predicates, on CGAL's filtered kernel (LGPL): interval
+// The exact ends of the predicates.
+//
+// Points of grids and octrees, on which the filters fail most often since so many of
+// them are cospherical, differ by small multiples of one unit. Then 128-bit integers
+// hold the determinant. All others go to CGAL's filtered kernel (LGPL): interval
 // arithmetic first, then exact numbers.
 #include "geometry/predicates.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <optional>
 
 namespace abacus::exact {
 
@@ -13,7 +19,64 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 Kernel::Point_2 cgal(const Point<2> &p) { return {p[0], p[1]}; }
 Kernel::Point_3 cgal(const Point<3> &p) { return {p[0], p[1], p[2]}; }
 
+using Wide = __int128;
+
+template <class T> int sign(T value) { return (value > 0) - (value < 0); }
+
+/// The points' differences from `origin` in a common unit, if they are exact integers of
+/// at most `bits` bits in one.
+template <int D, std::size_t N>
+std::optional<std::array<std::array<std::int64_t, D>, N>>
+differences(const std::array<const Point<D> *, N> &points, const Point<D> &origin, int bits) {
+    std::array<std::array<double, D>, N> difference;
+    double largest = 0, rounded = 0;
+    for (std::size_t n = 0; n < N; ++n)
+        for (int axis = 0; axis < D; ++axis) {
+            const double a = (*points[n])[axis], b = origin[axis], d = a - b;
+            const double rest = a - d; // what subtracting rounded off (Knuth's TwoSum)
+            rounded += std::fabs((a - (d + rest)) + (rest - b));
+            largest = std::max(largest, std::fabs(d));
+            difference[n][axis] = d;
+        }
+    if (!(rounded == 0 && largest > 1e-250 && largest < 1e250)) return std::nullopt;
+    const double scale = std::ldexp(1.0, bits - 1 - std::ilogb(largest));
+    std::array<std::array<std::int64_t, D>, N> result;
+    for (std::size_t n = 0; n < N; ++n)
+        for (int axis = 0; axis < D; ++axis) {
+            const double scaled = difference[n][axis] * scale;
+            result[n][axis] = static_cast<std::int64_t>(scaled);
+            if (static_cast<double>(result[n][axis]) != scaled) return std::nullopt;
+        }
+    return result;
+}
+
+/// Sign of the determinant of in_sphere(), positive inside, if integers hold it.
+std::optional<int> integer_in_sphere(const Corners<2> &corners, const Point<2> &p) {
+    const auto d = differences<2, 3>(corners, p, 30);
+    if (!d) return std::nullopt;
+    const auto [a, b, c] = *d;
+    const auto lift = [](const auto &v) { return Wide(v[0] * v[0] + v[1] * v[1]); };
+    return sign(lift(a) * (b[0] * c[1] - b[1] * c[0]) + lift(b) * (c[0] * a[1] - c[1] * a[0]) +
+                lift(c) * (a[0] * b[1] - a[1] * b[0]));
+}
+
+std::optional<int> integer_in_sphere(const Corners<3> &corners, const Point<3> &p) {
+    const auto difference = differences<3, 4>(corners, p, 24); // the determinant: 127 bits
+    if (!difference) return std::nullopt;
+    const auto [a, b, c, d] = *difference;
+    const auto lift = [](const auto &v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; };
+    const auto minor = [](const auto &v, const auto &w) { return v[0] * w[1] - w[0] * v[1]; };
+    const std::int64_t ab = minor(a, b), bc = minor(b, c), cd = minor(c, d), da = minor(d, a),
+                       ac = minor(a, c), bd = minor(b, d);
+    const Wide abc = Wide(a[2]) * bc - Wide(b[2]) * ac + Wide(c[2]) * ab;
+    const Wide bcd = Wide(b[2]) * cd - Wide(c[2]) * bd + Wide(d[2]) * bc;
+    const Wide cda = Wide(c[2]) * da + Wide(d[2]) * ac + Wide(a[2]) * cd;
+    const Wide dab = Wide(d[2]) * ab + Wide(a[2]) * bd + Wide(b[2]) * da;
+    return -sign((lift(d) * abc - lift(c) * dab) + (lift(b) * cda - lift(a) * bcd));
+}
+
 template <int D> int unperturbed_in_sphere(const Corners<D> &c, const Point<D> &p) {
+    if (const auto sign = integer_in_sphere(c, p)) return *sign;
     if constexpr (D == 2)
         return Kernel().side_of_oriented_circle_2_object()(cgal(*c[0]), cgal(*c[1]), cgal(*c[2]),
                                                            cgal(p));
@@ -22,13 +85,42 @@ template <int D> int unperturbed_in_sphere(const Corners<D> &c, const Point<D> &
                                                            cgal(*c[3]), cgal(p));
 }
 
+/// Position of p to the sphere through the first N corners, on which it lies. The lifted
+/// points move up by infinitesimals, the lexicographically largest by the largest; the
+/// sign is that of the first coefficient, in this order, that is not zero: for p itself
+/// that of the positive simplex, negated; for a corner that of the simplex with p in its
+/// place, which `orientation` gives.
+template <int D, int N, class Orientation>
+int perturbed_sign(const Corners<D> &corners, const Point<D> &p, Orientation orientation) {
+    const auto point = [&](int i) -> const Point<D> & { return i < N ? *corners[i] : p; };
+    std::array<bool, N> passed{};
+    for (;;) {
+        int greatest = N;
+        for (int i = 0; i < N; ++i)
+            if (!passed[i] && lexicographically_less<D>(point(greatest), point(i))) greatest = i;
+        if (greatest == N) return -1;
+        Corners<D> replaced = corners;
+        replaced[greatest] = &p;
+        if (const int sign = orientation(replaced)) return sign;
+        passed[greatest] = true;
+    }
+}
+
 } // namespace
 
 int orientation(const Point<2> &a, const Point<2> &b, const Point<2> &c) {
+    if (const auto d = differences<2, 2>({&a, &b}, c, 31))
+        return sign((*d)[0][0] * (*d)[1][1] - (*d)[0][1] * (*d)[1][0]);
     return Kernel().orientation_2_object()(cgal(a), cgal(b), cgal(c));
 }
 
 int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c, const Point<3> &d) {
+    if (const auto difference = differences<3, 3>({&a, &b, &c}, d, 31)) {
+        const auto [u, v, w] = *difference;
+        return -sign(Wide(u[2]) * (v[0] * w[1] - v[1] * w[0]) +
+                     Wide(v[2]) * (w[0] * u[1] - w[1] * u[0]) +
+                     Wide(w[2]) * (u[0] * v[1] - u[1] * v[0]));
+    }
     return Kernel().orientation_3_object()(cgal(a), cgal(b), cgal(c), cgal(d));
 }
 
@@ -38,22 +130,9 @@ template <int D> int in_sphere(const Corners<D> &corners, const Point<D> &p) {
     for (const Point<D> *corner : corners)
         if (*corner == p) return 0;
 
-    // On the sphere. The lifted points move up by infinitesimals, the
-    // lexicographically largest by the largest; the sign is that of the first
-    // coefficient, in this order, that is not zero: for p itself that of the
-    // positive simplex, negated; for a corner that of the simplex with p in its place.
-    std::array<int, D + 2> order; // index of a corner; D + 1 stands for p
-    for (int i = 0; i < D + 2; ++i) order[i] = i;
-    const auto point = [&](int i) -> const Point<D> & { return i <= D ? *corners[i] : p; };
-    std::sort(order.begin(), order.end(),
-              [&](int i, int j) { return lexicographically_less<D>(point(j), point(i)); });
-    for (const int i : order) {
-        if (i == D + 1) return -1;
-        Corners<D> replaced = corners;
-        replaced[i] = &p;
-        if (const int sign = abacus::orientation<D>(replaced)) return sign;
-    }
-    return -1; // not reached: p itself is in the order
+    return perturbed_sign<D, D + 1>(corners, p, [](const Corners<D> &replaced) {
+        return abacus::orientation<D>(replaced);
+    });
 }
 
 int in_hull_facet(const Corners<3> &corners, const Point<3> &p) {
@@ -67,20 +146,12 @@ int in_hull_facet(const Corners<3> &corners, const Point<3> &p) {
     for (int i = 0; i < 3; ++i)
         if (*corners[i] == p) return 0;
 
-    // On the circle: as in in_sphere(), with areas in the plane for volumes. Their sign
-    // depends on the side from which the plane is seen, hence the product.
+    // On the circle: areas in the plane for volumes. Their sign depends on the side from
+    // which the plane is seen, hence the product.
     const int facing = coplanar_orientation(corners);
-    std::array<int, 4> order{0, 1, 2, 3}; // 3 stands for p
-    const auto point = [&](int i) -> const Point<3> & { return i < 3 ? *corners[i] : p; };
-    std::sort(order.begin(), order.end(),
-              [&](int i, int j) { return lexicographically_less<3>(point(j), point(i)); });
-    for (const int i : order) {
-        if (i == 3) return -1;
-        Corners<3> replaced = corners;
-        replaced[i] = &p;
-        if (const int sign = coplanar_orientation(replaced)) return sign * facing;
-    }
-    return -1; // not reached: p itself is in the order
+    return perturbed_sign<3, 3>(corners, p, [&](const Corners<3> &replaced) {
+        return coplanar_orientation(replaced) * facing;
+    });
 }
 
 template int in_sphere<2>(const Corners<2> &, const Point<2> &);
