@@ -58,3 +58,6 @@ CORE_SOURCES += src/capi/mesh.cpp
 CORE_SOURCES += src/capi/scan.cpp
 CORE_SOURCES += src/capi/check.cpp
 CORE_SOURCES += src/capi/draw.cpp
+CORE_SOURCES += src/quake/basin.cpp
+CORE_SOURCES += src/quake/balanced_octree.cpp
+CORE_SOURCES += src/quake/quake_points.cpp
