@@ -24,7 +24,7 @@ quick)
         2:duplicates:100000 2:octree:50000
         3:uniform:20000 3:grid:15625 3:sphere:5000 3:rounded_sphere:5000 3:wheel:5001
         3:skew_lines:500 3:flat:5000 3:flat_but_one:5000 3:clusters:10000 3:exponents:500
-        3:duplicates:50000 3:octree:10000)
+        3:duplicates:50000 3:octree:10000 3:quake:10000)
     runs=(smallest:made default:shuffled largest:sorted smallest:reversed smallest:grown)
     ;;
 full)
@@ -32,9 +32,9 @@ full)
         2:wheel:100000 2:lines:1000000 2:flat_but_one:100000 2:clusters:1000000
         2:exponents:20000 2:duplicates:1000000 2:octree:1000000 2:shorelines:0
         2:uniform:10000000
-        3:uniform:1000000 3:grid:1000000 3:sphere:50000 3:rounded_sphere:50000 3:wheel:50001
-        3:skew_lines:2000 3:flat:50000 3:flat_but_one:50000 3:clusters:1000000 3:exponents:5000
-        3:duplicates:1000000 3:octree:1000000)
+        3:uniform:1000000 3:quake:1000000 3:grid:1000000 3:sphere:50000 3:rounded_sphere:50000
+        3:wheel:50001 3:skew_lines:2000 3:flat:50000 3:flat_but_one:50000 3:clusters:1000000
+        3:exponents:5000 3:duplicates:1000000 3:octree:1000000)
     runs=(smallest:made 8:made 64:made largest:made default:shuffled smallest:sorted 8:reversed
         8:grown)
     ;;

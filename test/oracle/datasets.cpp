@@ -2,6 +2,7 @@
 
 #include "exact_sphere.hpp"
 #include "octree.hpp"
+#include "quake.hpp"
 #include "random.hpp"
 
 #include <algorithm>
@@ -149,6 +150,8 @@ template <int D> Points<D> duplicates(std::size_t size, Random &random) {
     });
 }
 
+Points<3> quake_near(std::size_t size, Random &) { return quake(size); }
+
 template <int D> using Make = Points<D> (*)(std::size_t, Random &);
 
 constexpr struct {
@@ -172,6 +175,7 @@ constexpr struct {
     {"exponents", exponents<2>, exponents<3>, "coordinates from 1e-300 to 1e300"},
     {"duplicates", duplicates<2>, duplicates<3>, "ten points on each node of an integer grid"},
     {"octree", octree<2>, octree<3>, "corners of a random quadtree or octree, unbalanced"},
+    {"quake", nullptr, quake_near, "the earthquake data set nearest in size"},
 };
 
 } // namespace
