@@ -17,7 +17,7 @@ set -euo pipefail
 . scripts/cluster.sh
 . scripts/points.sh
 
-dimension=2 set=uniform runs=5 caches= sizes=() locations=1000000
+dimension=2 set=uniform runs=5 caches="" sizes=() locations=1000000
 while getopts d:s:n:c: option; do
     case $option in
     d) dimension=$OPTARG ;;
@@ -38,7 +38,7 @@ else
     if ((${#sizes[@]} == 0)); then sizes=(1000000); fi
 fi
 if [[ ${sizes[0]} == smoke ]]; then
-    runs=1 caches="smallest largest" sizes=(50000) locations=50000
+    runs=1 caches="smallest largest" sizes=($((dimension == 2 ? 50000 : 20000))) locations=50000
 fi
 
 folder=$ABACUS_BUILD/bench
