@@ -61,3 +61,5 @@ CORE_SOURCES += src/capi/draw.cpp
 CORE_SOURCES += src/quake/basin.cpp
 CORE_SOURCES += src/quake/balanced_octree.cpp
 CORE_SOURCES += src/quake/quake_points.cpp
+CORE_SOURCES += src/capi/quake.cpp
+PG_SOURCES += src/pg/fn_quake.c

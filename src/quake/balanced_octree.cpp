@@ -41,7 +41,9 @@ BalancedOctree::BalancedOctree(double frequency, double points_per_wavelength) {
     const auto require_positive = [](double value, const char *name) {
         if (!(value > 0) || !std::isfinite(value))
             throw Error(ABACUS_ERROR_ARGUMENT,
-                        std::string(name) + " must be a positive finite number");
+                        std::string(name) + " must be a positive finite number", "",
+                        "With 8 points per wavelength, 0.1 Hz gives 0.13 million points, 0.25 Hz a "
+                        "million, 0.5 Hz six million.");
     };
     require_positive(frequency, "frequency");
     require_positive(points_per_wavelength, "points_per_wavelength");

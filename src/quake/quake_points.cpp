@@ -58,8 +58,7 @@ bool QuakePoints::find_leaf() {
 
 /// Finds the points that lie in the leaf.
 void QuakePoints::collect() {
-    const auto [x, y, z, shift] = leaf_;
-    const std::uint32_t size = 1u << shift;
+    const std::uint32_t x = leaf_.x, y = leaf_.y, z = leaf_.z, size = 1u << leaf_.shift;
     const auto neighbour = [&](bool dx, bool dy, bool dz) -> unsigned {
         return x >= dx * size && y >= dy * size && z >= dz * size &&
                is_split(x - dx * size, y - dy * size, z - dz * size);

@@ -26,6 +26,7 @@ INSERT INTO wanted VALUES
     ('abacus_walk', 'mesh regclass, simplex abacus_simplex, facet integer', 'abacus_simplex', 's', true, 's'),
     ('abacus_simplices', 'mesh regclass', 'SETOF abacus_simplex', 's', true, 'r'),
     ('abacus_vertices', 'mesh regclass, OUT sequence bigint, OUT id bigint, OUT x double precision, OUT y double precision, OUT z double precision, OUT attributes double precision[], OUT vertex bigint', 'SETOF record', 's', true, 'r'),
+    ('abacus_quake', 'frequency double precision, points_per_wavelength double precision DEFAULT 8, OUT id bigint, OUT x double precision, OUT y double precision, OUT z double precision, OUT vs double precision, OUT vp double precision, OUT density double precision', 'SETOF record', 'i', true, 's'),
     ('abacus_check', 'mesh regclass, max_faults integer DEFAULT 1000, OUT fault text, OUT code bigint, OUT part bigint, OUT message text', 'SETOF record', 's', true, 'r'),
     ('abacus_stats', 'mesh regclass, OUT name text, OUT value double precision, OUT description text', 'SETOF record', 'v', true, 'r'),
     ('abacus_draw', 'mesh regclass, width integer DEFAULT 1024, height integer DEFAULT NULL::integer, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], attribute text DEFAULT NULL::text, edges boolean DEFAULT true, exaggeration double precision DEFAULT 0, max_edge double precision DEFAULT NULL::double precision', 'bytea', 's', false, 'r'),
