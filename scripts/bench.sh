@@ -113,12 +113,12 @@ compare_builds() {
     cgal=$(median <"$folder/seconds.cgal")
     points=$(run_psql -A -t -c "SELECT value FROM abacus_stats('mesh') WHERE name = 'points'")
     printf '%s points in %dD, %s, median of %s\n' "$points" "$dimension" "$set" "$runs"
-    printf '  %-38s %8.3f s\n' "CGAL in core" "$cgal"
+    printf '  %-42s %8.3f s\n' "CGAL in core" "$cgal"
     for cache in $caches; do
         awk -v name="Abacus, table to commit, cache $cache" -v cgal="$cgal" \
             -v s="$(median <"$folder/seconds.$cache")" \
             -v peak="$(sort -g "$folder/peaks.$cache" | tail -n 1)" 'BEGIN {
-                printf "  %-38s %8.3f s  ratio %.2f  private memory %.0f MB\n",
+                printf "  %-42s %8.3f s  ratio %.2f  private memory %.0f MB\n",
                     name, s, s / cgal, peak / 1024 }'
     done
     if [[ $caches == *" "* ]]; then
