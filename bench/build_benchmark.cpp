@@ -5,6 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <bit>
 #include <random>
 #include <stdexcept>
@@ -20,21 +21,23 @@ void require(abacus_status status, const abacus_error &error) {
     if (status != ABACUS_OK) throw std::runtime_error(error.message);
 }
 
-abacus_header empty_header() {
+template <int D> abacus_header empty_header() {
     abacus_header header{};
-    header.dimension = 2;
+    header.dimension = D;
     return header;
 }
 
-/// Rows (id, x, y) as abacus_stage_add() takes them.
-std::vector<std::uint64_t> uniform_rows(std::size_t count) {
+double unit(std::mt19937_64 &engine) { return double(engine() >> 11) * 0x1p-53; }
+
+/// Rows (id, x, y[, z]) as abacus_stage_add() takes them.
+template <int D> std::vector<std::uint64_t> uniform_rows(std::size_t count) {
     std::mt19937_64 engine(1);
     std::vector<std::uint64_t> rows;
-    rows.reserve(3 * count);
+    rows.reserve((1 + D) * count);
     for (std::size_t i = 0; i < count; ++i) {
         rows.push_back(i);
-        for (int axis = 0; axis < 2; ++axis)
-            rows.push_back(std::bit_cast<std::uint64_t>(double(engine() >> 11) * 0x1p-53));
+        for (int axis = 0; axis < D; ++axis)
+            rows.push_back(std::bit_cast<std::uint64_t>(unit(engine)));
     }
     return rows;
 }
@@ -43,7 +46,8 @@ void stage(MemoryHost &host, abacus_header &header, const std::vector<std::uint6
     abacus_stage *handle = nullptr;
     abacus_error error{};
     require(abacus_stage_open(host.table(), &header, sort_bytes, &handle, &error), error);
-    require(abacus_stage_add(handle, rows.data(), rows.size() / 3, &error), error);
+    require(abacus_stage_add(handle, rows.data(), rows.size() / (1 + header.dimension), &error),
+            error);
     require(abacus_stage_finish(handle, &header, &error), error);
     abacus_stage_close(handle);
 }
@@ -57,20 +61,20 @@ void build(MemoryHost &host, abacus_header &header, std::size_t cache_bytes) {
 }
 
 /// Argument: points.
-void Stage(benchmark::State &state) {
-    const auto rows = uniform_rows(std::size_t(state.range(0)));
+template <int D> void Stage(benchmark::State &state) {
+    const auto rows = uniform_rows<D>(std::size_t(state.range(0)));
     for (auto _ : state) {
         MemoryHost host;
         host.strict = false;
-        abacus_header header = empty_header();
+        abacus_header header = empty_header<D>();
         stage(host, header, rows);
     }
     state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
 /// Arguments: points, cache in MB.
-void Build(benchmark::State &state) {
-    const auto rows = uniform_rows(std::size_t(state.range(0)));
+template <int D> void Build(benchmark::State &state) {
+    const auto rows = uniform_rows<D>(std::size_t(state.range(0)));
     abacus_header header;
     std::size_t page_bytes = 0;
     for (auto _ : state) {
@@ -78,7 +82,7 @@ void Build(benchmark::State &state) {
         {
             MemoryHost host;
             host.strict = false;
-            header = empty_header();
+            header = empty_header<D>();
             stage(host, header, rows);
             state.ResumeTiming();
             build(host, header, std::size_t(state.range(1)) << 20);
@@ -90,18 +94,18 @@ void Build(benchmark::State &state) {
     }
     state.SetItemsProcessed(state.iterations() * state.range(0));
     const auto &counters = header.counters;
-    state.counters["bytes/triangle"] = double(page_bytes) / double(header.simplices);
+    state.counters["bytes/simplex"] = double(page_bytes) / double(header.simplices);
     state.counters["loads"] = double(counters.loads);
     state.counters["stores"] = double(counters.stores);
     state.counters["hit_ratio"] = 1 - double(counters.misses) / double(counters.steps);
 }
 
 /// Arguments: points, cache in MB. Random places, one by one.
-void Locate(benchmark::State &state) {
+template <int D> void Locate(benchmark::State &state) {
     MemoryHost host;
     host.strict = false;
-    abacus_header header = empty_header();
-    stage(host, header, uniform_rows(std::size_t(state.range(0))));
+    abacus_header header = empty_header<D>();
+    stage(host, header, uniform_rows<D>(std::size_t(state.range(0))));
     build(host, header, std::size_t{64} << 20);
     abacus_mesh *mesh = nullptr;
     abacus_error error{};
@@ -110,10 +114,10 @@ void Locate(benchmark::State &state) {
         error);
     std::mt19937_64 engine(2);
     const auto locate = [&] {
-        const double point[2] = {double(engine() >> 11) * 0x1p-53,
-                                 double(engine() >> 11) * 0x1p-53};
+        std::array<double, D> point;
+        for (double &x : point) x = unit(engine);
         abacus_simplex simplex;
-        const abacus_status status = abacus_mesh_locate(mesh, point, &simplex, &error);
+        const abacus_status status = abacus_mesh_locate(mesh, point.data(), &simplex, &error);
         if (status != ABACUS_OK && status != ABACUS_END) require(status, error);
     };
     for (int i = 0; i < 100'000; ++i) locate(); // fills the cache
@@ -122,13 +126,20 @@ void Locate(benchmark::State &state) {
     state.SetItemsProcessed(state.iterations());
 }
 
-BENCHMARK(Stage)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
-BENCHMARK(Build)
+BENCHMARK(Stage<2>)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
+BENCHMARK(Stage<3>)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
+BENCHMARK(Build<2>)
     ->Args({1'000'000, 1})
     ->Args({1'000'000, 8})
     ->Args({1'000'000, 64})
     ->Args({1'000'000, 1024})
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(Locate)->Args({1'000'000, 8})->Args({1'000'000, 256});
+BENCHMARK(Build<3>)
+    ->Args({1'000'000, 16})
+    ->Args({1'000'000, 128})
+    ->Args({1'000'000, 1024})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(Locate<2>)->Args({1'000'000, 8})->Args({1'000'000, 256});
+BENCHMARK(Locate<3>)->Args({200'000, 8})->Args({200'000, 256});
 
 } // namespace

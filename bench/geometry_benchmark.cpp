@@ -67,6 +67,10 @@ void InSphere2Degenerate(benchmark::State &state) {
     measure_in_sphere<2>(state, degenerate_points<2>());
 }
 
+void InSphere3Degenerate(benchmark::State &state) {
+    measure_in_sphere<3>(state, degenerate_points<3>());
+}
+
 template <int D> void measure_code(benchmark::State &state) {
     const std::vector<Point<D>> points = random_points<D>();
     Point<D> lower, upper;
@@ -86,6 +90,7 @@ BENCHMARK(Orientation3);
 BENCHMARK(InSphere2);
 BENCHMARK(InSphere2Degenerate);
 BENCHMARK(InSphere3);
+BENCHMARK(InSphere3Degenerate);
 BENCHMARK(Code2);
 BENCHMARK(Code3);
 

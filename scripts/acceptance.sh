@@ -4,74 +4,107 @@
 # points with COPY into a table, abacus_triangulate, abacus_check, simplices
 # with COPY out, oracle_compare.
 #
-#   acceptance.sh [quick|full] [DATA SET...]
+#   acceptance.sh [quick|full] [2d|3d] [DATA SET...]
 #
-# quick takes a minute or two, full (1 M to 14 M points a set) about an hour.
+# quick takes two or three minutes, full (up to 14 M points a set) two hours. 2d and 3d
+# choose a dimension, names choose data sets; without any, all are compared.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh
+. scripts/points.sh
 
+usage="usage: $0 [quick|full] [2d|3d] [DATA SET...]"
 mode=${1:-quick}
+shift $(($# > 0))
+# dimension:data set:points, and cache (MB or a word of cache_size):order.
 case $mode in
 quick)
-    sets=(uniform:100000 grid:100000 circle:20000 rounded_circle:20000 wheel:20000 lines:50000
-        clusters:100000 exponents:5000 duplicates:100000)
-    # cache (MB, or the smallest, largest or default size):order
-    runs=(smallest:made default:shuffled largest:sorted smallest:reversed)
+    sets=(2:uniform:100000 2:grid:100000 2:circle:20000 2:rounded_circle:20000 2:wheel:20000
+        2:lines:50000 2:flat_but_one:20000 2:clusters:100000 2:exponents:5000
+        2:duplicates:100000 2:octree:50000
+        3:uniform:20000 3:grid:15625 3:sphere:5000 3:rounded_sphere:5000 3:wheel:5001
+        3:skew_lines:500 3:flat:5000 3:flat_but_one:5000 3:clusters:10000 3:exponents:500
+        3:duplicates:50000 3:octree:10000 3:quake:10000)
+    runs=(smallest:made default:shuffled largest:sorted smallest:reversed smallest:grown)
     ;;
 full)
-    sets=(uniform:1000000 grid:4000000 circle:100000 rounded_circle:100000 wheel:100000
-        lines:1000000 clusters:1000000 exponents:20000 duplicates:1000000
-        shorelines:0 uniform:10000000)
-    runs=(smallest:made 8:made 64:made largest:made default:shuffled smallest:sorted 8:reversed)
+    sets=(2:uniform:1000000 2:grid:4000000 2:circle:100000 2:rounded_circle:100000
+        2:wheel:100000 2:lines:1000000 2:flat_but_one:100000 2:clusters:1000000
+        2:exponents:20000 2:duplicates:1000000 2:octree:1000000 2:shorelines:0
+        2:uniform:10000000
+        3:uniform:1000000 3:quake:1000000 3:grid:1000000 3:sphere:50000 3:rounded_sphere:50000
+        3:wheel:50001 3:skew_lines:2000 3:flat:50000 3:flat_but_one:50000 3:clusters:30000
+        3:exponents:5000 3:duplicates:1000000 3:octree:1000000)
+    runs=(smallest:made 8:made 64:made largest:made default:shuffled smallest:sorted 8:reversed
+        8:grown)
     ;;
-*) fail "usage: $0 [quick|full] [DATA SET...]" ;;
+*) fail "$usage" ;;
 esac
-if (($# > 1)); then
-    wanted=" ${*:2} "
-    for i in "${!sets[@]}"; do
-        [[ $wanted == *" ${sets[i]%:*} "* ]] || unset "sets[$i]"
-    done
-fi
 
-declare -A order_by=(
-    [made]="" [shuffled]="ORDER BY hashint8(id), id"
-    [sorted]="ORDER BY x, y, id" [reversed]="ORDER BY x DESC, y DESC, id"
-)
+# Leaves in `sets` those that the words on the command line choose.
+choose_sets() {
+    local word dimensions=" " names=" " set dimension name chosen=()
+    for word in "$@"; do
+        case $word in
+        2d | 3d) dimensions+="${word%d} " ;;
+        *) names+="$word " ;;
+        esac
+    done
+    for set in "${sets[@]}"; do
+        IFS=: read -r dimension name _ <<<"$set"
+        if [[ $dimensions == " " || $dimensions == *" $dimension "* ]] &&
+            [[ $names == " " || $names == *" $name "* ]]; then
+            chosen+=("$set")
+        fi
+    done
+    ((${#chosen[@]})) || fail "No such data set. $usage"
+    sets=("${chosen[@]}")
+}
+choose_sets "$@"
+
 folder=$ABACUS_BUILD/acceptance
 oracle=$ABACUS_BUILD/release/test/oracle
 compared=0 differing=0
 
-# Cache size in MB for a word of `runs`.
-cache_size() {
+# Builds the mesh of the table points, with its rows in order $1; `grown`: all points but the
+# last one first, and that one in a second step.
+build_mesh() {
+    local query="SELECT id, $columns FROM points" grow=()
     case $1 in
-    smallest) run_psql -A -t -c "LOAD 'abacus'" \
-        -c "SELECT min_val FROM pg_settings WHERE name = 'abacus.cache_size'" ;;
-    largest) run_psql -A -t -c "LOAD 'abacus'" \
-        -c "SELECT max_val FROM pg_settings WHERE name = 'abacus.cache_size'" ;;
-    default) run_psql -A -t -c "LOAD 'abacus'" \
-        -c "SELECT boot_val FROM pg_settings WHERE name = 'abacus.cache_size'" ;;
-    *) echo "$1" ;;
+    made) ;;
+    shuffled) query+=" ORDER BY hashint8(id), id" ;;
+    sorted) query+=" ORDER BY $columns, id" ;;
+    reversed) query+=" ORDER BY ${columns//,/ DESC,} DESC, id" ;;
+    grown)
+        grow=(-c "SELECT abacus_stage('mesh', '$query WHERE id = $count')"
+            -c "SELECT abacus_triangulate('mesh')")
+        query+=" WHERE id < $count"
+        ;;
     esac
+    run_psql -o /dev/null -c "SET abacus.cache_size = '${cache}MB'" \
+        -c "SELECT abacus_triangulate('mesh', '$query', dimension => $dimension)" "${grow[@]}"
 }
 
-# One build of the table points: faults of abacus_check, then the comparison.
+# One mesh of the table points: faults of abacus_check, then the comparison.
 compare() {
-    local cache=$1 order=$2 faults result start built checked
+    local cache=$1 order=$2 corners="v0, v1, v2" first_ids=0 faults result start built checked
+    if ((dimension == 3)); then corners+=", v3"; fi
+    # Equal points are one vertex, which has the id of the first: where the file has it.
+    case $order in made | grown) first_ids=1 ;; esac
     start=${EPOCHREALTIME/./}
-    run_psql -o /dev/null -c "SET abacus.cache_size = '${cache}MB'" \
-        -c "SELECT abacus_triangulate('mesh', 'SELECT id, x, y FROM points ${order_by[$order]}')"
+    build_mesh "$order"
     built=${EPOCHREALTIME/./}
     faults=$(run_psql -A -t -c "SELECT * FROM abacus_check('mesh') LIMIT 3")
     checked=${EPOCHREALTIME/./}
-    result=$(run_psql -c "COPY (SELECT code, v0, v1, v2 FROM abacus_simplices('mesh'))
+    result=$(run_psql -c "COPY (SELECT code, $corners FROM abacus_simplices('mesh'))
                           TO STDOUT (FORMAT binary)" |
-        ABACUS_ORACLE_FIRST_IDS=$([[ $order == made ]] && echo 1 || echo 0) \
-            "$oracle/oracle_compare" 2 "$folder/points.copy" - "$folder/kept") || true
+        ABACUS_ORACLE_FIRST_IDS=$first_ids \
+            "$oracle/oracle_compare" "$dimension" "$folder/points.copy" - "$folder/kept") || true
     run_psql -c "DROP TABLE mesh, mesh_vertices"
     compared=$((compared + 1))
-    printf '%-15s cache %8s MB  %-8s  built in %6d ms, checked in %6d ms  %s\n' "$name" "$cache" \
-        "$order" $(((built - start) / 1000)) $(((checked - built) / 1000)) "${result##*$'\n'}"
+    printf '%dD %-15s cache %8s MB  %-8s  built in %6d ms, checked in %6d ms  %s\n' "$dimension" \
+        "$name" "$cache" "$order" $(((built - start) / 1000)) $(((checked - built) / 1000)) \
+        "${result##*$'\n'}"
     if [[ ${result##*$'\n'} != equal:* || -n $faults ]]; then
         differing=$((differing + 1))
         printf '%s\n%s\n' "$result" "$faults"
@@ -88,15 +121,16 @@ run_psql -c "CREATE EXTENSION abacus"
 mkdir -p "$folder"
 
 for set in "${sets[@]}"; do
-    name=${set%:*} size=${set#*:}
+    IFS=: read -r dimension name size <<<"$set"
+    columns=$(coordinates "$dimension")
     rm -f "$folder/kept"
     if [[ $name == shorelines ]]; then
         scripts/gshhg_points.py f >"$folder/points.copy"
     else
-        "$oracle/oracle_points" "$name" "$size" copy >"$folder/points.copy"
+        "$oracle/oracle_points" "$dimension" "$name" "$size" copy >"$folder/points.copy"
     fi
-    run_psql -c "CREATE TABLE points (id bigint, x float8, y float8)"
-    run_psql -c "COPY points FROM STDIN (FORMAT binary)" <"$folder/points.copy"
+    create_points "$dimension" "$folder/points.copy"
+    count=$(run_psql -A -t -c "SELECT max(id) FROM points")
     for run in "${runs[@]}"; do
         compare "$(cache_size "${run%:*}")" "${run#*:}"
     done

@@ -1,8 +1,8 @@
 #!/bin/bash
 # All set-up and all tests, from a clean clone, re-runnable: packages, builds,
 # unit tests (plain and sanitized), a bounded fuzzing run, SQL tests, the
-# examples of the documentation, comparison with CGAL, a smoke run of the
-# benchmarks. Logs are left in build/test.
+# examples of the documentation, comparison with CGAL, smoke runs of the
+# benchmarks and statistics. Logs are left in build/test.
 set -uo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh
@@ -94,6 +94,8 @@ suite "pgTAP" pgtap_tests
 suite "documentation examples" documentation_examples
 suite "acceptance quick" scripts/acceptance.sh quick
 suite "bench smoke" scripts/bench.sh smoke
+suite "bench smoke 3D" scripts/bench.sh -d 3 -s quake smoke
+suite "statistics smoke" scripts/statistics.sh 300000 10000
 
 echo "$passed passed, $failed failed"
 ((failed == 0))

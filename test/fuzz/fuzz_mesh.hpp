@@ -94,7 +94,8 @@ public:
                 abacus_simplex s;
                 status = abacus_mesh_locate(mesh, p, &s, &error);
                 for (int step = 0; step < 12 && status == ABACUS_OK; ++step)
-                    status = abacus_mesh_walk(mesh, s.code, s.id, step % 3, &s, &error);
+                    status = abacus_mesh_walk(mesh, s.code, s.id,
+                                              step % (int(header.dimension) + 1), &s, &error);
                 abacus_mesh_close(mesh);
                 return status;
             });

@@ -17,7 +17,8 @@ std::vector<std::uint8_t> encode(const abacus_header &header) {
 extern "C" int LLVMFuzzerInitialize(int *argc, char ***argv) {
     abacus_header empty{};
     empty.dimension = 3;
-    write_seeds(*argc, *argv, {encode(sound_mesh(2).header), encode(empty)});
+    write_seeds(*argc, *argv,
+                {encode(sound_mesh(2).header), encode(sound_mesh(3).header), encode(empty)});
     return 0;
 }
 
@@ -34,9 +35,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     require(abacus_header_decode(bytes.data(), bytes.size(), &again, &error) == ABACUS_OK &&
                 std::memcmp(&header, &again, sizeof header) == 0,
             "a header changes on its way");
-    with_copy(2, 1 << 20, [&](Mesh &mesh) {
-        mesh.header = header;
-        mesh.do_everything();
-    });
+    // Over the pages of either mesh: of its own dimension, and of another.
+    for (const int dimension : {2, 3})
+        with_copy(dimension, 1 << 20, [&](Mesh &mesh) {
+            mesh.header = header;
+            mesh.do_everything();
+        });
     return 0;
 }

@@ -4,13 +4,16 @@
 using namespace abacus::fuzz;
 
 extern "C" int LLVMFuzzerInitialize(int *argc, char ***argv) {
-    write_seeds(*argc, *argv, page_seeds(sound_mesh(2).host.vertex_pages, {}));
+    auto seeds = page_seeds(sound_mesh(2).host.vertex_pages, {2});
+    for (auto &seed : page_seeds(sound_mesh(3).host.vertex_pages, {3})) seeds.push_back(seed);
+    write_seeds(*argc, *argv, seeds);
     return 0;
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
     Bytes input(data, size);
-    with_copy(2, 1 << 20, [&](Mesh &mesh) {
+    const int dimension = input.next<std::uint8_t>() % 2 == 0 ? 2 : 3;
+    with_copy(dimension, 1 << 20, [&](Mesh &mesh) {
         damage(mesh.host.vertex_pages, input);
         mesh.vertex_scan();
         mesh.check();

@@ -5,8 +5,10 @@
 #include "point_table.hpp"
 
 #include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 namespace abacus::oracle {
 
@@ -27,20 +29,36 @@ template <> struct Delaunay<2> {
     }
 };
 
-template <int D> bool is_positive(const std::vector<Coordinates<D>> &points, const Simplex<D> &s) {
+template <> struct Delaunay<3> {
+    using Point = Kernel::Point_3;
+    using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Kernel>;
+    using CellBase = CGAL::Delaunay_triangulation_cell_base_3<Kernel>;
+    using Triangulation =
+        CGAL::Delaunay_triangulation_3<Kernel,
+                                       CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+
+    static Point point(const Coordinates<3> &p) { return {p[0], p[1], p[2]}; }
+
+    template <class Visit> static void for_each_cell(const Triangulation &t, Visit visit) {
+        for (auto cell = t.finite_cells_begin(); cell != t.finite_cells_end(); ++cell) visit(*cell);
+    }
+};
+
+template <int D> bool is_positive(const Points<D> &points, const Simplex<D> &s) {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
         return CGAL::orientation(Delaunay<D>::point(points[s[I]])...) == CGAL::POSITIVE;
     }
     (std::make_index_sequence<D + 1>());
 }
 
-template <int D> std::vector<Simplex<D>> delaunay(const std::vector<Coordinates<D>> &points) {
+template <int D> std::vector<Simplex<D>> delaunay(const Points<D> &points) {
     std::vector<std::pair<typename Delaunay<D>::Point, std::uint32_t>> input;
     input.reserve(points.size());
     for (const Coordinates<D> &p : points)
         input.emplace_back(Delaunay<D>::point(p), std::uint32_t(input.size()));
     typename Delaunay<D>::Triangulation triangulation;
     triangulation.insert(input.begin(), input.end());
+    input = {};
 
     std::vector<Simplex<D>> simplices;
     if (triangulation.dimension() == D)

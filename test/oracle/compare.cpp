@@ -128,6 +128,7 @@ int main(int argc, char **argv) {
         const std::string dimension = argv[1];
         const char *kept = argc > 4 ? argv[4] : nullptr;
         if (dimension == "2") return compare<2>(argv, kept);
+        if (dimension == "3") return compare<3>(argv, kept);
         throw std::invalid_argument("no oracle for dimension " + dimension);
     } catch (const std::exception &error) {
         std::fprintf(stderr, "oracle_compare: %s\n", error.what());

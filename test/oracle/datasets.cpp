@@ -1,101 +1,82 @@
 #include "datasets.hpp"
 
+#include "exact_sphere.hpp"
+#include "octree.hpp"
+#include "quake.hpp"
+#include "random.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <random>
 #include <stdexcept>
-#include <utility>
 
 namespace abacus::oracle {
 namespace {
 
-// std::mt19937_64 gives the same numbers everywhere; the distributions of the
-// standard library don't, so these are our own.
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : engine_(seed) {}
-    std::uint64_t below(std::uint64_t n) { return engine_() % n; }
-    double unit() { return double(engine_() >> 11) * 0x1p-53; }
-    double between(double low, double high) { return low + (high - low) * unit(); }
-
-private:
-    std::mt19937_64 engine_;
-};
-
-void shuffle(std::vector<Point2> &points, Random &random) {
-    for (std::size_t i = points.size(); i > 1; --i)
-        std::swap(points[i - 1], points[random.below(i)]);
-}
-
-std::vector<Point2> uniform(std::size_t size, Random &random) {
-    std::vector<Point2> points(size);
-    for (Point2 &p : points) p = {random.unit(), random.unit()};
+/// `size` points whose coordinates are drawn one by one.
+template <int D, class Draw> Points<D> each_coordinate(std::size_t size, Draw draw) {
+    Points<D> points(size);
+    for (auto &p : points)
+        for (double &x : p) x = draw();
     return points;
 }
 
-/// The largest square integer grid of at most `size` points: every cell is degenerate.
-std::vector<Point2> grid(std::size_t size, Random &) {
-    const auto side = std::size_t(std::sqrt(double(size)));
-    std::vector<Point2> points;
-    for (std::size_t i = 0; i < side * side; ++i)
-        points.push_back({double(i % side), double(i / side)});
-    return points;
+template <int D> Points<D> uniform(std::size_t size, Random &random) {
+    return each_coordinate<D>(size, [&] { return random.unit(); });
 }
 
-/// Integer points that lie on one circle exactly. A product N of primes 4k + 1
-/// is a sum of two squares in 2^primes ways (times four for the signs): each
-/// prime is a Gaussian integer times its conjugate, and every choice of one
-/// of the two per prime is another point. 17 primes stay below 2^50.
-std::vector<Point2> circle(std::size_t size, Random &random) {
-    static constexpr std::pair<std::int64_t, std::int64_t> primes[] = {
-        {2, 1}, {3, 2}, {4, 1},  {5, 2},  {6, 1}, {5, 4},  {7, 2},  {6, 5}, {8, 3},
-        {8, 5}, {9, 4}, {10, 1}, {10, 3}, {8, 7}, {11, 4}, {10, 7}, {11, 6}};
-    std::vector<std::pair<std::int64_t, std::int64_t>> quarter = {{1, 0}};
-    for (const auto &[a, b] : primes) {
-        if (4 * quarter.size() >= size) break;
-        const std::size_t count = quarter.size();
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto [x, y] = quarter[i];
-            quarter[i] = {x * a - y * b, x * b + y * a};
-            quarter.push_back({x * a + y * b, y * a - x * b});
+/// The largest integer grid of at most `size` points: every cell is degenerate.
+template <int D> Points<D> grid(std::size_t size, Random &) {
+    const auto nodes = [](std::size_t side) {
+        std::size_t product = 1;
+        for (int i = 0; i < D; ++i) product *= side;
+        return product;
+    };
+    std::size_t side = 0;
+    while (nodes(side + 1) <= size) ++side;
+    Points<D> points(nodes(side));
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        std::size_t rest = n;
+        for (double &x : points[n]) {
+            x = double(rest % side);
+            rest /= side;
         }
     }
-    std::vector<Point2> points;
-    for (const auto &[x, y] : quarter) {
-        const double a = double(x), b = double(y);
-        points.insert(points.end(), {{a, b}, {-b, a}, {-a, -b}, {b, -a}});
-    }
-    shuffle(points, random);
-    if (points.size() > size) points.resize(size);
     return points;
 }
 
-/// Points of the unit circle as nearly as doubles can have them.
-std::vector<Point2> rounded_circle(std::size_t size, Random &random) {
-    std::vector<Point2> points(size);
-    for (Point2 &p : points) {
-        const double angle = random.between(0, 2 * std::numbers::pi);
-        p = {std::cos(angle), std::sin(angle)};
+/// Points of the unit circle or sphere as nearly as doubles can have them.
+template <int D> Points<D> rounded_sphere(std::size_t size, Random &random) {
+    Points<D> points(size);
+    for (auto &p : points) {
+        double square;
+        do {
+            square = 0;
+            for (double &x : p) {
+                x = random.between(-1, 1);
+                square += x * x;
+            }
+        } while (square > 1 || square < 0.01);
+        for (double &x : p) x /= std::sqrt(square);
     }
     return points;
 }
 
-/// An exact circle and its centre, which becomes a vertex of all triangles.
-std::vector<Point2> wheel(std::size_t size, Random &random) {
-    std::vector<Point2> points = circle(size - 1, random);
-    points.push_back({0, 0});
+/// An exact circle or sphere and, last, its centre, which becomes a vertex of all
+/// simplices and takes them all away if it comes late.
+template <int D> Points<D> wheel(std::size_t size, Random &random) {
+    Points<D> points = exact_sphere<D>(size - 1, random);
+    points.push_back({});
     return points;
 }
 
 /// Seven lines through a common region: axis-parallel, diagonal, steep and shallow.
-std::vector<Point2> lines(std::size_t size, Random &random) {
+Points<2> lines(std::size_t size, Random &random) {
     static constexpr struct {
         double x, y, dx, dy;
     } line[] = {{0, 0, 1, 0},    {0, 0, 0, 1},   {0, 0, 1, 1},     {0, 1e6, 1, -1},
                 {7, 3, 1000, 1}, {5, 1, 1, 333}, {0, 500000, 1, 0}};
-    std::vector<Point2> points(size);
-    for (Point2 &p : points) {
+    Points<2> points(size);
+    for (auto &p : points) {
         const auto &l = line[random.below(std::size(line))];
         const double t = double(random.below(1'000'000));
         p = {l.x + t * l.dx, l.y + t * l.dy};
@@ -103,79 +84,126 @@ std::vector<Point2> lines(std::size_t size, Random &random) {
     return points;
 }
 
-/// Ten clusters whose spread is 1e-12 of the domain, and a few points around them.
-std::vector<Point2> clusters(std::size_t size, Random &random) {
-    std::vector<Point2> centres = uniform(10, random);
-    std::vector<Point2> points(size);
-    for (Point2 &p : points) {
-        if (random.below(1000) == 0) {
-            p = {random.unit(), random.unit()};
-        } else {
-            const Point2 centre = centres[random.below(centres.size())];
-            p = {centre.x + random.between(-5e-13, 5e-13),
-                 centre.y + random.between(-5e-13, 5e-13)};
+/// Two lines, half of the points each: every segment of the one makes a tetrahedron
+/// with every segment of the other.
+Points<3> skew_lines(std::size_t size, Random &random) {
+    Points<3> points(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        const double t = random.unit();
+        if (i % 2 == 0)
+            points[i] = {t, 0, 0};
+        else
+            points[i] = {0.3, t, 1};
+    }
+    return points;
+}
+
+/// Integer points of one slanted line or plane: no simplex at all.
+template <int D> Points<D> flat(std::size_t size, Random &random) {
+    Points<D> points(size);
+    for (auto &p : points) {
+        p[D - 1] = 0;
+        for (int i = 0; i < D - 1; ++i) {
+            p[i] = double(random.below(1'000'000));
+            p[D - 1] -= p[i];
         }
     }
     return points;
 }
 
-/// Coordinates of either sign with exponents from 1e-300 to 1e300.
-std::vector<Point2> exponents(std::size_t size, Random &random) {
-    const auto coordinate = [&] {
-        const double magnitude = std::pow(10, random.between(-300, 300));
-        return random.below(2) ? magnitude : -magnitude;
-    };
-    std::vector<Point2> points(size);
-    for (Point2 &p : points) {
-        p.x = coordinate();
-        p.y = coordinate();
+/// The same and, last, a point off the line or plane.
+template <int D> Points<D> flat_but_one(std::size_t size, Random &random) {
+    Points<D> points = flat<D>(size - 1, random);
+    points.push_back({});
+    points.back()[0] = 1;
+    return points;
+}
+
+/// Ten clusters whose spread is 1e-12 of the domain, and a few points around them.
+template <int D> Points<D> clusters(std::size_t size, Random &random) {
+    const Points<D> centres = uniform<D>(10, random);
+    Points<D> points(size);
+    for (auto &p : points) {
+        const bool around = random.below(1000) == 0;
+        const Coordinates<D> &centre = centres[random.below(centres.size())];
+        for (int i = 0; i < D; ++i)
+            p[i] = around ? random.unit() : centre[i] + random.between(-5e-13, 5e-13);
     }
     return points;
+}
+
+/// Coordinates of either sign with exponents from 1e-300 to 1e300.
+template <int D> Points<D> exponents(std::size_t size, Random &random) {
+    return each_coordinate<D>(size, [&] {
+        const double magnitude = std::pow(10, random.between(-300, 300));
+        return random.below(2) ? magnitude : -magnitude;
+    });
 }
 
 /// Few places, many points on each, zeros of both signs among them.
-std::vector<Point2> duplicates(std::size_t size, Random &random) {
-    const auto side = std::max<std::uint64_t>(2, std::uint64_t(std::sqrt(double(size) / 10)));
-    const auto coordinate = [&] {
+template <int D> Points<D> duplicates(std::size_t size, Random &random) {
+    const auto side =
+        std::max<std::uint64_t>(2, std::uint64_t(std::pow(double(size) / 10, 1.0 / D)));
+    return each_coordinate<D>(size, [&] {
         const double value = double(random.below(side)) - double(side / 2);
         return value == 0 && random.below(2) ? -0.0 : value;
-    };
-    std::vector<Point2> points(size);
-    for (Point2 &p : points) {
-        p.x = coordinate();
-        p.y = coordinate();
-    }
-    return points;
+    });
 }
+
+Points<3> quake_near(std::size_t size, Random &) { return quake(size); }
+
+template <int D> using Make = Points<D> (*)(std::size_t, Random &);
 
 constexpr struct {
     const char *name;
-    std::vector<Point2> (*make)(std::size_t, Random &);
+    Make<2> make2;
+    Make<3> make3;
     const char *what;
 } sets[] = {
-    {"uniform", uniform, "random points of the unit square"},
-    {"grid", grid, "a square integer grid"},
-    {"circle", circle, "integer points exactly on one circle"},
-    {"rounded_circle", rounded_circle, "points on a circle, rounded to doubles"},
-    {"wheel", wheel, "integer points exactly on one circle, and its centre"},
-    {"lines", lines, "integer points of seven lines"},
-    {"clusters", clusters, "ten clusters with a spread of 1e-12 of the domain"},
-    {"exponents", exponents, "coordinates from 1e-300 to 1e300"},
-    {"duplicates", duplicates, "ten points on each node of an integer grid"},
+    {"uniform", uniform<2>, uniform<3>, "random points of the unit square or cube"},
+    {"grid", grid<2>, grid<3>, "a square or cubic integer grid"},
+    {"circle", exact_sphere<2>, nullptr, "integer points exactly on one circle"},
+    {"sphere", nullptr, exact_sphere<3>, "integer points exactly on one sphere"},
+    {"rounded_circle", rounded_sphere<2>, nullptr, "points on a circle, rounded to doubles"},
+    {"rounded_sphere", nullptr, rounded_sphere<3>, "points on a sphere, rounded to doubles"},
+    {"wheel", wheel<2>, wheel<3>, "such integer points, and their centre"},
+    {"lines", lines, nullptr, "integer points of seven lines"},
+    {"skew_lines", nullptr, skew_lines, "points of two skew lines: size^2 / 4 tetrahedra"},
+    {"flat", flat<2>, flat<3>, "integer points of one slanted line or plane"},
+    {"flat_but_one", flat_but_one<2>, flat_but_one<3>, "the same, and a point off it"},
+    {"clusters", clusters<2>, clusters<3>, "ten clusters with a spread of 1e-12 of the domain"},
+    {"exponents", exponents<2>, exponents<3>, "coordinates from 1e-300 to 1e300"},
+    {"duplicates", duplicates<2>, duplicates<3>, "ten points on each node of an integer grid"},
+    {"octree", octree<2>, octree<3>, "corners of a random quadtree or octree, unbalanced"},
+    {"quake", nullptr, quake_near, "the earthquake data set nearest in size"},
 };
 
 } // namespace
 
-std::vector<Point2> dataset(const std::string &name, std::size_t size, std::uint64_t seed) {
+template <int D> Points<D> dataset(const std::string &name, std::size_t size, std::uint64_t seed) {
     Random random(seed);
-    for (const auto &set : sets)
-        if (name == set.name) return set.make(size, random);
-    throw std::invalid_argument("no data set " + name);
+    for (const auto &set : sets) {
+        Make<D> make;
+        if constexpr (D == 2)
+            make = set.make2;
+        else
+            make = set.make3;
+        if (name == set.name && make != nullptr) return make(size, random);
+    }
+    throw std::invalid_argument("no data set " + name + " in dimension " + std::to_string(D));
 }
+
+template Points<2> dataset<2>(const std::string &, std::size_t, std::uint64_t);
+template Points<3> dataset<3>(const std::string &, std::size_t, std::uint64_t);
 
 std::string dataset_names() {
     std::string text;
-    for (const auto &set : sets) text += std::string("  ") + set.name + ": " + set.what + "\n";
+    for (const auto &set : sets)
+        text += std::string("  ") + set.name +
+                (set.make2 && set.make3 ? " (2, 3): "
+                 : set.make2            ? " (2): "
+                                        : " (3): ") +
+                set.what + "\n";
     return text;
 }
 

@@ -2,14 +2,13 @@
 // lexicographic order, and the way from a user's id to that number.
 #pragma once
 
+#include "coordinates.hpp"
 #include "copy_format.hpp"
 
 #include <algorithm>
 #include <unordered_map>
 
 namespace abacus::oracle {
-
-template <int D> using Coordinates = std::array<double, D>;
 
 template <int D> class PointTable {
 public:
@@ -51,7 +50,7 @@ public:
 
     /// Points read, equal ones included.
     std::size_t count() const { return count_; }
-    const std::vector<Coordinates<D>> &points() const { return points_; }
+    const Points<D> &points() const { return points_; }
     /// Of all points equal to this one, the id of the first in the file.
     std::int64_t first_id(std::uint32_t number) const { return first_id_[number]; }
 
@@ -62,7 +61,7 @@ public:
 
 private:
     std::size_t count_ = 0;
-    std::vector<Coordinates<D>> points_;
+    Points<D> points_;
     std::vector<std::int64_t> first_id_;
     std::unordered_map<std::int64_t, std::uint32_t> number_of_;
 };

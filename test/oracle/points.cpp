@@ -1,30 +1,28 @@
-// oracle_points: writes a data set of points (id, x, y) to standard output, in
-// the order asked for, as PostgreSQL's binary COPY format, as text for COPY, or
-// as raw records (int64, double, double in this machine's byte order) for
-// programs that time CGAL alone. Ids are places in the made order, from 1.
+// oracle_points: writes a data set of points (id, x, y[, z]) to standard output,
+// in the order asked for, as PostgreSQL's binary COPY format, as text for COPY, or
+// as raw records (int64, then a double a coordinate, in this machine's byte order)
+// for programs that time CGAL or the core alone. Ids are places in the made order,
+// from 1.
 #include "copy_format.hpp"
 #include "datasets.hpp"
+#include "random.hpp"
 
 #include <algorithm>
 #include <cinttypes>
 #include <numeric>
-#include <random>
 
 using namespace abacus::oracle;
 
 namespace {
 
-std::vector<std::uint64_t> order_of(const std::vector<Point2> &points, const std::string &order,
+template <int D>
+std::vector<std::uint64_t> order_of(const Points<D> &points, const std::string &order,
                                     std::uint64_t seed) {
     std::vector<std::uint64_t> places(points.size());
     std::iota(places.begin(), places.end(), 0);
-    const auto less = [&](std::uint64_t a, std::uint64_t b) {
-        return std::pair(points[a].x, points[a].y) < std::pair(points[b].x, points[b].y);
-    };
+    const auto less = [&](std::uint64_t a, std::uint64_t b) { return points[a] < points[b]; };
     if (order == "shuffled") {
-        std::mt19937_64 engine(seed + 1);
-        for (std::size_t i = places.size(); i > 1; --i)
-            std::swap(places[i - 1], places[engine() % i]);
+        Random(seed + 1).shuffle(places);
     } else if (order == "sorted") {
         std::stable_sort(places.begin(), places.end(), less);
     } else if (order == "reversed") {
@@ -35,14 +33,18 @@ std::vector<std::uint64_t> order_of(const std::vector<Point2> &points, const std
     return places;
 }
 
-void write(const std::vector<Point2> &points, const std::vector<std::uint64_t> &places,
+template <int D>
+void write(const Points<D> &points, const std::vector<std::uint64_t> &places,
            const std::string &format) {
     File file("-", "w");
     if (format == "copy") {
-        CopyWriter<3> writer(file);
-        for (const std::uint64_t i : places)
-            writer.put({i + 1, std::bit_cast<std::uint64_t>(points[i].x),
-                        std::bit_cast<std::uint64_t>(points[i].y)});
+        CopyWriter<D + 1> writer(file);
+        for (const std::uint64_t i : places) {
+            std::array<std::uint64_t, D + 1> row{i + 1};
+            for (int axis = 0; axis < D; ++axis)
+                row[axis + 1] = std::bit_cast<std::uint64_t>(points[i][axis]);
+            writer.put(row);
+        }
         writer.finish();
     } else if (format == "raw") {
         for (const std::uint64_t i : places) {
@@ -51,31 +53,43 @@ void write(const std::vector<Point2> &points, const std::vector<std::uint64_t> &
             file.write(&points[i], sizeof points[i]);
         }
     } else if (format == "text") {
-        char line[128];
-        for (const std::uint64_t i : places)
-            file.write(line,
-                       std::size_t(std::snprintf(line, sizeof line, "%" PRIu64 "\t%.17g\t%.17g\n",
-                                                 i + 1, points[i].x, points[i].y)));
+        char text[32];
+        const auto put = [&](int size) { file.write(text, std::size_t(size)); };
+        for (const std::uint64_t i : places) {
+            put(std::snprintf(text, sizeof text, "%" PRIu64, i + 1));
+            for (const double x : points[i]) put(std::snprintf(text, sizeof text, "\t%.17g", x));
+            file.write("\n", 1);
+        }
     } else {
         throw std::invalid_argument("no format " + format);
     }
 }
 
+template <int D> void run(int argc, char **argv) {
+    const std::uint64_t seed = argc > 6 ? std::stoull(argv[6]) : 1;
+    const Points<D> points = dataset<D>(argv[2], std::stoull(argv[3]), seed);
+    write<D>(points, order_of<D>(points, argc > 5 ? argv[5] : "made", seed),
+             argc > 4 ? argv[4] : "copy");
+}
+
 } // namespace
 
 int main(int argc, char **argv) {
-    if (argc < 3 || argc > 6) {
+    if (argc < 4 || argc > 7) {
         std::fprintf(stderr,
-                     "usage: oracle_points NAME SIZE [copy|raw|text [made|shuffled|sorted|reversed "
-                     "[SEED]]]\n%s",
+                     "usage: oracle_points DIMENSION NAME SIZE [copy|raw|text "
+                     "[made|shuffled|sorted|reversed [SEED]]]\n%s",
                      dataset_names().c_str());
         return 2;
     }
     try {
-        const std::uint64_t seed = argc > 5 ? std::stoull(argv[5]) : 1;
-        const std::vector<Point2> points = dataset(argv[1], std::stoull(argv[2]), seed);
-        write(points, order_of(points, argc > 4 ? argv[4] : "made", seed),
-              argc > 3 ? argv[3] : "copy");
+        const std::string dimension = argv[1];
+        if (dimension == "2")
+            run<2>(argc, argv);
+        else if (dimension == "3")
+            run<3>(argc, argv);
+        else
+            throw std::invalid_argument("no points of dimension " + dimension);
     } catch (const std::exception &error) {
         std::fprintf(stderr, "oracle_points: %s\n", error.what());
         return 2;

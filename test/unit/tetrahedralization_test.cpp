@@ -1,5 +1,6 @@
 // The same templates in 3D: the mesh equals CGAL's Delaunay tetrahedra, one by one, on
 // cospherical, coplanar, clustered and general input, whatever the size of the cache.
+#include "delaunay/insertion.hpp"
 #include "support/staged_points.hpp"
 
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -67,7 +68,9 @@ Points make(int n, const std::function<Point<3>(int)> &point) {
 
 const DataSet data_sets[] = {
     {"uniform",
-     [](Random &r) { return make(6000, [&](int) { return Point<3>{unit(r), unit(r), unit(r)}; }); }},
+     [](Random &r) {
+         return make(6000, [&](int) { return Point<3>{unit(r), unit(r), unit(r)}; });
+     }},
     {"grid",
      [](Random &) {
          return make(12 * 12 * 12, [](int i) {
@@ -100,7 +103,9 @@ const DataSet data_sets[] = {
          });
      }},
     {"coplanar",
-     [](Random &r) { return make(200, [&](int) { return Point<3>{unit(r), unit(r), 0}; }); }},
+     [](Random &r) { return make(200, [&](int) {
+                         return Point<3>{unit(r), unit(r), 0};
+                     }); }},
 };
 
 class Tetrahedralization : public testing::TestWithParam<DataSet> {};
@@ -126,6 +131,37 @@ TEST_P(Tetrahedralization, EqualsCgalForEveryCacheSize) {
 
 INSTANTIATE_TEST_SUITE_P(Inputs, Tetrahedralization, testing::ValuesIn(data_sets),
                          [](const auto &info) { return info.param.name; });
+
+TEST(ProbingInSpace, GivesTheSameMeshAsStoredLinks) {
+    Random random(8);
+    const Points points = make(3000, [&](int) {
+        return Point<3>{unit(random), unit(random), unit(random)};
+    });
+    MemoryHost memory;
+    const Host host = memory.host();
+    Cache<3> cache(host, Domain<3>({0, 0, 0}, {1, 1, 1}), 0,
+                   {.budget = std::size_t(400) << 10, .stored_links = false});
+    Insertion<3> insertion(host, cache, 0, 0);
+    std::array<VertexIndex, 4> first;
+    for (int i = 0; i < 4; ++i) first[i] = cache.create_vertex(points[i], i, nullptr);
+    insertion.start(first);
+    for (std::size_t i = 4; i < points.size(); ++i)
+        EXPECT_TRUE(insertion.insert(points[i], static_cast<std::int64_t>(i), nullptr));
+    cache.flush();
+    EXPECT_GT(cache.counters.quick_probes, 0u);
+    EXPECT_GT(cache.counters.ray_probes, 0u);
+    EXPECT_GT(cache.counters.concentric_probes, 0u);
+    EXPECT_EQ(cache.counters.link_probes, 0u);
+
+    abacus_header header = empty_header<3>();
+    header.has_domain = 1;
+    std::fill_n(header.upper, 3, 1.0);
+    header.points = header.inserted = header.vertices = points.size();
+    header.simplices = static_cast<std::uint64_t>(insertion.simplices());
+    header.ghosts = static_cast<std::uint64_t>(insertion.ghosts());
+    EXPECT_EQ(stored_tetrahedra(memory, header), cgal_tetrahedra(points));
+    EXPECT_EQ(memory.violations, std::vector<std::string>{});
+}
 
 } // namespace
 } // namespace abacus

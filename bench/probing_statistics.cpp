@@ -1,0 +1,159 @@
+// probing_statistics: how misses are served when nothing is known of a neighbour
+// but the shared facet, as the dissertation measured it (§5.7, Figures 5.19, 5.20).
+//
+//   probing_statistics DIMENSION FILE CACHE_MB
+//
+// Builds the mesh of a file of raw points (see oracle_points) over an in-memory
+// store, with a cache that leaves the stored links unread, so that every miss has
+// to be probed for. Prints, one a line: links followed, misses, the misses that were
+// served by quick, ray-casting and concentric probing, and the pages read for them by
+// each.
+//
+// The counters tell the pages read by each kind. Which kind served a miss is the
+// last that read a page for it. The core polls its host at the start of every
+// miss: that is when the host here looks at the counters and judges the miss
+// before.
+#include "cache/domain_of.hpp"
+#include "delaunay/insertion.hpp"
+#include "staging/vertex_reader.hpp"
+#include "support/memory_host.hpp"
+
+#include <cinttypes>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+using namespace abacus;
+
+struct Served {
+    std::uint64_t quick = 0, ray = 0, concentric = 0;
+};
+
+class WatchingHost : public MemoryHost {
+public:
+    WatchingHost() : watching_(*table()) {
+        strict = false;
+        watching_.poll = [](void *context) {
+            static_cast<WatchingHost *>(static_cast<MemoryHost *>(context))->look();
+            return ABACUS_HOST_OK;
+        };
+        watching_.interrupted = &always_;
+    }
+
+    const abacus_host &watching() const { return watching_; }
+    /// `counters` are looked at from now on, until the last look.
+    void watch(const abacus_counters &counters) { counters_ = &counters; }
+    const Served &last_look() {
+        judge();
+        counters_ = nullptr;
+        return served_;
+    }
+
+private:
+    void look() {
+        if (counters_ == nullptr || counters_->misses == before_.misses) return;
+        judge();
+        before_ = *counters_;
+    }
+    /// Credits the last miss, if there has been one, to the kind that served it.
+    void judge() {
+        if (before_.misses == 0) return;
+        if (counters_->concentric_probes > before_.concentric_probes)
+            ++served_.concentric;
+        else if (counters_->ray_probes > before_.ray_probes)
+            ++served_.ray;
+        else
+            ++served_.quick;
+    }
+
+    static constexpr int always_ = 1;
+    abacus_host watching_;
+    const abacus_counters *counters_ = nullptr;
+    abacus_counters before_{}; // when the last miss began
+    Served served_;
+};
+
+void require(abacus_status status, const abacus_error &error) {
+    if (status != ABACUS_OK) throw std::runtime_error(error.message);
+}
+
+void stage(const abacus_host &host, abacus_header &header, const char *path) {
+    std::FILE *file = std::fopen(path, "rb");
+    if (file == nullptr) throw std::runtime_error(std::string("cannot open ") + path);
+    abacus_stage *stage = nullptr;
+    abacus_error error{};
+    require(abacus_stage_open(&host, &header, std::size_t{256} << 20, &stage, &error), error);
+    const std::size_t record_bytes = (1 + header.dimension) * sizeof(std::uint64_t);
+    std::vector<std::uint64_t> records((1 << 14) * (1 + header.dimension));
+    while (const std::size_t count = std::fread(records.data(), record_bytes, 1 << 14, file))
+        require(abacus_stage_add(stage, records.data(), count, &error), error);
+    require(abacus_stage_finish(stage, &header, &error), error);
+    abacus_stage_close(stage);
+    std::fclose(file);
+}
+
+/// Calls visit(point, id) for the staged points, until it returns false.
+template <int D, class Visit>
+void for_each_point(const Host &host, const abacus_header &header, Visit visit) {
+    VertexReader<D> reader(host, header.attributes, 0, header.points);
+    while (reader.advance() && visit(reader.point(), reader.id())) {
+    }
+}
+
+template <int D> int run(const char *path, std::size_t cache_bytes) {
+    WatchingHost memory;
+    const Host host(memory.watching());
+    abacus_header header{};
+    header.dimension = D;
+    stage(memory.watching(), header, path);
+
+    Cache<D> cache(host, domain_of<D>(header), 0, {.budget = cache_bytes, .stored_links = false});
+    Insertion<D> insertion(host, cache, 0, 0);
+    memory.watch(cache.counters);
+    std::array<Point<D>, D + 1> points;
+    Corners<D> corners;
+    for (int i = 0; i <= D; ++i) corners[i] = &points[i];
+    std::array<VertexIndex, D + 1> vertices;
+    int n = 0;
+    for_each_point<D>(host, header, [&](const Point<D> &p, std::int64_t id) {
+        if (is_independent(corners, n, p)) {
+            points[n] = p;
+            vertices[n++] = cache.create_vertex(p, id, nullptr);
+        }
+        return n <= D;
+    });
+    if (n <= D) throw std::runtime_error("the points span no simplex");
+    insertion.start(vertices);
+    for_each_point<D>(host, header, [&](const Point<D> &p, std::int64_t id) {
+        insertion.insert(p, id, nullptr); // refuses the first ones: they are vertices already
+        return true;
+    });
+    const Served served = memory.last_look();
+    const abacus_counters &counters = cache.counters;
+    std::printf("steps %" PRIu64 "\nmisses %" PRIu64 "\n", counters.steps, counters.misses);
+    std::printf("served_quick %" PRIu64 "\nserved_ray %" PRIu64 "\nserved_concentric %" PRIu64 "\n",
+                served.quick, served.ray, served.concentric);
+    std::printf("pages_quick %" PRIu64 "\npages_ray %" PRIu64 "\npages_concentric %" PRIu64 "\n",
+                counters.quick_probes, counters.ray_probes, counters.concentric_probes);
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    try {
+        if (argc == 4) {
+            const std::size_t cache_bytes = std::stoull(argv[3]) << 20;
+            if (std::strcmp(argv[1], "2") == 0) return run<2>(argv[2], cache_bytes);
+            if (std::strcmp(argv[1], "3") == 0) return run<3>(argv[2], cache_bytes);
+        }
+    } catch (const std::exception &error) {
+        std::fprintf(stderr, "probing_statistics: %s\n", error.what());
+        return 1;
+    }
+    std::fprintf(stderr, "usage: probing_statistics 2|3 FILE_OF_RAW_POINTS CACHE_MB\n");
+    return 2;
+}
