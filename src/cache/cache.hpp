@@ -118,7 +118,10 @@ public:
 
     /// Gives an empty mesh its first block.
     void create_first_block();
-    /// `code` is that of p.
+    VertexIndex create_vertex(const Point<D> &p, std::int64_t id, const double *attributes) {
+        return create_vertex(p, domain_.code(p), id, attributes);
+    }
+    /// With p's code, where it is known already.
     VertexIndex create_vertex(const Point<D> &p, std::uint64_t code, std::int64_t id,
                               const double *attributes) {
         return vertices_.create(p, code, id, attributes);

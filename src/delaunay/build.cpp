@@ -47,8 +47,7 @@ template <int D> void Build<D>::start(const Sequences &sequences) {
         VertexReader<D> reader(host_, attributes_, sequences[i], sequences[i] + 1);
         reader.advance();
         reader.attributes(values_.data());
-        vertices[i] = cache_.create_vertex(reader.point(), cache_.domain().code(reader.point()),
-                                           reader.id(), values_.data());
+        vertices[i] = cache_.create_vertex(reader.point(), reader.id(), values_.data());
     }
     insertion_.start(vertices);
 }

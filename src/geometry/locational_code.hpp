@@ -9,9 +9,7 @@
 // Codes serve for clustering only: no geometric decision depends on them, and
 // points outside the domain clamp to its border. Where many simplices share one
 // code (the star of one vertex, a tight cluster, coordinates of very different
-// magnitude), the key goes on in a second word, `part`: further bits of the vertex's
-// position inside the cell, then where the other vertices lie as seen from it, then a
-// hash of all that tells apart what no position can.
+// magnitude), the key goes on in a second word, `part`: see part().
 #pragma once
 
 #include "geometry/hilbert.hpp"
@@ -28,10 +26,6 @@ namespace abacus {
 
 /// Bits an axis of a code.
 template <int D> inline constexpr int code_bits = D == 2 ? 31 : 21;
-/// Bits an axis of a part: inside the cell, and of the others' place around the vertex.
-template <int D> inline constexpr int inner_bits = D == 2 ? 16 : 12;
-template <int D> inline constexpr int around_bits = D == 2 ? 12 : 7;
-
 template <int D> using Cell = std::array<std::uint32_t, D>;
 
 /// Moves bit i of the low bits to bit D*i.
@@ -105,11 +99,6 @@ public:
 
     /// Second word of the key of a simplex with these n finite corners.
     std::uint64_t part(const std::array<const Point<D> *, D + 1> &corners, int n) const;
-
-    /// Bits of the coordinates below the cell. Around zero, where the magnitudes of
-    /// doubles are densest, the bits of the number itself (sign, exponent, mantissa) tell
-    /// more than any fixed grid.
-    Cell<D> inner_cell(const Point<D> &p) const;
 
 private:
     static double clamp(double t, double most) { return std::min(most, std::max(0.0, t)); }

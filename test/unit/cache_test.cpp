@@ -37,8 +37,7 @@ abacus_counters insert(Mesh &mesh, const std::vector<Point<2>> &points,
     Cache<2> cache(host, Domain<2>({0, 0}, {1, 1}), 0, options);
     Insertion<2> insertion(host, cache, 0, 0);
     std::array<VertexIndex, 3> first;
-    for (int i = 0; i < 3; ++i) 
-        first[i] = cache.create_vertex(points[i], cache.domain().code(points[i]), i, nullptr);
+    for (int i = 0; i < 3; ++i) first[i] = cache.create_vertex(points[i], i, nullptr);
     insertion.start(first);
     for (std::size_t i = 3; i < points.size(); ++i)
         EXPECT_TRUE(insertion.insert(points[i], static_cast<std::int64_t>(i), nullptr));
@@ -255,10 +254,8 @@ TEST(Cache, MovesSimplicesHomeAndTellsWhere) {
     std::map<Handle, std::array<VertexIndex, 3>> made;
     for (int pair = 0; pair < 1000; ++pair) {
         std::array<VertexIndex, 3> v;
-        for (auto &vertex : v) {
-            const Point<2> p{unit(random), unit(random)};
-            vertex = cache.create_vertex(p, cache.domain().code(p), 0, nullptr);
-        }
+        for (auto &vertex : v)
+            vertex = cache.create_vertex({unit(random), unit(random)}, 0, nullptr);
         const Handle front = cache.create(v);
         made[front] = v;
         std::swap(v[0], v[1]);

@@ -193,21 +193,5 @@ TYPED_TEST(LocationalCode, AxesShareOneScale) {
     EXPECT_NEAR(domain.cell(this->all(0.5))[1], std::ldexp(1.0, code_bits<D>) / 2048, 1);
 }
 
-TYPED_TEST(LocationalCode, InnerCellsFitTheirBits) {
-    constexpr int D = TypeParam::value;
-    std::mt19937_64 random(4);
-    for (const Domain<D> &domain : this->domains()) {
-        for (int round = 0; round < 200; ++round) {
-            Point<D> p;
-            for (int axis = 0; axis < D; ++axis) {
-                const double t = std::ldexp(static_cast<double>(random()), -64);
-                p[axis] = domain.lower()[axis] * (1 - t) + domain.upper()[axis] * t;
-            }
-            for (const std::uint32_t inner : domain.inner_cell(p))
-                EXPECT_LT(inner, std::uint32_t{1} << inner_bits<D>);
-        }
-    }
-}
-
 } // namespace
 } // namespace abacus
