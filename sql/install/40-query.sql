@@ -1,15 +1,22 @@
 -- Asking a mesh.
 
+CREATE FUNCTION abacus_locate(mesh regclass, x double precision, y double precision)
+RETURNS abacus_simplex
+AS 'MODULE_PATHNAME', 'abacus_sql_locate'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
+COMMENT ON FUNCTION abacus_locate(regclass, double precision, double precision) IS
+    'the triangle of a mesh of dimension 2 that contains the point; NULL outside the convex hull';
+
 CREATE FUNCTION abacus_locate(
     mesh regclass,
     x double precision,
     y double precision,
-    z double precision DEFAULT NULL)
+    z double precision)
 RETURNS abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_locate'
-LANGUAGE C STABLE PARALLEL SAFE COST 500;
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_locate(regclass, double precision, double precision, double precision) IS
-    'the simplex that contains the point; NULL outside the convex hull';
+    'the tetrahedron of a mesh of dimension 3 that contains the point; NULL outside the convex hull';
 
 CREATE FUNCTION abacus_walk(mesh regclass, simplex abacus_simplex, facet integer)
 RETURNS abacus_simplex

@@ -15,7 +15,13 @@
 SQL_FUNCTION(abacus_sql_locate);
 SQL_FUNCTION(abacus_sql_walk);
 
-/* abacus_locate(mesh regclass, x float8, y float8, z float8) -> abacus_simplex */
+/*
+ * abacus_locate(mesh regclass, x float8, y float8) -> abacus_simplex
+ * abacus_locate(mesh regclass, x float8, y float8, z float8) -> abacus_simplex
+ *
+ * Two functions, not one with a default: a z that is left out and a z that is
+ * NULL are different things.
+ */
 Datum
 abacus_sql_locate(PG_FUNCTION_ARGS)
 {
@@ -26,18 +32,16 @@ abacus_sql_locate(PG_FUNCTION_ARGS)
 	abacus_simplex simplex;
 	abacus_status status;
 
-	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(2))
-		PG_RETURN_NULL();
 	cached = mesh_cache_get(PG_GETARG_OID(0));
-	if (cached->dimension == 2 && !PG_ARGISNULL(3))
+	if (PG_NARGS() != 1 + (int) cached->dimension)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("z is given, but the mesh has dimension 2"),
-				 errhint("Leave z out.")));
+				 errmsg("z is %s, but the mesh has dimension %u",
+						cached->dimension == 2 ? "given" : "missing", cached->dimension),
+				 cached->dimension == 2 ? errhint("Leave z out.")
+				 : errhint("Give all three coordinates of the point.")));
 	for (uint32 i = 0; i < cached->dimension; i++)
 	{
-		if (PG_ARGISNULL(1 + i))
-			PG_RETURN_NULL();
 		point[i] = PG_GETARG_FLOAT8(1 + i);
 		if (isnan(point[i]))
 			ereport(ERROR,

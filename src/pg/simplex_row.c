@@ -88,6 +88,12 @@ simplex_from_row(Datum row, TupleDesc row_type, uint32 dimension, uint64 *code, 
 				 errmsg("simplex has a NULL where a mesh of dimension %u needs a value", dimension),
 				 errhint("Pass a simplex as abacus_locate(), abacus_walk() or abacus_simplices() "
 						 "returned it.")));
+	for (uint32 i = dimension + 1; i <= ABACUS_MAX_DIMENSION; i++)
+		if (!isnull[1 + i])
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("simplex has a vertex v%u, but the mesh has dimension %u", i, dimension),
+					 errhint("Pass a simplex of the same mesh.")));
 	*code = (uint64) DatumGetInt64(values[0]);
 	return true;
 }
