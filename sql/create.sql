@@ -39,7 +39,7 @@ SELECT abacus_create('bad', 1);
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_create('bad', 4);
 \echo :LAST_ERROR_SQLSTATE
-SELECT abacus_create('bad', 3);
+SELECT abacus_create('bad', 0);
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_create('bad', NULL);
 \echo :LAST_ERROR_SQLSTATE

@@ -52,7 +52,7 @@ SELECT abacus_triangulate('unnamed', 'SELECT i, i % 3, i / 3, i * 10, -i FROM ge
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_triangulate('unnamed', 'SELECT i, i FROM generate_series(0, 8) i');
 \echo :LAST_ERROR_SQLSTATE
-SELECT abacus_triangulate('unnamed', 'SELECT 1, 2, 3', dimension => 3);
+SELECT abacus_triangulate('unnamed', 'SELECT 1, 2, 3', dimension => 4);
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_triangulate('unnamed', NULL);
 \echo :LAST_ERROR_SQLSTATE
