@@ -1,6 +1,7 @@
 #include "support/oracle.hpp"
 
 #include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <gtest/gtest.h>
@@ -13,25 +14,53 @@ namespace abacus::test {
 
 namespace {
 
-Triangle canonical(Triangle t) {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    return t;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+/// By even permutations, so that the orientation stays.
+template <int D> Positions<D> canonical(Positions<D> s) {
+    const auto first = std::min_element(s.begin(), s.end());
+    if constexpr (D == 2) {
+        std::rotate(s.begin(), first, s.end());
+    } else {
+        if (first != s.begin()) {
+            std::iter_swap(s.begin(), first);
+            const auto after = first == s.begin() + 1 ? s.begin() + 2 : s.begin() + 1;
+            std::iter_swap(after, after + 1 == first ? after + 2 : after + 1);
+        }
+        std::rotate(s.begin() + 1, std::min_element(s.begin() + 1, s.end()), s.end());
+    }
+    return s;
 }
+
+Kernel::Point_2 to_cgal(const Point<2> &p) { return {p[0], p[1]}; }
+Kernel::Point_3 to_cgal(const Point<3> &p) { return {p[0], p[1], p[2]}; }
+
+/// CGAL's meshes and their simplices, one name for both dimensions.
+template <int D> struct Cgal;
+template <> struct Cgal<2> {
+    using Mesh = CGAL::Delaunay_triangulation_2<Kernel>;
+    static auto simplices(const Mesh &mesh) { return mesh.finite_face_handles(); }
+};
+template <> struct Cgal<3> {
+    using Mesh = CGAL::Delaunay_triangulation_3<Kernel>;
+    static auto simplices(const Mesh &mesh) { return mesh.finite_cell_handles(); }
+};
 
 } // namespace
 
-Mesh::Mesh(int attributes, std::size_t bytes) : cache_bytes(bytes) {
-    header.dimension = 2;
+template <int D> MeshOf<D>::MeshOf(int attributes, std::size_t bytes) : cache_bytes(bytes) {
+    header.dimension = D;
     header.attributes = static_cast<std::uint32_t>(attributes);
     for (int i = 0; i < attributes; ++i)
         std::snprintf(header.names[i], ABACUS_NAME_BYTES, "a%d", i);
 }
 
-abacus_status Mesh::stage(const std::vector<Input> &points, std::size_t memory) {
+template <int D>
+abacus_status MeshOf<D>::stage(const std::vector<InputOf<D>> &points, std::size_t memory) {
     abacus_stage *stage = nullptr;
     abacus_status status = abacus_stage_open(host.table(), &header, memory, &stage, &error);
     if (status != ABACUS_OK) return status;
-    for (const Input &input : points) {
+    for (const InputOf<D> &input : points) {
         std::vector<std::uint64_t> record{static_cast<std::uint64_t>(input.id)};
         for (const double x : input.point) record.push_back(std::bit_cast<std::uint64_t>(x));
         for (const double x : input.attributes) record.push_back(std::bit_cast<std::uint64_t>(x));
@@ -43,7 +72,7 @@ abacus_status Mesh::stage(const std::vector<Input> &points, std::size_t memory) 
     return status;
 }
 
-abacus_status Mesh::build() {
+template <int D> abacus_status MeshOf<D>::build() {
     abacus_build *build = nullptr;
     abacus_status status = abacus_build_open(host.table(), &header, cache_bytes, &build, &error);
     if (status != ABACUS_OK) return status;
@@ -52,18 +81,18 @@ abacus_status Mesh::build() {
     return status;
 }
 
-std::vector<Triangle> Mesh::triangles() {
-    std::vector<Triangle> result;
+template <int D> std::vector<Positions<D>> MeshOf<D>::positions() {
+    std::vector<Positions<D>> result;
     for (const abacus_simplex &s : simplices(false)) {
-        Triangle t;
-        for (int i = 0; i < 3; ++i) t[i] = {s.corner[i][0], s.corner[i][1]};
-        result.push_back(canonical(t));
+        Positions<D> corners;
+        for (int i = 0; i <= D; ++i) std::copy_n(s.corner[i], D, corners[i].begin());
+        result.push_back(canonical<D>(corners));
     }
     std::sort(result.begin(), result.end());
     return result;
 }
 
-std::vector<abacus_simplex> Mesh::simplices(bool ghosts) {
+template <int D> std::vector<abacus_simplex> MeshOf<D>::simplices(bool ghosts) {
     std::vector<abacus_simplex> result;
     abacus_scan *scan = nullptr;
     abacus_status status = abacus_scan_open(host.table(), &header, ghosts, &scan, &error);
@@ -75,7 +104,7 @@ std::vector<abacus_simplex> Mesh::simplices(bool ghosts) {
     return result;
 }
 
-std::vector<std::string> Mesh::check() {
+template <int D> std::vector<std::string> MeshOf<D>::check() {
     std::vector<std::string> faults;
     abacus_check *check = nullptr;
     const abacus_status status =
@@ -88,7 +117,7 @@ std::vector<std::string> Mesh::check() {
     return faults;
 }
 
-abacus_status Mesh::locate(const Point<2> &p, abacus_simplex &simplex) {
+template <int D> abacus_status MeshOf<D>::locate(const Point<D> &p, abacus_simplex &simplex) {
     abacus_mesh *mesh = nullptr;
     abacus_status status = abacus_mesh_open(host.table(), &header, cache_bytes, &mesh, &error);
     if (status != ABACUS_OK) return status;
@@ -97,12 +126,12 @@ abacus_status Mesh::locate(const Point<2> &p, abacus_simplex &simplex) {
     return status;
 }
 
-OpenMesh::OpenMesh(Mesh &mesh, std::size_t cache_bytes) {
+template <int D> OpenMeshOf<D>::OpenMeshOf(MeshOf<D> &mesh, std::size_t cache_bytes) {
     EXPECT_EQ(abacus_mesh_open(mesh.host.table(), &mesh.header, cache_bytes, &handle_, &error),
               ABACUS_OK);
 }
 
-abacus_counters OpenMesh::counters() const {
+template <int D> abacus_counters OpenMeshOf<D>::counters() const {
     abacus_counters counters;
     abacus_mesh_counters(handle_, &counters);
     return counters;
@@ -116,30 +145,37 @@ std::vector<Point<2>> unit_square_points(int n, unsigned seed) {
     return points;
 }
 
-std::vector<Input> number(const std::vector<Point<2>> &points) {
-    std::vector<Input> inputs;
-    for (const Point<2> &p : points)
+template <int D> std::vector<InputOf<D>> number(const std::vector<Point<D>> &points) {
+    std::vector<InputOf<D>> inputs;
+    for (const Point<D> &p : points)
         inputs.push_back({static_cast<std::int64_t>(inputs.size()), p});
     return inputs;
 }
 
-std::vector<Triangle> cgal_triangles(const std::vector<Point<2>> &points) {
-    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-    std::vector<Kernel::Point_2> input;
-    for (const Point<2> &p : points) input.emplace_back(p[0], p[1]);
-    const CGAL::Delaunay_triangulation_2<Kernel> mesh(input.begin(), input.end());
-    std::vector<Triangle> result;
-    if (mesh.dimension() < 2) return result;
-    for (auto face = mesh.finite_faces_begin(); face != mesh.finite_faces_end(); ++face) {
-        Triangle t;
-        for (int i = 0; i < 3; ++i) {
-            const auto &p = face->vertex(i)->point();
-            t[i] = {p.x(), p.y()};
-        }
-        result.push_back(canonical(t));
+template <int D> std::vector<Positions<D>> cgal_simplices(const std::vector<Point<D>> &points) {
+    std::vector<decltype(to_cgal(points[0]))> input;
+    for (const Point<D> &p : points) input.push_back(to_cgal(p));
+    const typename Cgal<D>::Mesh mesh(input.begin(), input.end());
+    std::vector<Positions<D>> result;
+    if (mesh.dimension() < D) return result;
+    for (const auto simplex : Cgal<D>::simplices(mesh)) {
+        Positions<D> corners;
+        for (int i = 0; i <= D; ++i)
+            for (int axis = 0; axis < D; ++axis)
+                corners[i][axis] = simplex->vertex(i)->point()[axis];
+        result.push_back(canonical<D>(corners));
     }
     std::sort(result.begin(), result.end());
     return result;
 }
+
+template struct MeshOf<2>;
+template struct MeshOf<3>;
+template class OpenMeshOf<2>;
+template class OpenMeshOf<3>;
+template std::vector<InputOf<2>> number<2>(const std::vector<Point<2>> &);
+template std::vector<InputOf<3>> number<3>(const std::vector<Point<3>> &);
+template std::vector<Positions<2>> cgal_simplices<2>(const std::vector<Point<2>> &);
+template std::vector<Positions<3>> cgal_simplices<3>(const std::vector<Point<3>> &);
 
 } // namespace abacus::test

@@ -14,43 +14,52 @@
 
 namespace abacus::test {
 
-struct Input {
-    std::int64_t id;
-    Point<2> point;
-    std::vector<double> attributes{};
+template <int D> struct InputOf {
+    InputOf() = default;
+    InputOf(std::int64_t id, const Point<D> &point, const std::vector<double> &attributes = {})
+        : id(id), point(point), attributes(attributes) {}
+
+    std::int64_t id = 0;
+    Point<D> point{};
+    std::vector<double> attributes;
 };
+using Input = InputOf<2>;
 
-/// Corners of a triangle, the lexicographically least first, counterclockwise.
-using Triangle = std::array<Point<2>, 3>;
+/// Where the corners of a simplex are, in one order for each simplex: positively
+/// oriented, the lexicographically least first, in 3D the second least next.
+template <int D> using Positions = std::array<Point<D>, D + 1>;
 
-struct Mesh {
-    explicit Mesh(int attributes = 0, std::size_t cache_bytes = std::size_t(64) << 20);
+/// A mesh of D dimensions over a host of its own.
+template <int D> struct MeshOf {
+    explicit MeshOf(int attributes = 0, std::size_t cache_bytes = std::size_t(64) << 20);
 
     /// Each returns the status and keeps the error.
-    abacus_status stage(const std::vector<Input> &points, std::size_t memory = 16 << 20);
+    abacus_status stage(const std::vector<InputOf<D>> &points, std::size_t memory = 16 << 20);
     abacus_status build();
-    std::vector<Triangle> triangles();
+    /// Where all simplices are, sorted.
+    std::vector<Positions<D>> positions();
     /// What a scan gives; fails the test if it does not end well.
     std::vector<abacus_simplex> simplices(bool ghosts);
     /// "kind: message" of each fault.
     std::vector<std::string> check();
-    abacus_status locate(const Point<2> &p, abacus_simplex &simplex);
+    abacus_status locate(const Point<D> &p, abacus_simplex &simplex);
 
     MemoryHost host;
     abacus_header header{};
     abacus_error error{};
     std::size_t cache_bytes;
 };
+using Mesh = MeshOf<2>;
 
 /// A mesh open for reading. Its functions return the status and keep the error.
-class OpenMesh {
+template <int D> class OpenMeshOf {
 public:
-    OpenMesh(Mesh &mesh, std::size_t cache_bytes);
-    OpenMesh(const OpenMesh &) = delete;
-    OpenMesh &operator=(const OpenMesh &) = delete;
-    ~OpenMesh() { abacus_mesh_close(handle_); }
+    OpenMeshOf(MeshOf<D> &mesh, std::size_t cache_bytes);
+    OpenMeshOf(const OpenMeshOf &) = delete;
+    OpenMeshOf &operator=(const OpenMeshOf &) = delete;
+    ~OpenMeshOf() { abacus_mesh_close(handle_); }
 
-    abacus_status locate(const Point<2> &p, abacus_simplex &simplex) {
+    abacus_status locate(const Point<D> &p, abacus_simplex &simplex) {
         return abacus_mesh_locate(handle_, p.data(), &simplex, &error);
     }
     abacus_status walk(const abacus_simplex &from, int facet, abacus_simplex &simplex) {
@@ -63,11 +72,14 @@ public:
 private:
     abacus_mesh *handle_ = nullptr;
 };
+using OpenMesh = OpenMeshOf<2>;
 
 /// n points of the unit square, drawn from the seed.
 std::vector<Point<2>> unit_square_points(int n, unsigned seed);
-std::vector<Input> number(const std::vector<Point<2>> &points);
-/// CGAL's Delaunay triangles of the points, sorted.
-std::vector<Triangle> cgal_triangles(const std::vector<Point<2>> &points);
+/// Points with the ids 0, 1, 2, ...
+template <int D> std::vector<InputOf<D>> number(const std::vector<Point<D>> &points);
+inline std::vector<Input> number(const std::vector<Point<2>> &points) { return number<2>(points); }
+/// Where CGAL's Delaunay simplices of the points are, sorted.
+template <int D> std::vector<Positions<D>> cgal_simplices(const std::vector<Point<D>> &points);
 
 } // namespace abacus::test

@@ -62,8 +62,8 @@ TEST(Probing, GivesTheSameMeshAsStoredLinks) {
     Mesh stored, probed;
     const auto with = insert(stored, points, {.budget = little});
     const auto without = insert(probed, points, {.budget = little, .stored_links = false});
-    EXPECT_EQ(stored.triangles(), cgal_triangles(points));
-    EXPECT_EQ(probed.triangles(), stored.triangles());
+    EXPECT_EQ(stored.positions(), cgal_simplices<2>(points));
+    EXPECT_EQ(probed.positions(), stored.positions());
     EXPECT_GT(with.link_probes, 0u);
     EXPECT_EQ(with.quick_probes + with.ray_probes + with.concentric_probes, 0u);
     EXPECT_EQ(without.link_probes, 0u);
@@ -80,7 +80,7 @@ TEST(Probing, FindsDistantNeighboursInEveryPage) {
         points.push_back({i % 2 ? 0.01 * unit(random) : 1 - 0.01 * unit(random), unit(random)});
     Mesh mesh;
     const auto counters = insert(mesh, points, {.budget = little, .stored_links = false});
-    EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+    EXPECT_EQ(mesh.positions(), cgal_simplices<2>(points));
     EXPECT_GT(counters.concentric_probes, 0u);
 }
 
@@ -110,7 +110,7 @@ TEST(Probing, ServesLinksWithoutAKey) {
     ASSERT_EQ(mesh.stage(number(more)), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.detail;
     points.insert(points.end(), more.begin(), more.end());
-    EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+    EXPECT_EQ(mesh.positions(), cgal_simplices<2>(points));
 }
 
 TEST(Cache, TellsALinkToTheWrongPlaceFromAMissingOne) {
@@ -145,7 +145,7 @@ TEST(Cache, SplitsACodeIntoParts) {
         Mesh mesh(0, cache);
         ASSERT_EQ(mesh.stage(number(points)), ABACUS_OK);
         ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message << mesh.error.detail;
-        EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+        EXPECT_EQ(mesh.positions(), cgal_simplices<2>(points));
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
         const auto parts = std::count_if(mesh.host.pages.begin(), mesh.host.pages.end(),
                                          [](const auto &page) { return page.first.part != 0; });
@@ -181,7 +181,7 @@ TEST(Cache, CarriesAttributesThroughPagesBitForBit) {
         ASSERT_EQ(mesh.stage(inputs), ABACUS_OK);
         ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message;
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
-        EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+        EXPECT_EQ(mesh.positions(), cgal_simplices<2>(points));
         EXPECT_GT(mesh.header.counters.rewrites, 0u);
         for (const auto &[key, page] : mesh.host.pages) {
             const PageEditor editor(page);
@@ -306,7 +306,7 @@ TEST(Cache, TakesAHubLargerThanItself) {
     ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message;
     EXPECT_GE(mesh.header.simplices, mesh.header.vertices - 1);
     points.push_back({0, 0});
-    EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+    EXPECT_EQ(mesh.positions(), cgal_simplices<2>(points));
     EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
     // And afterwards it goes on with what its budget allows.
     ASSERT_EQ(mesh.stage({{n + 1, {0.1, 0.2}}, {n + 2, {0.1, 0.3}}}), ABACUS_OK);

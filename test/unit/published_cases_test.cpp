@@ -16,7 +16,7 @@ void expect_exact(const Points &points) {
     Mesh mesh(0, 100 << 10);
     ASSERT_EQ(mesh.stage(number(points)), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.detail;
-    EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+    EXPECT_EQ(mesh.positions(), cgal_simplices<2>(points));
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
 }
 

@@ -30,7 +30,9 @@ struct DataSet {
 
 const DataSet data_sets[] = {
     {"uniform",
-     [](Random &r) { return make(20000, [&](int) { return Point<2>{unit(r), unit(r)}; }); }},
+     [](Random &r) { return make(20000, [&](int) {
+                         return Point<2>{unit(r), unit(r)};
+                     }); }},
     {"grid",
      [](Random &) {
          return make(120 * 120, [](int i) { return Point<2>{i % 120 + 0.0, i / 120 + 0.0}; });
@@ -99,7 +101,8 @@ const DataSet data_sets[] = {
     {"denormals",
      [](Random &r) {
          return make(800, [&](int) {
-             return Point<2>{5e-324 * std::floor(unit(r) * 100), 5e-324 * std::floor(unit(r) * 100)};
+             return Point<2>{5e-324 * std::floor(unit(r) * 100),
+                             5e-324 * std::floor(unit(r) * 100)};
          });
      }},
 };
@@ -112,7 +115,7 @@ class Triangulation : public testing::TestWithParam<DataSet> {};
 TEST_P(Triangulation, EqualsCgalForEveryOrderAndCacheSize) {
     Random random(7);
     Points points = GetParam().points(random);
-    const std::vector<Triangle> expected = cgal_triangles(points);
+    const std::vector<Positions<2>> expected = cgal_simplices<2>(points);
     for (const std::size_t cache : cache_sizes) {
         std::shuffle(points.begin(), points.end(), random);
         Mesh mesh(0, cache);
@@ -120,7 +123,7 @@ TEST_P(Triangulation, EqualsCgalForEveryOrderAndCacheSize) {
         ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message << ' ' << mesh.error.detail;
         EXPECT_EQ(mesh.header.simplices, expected.size());
         EXPECT_EQ(mesh.header.vertices + mesh.header.duplicates, points.size());
-        EXPECT_EQ(mesh.triangles(), expected) << "cache of " << cache << " bytes";
+        EXPECT_EQ(mesh.positions(), expected) << "cache of " << cache << " bytes";
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
         EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
     }
@@ -134,15 +137,17 @@ TEST(Triangulation, AddsToAMeshThatIsThere) {
     Points points = make(12000, [&](int) { return Point<2>{unit(random), unit(random)}; });
     // The second half reaches outside the domain of the first, and repeats points.
     for (std::size_t i = 6000; i < points.size(); ++i)
-        if (i % 10 == 0) points[i] = points[i - 6000];
-        else points[i] = {points[i][0] * 3 - 1, points[i][1] * 3 - 1};
+        if (i % 10 == 0)
+            points[i] = points[i - 6000];
+        else
+            points[i] = {points[i][0] * 3 - 1, points[i][1] * 3 - 1};
     const std::vector<Input> all = number(points);
     Mesh mesh(0, 100 << 10);
     ASSERT_EQ(mesh.stage({all.begin(), all.begin() + 6000}), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK);
     ASSERT_EQ(mesh.stage({all.begin() + 6000, all.end()}), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.detail;
-    EXPECT_EQ(mesh.triangles(), cgal_triangles(points));
+    EXPECT_EQ(mesh.positions(), cgal_simplices<2>(points));
     EXPECT_EQ(mesh.header.duplicates, 600u);
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
 }
@@ -152,13 +157,12 @@ TEST(Triangulation, TheFourPointsThatGeosGetsWrong) {
     // collinear; p2 is a corner of the hull, by rational arithmetic.
     const Point<2> p1{-1.3890020986020145e-10, 4.860466764224401},
         p2{-1.3889120965221466e-10, -5.531838081766228},
-        p3{-1.388852095135568e-10, -12.460041312426647},
-        p4{0.9999999999166641, -3.799787274101123};
+        p3{-1.388852095135568e-10, -12.460041312426647}, p4{0.9999999999166641, -3.799787274101123};
     Mesh mesh;
     ASSERT_EQ(mesh.stage(number({p1, p2, p3, p4})), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK);
-    EXPECT_EQ(mesh.triangles(), (std::vector<Triangle>{{p1, p2, p4}, {p2, p3, p4}}));
-    EXPECT_EQ(mesh.triangles(), cgal_triangles({p1, p2, p3, p4}));
+    EXPECT_EQ(mesh.positions(), (std::vector<Positions<2>>{{p1, p2, p4}, {p2, p3, p4}}));
+    EXPECT_EQ(mesh.positions(), cgal_simplices<2>({p1, p2, p3, p4}));
 }
 
 TEST(Triangulation, FewerDimensionsMakeAnEmptyMeshThatCanGrow) {
@@ -178,7 +182,7 @@ TEST(Triangulation, FewerDimensionsMakeAnEmptyMeshThatCanGrow) {
         more.insert(more.end(), {{5, 0}, {0, 7}, {9, 9}});
         ASSERT_EQ(mesh.stage(number({{5, 0}, {0, 7}, {9, 9}})), ABACUS_OK);
         ASSERT_EQ(mesh.build(), ABACUS_OK);
-        EXPECT_EQ(mesh.triangles(), cgal_triangles(more));
+        EXPECT_EQ(mesh.positions(), cgal_simplices<2>(more));
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
     }
 }
