@@ -273,7 +273,12 @@ ABACUS_API void abacus_build_close(abacus_build *build);
 
 /* ---- Reading ------------------------------------------------------------------ */
 
-/* A simplex with its corners in positive orientation (§4.3.1); dimension + 1 of them are set. */
+/*
+ * A simplex with its corners a, b, c(, d) in positive orientation (§4.3.1):
+ * det(b - a, c - a) > 0, counterclockwise; det(b - a, c - a, d - a) > 0, the
+ * right hand around the first three with its thumb to the fourth (Figure 4.4).
+ * dimension + 1 of them are set.
+ */
 typedef struct abacus_simplex
 {
 	uint64_t code;   /* locational code of the simplex's key */

@@ -18,8 +18,9 @@
 // the records of repeated points are not, nor those of points still to be inserted:
 // nothing else knows of them.
 //
-// Locally Delaunay across every facet, with a convex hull and one component (Euler),
-// is globally Delaunay (Delaunay 1934), and under the perturbation unique.
+// Locally Delaunay across every facet, with a convex hull and in one piece, is globally
+// Delaunay (Delaunay 1934), and under the perturbation unique. That it is in one piece
+// follows from Euler's relation in 2D; in 3D nothing proves it.
 #pragma once
 
 #include "query/page_scan.hpp"
