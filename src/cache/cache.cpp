@@ -124,17 +124,23 @@ template <int D> Handle Cache<D>::closest_of_some(BlockIndex b, const Point<D> &
 }
 
 template <int D> Handle Cache<D>::start(std::uint64_t code, const Point<D> &p) {
-    // A page between others is never empty for long, but it can be: then any other
-    // simplex is as good, and the block before it in curve order is the nearest.
-    Key key{code, 0};
-    for (;;) {
+    // A page can be empty, the first one above all, when the domain reaches beyond the
+    // points. Then any other simplex is as good: of the nearest block before it on the
+    // curve, or else after it.
+    const auto place = [&](Key key) -> Block & { // a copy: it may be in a block
         const BlockIndex b = owner(key);
         if (b == no_block) throw_corrupted("No page owns a part of the curve.");
-        const Block &block = blocks_[b];
-        if (block.count > 0) return closest_of_some(b, p);
-        if (block.lower == first_key) return no_handle;
-        key = predecessor(block.lower);
-    }
+        return blocks_[b];
+    };
+    const Key key{code, 0};
+    const Block *block = &place(key);
+    const Key upper = block->upper;
+    while (block->count == 0 && !(block->lower == first_key))
+        block = &place(predecessor(block->lower));
+    if (block->count == 0) block = &place(upper == end_key ? key : upper);
+    while (block->count == 0 && !(block->upper == end_key)) block = &place(block->upper);
+    if (block->count == 0) return no_handle;
+    return closest_of_some(static_cast<BlockIndex>(block - blocks_.data()), p);
 }
 
 template class Cache<2>;
