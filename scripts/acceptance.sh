@@ -33,7 +33,7 @@ full)
         2:exponents:20000 2:duplicates:1000000 2:octree:1000000 2:shorelines:0
         2:uniform:10000000
         3:uniform:1000000 3:quake:1000000 3:grid:1000000 3:sphere:50000 3:rounded_sphere:50000
-        3:wheel:50001 3:skew_lines:2000 3:flat:50000 3:flat_but_one:50000 3:clusters:30000
+        3:wheel:50001 3:skew_lines:2000 3:flat:50000 3:flat_but_one:50000 3:clusters:200000
         3:exponents:5000 3:duplicates:1000000 3:octree:1000000)
     runs=(smallest:made 8:made 64:made largest:made default:shuffled smallest:sorted 8:reversed
         8:grown)
