@@ -108,13 +108,17 @@ int perturbed_sign(const Corners<D> &corners, const Point<D> &p, Orientation ori
 
 } // namespace
 
+// Two equal points are the commonest case when a vertex is looked up: a walk ends there.
+
 int orientation(const Point<2> &a, const Point<2> &b, const Point<2> &c) {
+    if (a == b || b == c || c == a) return 0;
     if (const auto d = differences<2, 2>({&a, &b}, c, 31))
         return sign((*d)[0][0] * (*d)[1][1] - (*d)[0][1] * (*d)[1][0]);
     return Kernel().orientation_2_object()(cgal(a), cgal(b), cgal(c));
 }
 
 int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c, const Point<3> &d) {
+    if (a == b || a == c || a == d || b == c || b == d || c == d) return 0;
     if (const auto difference = differences<3, 3>({&a, &b, &c}, d, 31)) {
         const auto [u, v, w] = *difference;
         return -sign(Wide(u[2]) * (v[0] * w[1] - v[1] * w[0]) +
