@@ -115,10 +115,7 @@ inline int in_sphere(const Corners<2> &corners, const Point<2> &p) {
     // No less than the permanent, since |bx cy| + |by cx| <= |b||c| <= (b^2 + c^2) / 2.
     const double permanent = lifts[0] * lifts[1] + lift_c * (lifts[0] + lifts[1]);
     const double bound = 1.1103e-15 * permanent;
-    if (permanent > 1e-250) [[likely]] {
-        if (det > bound) return 1;
-        if (det < -bound) return -1;
-    }
+    if (permanent > 1e-250 && std::fabs(det) > bound) [[likely]] return det > 0 ? 1 : -1;
     return exact::in_sphere<2>(corners, p);
 }
 
@@ -147,10 +144,7 @@ inline int in_sphere(const Corners<3> &corners, const Point<3> &p) {
     const double sum = lifts[0] + lifts[1];
     const double power = sum * sum * std::sqrt(sum);
     const double bound = 2.57e-16 * power; // 16 u times 0.1444, and some more
-    if (power > 1e-200) [[likely]] {
-        if (det > bound) return -1;
-        if (det < -bound) return 1;
-    }
+    if (power > 1e-200 && std::fabs(det) > bound) [[likely]] return det > 0 ? -1 : 1;
     return exact::in_sphere<3>(corners, p);
 }
 
