@@ -136,39 +136,45 @@ template <int D> Key Cache<D>::key_beyond(Handle h, int facet) const {
 }
 
 template <int D> void Cache<D>::survey(BlockIndex b) {
-    border_.clear();
     const Handle first = b * block_slots<D>;
-    for_each_simplex(b, [&](Handle h) {
-        const Simplex<D> &s = slots_[h];
+    const Simplex<D> *const begin = &slots_[first], *const end = begin + blocks_[b].high_water;
+    border_.reserve(block_slots<D> * (D + 1));
+    Link *border = border_.begin();
+    Handle h = first;
+    for (const Simplex<D> *s = begin; s != end; ++s, ++h) {
+        if (s->is_free()) continue;
         // Nearly every vertex is the first of some simplex.
-        __builtin_prefetch(&vertices_[s.vertex[0]]);
+        __builtin_prefetch(&vertices_[s->vertex[0]], 1);
         for (int i = 0; i <= D; ++i) {
             // An absent link is far above the handles of any block.
-            if (link_simplex(s.link[i]) - first < block_slots<D>) continue;
-            if (!is_absent(s.link[i])) __builtin_prefetch(&slots_[link_simplex(s.link[i])]);
-            border_.push_back(make_link(h, i));
+            const Handle neighbour = link_simplex(s->link[i]);
+            if (neighbour - first < block_slots<D>) continue;
+            if (!is_absent(s->link[i])) __builtin_prefetch(&slots_[neighbour]);
+            *border++ = make_link(h, i);
         }
-    });
+    }
+    border_.resize(static_cast<std::size_t>(border - border_.begin()));
 
     numbered_.clear();
-    const auto number = [&](VertexIndex v) { return numbered_.number(vertices_, v); };
     for (const Link inner : border_) {
         const Simplex<D> &s = slots_[link_simplex(inner)];
         for (int i = 0; i <= D; ++i)
-            if (i != link_facet(inner) && s.vertex[i] != infinite_vertex) number(s.vertex[i]);
+            if (i != link_facet(inner) && s.vertex[i] != infinite_vertex)
+                numbered_.number(vertices_, s.vertex[i]);
         // Its opposite vertex is all of the neighbour that is not the facet's.
         const Link link = s.link[link_facet(inner)];
         if (!is_absent(link))
             __builtin_prefetch(&vertices_[slots_[link_simplex(link)].vertex[link_facet(link)]]);
     }
     border_vertices_ = numbered_.size();
-    corners_.clear();
-    for_each_simplex(b, [&](Handle h) {
-        const Simplex<D> &s = slots_[h];
-        std::uint32_t *const corner = corners_.extend(D + 1);
-        for (int i = 0; i < D; ++i) corner[i] = number(s.vertex[i]);
-        corner[D] = s.is_ghost() ? at_infinity : number(s.vertex[D]);
-    });
+    corners_.resize(std::size_t(blocks_[b].count) * (D + 1));
+    std::uint32_t *corner = corners_.begin();
+    for (const Simplex<D> *s = begin; s != end; ++s) {
+        if (s->is_free()) continue;
+        for (int i = 0; i <= D; ++i)
+            *corner++ = s->vertex[i] == infinite_vertex ? at_infinity
+                                                        : numbered_.number(vertices_, s->vertex[i]);
+    }
 }
 
 template <int D> bool Cache<D>::encode(BlockIndex b) {
