@@ -73,10 +73,11 @@ typedef struct abacus_error
 /* ---- Keys and pages ---------------------------------------------------- */
 
 /*
- * Key of a simplex and of the page that owns it: `code` is the locational
- * code (Morton, 31 bits an axis in 2D, 21 in 3D; §4.8), below 2^63; `part`
- * continues it, below 2^63, and is 0 unless more simplices than fit a page
- * share one code. Keys are ordered by code, then part.
+ * Key of a simplex and of the page that owns it: `code` is the greatest
+ * locational code of the simplex's vertices, their places on a Hilbert curve
+ * (31 bits an axis in 2D, 21 in 3D; §4.8), below 2^63; `part` continues it,
+ * below 2^63, and counts only where more simplices than fit a page share one
+ * code: elsewhere a page's and a link's is 0. Keys are ordered by code, then part.
  */
 typedef struct abacus_key
 {

@@ -11,7 +11,7 @@
 // depth-first search that keeps the order of the edges around each triangle visits
 // each once and lists the rim as a cycle: the new triangles are wired without any
 // search. In 3D the search marks what it has seen, and the new tetrahedra find one
-// another by their ridges, the edges of the rim, in a small hash table.
+// another by their ridges, the edges of the rim, in small tables (ridges.hpp).
 #pragma once
 
 #include "cache/cache.hpp"

@@ -2,7 +2,8 @@
 //
 // Each predicate first evaluates the determinant in doubles and compares it with
 // a bound on the rounding error; only when that does not decide does it call the
-// exact form in predicates.cpp, which is CGAL's filtered kernel. The bounds are
+// exact form in predicates.cpp: 128-bit integers where they hold the determinant, else
+// CGAL's filtered kernel. The bounds are
 // Shewchuk's ("Adaptive Precision Floating-Point Arithmetic and Fast Robust
 // Geometric Predicates", 1997, the A estimates) for the very expressions below; the
 // in-sphere tests take instead of the permanent in them what is no less and quicker to

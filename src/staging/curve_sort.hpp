@@ -1,4 +1,4 @@
-// Insertion order of records in memory: by round, then along the Morton curve.
+// Insertion order of records in memory: by round, then along the Hilbert curve.
 //
 // What is sorted is one word a record: a piece of the record's code above the
 // record's number. The first 33 bits of the order separate nearly all points;

@@ -73,7 +73,8 @@ TEST(Probing, GivesTheSameMeshAsStoredLinks) {
 }
 
 TEST(Probing, FindsDistantNeighboursInEveryPage) {
-    // Long thin triangles: the page at the middle of a facet is seldom the neighbour's.
+    // Long thin triangles: the vertex that gives a neighbour its key is often far from the
+    // facet.
     Random random(2);
     std::vector<Point<2>> points;
     for (int i = 0; i < 800; ++i)
