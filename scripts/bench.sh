@@ -139,7 +139,7 @@ compare_builds() {
 # Random places of the box around the points; those outside the hull count as well.
 measure_location() {
     run_psql -A -t >"$folder/out" <<SQL
-SET abacus.cache_size = '256MB';
+SET abacus.cache_size = '1GB';
 CREATE TEMP TABLE probes AS
     SELECT $(sed -E 's/([xyz])/low_\1 + random() * (high_\1 - low_\1) AS \1/g' <<<"$columns")
     FROM generate_series(1, $locations),
