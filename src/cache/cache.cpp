@@ -38,9 +38,14 @@ template <int D> Handle Cache<D>::follow(Handle h) const {
 
 template <int D> std::uint64_t Cache<D>::part(const Simplex<D> &s) const {
     std::array<const Point<D> *, D + 1> corners;
+    std::array<std::uint64_t, D + 1> codes;
     const int n = s.finite_vertices();
-    for (int i = 0; i < n; ++i) corners[i] = &point(s.vertex[i]);
-    return domain_.part(corners, n);
+    for (int i = 0; i < n; ++i) {
+        const Vertex<D> &v = vertices_[s.vertex[i]];
+        corners[i] = &v.point;
+        codes[i] = v.code;
+    }
+    return Domain<D>::part(corners, codes, n);
 }
 
 template <int D> Key Cache<D>::key(const Simplex<D> &s) const { return {code(s), part(s)}; }

@@ -5,7 +5,7 @@
 // measured by its own size. The greatest vertex does not count in this, since it may be
 // all that very many simplices have in common: a hub. So a part is the place of the
 // simplex's least vertex, on a grid of the size of the facet opposite the greatest, in
-// steps of eight: first the coarse place, hashed, whose stretch of the curve holds many
+// steps of 512: first the coarse place, hashed, whose stretch of the curve holds many
 // pages' worth of simplices, then the place inside it. A hash of the vertices tells apart
 // what is left.
 #include "geometry/locational_code.hpp"
@@ -19,7 +19,7 @@ constexpr int coarse_bits = 16;
 template <int D> constexpr int place_bits = D == 2 ? 16 : 12; // an axis
 /// Cells of the grid along the size of a simplex, as a power of two: neighbours that differ
 /// from one another by much less than their size, as around an edge, still come in order.
-template <int D> constexpr int fine_bits = D == 2 ? 6 : 5;
+template <int D> constexpr int fine_bits = D == 2 ? 3 : 0;
 template <int D> constexpr int hash_bits = 63 - coarse_bits - D * place_bits<D>;
 
 class Hash {
@@ -34,6 +34,22 @@ private:
     std::uint64_t value_ = 0;
 };
 
+// The C library's functions for these take more time than all the rest.
+
+/// Largest e with 2^e <= x; at least the least exponent of a normal number.
+int exponent(double x) {
+    return std::max(1, static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52 & 0x7ff)) - 1023;
+}
+/// 2^e, as near to it as normal numbers go.
+double power(int e) {
+    return std::bit_cast<double>(std::uint64_t(std::clamp(e + 1023, 1, 2046)) << 52);
+}
+double floor_of(double x) {
+    if (!(std::fabs(x) < 0x1p62)) return x; // an integer, or none
+    const auto whole = static_cast<double>(static_cast<std::int64_t>(x));
+    return whole > x ? whole - 1 : whole;
+}
+
 std::uint64_t leading(std::uint64_t value, int bits) {
     return value * 0xd6e8feb86659fd93ull >> (64 - bits);
 }
@@ -41,16 +57,15 @@ std::uint64_t leading(std::uint64_t value, int bits) {
 } // namespace
 
 template <int D>
-std::uint64_t Domain<D>::part(const std::array<const Point<D> *, D + 1> &corners, int n) const {
+std::uint64_t Domain<D>::part(const std::array<const Point<D> *, D + 1> &corners,
+                              const std::array<std::uint64_t, D + 1> &codes, int n) {
     int least = 0, greatest = 0;
-    std::array<std::uint64_t, D + 1> codes;
     std::uint64_t hash = 0;
     const auto less = [&](int i, int j) {
         return codes[i] < codes[j] ||
                (codes[i] == codes[j] && lexicographically_less<D>(*corners[i], *corners[j]));
     };
     for (int i = 0; i < n; ++i) {
-        codes[i] = code(*corners[i]);
         if (less(i, least)) least = i;
         if (less(greatest, i)) greatest = i;
         Hash h;
@@ -66,15 +81,16 @@ std::uint64_t Domain<D>::part(const std::array<const Point<D> *, D + 1> &corners
             if (i != greatest || n == 2) // of a ghost's edge nothing else is left
                 size = std::max(size, std::fabs(quarter(i, axis) - quarter(least, axis)));
     // A power of two.
-    const int unit = static_cast<int>(std::floor(std::ilogb(size) / 3.0)) * 3 - fine_bits<D>;
+    const int unit = static_cast<int>(floor_of(exponent(size) / 9.0)) * 9 - fine_bits<D>;
+    const double cells = power(-unit);
 
     Hash coarse;
     coarse.add(unit);
     Cell<D> place;
     constexpr double places = 1u << place_bits<D>;
     for (int axis = 0; axis < D; ++axis) {
-        const double at = std::floor(std::ldexp(quarter(least, axis), -unit));
-        const double corner = std::floor(at / places);
+        const double at = floor_of(quarter(least, axis) * cells);
+        const double corner = floor_of(at / places);
         coarse.add(corner);
         place[axis] = static_cast<std::uint32_t>(clamp(at - corner * places, places - 1));
     }

@@ -97,8 +97,9 @@ public:
 
     std::uint64_t code(const Point<D> &p) const { return curve_code<D>(cell(p)); }
 
-    /// Second word of the key of a simplex with these n finite corners.
-    std::uint64_t part(const std::array<const Point<D> *, D + 1> &corners, int n) const;
+    /// Second word of the key of a simplex with these n finite corners and their codes.
+    static std::uint64_t part(const std::array<const Point<D> *, D + 1> &corners,
+                              const std::array<std::uint64_t, D + 1> &codes, int n);
 
 private:
     static double clamp(double t, double most) { return std::min(most, std::max(0.0, t)); }
