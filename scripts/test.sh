@@ -1,6 +1,6 @@
 #!/bin/bash
 # All set-up and all tests, from a clean clone, re-runnable: packages, builds,
-# unit tests (plain and sanitized), a bounded fuzzing run, SQL tests, the
+# unit tests (plain and sanitized), a bounded fuzzing run, SQL tests, crashes, the
 # examples of the documentation, comparison with CGAL, smoke runs of the
 # benchmarks and statistics. Logs are left in build/test.
 set -uo pipefail
@@ -74,6 +74,24 @@ pgtap_tests() {
         pg_prove -d abacus_pgtap test/pgtap/*.sql
 }
 
+# Crashes and full disks, in servers that the tests start themselves, as the
+# user who may. A small file system of their own is a full disk soon; where it
+# cannot be mounted, that test is skipped. ABACUS_KILLS says how often to kill.
+tap_tests() {
+    local folder=$cluster_folder/tap sources
+    sources=$(dirname "$("$PG_CONFIG" --pgxs)")/..
+    mkdir "$folder" "$folder/disk"
+    cp test/tap/*.pl "$folder"
+    if as_root mount -t tmpfs -o size=24m tmpfs "$folder/disk" 2>/dev/null; then
+        trap 'as_root umount -l "$cluster_folder/tap/disk"' EXIT
+        mkdir "$folder/disk/space"
+        export ABACUS_SMALL_DISK=$folder/disk/space
+    fi
+    if ((EUID == 0)); then chown -R postgres: "$folder"; fi
+    cluster_as_server env TESTDIR="$folder" PG_REGRESS="$sources/test/regress/pg_regress" \
+        prove -I "$sources/test/perl" "$folder"/*.pl
+}
+
 documentation_examples() {
     scripts/doc_examples.py docs/sql.md README.md
 }
@@ -91,6 +109,7 @@ suite "fuzz" fuzz
 cluster_start test
 suite "pg_regress" regression_tests
 suite "pgTAP" pgtap_tests
+suite "TAP" tap_tests
 suite "documentation examples" documentation_examples
 suite "acceptance quick" scripts/acceptance.sh quick
 suite "bench smoke" scripts/bench.sh smoke

@@ -21,6 +21,8 @@ SELECT count(*) FROM abacus_stats('field');
 SELECT abacus_draw('field') IS NULL;
 SELECT abacus_stage('field', 'SELECT 1, 2, 3');
 SELECT abacus_triangulate('field');
+CALL abacus_build('field');
+\echo :LAST_ERROR_SQLSTATE
 
 -- reading needs SELECT; the vertex table is asked for where it is used
 SET ROLE regress_abacus_owner;
@@ -46,6 +48,8 @@ SET ROLE regress_abacus_owner;
 GRANT INSERT, UPDATE ON field_vertices TO regress_abacus_reader;
 SET ROLE regress_abacus_reader;
 SELECT abacus_stage('field', 'SELECT 100, 2.5, 2.5'), abacus_triangulate('field');
+SELECT abacus_stage('field', 'SELECT 101, 2.5, 3.5');
+CALL abacus_build('field');
 -- the source query runs as the caller
 SELECT abacus_stage('field', 'TABLE points');
 \echo :LAST_ERROR_SQLSTATE

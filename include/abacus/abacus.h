@@ -266,7 +266,9 @@ ABACUS_API abacus_status abacus_build_open(const abacus_host *host, const abacus
 										   abacus_error *error);
 /*
  * Inserts staged points that are not in the mesh yet, at most `limit` of them
- * (0 = all), writes every changed page, brings the header up to date.
+ * (0 = all), writes every changed page, brings the header up to date. To be
+ * called again for the next points, as long as nobody else changes the mesh
+ * or moves its pages.
  */
 ABACUS_API abacus_status abacus_build_run(abacus_build *build, uint64_t limit,
 										  abacus_header *header, abacus_error *error);

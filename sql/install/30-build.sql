@@ -38,3 +38,9 @@ AS 'MODULE_PATHNAME', 'abacus_sql_triangulate_query'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_triangulate(text, text, text[], integer, double precision[], double precision[]) IS
     'makes a mesh, stages the points of the query and triangulates them; attributes are named after the query''s columns unless given';
+
+CREATE PROCEDURE abacus_build(mesh regclass, batch bigint DEFAULT 1000000)
+AS 'MODULE_PATHNAME', 'abacus_sql_build'
+LANGUAGE C;
+COMMENT ON PROCEDURE abacus_build(regclass, bigint) IS
+    'inserts all staged points into the Delaunay triangulation and commits after each batch of that many; called again after a failure, it goes on from the last batch';

@@ -28,6 +28,7 @@
 #include "catalog/pg_type.h"
 #include "commands/extension.h"
 #include "miscadmin.h"
+#include "storage/lmgr.h"
 #include "utils/acl.h"
 #include "utils/builtins.h"
 #include "utils/fmgroids.h"
@@ -122,12 +123,11 @@ check_access(Relation rel, MeshAccess access)
 				 errhint("SET max_parallel_workers_per_gather = 0 for this query.")));
 }
 
-/* Opens and locks the table of a mesh, or says why it cannot be used. */
-Relation
-mesh_table_open(Oid relid, MeshAccess access)
+/* Opens the table of a mesh under the given lock, or says why it cannot be used. */
+static Relation
+open_mesh_table(Oid relid, MeshAccess access, LOCKMODE lock)
 {
-	Relation	rel = try_relation_open(relid,
-										access == MESH_WRITE ? RowExclusiveLock : AccessShareLock);
+	Relation	rel = try_relation_open(relid, lock);
 
 	if (rel == NULL)
 		ereport(ERROR,
@@ -141,6 +141,33 @@ mesh_table_open(Oid relid, MeshAccess access)
 				 errhint("Meshes are made with abacus_create() or abacus_triangulate().")));
 	check_access(rel, access);
 	return rel;
+}
+
+/* Opens and locks the table of a mesh, or says why it cannot be used. */
+Relation
+mesh_table_open(Oid relid, MeshAccess access)
+{
+	return open_mesh_table(relid, access,
+						   access == MESH_WRITE ? RowExclusiveLock : AccessShareLock);
+}
+
+/*
+ * Keeps everybody else from changing the mesh, its definition included, over
+ * several transactions: readers alone go on, and VACUUM stays away. The caller
+ * unlocks; an error unlocks by itself.
+ *
+ * What is locked first and only for the checks, ACCESS SHARE, is in nobody's
+ * way: two that got there with a writer's lock would wait for each other.
+ */
+LockRelId
+mesh_lock_for_session(Oid relid)
+{
+	Relation	rel = open_mesh_table(relid, MESH_WRITE, AccessShareLock);
+	LockRelId	id = rel->rd_lockInfo.lockRelId;
+
+	LockRelationIdForSession(&id, ShareRowExclusiveLock);
+	relation_close(rel, NoLock);
+	return id;
 }
 
 /*
@@ -183,24 +210,28 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 {
 	Oid			relid = find_bound_table(RelationGetRelid(mesh), false, is_vertex_table);
 	bool		bound = OidIsValid(relid);
-	Relation	rel;
+	char	   *name = psprintf("%s" VERTEX_TABLE_SUFFIX, RelationGetRelationName(mesh));
+	Relation	rel = NULL;
 
 	if (!bound)
 	{
-		char	   *name = psprintf("%s" VERTEX_TABLE_SUFFIX, RelationGetRelationName(mesh));
-
 		relid = get_relname_relid(name, RelationGetNamespace(mesh));
-		if (!OidIsValid(relid) || !is_vertex_table(relid) ||
-			OidIsValid(find_bound_table(relid, true, is_simplex_table)))
-			ereport(ERROR,
-					(errcode(ERRCODE_UNDEFINED_TABLE),
-					 errmsg("mesh \"%s\" has no vertex table", RelationGetRelationName(mesh)),
-					 errdetail("There is no table \"%s\" of type %s beside it.", name,
-							   VERTEX_PAGE_TYPE),
-					 errhint("After a restore, give the vertex table that name.")));
-		pfree(name);
+		if (OidIsValid(relid) &&
+			(!is_vertex_table(relid) ||
+			 OidIsValid(find_bound_table(relid, true, is_simplex_table))))
+			relid = InvalidOid;
 	}
-	rel = relation_open(relid, access == MESH_WRITE ? RowExclusiveLock : AccessShareLock);
+	/* it may be dropped while we wait for the lock */
+	if (OidIsValid(relid))
+		rel = try_relation_open(relid, access == MESH_WRITE ? RowExclusiveLock : AccessShareLock);
+	if (rel == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_TABLE),
+				 errmsg("mesh \"%s\" has no vertex table", RelationGetRelationName(mesh)),
+				 errdetail("There is no table \"%s\" of type %s beside it.", name,
+						   VERTEX_PAGE_TYPE),
+				 errhint("After a restore, give the vertex table that name.")));
+	pfree(name);
 	check_access(rel, access);
 	if (!bound && access == MESH_WRITE && pg_class_ownercheck(relid, GetUserId()) &&
 		pg_class_ownercheck(RelationGetRelid(mesh), GetUserId()))

@@ -20,6 +20,7 @@ typedef enum MeshAccess
 } MeshAccess;
 
 extern Relation mesh_table_open(Oid relid, MeshAccess access);
+extern LockRelId mesh_lock_for_session(Oid relid);
 extern Oid	mesh_vertex_table(Relation mesh, MeshAccess access);
 extern void mesh_bind_vertex_table(Oid mesh, Oid vertices);
 

@@ -339,6 +339,8 @@ page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes
 	see_own_changes(table);
 	tuple = form_row(table, key, bytes, size, values, isnull);
 	simple_heap_update(table->heap, tid, tuple);
+	if (table->superseded != NULL)
+		superseded_add(table->superseded, ItemPointerGetBlockNumber(tid));
 	if (!HeapTupleIsHeapOnly(tuple))
 		insert_index_entry(table, values, isnull, &tuple->t_self);
 	*tid = tuple->t_self;

@@ -15,6 +15,8 @@
 #include "nodes/execnodes.h"
 #include "utils/rel.h"
 
+#include "pg/superseded.h"
+
 #define PAGE_TABLE_MAX_KEYS 2
 
 /* A stored page as a search finds it; bytes stay valid until the next search. */
@@ -53,6 +55,7 @@ typedef struct PageTable
 	bool		wrote;			/* changes that our snapshot does not see yet */
 	MemoryContext memory;		/* of what is open */
 	struct varlena *datum;		/* writers: room for one page */
+	Superseded *superseded;		/* where replaced rows lie; NULL if nobody asks */
 } PageTable;
 
 extern void page_table_init(PageTable *table, Oid relid, int keys, bool writable,

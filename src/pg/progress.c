@@ -38,8 +38,24 @@ progress_begin(Progress *state, Oid mesh)
 
 	pgstat_progress_start_command(PROGRESS_COMMAND_CREATE_INDEX, mesh);
 	pgstat_progress_update_multi_param(lengthof(slots), slots, values);
-	state->phase = 0;
+	MemSet(state, 0, sizeof(*state));
 	state->active = true;
+}
+
+/* The figures shall be those of all batches together, of `total` points. */
+void
+progress_in_batches(Progress *state, uint64 total)
+{
+	state->total = total;
+}
+
+/* What the batch that has ended did. */
+void
+progress_batch_done(Progress *state, uint64 done, uint64 pages_read, uint64 pages_written)
+{
+	state->earlier_done += done;
+	state->earlier_read += pages_read;
+	state->earlier_written += pages_written;
 }
 
 void
@@ -50,15 +66,19 @@ progress_report(Progress *state, const abacus_progress *progress)
 		PROGRESS_CREATEIDX_TUPLES_DONE, PROGRESS_ABACUS_PAGES_READ, PROGRESS_ABACUS_PAGES_WRITTEN
 	};
 	int64		values[] = {
-		progress->phase, (int64) progress->total, (int64) progress->done,
-		(int64) progress->pages_read, (int64) progress->pages_written
+		progress->phase, (int64) (state->total != 0 ? state->total : progress->total),
+		(int64) (state->earlier_done + progress->done),
+		(int64) (state->earlier_read + progress->pages_read),
+		(int64) (state->earlier_written + progress->pages_written)
 	};
 
 	if (!state->active)
 		return;
 	if (progress->phase != state->phase)
 	{
-		pgstat_progress_update_param(PROGRESS_ABACUS_PHASE_START, GetCurrentTimestamp());
+		/* phases that return with each batch are one: the rate is that of all batches */
+		if (state->total == 0 || state->phase == 0)
+			pgstat_progress_update_param(PROGRESS_ABACUS_PHASE_START, GetCurrentTimestamp());
 		state->phase = progress->phase;
 	}
 	pgstat_progress_update_multi_param(lengthof(slots), slots, values);

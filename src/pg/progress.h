@@ -10,10 +10,17 @@ typedef struct Progress
 {
 	bool		active;
 	abacus_phase phase;
+	uint64		total;			/* of all batches; 0 = not in batches */
+	uint64		earlier_done;	/* what the batches before this one did */
+	uint64		earlier_read;
+	uint64		earlier_written;
 } Progress;
 
 extern void progress_begin(Progress *state, Oid mesh);
 extern void progress_report(Progress *state, const abacus_progress *progress);
+extern void progress_in_batches(Progress *state, uint64 total);
+extern void progress_batch_done(Progress *state, uint64 done, uint64 pages_read,
+								uint64 pages_written);
 extern void progress_end(Progress *state);
 
 #endif

@@ -5,7 +5,8 @@
  * blocked. The whole change happens inside one SQL call: when it returns,
  * every page and the new header are in the tables under the command's own
  * transaction, so that savepoints, rollback and crash recovery need nothing
- * of ours.
+ * of ours. A writer that commits in between (abacus_build) makes each of its
+ * changes in that way.
  *
  * Waiting for another writer means that the snapshot taken before is too old
  * to see what that writer did. Under READ COMMITTED we then take a new one and
@@ -57,28 +58,21 @@ lock_header(Host *host, ItemPointer tid)
 }
 
 /*
- * Opens a mesh for changing, with its header locked and an active snapshot
- * that sees it. `command` names the function for messages.
+ * Opens the tables, with all checks, locks the header and pushes an active
+ * snapshot that sees it.
  */
-void
-writer_begin(Writer *writer, Oid mesh, const char *command)
+static void
+open_and_lock(Writer *writer)
 {
-	Relation	table;
-	Host	   *host;
+	Host	   *host = writer->host;
+	Relation	table = mesh_table_open(host->store.mesh, MESH_WRITE);
 
-	PreventCommandIfReadOnly(command);
-	PreventCommandIfParallelMode(command);
-
-	table = mesh_table_open(mesh, MESH_WRITE);
 	/* also refuses a second writer inside the first one's source query */
 	CheckTableNotInUse(table, "change mesh");
-	host = host_create(CurrentMemoryContext, mesh, MESH_WRITE);
 	page_table_open(&host->store.simplices);
 	table_close(table, NoLock);
 	page_store_vertex_table(&host->store);
 
-	writer->host = host;
-	writer->header = MemoryContextAlloc(host->home, sizeof(abacus_header));
 	for (;;)
 	{
 		CommandCounterIncrement();
@@ -90,19 +84,73 @@ writer_begin(Writer *writer, Oid mesh, const char *command)
 		PopActiveSnapshot();
 		page_table_open(&host->store.simplices);
 	}
-	progress_begin(&host->progress, mesh);
+}
+
+/*
+ * Opens a mesh for changing, with its header locked and an active snapshot
+ * that sees it. `command` names the function for messages. The writer lives
+ * in the current memory context.
+ */
+void
+writer_begin(Writer *writer, Oid mesh, const char *command)
+{
+	PreventCommandIfReadOnly(command);
+	PreventCommandIfParallelMode(command);
+
+	writer->host = host_create(CurrentMemoryContext, mesh, MESH_WRITE);
+	writer->header = MemoryContextAlloc(writer->host->home, sizeof(abacus_header));
+	open_and_lock(writer);
+	progress_begin(&writer->host->progress, mesh);
+}
+
+/* Gives up the tables and the snapshot, without which no transaction ends. */
+static void
+release(Writer *writer)
+{
+	host_release(writer->host);
+	PopActiveSnapshot();
+}
+
+/* Writes the header: the change is complete, and may be committed. */
+void
+writer_store(Writer *writer)
+{
+	header_update(writer->host, writer->header, &writer->header_tid);
+	release(writer);
+}
+
+/*
+ * After writer_store() and a commit: opens the mesh for the next change. What
+ * the core holds of it is still so if the caller has kept others from
+ * changing it meanwhile, by mesh_lock_for_session().
+ */
+void
+writer_continue(Writer *writer)
+{
+	writer->host->store.vertices.relid = InvalidOid;	/* may have gone: look again */
+	open_and_lock(writer);
+}
+
+static void
+destroy(Writer *writer)
+{
+	progress_end(&writer->host->progress);
+	host_destroy(writer->host);
+	writer->host = NULL;
+}
+
+/* Closes the mesh without a change. */
+void
+writer_close(Writer *writer)
+{
+	release(writer);
+	destroy(writer);
 }
 
 /* Writes the header and closes the mesh. */
 void
 writer_end(Writer *writer)
 {
-	Host	   *host = writer->host;
-
-	header_update(host, writer->header, &writer->header_tid);
-	host_release(host);
-	PopActiveSnapshot();
-	progress_end(&host->progress);
-	host_destroy(host);
-	writer->host = NULL;
+	writer_store(writer);
+	destroy(writer);
 }

@@ -1,6 +1,10 @@
 /*
  * writer.h: one change of a mesh, from the lock on its header to the new
- * header.
+ * header; or several, each in a transaction of its own:
+ *
+ *     writer_begin(); change; writer_store(); commit;
+ *     writer_continue(); change; writer_store(); commit; ...
+ *     writer_continue(); writer_close();
  */
 #ifndef ABACUS_WRITER_H
 #define ABACUS_WRITER_H
@@ -15,6 +19,9 @@ typedef struct Writer
 } Writer;
 
 extern void writer_begin(Writer *writer, Oid mesh, const char *command);
+extern void writer_store(Writer *writer);
+extern void writer_continue(Writer *writer);
+extern void writer_close(Writer *writer);
 extern void writer_end(Writer *writer);
 
 #endif

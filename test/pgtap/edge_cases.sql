@@ -34,6 +34,11 @@ SELECT is(abacus_draw_section(NULL, '{0,0,0}', '{0,0,1}'), NULL, 'draw a section
 SELECT is(pg_temp.state('SELECT abacus_create(NULL, 2)'), '22004', 'create NULL');
 SELECT is(pg_temp.state('SELECT * FROM abacus_check(''few3'', 0)'), '22023', 'check for no fault');
 
+-- a procedure that commits, in a transaction
+SELECT is_procedure('abacus_build', ARRAY['regclass', 'bigint'], 'build in batches');
+SELECT is(pg_temp.state('CALL abacus_build(''few3'')'), '2D000', 'build in a transaction');
+SELECT is(pg_temp.state('CALL abacus_build(NULL, 0)'), '2D000', 'whatever the arguments');
+
 -- points of earthquake sets
 SELECT is_empty('SELECT * FROM abacus_quake(NULL)', 'quake of NULL');
 SELECT is_empty('SELECT * FROM abacus_quake(0.1, NULL)', 'quake with NULL points per wavelength');

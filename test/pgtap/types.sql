@@ -27,6 +27,7 @@ INSERT INTO wanted VALUES
     ('abacus_walk', 'mesh regclass, simplex abacus_simplex, facet integer', 'abacus_simplex', 's', true, 's'),
     ('abacus_simplices', 'mesh regclass', 'SETOF abacus_simplex', 's', true, 'r'),
     ('abacus_vertices', 'mesh regclass, OUT sequence bigint, OUT id bigint, OUT x double precision, OUT y double precision, OUT z double precision, OUT attributes double precision[], OUT vertex bigint', 'SETOF record', 's', true, 'r'),
+    ('abacus_build', 'IN mesh regclass, IN batch bigint DEFAULT 1000000', NULL, 'v', false, 'u'),
     ('abacus_quake', 'frequency double precision, points_per_wavelength double precision DEFAULT 8, OUT id bigint, OUT x double precision, OUT y double precision, OUT z double precision, OUT vs double precision, OUT vp double precision, OUT density double precision', 'SETOF record', 'i', true, 's'),
     ('abacus_check', 'mesh regclass, max_faults integer DEFAULT 1000, OUT fault text, OUT code bigint, OUT part bigint, OUT message text', 'SETOF record', 's', true, 'r'),
     ('abacus_stats', 'mesh regclass, OUT name text, OUT value double precision, OUT description text', 'SETOF record', 'v', true, 'r'),

@@ -1,0 +1,110 @@
+/*
+ * fn_build.c: abacus_build, staged points into the mesh in batches, each
+ * committed.
+ *
+ * A batch is a change like that of abacus_triangulate: all its pages and the
+ * new header under one transaction. So whatever stops the build, the mesh is
+ * that of the last batch, and the header says where to go on.
+ *
+ * From one batch to the next the core keeps its cache. What it holds of the
+ * mesh, the places of stored pages included, stays true because a lock of the
+ * session keeps other writers, VACUUM FULL and the like away until the end.
+ */
+#include "postgres.h"
+
+#include "access/xact.h"
+#include "executor/spi.h"
+#include "miscadmin.h"
+#include "nodes/parsenodes.h"
+#include "storage/lmgr.h"
+
+#include "pg/settings.h"
+#include "pg/sql_function.h"
+#include "pg/writer.h"
+
+SQL_FUNCTION(abacus_sql_build);
+
+/* Whether the call may commit; as SPI_commit() would find later. */
+static void
+check_commits(FunctionCallInfo fcinfo)
+{
+	bool		atomic = fcinfo->context == NULL || !IsA(fcinfo->context, CallContext) ||
+		castNode(CallContext, fcinfo->context)->atomic || IsSubTransaction();
+
+	if (atomic)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_TRANSACTION_TERMINATION),
+				 errmsg("abacus_build() cannot commit here"),
+				 errdetail("It ends a transaction after each batch."),
+				 errhint("CALL it outside transaction blocks, functions and exception blocks, or "
+						 "use abacus_triangulate().")));
+}
+
+/* One batch, from where the header stands; false if nothing could be inserted. */
+static bool
+insert_batch(Writer *writer, abacus_build *build, uint64 limit)
+{
+	Host	   *host = writer->host;
+	abacus_header *header = writer->header;
+	uint64		inserted = header->inserted;
+	abacus_counters before = header->counters;
+
+	host_run(host, abacus_build_run(build, limit, header, &host->failure));
+	if (header->inserted == inserted)
+		return false;			/* the points span no simplex yet */
+	progress_batch_done(&host->progress, header->inserted - inserted,
+						header->counters.loads - before.loads,
+						header->counters.stores - before.stores);
+	return true;
+}
+
+/* abacus_build(mesh regclass, batch bigint), a procedure */
+Datum
+abacus_sql_build(PG_FUNCTION_ARGS)
+{
+	Oid			mesh;
+	int64		batch;
+	LockRelId	lock;
+	Writer		writer;
+	abacus_header *header;
+	Host	   *host;
+	PageTable  *simplices;
+	abacus_build *build = NULL;
+
+	check_commits(fcinfo);
+	if (PG_ARGISNULL(0) || PG_ARGISNULL(1))
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("mesh and batch must not be NULL")));
+	mesh = PG_GETARG_OID(0);
+	batch = PG_GETARG_INT64(1);
+	if (batch < 1)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("batch must be at least 1")));
+	PreventCommandIfReadOnly("abacus_build()");
+
+	SPI_connect_ext(SPI_OPT_NONATOMIC); /* its memory outlives transactions */
+	lock = mesh_lock_for_session(mesh);
+	writer_begin(&writer, mesh, "abacus_build()");
+	host = writer.host;
+	header = writer.header;
+	simplices = &host->store.simplices;
+	simplices->superseded = superseded_create(host->home);
+	progress_in_batches(&host->progress, header->points - header->inserted);
+	host_run(host, abacus_build_open(&host->table, header, setting_cache_bytes(), &build,
+									 &host->failure));
+	host_own(host, build, (void (*) (void *)) abacus_build_close);
+
+	while (header->inserted < header->points && insert_batch(&writer, build, (uint64) batch))
+	{
+		writer_store(&writer);
+		SPI_commit();
+		writer_continue(&writer);
+		superseded_reclaim(simplices->superseded, simplices->heap);
+	}
+	writer_close(&writer);
+	SPI_finish();
+	UnlockRelationIdForSession(&lock, ShareRowExclusiveLock);
+	PG_RETURN_VOID();
+}

@@ -1,0 +1,115 @@
+/*
+ * superseded.c: the space of rows that were replaced.
+ *
+ * A page of a mesh fills a heap page, so the new version of a row goes
+ * elsewhere and the old one keeps its heap page. PostgreSQL would prune that
+ * when somebody comes by, but nobody does: no search leads to a dead row, and
+ * an insertion goes where the free space map sends it, which pruning does not
+ * tell. So a writer that commits in between remembers the heap pages that it
+ * left, has them pruned when the commit has made the old versions dead, and
+ * enters their space into the map.
+ *
+ * Old versions that some transaction still sees stay, and are tried again the
+ * next time. What remains in any case, until VACUUM, are a line pointer of
+ * four bytes and the index entry.
+ *
+ * The heap pages are remembered in a bitmap: 1 MB for 64 GB of table.
+ */
+#include "postgres.h"
+
+#include "access/heapam.h"
+#include "miscadmin.h"
+#include "storage/bufmgr.h"
+#include "storage/freespace.h"
+#include "utils/memutils.h"
+
+#include "pg/superseded.h"
+
+#define FIRST_BYTES 1024
+
+struct Superseded
+{
+	Size		bytes;
+	uint8	   *bits;			/* of each heap page */
+};
+
+/* Lives in `memory`. */
+Superseded *
+superseded_create(MemoryContext memory)
+{
+	Superseded *superseded = MemoryContextAlloc(memory, sizeof(Superseded));
+
+	superseded->bytes = FIRST_BYTES;
+	superseded->bits = MemoryContextAllocZero(memory, FIRST_BYTES);
+	return superseded;
+}
+
+/* Remembers that a row on this heap page has been replaced. */
+void
+superseded_add(Superseded *superseded, BlockNumber block)
+{
+	Size		byte = block / BITS_PER_BYTE;
+
+	if (byte >= superseded->bytes)
+	{
+		Size		more = Max(byte + 1, superseded->bytes * 2);
+
+		superseded->bits = repalloc_huge(superseded->bits, more);
+		MemSet(superseded->bits + superseded->bytes, 0, more - superseded->bytes);
+		superseded->bytes = more;
+	}
+	superseded->bits[byte] |= 1 << (block % BITS_PER_BYTE);
+}
+
+/*
+ * Prunes a heap page and tells the free space map what room it has. Returns
+ * false if there is more to prune, but not now: a row is seen by somebody
+ * still, or the page is being read.
+ */
+static bool
+reclaim(Relation heap, BlockNumber block)
+{
+	Buffer		buffer = ReadBuffer(heap, block);
+	Page		page = BufferGetPage(buffer);
+	Size		room;
+	bool		done;
+
+	heap_page_prune_opt(heap, buffer);
+	LockBuffer(buffer, BUFFER_LOCK_SHARE);
+	room = PageGetHeapFreeSpace(page);
+	done = !TransactionIdIsValid(((PageHeader) page)->pd_prune_xid);
+	UnlockReleaseBuffer(buffer);
+	RecordPageWithFreeSpace(heap, block, room);
+	return done;
+}
+
+/*
+ * Gives the space back. The replacing transactions must have committed, and
+ * a snapshot taken since be active: it is what tells this backend that nobody
+ * else needs the old versions.
+ */
+void
+superseded_reclaim(Superseded *superseded, Relation heap)
+{
+	BlockNumber first = InvalidBlockNumber;
+	BlockNumber last = InvalidBlockNumber;
+
+	for (Size byte = 0; byte < superseded->bytes; byte++)
+	{
+		for (int bit = 0; superseded->bits[byte] >> bit != 0; bit++)
+		{
+			BlockNumber block = (BlockNumber) (byte * BITS_PER_BYTE + bit);
+
+			if ((superseded->bits[byte] & (1 << bit)) == 0)
+				continue;
+			CHECK_FOR_INTERRUPTS();
+			if (reclaim(heap, block))
+				superseded->bits[byte] &= ~(1 << bit);
+			if (first == InvalidBlockNumber)
+				first = block;
+			last = block;
+		}
+	}
+	if (first != InvalidBlockNumber)
+		FreeSpaceMapVacuumRange(heap, first, last + 1);
+}

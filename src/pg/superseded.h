@@ -1,0 +1,17 @@
+/*
+ * superseded.h: the space of rows that were replaced, given back without
+ * VACUUM once their transaction has committed.
+ */
+#ifndef ABACUS_SUPERSEDED_H
+#define ABACUS_SUPERSEDED_H
+
+#include "storage/block.h"
+#include "utils/rel.h"
+
+typedef struct Superseded Superseded;
+
+extern Superseded *superseded_create(MemoryContext memory);
+extern void superseded_add(Superseded *superseded, BlockNumber block);
+extern void superseded_reclaim(Superseded *superseded, Relation heap);
+
+#endif
