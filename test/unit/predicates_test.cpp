@@ -32,6 +32,13 @@ template <int D> int exact_orientation(const Corners<D> &c) {
         return CGAL::orientation(cgal<D>(*c[0]), cgal<D>(*c[1]), cgal<D>(*c[2]), cgal<D>(*c[3]));
 }
 
+template <int D> int unfiltered_orientation(const Corners<D> &c) {
+    if constexpr (D == 2)
+        return exact::orientation(*c[0], *c[1], *c[2]);
+    else
+        return exact::orientation(*c[0], *c[1], *c[2], *c[3]);
+}
+
 /// CGAL's triangulations own the perturbation; what decides is protected.
 class Perturbed2 : public CGAL::Delaunay_triangulation_2<Kernel> {
 public:
@@ -57,10 +64,23 @@ struct Source {
 
 double unit(Random &r) { return std::uniform_real_distribution<double>(-1, 1)(r); }
 
+/// An integer of so many bits, every other time one next to the ends of their range.
+double lattice(Random &r, int bits) {
+    const std::uint64_t end = std::uint64_t{1} << bits;
+    if (r() % 2) return double(r() % end);
+    return r() % 2 ? double(r() % 3) : double(end - 1 - r() % 3);
+}
+
 const Source sources[] = {
     {"uniform", unit},
     {"tiny_grid", [](Random &r) { return double(r() % 4); }},
     {"grid", [](Random &r) { return double(r() % 1000) - 500; }},
+    // At the widths up to which integers hold the determinants, and beyond.
+    {"grid_of_24_bits", [](Random &r) { return lattice(r, 24); }},
+    {"grid_of_25_bits", [](Random &r) { return lattice(r, 25); }},
+    {"grid_of_30_bits", [](Random &r) { return lattice(r, 30); }},
+    {"grid_of_31_bits", [](Random &r) { return lattice(r, 31); }},
+    {"grid_of_32_bits", [](Random &r) { return lattice(r, 32); }},
     {"grid_far_from_zero", [](Random &r) { return 1e6 + double(r() % 8) * 0.125; }},
     {"decimals", [](Random &r) { return double(r() % 10) * 0.1; }},
     {"nearly_a_grid",
@@ -106,6 +126,8 @@ protected:
             if (round % 16 == 0) p = points[random() % (D + 1)];
             const int sign = orientation<D>(corners);
             ASSERT_EQ(sign, exact_orientation<D>(corners));
+            // What is behind the filter, also where that decides.
+            ASSERT_EQ(unfiltered_orientation<D>(corners), sign);
             degenerate += sign == 0;
             if (sign < 0) std::swap(corners[0], corners[1]);
             if (sign == 0) continue;
@@ -115,6 +137,7 @@ protected:
             ASSERT_EQ(side == 0, is_corner);
             if (is_corner) continue;
             ASSERT_EQ(side, triangulation.in_sphere(corners, p));
+            ASSERT_EQ(exact::in_sphere<D>(corners, p), side);
             // The same for every even order of the corners.
             std::rotate(corners.begin(), corners.begin() + 1, corners.begin() + 3);
             ASSERT_EQ(in_sphere(corners, p), side);
