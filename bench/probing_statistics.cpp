@@ -98,7 +98,7 @@ void stage(const abacus_host &host, abacus_header &header, const char *path) {
 /// Calls visit(point, id) for the staged points, until it returns false.
 template <int D, class Visit>
 void for_each_point(const Host &host, const abacus_header &header, Visit visit) {
-    VertexReader<D> reader(host, header.attributes, 0, header.points);
+    VertexReader<D> reader(host, header.attributes, 0, header.staged);
     while (reader.advance() && visit(reader.point(), reader.id())) {
     }
 }

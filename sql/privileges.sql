@@ -37,15 +37,15 @@ GRANT SELECT ON field_vertices TO regress_abacus_reader;
 SET ROLE regress_abacus_reader;
 SELECT count(*) FROM abacus_vertices('field');
 SELECT * FROM abacus_check('field');
--- writing needs INSERT and UPDATE as well, on both
+-- writing needs INSERT, UPDATE and DELETE as well, on both
 SELECT abacus_stage('field', 'SELECT 100, 2.5, 2.5');
 SET ROLE regress_abacus_owner;
-GRANT INSERT, UPDATE ON field TO regress_abacus_reader;
+GRANT INSERT, UPDATE, DELETE ON field TO regress_abacus_reader;
 SET ROLE regress_abacus_reader;
 SELECT abacus_stage('field', 'SELECT 100, 2.5, 2.5');
 \echo :LAST_ERROR_SQLSTATE
 SET ROLE regress_abacus_owner;
-GRANT INSERT, UPDATE ON field_vertices TO regress_abacus_reader;
+GRANT INSERT, UPDATE, DELETE ON field_vertices TO regress_abacus_reader;
 SET ROLE regress_abacus_reader;
 SELECT abacus_stage('field', 'SELECT 100, 2.5, 2.5'), abacus_triangulate('field');
 SELECT abacus_stage('field', 'SELECT 101, 2.5, 3.5');

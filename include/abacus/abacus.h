@@ -85,7 +85,18 @@ typedef struct abacus_key
 	uint64_t part;
 } abacus_key;
 
-/* One stored simplex page. */
+/* What a page holds. Each kind has keys of its own. */
+typedef enum abacus_page_kind
+{
+	/* Simplices: the interval of their keys from the page's key to that of the next. */
+	ABACUS_SIMPLEX_PAGES,
+	/* Points that wait to be inserted, in insertion order: {sequence number of the first, 0}. */
+	ABACUS_STAGED_PAGES,
+	/* Points equal to a vertex: {code, serial number}, an interval as of simplices. */
+	ABACUS_REPEATED_PAGES
+} abacus_page_kind;
+
+/* One stored page. */
 typedef struct abacus_page
 {
 	abacus_key key;             /* lower end of the page's interval */
@@ -174,25 +185,18 @@ typedef struct abacus_host
 	abacus_host_status (*progress)(void *context, const abacus_progress *progress);
 
 	/*
-	 * Simplex pages. find: the page with the greatest key <= `key`. next: the
-	 * page with the least key > `key` (from the first page when `key` is
-	 * NULL). The header row is never returned. put: stores page->bytes under
-	 * page->key, replacing the version at page->location unless that is 0,
-	 * and sets page->location.
+	 * Pages of a kind. find: the one with the greatest key <= `key`. next: the
+	 * one with the least key > `key` (the first when `key` is NULL). The header
+	 * row is never returned. put: stores page->bytes under page->key, replacing
+	 * the version at page->location unless that is 0, and sets page->location.
+	 * erase: removes the version at page->location.
 	 */
-	abacus_host_status (*find)(void *context, abacus_key key, abacus_page *page);
-	abacus_host_status (*next)(void *context, const abacus_key *key, abacus_page *page);
-	abacus_host_status (*put)(void *context, abacus_page *page);
-
-	/*
-	 * Vertex pages, keyed by the sequence number of their first record.
-	 * append: stores a new page. read: the page with the greatest first
-	 * sequence number <= `sequence`.
-	 */
-	abacus_host_status (*append_vertices)(void *context, uint64_t first,
-										  const unsigned char *bytes, size_t size);
-	abacus_host_status (*read_vertices)(void *context, uint64_t sequence, uint64_t *first,
-										const unsigned char **bytes, size_t *size);
+	abacus_host_status (*find)(void *context, abacus_page_kind kind, abacus_key key,
+							   abacus_page *page);
+	abacus_host_status (*next)(void *context, abacus_page_kind kind, const abacus_key *key,
+							   abacus_page *page);
+	abacus_host_status (*put)(void *context, abacus_page_kind kind, abacus_page *page);
+	abacus_host_status (*erase)(void *context, abacus_page_kind kind, const abacus_page *page);
 
 	/*
 	 * Spools: temporary files, written from start to end, then read from
@@ -216,13 +220,13 @@ typedef struct abacus_header
 	double lower[ABACUS_MAX_DIMENSION]; /* domain; used for clustering only */
 	double upper[ABACUS_MAX_DIMENSION];
 	uint64_t stamp;        /* never repeats; set by the host at each change */
-	uint64_t points;       /* staged so far = sequence number of the next point */
-	uint64_t inserted;     /* points with a lower sequence number are triangulated */
-	uint64_t vertices;     /* distinct points among the inserted ones; 0 while they span no simplex */
-	uint64_t duplicates;   /* inserted points that equal an earlier one */
+	uint64_t staged;       /* sequence number of the next staged point */
+	uint64_t inserted;     /* ... of the first that waits; those before it are in the mesh */
+	uint64_t vertices;     /* of the mesh; 0 while the points span no simplex: then all wait */
+	uint64_t duplicates;   /* further points of the mesh, each equal to a vertex */
+	uint64_t serials;      /* serial number of the next such point */
 	uint64_t simplices;
 	uint64_t ghosts;       /* hull facets */
-	uint64_t first_batch;  /* points of the first stage call (see abacus_vertex.vertex) */
 	abacus_counters counters; /* summed over all builds; peak_bytes: the largest */
 	char names[ABACUS_MAX_ATTRIBUTES][ABACUS_NAME_BYTES];
 } abacus_header;
@@ -251,7 +255,10 @@ ABACUS_API abacus_status abacus_stage_open(const abacus_host *host, const abacus
  */
 ABACUS_API abacus_status abacus_stage_add(abacus_stage *stage, const uint64_t *points,
 										  size_t count, abacus_error *error);
-/* Orders the points, writes the vertex pages, brings the header up to date. */
+/* No more points come: a header without a domain gets theirs. */
+ABACUS_API abacus_status abacus_stage_end(abacus_stage *stage, abacus_header *header,
+										  abacus_error *error);
+/* Ends, orders the points, writes the vertex pages, brings the header up to date. */
 ABACUS_API abacus_status abacus_stage_finish(abacus_stage *stage, abacus_header *header,
 											 abacus_error *error);
 ABACUS_API void abacus_stage_close(abacus_stage *stage);
@@ -265,13 +272,30 @@ ABACUS_API abacus_status abacus_build_open(const abacus_host *host, const abacus
 										   size_t cache_bytes, abacus_build **build,
 										   abacus_error *error);
 /*
- * Inserts staged points that are not in the mesh yet, at most `limit` of them
- * (0 = all), writes every changed page, brings the header up to date. To be
- * called again for the next points, as long as nobody else changes the mesh
- * or moves its pages.
+ * The changes below write every changed page and bring the header up to date.
+ * One may follow another as long as nobody else changes the mesh or moves its
+ * pages.
+ *
+ * run: inserts staged points that wait, at most `limit` of them (0 = all), and
+ * erases their pages. While the points span no simplex they go on waiting.
  */
 ABACUS_API abacus_status abacus_build_run(abacus_build *build, uint64_t limit,
 										  abacus_header *header, abacus_error *error);
+/*
+ * insert: inserts what waits, then the points of a stage that has ended, without
+ * vertex pages between; they are staged after all if they span no simplex.
+ */
+ABACUS_API abacus_status abacus_build_insert(abacus_build *build, abacus_stage *stage,
+											 abacus_header *header, abacus_error *error);
+/*
+ * delete: inserts what waits, then takes away a point for each point of a stage
+ * that has ended: one with the same coordinates, and of several the one with the
+ * same id, or else the first. *deleted says how many there were. What is left is
+ * the triangulation of the other points; if they span no simplex they wait again.
+ */
+ABACUS_API abacus_status abacus_build_delete(abacus_build *build, abacus_stage *stage,
+											 abacus_header *header, uint64_t *deleted,
+											 abacus_error *error);
 ABACUS_API void abacus_build_close(abacus_build *build);
 
 /* ---- Reading ------------------------------------------------------------------ */
@@ -320,19 +344,22 @@ ABACUS_API abacus_status abacus_scan_next(abacus_scan *scan, abacus_simplex *sim
 										  abacus_error *error);
 ABACUS_API void abacus_scan_close(abacus_scan *scan);
 
-/* A staged point. */
+/* A point of a mesh, or one that waits to be. */
 typedef struct abacus_vertex
 {
-	uint64_t sequence;       /* place in the insertion order */
 	int64_t id;
 	double point[ABACUS_MAX_DIMENSION];
 	const double *attributes; /* valid until the next call */
-	int32_t inserted;        /* 1: `vertex` is set */
-	int64_t vertex;          /* id of the vertex that stands for this point: its own
-								id unless an equal point was staged before it */
+	int32_t waits;           /* 1: it is not inserted yet */
+	uint64_t sequence;       /* of a point that waits: its place in the insertion order */
+	int64_t vertex;          /* of one that does not: id of the vertex that stands for it,
+								its own unless an equal point came before it */
 } abacus_vertex;
 
-/* All staged points in insertion order. */
+/*
+ * All points: the vertices, page by page along the curve; the points equal to a
+ * vertex; those that wait, in insertion order.
+ */
 typedef struct abacus_vertex_scan abacus_vertex_scan;
 ABACUS_API abacus_status abacus_vertex_scan_open(const abacus_host *host,
 												 const abacus_header *header, size_t cache_bytes,

@@ -37,7 +37,14 @@ RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_triangulate_query'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_triangulate(text, text, text[], integer, double precision[], double precision[]) IS
-    'makes a mesh, stages the points of the query and triangulates them; attributes are named after the query''s columns unless given';
+    'makes a mesh and triangulates the points of the query; attributes are named after the query''s columns unless given';
+
+CREATE FUNCTION abacus_insert(mesh regclass, query text)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_insert'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_insert(regclass, text) IS
+    'inserts the points of a query (id, x, y[, z][, attribute...]) into the Delaunay triangulation, after those that wait; returns how many';
 
 CREATE PROCEDURE abacus_build(mesh regclass, batch bigint DEFAULT 1000000)
 AS 'MODULE_PATHNAME', 'abacus_sql_build'

@@ -45,4 +45,4 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_vertices'
 LANGUAGE C STABLE STRICT PARALLEL RESTRICTED ROWS 100000;
 COMMENT ON FUNCTION abacus_vertices(regclass) IS
-    'all staged points in insertion order; vertex is the id of the vertex that stands for the point (its own unless an equal point came first), NULL before triangulation';
+    'all points; vertex is the id of the vertex that stands for the point, its own unless an equal point came first; of points that wait to be inserted it is NULL, and sequence says when they will be';

@@ -105,6 +105,8 @@ public:
     bool near(Handle h, std::uint64_t code) const {
         return blocks_[block_of<D>(h)].surely_owns(code);
     }
+    /// Lower key of the block, and of its page, that h is in.
+    const Key &lower(Handle h) const { return blocks_[block_of<D>(h)].lower; }
     /// Some simplex of the block that owns the code, loaded if need be, preferably
     /// close to p; no_handle if the mesh has none there.
     Handle start(std::uint64_t code, const Point<D> &p);

@@ -245,7 +245,7 @@ template <int D> void Cache<D>::store(BlockIndex b) {
     ++counters.stores;
     if (block.location != 0) ++counters.rewrites;
     counters.bytes_written += page_size_;
-    host_.put(page);
+    host_.put(ABACUS_SIMPLEX_PAGES, page);
     block.location = page.location;
     block.dirty = false;
 }

@@ -52,7 +52,7 @@ template <int D> typename Cache<D>::BlockIndex Cache<D>::owner(const Key &key) {
     if (cached != no_block) return cached;
     const Stopwatch stopwatch(counters.translation_ns);
     abacus_page page{};
-    if (!host_.find(key, page)) return no_block;
+    if (!host_.find(ABACUS_SIMPLEX_PAGES, key, page)) return no_block;
     const BlockIndex b = load(page);
     if (!blocks_[b].owns(key)) throw_corrupted("No page owns a part of the curve.");
     return b;

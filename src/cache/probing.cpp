@@ -173,7 +173,7 @@ template <int D> bool Cache<D>::concentric_probe(Handle h, int facet, const Cell
     Key last{};
     const Key *after = nullptr;
     abacus_page page{};
-    while (host_.next(after, page)) {
+    while (host_.next(ABACUS_SIMPLEX_PAGES, after, page)) {
         host_.poll();
         last = page.key;
         after = &last;

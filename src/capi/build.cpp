@@ -4,6 +4,7 @@
 #include "capi/dimension.hpp"
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
+#include "capi/stage.hpp"
 
 struct abacus_build {
     abacus_build(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
@@ -21,13 +22,36 @@ abacus_status abacus_build_open(const abacus_host *host, const abacus_header *he
     });
 }
 
-abacus_status abacus_build_run(abacus_build *build, uint64_t limit, abacus_header *header,
-                               abacus_error *error) {
+namespace {
+
+/// Runs change(build, header) on the build of whatever dimension.
+template <class Change>
+abacus_status run(abacus_build *build, abacus_header *header, abacus_error *error,
+                  Change change) noexcept {
     return abacus::guard(error, [&] {
-        abacus_header changed = *header; // the caller's stays as it is if the run fails
-        build->build.visit([&](auto &run) { run.run(limit, changed); });
+        abacus_header changed = *header; // the caller's stays as it is if the change fails
+        build->build.visit([&](auto &opened) { change(opened, changed); });
         *header = changed;
         return ABACUS_OK;
+    });
+}
+
+template <int D> abacus::Stage<D> &stage_for(const abacus::Build<D> &, abacus_stage *stage) {
+    return stage->stage.get<D>();
+}
+
+} // namespace
+
+abacus_status abacus_build_run(abacus_build *build, uint64_t limit, abacus_header *header,
+                               abacus_error *error) {
+    return run(build, header, error,
+               [&](auto &opened, abacus_header &changed) { opened.run(limit, changed); });
+}
+
+abacus_status abacus_build_insert(abacus_build *build, abacus_stage *stage, abacus_header *header,
+                                  abacus_error *error) {
+    return run(build, header, error, [&](auto &opened, abacus_header &changed) {
+        opened.insert(stage_for(opened, stage), changed);
     });
 }
 

@@ -23,6 +23,11 @@ public:
         return flat_ ? visit(*flat_) : visit(*solid_);
     }
 
+    template <int D> T<D> &get() {
+        if constexpr (D == 2) return flat_.value();
+        else return solid_.value();
+    }
+
 private:
     std::optional<T<2>> flat_;
     std::optional<T<3>> solid_;

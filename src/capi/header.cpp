@@ -82,13 +82,13 @@ template <class Header, class Visit> void visit_fields(Header &header, Visit &vi
     for (auto &value : header.lower) visit(value);
     for (auto &value : header.upper) visit(value);
     visit(header.stamp);
-    visit(header.points);
+    visit(header.staged);
     visit(header.inserted);
     visit(header.vertices);
     visit(header.duplicates);
+    visit(header.serials);
     visit(header.simplices);
     visit(header.ghosts);
-    visit(header.first_batch);
 }
 
 void check_domain(abacus_header &header) {
@@ -102,12 +102,12 @@ void check_domain(abacus_header &header) {
 }
 
 void check_counts(const abacus_header &header) {
-    if (header.points >= count_limit || header.inserted > header.points ||
-        header.first_batch > header.points || header.vertices > header.inserted ||
-        header.duplicates > header.inserted - header.vertices)
+    if (header.staged >= count_limit || header.inserted > header.staged ||
+        header.vertices >= count_limit || header.serials >= count_limit ||
+        header.duplicates > header.serials || (header.vertices == 0 && header.duplicates > 0))
         throw_corrupted("The header's counts of points contradict each other.");
-    if (header.points > 0 && (header.has_domain == 0 || header.first_batch == 0))
-        throw_corrupted("The header has points but no domain or no first batch.");
+    if ((header.staged > 0 || header.vertices > 0) && header.has_domain == 0)
+        throw_corrupted("The header has points but no domain.");
     if (header.simplices >= count_limit || header.ghosts >= count_limit ||
         (header.vertices == 0 && (header.simplices > 0 || header.ghosts > 0)) ||
         (header.vertices > 0 && (header.simplices == 0 || header.ghosts == 0)))

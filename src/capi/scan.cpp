@@ -1,5 +1,6 @@
 // Whole-mesh sequences behind the C interface.
-#include "query/scan.hpp"
+#include "query/simplex_scan.hpp"
+#include "query/vertex_scan.hpp"
 
 #include "capi/dimension.hpp"
 #include "capi/guard.hpp"

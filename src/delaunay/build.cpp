@@ -2,6 +2,7 @@
 
 #include "cache/domain_of.hpp"
 #include "cache/stopwatch.hpp"
+#include "delaunay/intake.hpp"
 
 #include <algorithm>
 
@@ -20,76 +21,97 @@ Build<D>::Build(const Host &host, const abacus_header &header, std::size_t cache
              CacheOptions{.budget = cache_bytes}),
       insertion_(host_, cache_, static_cast<std::int64_t>(header.simplices),
                  static_cast<std::int64_t>(header.ghosts)),
-      values_(host_) {
-    values_.resize(attributes_);
+      repeated_(host_, cache_.domain(), header.attributes) {}
+
+template <int D> VertexIndex Build<D>::create(const std::uint64_t *record) {
+    return cache_.create_vertex(record_point<D>(record), record_id(record),
+                                record_attributes<D>(record));
+}
+
+template <int D> void Build<D>::start(const std::array<VertexIndex, D + 1> &vertices) {
+    insertion_.start(vertices);
+    header_->vertices = D + 1;
+}
+
+template <int D> void Build<D>::add(const std::uint64_t *record) {
+    if (insertion_.insert(record_point<D>(record), record_id(record),
+                          record_attributes<D>(record))) {
+        ++header_->vertices;
+    } else {
+        repeated_.add(header_->serials++, record);
+        ++header_->duplicates;
+    }
+}
+
+template <int D> void Build<D>::insert_waiting(std::uint64_t limit) {
+    if (!has_waiting()) return;
+    const std::uint64_t from = header_->inserted;
+    std::uint64_t to = limit == 0 ? header_->staged : std::min(header_->staged, from + limit);
+    FirstSimplex<D> first;
+    if (!has_simplices()) {
+        VertexReader<D> reader(host_, attributes_, from, header_->staged);
+        while (!first.is_complete() && reader.advance())
+            first.offer(reader.point(), reader.sequence());
+        if (!first.is_complete()) return;
+        to = std::max(to, first.number(D) + 1); // its points are in the mesh from the start
+        std::array<VertexIndex, D + 1> vertices;
+        for (int i = 0; i <= D; ++i) {
+            VertexReader<D> corner(host_, attributes_, first.number(i), first.number(i) + 1);
+            corner.advance();
+            vertices[i] = create(corner.record());
+        }
+        start(vertices);
+    }
+    VertexReader<D> reader(host_, attributes_, from, to, true);
+    report(ABACUS_PHASE_INSERTING, 0, to - from);
+    while (reader.advance()) {
+        const std::uint64_t done = reader.sequence() - from;
+        if (done % 256 == 0) host_.poll();
+        if (done % report_every == 0) report(ABACUS_PHASE_INSERTING, done, to - from);
+        if (!first.contains(reader.sequence())) add(reader.record());
+    }
+    header_->inserted = to;
 }
 
 template <int D>
-bool Build<D>::find_first_simplex(const abacus_header &header, Sequences &sequences) {
-    std::array<Point<D>, D + 1> points;
-    Corners<D> corners;
-    for (int i = 0; i <= D; ++i) corners[i] = &points[i];
-    int n = 0;
-    VertexReader<D> reader(host_, attributes_, 0, header.points);
-    while (reader.advance()) {
-        const Point<D> p = reader.point();
-        if (!is_independent(corners, n, p)) continue;
-        points[n] = p;
-        sequences[n++] = reader.sequence();
-        if (n == D + 1) return true;
+template <class Change>
+void Build<D>::change(abacus_header &header, Change change) {
+    cache_.counters = {};
+    header_ = &header;
+    {
+        const Stopwatch stopwatch(cache_.counters.total_ns);
+        const std::uint64_t done = change();
+        report(ABACUS_PHASE_FLUSHING, done, done);
+        cache_.flush();
+        repeated_.flush();
     }
-    return false;
+    header.simplices = static_cast<std::uint64_t>(insertion_.simplices());
+    header.ghosts = static_cast<std::uint64_t>(insertion_.ghosts());
+    add_counters(header.counters, cache_.counters);
 }
 
-template <int D> void Build<D>::start(const Sequences &sequences) {
-    std::array<VertexIndex, D + 1> vertices;
-    for (int i = 0; i <= D; ++i) {
-        VertexReader<D> reader(host_, attributes_, sequences[i], sequences[i] + 1);
-        reader.advance();
-        reader.attributes(values_.data());
-        vertices[i] = cache_.create_vertex(reader.point(), reader.id(), values_.data());
-    }
-    insertion_.start(vertices);
+template <int D> void Build<D>::run(std::uint64_t limit, abacus_header &header) {
+    change(header, [&] {
+        const std::uint64_t before = header.inserted;
+        insert_waiting(limit);
+        return header.inserted - before;
+    });
+}
+
+template <int D> void Build<D>::insert(Stage<D> &stage, abacus_header &header) {
+    change(header, [&] {
+        const std::uint64_t points = stage.points();
+        insert_waiting(0);
+        Intake intake(*this);
+        stage.emit(intake, header);
+        insert_waiting(0); // if they had to be staged after all
+        return points;
+    });
 }
 
 template <int D>
 void Build<D>::report(abacus_phase phase, std::uint64_t done, std::uint64_t total) {
     host_.progress({phase, done, total, cache_.counters.loads, cache_.counters.stores});
-}
-
-template <int D> void Build<D>::run(std::uint64_t limit, abacus_header &header) {
-    cache_.counters = {};
-    {
-        const Stopwatch stopwatch(cache_.counters.total_ns);
-        Sequences first;
-        if (!find_first_simplex(header, first)) return;
-        if (header.vertices == 0) {
-            start(first);
-            header.vertices = D + 1;
-        }
-        const std::uint64_t from = header.inserted;
-        // The first simplex is in the mesh from the start: so its points are counted in.
-        const std::uint64_t to =
-            limit == 0 ? header.points
-                       : std::min(header.points, std::max(from + limit, first[D] + 1));
-        VertexReader<D> reader(host_, attributes_, from, to);
-        report(ABACUS_PHASE_INSERTING, 0, to - from);
-        while (reader.advance()) {
-            const std::uint64_t done = reader.sequence() - from;
-            if (done % 256 == 0) host_.poll();
-            if (done % report_every == 0) report(ABACUS_PHASE_INSERTING, done, to - from);
-            if (std::find(first.begin(), first.end(), reader.sequence()) != first.end()) continue;
-            reader.attributes(values_.data());
-            if (insertion_.insert(reader.point(), reader.id(), values_.data())) ++header.vertices;
-            else ++header.duplicates;
-        }
-        report(ABACUS_PHASE_FLUSHING, to - from, to - from);
-        cache_.flush();
-        header.inserted = to;
-    }
-    header.simplices = static_cast<std::uint64_t>(insertion_.simplices());
-    header.ghosts = static_cast<std::uint64_t>(insertion_.ghosts());
-    add_counters(header.counters, cache_.counters);
 }
 
 void add_counters(abacus_counters &sum, const abacus_counters &more) {

@@ -1,7 +1,17 @@
-// A build: staged points, in their order, into the mesh (dissertation §4.12.5).
+// Changes of a mesh as a whole (dissertation §4.12.5): points that wait, or that a stage
+// hands on, go into the triangulation; others are taken out of it.
+//
+// A point is in one place at a time. It waits on a vertex page (vertex_page.hpp), is a
+// vertex of simplex pages, or, if it equals a vertex, is a repeated point
+// (repeated_points.hpp). While the points span no simplex all of them wait.
+//
+// Each change ends with all pages written and the header brought up to date.
 #pragma once
 
+#include "delaunay/first_simplex.hpp"
 #include "delaunay/insertion.hpp"
+#include "staging/repeated_points.hpp"
+#include "staging/stage.hpp"
 #include "staging/vertex_reader.hpp"
 
 namespace abacus {
@@ -10,25 +20,30 @@ template <int D> class Build {
 public:
     Build(const Host &host, const abacus_header &header, std::size_t cache_bytes);
 
-    /// Inserts at most `limit` further points (0 = all), writes all changed pages and
-    /// brings the header up to date. While the points span no simplex the mesh stays
-    /// empty: all of them are looked at again when more have been staged.
+    /// Inserts at most `limit` of the points that wait (0 = all).
     void run(std::uint64_t limit, abacus_header &header);
+    /// Inserts what waits, then the points of a stage.
+    void insert(Stage<D> &stage, abacus_header &header);
 
 private:
-    using Sequences = std::array<std::uint64_t, D + 1>;
+    class Intake;
 
-    /// Sequence numbers of the first affinely independent points: what the mesh starts
-    /// with, since no mesh of fewer dimensions is kept. Depends on the points alone.
-    bool find_first_simplex(const abacus_header &header, Sequences &sequences);
-    void start(const Sequences &sequences);
+    bool has_simplices() const { return header_->vertices > 0; }
+    bool has_waiting() const { return header_->inserted < header_->staged; }
+    VertexIndex create(const std::uint64_t *record);
+    void start(const std::array<VertexIndex, D + 1> &vertices);
+    void add(const std::uint64_t *record);
+    void insert_waiting(std::uint64_t limit);
+    /// Runs a change, which returns how many points it has dealt with, and ends it.
+    template <class Change> void change(abacus_header &header, Change change);
     void report(abacus_phase phase, std::uint64_t done, std::uint64_t total);
 
     const Host &host_;
-    unsigned attributes_;
+    const unsigned attributes_;
     Cache<D> cache_;
     Insertion<D> insertion_;
-    Arena<double> values_; // attributes of the point at hand
+    RepeatedPoints<D> repeated_;
+    abacus_header *header_ = nullptr; ///< of the change at hand
 };
 
 /// Adds up counters of several builds; peaks are maxima.

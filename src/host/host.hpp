@@ -56,20 +56,17 @@ public:
     }
 
     /// False when there is no such page.
-    bool find(abacus_key key, abacus_page &page) const {
-        return found(table_->find(table_->context, key, &page));
+    bool find(abacus_page_kind kind, abacus_key key, abacus_page &page) const {
+        return found(table_->find(table_->context, kind, key, &page));
     }
-    bool next(const abacus_key *key, abacus_page &page) const {
-        return found(table_->next(table_->context, key, &page));
+    bool next(abacus_page_kind kind, const abacus_key *key, abacus_page &page) const {
+        return found(table_->next(table_->context, kind, key, &page));
     }
-    void put(abacus_page &page) const { require(table_->put(table_->context, &page)); }
-
-    void append_vertices(std::uint64_t first, const unsigned char *bytes, std::size_t size) const {
-        require(table_->append_vertices(table_->context, first, bytes, size));
+    void put(abacus_page_kind kind, abacus_page &page) const {
+        require(table_->put(table_->context, kind, &page));
     }
-    bool read_vertices(std::uint64_t sequence, std::uint64_t &first, const unsigned char *&bytes,
-                       std::size_t &size) const {
-        return found(table_->read_vertices(table_->context, sequence, &first, &bytes, &size));
+    void erase(abacus_page_kind kind, const abacus_page &page) const {
+        require(table_->erase(table_->context, kind, &page));
     }
 
     void *spool_create() const {

@@ -8,6 +8,7 @@
 
 #include "pg/header.h"
 #include "pg/source.h"
+#include "pg/writer.h"
 
 extern void shape_dimension(abacus_header *header, int32 dimension);
 extern void shape_attribute(abacus_header *header, const char *name);
@@ -17,7 +18,20 @@ extern void shape_point(const abacus_header *header, ArrayType *point, const cha
 extern void shape_domain(abacus_header *header, ArrayType *lower, ArrayType *upper);
 
 extern Oid	build_create(text *name, Oid extension_namespace, abacus_header *header);
-extern uint64 build_stage(Oid mesh, Source *source);
-extern uint64 build_triangulate(Oid mesh);
+
+/* A change of a mesh with the points of a query. */
+typedef struct Change
+{
+	Writer		writer;
+	abacus_stage *stage;		/* the points */
+	abacus_build *build;
+	uint64		points;			/* how many */
+} Change;
+
+extern uint64 edit_insert(Oid mesh, Source *source, const char *command, abacus_header *header);
+extern Change *change_begin(Oid mesh, const char *command);
+extern void change_read(Change *change, Source *source, const abacus_header *shape);
+extern void change_open_build(Change *change);
+extern void change_end(Change *change);
 
 #endif

@@ -91,12 +91,12 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 	header = writer.header;
 	simplices = &host->store.simplices;
 	simplices->superseded = superseded_create(host->home);
-	progress_in_batches(&host->progress, header->points - header->inserted);
+	progress_in_batches(&host->progress, header->staged - header->inserted);
 	host_run(host, abacus_build_open(&host->table, header, setting_cache_bytes(), &build,
 									 &host->failure));
 	host_own(host, build, (void (*) (void *)) abacus_build_close);
 
-	while (header->inserted < header->points && insert_batch(&writer, build, (uint64) batch))
+	while (header->inserted < header->staged && insert_batch(&writer, build, (uint64) batch))
 	{
 		writer_store(&writer);
 		SPI_commit();

@@ -64,7 +64,7 @@ build_create(text *name, Oid extension_namespace, abacus_header *header)
 	mesh = create_table(namespace, range->relname, extension_namespace, SIMPLEX_PAGE_TYPE,
 						"code, part");
 	vertices = create_table(namespace, vertices_name, extension_namespace, VERTEX_PAGE_TYPE,
-							"first");
+							"first, part");
 	SPI_finish();
 	mesh_bind_vertex_table(mesh, vertices);
 	CommandCounterIncrement();

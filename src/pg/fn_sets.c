@@ -102,6 +102,7 @@ vertex_row(TupleDesc row_type, const abacus_vertex *vertex, const abacus_header 
 	Datum		values[VERTEX_COLUMNS];
 	bool		isnull[VERTEX_COLUMNS] = {false};
 
+	isnull[VERTEX_SEQUENCE] = !vertex->waits;
 	values[VERTEX_SEQUENCE] = Int64GetDatum((int64) vertex->sequence);
 	values[VERTEX_ID] = Int64GetDatum(vertex->id);
 	for (uint32 i = 0; i < ABACUS_MAX_DIMENSION; i++)
@@ -110,7 +111,7 @@ vertex_row(TupleDesc row_type, const abacus_vertex *vertex, const abacus_header 
 		values[VERTEX_X + i] = isnull[VERTEX_X + i] ? (Datum) 0 : Float8GetDatum(vertex->point[i]);
 	}
 	values[VERTEX_ATTRIBUTES] = attribute_array(vertex->attributes, header->attributes);
-	isnull[VERTEX_VERTEX] = !vertex->inserted;
+	isnull[VERTEX_VERTEX] = vertex->waits;
 	values[VERTEX_VERTEX] = Int64GetDatum(vertex->vertex);
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
 }

@@ -99,7 +99,7 @@ put_sizes(Figures *figures, const Reader *reader, Oid vertices)
 	put_figure(figures, "simplex_table_bytes", table, "size of the simplex table");
 	put_figure(figures, "simplex_index_bytes", index, "size of its page index");
 	put_figure(figures, "vertex_table_bytes", bytes_of(pg_table_size, vertices),
-			   "size of the table of staged points");
+			   "size of the table of points that wait or are repeated");
 	put_figure(figures, "vertex_index_bytes", bytes_of(pg_indexes_size, vertices),
 			   "size of its index");
 	if (reader->header.simplices > 0)
@@ -110,14 +110,18 @@ put_sizes(Figures *figures, const Reader *reader, Oid vertices)
 static void
 put_counts(Figures *figures, const abacus_header *header)
 {
+	double		inserted = (double) header->vertices + (double) header->duplicates;
+	double		waiting = (double) (header->staged - header->inserted);
+
 	put_figure(figures, "dimension", header->dimension, "2 for triangles, 3 for tetrahedra");
 	put_figure(figures, "attributes", header->attributes, "attributes of a vertex");
-	put_figure(figures, "points", (double) header->points, "points staged");
-	put_figure(figures, "inserted", (double) header->inserted, "staged points triangulated");
+	put_figure(figures, "points", inserted + waiting, "all points");
+	put_figure(figures, "inserted", inserted, "points in the triangulation");
+	put_figure(figures, "waiting", waiting, "points that wait to be inserted");
 	put_figure(figures, "vertices", (double) header->vertices,
-			   "distinct points among them; 0 while they span no simplex");
+			   "distinct points in the triangulation; 0 while they span no simplex");
 	put_figure(figures, "duplicates", (double) header->duplicates,
-			   "triangulated points that equal an earlier one");
+			   "points in the triangulation that equal an earlier one");
 	put_figure(figures, "simplices", (double) header->simplices, "simplices of the mesh");
 	put_figure(figures, "hull_facets", (double) header->ghosts, "facets of its convex hull");
 }

@@ -1,5 +1,5 @@
 /*
- * fn_triangulate.c: abacus_triangulate, from staged points to simplex pages;
+ * fn_triangulate.c: abacus_triangulate, from staged points to simplex pages,
  * or from a query to a finished mesh at once.
  */
 #include "postgres.h"
@@ -8,38 +8,25 @@
 #include "utils/lsyscache.h"
 
 #include "pg/build.h"
-#include "pg/settings.h"
 #include "pg/sql_function.h"
-#include "pg/writer.h"
 
 SQL_FUNCTION(abacus_sql_triangulate);
 SQL_FUNCTION(abacus_sql_triangulate_query);
-
-/* Inserts all staged points; returns the number of simplices. */
-uint64
-build_triangulate(Oid mesh)
-{
-	Writer		writer;
-	Host	   *host;
-	abacus_build *build = NULL;
-	uint64		simplices;
-
-	writer_begin(&writer, mesh, "abacus_triangulate()");
-	host = writer.host;
-	host_run(host, abacus_build_open(&host->table, writer.header, setting_cache_bytes(), &build,
-									 &host->failure));
-	host_own(host, build, (void (*) (void *)) abacus_build_close);
-	host_run(host, abacus_build_run(build, 0, writer.header, &host->failure));
-	simplices = writer.header->simplices;
-	writer_end(&writer);
-	return simplices;
-}
 
 /* abacus_triangulate(mesh regclass) -> bigint */
 Datum
 abacus_sql_triangulate(PG_FUNCTION_ARGS)
 {
-	PG_RETURN_INT64((int64) build_triangulate(PG_GETARG_OID(0)));
+	Change	   *change = change_begin(PG_GETARG_OID(0), "abacus_triangulate()");
+	Host	   *host = change->writer.host;
+	abacus_header *header = change->writer.header;
+	uint64		simplices;
+
+	change_open_build(change);
+	host_run(host, abacus_build_run(change->build, 0, header, &host->failure));
+	simplices = header->simplices;
+	change_end(change);
+	PG_RETURN_INT64((int64) simplices);
 }
 
 /*
@@ -52,7 +39,6 @@ abacus_sql_triangulate_query(PG_FUNCTION_ARGS)
 	abacus_header *header = palloc0(sizeof(abacus_header));
 	Source		source;
 	Oid			mesh;
-	uint64		simplices;
 
 	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(3))
 		ereport(ERROR,
@@ -69,8 +55,7 @@ abacus_sql_triangulate_query(PG_FUNCTION_ARGS)
 		for (int i = 1 + header->dimension; i < source_columns(&source); i++)
 			shape_attribute(header, source_column_name(&source, i));
 	mesh = build_create(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid), header);
-	build_stage(mesh, &source);
-	simplices = build_triangulate(mesh);
+	edit_insert(mesh, &source, "abacus_triangulate()", header);
 	source_finish(&source);
-	PG_RETURN_INT64((int64) simplices);
+	PG_RETURN_INT64((int64) header->simplices);
 }

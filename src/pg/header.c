@@ -11,7 +11,7 @@
 
 #include "pg/header.h"
 
-static const int64 header_key[PAGE_TABLE_MAX_KEYS] = {-1, 0};
+static const int64 header_key[PAGE_TABLE_KEYS] = {-1, 0};
 
 static void
 new_stamp(abacus_header *header)

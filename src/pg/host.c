@@ -142,62 +142,49 @@ host_progress(void *context, const abacus_progress *progress)
 /* ---- Pages -------------------------------------------------------------- */
 
 static abacus_host_status
-host_find(void *context, abacus_key key, abacus_page *page)
+host_find(void *context, abacus_page_kind kind, abacus_key key, abacus_page *page)
 {
 	Host	   *host = context;
 	volatile bool found = false;
 
 	GUARD_BEGIN();
-	found = page_store_find(&host->store, key, page);
+	found = page_store_find(&host->store, kind, key, page);
 	GUARD_END(host);
 	return found ? ABACUS_HOST_OK : ABACUS_HOST_NONE;
 }
 
 static abacus_host_status
-host_next(void *context, const abacus_key *key, abacus_page *page)
+host_next(void *context, abacus_page_kind kind, const abacus_key *key, abacus_page *page)
 {
 	Host	   *host = context;
 	volatile bool found = false;
 
 	GUARD_BEGIN();
-	found = page_store_next(&host->store, key, page);
+	found = page_store_next(&host->store, kind, key, page);
 	GUARD_END(host);
 	return found ? ABACUS_HOST_OK : ABACUS_HOST_NONE;
 }
 
 static abacus_host_status
-host_put(void *context, abacus_page *page)
+host_put(void *context, abacus_page_kind kind, abacus_page *page)
 {
 	Host	   *host = context;
 
 	GUARD_BEGIN();
-	page_store_put(&host->store, page);
+	page_store_put(&host->store, kind, page);
 	GUARD_END(host);
 	return ABACUS_HOST_OK;
 }
 
 static abacus_host_status
-host_append_vertices(void *context, uint64_t first, const unsigned char *bytes, size_t size)
+host_erase(void *context, abacus_page_kind kind, const abacus_page *page)
 {
 	Host	   *host = context;
 
 	GUARD_BEGIN();
-	page_store_append_vertices(&host->store, first, bytes, size);
+	page_store_erase(&host->store, kind, page);
 	GUARD_END(host);
 	return ABACUS_HOST_OK;
-}
-
-static abacus_host_status
-host_read_vertices(void *context, uint64_t sequence, uint64_t *first, const unsigned char **bytes,
-				   size_t *size)
-{
-	Host	   *host = context;
-	volatile bool found = false;
-
-	GUARD_BEGIN();
-	found = page_store_read_vertices(&host->store, sequence, first, bytes, size);
-	GUARD_END(host);
-	return found ? ABACUS_HOST_OK : ABACUS_HOST_NONE;
 }
 
 /* ---- Spools ------------------------------------------------------------- */
@@ -297,8 +284,7 @@ host_create(MemoryContext parent, Oid mesh, MeshAccess access)
 	host->table.find = host_find;
 	host->table.next = host_next;
 	host->table.put = host_put;
-	host->table.append_vertices = host_append_vertices;
-	host->table.read_vertices = host_read_vertices;
+	host->table.erase = host_erase;
 	host->table.spool_create = host_spool_create;
 	host->table.spool_write = host_spool_write;
 	host->table.spool_rewind = host_spool_rewind;

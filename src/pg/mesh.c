@@ -95,7 +95,8 @@ static void
 check_access(Relation rel, MeshAccess access)
 {
 	Oid			relid = RelationGetRelid(rel);
-	AclMode		needed = access == MESH_WRITE ? ACL_SELECT | ACL_INSERT | ACL_UPDATE : ACL_SELECT;
+	AclMode		needed = access == MESH_READ ? ACL_SELECT
+		: ACL_SELECT | ACL_INSERT | ACL_UPDATE | ACL_DELETE;
 
 	if (pg_class_aclmask(relid, GetUserId(), needed, ACLMASK_ALL) != needed)
 		aclcheck_error(ACLCHECK_NO_PRIV, get_relkind_objtype(rel->rd_rel->relkind),

@@ -2,8 +2,10 @@
  * page_store.c: the two tables of a mesh as the core's page operations.
  *
  * Codes, parts and sequence numbers are unsigned below 2^63 in the core and
- * bigint in the tables. A page's location is its TID: block * 2^16 + offset,
- * never 0, for offsets start at 1.
+ * bigint in the tables. The vertex table holds two kinds of pages: repeated
+ * points have their codes shifted to the negative numbers, below all sequence
+ * numbers of staged points. A page's location is its TID: block * 2^16 +
+ * offset, never 0, for offsets start at 1.
  */
 #include "postgres.h"
 
@@ -18,8 +20,8 @@ page_store_init(PageStore *store, Oid mesh, MeshAccess access, MemoryContext mem
 {
 	store->mesh = mesh;
 	store->access = access;
-	page_table_init(&store->simplices, mesh, 2, access == MESH_WRITE, memory);
-	page_table_init(&store->vertices, InvalidOid, 1, access == MESH_WRITE, memory);
+	page_table_init(&store->simplices, mesh, access == MESH_WRITE, memory);
+	page_table_init(&store->vertices, InvalidOid, access == MESH_WRITE, memory);
 }
 
 void
@@ -53,10 +55,27 @@ unpack_location(uint64 location, ItemPointer tid)
 	ItemPointerSet(tid, (BlockNumber) (location >> 16), (OffsetNumber) (location & 0xFFFF));
 }
 
-static void
-hand_out(const StoredPage *stored, abacus_page *page)
+/* The table of a kind of pages. */
+static PageTable *
+table_of(PageStore *store, abacus_page_kind kind)
 {
-	page->key.code = (uint64) stored->key[0];
+	if (kind == ABACUS_SIMPLEX_PAGES)
+		return &store->simplices;
+	page_store_vertex_table(store);
+	return &store->vertices;
+}
+
+/* The first column of the least key of a kind. */
+static int64
+least_column(abacus_page_kind kind)
+{
+	return kind == ABACUS_REPEATED_PAGES ? PG_INT64_MIN : 0;
+}
+
+static void
+hand_out(const StoredPage *stored, abacus_page_kind kind, abacus_page *page)
+{
+	page->key.code = (uint64) stored->key[0] - (uint64) least_column(kind);
 	page->key.part = (uint64) stored->key[1];
 	page->bytes = stored->bytes;
 	page->size = stored->size;
@@ -64,78 +83,64 @@ hand_out(const StoredPage *stored, abacus_page *page)
 }
 
 static void
-to_bigints(abacus_key key, int64 *columns)
+to_columns(abacus_page_kind kind, abacus_key key, int64 *columns)
 {
-	columns[0] = (int64) Min(key.code, KEY_LIMIT);
+	columns[0] = (int64) (Min(key.code, KEY_LIMIT) + (uint64) least_column(kind));
 	columns[1] = (int64) Min(key.part, KEY_LIMIT);
 }
 
 bool
-page_store_find(PageStore *store, abacus_key key, abacus_page *page)
+page_store_find(PageStore *store, abacus_page_kind kind, abacus_key key, abacus_page *page)
 {
-	int64		columns[PAGE_TABLE_MAX_KEYS];
+	int64		columns[PAGE_TABLE_KEYS];
 	StoredPage	stored;
 
-	to_bigints(key, columns);
-	if (!page_table_floor(&store->simplices, columns, &stored))
+	to_columns(kind, key, columns);
+	if (!page_table_floor(table_of(store, kind), columns, &stored) ||
+		stored.key[0] < least_column(kind))
 		return false;
-	hand_out(&stored, page);
+	hand_out(&stored, kind, page);
 	return true;
 }
 
 bool
-page_store_next(PageStore *store, const abacus_key *key, abacus_page *page)
+page_store_next(PageStore *store, abacus_page_kind kind, const abacus_key *key, abacus_page *page)
 {
-	int64		columns[PAGE_TABLE_MAX_KEYS];
+	int64		columns[PAGE_TABLE_KEYS] = {least_column(kind), PG_INT64_MIN};
 	StoredPage	stored;
 
 	if (key != NULL)
-		to_bigints(*key, columns);
-	if (!page_table_next(&store->simplices, key != NULL ? columns : NULL, &stored))
+		to_columns(kind, *key, columns);
+	if (!page_table_next(table_of(store, kind), columns, &stored) ||
+		(kind == ABACUS_REPEATED_PAGES && stored.key[0] >= 0))
 		return false;
-	hand_out(&stored, page);
+	hand_out(&stored, kind, page);
 	return true;
 }
 
 void
-page_store_put(PageStore *store, abacus_page *page)
+page_store_put(PageStore *store, abacus_page_kind kind, abacus_page *page)
 {
-	int64		columns[PAGE_TABLE_MAX_KEYS];
+	PageTable  *table = table_of(store, kind);
+	int64		columns[PAGE_TABLE_KEYS];
 	ItemPointerData tid;
 
-	to_bigints(page->key, columns);
+	to_columns(kind, page->key, columns);
 	if (page->location != 0)
 	{
 		unpack_location(page->location, &tid);
-		page_table_update(&store->simplices, columns, page->bytes, page->size, &tid);
+		page_table_update(table, columns, page->bytes, page->size, &tid);
 	}
 	else
-		page_table_insert(&store->simplices, columns, page->bytes, page->size, &tid);
+		page_table_insert(table, columns, page->bytes, page->size, &tid);
 	page->location = pack_location(&tid);
 }
 
 void
-page_store_append_vertices(PageStore *store, uint64 first, const unsigned char *bytes, size_t size)
+page_store_erase(PageStore *store, abacus_page_kind kind, const abacus_page *page)
 {
-	int64		column = (int64) first;
 	ItemPointerData tid;
 
-	page_store_vertex_table(store);
-	page_table_insert(&store->vertices, &column, bytes, size, &tid);
-}
-
-bool
-page_store_read_vertices(PageStore *store, uint64 sequence, uint64 *first,
-						 const unsigned char **bytes, size_t *size)
-{
-	int64		column = (int64) Min(sequence, KEY_LIMIT);
-	StoredPage	stored;
-
-	page_store_vertex_table(store);
-	if (!page_table_floor(&store->vertices, &column, &stored))
-		return false;
-	*first = (uint64) stored.key[0];
-	*bytes = stored.bytes;
-	*size = stored.size;
-	return true;
+	unpack_location(page->location, &tid);
+	page_table_delete(table_of(store, kind), &tid);
 }

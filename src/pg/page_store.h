@@ -21,12 +21,11 @@ extern void page_store_init(PageStore *store, Oid mesh, MeshAccess access, Memor
 extern void page_store_close(PageStore *store);
 extern Oid	page_store_vertex_table(PageStore *store);
 
-extern bool page_store_find(PageStore *store, abacus_key key, abacus_page *page);
-extern bool page_store_next(PageStore *store, const abacus_key *key, abacus_page *page);
-extern void page_store_put(PageStore *store, abacus_page *page);
-extern void page_store_append_vertices(PageStore *store, uint64 first, const unsigned char *bytes,
-									   size_t size);
-extern bool page_store_read_vertices(PageStore *store, uint64 sequence, uint64 *first,
-									 const unsigned char **bytes, size_t *size);
+extern bool page_store_find(PageStore *store, abacus_page_kind kind, abacus_key key,
+							abacus_page *page);
+extern bool page_store_next(PageStore *store, abacus_page_kind kind, const abacus_key *key,
+							abacus_page *page);
+extern void page_store_put(PageStore *store, abacus_page_kind kind, abacus_page *page);
+extern void page_store_erase(PageStore *store, abacus_page_kind kind, const abacus_page *page);
 
 #endif

@@ -3,8 +3,8 @@
  *
  * Searching: "greatest key <= K" is a backward scan of the primary key's
  * B-tree that takes its first row. The scan is kept open and only rescanned;
- * for two key columns the bound is one row comparison, so equal codes with
- * many parts still cost one descent. (A second bound some way below K, to keep
+ * the bound is one comparison of rows, so equal codes with many parts still
+ * cost one descent. (A second bound some way below K, to keep
  * nbtree from copying all matches of a leaf page, gained nothing when
  * measured.)
  *
@@ -36,11 +36,10 @@
 
 /* Prepares a table for use; nothing is opened yet. */
 void
-page_table_init(PageTable *table, Oid relid, int keys, bool writable, MemoryContext memory)
+page_table_init(PageTable *table, Oid relid, bool writable, MemoryContext memory)
 {
 	MemSet(table, 0, sizeof(*table));
 	table->relid = relid;
-	table->keys = keys;
 	table->writable = writable;
 	table->memory = memory;
 }
@@ -61,8 +60,8 @@ open_primary_key(PageTable *table, LOCKMODE lock)
 		index = index_open(index_oid, lock);
 		form = index->rd_index;
 		usable = index->rd_rel->relam == BTREE_AM_OID && form->indisvalid && form->indimmediate &&
-			form->indnkeyatts == table->keys;
-		for (int i = 0; usable && i < table->keys; i++)
+			form->indnkeyatts == PAGE_TABLE_KEYS;
+		for (int i = 0; usable && i < PAGE_TABLE_KEYS; i++)
 			usable = form->indkey.values[i] == i + 1;
 	}
 	if (!usable)
@@ -70,8 +69,9 @@ open_primary_key(PageTable *table, LOCKMODE lock)
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("table \"%s\" lacks the primary key of a mesh",
 						RelationGetRelationName(heap)),
-				 errhint("Add it again: PRIMARY KEY (%s).",
-						 table->keys == 2 ? "code, part" : "first")));
+				 errhint("Add it again: PRIMARY KEY (%s, %s).",
+						 NameStr(TupleDescAttr(RelationGetDescr(heap), 0)->attname),
+						 NameStr(TupleDescAttr(RelationGetDescr(heap), 1)->attname))));
 	if (table->writable && list_length(RelationGetIndexList(heap)) != 1)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
@@ -151,17 +151,17 @@ read_row(PageTable *table, TupleTableSlot *slot, StoredPage *page)
 	struct varlena *datum;
 	bool		sound = true;
 
-	slot_getsomeattrs(slot, table->keys + 1);
-	for (int i = 0; i <= table->keys; i++)
+	slot_getsomeattrs(slot, PAGE_TABLE_KEYS + 1);
+	for (int i = 0; i <= PAGE_TABLE_KEYS; i++)
 		sound &= !slot->tts_isnull[i];
 	if (sound)
 	{
-		for (int i = 0; i < table->keys; i++)
+		for (int i = 0; i < PAGE_TABLE_KEYS; i++)
 			page->key[i] = DatumGetInt64(slot->tts_values[i]);
-		datum = (struct varlena *) DatumGetPointer(slot->tts_values[table->keys]);
+		datum = (struct varlena *) DatumGetPointer(slot->tts_values[PAGE_TABLE_KEYS]);
 		sound = VARATT_IS_4B_U(datum) && VARSIZE(datum) >= PAGE_TYPE_OVERHEAD &&
 			VARSIZE(datum) <= PAGE_TYPE_OVERHEAD + ABACUS_PAGE_BYTES &&
-			PointerIsAligned(datum, double) && (table->keys == 1 || page->key[1] >= 0);
+			PointerIsAligned(datum, double) && page->key[1] >= 0;
 	}
 	if (!sound)
 		ereport(ERROR,
@@ -196,16 +196,10 @@ static void
 bound_key(PageTable *table, PageScan *scan, ScanKey bound, StrategyNumber strategy,
 		  const int64 *key)
 {
-	if (table->keys == 1)
-	{
-		ScanKeyInit(bound, 1, strategy, strategy == BTLessEqualStrategyNumber ? F_INT8LE : F_INT8GT,
-					Int64GetDatum(key[0]));
-		return;
-	}
-	for (int i = 0; i < table->keys; i++)
+	for (int i = 0; i < PAGE_TABLE_KEYS; i++)
 	{
 		ScanKeyInit(&scan->members[i], i + 1, strategy, F_BTINT8CMP, Int64GetDatum(key[i]));
-		scan->members[i].sk_flags = SK_ROW_MEMBER | (i == table->keys - 1 ? SK_ROW_END : 0);
+		scan->members[i].sk_flags = SK_ROW_MEMBER | (i == PAGE_TABLE_KEYS - 1 ? SK_ROW_END : 0);
 	}
 	MemSet(bound, 0, sizeof(*bound));
 	bound->sk_flags = SK_ROW_HEADER;
@@ -218,16 +212,16 @@ bound_key(PageTable *table, PageScan *scan, ScanKey bound, StrategyNumber strate
 bool
 page_table_get(PageTable *table, const int64 *key, StoredPage *page)
 {
-	ScanKeyData keys[PAGE_TABLE_MAX_KEYS];
+	ScanKeyData keys[PAGE_TABLE_KEYS];
 
 	page_table_open(table);
 	see_own_changes(table);
 	/* used for the header row only: a scan of its own is not worth keeping */
 	close_scan(&table->forward);
 	table->at_key = false;
-	for (int i = 0; i < table->keys; i++)
+	for (int i = 0; i < PAGE_TABLE_KEYS; i++)
 		ScanKeyInit(&keys[i], i + 1, BTEqualStrategyNumber, F_INT8EQ, Int64GetDatum(key[i]));
-	search(table, &table->forward, keys, table->keys);
+	search(table, &table->forward, keys, PAGE_TABLE_KEYS);
 	if (!index_getnext_slot(table->forward.scan, ForwardScanDirection, table->forward.slot))
 	{
 		close_scan(&table->forward);
@@ -237,7 +231,7 @@ page_table_get(PageTable *table, const int64 *key, StoredPage *page)
 	return true;
 }
 
-/* The row with the greatest key <= `key`; the header row (negative key) does not count. */
+/* The row with the greatest key <= `key`. */
 bool
 page_table_floor(PageTable *table, const int64 *key, StoredPage *page)
 {
@@ -250,22 +244,17 @@ page_table_floor(PageTable *table, const int64 *key, StoredPage *page)
 	if (!index_getnext_slot(table->floor.scan, BackwardScanDirection, table->floor.slot))
 		return false;
 	read_row(table, table->floor.slot, page);
-	return page->key[0] >= 0;
+	return true;
 }
 
-/* The row with the least key > `key`, from the first page when NULL. */
+/* The row with the least key > `key`. */
 bool
 page_table_next(PageTable *table, const int64 *key, StoredPage *page)
 {
-	static const int64 before_all[PAGE_TABLE_MAX_KEYS] = {-1, PG_INT64_MAX};
-
 	page_table_open(table);
 	see_own_changes(table);
-	if (key == NULL)
-		key = before_all;
-
 	/* reading on in order, the scan already stands there */
-	if (!table->at_key || memcmp(key, table->forward_key, table->keys * sizeof(int64)) != 0)
+	if (!table->at_key || memcmp(key, table->forward_key, PAGE_TABLE_KEYS * sizeof(int64)) != 0)
 	{
 		ScanKeyData bound;
 
@@ -291,13 +280,13 @@ form_row(PageTable *table, const int64 *key, const unsigned char *bytes, size_t 
 		 Datum *values, bool *isnull)
 {
 	page_type_fill(table->datum, bytes, size);
-	for (int i = 0; i < table->keys; i++)
+	for (int i = 0; i < PAGE_TABLE_KEYS; i++)
 	{
 		values[i] = Int64GetDatum(key[i]);
 		isnull[i] = false;
 	}
-	values[table->keys] = PointerGetDatum(table->datum);
-	isnull[table->keys] = false;
+	values[PAGE_TABLE_KEYS] = PointerGetDatum(table->datum);
+	isnull[PAGE_TABLE_KEYS] = false;
 	return heap_form_tuple(RelationGetDescr(table->heap), values, isnull);
 }
 
@@ -313,8 +302,8 @@ void
 page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes, size_t size,
 				  ItemPointer tid)
 {
-	Datum		values[PAGE_TABLE_MAX_KEYS + 1];
-	bool		isnull[PAGE_TABLE_MAX_KEYS + 1];
+	Datum		values[PAGE_TABLE_KEYS + 1];
+	bool		isnull[PAGE_TABLE_KEYS + 1];
 	HeapTuple	tuple;
 
 	page_table_open(table);
@@ -331,8 +320,8 @@ void
 page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes, size_t size,
 				  ItemPointer tid)
 {
-	Datum		values[PAGE_TABLE_MAX_KEYS + 1];
-	bool		isnull[PAGE_TABLE_MAX_KEYS + 1];
+	Datum		values[PAGE_TABLE_KEYS + 1];
+	bool		isnull[PAGE_TABLE_KEYS + 1];
 	HeapTuple	tuple;
 
 	page_table_open(table);
@@ -345,5 +334,17 @@ page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes
 		insert_index_entry(table, values, isnull, &tuple->t_self);
 	*tid = tuple->t_self;
 	heap_freetuple(tuple);
+	table->wrote = true;
+}
+
+/* Removes the row at *tid. */
+void
+page_table_delete(PageTable *table, ItemPointer tid)
+{
+	page_table_open(table);
+	see_own_changes(table);
+	simple_heap_delete(table->heap, tid);
+	if (table->superseded != NULL)
+		superseded_add(table->superseded, ItemPointerGetBlockNumber(tid));
 	table->wrote = true;
 }

@@ -2,8 +2,8 @@
  * page_table.h: pages of bytes in one heap table, found by key through its
  * primary key's B-tree.
  *
- * Both tables of a mesh have this shape: one or two bigint key columns, then
- * the page. Direct heap and nbtree calls; no SPI, no executor. A table is
+ * Both tables of a mesh have this shape: two bigint key columns, then the
+ * page. Direct heap and nbtree calls; no SPI, no executor. A table is
  * opened when first needed and closed before the SQL call returns.
  */
 #ifndef ABACUS_PAGE_TABLE_H
@@ -17,12 +17,12 @@
 
 #include "pg/superseded.h"
 
-#define PAGE_TABLE_MAX_KEYS 2
+#define PAGE_TABLE_KEYS 2
 
 /* A stored page as a search finds it; bytes stay valid until the next search. */
 typedef struct StoredPage
 {
-	int64		key[PAGE_TABLE_MAX_KEYS];
+	int64		key[PAGE_TABLE_KEYS];
 	const unsigned char *bytes;
 	size_t		size;
 	ItemPointerData tid;
@@ -34,13 +34,12 @@ typedef struct PageScan
 	IndexScanDesc scan;			/* NULL while not open */
 	TupleTableSlot *slot;
 	/* columns of the row comparison; the scan points here as long as it runs */
-	ScanKeyData members[PAGE_TABLE_MAX_KEYS];
+	ScanKeyData members[PAGE_TABLE_KEYS];
 } PageScan;
 
 typedef struct PageTable
 {
 	Oid			relid;
-	int			keys;			/* key columns: 1 or 2 */
 	bool		writable;
 
 	Relation	heap;			/* NULL while closed */
@@ -50,7 +49,7 @@ typedef struct PageTable
 	PageScan	floor;			/* backward: greatest key <= given */
 	PageScan	forward;		/* least key > given, and onward */
 	bool		at_key;			/* forward stands at forward_key */
-	int64		forward_key[PAGE_TABLE_MAX_KEYS];
+	int64		forward_key[PAGE_TABLE_KEYS];
 
 	bool		wrote;			/* changes that our snapshot does not see yet */
 	MemoryContext memory;		/* of what is open */
@@ -58,8 +57,7 @@ typedef struct PageTable
 	Superseded *superseded;		/* where replaced rows lie; NULL if nobody asks */
 } PageTable;
 
-extern void page_table_init(PageTable *table, Oid relid, int keys, bool writable,
-							MemoryContext memory);
+extern void page_table_init(PageTable *table, Oid relid, bool writable, MemoryContext memory);
 extern void page_table_open(PageTable *table);
 extern void page_table_close(PageTable *table);
 
@@ -71,5 +69,6 @@ extern void page_table_insert(PageTable *table, const int64 *key, const unsigned
 							  size_t size, ItemPointer tid);
 extern void page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes,
 							  size_t size, ItemPointer tid);
+extern void page_table_delete(PageTable *table, ItemPointer tid);
 
 #endif

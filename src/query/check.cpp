@@ -2,7 +2,6 @@
 
 #include "cache/domain_of.hpp"
 #include "delaunay/conflict.hpp"
-#include "query/repeats.hpp"
 
 #include <bit>
 #include <cmath>
@@ -19,7 +18,8 @@ Check<D>::Check(const Host &host, const abacus_header &header, std::size_t cache
     check_pages();
     // A mesh with broken pages has no topology to speak of.
     if (faults_.empty() && pages_ > 0) run("link", [&] { check_topology(); });
-    if (faults_.empty()) run("point", [&] { check_points(); });
+    if (faults_.empty()) run("point", [&] { check_repeated_points(); });
+    if (faults_.empty()) run("point", [&] { check_waiting_points(); });
 }
 
 template <int D> void Check<D>::fault(const char *kind, const Key &key, const char *message) {
@@ -44,11 +44,9 @@ template <int D> void Check<D>::report(std::uint64_t pages) {
 
 template <int D> void Check<D>::check_header() {
     const abacus_header &h = header_;
-    if (h.inserted > h.points || h.first_batch > h.points ||
-        (h.points > 0) != (h.first_batch > 0) || (h.points > 0 && h.has_domain == 0))
+    if (h.inserted > h.staged || ((h.staged > 0 || h.vertices > 0) && h.has_domain == 0) ||
+        h.duplicates > h.serials || (h.duplicates > 0 && h.vertices == 0))
         fault("count", first_key, "The header's counts of points contradict each other.");
-    if (h.vertices > h.inserted || h.duplicates != h.inserted - h.vertices)
-        fault("count", first_key, "The header counts more or fewer vertices than points.");
     if ((h.simplices > 0) != (h.vertices > 0) || (h.ghosts > 0) != (h.vertices > 0))
         fault("count", first_key,
               "The header has vertices without simplices or the other way round.");
@@ -140,18 +138,23 @@ template <int D> void Check<D>::check_simplices(const PageView<D> &page) {
 template <int D> void Check<D>::check_topology() {
     Reader<D> reader(host_, header_, cache_bytes_, true);
     Cache<D> &cache = reader.cache();
-    std::uint64_t pages = 0;
+    OwnVertices<D> own(cache);
+    std::uint64_t pages = 0, vertices = 0;
     for (Key key = first_key; key < end_key;) {
         at_key_ = key;
-        key = cache.visit(key, [&](Handle h) {
+        cache.visit(key, [&](Handle h) {
             if (!cache.is_home(h))
                 fault("key", at_key_, "A simplex lies in a page that does not own its key.");
             check_simplex(cache, h);
         });
+        key = own.collect(key);
+        vertices += own.list().size();
         cache.trim();
         host_.poll();
         report(++pages);
     }
+    if (vertices != header_.vertices)
+        fault("count", first_key, "The header counts other vertices than the pages hold.");
 }
 
 template <int D> void Check<D>::check_simplex(Cache<D> &cache, Handle h) {
@@ -176,58 +179,34 @@ template <int D> void Check<D>::check_simplex(Cache<D> &cache, Handle h) {
     }
 }
 
-template <int D> void Check<D>::check_points() {
-    check_end_of_points();
-    if (header_.simplices == 0) return;
+template <int D> void Check<D>::check_repeated_points() {
     Reader<D> mesh(host_, header_, cache_bytes_);
-    VertexReader<D> points(host_, header_.attributes, 0, header_.inserted);
-    Repeats<D> repeats(host_, header_.attributes, cache_bytes_, &memory_);
-    const auto wrong = [&](std::uint64_t sequence) {
-        fault("vertex", {sequence, 0}, "A vertex has another id or attribute than its point.");
-    };
-    std::pmr::vector<double> values(header_.attributes, &memory_);
-    std::uint64_t distinct = 0;
-    Point<D> previous{};
-    while (points.advance()) {
-        const std::uint64_t sequence = points.sequence();
-        at_key_ = {sequence, 0};
-        const Point<D> p = points.point();
-        if (sequence > 0 && previous == p) continue;
-        previous = p;
-        ++distinct;
-        const auto vertex = mesh.vertex_at(p);
-        if (!vertex) {
-            fault("point", at_key_, "An inserted point is no vertex of the mesh.");
-            continue;
-        }
-        points.attributes(values.data());
-        if (vertex->id == points.id() &&
-            same_attributes(vertex->attributes, values.data(), values.size()))
-            continue;
-        if (sequence < header_.first_batch)
-            wrong(sequence);
-        else
-            repeats.add(sequence, p, vertex->id, vertex->attributes);
-        if (repeats.is_full()) repeats.settle(wrong);
+    RepeatedReader<D> points(host_, domain_, header_.attributes);
+    std::uint64_t count = 0;
+    for (; points.advance(); ++count) {
+        at_key_ = points.key();
+        if (!mesh.vertex_at(record_point<D>(points.record())))
+            fault("point", at_key_, "A repeated point equals no vertex of the mesh.");
+        if (points.serial() >= header_.serials)
+            fault("count", at_key_, "A repeated point has a serial number yet to be given.");
     }
-    repeats.settle(wrong);
-    if (header_.inserted <= header_.first_batch && distinct != header_.vertices)
-        fault("count", first_key, "The header counts other vertices than there are points.");
+    if (count != header_.duplicates)
+        fault("count", first_key, "The header counts other repeated points than there are.");
 }
 
-template <int D> void Check<D>::check_end_of_points() {
-    if (header_.points == 0) return;
-    std::uint64_t first;
-    const unsigned char *bytes;
-    std::size_t size;
-    if (!host_.read_vertices(key_word_end - 1, first, bytes, size))
-        throw_corrupted("A vertex page is missing.");
-    at_key_ = {first, 0};
-    const VertexPage<D> last(bytes, size, header_.attributes, first);
-    if (first + last.size() != header_.points)
-        fault("count", at_key_, "The header counts more or fewer points than are staged.");
-    VertexReader<D> rest(host_, header_.attributes, header_.inserted, header_.points);
-    while (rest.advance()) at_key_ = {rest.sequence(), 0}; // reads every page
+template <int D> void Check<D>::check_waiting_points() {
+    at_key_ = {header_.inserted, 0};
+    VertexReader<D> points(host_, header_.attributes, header_.inserted, header_.staged);
+    while (points.advance()) at_key_ = {points.sequence(), 0};
+    const Key begin{header_.inserted, 0}, end{header_.staged - 1, 0};
+    abacus_page first, page;
+    if (!host_.next(ABACUS_STAGED_PAGES, nullptr, first)) return;
+    if (header_.inserted == header_.staged)
+        fault("count", first.key, "There are points that wait, and the header counts none.");
+    else if (!host_.find(ABACUS_STAGED_PAGES, begin, page) || !(page.key == first.key))
+        fault("count", first.key, "There are points before the first that waits.");
+    else if (host_.next(ABACUS_STAGED_PAGES, &end, page))
+        fault("count", page.key, "There are points behind the last that waits.");
 }
 
 template class Check<2>;

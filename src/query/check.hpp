@@ -10,13 +10,11 @@
 //             in the opposite orientation; pages agree about the vertices they share;
 //             across every facet the empty-sphere criterion holds under the
 //             perturbation, and the hull is convex
-//   points    every staged point that counts as inserted is a vertex of the mesh with
-//             the id and attributes of the first such point; the staged sequence is
-//             whole
+//   points    every repeated point equals a vertex; the sequence of those that wait is
+//             whole; the counts add up
 //
-// So every byte of a simplex page is verified against something else. Of a vertex page
-// the records of repeated points are not, nor those of points still to be inserted:
-// nothing else knows of them.
+// What is stored once, the ids, attributes and places of points, nothing else in the
+// database repeats.
 //
 // Locally Delaunay across every facet, with a convex hull and in one piece, is globally
 // Delaunay (Delaunay 1934), and under the perturbation unique. That it is in one piece
@@ -24,7 +22,9 @@
 #pragma once
 
 #include "query/page_scan.hpp"
+#include "query/own_vertices.hpp"
 #include "query/reader.hpp"
+#include "staging/repeated_points.hpp"
 #include "staging/vertex_reader.hpp"
 
 #include "host/memory.hpp"
@@ -55,8 +55,8 @@ private:
     void check_simplices(const PageView<D> &page);
     void check_topology();
     void check_simplex(Cache<D> &cache, Handle h);
-    void check_points();
-    void check_end_of_points();
+    void check_repeated_points();
+    void check_waiting_points();
 
     /// Keeps a fault, if there is room for more.
     void fault(const char *kind, const Key &key, const char *message);

@@ -25,7 +25,7 @@ public:
     bool fetch() {
         host_.poll();
         abacus_page page{};
-        if (!host_.next(started_ ? &key_ : nullptr, page)) return false;
+        if (!host_.next(ABACUS_SIMPLEX_PAGES, started_ ? &key_ : nullptr, page)) return false;
         started_ = true;
         key_ = page.key;
         size_ = page.size;

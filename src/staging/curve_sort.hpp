@@ -10,8 +10,9 @@
 #pragma once
 
 #include "host/arena.hpp"
+#include "staging/pacer.hpp"
+#include "staging/record.hpp"
 #include "staging/slice.hpp"
-#include "staging/vertex_page.hpp"
 
 namespace abacus {
 

@@ -37,15 +37,15 @@ SortBudget::SortBudget(std::size_t memory, std::size_t record_bytes, std::size_t
 
 template <int D>
 ExternalSort<D>::ExternalSort(const Host &host, std::size_t stride, const SortBudget &budget,
-                              Sample<D> &sample, Pacer &pacer, VertexPageWriter &pages)
-    : host_(host), stride_(stride), budget_(budget), sample_(sample), pacer_(pacer), pages_(pages),
-      first_(pages.next()), sort_(host, stride), records_(host) {}
+                              Sample<D> &sample, Pacer &pacer, RecordSink &sink)
+    : host_(host), stride_(stride), budget_(budget), sample_(sample), pacer_(pacer), sink_(sink),
+      sort_(host, stride), records_(host) {}
 
 template <int D>
 void ExternalSort<D>::run(const std::uint64_t *records, std::size_t n, const Slice<D> &slice) {
     pacer_.begin(ABACUS_PHASE_SORTING, n);
     const std::uint64_t *order = sort_.sort(records, n, slice, pacer_);
-    pacer_.begin(ABACUS_PHASE_STAGING, n);
+    pacer_.begin(sink_.phase(), n);
     emit(records, order, n);
 }
 
@@ -55,7 +55,7 @@ template <int D> void ExternalSort<D>::run(Spool &spool, const Slice<D> &slice) 
     Arena<Part> parts(host_);
     pacer_.begin(ABACUS_PHASE_SORTING, n);
     cut(spool, slice, parts, true);
-    pacer_.begin(ABACUS_PHASE_STAGING, n);
+    pacer_.begin(sink_.phase(), n);
     sort_parts(parts);
 }
 
@@ -152,7 +152,7 @@ void ExternalSort<D>::distribute(Spool &spool, const Splitters<D> &splitters, Ar
             if (++waiting[part] == piece) write(part);
         }
         done += n;
-        report ? pacer_.reached(done, 0) : pacer_.poll();
+        report ? pacer_.reached(done) : pacer_.poll();
     }
     for (std::size_t part = 0; part < parts.size(); ++part)
         if (waiting[part] > 0) write(part);
@@ -166,9 +166,9 @@ void ExternalSort<D>::emit(const std::uint64_t *records, const std::uint64_t *or
     pacer_.each_piece(n, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             __builtin_prefetch(record(std::min(i + prefetch_distance, n - 1)));
-            pages_.add(record(i));
+            sink_.add(record(i));
         }
-        staged();
+        handed_on(end - begin);
     });
 }
 
@@ -176,8 +176,8 @@ void ExternalSort<D>::emit(const std::uint64_t *records, const std::uint64_t *or
 template <int D> void ExternalSort<D>::emit_as_is(Spool &spool) {
     spool.rewind(host_);
     while (const std::size_t n = spool.read(host_, records_.data(), budget_.piece, stride_)) {
-        for (std::size_t i = 0; i < n; ++i) pages_.add(records_.data() + i * stride_);
-        staged();
+        for (std::size_t i = 0; i < n; ++i) sink_.add(records_.data() + i * stride_);
+        handed_on(n);
     }
     close(spool);
 }

@@ -1,7 +1,7 @@
 // Brings any number of records into insertion order within a bound of memory.
 //
 // A slice of the order that fits in memory is sorted there (curve_sort.hpp) and
-// goes to the vertex pages. One that does not is distributed over spools, one for
+// goes to the sink. One that does not is distributed over spools, one for
 // each of the parts into which it is cut (splitters.hpp), and the parts are taken
 // in their order in the same way. Points that share one code are cut by the codes
 // of their bounding box; when that is a single point they are in order already.
@@ -11,7 +11,7 @@
 #include "staging/sample.hpp"
 #include "staging/splitters.hpp"
 #include "staging/spool.hpp"
-#include "staging/vertex_page.hpp"
+#include "staging/record_sink.hpp"
 
 namespace abacus {
 
@@ -31,7 +31,7 @@ struct SortBudget {
 template <int D> class ExternalSort {
 public:
     ExternalSort(const Host &host, std::size_t stride, const SortBudget &budget, Sample<D> &sample,
-                 Pacer &pacer, VertexPageWriter &pages);
+                 Pacer &pacer, RecordSink &sink);
 
     /// Sorts n records in memory, at most budget.records.
     void run(const std::uint64_t *records, std::size_t n, const Slice<D> &slice);
@@ -52,7 +52,7 @@ private:
     Box<D> survey(Spool &spool);
     void emit(const std::uint64_t *records, const std::uint64_t *order, std::size_t n);
     void emit_as_is(Spool &spool);
-    void staged() { pacer_.reached(pages_.next() - first_, pages_.pages()); }
+    void handed_on(std::size_t n) { pacer_.reached(done_ += n, sink_.pages_moved()); }
     void close(Spool &spool);
 
     const Host &host_;
@@ -60,8 +60,8 @@ private:
     const SortBudget &budget_;
     Sample<D> &sample_;
     Pacer &pacer_;
-    VertexPageWriter &pages_;
-    const std::uint64_t first_;
+    RecordSink &sink_;
+    std::uint64_t done_ = 0; ///< records that the sink has got
     CurveSort<D> sort_;
     Arena<std::uint64_t> records_;
     unsigned open_spools_ = 0;

@@ -8,6 +8,11 @@
 
 namespace abacus {
 
+/// Pages read from and written to the database.
+struct PagesMoved {
+    std::uint64_t read = 0, written = 0;
+};
+
 class Pacer {
 public:
     /// Records after which it is time for poll() or reached().
@@ -24,17 +29,15 @@ public:
     }
 
     /// `done` records of the phase are done.
-    void reached(std::uint64_t done, std::uint64_t pages_written) {
-        progress_.done = done;
-        progress_.pages_written = pages_written;
+    void reached(std::uint64_t done, const PagesMoved &pages = {}) {
+        set(done, pages);
         host_.poll();
         const auto now = Clock::now();
         if (now - last_ >= std::chrono::milliseconds(10)) report(now);
     }
     /// The phase ends with `done` records.
-    void end(std::uint64_t done, std::uint64_t pages_written) {
-        progress_.done = done;
-        progress_.pages_written = pages_written;
+    void end(std::uint64_t done, const PagesMoved &pages) {
+        set(done, pages);
         report(Clock::now());
     }
     void poll() const { host_.poll(); }
@@ -52,6 +55,11 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    void set(std::uint64_t done, const PagesMoved &pages) {
+        progress_.done = done;
+        progress_.pages_read = pages.read;
+        progress_.pages_written = pages.written;
+    }
     void report(Clock::time_point now) {
         last_ = now;
         host_.progress(progress_);

@@ -27,7 +27,8 @@ template <int D> class Rounds {
 public:
     static constexpr unsigned most = 1u << round_bits;
 
-    explicit Rounds(std::uint64_t points) {
+    /// `reversed`: the last and largest round comes first, for taking points away.
+    explicit Rounds(std::uint64_t points, bool reversed = false) : reversed_(reversed) {
         double share = promotion<D>;
         while (size_ < most && static_cast<double>(points) * share >= smallest_round) {
             threshold_[size_++] = static_cast<std::uint64_t>(std::ldexp(share, 64));
@@ -43,7 +44,7 @@ public:
         const std::uint64_t draw = hash(p);
         unsigned promoted = 0;
         while (draw < threshold_[promoted + 1]) ++promoted;
-        return size_ - 1 - promoted;
+        return reversed_ ? promoted : size_ - 1 - promoted;
     }
 
 private:
@@ -58,6 +59,7 @@ private:
     }
 
     unsigned size_ = 1;
+    bool reversed_;
     /// threshold_[k]: a draw below it is promoted at least k times; zeros end the list.
     std::uint64_t threshold_[most + 1] = {};
 };

@@ -1,17 +1,12 @@
 #include "staging/stage.hpp"
 
+#include "cache/domain_of.hpp"
+#include "staging/vertex_page.hpp"
+
 #include <algorithm>
 
 namespace abacus {
 namespace {
-
-template <int D> std::optional<Domain<D>> domain_of(const abacus_header &header) {
-    if (header.has_domain == 0) return std::nullopt;
-    Point<D> lower, upper;
-    std::copy_n(header.lower, D, lower.begin());
-    std::copy_n(header.upper, D, upper.begin());
-    return Domain<D>(lower, upper);
-}
 
 [[noreturn]] void throw_not_finite(std::uint64_t id, int axis) {
     throw Error(ABACUS_ERROR_ARGUMENT,
@@ -25,8 +20,8 @@ template <int D> std::optional<Domain<D>> domain_of(const abacus_header &header)
 
 template <int D>
 Stage<D>::Stage(const Host &host, const abacus_header &header, std::size_t memory)
-    : host_(host), attributes_(header.attributes), stride_(record_words(D, header.attributes)),
-      first_(header.points), domain_(domain_of<D>(header)), budget_(memory, 8 * stride_, D),
+    : host_(host), stride_(record_words(D, header.attributes)),
+      budget_(memory, 8 * stride_, D),
       pacer_(host), sample_(host, budget_.sampled), buffer_(host), room_(budget_.records) {
     pacer_.begin(ABACUS_PHASE_READING, 0);
 }
@@ -38,7 +33,7 @@ template <int D> void Stage<D>::add(const std::uint64_t *points, std::size_t cou
         copy(points, n);
         points += n * stride_;
         count -= n;
-        pacer_.reached(this->points(), 0);
+        pacer_.reached(this->points());
     }
 }
 
@@ -79,16 +74,20 @@ template <int D> void Stage<D>::spill() {
     room_ = budget_.piece;
 }
 
-template <int D> void Stage<D>::finish(abacus_header &header) {
+template <int D> void Stage<D>::end(abacus_header &header) {
+    if (header.has_domain != 0 || points() == 0) return;
+    header.has_domain = 1;
+    std::copy_n(box_.lower.begin(), D, header.lower);
+    std::copy_n(box_.upper.begin(), D, header.upper);
+}
+
+template <int D>
+void Stage<D>::emit(RecordSink &sink, const abacus_header &header, bool reversed) {
     const std::uint64_t n = points();
     if (n == 0) return;
-    if (n >= (std::uint64_t{1} << 63) - first_)
-        throw Error(ABACUS_ERROR_LIMIT, "a mesh cannot have that many points");
-    if (!domain_) domain_.emplace(box_.lower, box_.upper);
-    const Rounds<D> rounds(n);
-    const Slice<D> all{*domain_, rounds.size() > 1 ? &rounds : nullptr};
-    VertexPageWriter pages(host_, D, attributes_, first_);
-    ExternalSort<D> sort(host_, stride_, budget_, sample_, pacer_, pages);
+    const Rounds<D> rounds(n, reversed);
+    const Slice<D> all{domain_of<D>(header), rounds.size() > 1 ? &rounds : nullptr};
+    ExternalSort<D> sort(host_, stride_, budget_, sample_, pacer_, sink);
     if (spool_.size() == 0) {
         sort.run(buffer_.data(), n, all);
     } else {
@@ -96,14 +95,18 @@ template <int D> void Stage<D>::finish(abacus_header &header) {
         buffer_.reset();
         sort.run(spool_, all);
     }
-    pages.finish();
-    pacer_.end(n, pages.pages());
+    sink.finish();
+    pacer_.end(n, sink.pages_moved());
+}
 
-    header.has_domain = 1;
-    std::copy_n(domain_->lower().begin(), D, header.lower);
-    std::copy_n(domain_->upper().begin(), D, header.upper);
-    header.points = first_ + n;
-    if (first_ == 0) header.first_batch = n;
+template <int D> void Stage<D>::finish(abacus_header &header) {
+    const std::uint64_t n = points();
+    if (n >= (std::uint64_t{1} << 63) - header.staged)
+        throw Error(ABACUS_ERROR_LIMIT, "a mesh cannot have that many points");
+    end(header);
+    VertexPageWriter pages(host_, D, header.attributes, header.staged);
+    emit(pages, header);
+    header.staged = pages.next();
 }
 
 template class Stage<2>;

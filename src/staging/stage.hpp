@@ -1,13 +1,11 @@
-// Staging (dissertation §4.12.2): takes points in any order and writes them to
-// vertex pages in the order in which they are to be inserted.
+// Staging (dissertation §4.12.2): takes points in any order and hands them on in the
+// order in which they are to be inserted, to vertex pages or at once.
 //
 // The order is a function of the set of points (and of the input order of equal
 // ones) alone: not of the memory, nor of how the points came in.
 #pragma once
 
 #include "staging/external_sort.hpp"
-
-#include <optional>
 
 namespace abacus {
 
@@ -17,19 +15,23 @@ public:
 
     /// Adds records as in abacus_stage_add.
     void add(const std::uint64_t *points, std::size_t count);
-    /// Writes the pages and brings the header up to date.
+    /// No more points come: a header without a domain gets theirs.
+    void end(abacus_header &header);
+    /// Hands the points on: in insertion order, or with the rounds in reverse order, in which
+    /// points are best taken away. Once, with the header that end() has seen.
+    void emit(RecordSink &sink, const abacus_header &header, bool reversed = false);
+    /// Ends, writes the points to vertex pages and brings the header up to date.
     void finish(abacus_header &header);
+
+    /// Points so far.
+    std::uint64_t points() const { return spool_.size() + buffered_; }
 
 private:
     void copy(const std::uint64_t *points, std::size_t count);
     void spill();
-    std::uint64_t points() const { return spool_.size() + buffered_; }
 
     const Host &host_;
-    const unsigned attributes_;
     const std::size_t stride_;
-    const std::uint64_t first_; ///< sequence number of the first point
-    std::optional<Domain<D>> domain_;
     const SortBudget budget_;
     Pacer pacer_;
     Sample<D> sample_;

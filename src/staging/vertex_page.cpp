@@ -21,8 +21,11 @@ void VertexPageWriter::flush() {
     header.count = count_;
     header.first = first_;
     std::memcpy(page_, &header, sizeof header);
-    host_.append_vertices(first_, reinterpret_cast<const unsigned char *>(page_),
-                          8 * (VertexPageHeader::words + count_ * stride_));
+    abacus_page page{{first_, 0},
+                     reinterpret_cast<const unsigned char *>(page_),
+                     8 * (VertexPageHeader::words + count_ * stride_),
+                     0};
+    host_.put(ABACUS_STAGED_PAGES, page);
     first_ += count_;
     count_ = 0;
     ++pages_;
@@ -34,36 +37,29 @@ namespace {
     throw_corrupted("Vertex page " + std::to_string(first) + " " + what + ".");
 }
 
-/// False for infinities, NaN and -0.0, none of which is ever staged.
-bool is_canonical(std::uint64_t coordinate) {
-    constexpr std::uint64_t exponent = 0x7ffull << 52;
-    return (coordinate & exponent) != exponent && coordinate != 1ull << 63;
-}
-
 } // namespace
 
 template <int D>
-VertexPage<D>::VertexPage(const unsigned char *bytes, std::size_t size, unsigned attributes,
-                          std::uint64_t first)
-    : stride_(8 * record_words(D, attributes)), first_(first) {
+VertexPage<D>::VertexPage(const std::uint64_t *words, std::size_t size, unsigned attributes,
+                          const abacus_key &key)
+    : stride_(record_words(D, attributes)), first_(key.code) {
     VertexPageHeader header;
-    if (size < sizeof header) throw_bad_page(first, "is too short");
-    std::memcpy(&header, bytes, sizeof header);
+    if (size < sizeof header) throw_bad_page(first_, "is too short");
+    std::memcpy(&header, words, sizeof header);
     if (header.magic != VertexPageHeader::current_magic)
-        throw_bad_page(first, "is none of this format version");
+        throw_bad_page(first_, "is none of this format version");
     if (header.dimension != D || header.attributes != attributes)
-        throw_bad_page(first, "has points of another kind than the mesh");
-    if (header.first != first) throw_bad_page(first, "says that it is another one");
-    const std::size_t room = size - sizeof header;
-    if (header.count == 0 || header.count > room / stride_ || header.count * stride_ != room)
-        throw_bad_page(first, "has a size that does not fit its number of points");
-    records_ = bytes + sizeof header;
+        throw_bad_page(first_, "has points of another kind than the mesh");
+    if (header.first != first_ || key.part != 0)
+        throw_bad_page(first_, "says that it is another one");
+    const std::size_t room = size - sizeof header, bytes = 8 * stride_;
+    if (header.count == 0 || header.count > room / bytes || header.count * bytes != room)
+        throw_bad_page(first_, "has a size that does not fit its number of points");
+    records_ = words + VertexPageHeader::words;
     count_ = header.count;
-    for (std::size_t i = 0; i < count_; ++i) {
-        for (const double coordinate : point(i))
-            if (!is_canonical(std::bit_cast<std::uint64_t>(coordinate)))
-                throw_bad_page(first, "has a coordinate that is not a finite number");
-    }
+    for (std::size_t i = 0; i < count_; ++i)
+        if (!is_canonical<D>(record_point<D>(record(i))))
+            throw_bad_page(first_, "has a coordinate that is not a finite number");
 }
 
 template class VertexPage<2>;

@@ -1,4 +1,5 @@
-// The vertex page: staged points in insertion order (dissertation §4.12.2).
+// The vertex page: points that wait for their insertion, in its order (dissertation
+// §4.12.2).
 //
 //   header    what is in it, and the sequence number of its first record
 //   records   packed; each as in abacus_stage_add: id, coordinates, attributes
@@ -7,8 +8,9 @@
 // table can change, so the view checks sizes, counts and coordinates.
 #pragma once
 
-#include "geometry/point.hpp"
 #include "host/host.hpp"
+#include "staging/record.hpp"
+#include "staging/record_sink.hpp"
 
 #include <cstdint>
 #include <cstring>
@@ -28,35 +30,26 @@ struct VertexPageHeader {
 };
 static_assert(sizeof(VertexPageHeader) == 8 * VertexPageHeader::words);
 
-/// Words of a record of a vertex.
-constexpr std::size_t record_words(unsigned dimension, unsigned attributes) {
-    return 1 + dimension + attributes;
-}
-
-template <int D> Point<D> record_point(const std::uint64_t *record) {
-    Point<D> point;
-    std::memcpy(point.data(), record + 1, sizeof point);
-    return point;
-}
-
 /// Packs records into full pages and appends them to the host's.
-class VertexPageWriter {
+class VertexPageWriter final : public RecordSink {
 public:
     VertexPageWriter(const Host &host, unsigned dimension, unsigned attributes,
                      std::uint64_t first);
 
-    void add(const std::uint64_t *record) {
+    void add(const std::uint64_t *record) override {
         std::uint64_t *to = page_ + VertexPageHeader::words + count_ * stride_;
         for (std::size_t i = 0; i < stride_; ++i) to[i] = record[i];
         if (++count_ == capacity_) flush();
     }
     /// Writes the last page.
-    void finish() {
+    void finish() override {
         if (count_ > 0) flush();
     }
     /// Sequence number of the next record.
     std::uint64_t next() const { return first_ + count_; }
-    std::uint64_t pages() const { return pages_; }
+
+    abacus_phase phase() const override { return ABACUS_PHASE_STAGING; }
+    PagesMoved pages_moved() const override { return {0, pages_}; }
 
 private:
     void flush();
@@ -70,39 +63,33 @@ private:
     std::uint64_t page_[ABACUS_PAGE_BYTES / 8];
 };
 
-/// A checked view of a page's bytes, which it does not own.
+/// A checked view of a page's words, which it does not own.
 template <int D> class VertexPage {
 public:
-    /// `first` is the key under which the host found the page.
-    VertexPage(const unsigned char *bytes, std::size_t size, unsigned attributes,
-               std::uint64_t first);
+    /// `key` is the one under which the host found the page.
+    VertexPage(const std::uint64_t *words, std::size_t size, unsigned attributes,
+               const abacus_key &key);
 
     std::size_t size() const { return count_; }
     std::uint64_t first() const { return first_; }
-
-    std::int64_t id(std::size_t i) const {
-        std::int64_t id;
-        std::memcpy(&id, at(i), sizeof id);
-        return id;
-    }
-    Point<D> point(std::size_t i) const {
-        Point<D> point;
-        std::memcpy(point.data(), at(i) + 8, sizeof point);
-        return point;
-    }
-    void attributes(std::size_t i, double *to) const {
-        const std::size_t size = stride_ - 8 * (1 + D);
-        if (size > 0) std::memcpy(to, at(i) + 8 * (1 + D), size);
-    }
+    const std::uint64_t *record(std::size_t i) const { return records_ + i * stride_; }
 
 private:
-    const unsigned char *at(std::size_t i) const { return records_ + i * stride_; }
-
-    const unsigned char *records_;
-    std::size_t stride_; // bytes
+    const std::uint64_t *records_;
+    std::size_t stride_; // words
     std::size_t count_;
     std::uint64_t first_;
 };
+
+/// False for infinities, NaN and -0.0, none of which is ever staged.
+template <int D> bool is_canonical(const Point<D> &p) {
+    constexpr std::uint64_t exponent = 0x7ffull << 52;
+    for (const double x : p) {
+        const auto bits = std::bit_cast<std::uint64_t>(x);
+        if ((bits & exponent) == exponent || bits == 1ull << 63) return false;
+    }
+    return true;
+}
 
 extern template class VertexPage<2>;
 extern template class VertexPage<3>;

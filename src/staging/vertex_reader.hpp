@@ -1,4 +1,4 @@
-// Staged points in insertion order, read page by page.
+// Points that wait, in insertion order, read page by page.
 #pragma once
 
 #include "staging/vertex_page.hpp"
@@ -9,48 +9,54 @@ namespace abacus {
 
 template <int D> class VertexReader {
 public:
-    /// Reads from sequence number `from` up to, not including, `to`.
-    VertexReader(const Host &host, unsigned attributes, std::uint64_t from, std::uint64_t to)
-        : host_(host), attributes_(attributes), next_(from), to_(to) {}
+    /// Reads from sequence number `from` up to, not including, `to`. `erase`: pages are
+    /// erased when their last point has been left behind.
+    VertexReader(const Host &host, unsigned attributes, std::uint64_t from, std::uint64_t to,
+                 bool erase = false)
+        : host_(host), attributes_(attributes), next_(from), to_(to), erase_(erase) {}
 
     /// Goes to the next point; false after the last.
     bool advance() {
+        if (page_ && next_ >= page_->first() + page_->size()) leave();
         if (next_ >= to_) return false;
-        if (!page_ || next_ >= page_->first() + page_->size()) load();
+        if (!page_) load();
         at_ = next_ - page_->first();
         ++next_;
         return true;
     }
 
     std::uint64_t sequence() const { return next_ - 1; }
-    std::int64_t id() const { return page_->id(at_); }
-    Point<D> point() const {
-        Point<D> p = page_->point(at_);
-        for (double &x : p) x += 0.0; // -0.0 is +0.0
-        return p;
-    }
-    void attributes(double *to) const { page_->attributes(at_, to); }
+    /// Of the point at hand; valid until the next advance(). No coordinate is -0.0.
+    const std::uint64_t *record() const { return page_->record(at_); }
+    std::int64_t id() const { return record_id(record()); }
+    Point<D> point() const { return record_point<D>(record()); }
+    const double *attributes() const { return record_attributes<D>(record()); }
 
 private:
     void load() {
         host_.poll();
-        std::uint64_t first;
-        const unsigned char *bytes;
-        std::size_t size;
-        if (!host_.read_vertices(next_, first, bytes, size) || size > sizeof copy_)
+        abacus_page stored;
+        if (!host_.find(ABACUS_STAGED_PAGES, {next_, 0}, stored) || stored.size > sizeof copy_)
             throw_corrupted("A vertex page is missing or too large.");
-        std::memcpy(copy_, bytes, size); // the host's bytes do not outlive its next call
-        page_.emplace(copy_, size, attributes_, first);
-        if (next_ < first || next_ >= first + page_->size())
+        std::memcpy(copy_, stored.bytes, stored.size); // not valid beyond the next call
+        page_.emplace(copy_, stored.size, attributes_, stored.key);
+        location_ = stored.location;
+        if (next_ < page_->first() || next_ >= page_->first() + page_->size())
             throw_corrupted("A vertex page is missing.");
+    }
+    void leave() {
+        if (erase_) host_.erase(ABACUS_STAGED_PAGES, {{page_->first(), 0}, nullptr, 0, location_});
+        page_.reset();
     }
 
     const Host &host_;
     unsigned attributes_;
     std::uint64_t next_, to_;
+    bool erase_;
     std::size_t at_ = 0;
+    std::uint64_t location_ = 0; // of the page
     std::optional<VertexPage<D>> page_;
-    alignas(8) unsigned char copy_[ABACUS_PAGE_BYTES];
+    std::uint64_t copy_[ABACUS_PAGE_BYTES / 8];
 };
 
 } // namespace abacus

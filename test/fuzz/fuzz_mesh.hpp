@@ -175,7 +175,7 @@ public:
     }
 };
 
-/// The sound mesh: five attributes make small pages; some points are staged only.
+/// The sound mesh: five attributes make small pages; some points are repeated, some wait.
 inline const Mesh &sound_mesh(int dimension) {
     static Mesh meshes[2];
     Mesh &mesh = meshes[dimension - 2];
@@ -184,6 +184,7 @@ inline const Mesh &sound_mesh(int dimension) {
         mesh.header.attributes = 5;
         for (int i = 0; i < 5; ++i) std::strcpy(mesh.header.names[i], "height");
         mesh.stage(160, 1);
+        mesh.stage(80, 1); // once more
         require(mesh.build() == ABACUS_OK, "the sound mesh cannot be built");
         mesh.stage(40, 2);
         require(mesh.check() == 0, "the sound mesh is not sound");

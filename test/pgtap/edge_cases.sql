@@ -88,7 +88,7 @@ SELECT is(pg_temp.state('SELECT abacus_draw(''solid6'')'), '22023', 'abacus_draw
 
 -- a mesh made by hand is one without a header
 CREATE TABLE by_hand OF abacus_simplex_page (PRIMARY KEY (code, part));
-CREATE TABLE by_hand_vertices OF abacus_vertex_page (PRIMARY KEY (first));
+CREATE TABLE by_hand_vertices OF abacus_vertex_page (PRIMARY KEY (first, part));
 SELECT is(pg_temp.state('SELECT abacus_locate(''by_hand'', 1, 2)'), 'XX001', 'no header');
 INSERT INTO by_hand SELECT * FROM few6;
 INSERT INTO by_hand_vertices SELECT * FROM few6_vertices;

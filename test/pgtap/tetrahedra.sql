@@ -114,7 +114,7 @@ RESET ROLE;
 
 -- a copy made with SQL is a mesh, and can grow
 CREATE TABLE by_hand OF abacus_simplex_page (PRIMARY KEY (code, part));
-CREATE TABLE by_hand_vertices OF abacus_vertex_page (PRIMARY KEY (first));
+CREATE TABLE by_hand_vertices OF abacus_vertex_page (PRIMARY KEY (first, part));
 INSERT INTO by_hand SELECT * FROM at_once;
 INSERT INTO by_hand_vertices SELECT * FROM at_once_vertices;
 SELECT is(abacus_stage('by_hand', 'SELECT 9001, 5.5, 5.5, 20, 0'), 1::bigint, 'a copy takes points');

@@ -14,13 +14,14 @@ void MemoryHost::Page::assign(const unsigned char *bytes, std::size_t new_size) 
 }
 
 std::uint64_t MemoryHost::Calls::fallible() const {
-    return poll + progress + find + next + put + append_vertices + read_vertices + spool_create +
-           spool_write + spool_rewind + spool_read + spool_close;
+    return poll + progress + find + next + put + erase + spool_create + spool_write + spool_rewind +
+           spool_read + spool_close;
 }
 
 void MemoryHost::restore(const MemoryHost &other) {
     pages = other.pages;
-    vertex_pages = other.vertex_pages;
+    staged_pages = other.staged_pages;
+    repeated_pages = other.repeated_pages;
     keys_by_location_ = other.keys_by_location_;
     next_location_ = other.next_location_;
 }
@@ -42,6 +43,15 @@ bool MemoryHost::enter(std::uint64_t &counter) {
     if (fail_at_ == 0 || calls.fallible() != fail_at_) return true;
     failed = true;
     return false;
+}
+
+MemoryHost::Pages &MemoryHost::pages_of(abacus_page_kind kind) {
+    switch (kind) {
+    case ABACUS_SIMPLEX_PAGES: break;
+    case ABACUS_STAGED_PAGES: return staged_pages;
+    case ABACUS_REPEATED_PAGES: return repeated_pages;
+    }
+    return pages;
 }
 
 const unsigned char *MemoryHost::hand_out(Page &page) {
@@ -109,26 +119,39 @@ struct MemoryHost::Functions {
         return ABACUS_HOST_OK;
     }
 
-    static abacus_host_status find(void *context, abacus_key key, abacus_page *page) {
+    static abacus_host_status find(void *context, abacus_page_kind kind, abacus_key key,
+                                   abacus_page *page) {
         MemoryHost &host = self(context);
         if (!host.enter(host.calls.find)) return ABACUS_HOST_FAILED;
-        auto it = host.pages.upper_bound(key);
-        if (it == host.pages.begin()) return ABACUS_HOST_NONE;
+        Pages &pages = host.pages_of(kind);
+        auto it = pages.upper_bound(key);
+        if (it == pages.begin()) return ABACUS_HOST_NONE;
         --it;
         host.hand_out(it->first, it->second, page);
         return ABACUS_HOST_OK;
     }
 
-    static abacus_host_status next(void *context, const abacus_key *key, abacus_page *page) {
+    static abacus_host_status next(void *context, abacus_page_kind kind, const abacus_key *key,
+                                   abacus_page *page) {
         MemoryHost &host = self(context);
         if (!host.enter(host.calls.next)) return ABACUS_HOST_FAILED;
-        const auto it = key == nullptr ? host.pages.begin() : host.pages.upper_bound(*key);
-        if (it == host.pages.end()) return ABACUS_HOST_NONE;
+        Pages &pages = host.pages_of(kind);
+        const auto it = key == nullptr ? pages.begin() : pages.upper_bound(*key);
+        if (it == pages.end()) return ABACUS_HOST_NONE;
         host.hand_out(it->first, it->second, page);
         return ABACUS_HOST_OK;
     }
 
-    static abacus_host_status put(void *context, abacus_page *page) {
+    /// Removes the version at a location; false if it is no longer current.
+    static bool remove(MemoryHost &host, abacus_page_kind kind, std::uint64_t location) {
+        const auto it = host.keys_by_location_.find(location);
+        if (it == host.keys_by_location_.end() || host.pages_of(kind).erase(it->second) == 0)
+            return false;
+        host.keys_by_location_.erase(it);
+        return true;
+    }
+
+    static abacus_host_status put(void *context, abacus_page_kind kind, abacus_page *page) {
         MemoryHost &host = self(context);
         // The bytes may be those that were lent: take them before they are spoilt.
         Page stored;
@@ -138,45 +161,23 @@ struct MemoryHost::Functions {
             return fail(host, "a page of " + std::to_string(page->size) + " bytes is put");
         if (page->key.code >> 63 != 0 || page->key.part >> 63 != 0)
             return fail(host, "a key is out of range");
-        if (page->location != 0) {
-            const auto it = host.keys_by_location_.find(page->location);
-            if (it == host.keys_by_location_.end())
-                return fail(host, "a page replaces a version that is no longer current");
-            host.pages.erase(it->second);
-            host.keys_by_location_.erase(it);
-        }
+        if (page->location != 0 && !remove(host, kind, page->location))
+            return fail(host, "a page replaces a version that is no longer current");
         stored.location = host.next_location_++;
         page->location = stored.location;
-        if (!host.pages.emplace(page->key, std::move(stored)).second)
+        if (!host.pages_of(kind).emplace(page->key, std::move(stored)).second)
             return fail(host, "a second page is put under one key");
         host.keys_by_location_.emplace(page->location, page->key);
         return ABACUS_HOST_OK;
     }
 
-    static abacus_host_status append_vertices(void *context, std::uint64_t first,
-                                              const unsigned char *bytes, std::size_t size) {
+    static abacus_host_status erase(void *context, abacus_page_kind kind,
+                                    const abacus_page *page) {
         MemoryHost &host = self(context);
-        Page stored;
-        stored.assign(bytes, size);
-        if (!host.enter(host.calls.append_vertices)) return ABACUS_HOST_FAILED;
-        if (size == 0 || size > ABACUS_PAGE_BYTES)
-            return fail(host, "a vertex page of " + std::to_string(size) + " bytes is appended");
-        if (!host.vertex_pages.emplace(first, std::move(stored)).second)
-            return fail(host, "a second vertex page is appended under one key");
-        return ABACUS_HOST_OK;
-    }
-
-    static abacus_host_status read_vertices(void *context, std::uint64_t sequence,
-                                            std::uint64_t *first, const unsigned char **bytes,
-                                            std::size_t *size) {
-        MemoryHost &host = self(context);
-        if (!host.enter(host.calls.read_vertices)) return ABACUS_HOST_FAILED;
-        auto it = host.vertex_pages.upper_bound(sequence);
-        if (it == host.vertex_pages.begin()) return ABACUS_HOST_NONE;
-        --it;
-        *first = it->first;
-        *bytes = host.hand_out(it->second);
-        *size = it->second.size;
+        const std::uint64_t location = page->location;
+        if (!host.enter(host.calls.erase)) return ABACUS_HOST_FAILED;
+        if (!remove(host, kind, location))
+            return fail(host, "a version is erased that is no longer current");
         return ABACUS_HOST_OK;
     }
 
@@ -272,8 +273,7 @@ MemoryHost::MemoryHost() {
     table_.find = Functions::find;
     table_.next = Functions::next;
     table_.put = Functions::put;
-    table_.append_vertices = Functions::append_vertices;
-    table_.read_vertices = Functions::read_vertices;
+    table_.erase = Functions::erase;
     table_.spool_create = Functions::spool_create;
     table_.spool_write = Functions::spool_write;
     table_.spool_rewind = Functions::spool_rewind;

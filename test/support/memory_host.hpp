@@ -47,8 +47,7 @@ public:
     /// Calls so far, by function.
     struct Calls {
         std::uint64_t resize = 0, poll = 0, progress = 0;
-        std::uint64_t find = 0, next = 0, put = 0;
-        std::uint64_t append_vertices = 0, read_vertices = 0;
+        std::uint64_t find = 0, next = 0, put = 0, erase = 0;
         std::uint64_t spool_create = 0, spool_write = 0, spool_rewind = 0, spool_read = 0,
                       spool_close = 0;
 
@@ -80,8 +79,10 @@ public:
     }
 
     // The database.
-    std::map<abacus_key, Page, KeyLess> pages;
-    std::map<std::uint64_t, Page> vertex_pages;
+    using Pages = std::map<abacus_key, Page, KeyLess>;
+    Pages pages; ///< of simplices
+    Pages staged_pages;
+    Pages repeated_pages;
     std::set<Spool *> spools;
 
     // What happened.
@@ -107,6 +108,7 @@ private:
     struct Functions;
 
     bool enter(std::uint64_t &counter);
+    Pages &pages_of(abacus_page_kind kind);
     void violation(const std::string &what) { violations.push_back(what); }
     const unsigned char *hand_out(Page &page);
     void hand_out(const abacus_key &key, Page &stored, abacus_page *page);

@@ -56,7 +56,8 @@ template <int D> MeshOf<D>::MeshOf(int attributes, std::size_t bytes) : cache_by
 }
 
 template <int D>
-abacus_status MeshOf<D>::stage(const std::vector<InputOf<D>> &points, std::size_t memory) {
+abacus_status MeshOf<D>::with_stage(const std::vector<InputOf<D>> &points, std::size_t memory,
+                                    const std::function<abacus_status(abacus_stage *)> &use) {
     abacus_stage *stage = nullptr;
     abacus_status status = abacus_stage_open(host.table(), &header, memory, &stage, &error);
     if (status != ABACUS_OK) return status;
@@ -67,17 +68,43 @@ abacus_status MeshOf<D>::stage(const std::vector<InputOf<D>> &points, std::size_
         status = abacus_stage_add(stage, record.data(), 1, &error);
         if (status != ABACUS_OK) break;
     }
-    if (status == ABACUS_OK) status = abacus_stage_finish(stage, &header, &error);
+    if (status == ABACUS_OK) status = use(stage);
     abacus_stage_close(stage);
     return status;
 }
 
-template <int D> abacus_status MeshOf<D>::build() {
+template <int D>
+abacus_status MeshOf<D>::with_build(const std::function<abacus_status(abacus_build *)> &use) {
     abacus_build *build = nullptr;
     abacus_status status = abacus_build_open(host.table(), &header, cache_bytes, &build, &error);
-    if (status != ABACUS_OK) return status;
-    status = abacus_build_run(build, 0, &header, &error);
+    if (status == ABACUS_OK) status = use(build);
     abacus_build_close(build);
+    return status;
+}
+
+template <int D>
+abacus_status MeshOf<D>::stage(const std::vector<InputOf<D>> &points, std::size_t memory) {
+    return with_stage(points, memory, [&](abacus_stage *stage) {
+        return abacus_stage_finish(stage, &header, &error);
+    });
+}
+
+template <int D> abacus_status MeshOf<D>::build() {
+    return with_build(
+        [&](abacus_build *build) { return abacus_build_run(build, 0, &header, &error); });
+}
+
+template <int D>
+abacus_status MeshOf<D>::insert(const std::vector<InputOf<D>> &points, std::size_t memory) {
+    const abacus_header before = header;
+    const abacus_status status = with_stage(points, memory, [&](abacus_stage *stage) {
+        const abacus_status ended = abacus_stage_end(stage, &header, &error);
+        if (ended != ABACUS_OK) return ended;
+        return with_build([&](abacus_build *build) {
+            return abacus_build_insert(build, stage, &header, &error);
+        });
+    });
+    if (status != ABACUS_OK) header = before;
     return status;
 }
 

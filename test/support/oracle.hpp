@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ template <int D> struct MeshOf {
     /// Each returns the status and keeps the error.
     abacus_status stage(const std::vector<InputOf<D>> &points, std::size_t memory = 16 << 20);
     abacus_status build();
+    /// Without vertex pages between.
+    abacus_status insert(const std::vector<InputOf<D>> &points, std::size_t memory = 16 << 20);
     /// Where all simplices are, sorted.
     std::vector<Positions<D>> positions();
     /// What a scan gives; fails the test if it does not end well.
@@ -43,6 +46,11 @@ template <int D> struct MeshOf {
     /// "kind: message" of each fault.
     std::vector<std::string> check();
     abacus_status locate(const Point<D> &p, abacus_simplex &simplex);
+
+    /// Calls use() with a stage of the points, or a build of the mesh.
+    abacus_status with_stage(const std::vector<InputOf<D>> &points, std::size_t memory,
+                             const std::function<abacus_status(abacus_stage *)> &use);
+    abacus_status with_build(const std::function<abacus_status(abacus_build *)> &use);
 
     MemoryHost host;
     abacus_header header{};

@@ -32,8 +32,14 @@ public:
         : mesh(static_cast<int>(points[0].attributes.size()), cache_bytes), input(points) {
         EXPECT_EQ(mesh.stage(input), ABACUS_OK);
         EXPECT_EQ(mesh.build(), ABACUS_OK) << mesh.error.detail;
+        keep();
+    }
+
+    /// What the mesh is now is what it returns to.
+    void keep() {
         pages_ = mesh.host.pages;
-        vertex_pages_ = mesh.host.vertex_pages;
+        staged_pages_ = mesh.host.staged_pages;
+        repeated_pages_ = mesh.host.repeated_pages;
         header_ = mesh.header;
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
     }
@@ -45,7 +51,8 @@ public:
         EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
         EXPECT_EQ(mesh.host.bytes, 0u);
         mesh.host.pages = pages_;
-        mesh.host.vertex_pages = vertex_pages_;
+        mesh.host.staged_pages = staged_pages_;
+        mesh.host.repeated_pages = repeated_pages_;
         mesh.header = header_;
         return found;
     }
@@ -89,8 +96,7 @@ public:
     std::vector<Input> input;
 
 private:
-    std::map<abacus_key, MemoryHost::Page, KeyLess> pages_;
-    std::map<std::uint64_t, MemoryHost::Page> vertex_pages_;
+    MemoryHost::Pages pages_, staged_pages_, repeated_pages_;
     abacus_header header_;
 };
 

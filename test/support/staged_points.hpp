@@ -71,20 +71,17 @@ abacus_status stage(MemoryHost &host, abacus_header &header, const Input<D> &inp
 /// The staged points in order, from the pages; checks what every page keeps.
 template <int D> Input<D> staged(MemoryHost &host, const abacus_header &header) {
     Input<D> result;
-    for (auto &[first, page] : host.vertex_pages) {
-        EXPECT_EQ(first, result.size());
+    for (auto &[key, page] : host.staged_pages) {
+        EXPECT_EQ(key.code, result.size());
         EXPECT_LE(page.size, std::size_t{ABACUS_PAGE_BYTES});
-        const VertexPage<D> view(page.bytes(), page.size, header.attributes, first);
+        const VertexPage<D> view(page.words.data(), page.size, header.attributes, key);
         for (std::size_t i = 0; i < view.size(); ++i) {
-            std::vector<double> attributes(header.attributes);
-            view.attributes(i, attributes.data());
-            Staged<D> point{view.id(i), view.point(i), {}};
-            for (const double a : attributes)
-                point.attributes.push_back(std::bit_cast<std::uint64_t>(a));
-            result.push_back(point);
+            const std::uint64_t *record = view.record(i);
+            result.push_back({record_id(record), record_point<D>(record),
+                              {record + 1 + D, record + record_words(D, header.attributes)}});
         }
     }
-    EXPECT_EQ(header.points, result.size());
+    EXPECT_EQ(header.staged, result.size());
     return result;
 }
 

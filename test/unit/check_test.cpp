@@ -84,11 +84,6 @@ TEST(Check, FindsGeometricDamageInsideAPage) {
         --small.mesh.header.simplices;
         ++small.mesh.header.ghosts;
     });
-    small.expect_fault("a moved vertex", "point", [&] {
-        small.edit_vertex(small.input[30].point, [](PageEditor &page, int v) {
-            page.points[v][0] = std::nextafter(page.points[v][0], 2.0);
-        });
-    });
     small.expect_fault("a vertex moved far", "orientation", [&] {
         small.edit_vertex(small.input[30].point,
                           [](PageEditor &page, int v) { page.points[v][0] += 0.7; });
@@ -113,23 +108,14 @@ TEST(Check, FindsWhatPagesDisagreeAbout) {
                          [&](PageEditor &page) { change(page, page.number_of(shared)); });
             };
         };
-        const auto in_all_pages = [&](auto change) {
-            return [&, change] { big.edit_vertex(shared, change); };
-        };
         const auto id = [](PageEditor &page, int v) { page.ids[v] = 7; };
         const auto attribute = [](PageEditor &page, int v) { page.attributes[v][1] += 1e-9; };
         const auto point = [](PageEditor &page, int v) {
             page.points[v][1] = std::nextafter(page.points[v][1], 2.0);
         };
         big.expect_fault("an id in one page", "link", in_one_page(id));
-        big.expect_fault("an id in all pages", "vertex", in_all_pages(id));
         big.expect_fault("an attribute in one page", "link", in_one_page(attribute));
-        big.expect_fault("an attribute in all pages", "vertex", in_all_pages(attribute));
         big.expect_fault("a point in one page", "link", in_one_page(point));
-        big.expect_fault("a point in all pages", "point", in_all_pages(point));
-        big.expect_fault("an inner vertex's id", "vertex", [&] {
-            big.edit(big.middle(), [](PageEditor &page) { page.ids.back() = 7; });
-        });
     }
 }
 
@@ -257,100 +243,75 @@ TEST(Check, FindsPagesMissingOrOutOfPlace) {
     });
 }
 
-TEST(Check, FindsDamageOfTheStagedPoints) {
-    Patient big(2500, 1);
-    auto &pages = big.mesh.host.vertex_pages;
+TEST(Check, FindsDamageOfThePointsThatWait) {
+    Patient big(300, 1);
+    ASSERT_EQ(big.mesh.stage(random_points(2500, 1, 2)), ABACUS_OK);
+    big.keep();
+    auto &pages = big.mesh.host.staged_pages;
     ASSERT_GT(pages.size(), 3u);
     for (std::size_t i = 0; i < pages.size(); ++i)
         big.expect_fault("a missing vertex page", "point",
                          [&] { pages.erase(std::next(pages.begin(), std::ptrdiff_t(i))); });
-    big.expect_fault("a staged point that is no vertex", "point", [&] {
+    big.expect_fault("an x that is no number", "point", [&] {
         auto &page = std::next(pages.begin())->second;
-        page.words[VertexPageHeader::words + 1] += 1; // its x
+        page.words[VertexPageHeader::words + 1] = ~std::uint64_t(0);
     });
-    big.expect_fault("a staged point with another id", "vertex",
-                     [&] { ++std::next(pages.begin())->second.words[VertexPageHeader::words]; });
-    big.expect_fault("a staged point with another attribute", "vertex", [&] {
-        ++std::next(pages.begin())->second.words[VertexPageHeader::words + 3];
+    for (const std::int64_t step : {-1, 1}) {
+        big.expect_fault("fewer or more", step < 0 ? "count" : "point",
+                         [&] { big.mesh.header.staged += 200 * step; });
+        big.expect_fault("others", step < 0 ? "point" : "count",
+                         [&] { big.mesh.header.inserted += step < 0 ? -200 : 400; });
+    }
+    big.expect_fault("points that were inserted", "count",
+                     [&] { big.mesh.header.inserted = big.mesh.header.staged; });
+}
+
+TEST(Check, FindsDamageOfRepeatedPoints) {
+    std::vector<Input> points = random_points(600, 1);
+    for (int i = 0; i < 400; ++i) points.push_back({5000 + i, points[i].point, {0.5}});
+    Patient patient(points);
+    ASSERT_EQ(patient.mesh.header.duplicates, 400u);
+    auto &pages = patient.mesh.host.repeated_pages;
+    ASSERT_GT(pages.size(), 2u);
+    const auto second = [&]() -> MemoryHost::Page & { return std::next(pages.begin())->second; };
+    patient.expect_fault("a missing page", "count", [&] { pages.erase(pages.begin()); });
+    patient.expect_fault("an empty page", "count", [&] { // after its header: nothing
+        second().words[1] = 0;
+        second().size = 16;
     });
+    patient.expect_fault("a page under another key", "point", [&] {
+        pages[{key_word_end - 1, 0}] = second();
+        pages.erase(std::next(pages.begin()));
+    });
+    patient.expect_fault("a serial number", "count", [&] { second().words[2] = 400; });
+    patient.expect_fault("another place", "point", [&] { second().words[5] ^= 1; });
+    for (std::size_t word = 0; word < 2; ++word)
+        patient.expect_fault("its header", "point", [&] { ++second().words[word]; });
+    for (const int step : {-1, 1})
+        patient.expect_fault("their number", "count",
+                             [&] { patient.mesh.header.duplicates += step; });
 }
 
 TEST(Check, FindsEveryWrongCountOfTheHeader) {
     Patient big(800, 0);
     using Field = std::uint64_t abacus_header::*;
     for (const Field field :
-         {&abacus_header::points, &abacus_header::inserted, &abacus_header::vertices,
-          &abacus_header::duplicates, &abacus_header::simplices, &abacus_header::ghosts})
+         {&abacus_header::duplicates, &abacus_header::simplices, &abacus_header::ghosts})
         for (const std::uint64_t value : {std::uint64_t(0), std::uint64_t(1) << 40})
             big.expect_fault("a count", "count", [&] {
                 big.mesh.header.*field = value == big.mesh.header.*field ? 1 : value;
             });
     for (const int step : {-1, 1}) {
-        big.expect_fault("points", "count", [&] { big.mesh.header.points += step; });
-        big.expect_fault("inserted", "count", [&] { big.mesh.header.inserted += step; });
-        big.expect_fault("inserted and duplicates", "count", [&] {
-            big.mesh.header.inserted += step;
-            big.mesh.header.duplicates += step;
-        });
-        big.expect_fault("vertices and duplicates", "euler", [&] {
-            big.mesh.header.vertices += step;
-            big.mesh.header.duplicates -= step;
-        });
+        big.expect_fault("vertices", "euler", [&] { big.mesh.header.vertices += step; });
         big.expect_fault("triangles and ghosts", "count", [&] {
             big.mesh.header.simplices += step;
             big.mesh.header.ghosts -= step;
         });
     }
-    big.expect_fault("first batch", "count", [&] { big.mesh.header.first_batch = 0; });
-    big.expect_fault("first batch", "count", [&] { big.mesh.header.first_batch = 801; });
     big.expect_fault("no domain", "count", [&] { big.mesh.header.has_domain = 0; });
     big.expect_fault("a domain", "key", [&] { big.mesh.header.upper[0] *= 2; });
     big.expect_fault("a domain", "domain", [&] { big.mesh.header.lower[1] = NAN; });
     big.expect_fault("attributes", "page", [&] { big.mesh.header.attributes = 1; });
-}
-
-TEST(Check, FindsPointsStagedBeyondTheHeadersCount) {
-    // Staged, but not inserted: here no count of simplices depends on them.
-    Patient patient(300, 0);
-    ASSERT_EQ(patient.mesh.stage(random_points(100, 0, 2)), ABACUS_OK);
-    ASSERT_EQ(patient.mesh.check(), std::vector<std::string>{});
-    ++patient.mesh.header.points;
-    EXPECT_NE(patient.mesh.check(), std::vector<std::string>{});
-    patient.mesh.header.points -= 2;
-    EXPECT_NE(patient.mesh.check(), std::vector<std::string>{});
-}
-
-TEST(Check, TellsARepeatedPointFromAWrongVertex) {
-    // The second staging repeats points of the first under other ids, and its own later.
-    Mesh mesh(1, 40 << 10);
-    std::vector<Input> first = random_points(400, 1), second = random_points(400, 1, 2);
-    for (int i = 0; i < 100; ++i) second[i].point = first[3 * i].point;
-    for (Input &input : second) input.id += 5000;
-    std::vector<Input> third(second.begin() + 50, second.begin() + 250);
-    for (Input &input : third) input.id += 5000;
-    for (const auto &batch : {first, second, third}) {
-        ASSERT_EQ(mesh.stage(batch), ABACUS_OK);
-        ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.detail;
-        ASSERT_EQ(mesh.check(), std::vector<std::string>{});
-    }
-    EXPECT_EQ(mesh.header.duplicates, 300u);
-    // A vertex that came with the second staging: its id, then the repetition's.
-    for (const std::int64_t id : {std::int64_t(1), third[150].id}) {
-        auto pages = mesh.host.pages;
-        for (auto &[key, page] : mesh.host.pages) {
-            PageEditor editor(page);
-            const int v = editor.number_of(third[150].point);
-            if (v < 0) continue;
-            EXPECT_EQ(editor.ids[v], second[200].id);
-            editor.ids[v] = id;
-            editor.attributes[v] = third[150].attributes;
-            editor.write(page);
-        }
-        const auto faults = mesh.check();
-        ASSERT_GE(faults.size(), 1u);
-        EXPECT_EQ(faults[0].substr(0, 7), "vertex:");
-        mesh.host.pages = pages;
-    }
 }
 
 } // namespace

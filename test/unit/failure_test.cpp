@@ -98,6 +98,8 @@ void PrintTo(const Work &work, std::ostream *out) { *out << work.name; }
 const Work works[] = {
     {"stage", 0, 0, [](Mesh &mesh) { return mesh.stage(random_points(400, 1)); }},
     {"stage_through_spools", 0, 0, [](Mesh &mesh) { return mesh.stage(random_points(400, 1), 1); }},
+    {"insert", 0, 0, [](Mesh &mesh) { return mesh.insert(random_points(1500, 1)); }},
+    {"insert_more", 700, 400, [](Mesh &mesh) { return mesh.insert(random_points(700, 7)); }},
     {"stage_more", 500, 500, [](Mesh &mesh) { return mesh.stage(random_points(300, 2)); }},
     {"build", 1500, 0, [](Mesh &mesh) { return mesh.build(); }},
     {"build_more", 1500, 900, [](Mesh &mesh) { return mesh.build(); }},

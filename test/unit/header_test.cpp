@@ -21,13 +21,13 @@ abacus_header full_header(unsigned attributes) {
         header.upper[i] = 5e-324 * i;
     }
     header.stamp = UINT64_MAX;
-    header.points = 1000;
+    header.staged = 1000;
     header.inserted = 900;
     header.vertices = 800;
     header.duplicates = 100;
+    header.serials = 110;
     header.simplices = 4000;
     header.ghosts = 90;
-    header.first_batch = 500;
     header.counters.insertions = 1;
     header.counters.peak_bytes = UINT64_MAX;
     for (unsigned i = 0; i < attributes; ++i)
@@ -112,13 +112,13 @@ TEST(Header, ContradictionsAreRefused) {
     EXPECT_TRUE(
         refused([](abacus_header &h) { h.upper[0] = std::numeric_limits<double>::infinity(); }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.inserted = 1001; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.points = std::uint64_t{1} << 63; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.vertices = 801; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.staged = std::uint64_t{1} << 63; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.duplicates = 111; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.serials = 99; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.serials = UINT64_MAX; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.vertices = UINT64_MAX; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.vertices = 0; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.simplices = 0; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.first_batch = 1001; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.first_batch = 0; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.names[0][0] = '\0'; }));
 }
 

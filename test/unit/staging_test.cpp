@@ -159,16 +159,15 @@ TYPED_TEST(Staging, HeaderIsBroughtUpToDate) {
     abacus_header header = empty_header<D>();
     ASSERT_EQ(stage<D>(host, header, {}, ample, error), ABACUS_OK);
     EXPECT_EQ(header.has_domain, 0u);
-    EXPECT_EQ(header.points, 0u);
-    EXPECT_TRUE(host.vertex_pages.empty());
+    EXPECT_EQ(header.staged, 0u);
+    EXPECT_TRUE(host.staged_pages.empty());
 
     Point<D> p, q;
     p.fill(-2);
     q.fill(3);
     ASSERT_EQ(stage<D>(host, header, with_ids<D>({q, p, q}), ample, error), ABACUS_OK);
     EXPECT_EQ(header.has_domain, 1u);
-    EXPECT_EQ(header.points, 3u);
-    EXPECT_EQ(header.first_batch, 3u);
+    EXPECT_EQ(header.staged, 3u);
     for (int axis = 0; axis < D; ++axis) {
         EXPECT_EQ(header.lower[axis], -2);
         EXPECT_EQ(header.upper[axis], 3);
@@ -178,8 +177,7 @@ TYPED_TEST(Staging, HeaderIsBroughtUpToDate) {
     Point<D> far;
     far.fill(1e9);
     ASSERT_EQ(stage<D>(host, header, with_ids<D>({far, p}), ample, error), ABACUS_OK);
-    EXPECT_EQ(header.points, 5u);
-    EXPECT_EQ(header.first_batch, 3u);
+    EXPECT_EQ(header.staged, 5u);
     EXPECT_EQ(header.upper[0], 3);
     const Input<D> order = staged<D>(host, header);
     EXPECT_EQ(order[3].point, p);
@@ -223,8 +221,8 @@ TYPED_TEST(Staging, CoordinatesThatAreNotFiniteAreRefused) {
         EXPECT_EQ(error.kind, ABACUS_ERROR_ARGUMENT);
         EXPECT_NE(std::string(error.message).find("-42"), std::string::npos) << error.message;
         EXPECT_NE(error.hint[0], '\0');
-        EXPECT_EQ(header.points, 0u);
-        EXPECT_TRUE(host.vertex_pages.empty());
+        EXPECT_EQ(header.staged, 0u);
+        EXPECT_TRUE(host.staged_pages.empty());
         EXPECT_EQ(host.bytes, 0u);
     }
 }
@@ -243,7 +241,7 @@ TYPED_TEST(Staging, EveryHostCallMayFail) {
             const abacus_status status = stage<D>(host, header, input, tiny, error, 3000);
             done = !host.failed;
             EXPECT_EQ(status, done ? ABACUS_OK : ABACUS_HOST_ERROR);
-            EXPECT_EQ(header.points, done ? input.size() : 0);
+            EXPECT_EQ(header.staged, done ? input.size() : 0);
             EXPECT_EQ(host.bytes, 0u);
             EXPECT_TRUE(host.violations.empty()) << host.violations[0];
         }
@@ -265,7 +263,7 @@ TYPED_TEST(Staging, MemoryMayRunOut) {
             if (status == ABACUS_OK) break;
             EXPECT_EQ(status, ABACUS_ERROR);
             EXPECT_EQ(error.kind, ABACUS_ERROR_MEMORY);
-            EXPECT_EQ(header.points, 0u);
+            EXPECT_EQ(header.staged, 0u);
         }
     }
 }
@@ -305,7 +303,7 @@ TYPED_TEST(Staging, MemoryAndSpoolsAreBounded) {
             EXPECT_LE(host.peak_spools, 256u);
             EXPECT_TRUE(host.spools.empty());
             EXPECT_EQ(host.last_progress.done, input.size());
-            EXPECT_EQ(host.last_progress.pages_written, host.vertex_pages.size());
+            EXPECT_EQ(host.last_progress.pages_written, host.staged_pages.size());
         }
     }
 }
@@ -318,11 +316,11 @@ TYPED_TEST(Staging, DamagedPagesAreFound) {
     Input<D> input = with_ids<D>(points<D>(Kind::uniform, 100));
     for (auto &point : input) point.attributes.push_back(0);
     ASSERT_EQ(stage<D>(host, header, input, ample, error), ABACUS_OK);
-    const MemoryHost::Page sound = host.vertex_pages.at(0);
+    const MemoryHost::Page sound = host.staged_pages.at({0, 0});
 
     const auto opens = [](MemoryHost::Page page, std::uint64_t first = 0) {
         try {
-            VertexPage<D>(page.bytes(), page.size, 1, first);
+            VertexPage<D>(page.words.data(), page.size, 1, {first, 0});
             return true;
         } catch (const Error &e) {
             EXPECT_EQ(e.kind, ABACUS_ERROR_CORRUPTED);

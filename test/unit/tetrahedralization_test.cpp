@@ -223,7 +223,7 @@ TEST(Tetrahedralization, FewerDimensionsMakeAnEmptyMeshThatCanGrow) {
         ASSERT_EQ(mesh.stage(number<3>(points)), ABACUS_OK);
         ASSERT_EQ(mesh.build(), ABACUS_OK);
         EXPECT_EQ(mesh.positions(), cgal_simplices<3>(points));
-        EXPECT_EQ(mesh.header.points, points.size());
+        EXPECT_EQ(mesh.header.staged, points.size());
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
         abacus_simplex simplex;
         if (mesh.header.simplices == 0) {
@@ -264,7 +264,7 @@ TEST(ProbingInSpace, GivesTheSameMeshAsStoredLinks) {
 
     mesh.header.has_domain = 1;
     std::fill_n(mesh.header.upper, 3, 1.0);
-    mesh.header.points = mesh.header.inserted = mesh.header.vertices = points.size();
+    mesh.header.vertices = points.size();
     mesh.header.simplices = static_cast<std::uint64_t>(insertion.simplices());
     mesh.header.ghosts = static_cast<std::uint64_t>(insertion.ghosts());
     EXPECT_EQ(mesh.positions(), cgal_simplices<3>(points));

@@ -173,7 +173,7 @@ TEST(Triangulation, FewerDimensionsMakeAnEmptyMeshThatCanGrow) {
         ASSERT_EQ(mesh.stage(number(points)), ABACUS_OK);
         ASSERT_EQ(mesh.build(), ABACUS_OK);
         EXPECT_EQ(mesh.header.simplices, 0u);
-        EXPECT_EQ(mesh.header.points, points.size());
+        EXPECT_EQ(mesh.header.staged, points.size());
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
         abacus_simplex simplex;
         EXPECT_EQ(mesh.locate({1, 2}, simplex), ABACUS_END);

@@ -1,0 +1,13 @@
+// The stage behind the C interface, for the functions that take one.
+#pragma once
+
+#include "capi/dimension.hpp"
+#include "staging/stage.hpp"
+
+struct abacus_stage {
+    abacus_stage(const abacus_host *table, const abacus_header &header, std::size_t memory)
+        : host(*table), stage(host, header, memory) {}
+
+    const abacus::Host host;
+    abacus::ByDimension<abacus::Stage> stage;
+};

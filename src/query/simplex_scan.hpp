@@ -1,0 +1,24 @@
+// The simplices of a mesh, in the order of their pages.
+#pragma once
+
+#include "query/page_scan.hpp"
+#include "geometry/locational_code.hpp"
+
+namespace abacus {
+
+template <int D> class SimplexScan {
+public:
+    SimplexScan(const Host &host, const abacus_header &header, bool ghosts);
+
+    /// False after the last simplex.
+    bool next(abacus_simplex &simplex);
+
+private:
+    Domain<D> domain_;
+    PageScan<D> pages_;
+    bool ghosts_;
+    bool in_page_ = false;
+    int at_ = 0;
+};
+
+} // namespace abacus

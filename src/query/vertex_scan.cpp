@@ -1,0 +1,71 @@
+#include "query/vertex_scan.hpp"
+
+#include "cache/domain_of.hpp"
+
+namespace abacus {
+namespace {
+
+template <int D> void fill(abacus_vertex &vertex, const std::uint64_t *record) {
+    const Point<D> p = record_point<D>(record);
+    vertex = {};
+    vertex.id = record_id(record);
+    std::copy(p.begin(), p.end(), vertex.point);
+    vertex.attributes = record_attributes<D>(record);
+}
+
+} // namespace
+
+template <int D>
+VertexScan<D>::VertexScan(const Host &host, const abacus_header &header, std::size_t cache_bytes)
+    : attributes_(header.attributes), mesh_(host, header, cache_bytes), own_(mesh_.cache()),
+      page_(header.vertices > 0 ? first_key : end_key), records_(host),
+      repeated_(host, domain_of<D>(header), header.attributes),
+      waiting_(host, header.attributes, header.inserted, header.staged) {}
+
+template <int D> void VertexScan<D>::collect() {
+    Cache<D> &cache = mesh_.cache();
+    cache.trim();
+    page_ = own_.collect(page_);
+    records_.clear();
+    at_ = 0;
+    for (const VertexIndex v : own_.list())
+        fill_record<D>(records_.extend(record_words(D, attributes_)), cache.vertices().id(v),
+                       cache.point(v), cache.vertices().attributes(v), attributes_);
+}
+
+template <int D> bool VertexScan<D>::next_vertex(abacus_vertex &vertex) {
+    while (at_ == records_.size()) {
+        if (!(page_ < end_key)) return false;
+        collect();
+    }
+    fill<D>(vertex, records_.data() + at_);
+    at_ += record_words(D, attributes_);
+    vertex.vertex = vertex.id;
+    return true;
+}
+
+template <int D> bool VertexScan<D>::next_repeated(abacus_vertex &vertex) {
+    if (!repeated_.advance()) return false;
+    fill<D>(vertex, repeated_.record());
+    const auto found = mesh_.vertex_at(record_point<D>(repeated_.record()));
+    if (!found) throw_corrupted("A repeated point is no vertex of the mesh.");
+    vertex.vertex = found->id;
+    return true;
+}
+
+template <int D> bool VertexScan<D>::next_waiting(abacus_vertex &vertex) {
+    if (!waiting_.advance()) return false;
+    fill<D>(vertex, waiting_.record());
+    vertex.waits = 1;
+    vertex.sequence = waiting_.sequence();
+    return true;
+}
+
+template <int D> bool VertexScan<D>::next(abacus_vertex &vertex) {
+    return next_vertex(vertex) || next_repeated(vertex) || next_waiting(vertex);
+}
+
+template class VertexScan<2>;
+template class VertexScan<3>;
+
+} // namespace abacus

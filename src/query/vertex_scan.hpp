@@ -1,0 +1,34 @@
+// All points: the vertices of the mesh page by page, those equal to one, those that wait.
+#pragma once
+
+#include "query/own_vertices.hpp"
+#include "query/reader.hpp"
+#include "staging/repeated_points.hpp"
+#include "staging/vertex_reader.hpp"
+
+namespace abacus {
+
+template <int D> class VertexScan {
+public:
+    VertexScan(const Host &host, const abacus_header &header, std::size_t cache_bytes);
+
+    /// False after the last point.
+    bool next(abacus_vertex &vertex);
+
+private:
+    bool next_vertex(abacus_vertex &vertex);
+    bool next_repeated(abacus_vertex &vertex);
+    bool next_waiting(abacus_vertex &vertex);
+    void collect();
+
+    const unsigned attributes_;
+    Reader<D> mesh_;
+    OwnVertices<D> own_;
+    Key page_;                     // the next one to take vertices from
+    Arena<std::uint64_t> records_; // vertices of the page before: the cache may change between calls
+    std::size_t at_ = 0;
+    RepeatedReader<D> repeated_;
+    VertexReader<D> waiting_;
+};
+
+} // namespace abacus

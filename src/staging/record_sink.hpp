@@ -1,0 +1,23 @@
+// Where points go, one after the other, once they are in order: vertex pages, or the
+// triangulation itself.
+#pragma once
+
+#include "staging/pacer.hpp"
+
+namespace abacus {
+
+class RecordSink {
+public:
+    /// Takes the next point: a record as in abacus_stage_add.
+    virtual void add(const std::uint64_t *record) = 0;
+    /// After the last point.
+    virtual void finish() = 0;
+    /// What its work is called, and what pages it has moved so far.
+    virtual abacus_phase phase() const = 0;
+    virtual PagesMoved pages_moved() const = 0;
+
+protected:
+    ~RecordSink() = default;
+};
+
+} // namespace abacus
