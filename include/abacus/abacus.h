@@ -99,6 +99,7 @@ typedef struct abacus_page
 typedef struct abacus_counters
 {
 	uint64_t insertions;       /* vertices added */
+	uint64_t removals;         /* vertices removed */
 	uint64_t steps;            /* links followed: walk, cavity, rim */
 	uint64_t misses;           /* links that led out of the cache (§4.10) */
 	uint64_t link_probes;      /* page look-ups by a stored neighbour key */

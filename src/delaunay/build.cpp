@@ -18,9 +18,9 @@ Build<D>::Build(const Host &host, const abacus_header &header, std::size_t cache
     : host_(host), attributes_(header.attributes),
       cache_(host_, domain_of<D>(header), static_cast<int>(header.attributes),
              CacheOptions{.budget = cache_bytes}),
-      insertion_(host_, cache_, static_cast<std::int64_t>(header.simplices),
-                 static_cast<std::int64_t>(header.ghosts)),
-      values_(host_) {
+      mesh_(host_, cache_, static_cast<std::int64_t>(header.simplices),
+            static_cast<std::int64_t>(header.ghosts)),
+      insertion_(mesh_), values_(host_) {
     values_.resize(attributes_);
 }
 
@@ -87,8 +87,8 @@ template <int D> void Build<D>::run(std::uint64_t limit, abacus_header &header) 
         cache_.flush();
         header.inserted = to;
     }
-    header.simplices = static_cast<std::uint64_t>(insertion_.simplices());
-    header.ghosts = static_cast<std::uint64_t>(insertion_.ghosts());
+    header.simplices = static_cast<std::uint64_t>(mesh_.simplices());
+    header.ghosts = static_cast<std::uint64_t>(mesh_.ghosts());
     add_counters(header.counters, cache_.counters);
 }
 

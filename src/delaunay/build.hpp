@@ -27,6 +27,7 @@ private:
     const Host &host_;
     unsigned attributes_;
     Cache<D> cache_;
+    Delaunay<D> mesh_;
     Insertion<D> insertion_;
     Arena<double> values_; // attributes of the point at hand
 };
