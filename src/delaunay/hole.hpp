@@ -36,8 +36,8 @@ public:
 private:
     using Vertices = std::array<VertexIndex, D + 1>;
 
-    /// Link of this many vertices, and more, are sewn.
-    static constexpr std::size_t large = D == 2 ? 96 : 128;
+    /// With this many neighbours, and more, the hole is sewn.
+    static constexpr std::size_t large = D == 2 ? 128 : 40;
 
     Handle create(const Vertices &vertices);
     /// A simplex that finds its neighbours among the open facets.
