@@ -111,7 +111,8 @@ template <int D> int run(const char *path, std::size_t cache_bytes) {
     stage(memory.watching(), header, path);
 
     Cache<D> cache(host, domain_of<D>(header), 0, {.budget = cache_bytes, .stored_links = false});
-    Insertion<D> insertion(host, cache, 0, 0);
+    Delaunay<D> delaunay(host, cache, 0, 0);
+    Insertion<D> insertion(delaunay);
     memory.watch(cache.counters);
     std::array<Point<D>, D + 1> points;
     Corners<D> corners;

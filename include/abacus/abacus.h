@@ -110,6 +110,7 @@ typedef struct abacus_page
 typedef struct abacus_counters
 {
 	uint64_t insertions;       /* vertices added */
+	uint64_t removals;         /* vertices removed */
 	uint64_t steps;            /* links followed: walk, cavity, rim */
 	uint64_t misses;           /* links that led out of the cache (§4.10) */
 	uint64_t link_probes;      /* page look-ups by a stored neighbour key */
@@ -144,7 +145,8 @@ typedef enum abacus_phase
 	ABACUS_PHASE_STAGING,      /* writing vertex pages */
 	ABACUS_PHASE_INSERTING,    /* triangulating */
 	ABACUS_PHASE_FLUSHING,     /* writing what the cache still holds */
-	ABACUS_PHASE_CHECKING
+	ABACUS_PHASE_CHECKING,
+	ABACUS_PHASE_DELETING      /* points out of the triangulation */
 } abacus_phase;
 
 typedef struct abacus_progress

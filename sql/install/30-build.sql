@@ -46,6 +46,13 @@ LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_insert(regclass, text) IS
     'inserts the points of a query (id, x, y[, z][, attribute...]) into the Delaunay triangulation, after those that wait; returns how many';
 
+CREATE FUNCTION abacus_delete(mesh regclass, query text)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_delete'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_delete(regclass, text) IS
+    'takes points away from the Delaunay triangulation: for each row (id, x, y[, z][, attribute...]) one with these coordinates, of several the one with this id or else the first; returns how many there were';
+
 CREATE PROCEDURE abacus_build(mesh regclass, batch bigint DEFAULT 1000000)
 AS 'MODULE_PATHNAME', 'abacus_sql_build'
 LANGUAGE C;

@@ -30,6 +30,7 @@ SELECT pid,
            WHEN 4 THEN 'inserting'
            WHEN 5 THEN 'flushing'
            WHEN 6 THEN 'checking'
+           WHEN 7 THEN 'deleting'
        END AS phase,
        done,
        total,
@@ -43,7 +44,7 @@ FROM build;
 COMMENT ON VIEW abacus_progress IS 'live figures of the builds and checks that run in any session';
 COMMENT ON COLUMN abacus_progress.pid IS 'process id of the session';
 COMMENT ON COLUMN abacus_progress.mesh IS 'the mesh; a number while its creation is not committed, NULL in another database';
-COMMENT ON COLUMN abacus_progress.phase IS 'starting, reading, sorting, staging, inserting, flushing or checking';
+COMMENT ON COLUMN abacus_progress.phase IS 'starting, reading, sorting, staging, inserting, deleting, flushing or checking';
 COMMENT ON COLUMN abacus_progress.done IS 'points (checking: pages) done in this phase';
 COMMENT ON COLUMN abacus_progress.total IS 'of how many; NULL if not known';
 COMMENT ON COLUMN abacus_progress.per_second IS 'mean rate in this phase';

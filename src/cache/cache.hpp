@@ -128,6 +128,15 @@ public:
                               const double *attributes) {
         return vertices_.create(p, code, id, attributes);
     }
+    /// Of a vertex whose whole star has been destroyed.
+    void destroy_vertex(VertexIndex v) {
+        if (vertices_.in_use(v)) throw_corrupted("A vertex has two separate stars.");
+        vertices_.destroy(v);
+    }
+    /// The caller marks the vertex's whole star as changed, and has loaded it.
+    void rename_vertex(VertexIndex v, std::int64_t id, const double *attributes) {
+        vertices_.rename(v, id, attributes);
+    }
     /// A new simplex with unset links.
     Handle create(const std::array<VertexIndex, D + 1> &vertices) {
         const std::uint64_t code = this->code(vertices);

@@ -103,17 +103,17 @@ template <int D> bool Cache<D>::dissolve(BlockIndex b) {
     const BlockIndex left = directory_.before(lower), right = directory_.after(lower);
     // The left neighbour keeps its key, but is only worth writing if it is written anyway;
     // the right one's key changes.
+    const bool suits_left = left != no_block && blocks_[left].upper == lower &&
+                            blocks_[left].dirty && !blocks_[left].has_parts();
+    const bool suits_right = right != no_block && blocks_[right].lower == upper &&
+                             blocks_[right].location == 0 && !blocks_[right].has_parts();
     const auto room = [&](BlockIndex n, bool suits) -> std::size_t {
         const auto full = static_cast<std::uint32_t>(dissolve_to * capacity_);
-        return suits && !blocks_[n].has_parts() && blocks_[n].count < full ? full - blocks_[n].count
-                                                                            : 0;
+        return suits && blocks_[n].count < full ? full - blocks_[n].count : 0;
     };
     const std::size_t n = blocks_[b].count;
-    const std::size_t room_left =
-        left == no_block ? 0 : room(left, blocks_[left].upper == lower && blocks_[left].dirty);
-    const std::size_t room_right =
-        right == no_block ? 0 : room(right, blocks_[right].lower == upper && blocks_[right].location == 0);
-    if (n == 0 || room_left + room_right < n) return false;
+    const std::size_t room_left = room(left, suits_left), room_right = room(right, suits_right);
+    if (!(suits_left || suits_right) || room_left + room_right < n) return false;
 
     collect_places(b);
     std::size_t cut = room_left >= n ? n : std::min(room_left, (room_left + n - room_right + 1) / 2);
@@ -122,17 +122,19 @@ template <int D> bool Cache<D>::dissolve(BlockIndex b) {
         cut = cut_near(cut);
         if (cut > room_left || n - cut > room_right) return false;
     }
-    const Key border = cut == 0 ? lower : cut == n ? upper : places_[cut].key;
+    // An empty block's interval goes to either.
+    const bool to_right = n == 0 ? suits_right : cut < n, to_left = n == 0 ? !to_right : cut > 0;
+    const Key border = !to_left ? lower : !to_right ? upper : places_[cut].key;
     // Their age stays: they are no more in use than before.
-    const std::uint64_t left_used = cut > 0 ? blocks_[left].used_at : 0;
-    const std::uint64_t right_used = cut < n ? blocks_[right].used_at : 0;
+    const std::uint64_t left_used = to_left ? blocks_[left].used_at : 0;
+    const std::uint64_t right_used = to_right ? blocks_[right].used_at : 0;
     for (std::size_t i = 0; i < n; ++i) move(places_[i].handle, i < cut ? left : right);
     directory_.erase(lower);
-    if (cut > 0) {
+    if (to_left) {
         blocks_[left].own(blocks_[left].lower, border);
         blocks_[left].used_at = left_used;
     }
-    if (cut < n) {
+    if (to_right) {
         directory_.erase(upper);
         blocks_[right].own(border, blocks_[right].upper);
         blocks_[right].used_at = right_used;

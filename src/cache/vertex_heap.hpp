@@ -67,11 +67,15 @@ public:
             values_.resize((std::size_t(v) + 1) * attributes_);
         }
         vertices_[v] = {p, code, 0, 0};
+        rename(v, id, attributes);
+        return v;
+    }
+    /// Another id, other attributes.
+    void rename(VertexIndex v, std::int64_t id, const double *attributes) {
         ids_[v] = id;
         if (attributes_ != 0 && attributes != nullptr)
             std::memcpy(&values_[std::size_t(v) * attributes_], attributes,
                         attributes_ * sizeof(double));
-        return v;
     }
 
     /// A list of distinct vertices, each of which knows its place in it: a sparse set

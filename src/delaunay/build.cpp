@@ -3,6 +3,7 @@
 #include "cache/domain_of.hpp"
 #include "cache/stopwatch.hpp"
 #include "delaunay/intake.hpp"
+#include "delaunay/outlet.hpp"
 
 #include <algorithm>
 
@@ -15,27 +16,32 @@ constexpr std::uint64_t report_every = 4096; // points: some hundred times a sec
 } // namespace
 
 template <int D>
+Build<D>::Core::Core(const Host &host, const abacus_header &header, std::size_t cache_bytes)
+    : cache(host, domain_of<D>(header), static_cast<int>(header.attributes),
+            CacheOptions{.budget = cache_bytes}),
+      mesh(host, cache, static_cast<std::int64_t>(header.simplices),
+           static_cast<std::int64_t>(header.ghosts)),
+      insertion(mesh), removal(mesh) {}
+
+template <int D>
 Build<D>::Build(const Host &host, const abacus_header &header, std::size_t cache_bytes)
-    : host_(host), attributes_(header.attributes),
-      cache_(host_, domain_of<D>(header), static_cast<int>(header.attributes),
-             CacheOptions{.budget = cache_bytes}),
-      insertion_(host_, cache_, static_cast<std::int64_t>(header.simplices),
-                 static_cast<std::int64_t>(header.ghosts)),
-      repeated_(host_, cache_.domain(), header.attributes) {}
+    : host_(host), attributes_(header.attributes), cache_bytes_(cache_bytes),
+      domain_(domain_of<D>(header)), core_(std::in_place, host_, header, cache_bytes),
+      repeated_(host_, domain_, header.attributes) {}
 
 template <int D> VertexIndex Build<D>::create(const std::uint64_t *record) {
-    return cache_.create_vertex(record_point<D>(record), record_id(record),
+    return core_->cache.create_vertex(record_point<D>(record), record_id(record),
                                 record_attributes<D>(record));
 }
 
 template <int D> void Build<D>::start(const std::array<VertexIndex, D + 1> &vertices) {
-    insertion_.start(vertices);
+    core_->insertion.start(vertices);
     header_->vertices = D + 1;
 }
 
 template <int D> void Build<D>::add(const std::uint64_t *record) {
-    if (insertion_.insert(record_point<D>(record), record_id(record),
-                          record_attributes<D>(record))) {
+    if (core_->insertion.insert(record_point<D>(record), record_id(record),
+                                record_attributes<D>(record))) {
         ++header_->vertices;
     } else {
         repeated_.add(header_->serials++, record);
@@ -76,18 +82,20 @@ template <int D> void Build<D>::insert_waiting(std::uint64_t limit) {
 template <int D>
 template <class Change>
 void Build<D>::change(abacus_header &header, Change change) {
-    cache_.counters = {};
+    core_->cache.counters = {};
     header_ = &header;
+    std::uint64_t time = 0;
     {
-        const Stopwatch stopwatch(cache_.counters.total_ns);
+        const Stopwatch stopwatch(time);
         const std::uint64_t done = change();
         report(ABACUS_PHASE_FLUSHING, done, done);
-        cache_.flush();
+        core_->cache.flush();
         repeated_.flush();
     }
-    header.simplices = static_cast<std::uint64_t>(insertion_.simplices());
-    header.ghosts = static_cast<std::uint64_t>(insertion_.ghosts());
-    add_counters(header.counters, cache_.counters);
+    header.simplices = static_cast<std::uint64_t>(core_->mesh.simplices());
+    header.ghosts = static_cast<std::uint64_t>(core_->mesh.ghosts());
+    core_->cache.counters.total_ns = time;
+    add_counters(header.counters, core_->cache.counters);
 }
 
 template <int D> void Build<D>::run(std::uint64_t limit, abacus_header &header) {
@@ -109,9 +117,23 @@ template <int D> void Build<D>::insert(Stage<D> &stage, abacus_header &header) {
     });
 }
 
+template <int D> std::uint64_t Build<D>::remove(Stage<D> &stage, abacus_header &header) {
+    std::uint64_t taken = 0;
+    change(header, [&] {
+        const std::uint64_t points = stage.points();
+        insert_waiting(0);
+        Outlet outlet(*this);
+        if (has_simplices() || has_waiting()) stage.emit(outlet, header, true);
+        taken = outlet.taken();
+        return points;
+    });
+    return taken;
+}
+
 template <int D>
 void Build<D>::report(abacus_phase phase, std::uint64_t done, std::uint64_t total) {
-    host_.progress({phase, done, total, cache_.counters.loads, cache_.counters.stores});
+    const abacus_counters &counters = core_->cache.counters;
+    host_.progress({phase, done, total, counters.loads, counters.stores});
 }
 
 void add_counters(abacus_counters &sum, const abacus_counters &more) {

@@ -10,9 +10,12 @@
 
 #include "delaunay/first_simplex.hpp"
 #include "delaunay/insertion.hpp"
+#include "delaunay/removal.hpp"
 #include "staging/repeated_points.hpp"
 #include "staging/stage.hpp"
 #include "staging/vertex_reader.hpp"
+
+#include <optional>
 
 namespace abacus {
 
@@ -24,9 +27,22 @@ public:
     void run(std::uint64_t limit, abacus_header &header);
     /// Inserts what waits, then the points of a stage.
     void insert(Stage<D> &stage, abacus_header &header);
+    /// Inserts what waits, then takes away a point for each of a stage; returns how many
+    /// there were.
+    std::uint64_t remove(Stage<D> &stage, abacus_header &header);
 
 private:
     class Intake;
+    class Outlet;
+
+    /// The triangulation in memory. All of it goes when the mesh collapses.
+    struct Core {
+        Core(const Host &host, const abacus_header &header, std::size_t cache_bytes);
+        Cache<D> cache;
+        Delaunay<D> mesh;
+        Insertion<D> insertion;
+        Removal<D> removal;
+    };
 
     bool has_simplices() const { return header_->vertices > 0; }
     bool has_waiting() const { return header_->inserted < header_->staged; }
@@ -34,14 +50,19 @@ private:
     void start(const std::array<VertexIndex, D + 1> &vertices);
     void add(const std::uint64_t *record);
     void insert_waiting(std::uint64_t limit);
+    /// Takes a point of the triangulation away; false if there is none.
+    bool erase(const Point<D> &p, std::int64_t id);
+    /// The points left, the neighbours of the vertex last found, span no simplex: they wait.
+    void collapse();
     /// Runs a change, which returns how many points it has dealt with, and ends it.
     template <class Change> void change(abacus_header &header, Change change);
     void report(abacus_phase phase, std::uint64_t done, std::uint64_t total);
 
     const Host &host_;
     const unsigned attributes_;
-    Cache<D> cache_;
-    Insertion<D> insertion_;
+    const std::size_t cache_bytes_;
+    const Domain<D> domain_;
+    std::optional<Core> core_; ///< always there; optional, to be made anew
     RepeatedPoints<D> repeated_;
     abacus_header *header_ = nullptr; ///< of the change at hand
 };

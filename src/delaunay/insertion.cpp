@@ -7,16 +7,14 @@
 namespace abacus {
 
 template <int D>
-Insertion<D>::Insertion(const Host &host, Cache<D> &cache, std::int64_t simplices,
-                        std::int64_t ghosts)
-    : cache_(cache), walk_(cache), marks_(host), ridges_(host), rim_vertices_(host), cavity_(host), rim_(host), stack_(host), simplices_(simplices), ghosts_(ghosts) {
-    recent_.fill(no_handle);
-}
+Insertion<D>::Insertion(Delaunay<D> &mesh)
+    : mesh_(mesh), cache_(mesh.cache()), ridges_(cache_.host()), rim_vertices_(cache_.host()),
+      cavity_(cache_.host()), rim_(cache_.host()), stack_(cache_.host()) {}
 
 template <int D> Handle Insertion<D>::find_conflict(const Point<D> &p, std::uint64_t code) {
     Handle from = no_handle;
     ++cache_.counters.incircle_tests;
-    for (const Handle h : recent_) {
+    for (const Handle h : mesh_.recent()) {
         if (!cache_.is_live(h)) continue;
         switch (side_of<D>(cache_, cache_.simplex(h), p)) {
         case Side::vertex: return no_handle;
@@ -24,17 +22,8 @@ template <int D> Handle Insertion<D>::find_conflict(const Point<D> &p, std::uint
         case Side::outside: from = h;
         }
     }
-    // Walk from the last insertion if p is in its neighbourhood, measured by the
-    // size of the simplices there; else from the block that owns p's code.
-    if (from != no_handle && !walk_.is_close(from, p) && !cache_.near(from, code))
-        from = no_handle;
-    if (from == no_handle) from = cache_.start(code, p);
-    if (from == no_handle) throw_corrupted("The mesh has no simplices.");
-    const Handle h = walk_.to(p, from, static_cast<std::uint64_t>(simplices_ + ghosts_));
-    const Simplex<D> &s = cache_.simplex(h);
-    for (int i = 0; i < s.finite_vertices(); ++i)
-        if (cache_.point(s.vertex[i]) == p) return no_handle;
-    return h;
+    const Handle h = mesh_.locate(p, code, from);
+    return mesh_.corner_at(h, p) < 0 ? h : no_handle;
 }
 
 template <int D>
@@ -44,10 +33,8 @@ bool Insertion<D>::insert(const Point<D> &p, std::int64_t id, const double *attr
     if (first == no_handle) return false;
     find_cavity(p, first);
     fill_cavity(cache_.create_vertex(p, code, id, attributes));
-    if (cache_.settle(code))
-        for (Handle &h : recent_) h = cache_.follow(h);
     ++cache_.counters.insertions;
-    cache_.trim();
+    mesh_.finish(code);
     return true;
 }
 
@@ -56,7 +43,7 @@ template <int D> void Insertion<D>::find_cavity(const Point<D> &p, Handle first)
     rim_.clear();
     stack_.clear();
     cavity_.push_back(first);
-    if constexpr (D == 3) marks_.set(first, Marks::inside);
+    if constexpr (D == 3) mesh_.marks.set(first, Marks::inside);
     Link *top = stack_.extend(D + 1);
     for (int i = D; i >= 0; --i) *top++ = make_link(first, i);
     // An entry is the inner side of a facet: the outer handle is asked for anew,
@@ -70,12 +57,12 @@ template <int D> void Insertion<D>::find_cavity(const Point<D> &p, Handle first)
         if constexpr (D == 2) {
             inside = side_of<D>(cache_, cache_.simplex(h), p) == Side::inside;
         } else {
-            Marks::Mark mark = marks_.get(h);
+            Marks::Mark mark = mesh_.marks.get(h);
             if (mark == Marks::inside) continue; // came back to the cavity from within
             if (mark == Marks::none) {
                 mark = side_of<D>(cache_, cache_.simplex(h), p) == Side::inside ? Marks::inside
                                                                                 : Marks::outside;
-                marks_.set(h, mark);
+                mesh_.marks.set(h, mark);
             }
             inside = mark == Marks::inside;
         }
@@ -92,7 +79,7 @@ template <int D> void Insertion<D>::find_cavity(const Point<D> &p, Handle first)
                 *top++ = make_link(h, facet);
             }
         } else {
-            Rim &rim = *rim_.extend(1);
+            Rim<D> &rim = *rim_.extend(1);
             rim.outer = outer;
             rim.facet = link_facet(inner);
             rim.vertex = cache_.simplex(link_simplex(inner)).vertex;
@@ -109,15 +96,14 @@ template <int D> void Insertion<D>::fill_cavity(VertexIndex v) {
         ghosts -= cache_.simplex(h).is_ghost();
         cache_.destroy(h);
     }
-    for (const Rim &rim : rim_) ghosts += rim.vertex[D] == infinite_vertex && rim.facet != D;
-    ghosts_ += ghosts;
-    simplices_ += static_cast<std::int64_t>(rim_.size() - cavity_.size()) - ghosts;
-    recent_.fill(no_handle);
+    for (const Rim<D> &rim : rim_) ghosts += rim.vertex[D] == infinite_vertex && rim.facet != D;
+    mesh_.count(static_cast<std::int64_t>(rim_.size() - cavity_.size()) - ghosts, ghosts);
+    mesh_.forget();
     if constexpr (D == 2) {
         wire_cycle(v);
     } else {
-        for (const Handle h : cavity_) marks_.set(h, Marks::none);
-        for (const Rim &rim : rim_) marks_.set(link_simplex(rim.outer), Marks::none);
+        for (const Handle h : cavity_) mesh_.marks.set(h, Marks::none);
+        for (const Rim<D> &rim : rim_) mesh_.marks.set(link_simplex(rim.outer), Marks::none);
         wire_ridges(v);
     }
 }
@@ -125,10 +111,10 @@ template <int D> void Insertion<D>::fill_cavity(VertexIndex v) {
 template <int D> Handle Insertion<D>::join(std::size_t n, VertexIndex v) {
     // The simplex inside, with v for the vertex opposite the facet: v lies on the same
     // side, so the orientation stays, and a ghost's point at infinity stays last.
-    Rim &rim = rim_[n];
+    Rim<D> &rim = rim_[n];
     rim.vertex[rim.facet] = v;
     const Handle h = cache_.create(rim.vertex);
-    if (n < recent_.size()) recent_[n] = h;
+    mesh_.remember(n, h);
     cache_.connect(make_link(h, rim.facet), rim.outer);
     cache_.mark_dirty(link_simplex(rim.outer));
     return h;
@@ -140,7 +126,7 @@ template <int D> void Insertion<D>::wire_cycle(VertexIndex v) {
     Link first = 0, last = 0;
     for (std::size_t i = 0; i < rim_.size(); ++i) {
         const Handle h = join(i, v);
-        const Rim &rim = rim_[i];
+        const Rim<D> &rim = rim_[i];
         const int begin = rim.facet == D ? 0 : rim.facet + 1;
         const int end = begin == D ? 0 : begin + 1;
         const Link to_previous = make_link(h, end);
@@ -156,7 +142,7 @@ template <int D> void Insertion<D>::wire_ridges(VertexIndex v) {
     rim_vertices_.clear();
     for (std::size_t n = 0; n < rim_.size(); ++n) {
         const Handle h = join(n, v);
-        const Rim &rim = rim_[n];
+        const Rim<D> &rim = rim_[n];
         // The facets besides the rim's: each has v and one edge of that.
         std::array<std::uint32_t, D> number;
         std::array<Link, D> link;
@@ -181,8 +167,7 @@ template <int D> void Insertion<D>::start(const std::array<VertexIndex, D + 1> &
     cache_.create_first_block();
     std::array<Handle, D + 2> created;
     created[D + 1] = cache_.create(corners);
-    simplices_ = 1;
-    ghosts_ = D + 1;
+    mesh_.count(1, D + 1);
     for (int i = 0; i <= D; ++i) {
         // The point at infinity is on the other side of facet i than corner i: one
         // exchange of corners turns the orientation back. It brings infinity to its place,

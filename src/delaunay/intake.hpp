@@ -40,7 +40,7 @@ public:
 
     abacus_phase phase() const override { return ABACUS_PHASE_INSERTING; }
     PagesMoved pages_moved() const override {
-        return {build_.cache_.counters.loads, build_.cache_.counters.stores};
+        return {build_.core_->cache.counters.loads, build_.core_->cache.counters.stores};
     }
 
 private:

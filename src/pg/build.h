@@ -29,6 +29,7 @@ typedef struct Change
 } Change;
 
 extern uint64 edit_insert(Oid mesh, Source *source, const char *command, abacus_header *header);
+extern uint64 edit_delete(Oid mesh, Source *source);
 extern Change *change_begin(Oid mesh, const char *command);
 extern void change_read(Change *change, Source *source, const abacus_header *shape);
 extern void change_open_build(Change *change);

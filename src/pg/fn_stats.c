@@ -47,6 +47,7 @@ put_counters(Figures *figures, const abacus_counters *counters, bool reading)
 		const char *description;
 	}			rows[] = {
 		{"insertions", counters->insertions, false, "vertices added"},
+		{"removals", counters->removals, false, "vertices removed"},
 		{"steps", counters->steps, true, "links followed between simplices"},
 		{"misses", counters->misses, true, "links that led out of the cache"},
 		{"link_probes", counters->link_probes, true, "page searches by a stored neighbour key"},

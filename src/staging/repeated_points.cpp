@@ -141,31 +141,38 @@ template <int D> void RepeatedPoints<D>::remove(std::size_t i) {
     dirty_ = true;
 }
 
-/// Takes the first point equal to p whose record matches.
 template <int D>
 template <class Matches>
-bool RepeatedPoints<D>::find(const Point<D> &p, Matches matches) {
+std::size_t RepeatedPoints<D>::find(const Point<D> &p, Matches matches) {
     const Key from{domain_.code(p), 0};
-    if (!go_to(from)) return false;
+    if (!go_to(from)) return none;
     do {
         for (std::size_t i = lower_bound(from); i < count(); ++i) {
-            if (key_of(entry(i)).code != from.code) return false;
+            if (key_of(entry(i)).code != from.code) return none;
             const std::uint64_t *record = record_of(entry(i));
-            if (record_point<D>(record) != p || !matches(record)) continue;
-            remove(i);
-            return true;
+            if (record_point<D>(record) == p && matches(record)) return i;
         }
         host_.poll();
     } while (go_on(from.code));
-    return false;
+    return none;
+}
+
+template <int D> bool RepeatedPoints<D>::contains(const Point<D> &p) {
+    return find(p, [](const std::uint64_t *) { return true; }) != none;
 }
 
 template <int D> bool RepeatedPoints<D>::take(const Point<D> &p, std::int64_t id) {
-    return find(p, [&](const std::uint64_t *record) { return record_id(record) == id; });
+    const std::size_t i =
+        find(p, [&](const std::uint64_t *record) { return record_id(record) == id; });
+    if (i != none) remove(i);
+    return i != none;
 }
 
 template <int D> const std::uint64_t *RepeatedPoints<D>::take_first(const Point<D> &p) {
-    return find(p, [](const std::uint64_t *) { return true; }) ? taken_.data() : nullptr;
+    const std::size_t i = find(p, [](const std::uint64_t *) { return true; });
+    if (i == none) return nullptr;
+    remove(i);
+    return taken_.data();
 }
 
 template <int D> void RepeatedPoints<D>::flush() {

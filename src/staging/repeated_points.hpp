@@ -27,6 +27,8 @@ public:
 
     /// Adds a point; `serial` is above that of every equal one.
     void add(std::uint64_t serial, const std::uint64_t *record);
+    /// Whether there is a point equal to p.
+    bool contains(const Point<D> &p);
     /// Takes away a point equal to p, the one with this id, and returns whether there was one.
     bool take(const Point<D> &p, std::int64_t id);
     /// Takes away the first point equal to p; its record, valid until the next call, or
@@ -34,6 +36,8 @@ public:
     const std::uint64_t *take_first(const Point<D> &p);
     /// Writes the page at hand.
     void flush();
+    /// All pages have gone.
+    void forget() { at_page_ = dirty_ = false; }
 
 private:
     /// Makes the page that owns the key the one at hand; false if there are no pages.
@@ -43,7 +47,10 @@ private:
     void create_first_page();
     void split();
     void remove(std::size_t i);
-    template <class Matches> bool find(const Point<D> &p, Matches matches);
+    /// The first point equal to p that matches is on the page at hand then: its number, or
+    /// none.
+    static constexpr std::size_t none = ~std::size_t{0};
+    template <class Matches> std::size_t find(const Point<D> &p, Matches matches);
 
     std::size_t count() const { return records_.size() / stride_; }
     std::uint64_t *entry(std::size_t i) { return records_.data() + i * stride_; }

@@ -19,6 +19,7 @@ SELECT results_eq(
 CREATE TEMP TABLE wanted (name text, arguments text, result text, volatility "char", strict boolean, parallel "char");
 INSERT INTO wanted VALUES
     ('abacus_create', 'mesh text, dimension integer, attributes text[] DEFAULT ''{}''::text[], lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[]', 'regclass', 'v', false, 'u'),
+    ('abacus_delete', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_insert', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_stage', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_triangulate', 'mesh regclass', 'bigint', 'v', true, 'u'),

@@ -35,7 +35,8 @@ abacus_counters insert(Mesh &mesh, const std::vector<Point<2>> &points,
     mesh.header.upper[0] = mesh.header.upper[1] = 1;
     const Host host = mesh.host.host();
     Cache<2> cache(host, Domain<2>({0, 0}, {1, 1}), 0, options);
-    Insertion<2> insertion(host, cache, 0, 0);
+    Delaunay<2> delaunay(host, cache, 0, 0);
+    Insertion<2> insertion(delaunay);
     std::array<VertexIndex, 3> first;
     for (int i = 0; i < 3; ++i) first[i] = cache.create_vertex(points[i], i, nullptr);
     insertion.start(first);
@@ -43,8 +44,8 @@ abacus_counters insert(Mesh &mesh, const std::vector<Point<2>> &points,
         EXPECT_TRUE(insertion.insert(points[i], static_cast<std::int64_t>(i), nullptr));
     cache.flush();
     mesh.header.vertices = points.size();
-    mesh.header.simplices = static_cast<std::uint64_t>(insertion.simplices());
-    mesh.header.ghosts = static_cast<std::uint64_t>(insertion.ghosts());
+    mesh.header.simplices = static_cast<std::uint64_t>(delaunay.simplices());
+    mesh.header.ghosts = static_cast<std::uint64_t>(delaunay.ghosts());
     return cache.counters;
 }
 

@@ -29,6 +29,7 @@ abacus_header full_header(unsigned attributes) {
     header.simplices = 4000;
     header.ghosts = 90;
     header.counters.insertions = 1;
+    header.counters.removals = 2;
     header.counters.peak_bytes = UINT64_MAX;
     for (unsigned i = 0; i < attributes; ++i)
         std::strcpy(header.names[i], ("attribute " + std::to_string(i)).c_str());

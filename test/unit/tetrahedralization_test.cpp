@@ -3,6 +3,7 @@
 // the order of the points and the size of the cache.
 #include "delaunay/insertion.hpp"
 #include "support/oracle.hpp"
+#include "support/point_sets.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,9 +17,6 @@ namespace abacus::test {
 namespace {
 
 using Points = std::vector<Point<3>>;
-using Random = std::mt19937_64;
-
-double unit(Random &random) { return std::uniform_real_distribution<double>(0, 1)(random); }
 
 Points make(int n, const std::function<Point<3>(int)> &point) {
     Points points;
@@ -26,139 +24,10 @@ Points make(int n, const std::function<Point<3>(int)> &point) {
     return points;
 }
 
-Points integer_points_of_a_sphere(int radius) {
-    Points points;
-    for (int x = -radius; x <= radius; ++x)
-        for (int y = -radius; y <= radius; ++y)
-            for (int z = -radius; z <= radius; ++z)
-                if (x * x + y * y + z * z == radius * radius)
-                    points.push_back({x + 0.0, y + 0.0, z + 0.0});
-    return points;
-}
-
-/// Corners of the octants of an octree that is refined towards a bent surface.
-Points octree_corners() {
-    std::set<Point<3>> corners;
-    const std::function<void(Point<3>, double, int)> visit = [&](Point<3> at, double edge,
-                                                                 int level) {
-        const double height = 10 + 5 * std::sin(at[0] / 7) * std::cos(at[1] / 9);
-        if (level < 5 && std::fabs(at[2] + edge / 2 - height) < edge) {
-            for (int i = 0; i < 8; ++i)
-                visit({at[0] + (i & 1) * edge / 2, at[1] + (i >> 1 & 1) * edge / 2,
-                       at[2] + (i >> 2) * edge / 2},
-                      edge / 2, level + 1);
-            return;
-        }
-        for (int i = 0; i < 8; ++i)
-            corners.insert(
-                {at[0] + (i & 1) * edge, at[1] + (i >> 1 & 1) * edge, at[2] + (i >> 2) * edge});
-    };
-    visit({0, 0, 0}, 32, 0);
-    return {corners.begin(), corners.end()};
-}
-
-struct DataSet {
-    const char *name;
-    std::function<Points(Random &)> points;
-};
-
-const DataSet data_sets[] = {
-    {"uniform",
-     [](Random &r) {
-         return make(6000, [&](int) { return Point<3>{unit(r), unit(r), unit(r)}; });
-     }},
-    {"grid",
-     [](Random &) {
-         return make(12 * 12 * 12, [](int i) {
-             return Point<3>{i % 12 + 0.0, i / 12 % 12 + 0.0, i / 144 + 0.0};
-         });
-     }},
-    {"negative_grid_with_duplicates",
-     [](Random &r) {
-         const auto any = [&] { return std::floor(unit(r) * 14) - 7; };
-         return make(4000, [&](int) { return Point<3>{any(), any(), any()}; });
-     }},
-    {"octree_corners", [](Random &) { return octree_corners(); }},
-    {"integer_points_of_a_sphere", [](Random &) { return integer_points_of_a_sphere(45); }},
-    {"integer_points_of_a_sphere_and_its_centre",
-     [](Random &) {
-         Points points = integer_points_of_a_sphere(35);
-         points.push_back({0, 0, 0});
-         return points;
-     }},
-    {"sphere", // nearly cospherical
-     [](Random &r) {
-         return make(1500, [&](int) {
-             const double z = 2 * unit(r) - 1, angle = 6.283185307179586 * unit(r);
-             const double radius = std::sqrt(1 - z * z);
-             return Point<3>{radius * std::cos(angle), radius * std::sin(angle), z};
-         });
-     }},
-    {"cone", // an apex with every facet of the hull
-     [](Random &r) {
-         Points points = make(800, [&](int) {
-             const double angle = 6.283185307179586 * unit(r);
-             return Point<3>{std::cos(angle), std::sin(angle), 0};
-         });
-         points.push_back({0, 0, 1});
-         return points;
-     }},
-    {"skew_lines",
-     [](Random &r) {
-         return make(200, [&](int i) {
-             const double t = unit(r);
-             return i % 2 == 0 ? Point<3>{t, 0, 0} : Point<3>{0.3, t, 1};
-         });
-     }},
-    {"lines_and_planes",
-     [](Random &r) {
-         return make(1500, [&](int i) {
-             const double s = std::floor(unit(r) * 40), t = std::floor(unit(r) * 40);
-             return i % 3 == 0   ? Point<3>{s, t, 0}
-                    : i % 3 == 1 ? Point<3>{s, s, t}
-                                 : Point<3>{7, 5, t};
-         });
-     }},
-    {"clusters_below_the_code",
-     [](Random &r) {
-         return make(2000, [&](int i) {
-             return Point<3>{i % 5 * 0.2 + unit(r) * 1e-12, i % 3 * 0.3 + unit(r) * 1e-12,
-                             i % 7 * 0.1 + unit(r) * 1e-12};
-         });
-     }},
-    {"cluster_at_zero",
-     [](Random &r) {
-         const auto any = [&] { return (unit(r) - 0.5) * 1e-30; };
-         Points points = make(1500, [&](int) { return Point<3>{any(), any(), any()}; });
-         for (int i = 0; i < 8; ++i)
-             points.push_back({(i & 1) * 2 - 1.0, (i >> 1 & 1) * 2 - 1.0, (i >> 2) * 2 - 1.0});
-         return points;
-     }},
-    {"exponents",
-     [](Random &r) {
-         const auto any = [&] { return std::ldexp(unit(r) - 0.5, int(r() % 1990) - 995); };
-         return make(300, [&](int) { return Point<3>{any(), any(), any()}; });
-     }},
-    {"largest_doubles",
-     [](Random &r) {
-         const auto any = [&] { return (2 * unit(r) - 1) * 1.7e308; };
-         return make(300, [&](int) { return Point<3>{any(), any(), any()}; });
-     }},
-    {"denormals",
-     [](Random &r) {
-         const auto any = [&] { return 5e-324 * std::floor(unit(r) * 20); };
-         return make(500, [&](int) { return Point<3>{any(), any(), any()}; });
-     }},
-    {"coplanar",
-     [](Random &r) { return make(200, [&](int) {
-                         return Point<3>{unit(r), unit(r), 0};
-                     }); }},
-};
-
 // Caches of three blocks, of some, and of all.
 constexpr std::size_t cache_sizes[] = {60 << 10, 600 << 10, std::size_t(1) << 30};
 
-class Tetrahedralization : public testing::TestWithParam<DataSet> {};
+class Tetrahedralization : public testing::TestWithParam<PointSet<3>> {};
 
 TEST_P(Tetrahedralization, EqualsCgalForEveryOrderAndCacheSize) {
     Random random(7);
@@ -183,7 +52,7 @@ TEST_P(Tetrahedralization, EqualsCgalForEveryOrderAndCacheSize) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Inputs, Tetrahedralization, testing::ValuesIn(data_sets),
+INSTANTIATE_TEST_SUITE_P(Inputs, Tetrahedralization, testing::ValuesIn(point_sets<3>()),
                          [](const auto &info) { return info.param.name; });
 
 TEST(Tetrahedralization, AddsToAMeshThatIsThere) {
@@ -250,7 +119,8 @@ TEST(ProbingInSpace, GivesTheSameMeshAsStoredLinks) {
     const Host host = mesh.host.host();
     Cache<3> cache(host, Domain<3>({0, 0, 0}, {1, 1, 1}), 0,
                    {.budget = std::size_t(400) << 10, .stored_links = false});
-    Insertion<3> insertion(host, cache, 0, 0);
+    Delaunay<3> delaunay(host, cache, 0, 0);
+    Insertion<3> insertion(delaunay);
     std::array<VertexIndex, 4> first;
     for (int i = 0; i < 4; ++i) first[i] = cache.create_vertex(points[i], i, nullptr);
     insertion.start(first);
@@ -265,8 +135,8 @@ TEST(ProbingInSpace, GivesTheSameMeshAsStoredLinks) {
     mesh.header.has_domain = 1;
     std::fill_n(mesh.header.upper, 3, 1.0);
     mesh.header.vertices = points.size();
-    mesh.header.simplices = static_cast<std::uint64_t>(insertion.simplices());
-    mesh.header.ghosts = static_cast<std::uint64_t>(insertion.ghosts());
+    mesh.header.simplices = static_cast<std::uint64_t>(delaunay.simplices());
+    mesh.header.ghosts = static_cast<std::uint64_t>(delaunay.ghosts());
     EXPECT_EQ(mesh.positions(), cgal_simplices<3>(points));
     EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
 }

@@ -2,6 +2,7 @@
 // that are hard in different ways, whatever the order of the points and the size of
 // the cache.
 #include "support/oracle.hpp"
+#include "support/point_sets.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +14,6 @@ namespace abacus::test {
 namespace {
 
 using Points = std::vector<Point<2>>;
-using Random = std::mt19937_64;
-
-double unit(Random &random) { return std::uniform_real_distribution<double>(0, 1)(random); }
 
 Points make(int n, const std::function<Point<2>(int)> &point) {
     Points points;
@@ -23,94 +21,10 @@ Points make(int n, const std::function<Point<2>(int)> &point) {
     return points;
 }
 
-struct DataSet {
-    const char *name;
-    std::function<Points(Random &)> points;
-};
-
-const DataSet data_sets[] = {
-    {"uniform",
-     [](Random &r) { return make(20000, [&](int) {
-                         return Point<2>{unit(r), unit(r)};
-                     }); }},
-    {"grid",
-     [](Random &) {
-         return make(120 * 120, [](int i) { return Point<2>{i % 120 + 0.0, i / 120 + 0.0}; });
-     }},
-    {"negative_grid_with_duplicates",
-     [](Random &r) {
-         return make(9000, [&](int) {
-             return Point<2>{std::floor(unit(r) * 60) - 30, std::floor(unit(r) * 60) - 30};
-         });
-     }},
-    {"circle_and_centre",
-     [](Random &r) {
-         Points points = make(4000, [&](int) {
-             const double angle = 6.283185307179586 * unit(r);
-             return Point<2>{std::cos(angle), std::sin(angle)};
-         });
-         points.push_back({0, 0});
-         return points;
-     }},
-    {"exactly_cocircular", // integer points on one circle
-     [](Random &) {
-         constexpr int radius = 5 * 13 * 17 * 29;
-         Points points;
-         for (int x = -radius; x <= radius; ++x) {
-             const double y = std::sqrt(double(radius) * radius - double(x) * x);
-             if (y == std::floor(y)) {
-                 points.push_back({x + 0.0, y});
-                 if (y > 0) points.push_back({x + 0.0, -y});
-             }
-         }
-         return points;
-     }},
-    {"lines",
-     [](Random &r) {
-         return make(3000, [&](int i) {
-             const double t = unit(r) * 1000;
-             return i % 3 == 0 ? Point<2>{t, 0} : i % 3 == 1 ? Point<2>{t, t} : Point<2>{7, t};
-         });
-     }},
-    {"clusters_below_the_code",
-     [](Random &r) {
-         return make(8000, [&](int i) {
-             return Point<2>{i % 5 * 0.2 + unit(r) * 1e-12, i % 3 * 0.3 + unit(r) * 1e-12};
-         });
-     }},
-    {"cluster_at_zero",
-     [](Random &r) {
-         Points points = make(3000, [&](int) {
-             return Point<2>{(unit(r) - 0.5) * 1e-30, (unit(r) - 0.5) * 1e-30};
-         });
-         for (const double x : {-1.0, 1.0})
-             for (const double y : {-1.0, 1.0}) points.push_back({x, y});
-         return points;
-     }},
-    {"exponents",
-     [](Random &r) {
-         const auto any = [&] { return std::ldexp(unit(r) - 0.5, int(r() % 1990) - 995); };
-         return make(1000, [&](int) { return Point<2>{any(), any()}; });
-     }},
-    {"largest_doubles",
-     [](Random &r) {
-         return make(800, [&](int) {
-             return Point<2>{(2 * unit(r) - 1) * 1.7e308, (2 * unit(r) - 1) * 1.7e308};
-         });
-     }},
-    {"denormals",
-     [](Random &r) {
-         return make(800, [&](int) {
-             return Point<2>{5e-324 * std::floor(unit(r) * 100),
-                             5e-324 * std::floor(unit(r) * 100)};
-         });
-     }},
-};
-
 // Caches of three blocks, of some, and of all.
 constexpr std::size_t cache_sizes[] = {60 << 10, 600 << 10, std::size_t(1) << 30};
 
-class Triangulation : public testing::TestWithParam<DataSet> {};
+class Triangulation : public testing::TestWithParam<PointSet<2>> {};
 
 TEST_P(Triangulation, EqualsCgalForEveryOrderAndCacheSize) {
     Random random(7);
@@ -129,7 +43,7 @@ TEST_P(Triangulation, EqualsCgalForEveryOrderAndCacheSize) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Inputs, Triangulation, testing::ValuesIn(data_sets),
+INSTANTIATE_TEST_SUITE_P(Inputs, Triangulation, testing::ValuesIn(point_sets<2>()),
                          [](const auto &info) { return info.param.name; });
 
 TEST(Triangulation, AddsToAMeshThatIsThere) {

@@ -1,0 +1,149 @@
+// Removal of half the points of a uniform mesh, along the curve or in random order: the
+// core over an in-memory store, and CGAL's remove() of the same points in the same order,
+// which is given the vertices where the core has to find them.
+#include "delaunay/insertion.hpp"
+#include "delaunay/removal.hpp"
+#include "support/memory_host.hpp"
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <optional>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+using namespace abacus;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+template <int D> struct Cgal;
+template <> struct Cgal<2> {
+    using Mesh = CGAL::Delaunay_triangulation_2<Kernel>;
+    static Kernel::Point_2 point(const Point<2> &p) { return {p[0], p[1]}; }
+    static Mesh::Face_handle cell(Mesh::Vertex_handle v) { return v->face(); }
+};
+template <> struct Cgal<3> {
+    using Mesh = CGAL::Delaunay_triangulation_3<Kernel>;
+    static Kernel::Point_3 point(const Point<3> &p) { return {p[0], p[1], p[2]}; }
+    static Mesh::Cell_handle cell(Mesh::Vertex_handle v) { return v->cell(); }
+};
+
+template <int D> Domain<D> unit_domain() {
+    Point<D> lower, upper;
+    lower.fill(0);
+    upper.fill(1);
+    return {lower, upper};
+}
+
+enum Order { along_the_curve, random_order };
+
+/// Uniform points, along the curve, and the half of them that is removed, by index.
+template <int D> struct Input {
+    std::vector<Point<D>> points;
+    std::vector<std::size_t> removed;
+
+    Input(std::size_t count, Order order) : points(count) {
+        std::mt19937_64 engine(1);
+        for (auto &p : points)
+            for (double &x : p) x = double(engine() >> 11) * 0x1p-53;
+        const Domain<D> domain = unit_domain<D>();
+        std::sort(points.begin(), points.end(), [&](const Point<D> &a, const Point<D> &b) {
+            return domain.code(a) < domain.code(b);
+        });
+        for (std::size_t i = 0; i < count; ++i)
+            if (engine() % 2 == 0) removed.push_back(i);
+        if (order == random_order) std::shuffle(removed.begin(), removed.end(), engine);
+    }
+};
+
+template <int D> struct Mesh {
+    MemoryHost memory;
+    const Host host = memory.host();
+    Cache<D> cache;
+    Delaunay<D> delaunay{host, cache, 0, 0};
+    Insertion<D> insertion{delaunay};
+    Removal<D> removal{delaunay};
+
+    Mesh(const Input<D> &input, std::size_t cache_bytes)
+        : cache(host, unit_domain<D>(), 0, {.budget = cache_bytes}) {
+        memory.strict = false;
+        const auto &points = input.points;
+        std::array<VertexIndex, D + 1> first;
+        for (int i = 0; i <= D; ++i) first[i] = cache.create_vertex(points[i], i, nullptr);
+        insertion.start(first); // any D + 1 of them: no four random points are coplanar
+        for (std::size_t i = D + 1; i < points.size(); ++i)
+            insertion.insert(points[i], static_cast<std::int64_t>(i), nullptr);
+        cache.counters = {};
+    }
+};
+
+/// Arguments: points, order, cache in MB.
+template <int D> void Remove(benchmark::State &state) {
+    const Input<D> input(std::size_t(state.range(0)), Order(state.range(1)));
+    for (auto _ : state) {
+        state.PauseTiming();
+        std::optional<Mesh<D>> mesh;
+        mesh.emplace(input, std::size_t(state.range(2)) << 20);
+        state.ResumeTiming();
+        for (const std::size_t i : input.removed)
+            if (mesh->removal.remove(input.points[i]) != Removed::removed)
+                throw std::runtime_error("a vertex is not found");
+        state.PauseTiming();
+        const auto &counters = mesh->cache.counters;
+        state.counters["created/point"] = double(counters.created) / double(counters.removals);
+        state.counters["steps/point"] = double(counters.steps) / double(counters.removals);
+        state.counters["walks/point"] = double(counters.walks) / double(counters.removals);
+        state.counters["loads"] = double(counters.loads);
+        mesh.reset();
+        state.ResumeTiming();
+    }
+    state.SetItemsProcessed(state.iterations() * std::int64_t(input.removed.size()));
+}
+
+/// Arguments: points, order.
+template <int D> void CgalRemove(benchmark::State &state) {
+    const Input<D> input(std::size_t(state.range(0)), Order(state.range(1)));
+    for (auto _ : state) {
+        state.PauseTiming();
+        std::optional<typename Cgal<D>::Mesh> mesh;
+        mesh.emplace();
+        std::vector<typename Cgal<D>::Mesh::Vertex_handle> vertices;
+        for (const auto &p : input.points)
+            vertices.push_back(vertices.empty()
+                                   ? mesh->insert(Cgal<D>::point(p))
+                                   : mesh->insert(Cgal<D>::point(p), Cgal<D>::cell(vertices.back())));
+        state.ResumeTiming();
+        for (const std::size_t i : input.removed) mesh->remove(vertices[i]);
+        state.PauseTiming();
+        mesh.reset();
+        state.ResumeTiming();
+    }
+    state.SetItemsProcessed(state.iterations() * std::int64_t(input.removed.size()));
+}
+
+BENCHMARK(Remove<2>)
+    ->Args({1'000'000, along_the_curve, 1024})
+    ->Args({1'000'000, along_the_curve, 8})
+    ->Args({1'000'000, random_order, 1024})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(CgalRemove<2>)
+    ->Args({1'000'000, along_the_curve})
+    ->Args({1'000'000, random_order})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(Remove<3>)
+    ->Args({1'000'000, along_the_curve, 2048})
+    ->Args({1'000'000, along_the_curve, 16})
+    ->Args({1'000'000, random_order, 2048})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(CgalRemove<3>)
+    ->Args({1'000'000, along_the_curve})
+    ->Args({1'000'000, random_order})
+    ->Unit(benchmark::kMillisecond);
+
+} // namespace

@@ -1,0 +1,90 @@
+// A Delaunay mesh in change: what insertion and removal share, so that both can work on
+// one mesh in turns. How many simplices there are, where the last change was, and the
+// way from there to the next point.
+#pragma once
+
+#include "cache/cache.hpp"
+#include "delaunay/marks.hpp"
+#include "delaunay/walk.hpp"
+
+namespace abacus {
+
+/// A facet between simplices that are replaced and one that stays: the side of that one,
+/// and the vertices of the simplex inside. The vertex opposite the facet, put in the place
+/// of the old one, gives the new simplex its orientation.
+template <int D> struct Rim {
+    Link outer;
+    int facet; // of the simplex inside
+    std::array<VertexIndex, D + 1> vertex;
+};
+
+template <int D> class Delaunay {
+public:
+    /// `simplices` and `ghosts` are what the mesh has already.
+    Delaunay(const Host &host, Cache<D> &cache, std::int64_t simplices, std::int64_t ghosts)
+        : marks(host), cache_(cache), walk_(cache), simplices_(simplices), ghosts_(ghosts) {
+        forget();
+    }
+    Delaunay(const Delaunay &) = delete;
+    Delaunay &operator=(const Delaunay &) = delete;
+
+    Cache<D> &cache() { return cache_; }
+
+    /// Finite simplices and ghosts of the whole mesh.
+    std::int64_t simplices() const { return simplices_; }
+    std::int64_t ghosts() const { return ghosts_; }
+    /// There are so many more, or fewer.
+    void count(std::int64_t simplices, std::int64_t ghosts) {
+        simplices_ += simplices;
+        ghosts_ += ghosts;
+    }
+
+    // The application cache (§4.12.4): simplices created last; the next point is likely to
+    // lie in the circumsphere of one of them, or to be a corner.
+    static constexpr int recent_size = D == 2 ? 8 : 24;
+    const std::array<Handle, recent_size> &recent() const { return recent_; }
+    void forget() { recent_.fill(no_handle); }
+    /// The n-th simplex that this operation has created.
+    void remember(std::size_t n, Handle h) {
+        if (n < recent_.size()) recent_[n] = h;
+    }
+
+    /// The simplex that contains p in its closure, or a ghost beyond whose facet p lies.
+    /// `recent`: a live simplex, or no_handle.
+    Handle locate(const Point<D> &p, std::uint64_t code, Handle recent) {
+        // Walk from the last change if p is in its neighbourhood, measured by the size of
+        // the simplices there; else from the block that owns p's code.
+        Handle from = recent;
+        if (from != no_handle && !walk_.is_close(from, p) && !cache_.near(from, code))
+            from = no_handle;
+        if (from == no_handle) from = cache_.start(code, p);
+        if (from == no_handle) throw_corrupted("The mesh has no simplices.");
+        return walk_.to(p, from, static_cast<std::uint64_t>(simplices_ + ghosts_));
+    }
+
+    /// The simplex's corner at p, or -1.
+    int corner_at(Handle h, const Point<D> &p) const {
+        const Simplex<D> &s = cache_.simplex(h);
+        for (int i = 0; i < s.finite_vertices(); ++i)
+            if (cache_.point(s.vertex[i]) == p) return i;
+        return -1;
+    }
+
+    /// Ends an operation at a point with this code: simplices go home, the cache is trimmed.
+    void finish(std::uint64_t code) {
+        if (cache_.settle(code))
+            for (Handle &h : recent_) h = cache_.follow(h);
+        cache_.trim();
+    }
+
+    Marks marks;
+
+private:
+    Cache<D> &cache_;
+    Walk<D> walk_;
+    std::array<Handle, recent_size> recent_;
+    std::int64_t simplices_;
+    std::int64_t ghosts_;
+};
+
+} // namespace abacus

@@ -1,0 +1,240 @@
+#include "delaunay/hole.hpp"
+
+#include "delaunay/conflict.hpp"
+#include "delaunay/link_mesh.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace abacus {
+
+namespace {
+
+[[noreturn]] void throw_no_triangulation() {
+    throw_corrupted("The simplices around a point are not a triangulation.");
+}
+
+/// The point at infinity in the place of a corner, and brought to the end of the simplex
+/// by two exchanges, which keep the orientation.
+template <int D>
+std::array<VertexIndex, D + 1> with_infinity(std::array<VertexIndex, D + 1> vertices, int corner) {
+    vertices[corner] = infinite_vertex;
+    if (corner != D) {
+        std::swap(vertices[corner], vertices[D]);
+        std::swap(vertices[0], vertices[1]);
+    }
+    return vertices;
+}
+
+/// Whether p and q, in one plane with a and b, lie on different sides of the line through
+/// these. p does not lie on it.
+bool are_apart(const Point<3> &a, const Point<3> &b, const Point<3> &p, const Point<3> &q) {
+    for (int i = 0; i < 3; ++i) { // where the projection of the plane is not a line
+        const int j = (i + 1) % 3;
+        const Point<2> a2{a[i], a[j]}, b2{b[i], b[j]};
+        const int side = orientation(a2, b2, {p[i], p[j]});
+        if (side != 0) return orientation(a2, b2, {q[i], q[j]}) == -side;
+    }
+    return false;
+}
+
+} // namespace
+
+template <int D> void Hole<D>::fill(const Star<D> &star) {
+    created_ = ghosts_ = 0;
+    mesh_.forget();
+    for (const Rim<D> &rim : star.rim()) cache_.mark_dirty(link_simplex(rim.outer));
+    if (star.link().size() >= large) sew(star);
+    else if constexpr (D == 2) cut(star);
+    else wrap(star);
+    mesh_.count(static_cast<std::int64_t>(created_ - ghosts_), static_cast<std::int64_t>(ghosts_));
+}
+
+template <int D> Handle Hole<D>::create(const Vertices &vertices) {
+    const Handle h = cache_.create(vertices);
+    mesh_.remember(created_++, h);
+    ghosts_ += vertices[D] == infinite_vertex;
+    return h;
+}
+
+template <int D> void Hole<D>::add(const Vertices &vertices) {
+    const Handle h = create(vertices);
+    for (int i = 0; i <= D; ++i) facets_.meet(cache_, h, i);
+}
+
+template <int D> void Hole<D>::open_rim(const Star<D> &star) {
+    facets_.clear();
+    for (const Rim<D> &rim : star.rim()) facets_.add(rim);
+}
+
+template <int D> void Hole<D>::require_filled() const {
+    if (facets_.open() > 0) throw_no_triangulation();
+}
+
+// ---- Cutting a polygon ------------------------------------------------------
+
+template <int D>
+void Hole<D>::cut(const Star<D> &star)
+    requires(D == 2)
+{
+    const Arena<VertexIndex> &link = star.link();
+    chains_.clear();
+    const auto last = static_cast<std::uint32_t>(link.size() - 1);
+    chains_.push_back({0, last, star.rim()[last].outer});
+    while (!chains_.empty()) {
+        const Chain chain = chains_.back();
+        chains_.pop_back();
+        const std::uint32_t middle = apex(link, chain);
+        const VertexIndex a = link[chain.first], b = link[middle], c = link[chain.last];
+        // The point at infinity begins its polygon, but ends its triangle.
+        const bool ghost = a == infinite_vertex;
+        const Handle h = create(ghost ? Vertices{b, c, a} : Vertices{a, b, c});
+        const int at_a = ghost ? 2 : 0, at_b = ghost ? 0 : 1, at_c = ghost ? 1 : 2;
+        cache_.connect(make_link(h, at_b), chain.closing);
+        close(star, {chain.first, middle, make_link(h, at_c)});
+        close(star, {middle, chain.last, make_link(h, at_a)});
+    }
+}
+
+template <int D>
+void Hole<D>::close(const Star<D> &star, const Chain &chain)
+    requires(D == 2)
+{
+    if (chain.last == chain.first + 1) cache_.connect(chain.closing, star.rim()[chain.first].outer);
+    else chains_.push_back(chain);
+}
+
+template <int D>
+std::uint32_t Hole<D>::apex(const Arena<VertexIndex> &link, const Chain &chain) const
+    requires(D == 2)
+{
+    const std::uint32_t first = chain.first, last = chain.last;
+    if (last - first == 2 && link[first] == infinite_vertex) return first + 1;
+    Corners<D> corners;
+    corners[0] = &cache_.point(link[first]);
+    corners[2] = &cache_.point(link[last]);
+    if (link[first] == infinite_vertex) {
+        // The next vertex of the hull: no other one lies beyond the edge to it.
+        std::uint32_t best = last - 1;
+        for (std::uint32_t n = last - 2; n > first; --n) {
+            const Simplex<D> edge{{link[best], link[last], infinite_vertex}, {}};
+            if (side_of<D>(cache_, edge, cache_.point(link[n])) == Side::inside) best = n;
+        }
+        return best;
+    }
+    std::uint32_t best = first;
+    for (std::uint32_t n = first + 1; n < last; ++n) {
+        const Point<D> &p = cache_.point(link[n]);
+        if (best != first) {
+            corners[1] = &cache_.point(link[best]);
+            if (in_sphere(corners, p) <= 0) continue;
+        }
+        corners[1] = &p;
+        if (orientation<D>(corners) > 0) best = n;
+    }
+    if (best == first) throw_no_triangulation();
+    return best;
+}
+
+// ---- Gift wrapping ------------------------------------------------------------
+
+template <int D>
+void Hole<D>::wrap(const Star<D> &star)
+    requires(D == 3)
+{
+    candidates_.clear();
+    for (const VertexIndex v : star.link())
+        if (v != infinite_vertex) candidates_.push_back({cache_.point(v), v});
+    open_rim(star);
+    // More simplices than pairs of vertices there are not.
+    const std::size_t most = star.link().size() * star.link().size();
+    for (std::size_t n = 0; n < facets_.size(); ++n) {
+        if (!facets_[n].open) continue;
+        if (created_ > most) throw_no_triangulation();
+        const Facet &facet = facets_[n];
+        add(facet.is_finite() ? best_on_finite(facet) : best_on_infinite(facet));
+    }
+    require_filled();
+}
+
+template <int D>
+typename Hole<D>::Vertices Hole<D>::best_on_finite(const Facet &facet) const
+    requires(D == 3)
+{
+    const Rim<D> &rim = facet.rim;
+    Corners<D> corners{};
+    for (int i = 0; i <= D; ++i)
+        if (i != rim.facet) corners[i] = &cache_.point(rim.vertex[i]);
+    const auto &on_facet = facet.vertices.vertex;
+    const Candidate *best = nullptr; // the point at infinity
+    for (const Candidate &candidate : candidates_) {
+        if (std::find(on_facet.begin(), on_facet.end(), candidate.vertex) != on_facet.end())
+            continue;
+        if (best != nullptr) {
+            corners[rim.facet] = &best->point;
+            if (in_sphere(corners, candidate.point) <= 0) continue;
+        }
+        corners[rim.facet] = &candidate.point;
+        if (orientation<D>(corners) > 0) best = &candidate;
+    }
+    if (best == nullptr) return with_infinity<D>(rim.vertex, rim.facet);
+    Vertices vertices = rim.vertex;
+    vertices[rim.facet] = best->vertex;
+    return vertices;
+}
+
+// Around an edge of the hull the candidates have an order, as long as they lie in less
+// than a half turn; those in the plane of the hull facet beyond the edge, on its own side,
+// are a half turn away.
+template <int D>
+typename Hole<D>::Vertices Hole<D>::best_on_infinite(const Facet &facet) const
+    requires(D == 3)
+{
+    const Rim<D> &rim = facet.rim;
+    Corners<D> corners{};
+    Simplex<D> ghost{rim.vertex, {}};
+    for (int i = 0; i < D; ++i)
+        if (i != rim.facet) corners[i] = &cache_.point(rim.vertex[i]);
+    const Simplex<D> &beyond = cache_.simplex(link_simplex(rim.outer));
+    const VertexIndex opposite = beyond.vertex[link_facet(rim.outer)];
+    corners[D] = &cache_.point(opposite);
+    const int i = rim.facet == 0 ? 1 : 0, j = rim.facet == 2 ? 1 : 2;
+    bool found = false;
+    for (const Candidate &candidate : candidates_) {
+        const VertexIndex v = candidate.vertex;
+        if (v == rim.vertex[i] || v == rim.vertex[j] || v == opposite) continue;
+        if (found && side_of<D>(cache_, ghost, candidate.point) != Side::inside) continue;
+        corners[rim.facet] = &candidate.point;
+        if (orientation<D>(corners) == 0 &&
+            !are_apart(*corners[i], *corners[j], cache_.point(opposite), candidate.point))
+            continue;
+        ghost.vertex[rim.facet] = v;
+        found = true;
+    }
+    if (!found) throw_no_triangulation();
+    return ghost.vertex;
+}
+
+// ---- Sewing ---------------------------------------------------------------------
+
+template <int D> void Hole<D>::sew(const Star<D> &star) {
+    open_rim(star);
+    std::array<VertexIndex, D + 1> independent;
+    if (star.is_flat(independent)) {
+        const std::size_t rim = facets_.size();
+        for (std::size_t n = 0; n < rim; ++n) {
+            const Facet &facet = facets_[n];
+            if (facet.is_finite()) add(with_infinity<D>(facet.rim.vertex, facet.rim.facet));
+        }
+    } else {
+        LinkMesh<D> link(cache_, star.link(), independent);
+        const Arena<Vertices> &inside = link.inside(facets_);
+        for (const Vertices &vertices : inside) add(vertices);
+    }
+    require_filled();
+}
+
+template class Hole<2>;
+template class Hole<3>;
+
+} // namespace abacus

@@ -1,0 +1,85 @@
+// The hole that a removed vertex leaves, and three ways to fill it.
+//
+// The perturbation of the predicates depends on the coordinates alone, so the mesh without
+// the vertex is the unique Delaunay triangulation of the other points; and what lies in
+// the hole has corners in the vertex's link only, since every other simplex was there
+// before. So it is the part of the Delaunay triangulation of the link that lies inside the
+// rim, ghosts included.
+//
+//   cut    In 2D the link is a polygon. On its closing edge stands the one triangle whose
+//          circumcircle has none of the polygon's other vertices inside; it leaves two
+//          polygons with fewer vertices. Nothing is searched for or allocated.
+//   wrap   In 3D (gift wrapping): on each open facet stands the one tetrahedron whose
+//          circumsphere has no vertex of the link inside. It meets open facets, or opens
+//          new ones.
+//   sew    Both take steps for each pair of a facet and a vertex: best for usual degrees,
+//          hopeless for the centre of a sphere. From some dozens of vertices on, the link
+//          is triangulated in a cache of its own, and the part inside the rim is copied
+//          (link_mesh.hpp). If the link is flat, the hole gets nothing but ghosts, one on
+//          each finite facet of the rim.
+#pragma once
+
+#include "delaunay/open_facets.hpp"
+#include "delaunay/star.hpp"
+
+namespace abacus {
+
+template <int D> class Hole {
+public:
+    explicit Hole(Delaunay<D> &mesh)
+        : mesh_(mesh), cache_(mesh.cache()), facets_(cache_.host()), chains_(cache_.host()),
+          candidates_(cache_.host()) {}
+
+    /// Fills the hole that the star, destroyed by now, has left.
+    void fill(const Star<D> &star);
+
+private:
+    using Vertices = std::array<VertexIndex, D + 1>;
+
+    /// With this many neighbours, and more, the hole is sewn.
+    static constexpr std::size_t large = D == 2 ? 128 : 40;
+
+    Handle create(const Vertices &vertices);
+    /// A simplex that finds its neighbours among the open facets.
+    void add(const Vertices &vertices);
+    void open_rim(const Star<D> &star);
+    void require_filled() const;
+
+    // 2D: polygons of the link from `first` to `last`, closed by an edge whose other side
+    // is known.
+    struct Chain {
+        std::uint32_t first, last;
+        Link closing;
+    };
+    void cut(const Star<D> &star)
+        requires(D == 2);
+    void close(const Star<D> &star, const Chain &chain)
+        requires(D == 2);
+    std::uint32_t apex(const Arena<VertexIndex> &link, const Chain &chain) const
+        requires(D == 2);
+
+    // 3D
+    struct Candidate {
+        Point<D> point;
+        VertexIndex vertex;
+    };
+    using Facet = typename OpenFacets<D>::Facet;
+    void wrap(const Star<D> &star)
+        requires(D == 3);
+    /// Vertices of the simplex to stand on a facet; of one with the point at infinity.
+    Vertices best_on_finite(const Facet &facet) const
+        requires(D == 3);
+    Vertices best_on_infinite(const Facet &facet) const
+        requires(D == 3);
+
+    void sew(const Star<D> &star);
+
+    Delaunay<D> &mesh_;
+    Cache<D> &cache_;
+    std::size_t created_ = 0, ghosts_ = 0;
+    OpenFacets<D> facets_;
+    Arena<Chain> chains_;
+    Arena<Candidate> candidates_;
+};
+
+} // namespace abacus

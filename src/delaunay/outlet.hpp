@@ -1,0 +1,44 @@
+// Where a stage hands on the points to be taken away: each out of the triangulation, and
+// once there is none, many at a time out of those that wait.
+#pragma once
+
+#include "delaunay/build.hpp"
+#include "staging/waiting_points.hpp"
+
+namespace abacus {
+
+template <int D> class Build<D>::Outlet final : public RecordSink {
+public:
+    explicit Outlet(Build &build) : build_(build), waiting_(build.host_, build.attributes_) {}
+
+    void add(const std::uint64_t *record) override {
+        const Point<D> p = record_point<D>(record);
+        if (build_.has_simplices()) {
+            taken_ += build_.erase(p, record_id(record));
+            if (++done_ % 256 == 0) build_.host_.poll();
+        } else if (build_.has_waiting()) {
+            waiting_.want(p, record_id(record));
+            if (waiting_.is_full()) take();
+        }
+    }
+    void finish() override {
+        if (build_.has_waiting()) take();
+    }
+    /// Points taken away.
+    std::uint64_t taken() const { return taken_; }
+
+    abacus_phase phase() const override { return ABACUS_PHASE_DELETING; }
+    PagesMoved pages_moved() const override {
+        return {build_.core_->cache.counters.loads, build_.core_->cache.counters.stores};
+    }
+
+private:
+    void take() { taken_ += waiting_.take(build_.header_->inserted, build_.header_->staged); }
+
+    Build &build_;
+    WaitingPoints<D> waiting_;
+    std::uint64_t taken_ = 0;
+    std::uint64_t done_ = 0;
+};
+
+} // namespace abacus

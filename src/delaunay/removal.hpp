@@ -1,0 +1,51 @@
+// Removal: a vertex out of the mesh, which is then the Delaunay triangulation of the
+// points that are left, the same as if the point had never been inserted. (The
+// dissertation adds points only.)
+//
+// The vertex's star leaves and the hole is filled again: star.hpp, hole.hpp.
+#pragma once
+
+#include "delaunay/hole.hpp"
+
+#include <optional>
+
+namespace abacus {
+
+enum class Removed {
+    no_such_vertex,
+    removed,
+    collapses, // the points left would span no simplex: nothing has been changed
+};
+
+template <int D> class Removal {
+public:
+    explicit Removal(Delaunay<D> &mesh)
+        : mesh_(mesh), cache_(mesh.cache()), star_(mesh), hole_(mesh) {}
+
+    /// Removes the vertex with exactly these coordinates (-0.0 equals 0.0).
+    Removed remove(const Point<D> &p);
+    /// The id of the vertex there, if there is one.
+    std::optional<std::int64_t> id_at(const Point<D> &p);
+    /// Gives the vertex there another id and other attributes (null if there are none).
+    /// Returns false if there is no vertex.
+    bool rename(const Point<D> &p, std::int64_t id, const double *attributes);
+
+    /// Calls visit(vertex index) for each neighbour of the vertex last found, until the
+    /// next operation. After `collapses` these are all vertices but that one.
+    template <class Visit> void each_neighbour(Visit visit) const {
+        for (const VertexIndex v : star_.link())
+            if (v != infinite_vertex) visit(v);
+    }
+
+private:
+    /// Collects the star of the vertex at p; false if there is none.
+    bool find(const Point<D> &p, std::uint64_t code);
+    bool collapses() const;
+
+    Delaunay<D> &mesh_;
+    Cache<D> &cache_;
+    Star<D> star_;
+    Hole<D> hole_;
+};
+
+} // namespace abacus

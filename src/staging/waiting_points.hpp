@@ -1,0 +1,54 @@
+// Taking points away from those that wait.
+//
+// They are in no order in which one could be found, so many are looked for at once, in
+// two runs over all of them: the first finds the points meant, the second writes the
+// others anew behind the last page and erases the pages it has read.
+#pragma once
+
+#include "host/arena.hpp"
+#include "staging/record.hpp"
+#include "staging/vertex_reader.hpp"
+
+namespace abacus {
+
+template <int D> class WaitingPoints {
+public:
+    WaitingPoints(const Host &host, unsigned attributes)
+        : host_(host), attributes_(attributes), wanted_(host) {}
+
+    /// Wants a point taken away: one with these coordinates, and of several the one with
+    /// this id, or else the first.
+    void want(const Point<D> &p, std::int64_t id) {
+        wanted_.push_back({p, id, none, wanted_.size(), false});
+    }
+    bool is_full() const { return wanted_.size() >= most; }
+
+    /// Takes them away from the points [from, to); `to` becomes the end of those that are
+    /// left, `from` their beginning. Returns how many were taken.
+    std::uint64_t take(std::uint64_t &from, std::uint64_t &to);
+
+private:
+    static constexpr std::size_t most = 1 << 15;
+    static constexpr std::uint64_t none = ~std::uint64_t{0};
+
+    struct Wanted {
+        Point<D> point;
+        std::int64_t id;
+        std::uint64_t sequence; ///< of the point with the same id, or none
+        std::size_t order;
+        bool taken;
+    };
+    /// The wants for a place.
+    std::pair<Wanted *, Wanted *> at(const Point<D> &p);
+    void find(std::uint64_t from, std::uint64_t to);
+    bool is_wanted(const VertexReader<D> &reader);
+
+    const Host &host_;
+    const unsigned attributes_;
+    Arena<Wanted> wanted_;
+};
+
+extern template class WaitingPoints<2>;
+extern template class WaitingPoints<3>;
+
+} // namespace abacus

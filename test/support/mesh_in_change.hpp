@@ -1,0 +1,116 @@
+// A mesh that a test inserts points into and removes vertices from, over a host of its
+// own, beside the points that it should have.
+#pragma once
+
+#include "delaunay/insertion.hpp"
+#include "delaunay/removal.hpp"
+#include "support/oracle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace abacus::test {
+
+/// The domain around the points.
+template <int D> Domain<D> domain_around(const std::vector<Point<D>> &points) {
+    Point<D> lower, upper;
+    lower.fill(std::numeric_limits<double>::max());
+    upper.fill(std::numeric_limits<double>::lowest());
+    for (const Point<D> &p : points)
+        for (int i = 0; i < D; ++i) {
+            lower[i] = std::min(lower[i], p[i]);
+            upper[i] = std::max(upper[i], p[i]);
+        }
+    return {lower, upper};
+}
+
+template <int D> class MeshInChange {
+public:
+    MeshInChange(const Domain<D> &domain, std::size_t cache_bytes, int attributes = 0)
+        : mesh_(attributes), host_(mesh_.host.host()),
+          cache(host_, domain, attributes, {.budget = cache_bytes, .verify_links = true}),
+          delaunay(host_, cache, 0, 0), insertion(delaunay), removal(delaunay) {
+        mesh_.header.has_domain = 1;
+        std::copy_n(domain.lower().begin(), D, mesh_.header.lower);
+        std::copy_n(domain.upper().begin(), D, mesh_.header.upper);
+    }
+
+    /// Starts the mesh with these points, in some order; false if they span no simplex.
+    bool build(const std::vector<Point<D>> &points) {
+        std::array<Point<D>, D + 1> first;
+        Corners<D> corners;
+        int n = 0;
+        for (const Point<D> &p : points) {
+            if (n == D + 1 || !is_independent(corners, n, p)) continue;
+            first[n] = p;
+            corners[n] = &first[n];
+            ++n;
+        }
+        if (n <= D) return false;
+        std::array<VertexIndex, D + 1> vertices;
+        for (int i = 0; i <= D; ++i)
+            vertices[i] = cache.create_vertex(first[i], next_id_++, nullptr);
+        insertion.start(vertices);
+        for (const Point<D> &p : points) insertion.insert(p, next_id_++, nullptr);
+        return true;
+    }
+
+    /// Compares what is stored with CGAL's triangulation of these points, and looks at
+    /// each simplex through a cache of its own.
+    void verify(const std::vector<Point<D>> &points) {
+        const auto expected = cgal_simplices<D>(points);
+        cache.flush();
+        abacus_header &header = mesh_.header;
+        header.vertices = points.size();
+        header.simplices = static_cast<std::uint64_t>(delaunay.simplices());
+        header.ghosts = static_cast<std::uint64_t>(delaunay.ghosts());
+        ASSERT_EQ(header.simplices, expected.size());
+        ASSERT_TRUE(mesh_.positions() == expected);
+        verify_links();
+        ASSERT_EQ(mesh_.host.violations, std::vector<std::string>{});
+    }
+
+    abacus_header &header() { return mesh_.header; }
+    MemoryHost &memory() { return mesh_.host; }
+    const Host &host() const { return host_; }
+
+private:
+    /// Every simplex is in the page that owns its key, and linked to its neighbours.
+    void verify_links() {
+        Cache<D> fresh(host_, cache.domain(), cache.vertices().attribute_count(),
+                       {.verify_links = true});
+        std::int64_t ghosts = 0, simplices = 0;
+        for (Key key = first_key; key < end_key;)
+            key = fresh.visit(key, [&](Handle h) {
+                ASSERT_TRUE(fresh.is_home(h));
+                ++(fresh.simplex(h).is_ghost() ? ghosts : simplices);
+                for (int i = 0; i <= D; ++i) {
+                    const Link link = fresh.cross(h, i);
+                    ASSERT_EQ(fresh.cross(link_simplex(link), link_facet(link)), make_link(h, i));
+                }
+            });
+        ASSERT_EQ(simplices, delaunay.simplices());
+        ASSERT_EQ(ghosts, delaunay.ghosts());
+    }
+
+    MeshOf<D> mesh_;
+    const Host host_;
+    std::int64_t next_id_ = 0;
+
+public:
+    Cache<D> cache;
+    Delaunay<D> delaunay;
+    Insertion<D> insertion;
+    Removal<D> removal;
+};
+
+/// Each point once, in lexicographic order.
+template <class Points> Points distinct(Points points) {
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    return points;
+}
+
+} // namespace abacus::test

@@ -1,0 +1,308 @@
+// Removal in particular: mixed with insertion, of vertices with very many neighbours, down
+// to the collapse, with attributes; and what it does to pages, counters and failures.
+#include "support/mesh_in_change.hpp"
+#include "support/point_sets.hpp"
+
+#include <cmath>
+#include <set>
+
+namespace abacus::test {
+namespace {
+
+constexpr std::size_t little = 60 << 10, ample = std::size_t(1) << 30;
+
+// Inputs that take long under a sanitizer are smaller there.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr int scale = 10;
+#else
+constexpr int scale = 1;
+#endif
+
+template <int D> Domain<D> cube(double lower, double upper) {
+    Point<D> from, to;
+    from.fill(lower);
+    to.fill(upper);
+    return {from, to};
+}
+
+// ---- In turns with insertion ------------------------------------------------------
+
+/// Points of a small grid come and go at random; some are asked for that are not there.
+template <int D> void insert_and_remove(int grid, int steps, int verified_every) {
+    Random random(D);
+    const auto any = [&] {
+        Point<D> p;
+        for (double &x : p) x = std::floor(unit(random) * grid) - grid / 2;
+        return p;
+    };
+    MeshInChange<D> mesh(cube<D>(-grid, grid), little);
+    std::vector<Point<D>> start;
+    for (int i = 0; i < 20 * grid; ++i) start.push_back(any());
+    std::set<Point<D>> points(start.begin(), start.end());
+    ASSERT_TRUE(mesh.build(start));
+    for (int step = 0; step < steps; ++step) {
+        // Waves of growth and decline.
+        const bool growing = unit(random) < (step / 500 % 2 == 0 ? 0.65 : 0.35);
+        const Point<D> p = any();
+        if (growing) {
+            ASSERT_EQ(mesh.insertion.insert(p, step, nullptr), points.insert(p).second);
+        } else {
+            const Removed expected =
+                points.erase(p) > 0 ? Removed::removed : Removed::no_such_vertex;
+            ASSERT_EQ(mesh.removal.remove(p), expected);
+        }
+        if (step % verified_every == 0) {
+            mesh.verify({points.begin(), points.end()});
+            if (testing::Test::HasFatalFailure()) return;
+        }
+    }
+    EXPECT_GT(mesh.cache.counters.evictions, 0u);
+}
+TEST(RemovalInTurns, InThePlane) { insert_and_remove<2>(40, 20000 / scale, 100); }
+TEST(RemovalInTurns, InSpace) { insert_and_remove<3>(12, 12000 / scale, 200); }
+
+// ---- Very many neighbours -----------------------------------------------------------
+
+/// A mesh of the points and the hub, without the hub again.
+template <int D> void remove_hub(const std::vector<Point<D>> &points, const Point<D> &hub) {
+    auto all = points;
+    all.push_back(hub);
+    const Domain<D> domain = domain_around<D>(all);
+    std::sort(all.begin(), all.end(), [&](const Point<D> &a, const Point<D> &b) {
+        return domain.code(a) < domain.code(b);
+    });
+    MeshInChange<D> mesh(domain, ample);
+    ASSERT_TRUE(mesh.build(all));
+    ASSERT_EQ(mesh.removal.remove(hub), Removed::removed);
+    mesh.verify(points);
+    // And back again: the two operations undo each other.
+    ASSERT_TRUE(mesh.insertion.insert(hub, 0, nullptr));
+    mesh.verify(all);
+}
+
+TEST(RemovalOfAHub, CentreOfACircle) {
+    std::vector<Point<2>> points;
+    for (int i = 0; i < 100000 / scale; ++i) {
+        const double angle = 6.283185307179586 * i * scale / 100000;
+        points.push_back({std::cos(angle), std::sin(angle)});
+    }
+    remove_hub<2>(points, {0.001, 0.002});
+}
+TEST(RemovalOfAHub, ApexOverALineWithPointsOnTheOtherSide) {
+    std::vector<Point<2>> points;
+    for (int i = 0; i < 100000 / scale; ++i) points.push_back({i + 0.0, 0});
+    points.push_back({7, -100});
+    remove_hub<2>(points, {50000.0 / scale, 1e9});
+}
+TEST(RemovalOfAHub, CentreOfASphere) {
+    Random random(1);
+    std::vector<Point<3>> points;
+    for (int i = 0; i < 20000 / scale; ++i) {
+        const double z = 2 * unit(random) - 1, angle = 6.283185307179586 * unit(random);
+        const double r = std::sqrt(1 - z * z) * (1 + 1e-7 * unit(random));
+        points.push_back({r * std::cos(angle), r * std::sin(angle), z});
+    }
+    remove_hub<3>(points, {0.001, 0.002, -0.001});
+}
+TEST(RemovalOfAHub, ApexOverAGridWithAPointBelow) {
+    constexpr int side = 200 / (scale > 1 ? 4 : 1);
+    std::vector<Point<3>> points;
+    for (int i = 0; i < side * side; ++i)
+        points.push_back({i % side + 0.0, i / side + 0.0, 0});
+    points.push_back({side / 2.0, side / 3.0, -5});
+    remove_hub<3>(points, {side / 2.0, side / 2.0, 1e6});
+}
+TEST(RemovalOfAHub, ApexOverABumpyGrid) {
+    constexpr int side = 150 / (scale > 1 ? 4 : 1);
+    std::vector<Point<3>> points;
+    for (int i = 0; i < side * side; ++i) {
+        const double x = i % side, y = i / side;
+        points.push_back({x, y, -0.01 * ((x - side) * (x - side) + y * y)});
+    }
+    remove_hub<3>(points, {side / 2.0, side / 2.0, 1e6});
+}
+
+// ---- The end of a mesh ------------------------------------------------------------
+
+template <int D>
+void expect_collapse(const std::vector<Point<D>> &points, const Point<D> &last) {
+    auto all = points;
+    all.push_back(last);
+    MeshInChange<D> mesh(domain_around<D>(all), little, 1);
+    ASSERT_TRUE(mesh.build(all));
+    const auto deleted = mesh.cache.counters.deleted;
+    ASSERT_EQ(mesh.removal.remove(last), Removed::collapses);
+    // The others are told, and nothing has changed.
+    std::vector<Point<D>> left;
+    mesh.removal.each_neighbour([&](VertexIndex v) { left.push_back(mesh.cache.point(v)); });
+    EXPECT_EQ(distinct(left), distinct(points));
+    EXPECT_EQ(mesh.cache.counters.deleted, deleted);
+    EXPECT_EQ(mesh.cache.counters.removals, 0u);
+    mesh.verify(all);
+}
+
+TEST(Collapse, IsToldBeforeAnythingIsChanged) {
+    expect_collapse<2>({{0, 0}, {1, 0}}, {0, 1});
+    expect_collapse<2>({{0, 0}, {1, 1}, {3, 3}, {2, 2}}, {2, 1});
+    expect_collapse<3>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 0, 1});
+    expect_collapse<3>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {5, 7, 0}}, {2, 2, 1});
+    std::vector<Point<2>> line;
+    for (int i = 0; i < 3000; ++i) line.push_back({i + 0.0, 3});
+    expect_collapse<2>(line, {17, 4});
+    std::vector<Point<3>> plane;
+    for (int i = 0; i < 400; ++i) plane.push_back({i % 20 + 0.0, i / 20 + 0.0, 3});
+    expect_collapse<3>(plane, {4, 4, 4});
+}
+TEST(Collapse, IsNoneIfTheNeighboursSpanASimplex) {
+    // Every simplex contains the vertex, but the others do without it.
+    MeshInChange<2> square(cube<2>(-1, 1), little);
+    ASSERT_TRUE(square.build({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, 0}}));
+    ASSERT_EQ(square.removal.remove({0, 0}), Removed::removed);
+    square.verify({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}});
+    ASSERT_EQ(square.removal.remove({1, 1}), Removed::removed);
+    square.verify({{-1, -1}, {1, -1}, {-1, 1}});
+    ASSERT_EQ(square.removal.remove({-1, -1}), Removed::collapses);
+}
+
+// ---- Vertices ------------------------------------------------------------------------
+
+TEST(Removal, FindsVerticesByTheirExactCoordinates) {
+    MeshInChange<2> mesh(cube<2>(-1, 1), little);
+    const std::vector<Point<2>> points = {{-1, -1}, {1, -1}, {0, 1}, {0, 0}, {0.5, -1}};
+    ASSERT_TRUE(mesh.build(points));
+    for (const Point<2> &p : std::vector<Point<2>>{
+             {0, 5e-324}, {2, 0}, {-7, -7}, {-0.5, -1}, {std::nextafter(1.0, 0.0), -1}})
+        EXPECT_EQ(mesh.removal.remove(p), Removed::no_such_vertex);
+    mesh.verify(points);
+    EXPECT_EQ(mesh.removal.remove({-0.0, -0.0}), Removed::removed);
+    EXPECT_EQ(mesh.removal.remove({0, 0}), Removed::no_such_vertex);
+    mesh.verify({{-1, -1}, {1, -1}, {0, 1}, {0.5, -1}});
+}
+
+TEST(Removal, FindsNothingInAnEmptyMesh) {
+    MeshInChange<2> mesh(cube<2>(-1, 1), little);
+    EXPECT_EQ(mesh.removal.remove({0, 0}), Removed::no_such_vertex);
+    EXPECT_FALSE(mesh.removal.rename({0, 0}, 1, nullptr));
+}
+
+template <int D> void rename_all() {
+    Random random(5);
+    std::vector<Point<D>> points(6000 / scale);
+    for (auto &p : points)
+        for (double &x : p) x = unit(random);
+    MeshInChange<D> mesh(cube<D>(0, 1), little, 1);
+    ASSERT_TRUE(mesh.build(points));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double value = points[i][0] + 1;
+        ASSERT_TRUE(mesh.removal.rename(points[i], static_cast<std::int64_t>(i) - 1000, &value));
+    }
+    EXPECT_FALSE(mesh.removal.rename(cube<D>(0, 1).upper(), 0, nullptr));
+    mesh.cache.flush();
+    // In every page, which load() compares with one another.
+    Cache<D> fresh(mesh.host(), mesh.cache.domain(), 1, {.budget = ample});
+    std::set<std::int64_t> ids;
+    for (Key key = first_key; key < end_key;)
+        key = fresh.visit(key, [&](Handle h) {
+            const Simplex<D> &s = fresh.simplex(h);
+            for (int i = 0; i < s.finite_vertices(); ++i) {
+                const VertexIndex v = s.vertex[i];
+                const std::int64_t id = fresh.vertices().id(v);
+                ids.insert(id);
+                ASSERT_EQ(fresh.point(v), points[static_cast<std::size_t>(id + 1000)]);
+                ASSERT_EQ(*fresh.vertices().attributes(v), fresh.point(v)[0] + 1);
+            }
+        });
+    EXPECT_EQ(ids.size(), points.size());
+}
+TEST(Rename, ReachesEveryPageInThePlane) { rename_all<2>(); }
+TEST(Rename, ReachesEveryPageInSpace) { rename_all<3>(); }
+
+// ---- Pages, counters, failures ----------------------------------------------------------
+
+TEST(Removal, LeavesNoEmptyPagesThatWereNeverStored) {
+    auto points = unit_square_points(20000, 3);
+    MeshInChange<2> mesh(cube<2>(0, 1), ample);
+    ASSERT_TRUE(mesh.build(points));
+    while (points.size() > 10) {
+        ASSERT_EQ(mesh.removal.remove(points.back()), Removed::removed);
+        points.pop_back();
+    }
+    mesh.verify(points);
+    EXPECT_LE(mesh.memory().pages.size(), 2u);
+}
+
+TEST(Removal, IsCounted) {
+    auto points = unit_square_points(1000, 3);
+    MeshInChange<2> mesh(cube<2>(0, 1), ample);
+    ASSERT_TRUE(mesh.build(points));
+    mesh.cache.counters = {};
+    for (int i = 0; i < 100; ++i) ASSERT_EQ(mesh.removal.remove(points[i]), Removed::removed);
+    EXPECT_EQ(mesh.removal.remove({2, 2}), Removed::no_such_vertex);
+    const abacus_counters &counters = mesh.cache.counters;
+    EXPECT_EQ(counters.removals, 100u);
+    EXPECT_EQ(counters.insertions, 0u);
+    EXPECT_EQ(counters.deleted - counters.created, 200u); // in 2D two triangles a vertex
+}
+
+/// Removes half of the points; the n-th fallible call fails, or memory ends at the n-th
+/// request. Returns whether the work got to its end.
+template <int D> bool remove_and_fail(MemoryHost &stored, const MeshInChange<D> &from,
+                                      const std::vector<Point<D>> &points, std::uint64_t n,
+                                      bool memory_ends) {
+    MemoryHost memory;
+    memory.restore(stored);
+    const Host host = memory.host();
+    bool done = false;
+    {
+        std::size_t i = 0;
+        Cache<D> cache(host, from.cache.domain(), 0, {.budget = little});
+        Delaunay<D> delaunay(host, cache, from.delaunay.simplices(), from.delaunay.ghosts());
+        Removal<D> removal(delaunay);
+        if (memory_ends) memory.fail_resize_at(n);
+        else memory.fail_at(n);
+        try {
+            for (; i < points.size() / 2; ++i) removal.remove(points[i]);
+            cache.flush();
+            done = true;
+        } catch (const HostFailure &) {
+            EXPECT_FALSE(memory_ends);
+        } catch (const std::bad_alloc &) {
+            EXPECT_TRUE(memory_ends);
+        }
+    }
+    EXPECT_EQ(memory.bytes, 0u);
+    EXPECT_EQ(memory.violations, std::vector<std::string>{});
+    return done;
+}
+template <int D> void fail_everywhere() {
+    Random random(9);
+    std::vector<Point<D>> points(D == 2 ? 1500 : 400);
+    for (auto &p : points)
+        for (double &x : p) x = std::floor(unit(random) * 64);
+    points = distinct(points);
+    std::shuffle(points.begin(), points.end(), random);
+    MeshInChange<D> mesh(cube<D>(0, 64), little);
+    ASSERT_TRUE(mesh.build(points));
+    mesh.cache.flush();
+    for (const bool memory_ends : {false, true})
+        for (std::uint64_t n = 1; n < 100000 &&
+             !remove_and_fail<D>(mesh.memory(), mesh, points, n, memory_ends); n += 1 + n / 8)
+            ;
+}
+TEST(RemovalFailure, GivesEverythingBackInThePlane) { fail_everywhere<2>(); }
+TEST(RemovalFailure, GivesEverythingBackInSpace) { fail_everywhere<3>(); }
+
+TEST(RemovalFailure, ALongRemovalIsInterrupted) {
+    std::vector<Point<2>> points = {{0.001, 0.002}};
+    for (int i = 0; i < 20000; ++i) {
+        const double angle = 6.283185307179586 * i / 20000;
+        points.push_back({std::cos(angle), std::sin(angle)});
+    }
+    MeshInChange<2> mesh(cube<2>(-1, 1), ample);
+    ASSERT_TRUE(mesh.build(points));
+    mesh.memory().cancel();
+    EXPECT_THROW(mesh.removal.remove(points[0]), HostFailure);
+}
+
+} // namespace
+} // namespace abacus::test
