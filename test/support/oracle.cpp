@@ -108,6 +108,16 @@ abacus_status MeshOf<D>::insert(const std::vector<InputOf<D>> &points, std::size
     return status;
 }
 
+template <int D>
+abacus_status MeshOf<D>::remove(const std::vector<InputOf<D>> &points, std::uint64_t &deleted,
+                                std::size_t memory) {
+    return with_stage(points, memory, [&](abacus_stage *stage) {
+        return with_build([&](abacus_build *build) {
+            return abacus_build_delete(build, stage, &header, &deleted, &error);
+        });
+    });
+}
+
 template <int D> std::vector<Positions<D>> MeshOf<D>::positions() {
     std::vector<Positions<D>> result;
     for (const abacus_simplex &s : simplices(false)) {

@@ -39,6 +39,9 @@ template <int D> struct MeshOf {
     abacus_status build();
     /// Without vertex pages between.
     abacus_status insert(const std::vector<InputOf<D>> &points, std::size_t memory = 16 << 20);
+    /// `deleted` becomes the number of points that there were.
+    abacus_status remove(const std::vector<InputOf<D>> &points, std::uint64_t &deleted,
+                         std::size_t memory = 16 << 20);
     /// Where all simplices are, sorted.
     std::vector<Positions<D>> positions();
     /// What a scan gives; fails the test if it does not end well.

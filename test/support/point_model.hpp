@@ -1,0 +1,93 @@
+// What a mesh should hold after points have come and gone: a list of points by place.
+#pragma once
+
+#include "support/oracle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+namespace abacus::test {
+
+template <int D> class PointModel {
+public:
+    void insert(const std::vector<InputOf<D>> &points) {
+        for (const InputOf<D> &p : points) places_[p.point].push_back(p);
+        waiting_ = false;
+    }
+    void stage(const std::vector<InputOf<D>> &points) {
+        insert(points);
+        waiting_ = true;
+    }
+    /// Of several points at a place the one with the id goes, or else the first. Returns how
+    /// many there were.
+    std::uint64_t remove(const std::vector<InputOf<D>> &points) {
+        std::uint64_t removed = 0;
+        waiting_ = false;
+        for (const InputOf<D> &p : points) {
+            const auto place = places_.find(p.point);
+            if (place == places_.end()) continue;
+            auto &here = place->second;
+            auto at = std::find_if(here.begin(), here.end(),
+                                   [&](const InputOf<D> &other) { return other.id == p.id; });
+            here.erase(at == here.end() ? here.begin() : at);
+            if (here.empty()) places_.erase(place);
+            ++removed;
+        }
+        return removed;
+    }
+    std::vector<InputOf<D>> points() const {
+        std::vector<InputOf<D>> all;
+        for (const auto &[place, here] : places_) all.insert(all.end(), here.begin(), here.end());
+        return all;
+    }
+
+    /// Simplices, ids, attributes, and what the check says.
+    void expect(MeshOf<D> &mesh) const {
+        if (!waiting_) {
+            std::vector<Point<D>> distinct;
+            for (const auto &[place, here] : places_) distinct.push_back(place);
+            ASSERT_TRUE(mesh.positions() == cgal_simplices<D>(distinct));
+        }
+        ASSERT_EQ(mesh.check(), std::vector<std::string>{});
+        expect_points(mesh);
+        ASSERT_EQ(mesh.host.violations, std::vector<std::string>{});
+        ASSERT_EQ(mesh.host.bytes, 0u);
+    }
+
+private:
+    void expect_points(MeshOf<D> &mesh) const {
+        abacus_vertex_scan *scan = nullptr;
+        ASSERT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header, mesh.cache_bytes, &scan,
+                                          &mesh.error),
+                  ABACUS_OK);
+        std::map<Point<D>, std::vector<std::int64_t>> seen;
+        abacus_vertex v;
+        while (abacus_vertex_scan_next(scan, &v, &mesh.error) == ABACUS_OK) {
+            Point<D> p;
+            std::copy_n(v.point, D, p.begin());
+            const auto place = places_.find(p);
+            ASSERT_NE(place, places_.end()) << "a point too many: " << v.id;
+            if (!v.waits) {
+                EXPECT_EQ(v.vertex, place->second.front().id);
+            }
+            const auto given =
+                std::find_if(place->second.begin(), place->second.end(),
+                             [&](const InputOf<D> &input) { return input.id == v.id; });
+            ASSERT_NE(given, place->second.end()) << "a point with another id: " << v.id;
+            ASSERT_TRUE(std::equal(given->attributes.begin(), given->attributes.end(),
+                                   v.attributes));
+            seen[p].push_back(v.id);
+        }
+        abacus_vertex_scan_close(scan);
+        ASSERT_EQ(seen.size(), places_.size());
+        for (const auto &[place, here] : places_) ASSERT_EQ(seen.at(place).size(), here.size());
+    }
+
+    bool waiting_ = false; // some points: the simplices are not yet those of all
+    std::map<Point<D>, std::vector<InputOf<D>>> places_; // in the order in which they came
+};
+
+} // namespace abacus::test

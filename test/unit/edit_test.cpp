@@ -1,0 +1,162 @@
+// Points come and go, in any number at a time: the mesh is always that of the points
+// there are.
+#include "support/point_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+namespace abacus::test {
+namespace {
+
+using Random = std::mt19937_64;
+
+template <class Dimension> class Edit : public testing::Test {
+protected:
+    static constexpr int D = Dimension::value;
+
+    /// A point of a kind: 0 uniform, 1 a coarse grid, 2 few places, 3 on a line or plane.
+    Point<D> point(int kind) {
+        Point<D> p;
+        for (double &x : p) {
+            switch (kind) {
+            case 0: x = std::uniform_real_distribution<double>(0, 1)(random); break;
+            case 1: x = double(random() % 12); break;
+            default: x = double(random() % 3);
+            }
+        }
+        if (kind == 3) p[D - 1] = 2 * p[0] + 1;
+        return p;
+    }
+    std::vector<InputOf<D>> fresh(std::size_t n, int kind) {
+        std::vector<InputOf<D>> points;
+        for (std::size_t i = 0; i < n; ++i, ++next_id)
+            points.push_back({next_id, point(kind), {double(next_id) / 4}});
+        return points;
+    }
+    /// Some of the points there are, a few of them under another id or twice.
+    std::vector<InputOf<D>> some(const PointModel<D> &model, std::size_t n) {
+        std::vector<InputOf<D>> all = model.points();
+        std::shuffle(all.begin(), all.end(), random);
+        all.resize(std::min(n, all.size()));
+        for (InputOf<D> &p : all)
+            if (random() % 16 == 0) p.id = -1;
+        return all;
+    }
+
+    Random random{11};
+    std::int64_t next_id = 0;
+};
+using Dimensions =
+    testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Edit, Dimensions);
+
+TYPED_TEST(Edit, KeepsTheMeshOfThePointsThereAre) {
+    constexpr int D = TypeParam::value;
+    const std::size_t sizes[] = {1, 1, 2, 10, 100, 400};
+    for (const int kind : {0, 1, 2, 3})
+        for (const std::size_t cache_bytes : {std::size_t(40) << 10, std::size_t(1) << 20}) {
+            SCOPED_TRACE(kind);
+            MeshOf<D> mesh(1, cache_bytes);
+            PointModel<D> model;
+            for (int step = 0; step < 60; ++step) {
+                const std::size_t n = sizes[this->random() % std::size(sizes)];
+                const int now = this->random() % 8 == 0 ? 0 : kind;
+                switch (this->random() % 5) {
+                case 0: case 1: {
+                    const auto points = this->fresh(n, now);
+                    model.insert(points);
+                    ASSERT_EQ(mesh.insert(points), ABACUS_OK) << mesh.error.detail;
+                    break;
+                }
+                case 2: { // waits until the next change
+                    const auto points = this->fresh(n, now);
+                    model.stage(points);
+                    ASSERT_EQ(mesh.stage(points), ABACUS_OK) << mesh.error.detail;
+                    break;
+                }
+                default: {
+                    auto points = this->some(model, step % 20 == 19 ? ~std::size_t(0) : n);
+                    points.push_back({0, this->point(0), {0.}}); // nearly always none
+                    // Of the same id and place only one order is defined: that of the rows.
+                    std::uint64_t deleted = 0;
+                    const std::uint64_t expected = model.remove(points);
+                    ASSERT_EQ(mesh.remove(points, deleted), ABACUS_OK) << mesh.error.detail;
+                    ASSERT_EQ(deleted, expected);
+                }
+                }
+                model.expect(mesh);
+                if (this->HasFatalFailure()) return;
+            }
+        }
+}
+
+TYPED_TEST(Edit, CollapsesAndGrowsAgain) {
+    // Many points in a plane or on a line, and one beside it that comes and goes.
+    constexpr int D = TypeParam::value;
+    MeshOf<D> mesh(1, 40 << 10);
+    PointModel<D> model;
+    std::vector<InputOf<D>> flat;
+    for (int i = 0; i < 900; ++i) {
+        Point<D> p{};
+        p[0] = i % 30;
+        p[1] = D == 3 ? i / 30 : 2 * p[0];
+        flat.push_back({this->next_id++, p, {0.5 * i}});
+    }
+    model.insert(flat);
+    ASSERT_EQ(mesh.insert(flat), ABACUS_OK);
+    EXPECT_EQ(mesh.header.vertices, 0u);
+    Point<D> apex{};
+    apex[D - 1] = 77;
+    for (int round = 0; round < 3; ++round) {
+        const std::vector<InputOf<D>> beside = {{this->next_id++, apex, {1.}}};
+        model.insert(beside);
+        ASSERT_EQ(mesh.insert(beside), ABACUS_OK);
+        EXPECT_GT(mesh.header.vertices, 0u);
+        model.expect(mesh);
+        // Alone, then with some of the others, before and after it in the order.
+        auto gone = beside;
+        if (round > 0) {
+            const auto more = this->some(model, 100);
+            gone.insert(gone.end(), more.begin(), more.end());
+        }
+        std::uint64_t deleted = 0;
+        const std::uint64_t expected = model.remove(gone);
+        ASSERT_EQ(mesh.remove(gone, deleted), ABACUS_OK) << mesh.error.detail;
+        EXPECT_EQ(deleted, expected);
+        EXPECT_EQ(mesh.header.vertices, 0u);
+        EXPECT_TRUE(mesh.host.pages.empty());
+        model.expect(mesh);
+    }
+}
+
+TYPED_TEST(Edit, EveryHostCallMayFail) {
+    constexpr int D = TypeParam::value;
+    MeshOf<D> sound(1, 40 << 10);
+    PointModel<D> model;
+    for (const int kind : {0, 1}) {
+        const auto points = this->fresh(300, kind);
+        model.insert(points);
+        ASSERT_EQ(sound.insert(points), ABACUS_OK);
+    }
+    const auto gone = model.points(); // all: it collapses on the way
+    bool done = false;
+    for (std::uint64_t n = 1; !done; n += 1 + n / 8) {
+        MeshOf<D> mesh(1, 40 << 10);
+        mesh.host.restore(sound.host);
+        mesh.header = sound.header;
+        mesh.host.on_progress = [&](const abacus_progress &) { mesh.host.interrupted = 1; };
+        mesh.host.fail_at(n);
+        std::uint64_t deleted = 0;
+        const abacus_status status = mesh.remove(gone, deleted);
+        done = !mesh.host.failed;
+        ASSERT_EQ(status, done ? ABACUS_OK : ABACUS_HOST_ERROR);
+        ASSERT_EQ(mesh.host.bytes, 0u);
+        ASSERT_EQ(mesh.host.violations, std::vector<std::string>{});
+        ASSERT_EQ(std::memcmp(&mesh.header, &sound.header, sizeof sound.header) == 0, !done);
+    }
+}
+
+} // namespace
+} // namespace abacus::test
