@@ -15,8 +15,9 @@ constexpr std::size_t overhead = 65536;
 /// Share of the memory that a part is meant to fill; the rest is for the errors
 /// of the sample.
 constexpr double fill = 0.75;
-/// How far ahead records are fetched while they are copied in sorted order.
-constexpr std::size_t prefetch_distance = 16;
+/// Records that are copied together from where they lie in memory. Each is a miss of all
+/// caches, that of page addresses included; in a loop of its own many are under way at once.
+constexpr std::size_t gathered_at_once = 64;
 
 } // namespace
 
@@ -39,7 +40,7 @@ template <int D>
 ExternalSort<D>::ExternalSort(const Host &host, std::size_t stride, const SortBudget &budget,
                               Sample<D> &sample, Pacer &pacer, RecordSink &sink)
     : host_(host), stride_(stride), budget_(budget), sample_(sample), pacer_(pacer), sink_(sink),
-      sort_(host, stride), records_(host) {}
+      sort_(host, stride), records_(host), gathered_(host) {}
 
 template <int D>
 void ExternalSort<D>::run(const std::uint64_t *records, std::size_t n, const Slice<D> &slice) {
@@ -162,11 +163,16 @@ void ExternalSort<D>::distribute(Spool &spool, const Splitters<D> &splitters, Ar
 template <int D>
 void ExternalSort<D>::emit(const std::uint64_t *records, const std::uint64_t *order,
                            std::size_t n) {
-    const auto record = [&](std::size_t i) { return records + (order[i] & index_mask) * stride_; };
+    gathered_.reserve(gathered_at_once * stride_);
     pacer_.each_piece(n, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            __builtin_prefetch(record(std::min(i + prefetch_distance, n - 1)));
-            sink_.add(record(i));
+        for (std::size_t first = begin; first < end; first += gathered_at_once) {
+            const std::size_t some = std::min(gathered_at_once, end - first);
+            std::uint64_t *to = gathered_.data();
+            for (std::size_t i = 0; i < some; ++i, to += stride_) {
+                const std::uint64_t *record = records + (order[first + i] & index_mask) * stride_;
+                for (std::size_t word = 0; word < stride_; ++word) to[word] = record[word];
+            }
+            for (std::size_t i = 0; i < some; ++i) sink_.add(gathered_.data() + i * stride_);
         }
         handed_on(end - begin);
     });

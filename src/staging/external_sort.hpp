@@ -64,6 +64,7 @@ private:
     std::uint64_t done_ = 0; ///< records that the sink has got
     CurveSort<D> sort_;
     Arena<std::uint64_t> records_;
+    Arena<std::uint64_t> gathered_; ///< the next ones in order
     unsigned open_spools_ = 0;
 };
 
