@@ -13,9 +13,9 @@
 //            full or not cached, it goes to a limbo block for now, so that nothing
 //            is split or loaded in the middle of an insertion and handles stay
 //            valid; settle() brings limbo home afterwards (cache_place.cpp).
-//   evict    When the cache has outgrown its budget, trim() drops the least
-//            recently used blocks, a tenth at a time; changed ones are written
-//            first (cache_evict.cpp). Nothing is evicted during an insertion.
+//   evict    When the cache has outgrown its budget, trim() drops a tenth of the
+//            blocks, those that will not be missed soon (cache_evict.cpp); changed
+//            ones are written first. Nothing is evicted during an insertion.
 //
 // Why links never go stale: an insertion looks at the simplex beyond every facet
 // of the cavity's rim, so both sides of a facet are cached whenever the simplex on
@@ -171,10 +171,12 @@ public:
         blocks_[b].dirty = true;
         blocks_[b].used_at = clock_;
     }
-    /// Ends an operation: brings limbo home. Sequential splits cut at `code`. Returns
-    /// whether simplices moved: see follow().
+    /// Ends an operation: brings limbo home. Sequential splits cut at `code`, which is 0 if
+    /// the operations do not come along the curve. Returns whether simplices moved: see
+    /// follow().
     bool settle(std::uint64_t code) {
         ++clock_;
+        front_ = code;
         if (limbo_.empty()) [[likely]] return false;
         settle_limbo(code);
         return true;
@@ -315,6 +317,7 @@ private:
 
     // cache_evict.cpp
     void shrink();
+    void choose_victims(Arena<BlockIndex> &victims);
     void evict(Arena<BlockIndex> &victims);
     /// Lists the block's facets on its border, and numbers its vertices, those on the
     /// border first.
@@ -342,6 +345,7 @@ private:
     std::size_t cached_blocks_ = 0;
     BlockIndex at_hand_ = no_block; // took the last simplex
     std::uint64_t clock_ = 0;       // operations so far, for the replacement
+    std::uint64_t front_ = 0;       // code of the last one
     BlockIndex marked_ = no_block;  // by the last mark_dirty()
     std::uint64_t marked_at_ = 0;
 
