@@ -107,8 +107,7 @@ TEST(RemovalOfAHub, CentreOfASphere) {
 TEST(RemovalOfAHub, ApexOverAGridWithAPointBelow) {
     constexpr int side = 200 / (scale > 1 ? 4 : 1);
     std::vector<Point<3>> points;
-    for (int i = 0; i < side * side; ++i)
-        points.push_back({i % side + 0.0, i / side + 0.0, 0});
+    for (int i = 0; i < side * side; ++i) points.push_back({i % side + 0.0, i / side + 0.0, 0});
     points.push_back({side / 2.0, side / 3.0, -5});
     remove_hub<3>(points, {side / 2.0, side / 2.0, 1e6});
 }
@@ -124,8 +123,7 @@ TEST(RemovalOfAHub, ApexOverABumpyGrid) {
 
 // ---- The end of a mesh ------------------------------------------------------------
 
-template <int D>
-void expect_collapse(const std::vector<Point<D>> &points, const Point<D> &last) {
+template <int D> void expect_collapse(const std::vector<Point<D>> &points, const Point<D> &last) {
     auto all = points;
     all.push_back(last);
     MeshInChange<D> mesh(domain_around<D>(all), little, 1);
@@ -246,9 +244,9 @@ TEST(Removal, IsCounted) {
 
 /// Removes half of the points; the n-th fallible call fails, or memory ends at the n-th
 /// request. Returns whether the work got to its end.
-template <int D> bool remove_and_fail(MemoryHost &stored, const MeshInChange<D> &from,
-                                      const std::vector<Point<D>> &points, std::uint64_t n,
-                                      bool memory_ends) {
+template <int D>
+bool remove_and_fail(MemoryHost &stored, const MeshInChange<D> &from,
+                     const std::vector<Point<D>> &points, std::uint64_t n, bool memory_ends) {
     MemoryHost memory;
     memory.restore(stored);
     const Host host = memory.host();
@@ -258,8 +256,10 @@ template <int D> bool remove_and_fail(MemoryHost &stored, const MeshInChange<D> 
         Cache<D> cache(host, from.cache.domain(), 0, {.budget = little});
         Delaunay<D> delaunay(host, cache, from.delaunay.simplices(), from.delaunay.ghosts());
         Removal<D> removal(delaunay);
-        if (memory_ends) memory.fail_resize_at(n);
-        else memory.fail_at(n);
+        if (memory_ends)
+            memory.fail_resize_at(n);
+        else
+            memory.fail_at(n);
         try {
             for (; i < points.size() / 2; ++i) removal.remove(points[i]);
             cache.flush();
@@ -285,8 +285,9 @@ template <int D> void fail_everywhere() {
     ASSERT_TRUE(mesh.build(points));
     mesh.cache.flush();
     for (const bool memory_ends : {false, true})
-        for (std::uint64_t n = 1; n < 100000 &&
-             !remove_and_fail<D>(mesh.memory(), mesh, points, n, memory_ends); n += 1 + n / 8)
+        for (std::uint64_t n = 1;
+             n < 100000 && !remove_and_fail<D>(mesh.memory(), mesh, points, n, memory_ends);
+             n += 1 + n / 8)
             ;
 }
 TEST(RemovalFailure, GivesEverythingBackInThePlane) { fail_everywhere<2>(); }
