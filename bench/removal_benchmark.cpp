@@ -115,9 +115,9 @@ template <int D> void CgalRemove(benchmark::State &state) {
         mesh.emplace();
         std::vector<typename Cgal<D>::Mesh::Vertex_handle> vertices;
         for (const auto &p : input.points)
-            vertices.push_back(vertices.empty()
-                                   ? mesh->insert(Cgal<D>::point(p))
-                                   : mesh->insert(Cgal<D>::point(p), Cgal<D>::cell(vertices.back())));
+            vertices.push_back(
+                vertices.empty() ? mesh->insert(Cgal<D>::point(p))
+                                 : mesh->insert(Cgal<D>::point(p), Cgal<D>::cell(vertices.back())));
         state.ResumeTiming();
         for (const std::size_t i : input.removed) mesh->remove(vertices[i]);
         state.PauseTiming();

@@ -282,9 +282,11 @@ private:
     /// the one there, which is the least from there on. places_.size() if impossible.
     std::size_t cut_near(std::size_t wanted);
     void make_room(BlockIndex b, std::uint64_t code);
-    /// Gives all simplices of a block that was never stored to its neighbours on the
-    /// curve, if they take them; so that no page is written half empty.
+    /// Gives all simplices of a block that was never stored, or has lost many, to its
+    /// neighbours on the curve, if they take them; so that no page is written half empty.
     bool dissolve(BlockIndex b);
+    /// Removes the block's page, if it is stored.
+    void erase_page(BlockIndex b);
     /// Cuts the block, whose simplices from places_[cut] on, and no others, have keys from
     /// `border` on; returns the new block, the upper part.
     BlockIndex split_at(BlockIndex b, std::size_t cut, const Key &border);

@@ -2,6 +2,8 @@
 // split in two along the curve.
 #include "cache/cache.hpp"
 
+#include <utility>
+
 namespace abacus {
 
 // A full block makes room in one of two ways, by where the point being inserted lies
@@ -15,6 +17,7 @@ namespace abacus {
 namespace {
 constexpr double sequential_from = 0.5;
 constexpr double dissolve_to = 0.93;
+constexpr double sparse = 0.5;
 } // namespace
 
 template <int D> void Cache<D>::settle_limbo(std::uint64_t code) {
@@ -98,15 +101,17 @@ template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
 }
 
 template <int D> bool Cache<D>::dissolve(BlockIndex b) {
-    if (blocks_[b].location != 0 || blocks_[b].has_parts()) return false;
+    // What is stored is only touched where it is written anyway and has lost much.
+    const bool is_sparse = blocks_[b].count < sparse * capacity_;
+    if (blocks_[b].has_parts() || !blocks_[b].dirty || (blocks_[b].location != 0 && !is_sparse))
+        return false;
     const Key lower = blocks_[b].lower, upper = blocks_[b].upper;
     const BlockIndex left = directory_.before(lower), right = directory_.after(lower);
-    // The left neighbour keeps its key, but is only worth writing if it is written anyway;
-    // the right one's key changes.
-    const bool suits_left = left != no_block && blocks_[left].upper == lower &&
-                            blocks_[left].dirty && !blocks_[left].has_parts();
-    const bool suits_right = right != no_block && blocks_[right].lower == upper &&
-                             blocks_[right].location == 0 && !blocks_[right].has_parts();
+    const auto suits = [&](BlockIndex n) { return blocks_[n].dirty && !blocks_[n].has_parts(); };
+    const bool suits_left = left != no_block && blocks_[left].upper == lower && suits(left);
+    // The left neighbour keeps its key; the right one's key changes.
+    const bool suits_right = right != no_block && blocks_[right].lower == upper && suits(right) &&
+                             (blocks_[right].location == 0 || is_sparse);
     const auto room = [&](BlockIndex n, bool suits) -> std::size_t {
         const auto full = static_cast<std::uint32_t>(dissolve_to * capacity_);
         return suits && blocks_[n].count < full ? full - blocks_[n].count : 0;
@@ -136,13 +141,24 @@ template <int D> bool Cache<D>::dissolve(BlockIndex b) {
     }
     if (to_right) {
         directory_.erase(upper);
+        erase_page(right);
+        // The page under the same key is its own now.
+        if (border == lower) std::swap(blocks_[right].location, blocks_[b].location);
         blocks_[right].own(border, blocks_[right].upper);
         blocks_[right].used_at = right_used;
         directory_.insert(border, right);
     }
+    erase_page(b);
     free_block(b);
     ++counters.merges;
     return true;
+}
+
+template <int D> void Cache<D>::erase_page(BlockIndex b) {
+    Block &block = blocks_[b];
+    if (block.location == 0) return;
+    host_.erase(ABACUS_SIMPLEX_PAGES, {block.lower, nullptr, 0, block.location});
+    block.location = 0;
 }
 
 template <int D>

@@ -44,9 +44,12 @@ template <int D> void Hole<D>::fill(const Star<D> &star) {
     created_ = ghosts_ = 0;
     mesh_.forget();
     for (const Rim<D> &rim : star.rim()) cache_.mark_dirty(link_simplex(rim.outer));
-    if (star.link().size() >= large) sew(star);
-    else if constexpr (D == 2) cut(star);
-    else wrap(star);
+    if (star.link().size() >= large)
+        sew(star);
+    else if constexpr (D == 2)
+        cut(star);
+    else
+        wrap(star);
     mesh_.count(static_cast<std::int64_t>(created_ - ghosts_), static_cast<std::int64_t>(ghosts_));
 }
 
@@ -54,6 +57,7 @@ template <int D> Handle Hole<D>::create(const Vertices &vertices) {
     const Handle h = cache_.create(vertices);
     mesh_.remember(created_++, h);
     ghosts_ += vertices[D] == infinite_vertex;
+    if (created_ % 4096 == 0) cache_.poll();
     return h;
 }
 
@@ -73,10 +77,7 @@ template <int D> void Hole<D>::require_filled() const {
 
 // ---- Cutting a polygon ------------------------------------------------------
 
-template <int D>
-void Hole<D>::cut(const Star<D> &star)
-    requires(D == 2)
-{
+template <int D> void Hole<D>::cut(const Star<D> &star) requires(D == 2) {
     const Arena<VertexIndex> &link = star.link();
     chains_.clear();
     const auto last = static_cast<std::uint32_t>(link.size() - 1);
@@ -96,18 +97,16 @@ void Hole<D>::cut(const Star<D> &star)
     }
 }
 
-template <int D>
-void Hole<D>::close(const Star<D> &star, const Chain &chain)
-    requires(D == 2)
-{
-    if (chain.last == chain.first + 1) cache_.connect(chain.closing, star.rim()[chain.first].outer);
-    else chains_.push_back(chain);
+template <int D> void Hole<D>::close(const Star<D> &star, const Chain &chain) requires(D == 2) {
+    if (chain.last == chain.first + 1)
+        cache_.connect(chain.closing, star.rim()[chain.first].outer);
+    else
+        chains_.push_back(chain);
 }
 
 template <int D>
 std::uint32_t Hole<D>::apex(const Arena<VertexIndex> &link, const Chain &chain) const
-    requires(D == 2)
-{
+    requires(D == 2) {
     const std::uint32_t first = chain.first, last = chain.last;
     if (last - first == 2 && link[first] == infinite_vertex) return first + 1;
     Corners<D> corners;
@@ -138,10 +137,7 @@ std::uint32_t Hole<D>::apex(const Arena<VertexIndex> &link, const Chain &chain) 
 
 // ---- Gift wrapping ------------------------------------------------------------
 
-template <int D>
-void Hole<D>::wrap(const Star<D> &star)
-    requires(D == 3)
-{
+template <int D> void Hole<D>::wrap(const Star<D> &star) requires(D == 3) {
     candidates_.clear();
     for (const VertexIndex v : star.link())
         if (v != infinite_vertex) candidates_.push_back({cache_.point(v), v});
@@ -158,9 +154,7 @@ void Hole<D>::wrap(const Star<D> &star)
 }
 
 template <int D>
-typename Hole<D>::Vertices Hole<D>::best_on_finite(const Facet &facet) const
-    requires(D == 3)
-{
+typename Hole<D>::Vertices Hole<D>::best_on_finite(const Facet &facet) const requires(D == 3) {
     const Rim<D> &rim = facet.rim;
     Corners<D> corners{};
     for (int i = 0; i <= D; ++i)
@@ -187,9 +181,7 @@ typename Hole<D>::Vertices Hole<D>::best_on_finite(const Facet &facet) const
 // than a half turn; those in the plane of the hull facet beyond the edge, on its own side,
 // are a half turn away.
 template <int D>
-typename Hole<D>::Vertices Hole<D>::best_on_infinite(const Facet &facet) const
-    requires(D == 3)
-{
+typename Hole<D>::Vertices Hole<D>::best_on_infinite(const Facet &facet) const requires(D == 3) {
     const Rim<D> &rim = facet.rim;
     Corners<D> corners{};
     Simplex<D> ghost{rim.vertex, {}};

@@ -51,12 +51,9 @@ private:
         std::uint32_t first, last;
         Link closing;
     };
-    void cut(const Star<D> &star)
-        requires(D == 2);
-    void close(const Star<D> &star, const Chain &chain)
-        requires(D == 2);
-    std::uint32_t apex(const Arena<VertexIndex> &link, const Chain &chain) const
-        requires(D == 2);
+    void cut(const Star<D> &star) requires(D == 2);
+    void close(const Star<D> &star, const Chain &chain) requires(D == 2);
+    std::uint32_t apex(const Arena<VertexIndex> &link, const Chain &chain) const requires(D == 2);
 
     // 3D
     struct Candidate {
@@ -64,13 +61,10 @@ private:
         VertexIndex vertex;
     };
     using Facet = typename OpenFacets<D>::Facet;
-    void wrap(const Star<D> &star)
-        requires(D == 3);
+    void wrap(const Star<D> &star) requires(D == 3);
     /// Vertices of the simplex to stand on a facet; of one with the point at infinity.
-    Vertices best_on_finite(const Facet &facet) const
-        requires(D == 3);
-    Vertices best_on_infinite(const Facet &facet) const
-        requires(D == 3);
+    Vertices best_on_finite(const Facet &facet) const requires(D == 3);
+    Vertices best_on_infinite(const Facet &facet) const requires(D == 3);
 
     void sew(const Star<D> &star);
 

@@ -29,9 +29,8 @@ template <int D> VertexIndex LinkMesh<D>::create(const Cache<D> &cache, VertexIn
 template <int D>
 LinkMesh<D>::LinkMesh(const Cache<D> &cache, const Arena<VertexIndex> &link,
                       const Vertices &independent)
-    : host_(cache.host()),
-      own_(host_, domain(cache, link), 0,
-           CacheOptions{.budget = std::numeric_limits<std::size_t>::max()}),
+    : host_(cache.host()), own_(host_, domain(cache, link), 0,
+                                CacheOptions{.budget = std::numeric_limits<std::size_t>::max()}),
       mesh_(host_, own_, 0, 0), insertion_(mesh_), inside_(host_) {
     struct Place {
         unsigned round;

@@ -42,7 +42,8 @@ public:
         if (2 * (facets_.size() + 1) > mask_) resize(2 * (mask_ + 1));
         facets_.push_back({rim, Vertices(rim.vertex, rim.facet), true});
         ++open_;
-        table_[slot(facets_.back().vertices)] = {epoch_, static_cast<std::uint32_t>(facets_.size() - 1)};
+        table_[slot(facets_.back().vertices)] = {epoch_,
+                                                 static_cast<std::uint32_t>(facets_.size() - 1)};
     }
     /// The open facet with these vertices on this side, or null.
     const Facet *find(const Vertices &vertices) const {
@@ -82,7 +83,8 @@ private:
         std::uint64_t h = 0;
         for (const VertexIndex v : vertices.vertex) h = (h ^ v) * 0x9e3779b97f4a7c15ull;
         std::size_t at = (h >> 32) & mask_;
-        while (table_[at].epoch == epoch_ && facets_[table_[at].facet].vertices.vertex != vertices.vertex)
+        while (table_[at].epoch == epoch_ &&
+               facets_[table_[at].facet].vertices.vertex != vertices.vertex)
             at = (at + 1) & mask_;
         return at;
     }

@@ -6,24 +6,21 @@ namespace {
 // Removals come in any order, so what lies before a vertex on the curve is not finished: a
 // block that is full after all is cut at its median, not at the vertex.
 constexpr std::uint64_t anywhere = 0;
+constexpr Link nowhere = 0xffffffffu;
 } // namespace
 
-template <int D> bool Removal<D>::find(const Point<D> &p, std::uint64_t code) {
-    if (mesh_.simplices() == 0) return false;
+template <int D> Link Removal<D>::find(const Point<D> &p) {
+    if (mesh_.simplices() == 0) return nowhere;
     Handle recent = no_handle;
     for (const Handle h : mesh_.recent()) {
         if (!cache_.is_live(h)) continue;
         const int corner = mesh_.corner_at(h, p);
-        if (corner >= 0) {
-            star_.collect(h, corner);
-            return true;
-        }
+        if (corner >= 0) return make_link(h, corner);
         recent = h;
     }
-    const Handle h = mesh_.locate(p, code, recent);
+    const Handle h = mesh_.locate(p, cache_.domain().code(p), recent);
     const int corner = mesh_.corner_at(h, p);
-    if (corner >= 0) star_.collect(h, corner);
-    return corner >= 0;
+    return corner < 0 ? nowhere : make_link(h, corner);
 }
 
 template <int D> bool Removal<D>::collapses() const {
@@ -34,11 +31,12 @@ template <int D> bool Removal<D>::collapses() const {
 }
 
 template <int D> Removed Removal<D>::remove(const Point<D> &p) {
-    const std::uint64_t code = cache_.domain().code(p);
-    if (!find(p, code)) {
+    const Link corner = find(p);
+    if (corner == nowhere) {
         mesh_.finish(anywhere);
         return Removed::no_such_vertex;
     }
+    star_.collect(link_simplex(corner), link_facet(corner));
     if (collapses()) return Removed::collapses;
     const auto ghosts = static_cast<std::int64_t>(star_.ghosts());
     const auto simplices = static_cast<std::int64_t>(star_.simplices().size()) - ghosts;
@@ -52,20 +50,24 @@ template <int D> Removed Removal<D>::remove(const Point<D> &p) {
 }
 
 template <int D> std::optional<std::int64_t> Removal<D>::id_at(const Point<D> &p) {
-    if (!find(p, cache_.domain().code(p))) return std::nullopt;
-    return cache_.vertices().id(star_.vertex());
+    const Link corner = find(p);
+    std::optional<std::int64_t> id;
+    if (corner != nowhere)
+        id = cache_.vertices().id(cache_.simplex(link_simplex(corner)).vertex[link_facet(corner)]);
+    mesh_.finish(anywhere);
+    return id;
 }
 
 template <int D>
 bool Removal<D>::rename(const Point<D> &p, std::int64_t id, const double *attributes) {
-    const std::uint64_t code = cache_.domain().code(p);
-    const bool found = find(p, code);
-    if (found) {
+    const Link corner = find(p);
+    if (corner != nowhere) {
+        star_.collect(link_simplex(corner), link_facet(corner));
         for (const Handle h : star_.simplices()) cache_.mark_dirty(h);
         cache_.rename_vertex(star_.vertex(), id, attributes);
     }
     mesh_.finish(anywhere);
-    return found;
+    return corner != nowhere;
 }
 
 template class Removal<2>;

@@ -30,16 +30,17 @@ public:
     /// Returns false if there is no vertex.
     bool rename(const Point<D> &p, std::int64_t id, const double *attributes);
 
-    /// Calls visit(vertex index) for each neighbour of the vertex last found, until the
-    /// next operation. After `collapses` these are all vertices but that one.
+    /// Calls visit(vertex index) for each neighbour of the vertex that remove() has found,
+    /// until the next operation. After `collapses` these are all vertices but that one.
     template <class Visit> void each_neighbour(Visit visit) const {
         for (const VertexIndex v : star_.link())
             if (v != infinite_vertex) visit(v);
     }
 
 private:
-    /// Collects the star of the vertex at p; false if there is none.
-    bool find(const Point<D> &p, std::uint64_t code);
+    /// A simplex with a vertex at p, and which of its corners that is, as a link; `nowhere`
+    /// if there is none.
+    Link find(const Point<D> &p);
     bool collapses() const;
 
     Delaunay<D> &mesh_;

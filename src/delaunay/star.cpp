@@ -10,8 +10,10 @@ template <int D> void Star<D>::collect(Handle h, int corner) {
     link_.clear();
     ghosts_ = 0;
     vertex_ = cache_.simplex(h).vertex[corner];
-    if constexpr (D == 2) turn_around(h, corner);
-    else search_around(h, corner);
+    if constexpr (D == 2)
+        turn_around(h, corner);
+    else
+        search_around(h, corner);
     if (link_.size() <= D) throw_corrupted("The simplices around a point are not a triangulation.");
 }
 

@@ -14,9 +14,7 @@ namespace abacus::test {
 using Random = std::mt19937_64;
 
 /// From 0 to 1.
-inline double unit(Random &random) {
-    return std::uniform_real_distribution<double>(0, 1)(random);
-}
+inline double unit(Random &random) { return std::uniform_real_distribution<double>(0, 1)(random); }
 
 template <int D> struct PointSet {
     const char *name;

@@ -107,8 +107,7 @@ TEST(RemovalOfAHub, CentreOfASphere) {
 TEST(RemovalOfAHub, ApexOverAGridWithAPointBelow) {
     constexpr int side = 200 / (scale > 1 ? 4 : 1);
     std::vector<Point<3>> points;
-    for (int i = 0; i < side * side; ++i)
-        points.push_back({i % side + 0.0, i / side + 0.0, 0});
+    for (int i = 0; i < side * side; ++i) points.push_back({i % side + 0.0, i / side + 0.0, 0});
     points.push_back({side / 2.0, side / 3.0, -5});
     remove_hub<3>(points, {side / 2.0, side / 2.0, 1e6});
 }
@@ -124,8 +123,7 @@ TEST(RemovalOfAHub, ApexOverABumpyGrid) {
 
 // ---- The end of a mesh ------------------------------------------------------------
 
-template <int D>
-void expect_collapse(const std::vector<Point<D>> &points, const Point<D> &last) {
+template <int D> void expect_collapse(const std::vector<Point<D>> &points, const Point<D> &last) {
     auto all = points;
     all.push_back(last);
     MeshInChange<D> mesh(domain_around<D>(all), little, 1);
@@ -174,7 +172,10 @@ TEST(Removal, FindsVerticesByTheirExactCoordinates) {
              {0, 5e-324}, {2, 0}, {-7, -7}, {-0.5, -1}, {std::nextafter(1.0, 0.0), -1}})
         EXPECT_EQ(mesh.removal.remove(p), Removed::no_such_vertex);
     mesh.verify(points);
+    EXPECT_FALSE(mesh.removal.id_at({0, 5e-324}).has_value());
+    EXPECT_TRUE(mesh.removal.id_at({-0.0, 0}).has_value());
     EXPECT_EQ(mesh.removal.remove({-0.0, -0.0}), Removed::removed);
+    EXPECT_FALSE(mesh.removal.id_at({0, 0}).has_value());
     EXPECT_EQ(mesh.removal.remove({0, 0}), Removed::no_such_vertex);
     mesh.verify({{-1, -1}, {1, -1}, {0, 1}, {0.5, -1}});
 }
@@ -231,6 +232,61 @@ TEST(Removal, LeavesNoEmptyPagesThatWereNeverStored) {
     EXPECT_LE(mesh.memory().pages.size(), 2u);
 }
 
+/// Removes points one by one until so many are left.
+template <int D, class Points>
+void remove_down_to(MeshInChange<D> &mesh, Points &points, std::size_t left) {
+    for (; points.size() > left; points.pop_back())
+        ASSERT_EQ(mesh.removal.remove(points.back()), Removed::removed);
+}
+template <int D> double bytes_a_simplex(MeshInChange<D> &mesh) {
+    std::size_t bytes = 0;
+    for (const auto &[key, page] : mesh.memory().pages) bytes += page.size;
+    return double(bytes) / double(mesh.delaunay.simplices());
+}
+
+template <int D> void merge_stored_pages(std::size_t count) {
+    Random random(2);
+    std::vector<Point<D>> points(count);
+    for (auto &p : points)
+        for (double &x : p) x = unit(random);
+    MeshInChange<D> mesh(cube<D>(0, 1), 10 * little);
+    std::sort(points.begin(), points.end(), [&](const Point<D> &a, const Point<D> &b) {
+        return mesh.cache.domain().code(a) < mesh.cache.domain().code(b);
+    });
+    ASSERT_TRUE(mesh.build(points));
+    mesh.cache.flush();
+    const double before = bytes_a_simplex(mesh);
+    const std::size_t pages = mesh.memory().pages.size();
+    // Every other point, along the curve.
+    std::vector<Point<D>> left;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (i % 2 == 0) left.push_back(points[i]);
+        else ASSERT_EQ(mesh.removal.remove(points[i]), Removed::removed);
+    mesh.verify(left);
+    EXPECT_LT(bytes_a_simplex(mesh), 1.25 * before);
+    remove_down_to<D>(mesh, left, 100);
+    mesh.verify(left);
+    EXPECT_LT(mesh.memory().pages.size(), pages / 20);
+}
+TEST(Removal, MergesStoredPagesInThePlane) { merge_stored_pages<2>(30000); }
+TEST(Removal, MergesStoredPagesInSpace) { merge_stored_pages<3>(6000); }
+
+TEST(Removal, MergesStoredPagesInRandomOrder) {
+    auto points = unit_square_points(20000, 3);
+    MeshInChange<2> mesh(cube<2>(0, 1), little);
+    ASSERT_TRUE(mesh.build(points));
+    mesh.cache.flush();
+    EXPECT_GT(mesh.memory().pages.size(), 100u);
+    remove_down_to<2>(mesh, points, 50);
+    mesh.verify(points);
+    EXPECT_LE(mesh.memory().pages.size(), 3u);
+    for (const Point<2> &p : unit_square_points(200, 4)) {
+        ASSERT_TRUE(mesh.insertion.insert(p, 0, nullptr));
+        points.push_back(p);
+    }
+    mesh.verify(points);
+}
+
 TEST(Removal, IsCounted) {
     auto points = unit_square_points(1000, 3);
     MeshInChange<2> mesh(cube<2>(0, 1), ample);
@@ -246,9 +302,9 @@ TEST(Removal, IsCounted) {
 
 /// Removes half of the points; the n-th fallible call fails, or memory ends at the n-th
 /// request. Returns whether the work got to its end.
-template <int D> bool remove_and_fail(MemoryHost &stored, const MeshInChange<D> &from,
-                                      const std::vector<Point<D>> &points, std::uint64_t n,
-                                      bool memory_ends) {
+template <int D>
+bool remove_and_fail(MemoryHost &stored, const MeshInChange<D> &from,
+                     const std::vector<Point<D>> &points, std::uint64_t n, bool memory_ends) {
     MemoryHost memory;
     memory.restore(stored);
     const Host host = memory.host();
@@ -258,8 +314,10 @@ template <int D> bool remove_and_fail(MemoryHost &stored, const MeshInChange<D> 
         Cache<D> cache(host, from.cache.domain(), 0, {.budget = little});
         Delaunay<D> delaunay(host, cache, from.delaunay.simplices(), from.delaunay.ghosts());
         Removal<D> removal(delaunay);
-        if (memory_ends) memory.fail_resize_at(n);
-        else memory.fail_at(n);
+        if (memory_ends)
+            memory.fail_resize_at(n);
+        else
+            memory.fail_at(n);
         try {
             for (; i < points.size() / 2; ++i) removal.remove(points[i]);
             cache.flush();
@@ -285,8 +343,9 @@ template <int D> void fail_everywhere() {
     ASSERT_TRUE(mesh.build(points));
     mesh.cache.flush();
     for (const bool memory_ends : {false, true})
-        for (std::uint64_t n = 1; n < 100000 &&
-             !remove_and_fail<D>(mesh.memory(), mesh, points, n, memory_ends); n += 1 + n / 8)
+        for (std::uint64_t n = 1;
+             n < 100000 && !remove_and_fail<D>(mesh.memory(), mesh, points, n, memory_ends);
+             n += 1 + n / 8)
             ;
 }
 TEST(RemovalFailure, GivesEverythingBackInThePlane) { fail_everywhere<2>(); }
