@@ -6,6 +6,8 @@
  * new header under one transaction. So whatever stops the build, the mesh is
  * that of the last batch, and the header says where to go on.
  *
+ * At the end the vertex table has only dead rows, as a rule, and is truncated.
+ *
  * From one batch to the next the core keeps its cache. What it holds of the
  * mesh, the places of stored pages included, stays true because a lock of the
  * session keeps other writers, VACUUM FULL and the like away until the end.
@@ -20,6 +22,7 @@
 
 #include "pg/settings.h"
 #include "pg/sql_function.h"
+#include "pg/truncate.h"
 #include "pg/writer.h"
 
 SQL_FUNCTION(abacus_sql_build);
@@ -63,6 +66,7 @@ Datum
 abacus_sql_build(PG_FUNCTION_ARGS)
 {
 	Oid			mesh;
+	Oid			vertices;
 	int64		batch;
 	LockRelId	lock;
 	Writer		writer;
@@ -103,7 +107,9 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 		writer_continue(&writer);
 		superseded_reclaim(simplices->superseded, simplices->heap);
 	}
+	vertices = page_store_vertex_table(&host->store);
 	writer_close(&writer);
+	truncate_if_empty(vertices);
 	SPI_finish();
 	UnlockRelationIdForSession(&lock, ShareRowExclusiveLock);
 	PG_RETURN_VOID();

@@ -1,0 +1,9 @@
+/*
+ * truncate.h: the file of a table whose rows are all dead.
+ */
+#ifndef ABACUS_TRUNCATE_H
+#define ABACUS_TRUNCATE_H
+
+extern void truncate_if_empty(Oid relid);
+
+#endif
