@@ -28,7 +28,7 @@ COMMENT ON FUNCTION abacus_walk(regclass, abacus_simplex, integer) IS
 CREATE FUNCTION abacus_simplices(mesh regclass)
 RETURNS SETOF abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_simplices'
-LANGUAGE C STABLE STRICT PARALLEL RESTRICTED ROWS 100000;
+LANGUAGE C STABLE STRICT PARALLEL SAFE ROWS 100000;
 COMMENT ON FUNCTION abacus_simplices(regclass) IS
     'all simplices, page by page along the curve';
 
@@ -43,6 +43,6 @@ CREATE FUNCTION abacus_vertices(
     OUT vertex bigint)
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_vertices'
-LANGUAGE C STABLE STRICT PARALLEL RESTRICTED ROWS 100000;
+LANGUAGE C STABLE STRICT PARALLEL SAFE ROWS 100000;
 COMMENT ON FUNCTION abacus_vertices(regclass) IS
     'all points; vertex is the id of the vertex that stands for the point, its own unless an equal point came first; of points that wait to be inserted it is NULL, and sequence says when they will be';

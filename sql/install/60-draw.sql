@@ -12,7 +12,7 @@ CREATE FUNCTION abacus_draw(
     max_edge double precision DEFAULT NULL)
 RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_draw'
-LANGUAGE C STABLE PARALLEL RESTRICTED COST 1000000;
+LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_draw(regclass, integer, integer, double precision[], double precision[], text, boolean, double precision, double precision) IS
     'a PNG of the mesh, or of the window from lower to upper; an attribute gives colour and, with exaggeration above 0, hill shading';
 
@@ -30,6 +30,6 @@ CREATE FUNCTION abacus_draw_section(
     max_edge double precision DEFAULT NULL)
 RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_draw_section'
-LANGUAGE C STABLE PARALLEL RESTRICTED COST 1000000;
+LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_draw_section(regclass, double precision[], double precision[], integer, integer, text, boolean, double precision[], double precision[], double precision, double precision) IS
     'a PNG of the section of a mesh of dimension 3 by the plane through a point with a normal, or of its part within the box from lower to upper; an attribute gives colour; heights are multiplied by exaggeration';
