@@ -90,17 +90,23 @@ is_vertex_table(Oid relid)
 	return is_table_of(relid, VERTEX_PAGE_TYPE, &vertex_row_type);
 }
 
-/* What the executor would refuse. */
+/* What the executor would refuse; `mesh` is the one whose vertex table this is, or NULL. */
 static void
-check_access(Relation rel, MeshAccess access)
+check_access(Relation rel, MeshAccess access, Relation mesh)
 {
 	Oid			relid = RelationGetRelid(rel);
 	AclMode		needed = access == MESH_READ ? ACL_SELECT
 		: ACL_SELECT | ACL_INSERT | ACL_UPDATE | ACL_DELETE;
 
 	if (pg_class_aclmask(relid, GetUserId(), needed, ACLMASK_ALL) != needed)
-		aclcheck_error(ACLCHECK_NO_PRIV, get_relkind_objtype(rel->rd_rel->relkind),
-					   RelationGetRelationName(rel));
+		ereport(ERROR,
+				(errcode(ERRCODE_INSUFFICIENT_PRIVILEGE),
+				 errmsg("permission denied for table %s", RelationGetRelationName(rel)),
+				 mesh == NULL ? 0 :
+				 errdetail("It is the vertex table of mesh \"%s\".",
+						   RelationGetRelationName(mesh)),
+				 mesh == NULL ? 0 :
+				 errhint("Privileges, and the owner, are given to both tables of a mesh.")));
 	if (check_enable_rls(relid, InvalidOid, false) == RLS_ENABLED)
 		ereport(ERROR,
 				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
@@ -140,7 +146,7 @@ open_mesh_table(Oid relid, MeshAccess access, LOCKMODE lock)
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
 				 errmsg("\"%s\" is not a mesh", RelationGetRelationName(rel)),
 				 errhint("Meshes are made with abacus_create() or abacus_triangulate().")));
-	check_access(rel, access);
+	check_access(rel, access, NULL);
 	return rel;
 }
 
@@ -231,9 +237,10 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 				 errmsg("mesh \"%s\" has no vertex table", RelationGetRelationName(mesh)),
 				 errdetail("There is no table \"%s\" of type %s beside it.", name,
 						   VERTEX_PAGE_TYPE),
-				 errhint("After a restore, give the vertex table that name.")));
+				 errhint("After a restore, give the vertex table that name; if it is lost, "
+						 "restore it from a backup.")));
 	pfree(name);
-	check_access(rel, access);
+	check_access(rel, access, mesh);
 	if (!bound && access == MESH_WRITE && pg_class_ownercheck(relid, GetUserId()) &&
 		pg_class_ownercheck(RelationGetRelid(mesh), GetUserId()))
 		mesh_bind_vertex_table(RelationGetRelid(mesh), relid);
