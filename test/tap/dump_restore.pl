@@ -1,0 +1,171 @@
+# pg_dump and pg_restore: whole databases and single tables, every format, into
+# other databases and schemas; then the restored mesh is changed like the first.
+use strict;
+use warnings;
+
+use FindBin;
+use lib $FindBin::RealBin;
+use AbacusMesh;
+use PostgreSQL::Test::Cluster;
+use PostgreSQL::Test::Utils;
+use Test::More;
+
+my $node = PostgreSQL::Test::Cluster->new('dump');
+$node->init;
+$node->append_conf('postgresql.conf', 'fsync = off');
+$node->start;
+my $folder = $node->basedir;
+
+# The origin: two meshes, in two schemas, one with a name that needs quotes;
+# attributes, repeated points, and points that wait. The extension has a schema
+# of its own.
+my @meshes = ('public.field', 's."My Mesh"');
+my %dimension = ($meshes[0] => 2, $meshes[1] => 3);
+my %more = (
+	$meshes[0] => 'SELECT 50000 + i, sin(i), cos(i), NULL::float8 FROM generate_series(1, 1000) AS i',
+	$meshes[1] => 'SELECT 50000 + i, sin(i), cos(i), cos(i * i) FROM generate_series(1, 1000) AS i');
+$node->safe_psql('postgres', $_) for 'CREATE DATABASE origin', 'CREATE ROLE owner LOGIN';
+$node->safe_psql('origin', <<'SQL');
+CREATE SCHEMA abacus;
+CREATE EXTENSION abacus SCHEMA abacus;
+ALTER DATABASE origin SET search_path = public, abacus;
+CREATE SCHEMA s AUTHORIZATION owner;
+SET search_path = public, abacus;
+SELECT abacus_triangulate('field', 'SELECT i, (i * 7919) % 1009 / 1e3, (i * 104729) % 997 / 1e3, i AS height FROM generate_series(1, 6000) AS i UNION ALL SELECT -i, i * 7919 / 1e3, i * 104729 / 1e3, NULL FROM generate_series(1, 9) AS i UNION ALL SELECT -i - 100, i * 7919 / 1e3, i * 104729 / 1e3, 1 FROM generate_series(1, 9) AS i');
+SELECT abacus_stage('field', 'SELECT 7000 + i, i, i * i, 3 FROM generate_series(1, 40) AS i');
+GRANT USAGE ON SCHEMA abacus TO owner;
+SET ROLE owner;
+SELECT abacus_triangulate('s."My Mesh"', 'SELECT i, (i * 7919) % 101, (i * 104729) % 97, (i * 31) % 89 FROM generate_series(1, 3000) AS i', dimension => 3);
+SQL
+my (%content, %bytes, %grown);
+for my $mesh (@meshes)
+{
+	my $vertices = $mesh =~ s/("?)$/_vertices$1/r;
+	$content{$mesh} = mesh_content($node, 'origin', $mesh);
+	$bytes{$mesh} = mesh_bytes($node, 'origin', $mesh) . mesh_bytes($node, 'origin', $vertices);
+}
+
+sub vertex_table { return $_[0] =~ s/("?)$/_vertices$1/r; }
+
+sub grow
+{
+	my ($database, $mesh) = @_;
+	$node->safe_psql($database,
+		"SELECT abacus_stage('$mesh', '$more{$mesh}'), abacus_triangulate('$mesh')");
+	return mesh_content($node, $database, $mesh);
+}
+
+# Whether the vertex table goes where its mesh goes.
+sub is_bound
+{
+	my ($database, $mesh) = @_;
+	my $vertices = vertex_table($mesh);
+	return $node->safe_psql($database,
+		"SELECT count(*) FROM pg_depend WHERE objid = '$vertices'::regclass AND refobjid = '$mesh'::regclass");
+}
+
+sub fresh_database
+{
+	my ($name) = @_;
+	$node->safe_psql('postgres', "CREATE DATABASE $name");
+	$node->safe_psql('postgres', "ALTER DATABASE $name SET search_path = public, abacus");
+	return;
+}
+
+# What must be so after a restore; then the mesh changes as the origin does later.
+sub examine
+{
+	my ($database, $what) = @_;
+	for my $mesh (@meshes)
+	{
+		my $vertices = vertex_table($mesh);
+		is(mesh_content($node, $database, $mesh), $content{$mesh}, "$what: $mesh");
+		is(mesh_bytes($node, $database, $mesh) . mesh_bytes($node, $database, $vertices),
+			$bytes{$mesh}, "$what: its pages, byte by byte");
+		is_sound($node, $database, $mesh, "$what: $mesh");
+	}
+	for my $mesh (@meshes)
+	{
+		is(grow($database, $mesh), $grown{$mesh}, "$what: $mesh grows as the origin does");
+		is_sound($node, $database, $mesh, "$what: $mesh grown");
+		is(is_bound($database, $mesh), 1, "$what: which binds its tables");
+		$node->safe_psql($database, "DROP TABLE $mesh");
+		is($node->safe_psql($database, "SELECT to_regclass('" . vertex_table($mesh) . "')"),
+			'', "$what: dropping $mesh drops both");
+	}
+	return;
+}
+
+my $origin = $node->connstr('origin');
+$node->command_ok([ 'pg_dump', '-d', $origin, '-f', "$folder/plain.sql" ], 'dump as text');
+$node->command_ok([ 'pg_dump', '-d', $origin, '-Fc', '-f', "$folder/custom" ], 'custom format');
+$node->command_ok([ 'pg_dump', '-d', $origin, '-Fd', '-j', '2', '-f', "$folder/directory" ], 'in parallel');
+$node->command_ok([ 'pg_dump', '-d', $origin, '--schema-only', '-f', "$folder/schema.sql" ], 'schema only');
+$node->command_ok([ 'pg_dump', '-d', $origin, '-Fc', '--data-only', '-f', "$folder/data" ], 'data only');
+$node->command_ok([ 'pg_dump', '-d', $origin, '-Fc', '-t', 'field', '-f', "$folder/one" ], 'one table');
+$node->command_ok([ 'pg_dump', '-d', $origin, '-Fc', '-t', 'field_vertices', '-f', "$folder/other" ], 'the other');
+
+# single tables: the mesh alone answers, with the other beside it all is there
+fresh_database('single');
+$node->safe_psql('single', 'CREATE SCHEMA abacus; CREATE EXTENSION abacus SCHEMA abacus');
+$node->command_ok([ 'pg_restore', '-d', $node->connstr('single'), "$folder/one" ], 'single table restored');
+is($node->safe_psql('single', "SELECT count(*) FROM abacus_simplices('field')"),
+	mesh_figure($node, 'origin', 'field', 'simplices'), 'single table: simplices');
+is($node->safe_psql('single', "SELECT (abacus_locate('field', 0.5, 0.5)).v0 IS NOT NULL"),
+	't', 'single table: located');
+my ($status, $out, $err) = $node->psql('single', "SELECT count(*) FROM abacus_vertices('field')");
+like($err, qr/mesh "field" has no vertex table/, 'single table: what is missing is said');
+$node->command_ok([ 'pg_restore', '-d', $node->connstr('single'), "$folder/other" ], 'the other restored');
+is(mesh_content($node, 'single', 'field'), $content{'public.field'}, 'both: complete');
+# before any change: two tables that only their names hold together
+is(is_bound('single', 'public.field'), 0, 'both: not bound yet');
+$node->safe_psql('single', <<'SQL');
+CREATE SCHEMA elsewhere;
+ALTER TABLE field SET SCHEMA elsewhere;
+ALTER TABLE field_vertices SET SCHEMA elsewhere;
+SQL
+is(mesh_content($node, 'single', 'elsewhere.field'), $content{'public.field'}, 'moved: complete');
+$node->safe_psql('single', "CALL abacus_build('elsewhere.field', 1000)");
+is(is_bound('single', 'elsewhere.field'), 1, 'moved, and changed: bound');
+$node->safe_psql('single', 'ALTER TABLE elsewhere.field_vertices RENAME TO any_name');
+is_sound($node, 'single', 'elsewhere.field', 'moved, changed, renamed');
+$node->safe_psql('single', 'DROP TABLE elsewhere.field');
+is($node->safe_psql('single', "SELECT to_regclass('elsewhere.any_name')"), '', 'dropping drops both');
+
+# dropped before any change, the vertex table stays, and says what it is
+$node->command_ok([ 'pg_restore', '-d', $node->connstr('single'), "$folder/one" ], 'single table again');
+$node->command_ok([ 'pg_restore', '-d', $node->connstr('single'), "$folder/other" ], 'the other again');
+$node->safe_psql('single', 'DROP TABLE field');
+is($node->safe_psql('single', "SELECT reloftype::regtype FROM pg_class WHERE relname = 'field_vertices'"),
+	'abacus_vertex_page', 'dropped before any change: the vertex table is left');
+
+# COPY of both tables to files and back, as text and binary
+fresh_database('copied');
+$node->safe_psql('copied', 'CREATE SCHEMA abacus; CREATE EXTENSION abacus SCHEMA abacus');
+$node->safe_psql('copied', "SELECT abacus_create('field', 2); TRUNCATE field");
+$node->safe_psql('origin', "COPY field TO '$folder/field.text'; COPY field_vertices TO '$folder/vertices.binary' (FORMAT binary)");
+$node->safe_psql('copied', "COPY field FROM '$folder/field.text'; COPY field_vertices FROM '$folder/vertices.binary' (FORMAT binary)");
+is(mesh_content($node, 'copied', 'field'), $content{'public.field'}, 'COPY out and in');
+is_sound($node, 'copied', 'field', 'COPY out and in');
+
+# all the rest is compared with what the origin becomes
+$grown{$_} = grow('origin', $_) for @meshes;
+
+fresh_database('plain');
+$node->command_ok([ 'psql', '-Xq', '-v', 'ON_ERROR_STOP=1', '-d', $node->connstr('plain'), '-f', "$folder/plain.sql", '-o', '/dev/null' ], 'text restored');
+examine('plain', 'text');
+fresh_database('custom');
+$node->command_ok([ 'pg_restore', '-e', '-1', '-d', $node->connstr('custom'), "$folder/custom" ], 'custom format restored');
+# over what is there
+$node->command_ok([ 'pg_restore', '-e', '--clean', '-d', $node->connstr('custom'), "$folder/custom" ], '... and once more, dropping what is there');
+examine('custom', 'custom format');
+fresh_database('directory');
+$node->command_ok([ 'pg_restore', '-e', '-j', '3', '-d', $node->connstr('directory'), "$folder/directory" ], 'restored in parallel');
+examine('directory', 'in parallel');
+fresh_database('data');
+$node->command_ok([ 'psql', '-Xq', '-v', 'ON_ERROR_STOP=1', '-d', $node->connstr('data'), '-f', "$folder/schema.sql", '-o', '/dev/null' ], 'schema restored');
+$node->command_ok([ 'pg_restore', '-e', '-j', '2', '-d', $node->connstr('data'), "$folder/data" ], 'data restored');
+examine('data', 'schema, then data');
+
+$node->stop;
+done_testing();
