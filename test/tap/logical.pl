@@ -1,0 +1,127 @@
+# Logical replication of the two tables of a mesh: what is there, then every
+# change as its transaction, batches of a build included.
+use strict;
+use warnings;
+
+use FindBin;
+use lib $FindBin::RealBin;
+use AbacusMesh;
+use PostgreSQL::Test::Cluster;
+use PostgreSQL::Test::Utils;
+use Test::More;
+
+my $points = 40_000;
+my $batch = 500;
+
+my $publisher = PostgreSQL::Test::Cluster->new('publisher');
+$publisher->init(allows_streaming => 'logical');
+$publisher->append_conf('postgresql.conf', 'fsync = off');
+$publisher->start;
+my $subscriber = PostgreSQL::Test::Cluster->new('subscriber');
+$subscriber->init;
+$subscriber->append_conf('postgresql.conf', 'fsync = off');
+$subscriber->start;
+
+$publisher->safe_psql('postgres', <<"SQL");
+CREATE EXTENSION abacus;
+SELECT setseed(0.5);
+CREATE TABLE points AS SELECT i AS id, random() AS x, random() AS y FROM generate_series(1, $points) AS i;
+SELECT abacus_triangulate('field', 'SELECT * FROM points WHERE id <= 5000');
+SQL
+
+# the tables, without the header that abacus_create would write
+my $schema = $publisher->basedir . '/schema.sql';
+$publisher->command_ok(
+	[ 'pg_dump', '-d', $publisher->connstr('postgres'), '--schema-only', '-t', 'field', '-t', 'field_vertices', '-f', $schema ],
+	'definitions of the tables');
+$subscriber->safe_psql('postgres', 'CREATE EXTENSION abacus; CREATE EXTENSION amcheck');
+$subscriber->command_ok([ 'psql', '-Xq', '-v', 'ON_ERROR_STOP=1', '-d', $subscriber->connstr('postgres'), '-f', $schema, '-o', '/dev/null' ],
+	'the same tables there');
+my ($status, $out, $err) = $subscriber->psql('postgres', "SELECT abacus_locate('field', 0.5, 0.5)");
+like($err, qr/mesh "field" has no header/, 'no mesh yet');
+
+$publisher->safe_psql('postgres', 'CREATE PUBLICATION mesh FOR TABLE field, field_vertices');
+my $connection = $publisher->connstr('postgres');
+$subscriber->safe_psql('postgres', "CREATE SUBSCRIPTION mesh CONNECTION \$\$$connection\$\$ PUBLICATION mesh");
+$subscriber->wait_for_subscription_sync($publisher, 'mesh');
+
+sub is_same
+{
+	my ($what) = @_;
+	$publisher->wait_for_catchup('mesh');
+	is(mesh_content($subscriber, 'postgres', 'field'), mesh_content($publisher, 'postgres', 'field'), $what);
+	return is_intact($subscriber, 'postgres', 'field', $what);
+}
+is_same('initial copy');
+
+# a transaction arrives whole: changed twice, one of the changes taken back
+my $session = $subscriber->background_psql('postgres');
+my $locate = "SELECT v0, v1, v2 FROM abacus_locate('field', 0.5, 0.5)";
+my $before = $session->query($locate);
+$publisher->safe_psql('postgres', <<'SQL');
+BEGIN;
+SELECT abacus_stage('field', 'SELECT 100001, 0.501, 0.5'), abacus_triangulate('field');
+SAVEPOINT before;
+SELECT abacus_stage('field', 'SELECT 100002, 0.5, 0.501'), abacus_triangulate('field');
+ROLLBACK TO before;
+SELECT abacus_stage('field', 'SELECT 100003, 0.499, 0.4995'), abacus_triangulate('field');
+COMMIT;
+BEGIN;
+SELECT abacus_stage('field', 'SELECT 100004, 0.5, 0.5005'), abacus_triangulate('field');
+ROLLBACK;
+SQL
+is_same('a transaction with a savepoint');
+my $after = $session->query($locate);
+isnt($after, $before, 'a session that had the mesh in its cache sees the change');
+is($after, $publisher->safe_psql('postgres', $locate), '... as the publisher does');
+
+# batches of a build, and readers there: always at one of them
+$publisher->safe_psql('postgres', "SELECT abacus_stage('field', 'SELECT * FROM points WHERE id > 5000')");
+my $builder = IPC::Run::start(
+	[ 'psql', '-XAtq', '-v', 'ON_ERROR_STOP=1', '-d', $connection, '-c', "CALL abacus_build('field', $batch)" ],
+	IPC::Run::timeout($PostgreSQL::Test::Utils::timeout_default));
+my ($inserted, $looks, %seen, %wrong) = (0, 0);
+while ($inserted < $points + 2)
+{
+	my $row = $session->query(<<'SQL');
+BEGIN ISOLATION LEVEL REPEATABLE READ;
+SELECT (SELECT value FROM abacus_stats('field') WHERE name = 'inserted'),
+	(SELECT value FROM abacus_stats('field') WHERE name = 'simplices') = (SELECT count(*) FROM abacus_simplices('field')),
+	(SELECT count(*) FROM abacus_check('field'));
+COMMIT;
+SQL
+	($inserted, my @wrong) = split /\|/, $row;
+	$wrong{$row} = 1 if "@wrong" ne 't 0' || ($inserted - 2) % $batch;
+	$seen{$inserted} = 1;
+	$looks++;
+}
+$builder->finish;
+is(join("\n", keys %wrong), '', "$looks looks during the build, each at one whole state");
+cmp_ok(scalar(keys %seen), '>=', 3, scalar(keys %seen) . ' states seen');
+is_same('after the build');
+
+# TRUNCATE and what fills the tables again
+$publisher->safe_psql('postgres', <<'SQL');
+CREATE TABLE saved AS TABLE field;
+CREATE TABLE saved_vertices AS TABLE field_vertices;
+BEGIN;
+TRUNCATE field, field_vertices;
+INSERT INTO field TABLE saved;
+INSERT INTO field_vertices TABLE saved_vertices;
+COMMIT;
+SQL
+is_same('truncated and filled again');
+
+# taken over: the subscription ends, the mesh goes on
+$subscriber->safe_psql('postgres', 'DROP SUBSCRIPTION mesh');
+for my $node ($publisher, $subscriber)
+{
+	$node->safe_psql('postgres', "SELECT abacus_stage('field', 'SELECT 200000 + i, sin(i), cos(i) FROM generate_series(1, 1000) i')");
+	$node->safe_psql('postgres', "CALL abacus_build('field', 300)");
+}
+is(mesh_content($subscriber, 'postgres', 'field'), mesh_content($publisher, 'postgres', 'field'), 'taken over, and grown');
+is_intact($subscriber, 'postgres', 'field', 'taken over');
+
+$subscriber->stop;
+$publisher->stop;
+done_testing();

@@ -1,0 +1,133 @@
+# A streaming standby answers while the primary builds: always one committed
+# state; it refuses changes; a reader that holds back recovery is told so.
+use strict;
+use warnings;
+
+use FindBin;
+use lib $FindBin::RealBin;
+use AbacusMesh;
+use PostgreSQL::Test::Cluster;
+use PostgreSQL::Test::Utils;
+use Test::More;
+
+my $points = 100_000;
+my $batch = 250;
+
+my $primary = PostgreSQL::Test::Cluster->new('primary');
+$primary->init(allows_streaming => 1);
+$primary->append_conf('postgresql.conf', 'fsync = off');
+$primary->start;
+$primary->safe_psql('postgres', <<"SQL");
+CREATE EXTENSION abacus; CREATE EXTENSION amcheck;
+SELECT setseed(0.5);
+CREATE TABLE points AS SELECT i AS id, random() AS x, random() AS y FROM generate_series(1, $points) AS i;
+SELECT abacus_triangulate('once', 'TABLE points');
+SELECT abacus_create('field', 2);
+SELECT abacus_stage('field', 'TABLE points');
+SQL
+$primary->backup('base');
+my $standby = PostgreSQL::Test::Cluster->new('standby');
+$standby->init_from_backup($primary, 'base', has_streaming => 1);
+$standby->append_conf('postgresql.conf', <<'CONF');
+hot_standby_feedback = on
+max_standby_streaming_delay = 100ms
+CONF
+$standby->start;
+
+sub build
+{
+	my ($mesh) = @_;
+	my ($out, $err) = ('', '');
+	return IPC::Run::start(
+		[ 'psql', '-XAtq', '-v', 'ON_ERROR_STOP=1', '-d', $primary->connstr('postgres'),
+			'-c', "CALL abacus_build('$mesh', $batch)" ],
+		'>', \$out, '2>', \$err,
+		IPC::Run::timeout($PostgreSQL::Test::Utils::timeout_default));
+}
+
+# One look at the mesh, in a session of its own or in $session: points inserted,
+# after a test that all answers belong to that state.
+sub look
+{
+	my ($session) = @_;
+	my $query = <<"SQL";
+BEGIN ISOLATION LEVEL REPEATABLE READ;
+SELECT (SELECT value FROM abacus_stats('field') WHERE name = 'inserted'),
+	(SELECT value FROM abacus_stats('field') WHERE name = 'simplices')
+		= (SELECT count(*) FROM abacus_simplices('field')),
+	(SELECT count(vertex) FROM abacus_vertices('field'))
+		= (SELECT value FROM abacus_stats('field') WHERE name = 'inserted'),
+	(SELECT count(*) FROM abacus_check('field')),
+	(SELECT count(*) FROM generate_series(0.3, 0.7, 0.1) AS x, abacus_locate('field', x, 0.5) AS t WHERE t.code IS NOT NULL);
+COMMIT;
+SQL
+	my $row = $session ? $session->query($query) : $standby->safe_psql('postgres', $query);
+	my ($inserted, @wrong) = split /\|/, $row;
+	return ($inserted, "@wrong" eq ($inserted > 0 ? 't t 0 5' : 't t 0 0') ? '' : $row);
+}
+
+# sessions that stay, and so have a cache, and others
+my $session = $standby->background_psql('postgres');
+my $builder = build('field');
+my (%seen, %wrong);
+my ($inserted, $last, $looks) = (0, 0, 0);
+while ($inserted < $points)
+{
+	for my $who ($session, undef)
+	{
+		($inserted, my $wrong) = look($who);
+		$wrong{$wrong} = 1 if $wrong || $inserted < $last || $inserted % $batch;
+		$seen{$inserted} = 1;
+		$last = $inserted;
+		$looks++;
+	}
+}
+$builder->finish;
+is(join("\n", keys %wrong), '', "$looks looks during the build, each at one whole state");
+cmp_ok(scalar(keys %seen), '>=', 3, scalar(keys %seen) . ' states seen');
+is($standby->safe_psql('postgres', 'SELECT sum(confl_snapshot) + sum(confl_lock) FROM pg_stat_database_conflicts'),
+	0, 'with feedback no reader is in the way');
+$primary->wait_for_catchup($standby);
+is(other_simplices($standby, 'postgres', 'field', 'once', 2), 0, 'at the end the mesh of the primary');
+is_intact($standby, 'postgres', 'field', 'standby');
+
+# what changes a mesh is refused there
+my ($status, $out, $err) = $standby->psql('postgres', "CALL abacus_build('field')");
+like($err, qr/cannot execute abacus_build\(\) in a read-only transaction/, 'no building');
+($status, $out, $err) = $standby->psql('postgres', "SELECT abacus_stage('field', 'TABLE points')");
+like($err, qr/cannot execute abacus_stage\(\) in a read-only transaction/, 'no staging');
+is($standby->safe_psql('postgres', 'SELECT count(*) FROM abacus_progress'), 0, 'no progress there');
+
+# without feedback the primary prunes what a reader there still needs: the
+# reader gives way to recovery, with an error that asks to try again
+$standby->adjust_conf('postgresql.conf', 'hot_standby_feedback', 'off');
+$standby->reload;
+$primary->poll_query_until('postgres', 'SELECT backend_xmin IS NULL FROM pg_stat_replication')
+  or die 'feedback does not end';
+$primary->safe_psql('postgres', "SELECT abacus_stage('field', 'SELECT id + 100000, x * x, y * y FROM points WHERE id <= 20000')");
+$primary->wait_for_catchup($standby);
+$session->query_safe("BEGIN ISOLATION LEVEL REPEATABLE READ");
+$session->query_safe("SELECT count(*) FROM abacus_simplices('field')");
+build('field')->finish;
+$primary->wait_for_catchup($standby);
+cmp_ok($standby->safe_psql('postgres', 'SELECT sum(confl_snapshot) FROM pg_stat_database_conflicts'), '>', 0, 'without feedback an old reader is in the way');
+ok($standby->log_contains('due to conflict with recovery'), '... and is told so');
+is_sound($standby, 'postgres', 'field', 'a new reader');
+is(mesh_content($standby, 'postgres', 'field'), mesh_content($primary, 'postgres', 'field'), '... sees the mesh of the primary');
+
+# promoted, in the middle of a build
+$primary->safe_psql('postgres', "SELECT abacus_stage('field', 'SELECT id + 200000, 1 - x * x, y * y FROM points WHERE id <= 60000')");
+$builder = build('field');
+$primary->poll_query_until('postgres', "SELECT value > 125000 FROM abacus_stats('field') WHERE name = 'inserted'");
+$standby->promote;
+$builder->finish;
+cmp_ok(mesh_figure($standby, 'postgres', 'field', 'inserted'), '<', 180_000, 'promoted in the middle');
+is_sound($standby, 'postgres', 'field', 'promoted');
+$standby->safe_psql('postgres', "CALL abacus_build('field')");
+is(mesh_content($standby, 'postgres', 'field'), mesh_content($primary, 'postgres', 'field'),
+	'both end with the same mesh');
+is_intact($standby, 'postgres', 'field', 'promoted, built on');
+
+$standby->stop;
+$primary->stop;
+done_testing();
