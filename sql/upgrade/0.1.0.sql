@@ -1,0 +1,2 @@
+-- From 0.1.0: what has changed and cannot be said by CREATE OR REPLACE.
+-- (nothing so far)
