@@ -81,7 +81,7 @@ tap_tests() {
     local folder=$cluster_folder/tap sources
     sources=$(dirname "$("$PG_CONFIG" --pgxs)")/..
     mkdir "$folder" "$folder/disk"
-    cp test/tap/*.p[lm] "$folder"
+    cp -r test/tap/*.p[lm] test/tap/meshes "$folder"
     if as_root mount -t tmpfs -o size=24m tmpfs "$folder/disk" 2>/dev/null; then
         trap 'as_root umount -l "$cluster_folder/tap/disk"' EXIT
         mkdir "$folder/disk/space"

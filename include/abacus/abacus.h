@@ -235,7 +235,10 @@ typedef struct abacus_header
 
 /* Bytes of the header row; `bytes` has room for ABACUS_PAGE_BYTES. Returns the size. */
 ABACUS_API size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes);
-/* Checks and reads a header row; ABACUS_ERROR (corrupted) if it is none. */
+/*
+ * Checks and reads a header row; ABACUS_ERROR (corrupted) if it is none, (state) if it is one
+ * of another format.
+ */
 ABACUS_API abacus_status abacus_header_decode(const unsigned char *bytes, size_t size,
 											  abacus_header *header, abacus_error *error);
 

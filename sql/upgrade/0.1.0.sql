@@ -1,2 +1,24 @@
 -- From 0.1.0: what has changed and cannot be said by CREATE OR REPLACE.
--- (nothing so far)
+
+-- Its meshes are of another format, which is not read any more.
+DO $$
+DECLARE
+    meshes text := (SELECT string_agg(oid::regclass::text, ', ' ORDER BY oid::regclass::text) FROM pg_class
+                    WHERE reloftype IN ('abacus_simplex_page'::regtype, 'abacus_vertex_page'::regtype));
+BEGIN
+    IF meshes IS NOT NULL THEN
+        RAISE EXCEPTION 'cannot update meshes of Abacus 0.1.0'
+            USING ERRCODE = 'object_not_in_prerequisite_state',
+                  DETAIL = 'There are the tables ' || meshes || '.',
+                  HINT = 'Read their points with the module of 0.1.0 (abacus_vertices), drop them, update, and build them anew.';
+    END IF;
+END $$;
+
+DROP TYPE abacus_vertex_page;
+CREATE TYPE abacus_vertex_page AS (first bigint, part bigint, page abacus_page);
+COMMENT ON TYPE abacus_vertex_page IS
+    'row of the vertex table of a mesh: a page of points that wait to be inserted, or, where first is negative, of points equal to a vertex';
+COMMENT ON COLUMN abacus_vertex_page.first IS
+    'sequence number of the page''s first point; of points equal to a vertex the locational code, less 2^63';
+COMMENT ON COLUMN abacus_vertex_page.part IS 'continues the code: serial number of a point; 0 where points wait';
+COMMENT ON COLUMN abacus_vertex_page.page IS 'the page';

@@ -10,8 +10,10 @@
 namespace abacus {
 namespace {
 
-/// The bytes "ABACUS" and the version of the format.
-constexpr std::uint64_t magic = 0x0001535543414241;
+/// A header begins with the bytes "ABACUS" and the format of the mesh: of the header and of
+/// all its pages together. It is raised when any of them changes.
+constexpr std::uint64_t name = 0x535543414241, format = 2;
+constexpr int name_bits = 48;
 /// Sequence numbers are bigint in the database.
 constexpr std::uint64_t count_limit = std::uint64_t{1} << 63;
 
@@ -124,12 +126,23 @@ void read_names(Reader &read, abacus_header &header) {
     }
 }
 
+void check_format(std::uint64_t found) {
+    if ((found ^ name) << (64 - name_bits) != 0)
+        throw_corrupted("The row with the lowest key is no header.");
+    if (found >> name_bits != format)
+        throw Error(ABACUS_ERROR_STATE,
+                    "mesh is stored in format " + std::to_string(found >> name_bits) +
+                        ", but this version of Abacus reads format " + std::to_string(format),
+                    {},
+                    "Read its points with the version that wrote it (abacus_vertices), and build "
+                    "it anew.");
+}
+
 void decode(const unsigned char *bytes, std::size_t size, abacus_header &header) {
     Reader read(bytes, size);
     std::uint64_t found;
     read(found);
-    if (found != magic)
-        throw_corrupted("The row with the lowest key is not a header of this format version.");
+    check_format(found);
     visit_fields(header, read);
     if (header.dimension < 2 || header.dimension > ABACUS_MAX_DIMENSION)
         throw_corrupted("The header's dimension is " + std::to_string(header.dimension) + ".");
@@ -150,7 +163,7 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
 size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes) {
     using namespace abacus;
     Writer write(bytes);
-    write(magic);
+    write(name | format << name_bits);
     visit_fields(*header, write);
     std::uint64_t counters[counter_count];
     std::memcpy(counters, &header->counters, sizeof counters);
