@@ -21,8 +21,7 @@ my $kills = $ENV{ABACUS_KILLS} || 16;
 my $node = crash_node('crash');
 sub sql { return $node->safe_psql('postgres', $_[0]); }
 
-# What a transaction does, by turns of chance. $1 is the mesh, $2 the columns of
-# a point, %3$s a query of some that are new.
+# What a transaction does is left to chance.
 sql(<<'SQL');
 CREATE TABLE done (mesh regclass, rounds int);
 CREATE PROCEDURE change(mesh regclass, dimension int, rounds int) LANGUAGE plpgsql AS $$
@@ -42,9 +41,12 @@ BEGIN
 				UNION ALL SELECT %2$s + 999 + row_number() OVER (), x, y, z FROM (SELECT * FROM %1$s ORDER BY id DESC LIMIT 5) AS other',
 				noted, first) USING power(random(), 6), (random() * 100)::int;
 		fresh := format('SELECT %s FROM %s WHERE id >= %s', columns, noted, first);
-		IF turn < 2 THEN
+		CASE turn
+		WHEN 0 THEN
+			PERFORM abacus_insert(mesh, fresh);
+		WHEN 1 THEN
 			PERFORM abacus_stage(mesh, fresh), abacus_triangulate(mesh);
-		ELSIF turn = 2 THEN
+		WHEN 2 THEN -- the triangulation undone, and done again
 			PERFORM abacus_stage(mesh, fresh);
 			BEGIN
 				PERFORM abacus_triangulate(mesh);
@@ -53,14 +55,14 @@ BEGIN
 				NULL;
 			END;
 			PERFORM abacus_triangulate(mesh);
-		ELSE
+		WHEN 3 THEN -- all undone
 			BEGIN
-				PERFORM abacus_stage(mesh, fresh), abacus_triangulate(mesh);
+				PERFORM abacus_insert(mesh, fresh);
 				RAISE division_by_zero;
 			EXCEPTION WHEN division_by_zero THEN
 				EXECUTE format('DELETE FROM %s WHERE id >= %s', noted, first);
 			END;
-		END IF;
+		END CASE;
 		UPDATE done SET rounds = done.rounds + 1 WHERE done.mesh = change.mesh;
 		COMMIT;
 	END LOOP;
