@@ -45,7 +45,8 @@ template <int D> bool VertexScan<D>::next_vertex(abacus_vertex &vertex) {
 }
 
 template <int D> bool VertexScan<D>::next_repeated(abacus_vertex &vertex) {
-    if (!repeated_.advance()) return false;
+    // Asked once more after its end it would search the table again, for each point that waits.
+    if (!more_repeated_ || !(more_repeated_ = repeated_.advance())) return false;
     fill<D>(vertex, repeated_.record());
     const auto found = mesh_.vertex_at(record_point<D>(repeated_.record()));
     if (!found) throw_corrupted("A repeated point is no vertex of the mesh.");

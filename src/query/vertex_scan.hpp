@@ -28,6 +28,7 @@ private:
     Arena<std::uint64_t> records_; // vertices of the page before: the cache may change between calls
     std::size_t at_ = 0;
     RepeatedReader<D> repeated_;
+    bool more_repeated_ = true;
     VertexReader<D> waiting_;
 };
 

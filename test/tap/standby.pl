@@ -10,8 +10,8 @@ use PostgreSQL::Test::Cluster;
 use PostgreSQL::Test::Utils;
 use Test::More;
 
-my $points = 100_000;
-my $batch = 250;
+my $points = 40_000;
+my $batch = 200;
 
 my $primary = PostgreSQL::Test::Cluster->new('primary');
 $primary->init(allows_streaming => 1);
@@ -104,7 +104,7 @@ $standby->adjust_conf('postgresql.conf', 'hot_standby_feedback', 'off');
 $standby->reload;
 $primary->poll_query_until('postgres', 'SELECT backend_xmin IS NULL FROM pg_stat_replication')
   or die 'feedback does not end';
-$primary->safe_psql('postgres', "SELECT abacus_stage('field', 'SELECT id + 100000, x * x, y * y FROM points WHERE id <= 20000')");
+$primary->safe_psql('postgres', "SELECT abacus_stage('field', 'SELECT id + 100000, x * x, y * y FROM points WHERE id <= 8000')");
 $primary->wait_for_catchup($standby);
 $session->query_safe("BEGIN ISOLATION LEVEL REPEATABLE READ");
 $session->query_safe("SELECT count(*) FROM abacus_simplices('field')");
@@ -116,12 +116,12 @@ is_sound($standby, 'postgres', 'field', 'a new reader');
 is(mesh_content($standby, 'postgres', 'field'), mesh_content($primary, 'postgres', 'field'), '... sees the mesh of the primary');
 
 # promoted, in the middle of a build
-$primary->safe_psql('postgres', "SELECT abacus_stage('field', 'SELECT id + 200000, 1 - x * x, y * y FROM points WHERE id <= 60000')");
+$primary->safe_psql('postgres', "SELECT abacus_stage('field', 'SELECT id + 200000, 1 - x * x, y * y FROM points WHERE id <= 24000')");
 $builder = build('field');
-$primary->poll_query_until('postgres', "SELECT value > 125000 FROM abacus_stats('field') WHERE name = 'inserted'");
+$primary->poll_query_until('postgres', "SELECT value > 50000 FROM abacus_stats('field') WHERE name = 'inserted'");
 $standby->promote;
 $builder->finish;
-cmp_ok(mesh_figure($standby, 'postgres', 'field', 'inserted'), '<', 180_000, 'promoted in the middle');
+cmp_ok(mesh_figure($standby, 'postgres', 'field', 'inserted'), '<', 72_000, 'promoted in the middle');
 is_sound($standby, 'postgres', 'field', 'promoted');
 $standby->safe_psql('postgres', "CALL abacus_build('field')");
 is(mesh_content($standby, 'postgres', 'field'), mesh_content($primary, 'postgres', 'field'),
