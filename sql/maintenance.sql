@@ -99,26 +99,42 @@ ROLLBACK;
 SELECT kept();
 
 -- what makes a table one that Abacus does not write, or not read
-CREATE INDEX further ON field (part);
+CREATE INDEX further ON field ((code + part));
 SELECT kept();
 SELECT abacus_triangulate('field');
+\echo :LAST_ERROR_SQLSTATE
 DROP INDEX further;
+CREATE INDEX further ON field (code) WHERE part = 0;
+SELECT abacus_triangulate('field');
+DROP INDEX further;
+-- further indexes on the keys are kept
+CREATE INDEX further ON field USING hash (code);
+CREATE INDEX more ON field (part, code);
+CREATE INDEX most ON field_vertices USING brin (first);
+SELECT kept(), grow(16);
+SELECT count(*) - (SELECT count(*) FROM abacus_check('field')) AS pages INTO pages FROM field;
+SET enable_seqscan = off;
+SELECT count(*) = (SELECT pages FROM pages) AS all_found FROM field WHERE part >= 0;
+SELECT count(*) FROM field WHERE code = -1;
+RESET enable_seqscan;
+DROP TABLE pages;
+DROP INDEX further, more, most;
 ALTER TABLE field DROP CONSTRAINT field_pkey;
 SELECT count(*) FROM abacus_simplices('field');
 ALTER TABLE field ADD PRIMARY KEY (part, code);
 SELECT count(*) FROM abacus_simplices('field');
 ALTER TABLE field DROP CONSTRAINT field_pkey;
 ALTER TABLE field ADD PRIMARY KEY (code, part);
-SELECT kept(), grow(16);
+SELECT kept(), grow(17);
 -- another primary key of the right kind, made without a long lock
 CREATE UNIQUE INDEX CONCURRENTLY another ON field (code, part);
 ALTER TABLE field DROP CONSTRAINT field_pkey, ADD CONSTRAINT field_pkey PRIMARY KEY USING INDEX another;
-SELECT kept(), grow(17);
+SELECT kept(), grow(18);
 ALTER TABLE field ADD COLUMN more int;
 ALTER TABLE field NOT OF;
 SELECT count(*) FROM abacus_simplices('field');
 ALTER TABLE field OF abacus_simplex_page;
-SELECT kept(), grow(18);
+SELECT kept(), grow(19);
 
 -- copies of both tables, out and back; TRUNCATE of one or both
 CREATE TABLE copy AS TABLE field;
@@ -133,11 +149,11 @@ SELECT abacus_stage('field', 'TABLE points');
 INSERT INTO field SELECT * FROM copy ORDER BY part, code DESC;
 SELECT here() = (TABLE place) AS same;
 INSERT INTO field_vertices SELECT * FROM copy_vertices;
-SELECT kept(), grow(19);
+SELECT kept(), grow(20);
 TRUNCATE field, field_vertices;
 INSERT INTO field SELECT * FROM copy;
 INSERT INTO field_vertices SELECT * FROM copy_vertices;
-DELETE FROM states WHERE number = 19;
+DELETE FROM states WHERE number = 20;
 SELECT kept(), here() = (TABLE place) AS same;
 DROP TABLE copy, copy_vertices;
 

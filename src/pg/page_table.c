@@ -23,8 +23,6 @@
 #include "access/stratnum.h"
 #include "access/table.h"
 #include "access/xact.h"
-#include "catalog/index.h"
-#include "catalog/pg_am.h"
 #include "utils/builtins.h"
 #include "utils/fmgroids.h"
 #include "utils/memutils.h"
@@ -44,43 +42,6 @@ page_table_init(PageTable *table, Oid relid, bool writable, MemoryContext memory
 	table->memory = memory;
 }
 
-/* The primary key must be what we search by, and for writers the only index. */
-static Relation
-open_primary_key(PageTable *table, LOCKMODE lock)
-{
-	Relation	heap = table->heap;
-	Oid			index_oid = RelationGetPrimaryKeyIndex(heap);
-	Relation	index = NULL;
-	bool		usable = OidIsValid(index_oid);
-
-	if (usable)
-	{
-		Form_pg_index form;
-
-		index = index_open(index_oid, lock);
-		form = index->rd_index;
-		usable = index->rd_rel->relam == BTREE_AM_OID && form->indisvalid && form->indimmediate &&
-			form->indnkeyatts == PAGE_TABLE_KEYS;
-		for (int i = 0; usable && i < PAGE_TABLE_KEYS; i++)
-			usable = form->indkey.values[i] == i + 1;
-	}
-	if (!usable)
-		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("table \"%s\" lacks the primary key of a mesh",
-						RelationGetRelationName(heap)),
-				 errhint("Add it again: PRIMARY KEY (%s, %s).",
-						 NameStr(TupleDescAttr(RelationGetDescr(heap), 0)->attname),
-						 NameStr(TupleDescAttr(RelationGetDescr(heap), 1)->attname))));
-	if (table->writable && list_length(RelationGetIndexList(heap)) != 1)
-		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("cannot change mesh table \"%s\" because it has further indexes",
-						RelationGetRelationName(heap)),
-				 errhint("Drop every index but the primary key.")));
-	return index;
-}
-
 void
 page_table_open(PageTable *table)
 {
@@ -91,10 +52,10 @@ page_table_open(PageTable *table)
 		return;
 	old = MemoryContextSwitchTo(table->memory);
 	table->heap = table_open(table->relid, lock);
-	table->index = open_primary_key(table, lock);
+	table->index = page_index_open_primary(table->heap, lock);
 	if (table->writable)
 	{
-		table->index_info = BuildIndexInfo(table->index);
+		table->indexes = page_index_open_all(table->heap);
 		if (table->datum == NULL)
 			table->datum = palloc0(PAGE_TYPE_OVERHEAD + ABACUS_PAGE_BYTES);
 	}
@@ -122,9 +83,8 @@ page_table_close(PageTable *table)
 	close_scan(&table->floor);
 	close_scan(&table->forward);
 	table->at_key = false;
-	if (table->index_info != NULL)
-		pfree(table->index_info);
-	table->index_info = NULL;
+	page_index_close_all(table->indexes);
+	table->indexes = NIL;
 	index_close(table->index, NoLock);
 	table_close(table->heap, NoLock);
 	table->heap = NULL;
@@ -290,13 +250,6 @@ form_row(PageTable *table, const int64 *key, const unsigned char *bytes, size_t 
 	return heap_form_tuple(RelationGetDescr(table->heap), values, isnull);
 }
 
-static void
-insert_index_entry(PageTable *table, Datum *values, bool *isnull, ItemPointer tid)
-{
-	index_insert(table->index, values, isnull, tid, table->heap, UNIQUE_CHECK_YES, false,
-				 table->index_info);
-}
-
 /* Adds a row; *tid becomes its place. */
 void
 page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes, size_t size,
@@ -309,7 +262,7 @@ page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes
 	page_table_open(table);
 	tuple = form_row(table, key, bytes, size, values, isnull);
 	heap_insert(table->heap, tuple, GetCurrentCommandId(true), 0, NULL);
-	insert_index_entry(table, values, isnull, &tuple->t_self);
+	page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self);
 	*tid = tuple->t_self;
 	heap_freetuple(tuple);
 	table->wrote = true;
@@ -331,7 +284,7 @@ page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes
 	if (table->superseded != NULL)
 		superseded_add(table->superseded, ItemPointerGetBlockNumber(tid));
 	if (!HeapTupleIsHeapOnly(tuple))
-		insert_index_entry(table, values, isnull, &tuple->t_self);
+		page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self);
 	*tid = tuple->t_self;
 	heap_freetuple(tuple);
 	table->wrote = true;

@@ -12,12 +12,10 @@
 #include "access/genam.h"
 #include "access/skey.h"
 #include "executor/tuptable.h"
-#include "nodes/execnodes.h"
 #include "utils/rel.h"
 
+#include "pg/page_index.h"
 #include "pg/superseded.h"
-
-#define PAGE_TABLE_KEYS 2
 
 /* A stored page as a search finds it; bytes stay valid until the next search. */
 typedef struct StoredPage
@@ -44,7 +42,7 @@ typedef struct PageTable
 
 	Relation	heap;			/* NULL while closed */
 	Relation	index;
-	IndexInfo  *index_info;		/* writers only */
+	List	   *indexes;		/* writers: all that they keep */
 
 	PageScan	floor;			/* backward: greatest key <= given */
 	PageScan	forward;		/* least key > given, and onward */

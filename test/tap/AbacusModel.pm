@@ -1,0 +1,103 @@
+# Meshes whose points are noted in a table by the transactions that change them:
+# so for every snapshot it is known what the mesh must be.
+#
+#     mesh2, mesh3               the meshes, by dimension
+#     mesh2_noted, mesh3_noted   their points
+#     change(dimension)          a function: one random change of both
+#     wrong(dimension)           a function: how many points differ
+package AbacusModel;
+
+use strict;
+use warnings;
+
+use Exporter 'import';
+use Test::More;
+
+use AbacusMesh;
+
+our @EXPORT = qw(make_models is_as_noted);
+
+sub make_models
+{
+	my ($node) = @_;
+	$node->safe_psql('postgres', <<'SQL');
+CREATE SEQUENCE numbers START 10000 INCREMENT 1000;
+CREATE FUNCTION columns(dimension int) RETURNS text LANGUAGE sql IMMUTABLE AS
+	$$ SELECT CASE dimension WHEN 2 THEN 'id, x, y' ELSE 'id, x, y, z' END $$;
+
+-- What is done is left to chance. Numbers of the fresh points are in no other change.
+CREATE FUNCTION change(dimension int) RETURNS void LANGUAGE plpgsql AS $$
+DECLARE
+	mesh text := 'mesh' || dimension;
+	noted text := mesh || '_noted';
+	first bigint := nextval('numbers');
+	fresh text := format('SELECT %s FROM %s WHERE id >= %s AND id < %s + 1000', columns(dimension), noted, first, first);
+	undo text := format('DELETE FROM %s WHERE id >= %s AND id < %s + 1000', noted, first, first);
+BEGIN
+	-- some near each other, some outside of all before, some where others are
+	EXECUTE format('INSERT INTO %1$s SELECT %2$s + i, c[1] + $1 * random(), c[2] + $1 * random(), c[3] + $1 * random()
+			FROM generate_series(0, $2) i, (SELECT ARRAY[random(), random(), random()] AS c) AS centre
+			UNION ALL SELECT %2$s + 900 + row_number() OVER (), x, y, z FROM (SELECT * FROM %1$s ORDER BY id DESC LIMIT 5) AS other',
+			noted, first) USING power(random(), 6), (random() * 100)::int;
+	CASE floor(random() * 4)
+	WHEN 0 THEN
+		PERFORM abacus_insert(mesh, fresh);
+	WHEN 1 THEN
+		PERFORM abacus_stage(mesh, fresh), abacus_triangulate(mesh);
+	WHEN 2 THEN -- the triangulation undone, and done again
+		PERFORM abacus_stage(mesh, fresh);
+		BEGIN
+			PERFORM abacus_triangulate(mesh);
+			RAISE division_by_zero;
+		EXCEPTION WHEN division_by_zero THEN
+			NULL;
+		END;
+		PERFORM abacus_triangulate(mesh);
+	WHEN 3 THEN -- all undone
+		BEGIN
+			PERFORM abacus_insert(mesh, fresh);
+			RAISE division_by_zero;
+		EXCEPTION WHEN division_by_zero THEN
+			EXECUTE undo;
+		END;
+	END CASE;
+END $$;
+
+CREATE FUNCTION wrong(dimension int) RETURNS bigint LANGUAGE plpgsql STABLE AS $$
+DECLARE
+	differ bigint;
+BEGIN
+	EXECUTE format('SELECT count(*) FROM (
+		(SELECT %1$s FROM mesh%2$s_noted EXCEPT ALL SELECT %1$s FROM abacus_vertices(''mesh%2$s'')) UNION ALL
+		(SELECT %1$s FROM abacus_vertices(''mesh%2$s'') EXCEPT ALL SELECT %1$s FROM mesh%2$s_noted)) AS other',
+		columns(dimension), dimension) INTO differ;
+	RETURN differ;
+END $$;
+SQL
+	for my $d (2, 3)
+	{
+		$node->safe_psql('postgres', <<"SQL");
+SELECT abacus_create('mesh$d', $d);
+CREATE TABLE mesh${d}_noted (id bigint PRIMARY KEY, x float8, y float8, z float8);
+INSERT INTO mesh${d}_noted SELECT i, random(), random(), random() FROM generate_series(1, 1000) AS i;
+SELECT abacus_insert('mesh$d', 'SELECT ' || columns($d) || ' FROM mesh${d}_noted');
+SQL
+	}
+	return;
+}
+
+# Four tests: it has the points of the committed changes and no other, their
+# simplices, and sound pages and indexes.
+sub is_as_noted
+{
+	my ($node, $d, $what) = @_;
+	is($node->safe_psql('postgres', "SELECT wrong($d)"), 0, "$what: the points of what is committed, and no other");
+	$node->safe_psql('postgres', <<"SQL");
+DROP TABLE IF EXISTS wanted;
+SELECT abacus_triangulate('wanted', 'SELECT ' || columns($d) || ' FROM mesh${d}_noted ORDER BY id', dimension => $d);
+SQL
+	is(other_simplices($node, 'postgres', "mesh$d", 'wanted', $d), 0, "$what: their simplices");
+	return is_intact($node, 'postgres', "mesh$d", $what);
+}
+
+1;
