@@ -110,6 +110,20 @@ ROLLBACK;
 SELECT seen_stable();
 SELECT * FROM abacus_check('field');
 
+-- under one snapshot for all: rolled back to a savepoint, nothing else tells the states apart
+BEGIN ISOLATION LEVEL REPEATABLE READ;
+SELECT seen_stable();
+SAVEPOINT before;
+SELECT add(900, 1.4003, 1.3003);
+SELECT seen_stable();
+ROLLBACK TO before;
+SELECT seen_stable();
+SELECT add(901, 1.4003, 1.3003);
+SELECT seen_stable();
+ROLLBACK TO before;
+SELECT seen_stable();
+COMMIT;
+
 -- more meshes than the session keeps, turn by turn, changed and rolled back
 SELECT abacus_triangulate('field' || i, 'SELECT i, i % 4, i / 4 FROM generate_series(0, 15) i') FROM generate_series(1, 5) i;
 CREATE FUNCTION all_seen() RETURNS text LANGUAGE sql STABLE AS $$
