@@ -25,6 +25,19 @@ CREATE SEQUENCE numbers START 10000 INCREMENT 1000;
 CREATE FUNCTION columns(dimension int) RETURNS text LANGUAGE sql IMMUTABLE AS
 	$$ SELECT CASE dimension WHEN 2 THEN 'id, x, y' ELSE 'id, x, y, z' END $$;
 
+-- Takes the noted points that a query names out of both.
+CREATE FUNCTION take_away(dimension int, ids text) RETURNS void LANGUAGE plpgsql AS $$
+DECLARE
+	gone text;
+BEGIN
+	EXECUTE format('WITH gone AS (DELETE FROM mesh%1$s_noted WHERE id IN (%2$s) RETURNING %3$s)
+		SELECT string_agg(format(''(%%s, %%s::float8, %%s::float8%4$s)'', %3$s), '', '') FROM gone',
+		dimension, ids, columns(dimension), CASE dimension WHEN 3 THEN ', %s::float8' END) INTO gone;
+	IF gone IS NOT NULL THEN
+		PERFORM abacus_delete('mesh' || dimension, 'VALUES ' || gone);
+	END IF;
+END $$;
+
 -- What is done is left to chance. Numbers of the fresh points are in no other change.
 CREATE FUNCTION change(dimension int) RETURNS void LANGUAGE plpgsql AS $$
 DECLARE
@@ -39,7 +52,7 @@ BEGIN
 			FROM generate_series(0, $2) i, (SELECT ARRAY[random(), random(), random()] AS c) AS centre
 			UNION ALL SELECT %2$s + 900 + row_number() OVER (), x, y, z FROM (SELECT * FROM %1$s ORDER BY id DESC LIMIT 5) AS other',
 			noted, first) USING power(random(), 6), (random() * 100)::int;
-	CASE floor(random() * 4)
+	CASE floor(random() * 6)
 	WHEN 0 THEN
 		PERFORM abacus_insert(mesh, fresh);
 	WHEN 1 THEN
@@ -60,6 +73,19 @@ BEGIN
 		EXCEPTION WHEN division_by_zero THEN
 			EXECUTE undo;
 		END;
+	WHEN 4 THEN -- others go, now and then nearly all
+		PERFORM abacus_insert(mesh, fresh);
+		PERFORM take_away(dimension, format('SELECT id FROM %s ORDER BY random() LIMIT %s', noted,
+				CASE WHEN random() < 0.03 THEN 'greatest(0, (SELECT count(*) - 7 FROM ' || noted || '))' ELSE '300 * random()' END));
+	WHEN 5 THEN -- those near a place go; once more, after it has been undone
+		PERFORM abacus_insert(mesh, fresh);
+		BEGIN
+			PERFORM take_away(dimension, format('SELECT id FROM %s WHERE x < 0.3', noted));
+			RAISE division_by_zero;
+		EXCEPTION WHEN division_by_zero THEN
+			NULL;
+		END;
+		PERFORM take_away(dimension, format('SELECT id FROM %s WHERE abs(x - %s) + abs(y - %s) < 0.1', noted, random(), random()));
 	END CASE;
 END $$;
 

@@ -79,7 +79,7 @@ my ($retried) = $all =~ /number of transactions retried: (\d+)/;
 cmp_ok($count, '>', 50, "$count transactions, $retried of them tried again");
 for my $d (2, 3)
 {
-	cmp_ok(mesh_figure($node, 'postgres', "mesh$d", 'vertices'), '>', 1000, "dimension $d: changed");
+	cmp_ok(mesh_figure($node, 'postgres', "mesh$d", 'removals'), '>', 0, "dimension $d: changed");
 	is_as_noted($node, $d, "dimension $d");
 }
 
