@@ -74,8 +74,8 @@ pgtap_tests() {
         pg_prove -d abacus_pgtap test/pgtap/*.sql
 }
 
-# Crashes and full disks, in servers that the tests start themselves, as the
-# user who may. A small file system of their own is a full disk soon; where it
+# Crashes, many sessions, dumps, replication, upgrades: in servers that the tests
+# start themselves, as the user who may. A small file system of their own is a full disk soon; where it
 # cannot be mounted, that test is skipped. ABACUS_KILLS says how often to kill.
 tap_tests() {
     local folder=$cluster_folder/tap sources
@@ -93,7 +93,7 @@ tap_tests() {
 }
 
 documentation_examples() {
-    scripts/doc_examples.py docs/sql.md README.md
+    scripts/doc_examples.py docs/sql.md docs/operations.md README.md
 }
 
 scripts/install-dependencies.sh test || fail "packages are missing"
