@@ -89,7 +89,7 @@ tap_tests() {
     fi
     if ((EUID == 0)); then chown -R postgres: "$folder"; fi
     cluster_as_server env TESTDIR="$folder" PG_REGRESS="$sources/test/regress/pg_regress" \
-        prove -I "$sources/test/perl" "$folder"/*.pl
+        prove -j "$ABACUS_JOBS" -I "$sources/test/perl" "$folder"/*.pl
 }
 
 documentation_examples() {

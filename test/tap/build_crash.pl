@@ -5,7 +5,7 @@
 # indexes are sound; and a further call ends with the same simplices as a build
 # at once.
 #
-#     ABACUS_KILLS   how many times (default 16)
+#     ABACUS_KILLS   how many times (default 20)
 use strict;
 use warnings;
 
@@ -17,7 +17,7 @@ use PostgreSQL::Test::Utils;
 use Test::More;
 use Time::HiRes qw(time);
 
-my $kills = $ENV{ABACUS_KILLS} || 16;
+my $kills = $ENV{ABACUS_KILLS} || 20;
 my @meshes = (
 	{ dimension => 2, columns => 'id, x, y', points => 150_000, batch => 1500 },
 	{ dimension => 3, columns => 'id, x, y, z', points => 25_000, batch => 300 });

@@ -4,7 +4,7 @@
 # exactly the points that the committed transactions have noted, the simplices
 # of a mesh made of those, sound tables and indexes; and the changes go on.
 #
-#     ABACUS_KILLS   how many times (default 16)
+#     ABACUS_KILLS   how many times (default 20)
 use strict;
 use warnings;
 
@@ -15,7 +15,7 @@ use AbacusModel;
 use PostgreSQL::Test::Utils;
 use Test::More;
 
-my $kills = $ENV{ABACUS_KILLS} || 16;
+my $kills = $ENV{ABACUS_KILLS} || 20;
 my $node = crash_node('crash');
 make_models($node);
 $node->safe_psql('postgres', <<'SQL');
