@@ -25,6 +25,7 @@ CORE_SOURCES += src/cache/cache_place.cpp
 CORE_SOURCES += src/cache/cache_load.cpp
 CORE_SOURCES += src/cache/cache_evict.cpp
 CORE_SOURCES += src/cache/page_format.cpp
+CORE_SOURCES += src/cache/page_writer.cpp
 CORE_SOURCES += src/cache/probing.cpp
 CORE_SOURCES += src/delaunay/insertion.cpp
 CORE_SOURCES += src/delaunay/star.cpp

@@ -76,7 +76,7 @@ template <int D> void Stage(benchmark::State &state) {
 template <int D> void Build(benchmark::State &state) {
     const auto rows = uniform_rows<D>(std::size_t(state.range(0)));
     abacus_header header;
-    std::size_t page_bytes = 0;
+    std::size_t page_bytes = 0, page_count = 0;
     for (auto _ : state) {
         state.PauseTiming();
         {
@@ -89,14 +89,19 @@ template <int D> void Build(benchmark::State &state) {
             state.PauseTiming();
             page_bytes = 0;
             for (const auto &[key, page] : host.pages) page_bytes += page.size;
+            page_count = host.pages.size();
         }
         state.ResumeTiming();
     }
     state.SetItemsProcessed(state.iterations() * state.range(0));
     const auto &counters = header.counters;
     state.counters["bytes/simplex"] = double(page_bytes) / double(header.simplices);
+    state.counters["fill"] =
+        double(page_bytes) / double(page_count) / ABACUS_PAGE_BYTES;
     state.counters["loads"] = double(counters.loads);
     state.counters["stores"] = double(counters.stores);
+    state.counters["page_us"] = 1e-3 * double(counters.translation_ns) /
+                                double(counters.loads + counters.stores);
     state.counters["hit_ratio"] = 1 - double(counters.misses) / double(counters.steps);
 }
 

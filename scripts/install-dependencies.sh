@@ -8,7 +8,7 @@
 set -euo pipefail
 
 packages=(
-    make g++ pkg-config
+    make g++ pkg-config libxxhash-dev
     postgresql-15 postgresql-server-dev-15
     libcgal-dev libgmp-dev libmpfr-dev libcairo2-dev
 )

@@ -5,14 +5,16 @@ namespace abacus {
 
 namespace {
 
-// Slots worth filling: pages of this many simplices fit ABACUS_PAGE_BYTES in a
-// mesh of good shape. Measured in 2D: 0.58 vertices and 0.2 links a triangle; the
-// few pages that turn out too large are split when they are written.
-template <int D> std::uint32_t block_capacity(int attributes) {
+// Bytes of a page that are not those of its simplices.
+constexpr double page_overhead = sizeof(PageHeader) + checksum_bytes + 40;
+// Of the room in a page: pages differ, and one that turns out too large has to be split.
+constexpr double capacity_margin = 0.97;
+
+// What a simplex takes when words are stored whole. In a mesh of good shape there are 0.58
+// vertices a triangle, 0.36 a tetrahedron.
+template <int D> double most_bytes(int attributes) {
     const double vertex = 8.0 * (1 + D + attributes);
-    const double simplex = D == 2 ? 0.58 * vertex + 0.19 * 8 + 3 : 0.36 * vertex + 0.9 * 8 + 4;
-    const auto fit = static_cast<std::uint32_t>((ABACUS_PAGE_BYTES - 128) / simplex);
-    return std::clamp<std::uint32_t>(fit, 8, block_slots<D>);
+    return D == 2 ? 0.58 * vertex + 0.19 * 8 + 3 : 0.36 * vertex + 0.9 * 8 + 4;
 }
 
 } // namespace
@@ -20,11 +22,22 @@ template <int D> std::uint32_t block_capacity(int attributes) {
 template <int D>
 Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
                 const CacheOptions &options)
-    : host_(host), domain_(domain), options_(options),
-      capacity_(block_capacity<D>(attributes)), blocks_(host), slots_(host),
+    : host_(host), domain_(domain), options_(options), blocks_(host), slots_(host),
       vertices_(host, attributes), visible_(host), directory_(host), unused_blocks_(host),
-      limbo_(host), places_(host), numbered_(host), corners_(host), uses_(host), left_(host),
-      border_(host), beyond_(host), facets_(host) {}
+      limbo_(host), places_(host), writer_(host), numbered_(host), corners_(host), uses_(host),
+      left_(host), border_(host), rows_(host), across_(host), values_(host), facets_(host) {
+    values_.resize(static_cast<std::size_t>(attributes));
+    learn_size(1, page_overhead + most_bytes<D>(attributes));
+}
+
+template <int D> void Cache<D>::learn_size(std::uint32_t simplices, double page_bytes) {
+    if (simplices == 0) return;
+    const double bytes = (page_bytes - page_overhead) / simplices;
+    // From the first page at once, then slowly.
+    simplex_bytes_ += (bytes - simplex_bytes_) / std::min(++learned_, 8u);
+    const double fit = capacity_margin * (ABACUS_PAGE_BYTES - page_overhead) / simplex_bytes_;
+    capacity_ = static_cast<std::uint32_t>(std::clamp<double>(fit, 8, block_slots<D>));
+}
 
 template <int D> Handle Cache<D>::follow(Handle h) const {
     // A simplex moves at most from limbo to a block that is then split.

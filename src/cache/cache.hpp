@@ -28,7 +28,7 @@
 
 #include "cache/directory.hpp"
 #include "cache/key.hpp"
-#include "cache/page_format.hpp"
+#include "cache/page_writer.hpp"
 #include "cache/vertex_heap.hpp"
 #include "cache/visible_facets.hpp"
 #include "geometry/locational_code.hpp"
@@ -42,6 +42,7 @@ struct CacheOptions {
     std::size_t budget = 64u << 20;  // bytes; exceeded only while one operation needs it
     bool stored_links = true;        // false: probe at every miss, to measure §4.10
     bool verify_links = false;       // compare every stored key with the simplex it leads to
+    bool verify_checksums = true;    // false: for who looks for the damage itself
 };
 
 template <int D> class Cache {
@@ -234,6 +235,8 @@ private:
     void free_block(BlockIndex b);
     BlockIndex cached_owner(const Key &key) const;
     BlockIndex place_elsewhere(std::uint64_t code);
+    /// What a page took; one not yet stored tells as much.
+    void learn_size(std::uint32_t simplices, double page_bytes);
     Handle closest_of_some(BlockIndex b, const Point<D> &p) const;
     Handle take_slot(BlockIndex b) {
         Block &block = blocks_[b];
@@ -287,6 +290,9 @@ private:
     bool dissolve(BlockIndex b);
     /// Removes the block's page, if it is stored.
     void erase_page(BlockIndex b);
+    /// Fills a block that is to be written from the next one on the curve, if that was never
+    /// stored and may_take(it): so that pages are full from the beginning of the curve on.
+    template <class MayTake> void fill_up(BlockIndex b, MayTake may_take);
     /// Cuts the block, whose simplices from places_[cut] on, and no others, have keys from
     /// `border` on; returns the new block, the upper part.
     BlockIndex split_at(BlockIndex b, std::size_t cut, const Key &border);
@@ -300,11 +306,13 @@ private:
     /// The block that owns the key, loaded if need be; no_block if no page does.
     BlockIndex owner(const Key &key);
     BlockIndex load(const abacus_page &page);
-    void load_vertices(const PageView<D> &view);
-    void link_inside(int simplices, Handle first);
-    void link_outside(const PageView<D> &view, Handle first);
+    /// Links the simplices of the page at hand with one another, lists the facets on its
+    /// border and marks the vertices there.
+    void link_inside(Handle first);
+    void load_vertices();
+    void load_simplices(Handle first);
+    void link_outside();
     void link_outside(Link link, const Key &beyond);
-    void check_border(const PageView<D> &view, Handle first) const;
     bool leads_to(const Key &link, Handle h) const;
 
     // probing.cpp
@@ -335,6 +343,9 @@ private:
     Domain<D> domain_;
     CacheOptions options_;
     std::uint32_t capacity_; // simplices a block takes before it is split
+    double simplex_bytes_ = 0; // in the pages made lately: capacity_ follows from it
+    unsigned learned_ = 0;
+    unsigned full_blocks_ = 0; // so far
 
     Arena<Block> blocks_;
     Arena<Simplex<D>> slots_; // block_slots of each block
@@ -357,19 +368,53 @@ private:
         std::uint32_t epoch;
         Link link; // with `absent` for an odd facet
     };
-    static constexpr std::uint32_t at_infinity = 0xffffffffu;
+    static constexpr std::uint32_t at_infinity = PageWriter<D>::at_infinity;
+    PageView<D> view_;
+    PageWriter<D> writer_;
     typename VertexHeap<D>::Numbering numbered_; // vertices by local number
     std::size_t border_vertices_ = 0; // of them are on the border
     Arena<std::uint32_t> corners_;  // local numbers, or at_infinity; D + 1 a simplex
     Arena<std::uint32_t> uses_;     // of the vertices among corners_, by 1 + number
     Arena<VertexIndex> left_;       // border vertices of the blocks evicted together
     Arena<Link> border_;            // facets on the border of a block, from inside
-    Arena<Key> beyond_;             // keys of neighbours in other pages
+    Arena<std::uint16_t> rows_;     // numbers of a block's simplices by slot
+    Arena<Link> across_;            // links by these numbers, D + 1 a simplex
+    Arena<double> values_;          // attributes of a vertex
     Arena<LocalFacet> facets_;      // hash table of the facets inside a page
     std::uint32_t epoch_ = 0;       // of facets_
-    alignas(8) unsigned char page_[ABACUS_PAGE_BYTES];
-    std::size_t page_size_ = 0;
+    std::array<bool, page_vertices<D>> on_border_; // of the page being loaded
 };
+
+template <int D>
+template <class MayTake>
+void Cache<D>::fill_up(BlockIndex b, MayTake may_take) {
+    const BlockIndex next = directory_.after(blocks_[b].lower);
+    if (next == no_block || !blocks_[b].dirty || blocks_[b].count >= capacity_) return;
+    const Key border = blocks_[b].upper, upper = blocks_[next].upper;
+    if (!(blocks_[next].lower == border) || blocks_[next].location != 0 ||
+        blocks_[b].has_parts() || blocks_[next].has_parts() || !may_take(blocks_[next]))
+        return;
+    const std::size_t room = capacity_ - blocks_[b].count;
+    collect_places(next);
+    std::size_t cut = places_.size();
+    if (cut > room) cut = cut_near(room);
+    if (cut > room) return;
+    const std::uint64_t used = blocks_[b].used_at, next_used = blocks_[next].used_at;
+    const bool is_whole = cut == places_.size();
+    const Key moved = is_whole ? upper : places_[cut].key;
+    for (std::size_t i = 0; i < cut; ++i) move(places_[i].handle, b);
+    directory_.erase(border);
+    blocks_[b].own(blocks_[b].lower, moved);
+    blocks_[b].used_at = used; // no more in use than before
+    if (is_whole) {
+        free_block(next);
+        ++counters.merges;
+    } else {
+        blocks_[next].own(moved, upper);
+        blocks_[next].used_at = next_used;
+        directory_.insert(moved, next);
+    }
+}
 
 template <int D>
 template <class Match>

@@ -77,11 +77,17 @@ template <int D> void Cache<D>::choose_victims(Arena<BlockIndex> &victims) {
 }
 
 template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
-    std::size_t kept = 0; // those that do not go up in their neighbours
-    for (const BlockIndex b : victims)
-        if (!dissolve(b)) victims[kept++] = b;
-    victims.resize(kept);
+    // In the order of the curve: each fills up from the next one.
+    std::sort(victims.begin(), victims.end(), [&](BlockIndex a, BlockIndex b) {
+        return blocks_[a].lower < blocks_[b].lower;
+    });
     for (const BlockIndex b : victims) blocks_[b].leaving = true;
+    for (const BlockIndex b : victims)
+        if (blocks_[b].state == Block::cached && !dissolve(b))
+            fill_up(b, [](const Block &next) { return next.leaving; });
+    const auto is_gone = [&](BlockIndex b) { return blocks_[b].state != Block::cached; };
+    victims.resize(static_cast<std::size_t>(
+        std::remove_if(victims.begin(), victims.end(), is_gone) - victims.begin()));
     left_.clear();
     for (std::size_t i = 0; i < victims.size(); ++i) {
         const BlockIndex b = victims[i];
@@ -144,8 +150,14 @@ template <int D> void Cache<D>::unlink(BlockIndex b) {
 
 template <int D> void Cache<D>::flush() {
     counters.peak_bytes = std::max<std::uint64_t>(counters.peak_bytes, bytes());
-    for (BlockIndex b = 0; b < blocks_.size(); ++b)
-        if (blocks_[b].state == Block::cached) dissolve(b);
+    for (Key key = first_key;;) {
+        const BlockIndex b = directory_.contains(key) ? directory_.floor(key) : directory_.after(key);
+        if (b == no_block) break;
+        key = blocks_[b].lower;
+        if (dissolve(b)) continue; // perhaps into the next one, under the same key
+        fill_up(b, [](const Block &) { return true; });
+        key = blocks_[b].upper;
+    }
     bool changed = true;
     while (changed) { // a split while writing makes a block more
         changed = false;
@@ -212,71 +224,53 @@ template <int D> void Cache<D>::survey(BlockIndex b) {
 template <int D> bool Cache<D>::encode(BlockIndex b) {
     const Stopwatch stopwatch(counters.translation_ns);
     survey(b);
-    PageHeader header{};
-    beyond_.clear();
-    for (const Link inner : border_) {
-        Key beyond = key_beyond(link_simplex(inner), link_facet(inner));
-        if (beyond.part == unknown_part) beyond.part = 0;
-        if (beyond.part != 0) header.flags |= PageHeader::long_links;
-        beyond_.push_back(beyond);
-    }
-    const Block &block = blocks_[b];
-    header.magic = PageHeader::expected_magic;
-    header.version = PageHeader::expected_version;
-    header.dimension = D;
-    header.attributes = static_cast<std::uint8_t>(vertices_.attribute_count());
-    header.simplices = static_cast<std::uint16_t>(block.count);
-    header.vertices = static_cast<std::uint16_t>(numbered_.size());
-    header.border_vertices = static_cast<std::uint16_t>(border_vertices_);
-    header.links = static_cast<std::uint16_t>(beyond_.size());
-    header.lower = block.lower;
-    header.upper = block.upper;
-    if (numbered_.size() > 255) header.flags |= PageHeader::wide;
-    const PageLayout<D> layout(header);
-    if (layout.size > ABACUS_PAGE_BYTES) return false;
+    // Cold memory, wanted after the simplices have been put in order.
+    for (std::size_t n = 0; n < numbered_.size(); ++n) vertices_.prefetch_id(numbered_[n]);
 
-    std::array<double, 2 * D> box;
-    std::fill(box.begin(), box.begin() + D, std::numeric_limits<double>::infinity());
-    std::fill(box.begin() + D, box.end(), -std::numeric_limits<double>::infinity());
-    const auto put = [&](std::size_t at, std::size_t i, const auto &value) {
-        std::memcpy(page_ + at + i * sizeof value, &value, sizeof value);
-    };
-    for (std::size_t n = 0; n < numbered_.size(); ++n) {
-        const VertexIndex v = numbered_[n];
-        const Point<D> &p = vertices_.point(v);
-        put(layout.ids, n, vertices_.id(v));
-        put(layout.points, n, p);
-        for (int i = 0; i < header.attributes; ++i)
-            put(layout.attributes, n * header.attributes + i, vertices_.attributes(v)[i]);
-        for (int axis = 0; axis < D; ++axis) {
-            box[axis] = std::min(box[axis], p[axis]);
-            box[D + axis] = std::max(box[D + axis], p[axis]);
+    const Handle first = b * block_slots<D>;
+    const Simplex<D> *const begin = &slots_[first], *const end = begin + blocks_[b].high_water;
+    rows_.resize(block_slots<D>);
+    std::uint16_t *const rows = rows_.data();
+    std::uint16_t count = 0;
+    for (const Simplex<D> *s = begin; s != end; ++s) {
+        rows[s - begin] = count;
+        count = static_cast<std::uint16_t>(count + !s->is_free());
+    }
+    across_.resize(std::size_t(count) * (D + 1));
+    Link *across = across_.data();
+    std::size_t links = 0; // as survey() lists them
+    for (const Simplex<D> *s = begin; s != end; ++s) {
+        if (s->is_free()) continue;
+        for (const Link link : s->link) {
+            const Handle slot = link_simplex(link) - first;
+            if (slot < block_slots<D>) *across++ = make_link(rows[slot], link_facet(link));
+            else *across++ = PageWriter<D>::outside(links++);
         }
     }
-    put(0, 0, header);
-    put(layout.box, 0, box);
-    for (std::size_t i = 0; i < beyond_.size(); ++i) {
-        put(layout.links, i, beyond_[i].code);
-        if (header.flags & PageHeader::long_links) put(layout.parts, i, beyond_[i].part);
+    writer_.order(corners_.data(), across_.data(), count, numbered_.size(), border_vertices_,
+                  links, vertices_.attribute_count());
+    for (std::size_t n = 0; n < numbered_.size(); ++n) {
+        const VertexIndex v = numbered_[n];
+        writer_.set_vertex(n, vertices_.id(v), vertices_.point(v), vertices_[v].code,
+                           vertices_.attributes(v));
     }
-    const auto put_corners = [&]<class Number>(Number) {
-        for (std::size_t i = 0; i < corners_.size(); ++i)
-            put(layout.simplices, i,
-                static_cast<Number>(corners_[i] == at_infinity ? header.vertices : corners_[i]));
-    };
-    if (header.flags & PageHeader::wide) put_corners(std::uint16_t{});
-    else put_corners(std::uint8_t{});
-    page_size_ = layout.size;
-    return true;
+    for (std::size_t i = 0; i < links; ++i) {
+        Key beyond = key_beyond(link_simplex(border_[i]), link_facet(border_[i]));
+        if (beyond.part == unknown_part) beyond.part = 0;
+        writer_.set_link(i, beyond);
+    }
+    const bool fits = writer_.finish(blocks_[b].lower, blocks_[b].upper);
+    learn_size(count, static_cast<double>(writer_.size()));
+    return fits;
 }
 
 template <int D> void Cache<D>::store(BlockIndex b) {
     const Stopwatch stopwatch(counters.translation_ns);
     Block &block = blocks_[b];
-    abacus_page page{block.lower, page_, page_size_, block.location};
+    abacus_page page{block.lower, writer_.bytes(), writer_.size(), block.location};
     ++counters.stores;
     if (block.location != 0) ++counters.rewrites;
-    counters.bytes_written += page_size_;
+    counters.bytes_written += writer_.size();
     host_.put(ABACUS_SIMPLEX_PAGES, page);
     block.location = page.location;
     block.dirty = false;

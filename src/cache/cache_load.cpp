@@ -1,11 +1,11 @@
 // Misses and loading: from stored pages to linked simplices (dissertation §4.10).
 //
-// A page's vertices get their numbers first: those on its border may be cached
-// already and are looked up by coordinates, the others are new. Facets inside the
-// page find their partners in a small hash table of local numbers; facets on the
-// border look for their partner among the visible facets, or become visible
-// themselves. So the large hash tables are asked once for each border vertex and
-// border facet, never for each simplex.
+// Half of the links inside a page are stored; the other facets find their partners in a
+// small hash table of local numbers. What finds none is the page's border. Vertices
+// there may be cached already and are looked up by coordinates, the others are new.
+// Facets on the border look for their partner among the visible facets, or become
+// visible themselves. So the large hash tables are asked once for each border vertex
+// and border facet, never for each simplex.
 #include "cache/cache.hpp"
 
 #include "cache/stopwatch.hpp"
@@ -61,78 +61,54 @@ template <int D> typename Cache<D>::BlockIndex Cache<D>::owner(const Key &key) {
 template <int D> typename Cache<D>::BlockIndex Cache<D>::load(const abacus_page &page) {
     ++counters.loads;
     counters.bytes_read += page.size;
-    const auto view = PageView<D>::parse(page.bytes, page.size, vertices_.attribute_count());
-    if (!(view.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
-    const BlockIndex before = directory_.floor(view.lower());
-    const BlockIndex after = directory_.after(view.lower());
-    if ((before != no_block && view.lower() < blocks_[before].upper) ||
-        (after != no_block && blocks_[after].lower < view.upper()))
+    view_.read(page.bytes, page.size, vertices_.attribute_count(),
+               options_.verify_checksums ? PageView<D>::Checksum::verify
+                                         : PageView<D>::Checksum::ignore);
+    if (!(view_.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
+    const BlockIndex before = directory_.floor(view_.lower());
+    const BlockIndex after = directory_.after(view_.lower());
+    if ((before != no_block && view_.lower() < blocks_[before].upper) ||
+        (after != no_block && blocks_[after].lower < view_.upper()))
         throw_corrupted("Two pages own the same part of the curve.");
 
-    load_vertices(view);
     const BlockIndex b = new_block(Block::cached);
     Block &block = blocks_[b];
-    block.own(view.lower(), view.upper());
+    block.own(view_.lower(), view_.upper());
     block.location = page.location;
-    block.count = block.high_water = static_cast<std::uint32_t>(view.simplices());
+    block.count = block.high_water = static_cast<std::uint32_t>(view_.simplices());
     directory_.insert(block.lower, b);
 
     const Handle first = b * block_slots<D>;
-    corners_.resize(std::size_t(view.simplices()) * (D + 1));
-    for (int s = 0; s < view.simplices(); ++s) {
-        Simplex<D> &simplex = slots_[first + s];
-        for (int i = 0; i <= D; ++i) {
-            const auto corner = static_cast<std::uint32_t>(view.corner(s, i));
-            corners_[s * (D + 1) + i] = corner;
-            simplex.vertex[i] =
-                corner < numbered_.size() ? numbered_[corner] : infinite_vertex;
-            simplex.link[i] = unset;
-            vertices_.acquire(simplex.vertex[i]);
-        }
-    }
-    for (std::size_t n = 0; n < numbered_.size(); ++n)
-        if (!vertices_.in_use(numbered_[n])) throw_corrupted("A page has a vertex without simplices.");
-    link_inside(view.simplices(), first);
-    link_outside(view, first);
+    link_inside(first);
+    load_vertices();
+    load_simplices(first);
+    link_outside();
     return b;
 }
 
-template <int D> void Cache<D>::load_vertices(const PageView<D> &view) {
-    numbered_.clear();
-    for (int n = 0; n < view.border_vertices(); ++n) vertices_.prefetch_slot(view.point(n));
-    for (int n = 0; n < view.border_vertices(); ++n) vertices_.prefetch_vertex(view.point(n));
-    for (int n = 0; n < view.vertices(); ++n) {
-        const Point<D> p = view.point(n);
-        VertexIndex v = infinite_vertex;
-        if (n < view.border_vertices()) v = vertices_.find_shared(p);
-        if (v == infinite_vertex) {
-            v = vertices_.create(p, domain_.code(p), view.id(n), view.attributes(n));
-            if (n < view.border_vertices()) vertices_.share(v);
-        } else if (numbered_.contains(vertices_, v)) {
-            throw_corrupted("A page has the same vertex twice.");
-        } else if (vertices_.id(v) != view.id(n)) {
-            throw_corrupted("Two pages have different ids for one vertex.");
-        } else if (view.attributes() > 0 &&
-                   std::memcmp(vertices_.attributes(v), view.attributes(n),
-                               view.attributes() * sizeof(double)) != 0) {
-            throw_corrupted("Two pages have different attributes for one vertex.");
-        }
-        numbered_.number(vertices_, v);
+template <int D> void Cache<D>::link_inside(Handle first) {
+    const int simplices = view_.simplices();
+    std::size_t open = std::size_t(simplices) * (D + 1); // facets
+    for (int s = 0; s < simplices; ++s) {
+        slots_[first + s].link.fill(unset);
+        if (view_.parent(s) == PageView<D>::no_link) continue;
+        const Link parent = view_.parent(s);
+        connect(make_link(first + link_simplex(parent), link_facet(parent)),
+                make_link(first + s, view_.facet_to_parent(s)));
+        open -= 2;
     }
-}
-
-template <int D> void Cache<D>::link_inside(int simplices, Handle first) {
     if (facets_.empty() || ++epoch_ == 0) { // at first, and once in four billion pages
         facets_.resize(std::bit_ceil(std::size_t(block_slots<D>) * (D + 1) + 1));
         std::fill(facets_.begin(), facets_.end(), LocalFacet{});
         epoch_ = 1;
     }
-    // As small as can be: at most one entry a facet, about half as many in a sound page.
-    const std::size_t mask = std::bit_ceil(std::size_t(simplices) * (D + 1) + 1) - 1;
+    // As small as can be: at most one entry a facet, fewer in a sound page.
+    const std::size_t mask = std::bit_ceil(open + 1) - 1;
     const int shift = 64 - std::bit_width(mask);
     for (int s = 0; s < simplices; ++s) {
         for (int i = 0; i <= D; ++i) {
-            const FacetVertices<D, std::uint32_t> facet(&corners_[s * (D + 1)], i);
+            if (slots_[first + s].link[i] != unset) continue;
+            const FacetVertices<D, std::uint32_t> facet(view_.corners(s), i);
             std::uint64_t vertices = 0;
             for (const std::uint32_t v : facet.vertex) vertices = vertices << 16 | v;
             const Link link = make_link(first + s, i);
@@ -152,21 +128,70 @@ template <int D> void Cache<D>::link_inside(int simplices, Handle first) {
             }
         }
     }
+    border_.clear();
+    on_border_.fill(false);
+    for (int s = 0; s < simplices; ++s)
+        for (int i = 0; i <= D; ++i) {
+            if (slots_[first + s].link[i] != unset) continue;
+            border_.push_back(make_link(first + s, i));
+            for (int j = 0; j <= D; ++j)
+                if (j != i && view_.corner(s, j) < view_.vertices())
+                    on_border_[view_.corner(s, j)] = true;
+        }
+    if (static_cast<int>(border_.size()) != view_.links())
+        throw_corrupted("A page has another number of links than of facets on its border.");
 }
 
-template <int D> void Cache<D>::link_outside(const PageView<D> &view, Handle first) {
-    border_.clear();
-    for (int s = 0; s < view.simplices(); ++s)
-        for (int i = 0; i <= D; ++i)
-            if (slots_[first + s].link[i] == unset) border_.push_back(make_link(first + s, i));
-    if (static_cast<int>(border_.size()) != view.links())
-        throw_corrupted("A page has another number of links than of facets on its border.");
-    check_border(view, first);
+template <int D> void Cache<D>::load_vertices() {
+    for (int n = 0; n < view_.vertices(); ++n)
+        if (on_border_[n]) vertices_.prefetch_slot(view_.point(n));
+    for (int n = 0; n < view_.vertices(); ++n)
+        if (on_border_[n]) vertices_.prefetch_vertex(view_.point(n));
+    numbered_.clear();
+    for (int n = 0; n < view_.vertices(); ++n) {
+        const Point<D> &p = view_.point(n);
+        for (int i = 0; i < view_.attributes(); ++i) values_[i] = view_.attribute(n, i);
+        VertexIndex v = on_border_[n] ? vertices_.find_shared(p) : infinite_vertex;
+        if (v == infinite_vertex) {
+            v = vertices_.create(p, domain_.code(p), view_.id(n), values_.data());
+            if (on_border_[n]) vertices_.share(v);
+        } else if (numbered_.contains(vertices_, v)) {
+            throw_corrupted("A page has the same vertex twice.");
+        } else if (vertices_.id(v) != view_.id(n)) {
+            throw_corrupted("Two pages have different ids for one vertex.");
+        } else if (view_.attributes() > 0 &&
+                   std::memcmp(vertices_.attributes(v), values_.data(),
+                               values_.size() * sizeof(double)) != 0) {
+            throw_corrupted("Two pages have different attributes for one vertex.");
+        }
+        numbered_.number(vertices_, v);
+    }
+}
+
+template <int D> void Cache<D>::load_simplices(Handle first) {
+    uses_.resize(numbered_.size() + 1); // that of the point at infinity is the last
+    std::fill(uses_.begin(), uses_.end(), 0);
+    for (int s = 0; s < view_.simplices(); ++s)
+        for (int i = 0; i <= D; ++i) {
+            const auto corner = static_cast<std::size_t>(view_.corner(s, i));
+            ++uses_[corner];
+            slots_[first + s].vertex[i] =
+                corner < numbered_.size() ? numbered_[corner] : infinite_vertex;
+        }
+    for (std::size_t n = 0; n < numbered_.size(); ++n) vertices_.acquire(numbered_[n], uses_[n]);
+    vertices_.acquire(infinite_vertex, uses_[numbered_.size()]);
+}
+
+template <int D> void Cache<D>::link_outside() {
     const auto facet_of = [&](Link link) { return facet(link_simplex(link), link_facet(link)); };
     for (const Link link : border_) visible_.prefetch_bucket(facet_of(link));
     for (const Link link : border_) visible_.prefetch_entry(facet_of(link));
-    for (std::size_t i = 0; i < border_.size(); ++i)
-        link_outside(border_[i], view.link(static_cast<int>(i)));
+    for (std::size_t i = 0; i < border_.size(); ++i) {
+        const int n = view_.link_vertex(static_cast<int>(i));
+        const std::uint64_t code = n < view_.vertices() ? vertices_[numbered_[n]].code
+                                                        : view_.foreign_code(n);
+        link_outside(border_[i], {code, view_.link_part(static_cast<int>(i))});
+    }
 }
 
 template <int D> void Cache<D>::link_outside(Link link, const Key &beyond) {
@@ -190,25 +215,6 @@ template <int D> void Cache<D>::link_outside(Link link, const Key &beyond) {
         throw_corrupted("A link has the key of another simplex than its neighbour.");
     visible_.remove(number);
     connect(owner, link);
-}
-
-template <int D>
-void Cache<D>::check_border(const PageView<D> &view, Handle first) const {
-    // The vertices of the facets on the border, and only they, come first in the page.
-    std::array<bool, block_slots<D> *(D + 1)> on_border{};
-    int border_vertices = 0;
-    for (const Link link : border_) {
-        const std::uint32_t *corner = &corners_[(link_simplex(link) - first) * (D + 1)];
-        for (int i = 0; i <= D; ++i) {
-            if (i == link_facet(link) || corner[i] >= numbered_.size()) continue;
-            if (static_cast<int>(corner[i]) >= view.border_vertices())
-                throw_corrupted("A page counts a vertex on its border as an inner one.");
-            border_vertices += !on_border[corner[i]];
-            on_border[corner[i]] = true;
-        }
-    }
-    if (border_vertices != view.border_vertices())
-        throw_corrupted("A page counts an inner vertex as one on its border.");
 }
 
 template <int D> bool Cache<D>::leads_to(const Key &link, Handle h) const {

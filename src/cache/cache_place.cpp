@@ -16,6 +16,7 @@ namespace abacus {
 //   Otherwise the block is cut at the median key.
 namespace {
 constexpr double sequential_from = 0.5;
+constexpr unsigned measured_each = 32; // full blocks
 constexpr double dissolve_to = 0.93;
 constexpr double sparse = 0.5;
 } // namespace
@@ -92,6 +93,12 @@ template <int D> std::size_t Cache<D>::cut_near(std::size_t wanted) {
 }
 
 template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
+    // A page is made now and then only to see how large it is, so that much is known before
+    // the first is written.
+    if (full_blocks_++ % measured_each == 0) {
+        encode(b);
+        if (blocks_[b].count < capacity_) return;
+    }
     collect_places(b);
     const auto ahead = std::partition(places_.begin(), places_.end(),
                                       [&](const Place &p) { return p.key.code < code; });

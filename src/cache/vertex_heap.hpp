@@ -108,6 +108,7 @@ public:
     };
 
     void acquire(VertexIndex v) { ++vertices_[v].references; }
+    void acquire(VertexIndex v, std::uint32_t times) { vertices_[v].references += times; }
     /// Does not free the vertex, even without references: an insertion takes all
     /// references away before it makes new ones.
     void release(VertexIndex v) { --vertices_[v].references; }
@@ -136,6 +137,10 @@ public:
         }
     }
 
+    void prefetch_id(VertexIndex v) const {
+        __builtin_prefetch(&ids_[v]);
+        if (attributes_ != 0) __builtin_prefetch(attributes(v));
+    }
     /// Two steps of find_shared() or share() in advance, for many points at once.
     void prefetch_slot(const Point<D> &p) const { __builtin_prefetch(&table_[hash(p)]); }
     void prefetch_vertex(const Point<D> &p) const {

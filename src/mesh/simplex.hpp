@@ -33,7 +33,7 @@ constexpr int link_facet(Link link) { return static_cast<int>(link & 3); }
 constexpr bool is_absent(Link link) { return (link & absent) != 0; }
 
 /// Slots of a block: more than a page of simplices can fill.
-template <int D> inline constexpr std::uint32_t block_slots = D == 2 ? 448 : 384;
+template <int D> inline constexpr std::uint32_t block_slots = D == 2 ? 1024 : 768;
 template <int D> constexpr std::uint32_t block_of(Handle h) { return h / block_slots<D>; }
 
 template <int D> struct Simplex {

@@ -3,8 +3,7 @@
 // A look at the header and three passes, each independent of how the mesh was made:
 //
 //   header    the counts do not contradict each other; in 2D, Euler's relation holds
-//   pages     every page decodes and is as the core writes it, its box included; the
-//             intervals partition the curve; each simplex is in the page that owns its
+//   pages     every page decodes and has the checksum of its bytes; the intervals partition the curve; each simplex is in the page that owns its
 //             key and positively oriented; the counts add up
 //   topology  every link leads, by its stored key, to the simplex with the same facet
 //             in the opposite orientation; pages agree about the vertices they share;
@@ -14,7 +13,8 @@
 //             whole; the counts add up
 //
 // What is stored once, the ids, attributes and places of points, nothing else in the
-// database repeats.
+// database repeats: that it is changed in a simplex page only the checksum tells. The other
+// passes don't depend on that, and tell what else has changed.
 //
 // Locally Delaunay across every facet, with a convex hull and in one piece, is globally
 // Delaunay (Delaunay 1934), and under the perturbation unique. That it is in one piece
@@ -51,7 +51,6 @@ private:
     void check_header();
     void check_pages();
     void check_page(const PageView<D> &page);
-    void check_vertices(const PageView<D> &page);
     void check_simplices(const PageView<D> &page);
     void check_topology();
     void check_simplex(Cache<D> &cache, Handle h);
@@ -74,6 +73,7 @@ private:
     Key at_key_{}; // page at hand
     std::uint64_t pages_ = 0;
     std::uint64_t simplices_ = 0, ghosts_ = 0;
+    std::size_t unsealed_ = 0; // pages with a wrong checksum and no other fault so far
 };
 
 } // namespace abacus

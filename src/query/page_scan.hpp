@@ -7,7 +7,7 @@
 #include "host/host.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <cstring>
 
 namespace abacus {
 
@@ -33,11 +33,16 @@ public:
         return true;
     }
     void parse() {
-        view_.emplace(PageView<D>::parse(copy_, size_, static_cast<int>(attributes_)));
+        view_.read(copy_, size_, static_cast<int>(attributes_));
+    }
+    /// The same whatever the checksum is; false if that is wrong.
+    bool parse_unsealed() {
+        view_.read(copy_, size_, static_cast<int>(attributes_), PageView<D>::Checksum::ignore);
+        return page_is_sealed(copy_, size_);
     }
     /// Key under which the page at hand is stored.
     const Key &key() const { return key_; }
-    const PageView<D> &page() const { return *view_; }
+    const PageView<D> &page() const { return view_; }
 
 private:
     const Host &host_;
@@ -45,7 +50,7 @@ private:
     bool started_ = false;
     Key key_{};
     std::size_t size_ = 0;
-    std::optional<PageView<D>> view_;
+    PageView<D> view_;
     alignas(8) unsigned char copy_[ABACUS_PAGE_BYTES];
 };
 

@@ -117,12 +117,8 @@ private:
         return std::sqrt(sum / (n * (n - 1) / 2));
     }
 
-    // As many vertices as fit into a page.
-    static constexpr std::size_t most_vertices =
-        ABACUS_PAGE_BYTES / (sizeof(std::int64_t) + sizeof(Point<3>));
-
     Plane plane_;
-    std::array<Place, most_vertices> places_;
+    std::array<Place, page_vertices<3>> places_;
 };
 
 /// Shows everything in the window to `picture`, an Extent or a Canvas.

@@ -11,11 +11,9 @@
 namespace abacus {
 
 template <int D>
-Reader<D>::Reader(const Host &host, const abacus_header &header, std::size_t cache_bytes,
-                  bool verify_links)
+Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOptions &options)
     : size_(header.simplices == 0 ? 0 : header.simplices + header.ghosts),
-      cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
-             CacheOptions{.budget = cache_bytes, .verify_links = verify_links}),
+      cache_(host, domain_of<D>(header), static_cast<int>(header.attributes), options),
       walk_(cache_) {}
 
 template <int D> Handle Reader<D>::find(const Point<D> &p) {

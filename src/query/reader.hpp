@@ -10,8 +10,9 @@ namespace abacus {
 
 template <int D> class Reader {
 public:
-    Reader(const Host &host, const abacus_header &header, std::size_t cache_bytes,
-           bool verify_links = false);
+    Reader(const Host &host, const abacus_header &header, std::size_t cache_bytes)
+        : Reader(host, header, CacheOptions{.budget = cache_bytes}) {}
+    Reader(const Host &host, const abacus_header &header, const CacheOptions &options);
 
     /// The simplex that contains p; of several, the first by comes_before(). False
     /// outside the hull.

@@ -3,6 +3,7 @@
 // call has to end with a clean status, in bounded time and without a leak.
 #pragma once
 
+#include "cache/page_format.hpp"
 #include "support/memory_host.hpp"
 
 #include <bit>
@@ -264,6 +265,13 @@ template <class Pages> void damage(Pages &pages, Bytes &input) {
         }
         }
     }
+}
+
+/// Gives damaged simplex pages the checksums of their bytes: behind a wrong one nothing
+/// would be looked at.
+template <class Pages> void seal(Pages &pages) {
+    for (auto &[key, page] : pages)
+        if (page.size >= checksum_bytes) seal_page(page.bytes(), page.size);
 }
 
 /// libFuzzer starts from the files of a folder: those that `seeds` gives go to the first

@@ -16,6 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     const std::size_t cache_bytes = kind & 1 ? 30 << 10 : 1 << 20;
     with_copy(kind & 2 ? 3 : 2, cache_bytes, [&](Mesh &mesh) {
         damage(mesh.host.pages, input);
+        if (!(kind & 4)) seal(mesh.host.pages);
         mesh.do_everything();
     });
     return 0;

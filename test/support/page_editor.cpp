@@ -1,25 +1,32 @@
 #include "support/page_editor.hpp"
 
+#include "cache/domain_of.hpp"
+#include "cache/page_writer.hpp"
+
 #include <algorithm>
-#include <cstring>
-#include <limits>
+#include <map>
 #include <stdexcept>
 
 namespace abacus::test {
 
-PageEditor::PageEditor(const MemoryHost::Page &page) {
-    const auto *bytes = reinterpret_cast<const unsigned char *>(page.words.data());
-    std::memcpy(&header, bytes, sizeof header);
-    const auto view = PageView<2>::parse(bytes, page.size, header.attributes);
-    for (int i = 0; i < 4; ++i) box[i] = view.box(i);
+PageEditor::PageEditor(const MemoryHost::Page &page, const abacus_header &mesh)
+    : domain(domain_of<2>(mesh)), attribute_count(static_cast<int>(mesh.attributes)) {
+    PageView<2> view;
+    view.read(reinterpret_cast<const unsigned char *>(page.words.data()), page.size,
+              attribute_count);
+    lower = view.lower();
+    upper = view.upper();
     for (int v = 0; v < view.vertices(); ++v) {
         ids.push_back(view.id(v));
         points.push_back(view.point(v));
-        attributes.emplace_back(view.attributes(v), view.attributes(v) + header.attributes);
+        attributes.emplace_back();
+        for (int i = 0; i < attribute_count; ++i)
+            attributes.back().push_back(view.attribute(v, i));
     }
     for (int i = 0; i < view.links(); ++i) {
-        const Key link = view.link(i);
-        links.push_back({link.code, view.has_parts() ? link.part : 0});
+        const int v = view.link_vertex(i);
+        links.push_back({v < view.vertices() ? domain.code(points[v]) : view.foreign_code(v),
+                         view.has_parts() ? view.link_part(i) : 0});
     }
     for (int s = 0; s < view.simplices(); ++s) {
         std::array<int, 3> corners;
@@ -31,46 +38,56 @@ PageEditor::PageEditor(const MemoryHost::Page &page) {
     }
 }
 
-void PageEditor::write(MemoryHost::Page &page, bool keep_box) const {
-    PageHeader h = header;
-    h.simplices = static_cast<std::uint16_t>(simplices.size());
-    h.vertices = static_cast<std::uint16_t>(ids.size());
-    h.links = static_cast<std::uint16_t>(links.size());
-    h.flags = ids.size() > 255 ? PageHeader::wide : 0;
-    for (const Key &link : links)
-        if (link.part != 0) h.flags |= PageHeader::long_links;
-    constexpr double most = std::numeric_limits<double>::infinity();
-    std::array<double, 4> bounds{most, most, -most, -most};
-    for (const Point<2> &p : points)
-        for (int i = 0; i < 2; ++i) {
-            bounds[i] = std::min(bounds[i], p[i]);
-            bounds[2 + i] = std::max(bounds[2 + i], p[i]);
-        }
-    if (keep_box) bounds = box;
-
-    std::vector<unsigned char> bytes;
-    const auto put = [&](const auto &value) {
-        const auto *from = reinterpret_cast<const unsigned char *>(&value);
-        bytes.insert(bytes.end(), from, from + sizeof value);
+std::vector<Link> PageEditor::across_facets(const std::vector<std::uint32_t> &corners) const {
+    struct Facet {
+        Link link;
+        bool odd;
     };
-    put(h);
-    put(bounds);
-    for (const std::int64_t id : ids) put(id);
-    for (const Point<2> &p : points) put(p);
-    for (const auto &values : attributes)
-        for (const double value : values) put(value);
-    for (const Key &link : links) put(link.code);
-    if (h.flags & PageHeader::long_links)
-        for (const Key &link : links) put(link.part);
-    for (const auto &corners : simplices)
-        for (const int corner : corners) {
-            const int number = corner == infinity ? h.vertices : corner;
-            if (h.flags & PageHeader::wide)
-                put(static_cast<std::uint16_t>(number));
-            else
-                put(static_cast<std::uint8_t>(number));
+    std::map<std::array<std::uint32_t, 2>, std::vector<Facet>> facets;
+    for (std::size_t s = 0; s < simplices.size(); ++s)
+        for (int i = 0; i < 3; ++i) {
+            const FacetVertices<2, std::uint32_t> facet(&corners[3 * s], i);
+            facets[facet.vertex].push_back({make_link(static_cast<Handle>(s), i), facet.odd});
         }
-    page.assign(bytes.data(), bytes.size());
+    std::vector<Link> across(corners.size(), PageWriter<2>::untold);
+    const auto at = [&](Link link) -> Link & {
+        return across[3 * link_simplex(link) + static_cast<std::size_t>(link_facet(link))];
+    };
+    bool is_sound = true;
+    for (const auto &[vertices, sides] : facets) {
+        is_sound &= sides.size() == 1 || (sides.size() == 2 && sides[0].odd != sides[1].odd);
+        if (sides.size() != 2) continue;
+        at(sides[0].link) = sides[1].link;
+        at(sides[1].link) = sides[0].link;
+    }
+    std::size_t outside = 0;
+    for (Link &link : across)
+        if (link == PageWriter<2>::untold) link = PageWriter<2>::outside(outside++);
+    if (!is_sound || outside != links.size())
+        std::fill(across.begin(), across.end(), PageWriter<2>::untold);
+    return across;
+}
+
+void PageEditor::write(MemoryHost::Page &page) const {
+    MemoryHost memory;
+    const Host host = memory.host();
+    PageWriter<2> writer(host);
+    std::vector<std::uint32_t> corners;
+    for (const auto &simplex : simplices)
+        for (const int corner : simplex)
+            corners.push_back(corner == infinity ? PageWriter<2>::at_infinity
+                                                 : static_cast<std::uint32_t>(corner));
+    const std::vector<Link> across = across_facets(corners);
+    writer.order(corners.data(), across.data(), simplices.size(), ids.size(), ids.size(),
+                 links.size(), attribute_count);
+    for (std::size_t v = 0; v < ids.size(); ++v) {
+        std::vector<double> values = attributes[v];
+        values.resize(static_cast<std::size_t>(attribute_count));
+        writer.set_vertex(v, ids[v], points[v], domain.code(points[v]), values.data());
+    }
+    for (std::size_t i = 0; i < links.size(); ++i) writer.set_link(i, links[i]);
+    if (!writer.finish(lower, upper)) throw std::logic_error("too much for a page");
+    page.assign(writer.bytes(), writer.size());
 }
 
 int PageEditor::number_of(const Point<2> &p) const {
@@ -86,6 +103,16 @@ int PageEditor::neighbour(int simplex, int i) const {
             return s;
     }
     return -1;
+}
+
+int PageEditor::vertex(bool on_border) const {
+    std::vector<bool> border(ids.size());
+    for (int s = 0; s < static_cast<int>(simplices.size()); ++s)
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                if (neighbour(s, i) < 0 && j != i && simplices[s][j] != infinity)
+                    border[simplices[s][j]] = true;
+    return static_cast<int>(std::find(border.begin(), border.end(), on_border) - border.begin());
 }
 
 int PageEditor::link_of(int simplex, int facet) const {

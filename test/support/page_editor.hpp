@@ -2,6 +2,7 @@
 // mesh in ways that leave the page itself well-formed.
 #pragma once
 
+#include "geometry/locational_code.hpp"
 #include "cache/page_format.hpp"
 #include "support/memory_host.hpp"
 
@@ -13,25 +14,33 @@ namespace abacus::test {
 struct PageEditor {
     static constexpr int infinity = -1; // corner at infinity
 
-    explicit PageEditor(const MemoryHost::Page &page);
-    /// Puts the page together: counts and flags follow from the arrays, the box from the
-    /// vertices unless `keep_box`.
-    void write(MemoryHost::Page &page, bool keep_box = false) const;
+    PageEditor(const MemoryHost::Page &page, const abacus_header &mesh);
+    /// Puts the page together, checksum included. The links are those of the facets that find
+    /// no partner, in order. A page that is not sound any more may take more bytes, for then
+    /// each simplex has to name its vertices.
+    void write(MemoryHost::Page &page) const;
 
     int number_of(const Point<2> &p) const;
+    /// A vertex on the border of the page, or one that no other page has.
+    int vertex(bool on_border) const;
     bool is_ghost(int simplex) const { return simplices[simplex][2] == infinity; }
     /// The neighbour inside the page across facet i; -1 if it is in another one.
     int neighbour(int simplex, int i) const;
     /// Index in `links` of the link across facet i, which leads to another page.
     int link_of(int simplex, int i) const;
 
-    PageHeader header;
-    std::array<double, 4> box;
+    Domain<2> domain;
+    Key lower, upper;
+    int attribute_count;
     std::vector<std::int64_t> ids;
     std::vector<Point<2>> points;
     std::vector<std::vector<double>> attributes;
     std::vector<Key> links; // with their parts, 0 if the page has none
     std::vector<std::array<int, 3>> simplices;
+
+private:
+    /// What PageWriter is told of each facet.
+    std::vector<Link> across_facets(const std::vector<std::uint32_t> &corners) const;
 };
 
 } // namespace abacus::test

@@ -77,14 +77,14 @@ public:
     MemoryHost::Page &middle() { return page(mesh.host.pages.size() / 2); }
     /// Changes a page, taken apart.
     void edit(MemoryHost::Page &page, const std::function<void(PageEditor &)> &change) {
-        PageEditor editor(page);
+        PageEditor editor(page, mesh.header);
         change(editor);
         editor.write(page);
     }
     /// Changes every page that has the vertex at p: change(page, vertex number).
     void edit_vertex(const Point<2> &p, const std::function<void(PageEditor &, int)> &change) {
         for (auto &[key, page] : mesh.host.pages) {
-            PageEditor editor(page);
+            PageEditor editor(page, mesh.header);
             const int v = editor.number_of(p);
             if (v < 0) continue;
             change(editor, v);

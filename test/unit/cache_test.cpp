@@ -52,7 +52,7 @@ abacus_counters insert(Mesh &mesh, const std::vector<Point<2>> &points,
 /// Makes all links of the stored pages say nothing of their neighbours.
 void forget_links(Mesh &mesh) {
     for (auto &[key, page] : mesh.host.pages) {
-        PageEditor editor(page);
+        PageEditor editor(page, mesh.header);
         for (Key &link : editor.links) link = {unknown_code, 0};
         editor.write(page);
     }
@@ -120,7 +120,7 @@ TEST(Cache, TellsALinkToTheWrongPlaceFromAMissingOne) {
     ASSERT_EQ(mesh.stage(number(unit_square_points(2500, 5))), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK);
     for (auto &[key, page] : mesh.host.pages) {
-        PageEditor editor(page);
+        PageEditor editor(page, mesh.header);
         for (Key &link : editor.links) link.code = 0;
         editor.write(page);
     }
@@ -186,7 +186,7 @@ TEST(Cache, CarriesAttributesThroughPagesBitForBit) {
         EXPECT_EQ(mesh.positions(), cgal_simplices<2>(points));
         EXPECT_GT(mesh.header.counters.rewrites, 0u);
         for (const auto &[key, page] : mesh.host.pages) {
-            const PageEditor editor(page);
+            const PageEditor editor(page, mesh.header);
             for (std::size_t v = 0; v < editor.ids.size(); ++v) {
                 const Input &input = *expected.at(editor.points[v]);
                 EXPECT_EQ(editor.ids[v], input.id);

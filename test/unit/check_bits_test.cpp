@@ -25,7 +25,7 @@ template <class Pages> void flip_bits(Patient &patient, Pages &pages, int flips,
     }
 }
 
-TEST(CheckBits, DISABLED_FindsEveryFlippedBitOfASinglePage) {
+TEST(CheckBits, FindsEveryFlippedBitOfASinglePage) {
     Patient patient(25, 1);
     ASSERT_EQ(patient.mesh.host.pages.size(), 1u);
     const std::size_t size = patient.page().size;
@@ -36,14 +36,14 @@ TEST(CheckBits, DISABLED_FindsEveryFlippedBitOfASinglePage) {
     }
 }
 
-TEST(CheckBits, DISABLED_FindsFlippedBitsAnywhere) {
+TEST(CheckBits, FindsFlippedBitsAnywhere) {
     Patient plain(800, 0), small_cache(800, 1, 40 << 10), wide(60, 100);
     for (Patient *patient : {&plain, &small_cache, &wide}) {
         flip_bits(*patient, patient->mesh.host.pages, 150, 3);
     }
 }
 
-TEST(CheckBits, DISABLED_FindsFlippedBitsInPagesThatShareACode) {
+TEST(CheckBits, FindsFlippedBitsInPagesThatShareACode) {
     // Clusters below the resolution of the codes: links have parts.
     std::vector<Input> points = random_points(1500, 0);
     for (Input &input : points) {

@@ -1,0 +1,180 @@
+// Columns: arrays of 64-bit words, of which a page stores only the bits in which they
+// differ.
+//
+// A word is base + (delta << shift), and a delta takes `width` bits, one after the other.
+// In a page a column is
+//
+//   width    1 byte, 0 to 64
+//   shift    1 byte; with has_base added, when there is a base that is not 0
+//   base     8 bytes, if so
+//   deltas   width bits each, from the least significant bit of the first byte on
+//
+// Words are found in place, without reading those before: one unaligned load, a shift and
+// a mask. A load reads up to 7 bytes beyond the column: a page ends with 8 others.
+//
+// Doubles are stored by their rank among all doubles (ordered()), so that near values have
+// near words, whatever they are; points of a page share sign, exponent and the first bits
+// of the mantissa, and those on a grid end with zeros.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace abacus {
+
+/// Rank of a double among all: the order of words is that of the doubles.
+constexpr std::uint64_t ordered(double x) {
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    return bits >> 63 ? ~bits : bits | 1ull << 63;
+}
+constexpr double from_ordered(std::uint64_t rank) {
+    return std::bit_cast<double>(rank >> 63 ? rank & ~(1ull << 63) : ~rank);
+}
+
+constexpr std::size_t bits_to_bytes(std::size_t bits) { return (bits + 7) / 8; }
+
+/// Equally wide fields of bits, read in place.
+class BitFields {
+public:
+    BitFields() = default;
+    BitFields(const unsigned char *bytes, int width)
+        : bytes_(bytes), width_(static_cast<unsigned>(width)),
+          mask_(width == 0 ? 0 : ~0ull >> (64 - width)) {}
+
+    std::uint64_t operator[](std::size_t i) const {
+        const std::size_t bit = i * width_;
+        const unsigned char *at = bytes_ + (bit >> 3);
+        const unsigned offset = bit & 7;
+        std::uint64_t word;
+        std::memcpy(&word, at, sizeof word);
+        word >>= offset;
+        if (offset + width_ > 64) word |= std::uint64_t(at[8]) << (64 - offset);
+        return word & mask_;
+    }
+    unsigned width() const { return width_; }
+
+private:
+    const unsigned char *bytes_ = nullptr;
+    unsigned width_ = 0;
+    std::uint64_t mask_ = 0;
+};
+
+class Column {
+public:
+    static constexpr unsigned has_base = 128;
+
+    Column() = default;
+    /// Takes a column of n words off the bytes from `at` to `end`; false if that is none.
+    bool read(const unsigned char *&at, const unsigned char *end, std::size_t n) {
+        if (end - at < 2) return false;
+        const unsigned width = at[0], shift = at[1] & ~has_base;
+        const bool based = (at[1] & has_base) != 0;
+        if (width + shift > 64 || shift == 64) return false;
+        const std::size_t size = 2 + 8 * based + bits_to_bytes(n * width);
+        if (static_cast<std::size_t>(end - at) < size) return false;
+        base_ = 0;
+        if (based) std::memcpy(&base_, at + 2, sizeof base_);
+        fields_ = {at + 2 + 8 * based, static_cast<int>(width)};
+        shift_ = shift;
+        at += size;
+        // What is always the same has one form.
+        return (base_ != 0 || !based) && (width != 0 || shift == 0);
+    }
+
+    std::uint64_t operator[](std::size_t i) const { return base_ + (fields_[i] << shift_); }
+    /// Whether not all words are 0.
+    bool is_not_zero() const { return base_ != 0 || fields_.width() != 0; }
+
+private:
+    BitFields fields_;
+    std::uint64_t base_ = 0;
+    unsigned shift_ = 0;
+};
+
+/// Puts bits one after the other into bytes. Writes up to 8 bytes beyond them.
+class BitWriter {
+public:
+    explicit BitWriter(unsigned char *at) : at_(at) {}
+
+    /// `value` has no bits beyond `width`, 0 to 64.
+    void put(std::uint64_t value, unsigned width) {
+        if (width > 56) {
+            put_short(value & 0xffffffffu, 32);
+            put_short(value >> 32, width - 32);
+        } else {
+            put_short(value, width);
+        }
+    }
+    /// Fills up the last byte; returns the end.
+    unsigned char *close() const {
+        std::memcpy(at_, &word_, sizeof word_);
+        return at_ + (fill_ != 0);
+    }
+
+private:
+    void put_short(std::uint64_t value, unsigned width) {
+        word_ |= value << fill_;
+        std::memcpy(at_, &word_, sizeof word_);
+        fill_ += width;
+        at_ += fill_ >> 3;
+        word_ >>= fill_ & ~7u;
+        fill_ &= 7;
+    }
+
+    unsigned char *at_;
+    std::uint64_t word_ = 0; // begun bytes
+    unsigned fill_ = 0;      // bits of them, below 8
+};
+
+/// How an array of words is stored.
+class ColumnPlan {
+public:
+    ColumnPlan() = default;
+    ColumnPlan(const std::uint64_t *words, std::size_t n) : count_(n) {
+        std::uint64_t least = n > 0 ? words[0] : 0, any = 0, deltas = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            least = words[i] < least ? words[i] : least;
+            any |= words[i];
+        }
+        for (std::size_t i = 0; i < n; ++i) deltas |= words[i] - least;
+        fit(deltas);
+        base_ = least;
+        // A base costs 8 bytes, and may not be worth them.
+        ColumnPlan plain;
+        plain.count_ = n;
+        plain.fit(any);
+        if (plain.size() <= size()) *this = plain;
+    }
+
+    std::size_t size() const { return 2 + (base_ != 0 ? 8 : 0) + bits_to_bytes(count_ * width_); }
+
+    /// Writes the same words; returns the end.
+    unsigned char *write(const std::uint64_t *words, unsigned char *at) const {
+        *at++ = static_cast<unsigned char>(width_);
+        *at++ = static_cast<unsigned char>(shift_ | (base_ != 0 ? Column::has_base : 0));
+        if (base_ != 0) {
+            std::memcpy(at, &base_, sizeof base_);
+            at += sizeof base_;
+        }
+        if (width_ == 0) return at;
+        const ColumnPlan plan = *this; // in registers: what is written may be anywhere
+        BitWriter bits(at);
+        for (std::size_t i = 0; i < plan.count_; ++i)
+            bits.put((words[i] - plan.base_) >> plan.shift_, plan.width_);
+        return bits.close();
+    }
+
+private:
+    void fit(std::uint64_t deltas) {
+        shift_ = deltas == 0 ? 0 : static_cast<unsigned>(std::countr_zero(deltas));
+        width_ = static_cast<unsigned>(std::bit_width(deltas >> shift_));
+    }
+
+    std::uint64_t base_ = 0;
+    std::size_t count_ = 0;
+    unsigned width_ = 0, shift_ = 0;
+};
+
+} // namespace abacus
