@@ -291,8 +291,9 @@ private:
     /// Removes the block's page, if it is stored.
     void erase_page(BlockIndex b);
     /// Fills a block that is to be written from the next one on the curve, if that was never
-    /// stored and may_take(it): so that pages are full from the beginning of the curve on.
-    template <class MayTake> void fill_up(BlockIndex b, MayTake may_take);
+    /// stored and, with `only_leaving`, is to be written too: so that pages are full from the
+    /// beginning of the curve on.
+    void fill_up(BlockIndex b, bool only_leaving);
     /// Cuts the block, whose simplices from places_[cut] on, and no others, have keys from
     /// `border` on; returns the new block, the upper part.
     BlockIndex split_at(BlockIndex b, std::size_t cut, const Key &border);
@@ -384,37 +385,6 @@ private:
     std::uint32_t epoch_ = 0;       // of facets_
     std::array<bool, page_vertices<D>> on_border_; // of the page being loaded
 };
-
-template <int D>
-template <class MayTake>
-void Cache<D>::fill_up(BlockIndex b, MayTake may_take) {
-    const BlockIndex next = directory_.after(blocks_[b].lower);
-    if (next == no_block || !blocks_[b].dirty || blocks_[b].count >= capacity_) return;
-    const Key border = blocks_[b].upper, upper = blocks_[next].upper;
-    if (!(blocks_[next].lower == border) || blocks_[next].location != 0 ||
-        blocks_[b].has_parts() || blocks_[next].has_parts() || !may_take(blocks_[next]))
-        return;
-    const std::size_t room = capacity_ - blocks_[b].count;
-    collect_places(next);
-    std::size_t cut = places_.size();
-    if (cut > room) cut = cut_near(room);
-    if (cut > room) return;
-    const std::uint64_t used = blocks_[b].used_at, next_used = blocks_[next].used_at;
-    const bool is_whole = cut == places_.size();
-    const Key moved = is_whole ? upper : places_[cut].key;
-    for (std::size_t i = 0; i < cut; ++i) move(places_[i].handle, b);
-    directory_.erase(border);
-    blocks_[b].own(blocks_[b].lower, moved);
-    blocks_[b].used_at = used; // no more in use than before
-    if (is_whole) {
-        free_block(next);
-        ++counters.merges;
-    } else {
-        blocks_[next].own(moved, upper);
-        blocks_[next].used_at = next_used;
-        directory_.insert(moved, next);
-    }
-}
 
 template <int D>
 template <class Match>

@@ -84,7 +84,7 @@ template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
     for (const BlockIndex b : victims) blocks_[b].leaving = true;
     for (const BlockIndex b : victims)
         if (blocks_[b].state == Block::cached && !dissolve(b))
-            fill_up(b, [](const Block &next) { return next.leaving; });
+            fill_up(b, true);
     const auto is_gone = [&](BlockIndex b) { return blocks_[b].state != Block::cached; };
     victims.resize(static_cast<std::size_t>(
         std::remove_if(victims.begin(), victims.end(), is_gone) - victims.begin()));
@@ -151,11 +151,12 @@ template <int D> void Cache<D>::unlink(BlockIndex b) {
 template <int D> void Cache<D>::flush() {
     counters.peak_bytes = std::max<std::uint64_t>(counters.peak_bytes, bytes());
     for (Key key = first_key;;) {
-        const BlockIndex b = directory_.contains(key) ? directory_.floor(key) : directory_.after(key);
+        const BlockIndex b =
+            directory_.contains(key) ? directory_.floor(key) : directory_.after(key);
         if (b == no_block) break;
         key = blocks_[b].lower;
         if (dissolve(b)) continue; // perhaps into the next one, under the same key
-        fill_up(b, [](const Block &) { return true; });
+        fill_up(b, false);
         key = blocks_[b].upper;
     }
     bool changed = true;

@@ -161,6 +161,37 @@ template <int D> bool Cache<D>::dissolve(BlockIndex b) {
     return true;
 }
 
+template <int D> void Cache<D>::fill_up(BlockIndex b, bool only_leaving) {
+    const BlockIndex next = directory_.after(blocks_[b].lower);
+    if (next == no_block || !blocks_[b].dirty || blocks_[b].count >= capacity_) return;
+    const Key border = blocks_[b].upper, upper = blocks_[next].upper;
+    if (!(blocks_[next].lower == border) || blocks_[next].location != 0 ||
+        blocks_[b].has_parts() || blocks_[next].has_parts() ||
+        (only_leaving && !blocks_[next].leaving))
+        return;
+    const std::size_t room = capacity_ - blocks_[b].count;
+    if (room < capacity_ / 16) return; // not worth it
+    collect_places(next);
+    std::size_t cut = places_.size();
+    if (cut > room) cut = cut_near(room);
+    if (cut > room) return;
+    const std::uint64_t used = blocks_[b].used_at, next_used = blocks_[next].used_at;
+    const bool is_whole = cut == places_.size();
+    const Key moved = is_whole ? upper : places_[cut].key;
+    for (std::size_t i = 0; i < cut; ++i) move(places_[i].handle, b);
+    directory_.erase(border);
+    blocks_[b].own(blocks_[b].lower, moved);
+    blocks_[b].used_at = used; // no more in use than before
+    if (is_whole) {
+        free_block(next);
+        ++counters.merges;
+    } else {
+        blocks_[next].own(moved, upper);
+        blocks_[next].used_at = next_used;
+        directory_.insert(moved, next);
+    }
+}
+
 template <int D> void Cache<D>::erase_page(BlockIndex b) {
     Block &block = blocks_[b];
     if (block.location == 0) return;
