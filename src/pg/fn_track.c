@@ -228,8 +228,8 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("mesh \"%s\" does not hold the points of table \"%s\"", get_rel_name(mesh),
 						RelationGetRelationName(table)),
-				 errdetail(UINT64_FORMAT " points of the table are not in the mesh, " UINT64_FORMAT
-						   " points of the mesh are not in the table.", missing, surplus),
+				 errdetail("Points that the mesh lacks: " UINT64_FORMAT "; points that it has too many: "
+						   UINT64_FORMAT ".", missing, surplus),
 				 errhint("With synchronize => true they are inserted and deleted.")));
 	return missing + surplus > 0;
 }

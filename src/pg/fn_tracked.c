@@ -78,8 +78,8 @@ follow(const TriggerData *trigger, Transition *transition)
 					 errmsg("mesh \"%s\" is not in step with table \"%s\"",
 							RelationGetRelationName(change->writer.host->store.simplices.heap),
 							RelationGetRelationName(trigger->tg_relation)),
-					 errdetail("Of " UINT64_FORMAT " points to delete it has only " UINT64_FORMAT ".",
-							   gone, deleted),
+					 errdetail("Points to delete: " UINT64_FORMAT "; found: " UINT64_FORMAT ".", gone,
+							   deleted),
 					 errhint("Bring it in step with abacus_track(mesh, table, synchronize => true).")));
 	}
 	change_end(change);

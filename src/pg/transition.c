@@ -18,6 +18,7 @@
 #include "access/tupdesc.h"
 #include "executor/executor.h"
 #include "executor/tuptable.h"
+#include "miscadmin.h"
 #include "utils/builtins.h"
 #include "utils/datum.h"
 #include "utils/lsyscache.h"
@@ -141,6 +142,7 @@ advance(Transition *transition)
 	bool		was = fetch_row(old);
 	bool		is = fetch_row(new);
 
+	CHECK_FOR_INTERRUPTS();
 	old->counts = was && is_point(transition, old->slot);
 	new->counts = is && is_point(transition, new->slot);
 	if (old->counts && new->counts && is_same_point(transition))
