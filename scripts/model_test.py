@@ -26,7 +26,8 @@ import sys
 import time
 
 SENTINEL = "---- done ----"
-MOST_POINTS = {2: 8000, 3: 3000}
+MOST_POINTS = {2: 20000, 3: 6000}  # enough to overflow a cache of 1 MB
+BEGINNINGS = (1, 10, 100, 1000, 12000)
 EXPECTED = ("injected failure", "out of memory", "lock timeout")
 SIZES = (1, 1, 1, 2, 5, 20, 100, 600)
 
@@ -144,6 +145,11 @@ class World:
             self.next_id += 1
         return rows
 
+    def copy(self, table, rows):
+        """COPY of the rows."""
+        lines = "\n".join("\t".join("\\N" if v == "NULL" else v for v in row) for row in rows)
+        return f"COPY {table} ({self.columns}) FROM STDIN;\n{lines}\n\\."
+
     def values(self, rows):
         """The rows as SQL that gives columns of the right types."""
         types = ["bigint"] + ["float8"] * (self.dimension + 1)
@@ -191,8 +197,7 @@ class World:
         if kind in ("insert", "copy"):
             rows = self.fresh(count)
             if kind == "copy":
-                lines = "\n".join("\t".join("\\N" if v == "NULL" else v for v in row) for row in rows)
-                return [f"COPY tracked ({self.columns}) FROM STDIN;\n{lines}\n\\."]
+                return [self.copy("tracked", rows)]
             return [f"INSERT INTO tracked ({self.columns}) {self.values(rows)};"]
         if kind == "delete":
             return [f"DELETE FROM tracked WHERE id IN {chosen};"]
@@ -344,7 +349,7 @@ class World:
         if oracle.returncode != 0:
             raise Failure(f"{mesh} is not CGAL's:\n{oracle.stdout}")
 
-    def run(self):
+    def run(self, end):
         coordinates = ", ".join(f"{a} float8" for a in self.axes)
         domain = ""
         if self.chance.random() < 0.5:
@@ -356,9 +361,15 @@ class World:
             create.append(f"SELECT abacus_create('{mesh}', {self.dimension}, '{{h}}'{domain});")
         self.session.run("DROP TABLE IF EXISTS model, tracked, mesh, followed;\n"
                          "SET client_min_messages = warning;\n" + "\n".join(create))
-        self.session.run(f"INSERT INTO tracked ({self.columns}) {self.values(self.fresh(self.chance.choice(SIZES)))};")
+        for table in ("tracked", "model"):
+            count = self.chance.choice(BEGINNINGS) // (1 if self.dimension == 2 else 3)
+            if count > 0:
+                self.session.run(self.copy(table, self.fresh(count)))
         self.session.run("SELECT abacus_track('followed', 'tracked');")
+        self.session.run(f"SELECT abacus_insert('mesh', 'SELECT {self.columns} FROM model');")
         for _ in range(self.steps):
+            if time.monotonic() > end:
+                break
             self.step()
         if self.savepoints is not None:
             self.session.run("COMMIT;")
@@ -366,6 +377,9 @@ class World:
         self.session.run("SELECT abacus_triangulate('mesh');")
         self.look()
         self.session.run("SELECT abacus_track('followed', 'tracked');")  # verifies, too
+        for mesh in ("mesh", "followed"):
+            self.done["evictions"] += int(float(self.session.run(
+                f"SELECT value FROM abacus_stats('{mesh}') WHERE name = 'evictions';")))
 
     def close(self, keep):
         self.session.close()
@@ -386,14 +400,14 @@ def main():
     parser.add_argument("--folder", required=True)
     options = parser.parse_args()
     done = collections.Counter()
-    end = time.monotonic() + options.seconds
+    end = time.monotonic() + options.seconds if options.world is None else float("inf")
     first = options.world if options.world is not None else 1
     last = options.world if options.world is not None else options.worlds
     print(f"seed {options.seed}", flush=True)
     for number in range(first, last + 1):
         world = World(options.seed, number, options, done)
         try:
-            world.run()
+            world.run(end)
         except Failure as failure:
             world.close(keep=True)
             print(f"{failure}\nFAILED: seed {options.seed}, world {number}: run again with "

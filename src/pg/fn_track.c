@@ -15,7 +15,6 @@
 #include "access/xact.h"
 #include "catalog/pg_class.h"
 #include "catalog/pg_inherits.h"
-#include "catalog/pg_type.h"
 #include "miscadmin.h"
 #include "parser/parse_func.h"
 #include "utils/acl.h"
@@ -114,16 +113,15 @@ column_names(ArrayType *given, const abacus_header *header, Relation table)
 
 	if (given != NULL)
 	{
-		Datum	   *elements;
-		bool	   *nulls;
 		int			count;
+		Datum	   *elements = shape_names(given, "columns", &count);
 
-		deconstruct_array(given, TEXTOID, -1, false, TYPALIGN_INT, &elements, &nulls, &count);
-		if (ARR_NDIM(given) > 1 || array_contains_nulls(given) || count != wanted)
+		if (count != wanted)
 			ereport(ERROR,
 					(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
-					 errmsg("columns must be an array of %d names", wanted),
-					 errdetail("Of id, coordinates and attributes, as in a source query.")));
+					 errmsg("columns has %d elements, but points of the mesh have %d", count,
+							wanted),
+					 errdetail("They are id, coordinates and attributes, as in a source query.")));
 		for (int i = 0; i < count; i++)
 			names = lappend(names, TextDatumGetCString(elements[i]));
 	}
