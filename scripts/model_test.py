@@ -25,6 +25,8 @@ import subprocess
 import sys
 import time
 
+from model_places import Places
+
 SENTINEL = "---- done ----"
 MOST_POINTS = {2: 20000, 3: 6000}  # enough to overflow a cache of 1 MB
 BEGINNINGS = (1, 10, 100, 1000, 12000)
@@ -71,40 +73,6 @@ class Session:
         self.psql.wait()
 
 
-class Places:
-    """Random places of a kind."""
-
-    KINDS = ("uniform", "grid", "few", "flat", "clusters", "exponents", "sphere")
-
-    def __init__(self, chance, dimension):
-        self.chance = chance
-        self.dimension = dimension
-        self.centres = [[chance.uniform(-1, 1) for _ in range(dimension)] for _ in range(3)]
-
-    def place(self, kind):
-        """A place, as a list of coordinates."""
-        chance, axes = self.chance, range(self.dimension)
-        if kind == "grid":
-            return [chance.randrange(24) for _ in axes]
-        if kind == "few":
-            return [chance.randrange(3) for _ in axes]
-        if kind == "flat":
-            place = [chance.randrange(-20, 20) / 4 for _ in axes]
-            place[-1] = 2 * place[0] + 1
-            return place
-        if kind == "clusters":
-            return [c + chance.gauss(0, 1e-9) for c in chance.choice(self.centres)]
-        if kind == "exponents":
-            return [chance.choice((-1, 1)) * 10.0 ** chance.randrange(-120, 120) for _ in axes]
-        if kind == "sphere":  # whole numbers on one circle, or sphere
-            place = chance.choice(([3, 4, 0], [5, 0, 0], [0, 3, 4]))[:self.dimension]
-            if self.dimension == 2:
-                place = list(chance.choice(((3, 4), (5, 0), (4, 3), (0, 5))))
-            chance.shuffle(place)
-            return [chance.choice((-1, 1)) * x for x in place]
-        return [chance.uniform(0, 1) for _ in axes]
-
-
 class World:
     """Two meshes, their tables, and the session that changes them."""
 
@@ -135,11 +103,12 @@ class World:
                 f"ORDER BY hashint8extended(id, {self.chance.randrange(2**31)}), id LIMIT {count}")
 
     def fresh(self, count):
-        """Rows of new points, as lists of words; some NULL or negative zero."""
+        """Rows of new points, as lists of words; with some attributes NULL, some zeros negative."""
         rows = []
         for _ in range(count):
             kind = self.kind if self.chance.random() < 0.9 else self.chance.choice(Places.KINDS)
-            place = [repr(float(x)) for x in self.places.place(kind)]
+            place = [repr(float(x)) if x != 0 or self.chance.random() < 0.7 else "-0.0"
+                     for x in self.places.place(kind)]
             attribute = "NULL" if self.chance.random() < 0.1 else str(self.chance.randrange(100))
             rows.append([str(self.next_id)] + place + [attribute])
             self.next_id += 1

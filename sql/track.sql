@@ -187,6 +187,14 @@ SELECT abacus_track('flat', 'others', '{id,x,nothing}');
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_track('flat', 'wells', '{id,x,name}');
 \echo :LAST_ERROR_SQLSTATE
+SELECT abacus_create('pg_temp.passing', 2);
+SELECT abacus_track('passing', 'others');
+\echo :LAST_ERROR_SQLSTATE
+CREATE TEMP TABLE moments AS SELECT id, x, y FROM others;
+SELECT abacus_track('passing', 'moments');
+DELETE FROM moments WHERE id = 2;
+SELECT count(*) FROM abacus_vertices('passing');
+DROP TABLE moments, passing;
 SELECT abacus_track(NULL, 'others');
 SELECT abacus_untrack('flat', NULL) IS NULL AS strict;
 BEGIN ISOLATION LEVEL REPEATABLE READ;

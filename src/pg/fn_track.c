@@ -51,7 +51,8 @@ check_table(Relation table)
 				 errmsg("cannot track \"%s\"", name),
 				 errdetail(table->rd_rel->relkind == RELKIND_RELATION ||
 						   table->rd_rel->relkind == RELKIND_PARTITIONED_TABLE
-						   ? "A statement on a partition or child table fires no statement trigger of its parent, nor the reverse."
+						   ? "A statement on a partition or child table fires no statement trigger of "
+						   "its parent, nor the reverse."
 						   : "Statement triggers with transition tables are for tables."),
 				 errhint("Track an ordinary table without partitions, parents and children.")));
 	if (!pg_class_ownercheck(relid, GetUserId()))
@@ -65,13 +66,20 @@ check_table(Relation table)
 				 errhint("Use ALTER TABLE ... NO FORCE ROW LEVEL SECURITY.")));
 }
 
-/* The mesh is written as the owner of the table later: may he? */
+/* The mesh is written as the owner of the table later, in any session: may he? */
 static void
-check_owner(Relation table, Oid mesh)
+check_mesh(Relation table, Oid mesh)
 {
 	Oid			user;
 	int			security;
 	Relation	simplices;
+
+	if (get_rel_persistence(mesh) == RELPERSISTENCE_TEMP &&
+		table->rd_rel->relpersistence != RELPERSISTENCE_TEMP)
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 errmsg("a temporary mesh cannot follow a permanent table"),
+				 errdetail("Other sessions could not write the table any more.")));
 
 	GetUserIdAndSecContext(&user, &security);
 	SetUserIdAndSecContext(table->rd_rel->relowner, security | SECURITY_LOCAL_USERID_CHANGE);
@@ -264,7 +272,7 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 				(errcode(ERRCODE_UNDEFINED_TABLE),
 				 errmsg("table with OID %u does not exist", PG_GETARG_OID(1))));
 	check_table(table);
-	check_owner(table, mesh);
+	check_mesh(table, mesh);
 
 	change = change_begin(mesh, "abacus_track()");
 	present = present_triggers(function, mesh, table);

@@ -203,7 +203,8 @@ find_bound_table(Oid class, Oid object, bool dependent, bool (*wanted) (Oid))
 		Oid			other = dependent ? entry->refobjid : entry->objid;
 
 		if (entry->deptype == DEPENDENCY_AUTO &&
-			(dependent || entry->classid == RelationRelationId) && entry->refclassid == RelationRelationId && entry->objsubid == 0 &&
+			(dependent || entry->classid == RelationRelationId) &&
+			entry->refclassid == RelationRelationId && entry->objsubid == 0 &&
 			entry->refobjsubid == 0 && wanted(other))
 			found = other;
 	}
@@ -216,7 +217,8 @@ find_bound_table(Oid class, Oid object, bool dependent, bool (*wanted) (Oid))
 Oid
 mesh_vertex_table(Relation mesh, MeshAccess access)
 {
-	Oid			relid = find_bound_table(RelationRelationId, RelationGetRelid(mesh), false, is_vertex_table);
+	Oid			relid = find_bound_table(RelationRelationId, RelationGetRelid(mesh), false,
+										 is_vertex_table);
 	bool		bound = OidIsValid(relid);
 	char	   *name = psprintf("%s" VERTEX_TABLE_SUFFIX, RelationGetRelationName(mesh));
 	Relation	rel = NULL;

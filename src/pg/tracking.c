@@ -166,8 +166,8 @@ arguments(Oid mesh, int dimension, Relation table, List *columns)
 	ListCell   *cell;
 
 	initStringInfo(&list);
-	appendStringInfoString(&list, quote_literal_cstr(quote_qualified_identifier(schema,
-																				 get_rel_name(mesh))));
+	appendStringInfoString(&list, quote_literal_cstr(
+							   quote_qualified_identifier(schema, get_rel_name(mesh))));
 	appendStringInfo(&list, ", '%d'", dimension);
 	foreach(cell, columns)
 		appendStringInfo(&list, ", %s", quote_literal_cstr(lfirst(cell)));
@@ -201,9 +201,11 @@ tracking_create(Oid function, Oid mesh, int dimension, Relation table, List *col
 		{"delete", "REFERENCING OLD TABLE AS abacus_old"},
 		{"truncate", ""}
 	};
-	char	   *table_name = quote_qualified_identifier(get_namespace_name(RelationGetNamespace(table)),
+	char	   *table_schema = get_namespace_name(RelationGetNamespace(table));
+	char	   *table_name = quote_qualified_identifier(table_schema,
 														RelationGetRelationName(table));
-	char	   *function_name = quote_qualified_identifier(get_namespace_name(get_func_namespace(function)),
+	char	   *function_schema = get_namespace_name(get_func_namespace(function));
+	char	   *function_name = quote_qualified_identifier(function_schema,
 														   get_func_name(function));
 
 	for (int i = 0; i < lengthof(events); i++)
