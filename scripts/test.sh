@@ -1,8 +1,8 @@
 #!/bin/bash
 # All set-up and all tests, from a clean clone, re-runnable: packages, builds,
 # unit tests (plain and sanitized), a bounded fuzzing run, SQL tests, crashes, the
-# examples of the documentation, comparison with CGAL, smoke runs of the
-# benchmarks and statistics. Logs are left in build/test.
+# examples of the documentation, comparison with CGAL, random changes against a
+# model, smoke runs of the benchmarks and statistics. Logs are left in build/test.
 set -uo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh
@@ -29,7 +29,7 @@ suite() {
 
 # The line of a log that says how much was tested.
 summary() {
-    grep -E -o '[0-9]+% tests passed.*|All [0-9]+ tests passed|^Files=.*Tests=[0-9]+|^[0-9]+ examples.*|^[0-9]+ meshes compared.*|^Done [0-9]+ runs.*' "$1" |
+    grep -E -o '[0-9]+% tests passed.*|All [0-9]+ tests passed|^Files=.*Tests=[0-9]+|^[0-9]+ examples.*|^[0-9]+ meshes compared.*|^[0-9]+ steps in .*|^Done [0-9]+ runs.*' "$1" |
         tail -n 1
 }
 
@@ -112,6 +112,7 @@ suite "pgTAP" pgtap_tests
 suite "TAP" tap_tests
 suite "documentation examples" documentation_examples
 suite "acceptance quick" scripts/acceptance.sh quick
+suite "model test" scripts/model_test.sh -t 30
 suite "bench smoke" scripts/bench.sh smoke
 suite "bench smoke 3D" scripts/bench.sh -d 3 -s quake smoke
 suite "statistics smoke" scripts/statistics.sh 300000 10000

@@ -301,6 +301,9 @@ ABACUS_API abacus_status abacus_build_insert(abacus_build *build, abacus_stage *
 ABACUS_API abacus_status abacus_build_delete(abacus_build *build, abacus_stage *stage,
 											 abacus_header *header, uint64_t *deleted,
 											 abacus_error *error);
+/* clear: takes away all points, those that wait too, at the cost of erasing their pages. */
+ABACUS_API abacus_status abacus_build_clear(abacus_build *build, abacus_header *header,
+											uint64_t *deleted, abacus_error *error);
 ABACUS_API void abacus_build_close(abacus_build *build);
 
 /* ---- Reading ------------------------------------------------------------------ */

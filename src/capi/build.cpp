@@ -62,4 +62,10 @@ abacus_status abacus_build_delete(abacus_build *build, abacus_stage *stage, abac
     });
 }
 
+abacus_status abacus_build_clear(abacus_build *build, abacus_header *header, uint64_t *deleted,
+                                 abacus_error *error) {
+    return run(build, header, error,
+               [&](auto &opened, abacus_header &changed) { *deleted = opened.clear(changed); });
+}
+
 void abacus_build_close(abacus_build *build) { abacus::destroy_handle(build); }

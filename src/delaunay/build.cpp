@@ -130,6 +130,20 @@ template <int D> std::uint64_t Build<D>::remove(Stage<D> &stage, abacus_header &
     return taken;
 }
 
+template <int D> std::uint64_t Build<D>::clear(abacus_header &header) {
+    std::uint64_t points = 0;
+    change(header, [&] {
+        points = header.vertices + header.duplicates + (header.staged - header.inserted);
+        repeated_.forget();
+        erase_pages(ABACUS_STAGED_PAGES);
+        erase_pages(ABACUS_REPEATED_PAGES);
+        header.inserted = header.staged;
+        forget_simplices();
+        return points;
+    });
+    return points;
+}
+
 template <int D>
 void Build<D>::report(abacus_phase phase, std::uint64_t done, std::uint64_t total) {
     const abacus_counters &counters = core_->cache.counters;

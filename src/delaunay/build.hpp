@@ -30,6 +30,8 @@ public:
     /// Inserts what waits, then takes away a point for each of a stage; returns how many
     /// there were.
     std::uint64_t remove(Stage<D> &stage, abacus_header &header);
+    /// Takes away all points, those that wait too; returns how many there were.
+    std::uint64_t clear(abacus_header &header);
 
 private:
     class Intake;
@@ -54,6 +56,10 @@ private:
     bool erase(const Point<D> &p, std::int64_t id);
     /// The points left, the neighbours of the vertex last found, span no simplex: they wait.
     void collapse();
+    /// Erases all pages of a kind.
+    void erase_pages(abacus_page_kind kind);
+    /// Begins anew without a triangulation.
+    void forget_simplices();
     /// Runs a change, which returns how many points it has dealt with, and ends it.
     template <class Change> void change(abacus_header &header, Change change);
     void report(abacus_phase phase, std::uint64_t done, std::uint64_t total);

@@ -41,14 +41,21 @@ template <int D> void Build<D>::collapse() {
     repeated_.forget();
     pages.finish();
     header_->staged = pages.next();
-    header_->vertices = header_->duplicates = header_->simplices = header_->ghosts = 0;
+    forget_simplices();
+}
 
+template <int D> void Build<D>::erase_pages(abacus_page_kind kind) {
     abacus_page page;
-    for (bool more = host_.next(ABACUS_SIMPLEX_PAGES, nullptr, page); more;
-         more = host_.next(ABACUS_SIMPLEX_PAGES, &page.key, page)) {
-        host_.erase(ABACUS_SIMPLEX_PAGES, page);
+    for (bool more = host_.next(kind, nullptr, page); more;
+         more = host_.next(kind, &page.key, page)) {
+        host_.erase(kind, page);
         host_.poll();
     }
+}
+
+template <int D> void Build<D>::forget_simplices() {
+    erase_pages(ABACUS_SIMPLEX_PAGES);
+    header_->vertices = header_->duplicates = header_->simplices = header_->ghosts = 0;
     const abacus_counters counters = core_->cache.counters;
     core_.emplace(host_, *header_, cache_bytes_);
     core_->cache.counters = counters;
@@ -56,6 +63,10 @@ template <int D> void Build<D>::collapse() {
 
 template bool Build<2>::erase(const Point<2> &, std::int64_t);
 template bool Build<3>::erase(const Point<3> &, std::int64_t);
+template void Build<2>::erase_pages(abacus_page_kind);
+template void Build<3>::erase_pages(abacus_page_kind);
+template void Build<2>::forget_simplices();
+template void Build<3>::forget_simplices();
 template void Build<2>::collapse();
 template void Build<3>::collapse();
 

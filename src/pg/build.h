@@ -12,6 +12,7 @@
 
 extern void shape_dimension(abacus_header *header, int32 dimension);
 extern void shape_attribute(abacus_header *header, const char *name);
+extern Datum *shape_names(ArrayType *names, const char *what, int *count);
 extern void shape_attributes(abacus_header *header, ArrayType *names);
 extern void shape_point(const abacus_header *header, ArrayType *point, const char *what,
 						double *values);
@@ -25,14 +26,20 @@ typedef struct Change
 	Writer		writer;
 	abacus_stage *stage;		/* the points */
 	abacus_build *build;
-	uint64		points;			/* how many */
+	uint64		points;			/* how many it holds */
 } Change;
 
 extern uint64 edit_insert(Oid mesh, Source *source, const char *command, abacus_header *header);
 extern uint64 edit_delete(Oid mesh, Source *source);
 extern Change *change_begin(Oid mesh, const char *command);
+extern void change_open_stage(Change *change, const abacus_header *shape);
+extern void change_add(Change *change, const uint64 *points, size_t count);
 extern void change_read(Change *change, Source *source, const abacus_header *shape);
 extern void change_open_build(Change *change);
+extern void change_insert(Change *change);
+extern uint64 change_delete(Change *change);
+extern void change_clear(Change *change);
+extern void change_abandon(Change *change);
 extern void change_end(Change *change);
 
 #endif

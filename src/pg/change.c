@@ -34,33 +34,100 @@ change_begin(Oid mesh, const char *command)
 	return change;
 }
 
+/* Opens an empty stage for points of the shape that a header describes. */
+void
+change_open_stage(Change *change, const abacus_header *shape)
+{
+	Host	   *host = change->writer.host;
+
+	abacus_stage_close(change->stage);
+	change->stage = NULL;
+	change->points = 0;
+	host_run(host, abacus_stage_open(&host->table, shape, (size_t) maintenance_work_mem * 1024,
+									 &change->stage, &host->failure));
+}
+
+/* Adds points to the stage. */
+void
+change_add(Change *change, const uint64 *points, size_t count)
+{
+	Host	   *host = change->writer.host;
+
+	host_run(host, abacus_stage_add(change->stage, points, count, &host->failure));
+	change->points += count;
+}
+
 /* Reads the points of a query, of the shape that a header describes, into a stage. */
 void
 change_read(Change *change, Source *source, const abacus_header *shape)
 {
-	Host	   *host = change->writer.host;
 	const uint64 *points;
 	size_t		count;
 
 	source_open(source, shape);
-	host_run(host, abacus_stage_open(&host->table, shape, (size_t) maintenance_work_mem * 1024,
-									 &change->stage, &host->failure));
+	change_open_stage(change, shape);
 	while ((count = source_fetch(source, &points)) > 0)
-	{
-		host_run(host, abacus_stage_add(change->stage, points, count, &host->failure));
-		change->points += count;
-	}
+		change_add(change, points, count);
 	source_close(source);
 }
 
-/* Opens the triangulation for changes. */
+/*
+ * Opens the triangulation for changes, unless it is open. The header must have
+ * its domain by then, if the points to come shall give it one.
+ */
 void
 change_open_build(Change *change)
 {
 	Host	   *host = change->writer.host;
 
-	host_run(host, abacus_build_open(&host->table, change->writer.header, setting_cache_bytes(),
-									 &change->build, &host->failure));
+	if (change->build == NULL)
+		host_run(host, abacus_build_open(&host->table, change->writer.header,
+										 setting_cache_bytes(), &change->build, &host->failure));
+}
+
+/* Inserts the points of the stage. */
+void
+change_insert(Change *change)
+{
+	Host	   *host = change->writer.host;
+	abacus_header *header = change->writer.header;
+
+	host_run(host, abacus_stage_end(change->stage, header, &host->failure));
+	change_open_build(change);
+	host_run(host, abacus_build_insert(change->build, change->stage, header, &host->failure));
+}
+
+/* Takes the points of the stage away; returns how many there were. */
+uint64
+change_delete(Change *change)
+{
+	Host	   *host = change->writer.host;
+	uint64		deleted;
+
+	change_open_build(change);
+	host_run(host, abacus_build_delete(change->build, change->stage, change->writer.header,
+									   &deleted, &host->failure));
+	return deleted;
+}
+
+/* Takes all points away. */
+void
+change_clear(Change *change)
+{
+	Host	   *host = change->writer.host;
+	uint64		deleted;
+
+	change_open_build(change);
+	host_run(host, abacus_build_clear(change->build, change->writer.header, &deleted,
+									  &host->failure));
+}
+
+/* Closes the mesh, which has not been changed. */
+void
+change_abandon(Change *change)
+{
+	writer_close(&change->writer);
+	pfree(change);
 }
 
 /* Writes the header and closes the mesh. */

@@ -21,14 +21,10 @@ uint64
 edit_insert(Oid mesh, Source *source, const char *command, abacus_header *header)
 {
 	Change	   *change = change_begin(mesh, command);
-	Host	   *host = change->writer.host;
 	uint64		points;
 
 	change_read(change, source, change->writer.header);
-	host_run(host, abacus_stage_end(change->stage, change->writer.header, &host->failure));
-	change_open_build(change);
-	host_run(host, abacus_build_insert(change->build, change->stage, change->writer.header,
-									   &host->failure));
+	change_insert(change);
 	points = change->points;
 	*header = *change->writer.header;
 	change_end(change);
@@ -54,7 +50,6 @@ uint64
 edit_delete(Oid mesh, Source *source)
 {
 	Change	   *change = change_begin(mesh, "abacus_delete()");
-	Host	   *host = change->writer.host;
 	abacus_header *shape = palloc(sizeof(abacus_header));
 	uint64		deleted;
 
@@ -63,9 +58,7 @@ edit_delete(Oid mesh, Source *source)
 	if (source_columns(source) == (int) (1 + shape->dimension))
 		shape->attributes = 0;
 	change_read(change, source, shape);
-	change_open_build(change);
-	host_run(host, abacus_build_delete(change->build, change->stage, change->writer.header,
-									   &deleted, &host->failure));
+	deleted = change_delete(change);
 	change_end(change);
 	return deleted;
 }

@@ -25,6 +25,7 @@
 #include "catalog/pg_am.h"
 #include "catalog/pg_class.h"
 #include "catalog/pg_depend.h"
+#include "catalog/pg_trigger.h"
 #include "catalog/pg_type.h"
 #include "commands/extension.h"
 #include "miscadmin.h"
@@ -178,11 +179,11 @@ mesh_lock_for_session(Oid relid)
 }
 
 /*
- * The first table of the wanted kind that `relid` automatically depends on
+ * The first table of the wanted kind that the object automatically depends on
  * (`dependent`), or that depends on it.
  */
 static Oid
-find_bound_table(Oid relid, bool dependent, bool (*wanted) (Oid))
+find_bound_table(Oid class, Oid object, bool dependent, bool (*wanted) (Oid))
 {
 	Relation	depend = table_open(DependRelationId, AccessShareLock);
 	ScanKeyData keys[2];
@@ -191,9 +192,9 @@ find_bound_table(Oid relid, bool dependent, bool (*wanted) (Oid))
 	Oid			found = InvalidOid;
 
 	ScanKeyInit(&keys[0], dependent ? Anum_pg_depend_classid : Anum_pg_depend_refclassid,
-				BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(RelationRelationId));
+				BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(class));
 	ScanKeyInit(&keys[1], dependent ? Anum_pg_depend_objid : Anum_pg_depend_refobjid,
-				BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(relid));
+				BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(object));
 	scan = systable_beginscan(depend, dependent ? DependDependerIndexId : DependReferenceIndexId,
 							  true, NULL, 2, keys);
 	while (!OidIsValid(found) && HeapTupleIsValid(tuple = systable_getnext(scan)))
@@ -201,7 +202,8 @@ find_bound_table(Oid relid, bool dependent, bool (*wanted) (Oid))
 		Form_pg_depend entry = (Form_pg_depend) GETSTRUCT(tuple);
 		Oid			other = dependent ? entry->refobjid : entry->objid;
 
-		if (entry->deptype == DEPENDENCY_AUTO && entry->classid == RelationRelationId &&
+		if (entry->deptype == DEPENDENCY_AUTO &&
+			(dependent || entry->classid == RelationRelationId) &&
 			entry->refclassid == RelationRelationId && entry->objsubid == 0 &&
 			entry->refobjsubid == 0 && wanted(other))
 			found = other;
@@ -215,7 +217,8 @@ find_bound_table(Oid relid, bool dependent, bool (*wanted) (Oid))
 Oid
 mesh_vertex_table(Relation mesh, MeshAccess access)
 {
-	Oid			relid = find_bound_table(RelationGetRelid(mesh), false, is_vertex_table);
+	Oid			relid = find_bound_table(RelationRelationId, RelationGetRelid(mesh), false,
+										 is_vertex_table);
 	bool		bound = OidIsValid(relid);
 	char	   *name = psprintf("%s" VERTEX_TABLE_SUFFIX, RelationGetRelationName(mesh));
 	Relation	rel = NULL;
@@ -225,7 +228,7 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 		relid = get_relname_relid(name, RelationGetNamespace(mesh));
 		if (OidIsValid(relid) &&
 			(!is_vertex_table(relid) ||
-			 OidIsValid(find_bound_table(relid, true, is_simplex_table))))
+			 OidIsValid(find_bound_table(RelationRelationId, relid, true, is_simplex_table))))
 			relid = InvalidOid;
 	}
 	/* it may be dropped while we wait for the lock */
@@ -248,14 +251,33 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 	return relid;
 }
 
-/* From now on the vertex table goes where its mesh goes. */
-void
-mesh_bind_vertex_table(Oid mesh, Oid vertices)
+/* From now on the object goes where the mesh goes. */
+static void
+bind(Oid class, Oid object, Oid mesh)
 {
 	ObjectAddress dependent;
 	ObjectAddress referenced;
 
-	ObjectAddressSet(dependent, RelationRelationId, vertices);
+	ObjectAddressSet(dependent, class, object);
 	ObjectAddressSet(referenced, RelationRelationId, mesh);
 	recordDependencyOn(&dependent, &referenced, DEPENDENCY_AUTO);
+}
+
+void
+mesh_bind_vertex_table(Oid mesh, Oid vertices)
+{
+	bind(RelationRelationId, vertices, mesh);
+}
+
+/* The mesh that a trigger is bound to; InvalidOid if none. */
+Oid
+mesh_of_trigger(Oid trigger)
+{
+	return find_bound_table(TriggerRelationId, trigger, true, is_simplex_table);
+}
+
+void
+mesh_bind_trigger(Oid mesh, Oid trigger)
+{
+	bind(TriggerRelationId, trigger, mesh);
 }

@@ -23,5 +23,7 @@ extern Relation mesh_table_open(Oid relid, MeshAccess access);
 extern LockRelId mesh_lock_for_session(Oid relid);
 extern Oid	mesh_vertex_table(Relation mesh, MeshAccess access);
 extern void mesh_bind_vertex_table(Oid mesh, Oid vertices);
+extern Oid	mesh_of_trigger(Oid trigger);
+extern void mesh_bind_trigger(Oid mesh, Oid trigger);
 
 #endif

@@ -93,10 +93,14 @@ page_index_open_all(Relation heap)
 	return indexes;
 }
 
-/* Makes the entries of a new row. */
+/*
+ * Makes the entries of a new row, or of a new version of a row with the same
+ * key. That is as unique as it was: to look would mean to visit all versions
+ * that this transaction has left, thousands in a loop of small changes.
+ */
 void
 page_index_insert(List *indexes, Relation heap, const Datum *values, const bool *isnull,
-				  ItemPointer tid)
+				  ItemPointer tid, bool same_key)
 {
 	ListCell   *cell;
 
@@ -115,7 +119,8 @@ page_index_insert(List *indexes, Relation heap, const Datum *values, const bool 
 			nulls[i] = isnull[info->ii_IndexAttrNumbers[i] - 1];
 		}
 		index_insert(opened->index, columns, nulls, tid, heap,
-					 info->ii_Unique ? UNIQUE_CHECK_YES : UNIQUE_CHECK_NO, false, opened->info);
+					 info->ii_Unique && !same_key ? UNIQUE_CHECK_YES : UNIQUE_CHECK_NO, same_key,
+					 opened->info);
 	}
 }
 

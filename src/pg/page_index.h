@@ -15,7 +15,7 @@ extern Relation page_index_open_primary(Relation heap, LOCKMODE lock);
 
 extern List *page_index_open_all(Relation heap);
 extern void page_index_insert(List *indexes, Relation heap, const Datum *values,
-							  const bool *isnull, ItemPointer tid);
+							  const bool *isnull, ItemPointer tid, bool same_key);
 extern void page_index_close_all(List *indexes);
 
 #endif

@@ -168,7 +168,10 @@ bound_key(PageTable *table, PageScan *scan, ScanKey bound, StrategyNumber strate
 	bound->sk_argument = PointerGetDatum(scan->members);
 }
 
-/* The row with exactly this key. */
+/*
+ * The row with exactly this key. Backwards: of versions that a transaction has
+ * left in great number, all with this key, the last ones are the nearest.
+ */
 bool
 page_table_get(PageTable *table, const int64 *key, StoredPage *page)
 {
@@ -182,7 +185,7 @@ page_table_get(PageTable *table, const int64 *key, StoredPage *page)
 	for (int i = 0; i < PAGE_TABLE_KEYS; i++)
 		ScanKeyInit(&keys[i], i + 1, BTEqualStrategyNumber, F_INT8EQ, Int64GetDatum(key[i]));
 	search(table, &table->forward, keys, PAGE_TABLE_KEYS);
-	if (!index_getnext_slot(table->forward.scan, ForwardScanDirection, table->forward.slot))
+	if (!index_getnext_slot(table->forward.scan, BackwardScanDirection, table->forward.slot))
 	{
 		close_scan(&table->forward);
 		return false;
@@ -262,7 +265,7 @@ page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes
 	page_table_open(table);
 	tuple = form_row(table, key, bytes, size, values, isnull);
 	heap_insert(table->heap, tuple, GetCurrentCommandId(true), 0, NULL);
-	page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self);
+	page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self, false);
 	*tid = tuple->t_self;
 	heap_freetuple(tuple);
 	table->wrote = true;
@@ -284,7 +287,7 @@ page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes
 	if (table->superseded != NULL)
 		superseded_add(table->superseded, ItemPointerGetBlockNumber(tid));
 	if (!HeapTupleIsHeapOnly(tuple))
-		page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self);
+		page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self, true);
 	*tid = tuple->t_self;
 	heap_freetuple(tuple);
 	table->wrote = true;

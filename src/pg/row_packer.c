@@ -21,8 +21,9 @@
 
 static const char *const coordinate_names[ABACUS_MAX_DIMENSION] = {"x", "y", "z"};
 
-static const char *
-column_name(const abacus_header *header, int column)
+/* What a column is called in messages, and in tables by default. */
+const char *
+row_packer_column(const abacus_header *header, int column)
 {
 	if (column == 0)
 		return "id";
@@ -39,7 +40,7 @@ expected_columns(const abacus_header *header)
 
 	initStringInfo(&names);
 	for (int i = 0; i < (int) (1 + header->dimension + header->attributes); i++)
-		appendStringInfo(&names, "%s%s", i > 0 ? ", " : "", column_name(header, i));
+		appendStringInfo(&names, "%s%s", i > 0 ? ", " : "", row_packer_column(header, i));
 	return names.data;
 }
 
@@ -70,7 +71,7 @@ pack_kind(const abacus_header *header, int column, Oid type)
 	ereport(ERROR,
 			(errcode(ERRCODE_DATATYPE_MISMATCH),
 			 errmsg("column %d (%s) of the source query has type %s", column + 1,
-					column_name(header, column), format_type_be(type)),
+					row_packer_column(header, column), format_type_be(type)),
 			 column == 0 ? errdetail("An id is smallint, integer or bigint.")
 			 : errdetail("Coordinates and attributes are double precision, real, numeric or integers."),
 			 errhint("Cast the column in the query.")));
@@ -81,13 +82,13 @@ pack_kind(const abacus_header *header, int column, Oid type)
 static void
 refuse_value(const RowPacker *packer, const uint64 *point, int column, bool isnull)
 {
-	const char *name = column_name(packer->header, column);
-	const char *hint = "Leave such points out with a WHERE clause.";
+	const char *name = row_packer_column(packer->header, column);
+	const char *hint = packer->hint;
 
 	if (isnull && column == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
-				 errmsg("id is NULL in row " UINT64_FORMAT " of the source query", packer->row),
+				 errmsg("id is NULL in row " UINT64_FORMAT " of %s", packer->row, packer->origin),
 				 errhint("%s", hint)));
 	ereport(ERROR,
 			(errcode(isnull ? ERRCODE_NULL_VALUE_NOT_ALLOWED : ERRCODE_INVALID_PARAMETER_VALUE),
@@ -192,6 +193,8 @@ row_packer_create(TupleDesc desc, const abacus_header *header, size_t batch)
 	packer->receiver.rShutdown = shut_down;
 	packer->receiver.rDestroy = shut_down;
 	packer->receiver.mydest = DestNone;
+	packer->origin = "the source query";
+	packer->hint = "Leave such points out with a WHERE clause.";
 	packer->header = header;
 	packer->columns = columns;
 	packer->kinds = palloc(columns * sizeof(PackKind));

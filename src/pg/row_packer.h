@@ -22,6 +22,8 @@ typedef enum PackKind
 typedef struct RowPacker
 {
 	DestReceiver receiver;
+	const char *origin;			/* where the rows come from, for messages */
+	const char *hint;			/* what to do about one that cannot be placed */
 	const abacus_header *header;
 	int			columns;		/* id, coordinates, attributes */
 	PackKind   *kinds;
@@ -32,6 +34,7 @@ typedef struct RowPacker
 	MemoryContext scratch;		/* of conversions; emptied at each batch */
 } RowPacker;
 
+extern const char *row_packer_column(const abacus_header *header, int column);
 extern RowPacker *row_packer_create(TupleDesc desc, const abacus_header *header, size_t batch);
 extern void row_packer_reset(RowPacker *packer);
 

@@ -57,13 +57,19 @@ plain_elements(ArrayType *array, const char *what, Oid type, int16 length, bool 
 	return elements;
 }
 
+/* Elements of a text[]. */
+Datum *
+shape_names(ArrayType *names, const char *what, int *count)
+{
+	return plain_elements(names, what, TEXTOID, -1, false, TYPALIGN_INT, count);
+}
+
 /* Adds all attributes of a text[]. */
 void
 shape_attributes(abacus_header *header, ArrayType *names)
 {
 	int			count;
-	Datum	   *elements = plain_elements(names, "attributes", TEXTOID, -1, false, TYPALIGN_INT,
-										  &count);
+	Datum	   *elements = shape_names(names, "attributes", &count);
 
 	for (int i = 0; i < count; i++)
 		shape_attribute(header, TextDatumGetCString(elements[i]));

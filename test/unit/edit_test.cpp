@@ -131,6 +131,36 @@ TYPED_TEST(Edit, CollapsesAndGrowsAgain) {
     }
 }
 
+TYPED_TEST(Edit, ClearsAllPages) {
+    // Vertices, repeated points and points that wait; then only the last.
+    constexpr int D = TypeParam::value;
+    for (const int kind : {0, 1, 2, 3}) {
+        MeshOf<D> mesh(1, 40 << 10);
+        PointModel<D> model;
+        for (int round = 0; round < 2; ++round) {
+            const auto points = this->fresh(3000, kind);
+            ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+            const auto waiting = this->fresh(700, kind);
+            ASSERT_EQ(mesh.stage(waiting), ABACUS_OK);
+            std::uint64_t deleted = 0;
+            const auto clear = [&](abacus_build *build) {
+                return abacus_build_clear(build, &mesh.header, &deleted, &mesh.error);
+            };
+            ASSERT_EQ(mesh.with_build(clear), ABACUS_OK) << mesh.error.detail;
+            EXPECT_EQ(deleted, 3700u);
+            EXPECT_TRUE(mesh.host.pages.empty() && mesh.host.staged_pages.empty() &&
+                        mesh.host.repeated_pages.empty());
+            ASSERT_EQ(mesh.with_build(clear), ABACUS_OK); // nothing is left to clear
+            EXPECT_EQ(deleted, 0u);
+            model.expect(mesh);
+        }
+        const auto points = this->fresh(100, 0);
+        model.insert(points);
+        ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+        model.expect(mesh);
+    }
+}
+
 TYPED_TEST(Edit, EveryHostCallMayFail) {
     constexpr int D = TypeParam::value;
     MeshOf<D> sound(1, 40 << 10);

@@ -1,0 +1,23 @@
+#!/bin/bash
+# Do meshes stay right when points come and go? Random changes of random points in random
+# transactions, against a plain table of the points there should be, against CGAL, and
+# against abacus_check; scripts/model_test.py tells more.
+#
+#   model_test.sh [-t seconds] [-n worlds] [-s seed] [-w world]
+#
+# Ends after that time (default 60 s), or that many worlds. A failure prints the seed and
+# the number of the world; -s and -w run that world again.
+set -euo pipefail
+. "$(dirname "$0")/common.sh"
+. scripts/cluster.sh
+
+oracle=$ABACUS_BUILD/release/test/oracle/oracle_compare
+if [[ ! -x $oracle || -z ${ABACUS_BUILT:-} ]]; then
+    scripts/install-dependencies.sh test
+    build_release oracle_compare
+    install_extension
+fi
+cluster_start model_test
+run_psql -c "CREATE EXTENSION abacus"
+mkdir -p "$ABACUS_BUILD/model_test"
+scripts/model_test.py --oracle "$oracle" --folder "$ABACUS_BUILD/model_test" "$@"

@@ -1,0 +1,335 @@
+/*
+ * fn_track.c: abacus_track and abacus_untrack: a mesh begins to follow a table,
+ * and ends.
+ *
+ * The table is locked against writers first, so no row is missed: what is
+ * committed by then is read here, what comes later meets the triggers. Then an
+ * empty mesh gets the rows there are. One that has points must have just
+ * those; the difference of the two multisets says so, and is made good if the
+ * caller wishes.
+ */
+#include "postgres.h"
+
+#include "access/relation.h"
+#include "access/table.h"
+#include "access/xact.h"
+#include "catalog/pg_class.h"
+#include "catalog/pg_inherits.h"
+#include "miscadmin.h"
+#include "parser/parse_func.h"
+#include "utils/acl.h"
+#include "utils/array.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+#include "utils/rls.h"
+
+#include "pg/build.h"
+#include "pg/sql_function.h"
+#include "pg/tracking.h"
+
+SQL_FUNCTION(abacus_sql_track);
+SQL_FUNCTION(abacus_sql_untrack);
+
+static Oid
+trigger_function(Oid extension_namespace)
+{
+	return LookupFuncName(list_make2(makeString(get_namespace_name(extension_namespace)),
+									 makeString(TRACKING_FUNCTION)), 0, NULL, false);
+}
+
+/* What cannot be tracked is refused. */
+static void
+check_table(Relation table)
+{
+	Oid			relid = RelationGetRelid(table);
+	const char *name = RelationGetRelationName(table);
+
+	if (table->rd_rel->relkind != RELKIND_RELATION || table->rd_rel->relispartition ||
+		has_superclass(relid) || find_inheritance_children(relid, NoLock) != NIL)
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 errmsg("cannot track \"%s\"", name),
+				 errdetail(table->rd_rel->relkind == RELKIND_RELATION ||
+						   table->rd_rel->relkind == RELKIND_PARTITIONED_TABLE
+						   ? "A statement on a partition or child table fires no statement trigger of "
+						   "its parent, nor the reverse."
+						   : "Statement triggers with transition tables are for tables."),
+				 errhint("Track an ordinary table without partitions, parents and children.")));
+	if (!pg_class_ownercheck(relid, GetUserId()))
+		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, name);
+	if (check_enable_rls(relid, InvalidOid, true) == RLS_ENABLED)
+		ereport(ERROR,
+				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				 errmsg("row-level security on table \"%s\" applies to user \"%s\"", name,
+						GetUserNameFromId(GetUserId(), false)),
+				 errdetail("It may hide rows that belong in the mesh."),
+				 errhint("Use ALTER TABLE ... NO FORCE ROW LEVEL SECURITY.")));
+}
+
+/* The mesh is written as the owner of the table later, in any session: may he? */
+static void
+check_mesh(Relation table, Oid mesh)
+{
+	Oid			user;
+	int			security;
+	Relation	simplices;
+
+	if (get_rel_persistence(mesh) == RELPERSISTENCE_TEMP &&
+		table->rd_rel->relpersistence != RELPERSISTENCE_TEMP)
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 errmsg("a temporary mesh cannot follow a permanent table"),
+				 errdetail("Other sessions could not write the table any more.")));
+
+	GetUserIdAndSecContext(&user, &security);
+	SetUserIdAndSecContext(table->rd_rel->relowner, security | SECURITY_LOCAL_USERID_CHANGE);
+	simplices = mesh_table_open(mesh, MESH_WRITE);
+	mesh_vertex_table(simplices, MESH_WRITE);
+	table_close(simplices, NoLock);
+	SetUserIdAndSecContext(user, security);
+}
+
+/* A mesh follows one table; returns its triggers if it is this one. */
+static List *
+present_triggers(Oid function, Oid mesh, Relation table)
+{
+	List	   *triggers = tracking_triggers(function, mesh);
+	ListCell   *cell;
+
+	foreach(cell, triggers)
+	{
+		TrackingTrigger *trigger = lfirst(cell);
+
+		if (trigger->table != RelationGetRelid(table))
+			ereport(ERROR,
+					(errcode(ERRCODE_OBJECT_IN_USE),
+					 errmsg("mesh \"%s\" follows table \"%s\" already", get_rel_name(mesh),
+							get_rel_name(trigger->table)),
+					 errdetail("A mesh follows one table; a table may be followed by many meshes."),
+					 errhint("Call abacus_untrack() first, or make another mesh.")));
+	}
+	return triggers;
+}
+
+/* Names of the columns of a point: as given, or as the mesh names its own. */
+static List *
+column_names(ArrayType *given, const abacus_header *header, Relation table)
+{
+	int			wanted = 1 + header->dimension + header->attributes;
+	List	   *names = NIL;
+	ListCell   *cell;
+
+	if (given != NULL)
+	{
+		int			count;
+		Datum	   *elements = shape_names(given, "columns", &count);
+
+		if (count != wanted)
+			ereport(ERROR,
+					(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
+					 errmsg("columns has %d elements, but points of the mesh have %d", count,
+							wanted),
+					 errdetail("They are id, coordinates and attributes, as in a source query.")));
+		for (int i = 0; i < count; i++)
+			names = lappend(names, TextDatumGetCString(elements[i]));
+	}
+	else
+		for (int i = 0; i < wanted; i++)
+			names = lappend(names, pstrdup(row_packer_column(header, i)));
+
+	foreach(cell, names)
+		if (get_attnum(RelationGetRelid(table), lfirst(cell)) <= 0)
+			ereport(ERROR,
+					(errcode(ERRCODE_UNDEFINED_COLUMN),
+					 errmsg("column \"%s\" of table \"%s\" does not exist",
+							(char *) lfirst(cell), RelationGetRelationName(table)),
+					 errhint("Name the columns with the argument columns: id, coordinates, "
+							 "attributes.")));
+	return names;
+}
+
+/*
+ * SELECT of the points of the table; `exact`: as the mesh has them, in its
+ * types and without a NaN.
+ */
+static char *
+points_of_table(Relation table, List *columns, int dimension, bool exact)
+{
+	StringInfoData query;
+	ListCell   *cell;
+
+	initStringInfo(&query);
+	foreach(cell, columns)
+	{
+		int			i = foreach_current_index(cell);
+		const char *name = quote_identifier(lfirst(cell));
+
+		appendStringInfoString(&query, i == 0 ? "SELECT " : ", ");
+		if (!exact)
+			appendStringInfo(&query, "t.%s", name);
+		else if (i == 0)
+			appendStringInfo(&query, "t.%s::pg_catalog.int8", name);
+		else if (i <= dimension)
+			appendStringInfo(&query, "t.%s::pg_catalog.float8", name);
+		else
+			appendStringInfo(&query, "CASE WHEN t.%s::pg_catalog.float8 OPERATOR(pg_catalog.<>) "
+							 "'NaN'::pg_catalog.float8 THEN t.%s::pg_catalog.float8 END", name, name);
+	}
+	appendStringInfo(&query, " FROM %s AS t WHERE ",
+					 quote_qualified_identifier(get_namespace_name(RelationGetNamespace(table)),
+												RelationGetRelationName(table)));
+	for (int i = 1; i <= dimension; i++)
+		appendStringInfo(&query, "%st.%s IS NOT NULL", i > 1 ? " AND " : "",
+						 quote_identifier(list_nth(columns, i)));
+	return query.data;
+}
+
+static char *
+points_of_mesh(Oid mesh, const abacus_header *header, Oid extension_namespace)
+{
+	StringInfoData query;
+
+	initStringInfo(&query);
+	appendStringInfoString(&query, header->dimension == 2 ? "SELECT v.id, v.x, v.y"
+						   : "SELECT v.id, v.x, v.y, v.z");
+	for (uint32 i = 1; i <= header->attributes; i++)
+		appendStringInfo(&query, ", v.attributes[%u]", i);
+	appendStringInfo(&query, " FROM %s.abacus_vertices(%u::pg_catalog.regclass) AS v",
+					 quote_identifier(get_namespace_name(extension_namespace)), mesh);
+	return query.data;
+}
+
+/* Reads the points of a query into the stage; returns how many. */
+static uint64
+read_points(Change *change, const char *query)
+{
+	Source		source;
+
+	source_prepare(&source, query);
+	change_read(change, &source, change->writer.header);
+	source_finish(&source);
+	return change->points;
+}
+
+/* Brings the mesh in step, or says that it is not; false if it was already. */
+static bool
+make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchronize,
+		   Oid extension_namespace)
+{
+	abacus_header *header = change->writer.header;
+	char	   *here = points_of_table(table, columns, header->dimension, true);
+	char	   *there = points_of_mesh(mesh, header, extension_namespace);
+	uint64		missing;
+	uint64		surplus;
+
+	/* both queries see the mesh as it was: new pages have this command's number */
+	missing = read_points(change, psprintf("%s EXCEPT ALL %s", here, there));
+	if (synchronize && missing > 0)
+		change_insert(change);
+	surplus = read_points(change, psprintf("%s EXCEPT ALL %s", there, here));
+	if (synchronize && surplus > 0)
+		change_delete(change);
+	if (!synchronize && missing + surplus > 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("mesh \"%s\" does not hold the points of table \"%s\"", get_rel_name(mesh),
+						RelationGetRelationName(table)),
+				 errdetail("Points that the mesh lacks: " UINT64_FORMAT "; points that it has too many: "
+						   UINT64_FORMAT ".", missing, surplus),
+				 errhint("With synchronize => true they are inserted and deleted.")));
+	return missing + surplus > 0;
+}
+
+/* abacus_track(mesh regclass, table regclass, columns text[], synchronize bool) -> bigint */
+Datum
+abacus_sql_track(PG_FUNCTION_ARGS)
+{
+	Oid			extension_namespace = get_func_namespace(fcinfo->flinfo->fn_oid);
+	Oid			function = trigger_function(extension_namespace);
+	Oid			mesh;
+	Relation	table;
+	List	   *present;
+	List	   *columns;
+	ListCell   *cell;
+	Change	   *change;
+	abacus_header header;
+	uint64		points;
+	bool		changed = true;
+
+	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(3))
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("mesh, table and synchronize must not be NULL")));
+	if (IsolationUsesXactSnapshot())
+		ereport(ERROR,
+				(errcode(ERRCODE_ACTIVE_SQL_TRANSACTION),
+				 errmsg("abacus_track() needs the isolation level READ COMMITTED"),
+				 errdetail("The snapshot of this transaction may be older than rows of the table.")));
+	mesh = PG_GETARG_OID(0);
+	table = try_relation_open(PG_GETARG_OID(1), ShareRowExclusiveLock);
+	if (table == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_TABLE),
+				 errmsg("table with OID %u does not exist", PG_GETARG_OID(1))));
+	check_table(table);
+	check_mesh(table, mesh);
+
+	change = change_begin(mesh, "abacus_track()");
+	present = present_triggers(function, mesh, table);
+	header = *change->writer.header;
+	columns = column_names(PG_ARGISNULL(2) ? NULL : PG_GETARG_ARRAYTYPE_P(2), &header, table);
+	if (header.vertices == 0 && header.inserted == header.staged)
+	{
+		read_points(change, points_of_table(table, columns, header.dimension, false));
+		change_insert(change);
+	}
+	else
+		changed = make_equal(change, mesh, table, columns, PG_GETARG_BOOL(3), extension_namespace);
+	header = *change->writer.header;
+	points = header.vertices + header.duplicates + (header.staged - header.inserted);
+	if (changed)
+		change_end(change);
+	else
+		change_abandon(change);
+
+	if (present != NIL)
+	{
+		table_close(table, NoLock); /* DROP TRIGGER refuses a table in use */
+		foreach(cell, present)
+			tracking_drop(lfirst(cell));
+		table = table_open(PG_GETARG_OID(1), NoLock);
+	}
+	tracking_create(function, mesh, header.dimension, table, columns);
+	table_close(table, NoLock);
+	PG_RETURN_INT64((int64) points);
+}
+
+/* abacus_untrack(mesh regclass, table regclass) */
+Datum
+abacus_sql_untrack(PG_FUNCTION_ARGS)
+{
+	Oid			mesh = PG_GETARG_OID(0);
+	Oid			table = PG_GETARG_OID(1);
+	List	   *triggers = tracking_triggers(
+		trigger_function(get_func_namespace(fcinfo->flinfo->fn_oid)), mesh);
+	ListCell   *cell;
+	bool		found = false;
+
+	foreach(cell, triggers)
+	{
+		TrackingTrigger *trigger = lfirst(cell);
+
+		if (trigger->table != table)
+			continue;
+		tracking_drop(trigger);
+		found = true;
+	}
+	if (!found)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_OBJECT),
+				 errmsg("mesh %s does not follow table %s",
+						DatumGetCString(DirectFunctionCall1(regclassout, ObjectIdGetDatum(mesh))),
+						DatumGetCString(DirectFunctionCall1(regclassout,
+															ObjectIdGetDatum(table))))));
+	PG_RETURN_VOID();
+}

@@ -1,0 +1,28 @@
+/*
+ * tracking.h: the triggers by which a mesh follows a table.
+ */
+#ifndef ABACUS_TRACKING_H
+#define ABACUS_TRACKING_H
+
+#include "commands/trigger.h"
+#include "nodes/pg_list.h"
+#include "utils/rel.h"
+
+#define TRACKING_FUNCTION "abacus_tracked"
+
+/* One of the triggers in the catalogue. */
+typedef struct TrackingTrigger
+{
+	Oid			oid;
+	char	   *name;
+	Oid			table;
+	Oid			mesh;			/* InvalidOid: not found */
+} TrackingTrigger;
+
+extern Oid	tracking_mesh(const Trigger *trigger, Relation table);
+extern List *tracking_triggers(Oid function, Oid mesh);
+extern void tracking_create(Oid function, Oid mesh, int dimension, Relation table,
+							List *columns);
+extern void tracking_drop(const TrackingTrigger *trigger);
+
+#endif

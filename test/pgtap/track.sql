@@ -1,0 +1,99 @@
+-- abacus_track: how the triggers find their mesh, odd tables, points without a place.
+BEGIN;
+SELECT plan(24);
+
+CREATE FUNCTION differences(mesh regclass, source text) RETURNS bigint LANGUAGE plpgsql AS $$
+DECLARE
+    there text := format('SELECT id, x, y FROM abacus_vertices(%L)', mesh);
+    n bigint;
+BEGIN
+    EXECUTE format('SELECT (SELECT count(*) FROM (%1$s EXCEPT ALL %2$s) a)
+                         + (SELECT count(*) FROM (%2$s EXCEPT ALL %1$s) b)
+                         + (SELECT count(*) FROM abacus_check(%3$L))', source, there, mesh) INTO n;
+    RETURN n;
+END $$;
+
+-- bound by a dependency, or found by name after a restore, which has none
+CREATE TABLE wells (id bigint, x float8, y float8);
+SELECT abacus_create('field', 2);
+SELECT is(abacus_track('field', 'wells'), 0::bigint, 'an empty table is tracked');
+SELECT is(count(*), 4::bigint, 'four triggers depend on the mesh')
+FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 'field'::regclass AND deptype = 'a';
+DELETE FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 'field'::regclass;
+INSERT INTO wells SELECT i, i % 10, i / 10 FROM generate_series(0, 99) i;
+SELECT is(differences('field', 'TABLE wells'), 0::bigint, 'the mesh is found by name');
+SELECT is(count(*), 1::bigint, '... and bound again')
+FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 'field'::regclass AND deptype = 'a';
+DELETE FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 'field'::regclass;
+SELECT is(abacus_track('field', 'wells'), 100::bigint, 'tracking again');
+SELECT is(count(*), 4::bigint, '... replaces the triggers')
+FROM pg_trigger WHERE tgrelid = 'wells'::regclass;
+-- table and mesh in another schema together
+CREATE SCHEMA elsewhere;
+ALTER TABLE wells SET SCHEMA elsewhere;
+ALTER TABLE field SET SCHEMA elsewhere;
+ALTER TABLE field_vertices SET SCHEMA elsewhere;
+DELETE FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 'elsewhere.field'::regclass;
+DELETE FROM elsewhere.wells WHERE id % 3 = 0;
+SELECT is(differences('elsewhere.field', 'TABLE elsewhere.wells'), 0::bigint, 'restored into another schema');
+ALTER TABLE elsewhere.field RENAME TO meadow;
+DELETE FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 'elsewhere.meadow'::regclass;
+SELECT throws_ok('DELETE FROM elsewhere.wells', '42P01',
+    'mesh "field", which follows table "wells", does not exist', 'a mesh that is not found');
+
+-- names that need quotes, columns in another order and of other types
+CREATE TABLE "Odd ""Table'" ("the id" smallint, "Y" int, deep numeric, "X" real);
+SELECT abacus_create('"Odd Mesh''s"', 2);
+SELECT is(abacus_track('"Odd Mesh''s"', '"Odd ""Table''"', '{the id,X,Y}'), 0::bigint, 'odd names');
+INSERT INTO "Odd ""Table'" SELECT i, i % 7, 1e300, i / 7.0 FROM generate_series(1, 60) i;
+UPDATE "Odd ""Table'" SET "Y" = -"Y" WHERE "the id" > 30;
+SELECT is(differences('"Odd Mesh''s"', 'SELECT "the id", "X"::float8, "Y" FROM "Odd ""Table''"'), 0::bigint,
+    '... and types');
+SELECT lives_ok($$ SELECT abacus_untrack('"Odd Mesh''s"', '"Odd ""Table''"') $$, '... and untracked');
+
+-- ids that are not unique, or NULL
+CREATE TABLE loose (id int, x float8, y float8);
+SELECT abacus_create('loose_mesh', 2);
+SELECT abacus_track('loose_mesh', 'loose');
+INSERT INTO loose SELECT i % 3, i % 4, i / 4 FROM generate_series(0, 15) i;
+INSERT INTO loose SELECT i % 2, i % 4, i / 4 FROM generate_series(0, 15) i;
+INSERT INTO loose TABLE loose;
+DELETE FROM loose WHERE ctid IN (SELECT ctid FROM loose ORDER BY ctid OFFSET 5 LIMIT 30);
+SELECT is(differences('loose_mesh', 'TABLE loose'), 0::bigint, 'a multiset');
+SELECT throws_ok('INSERT INTO loose VALUES (NULL, 1, 1)', '22004', 'id is NULL in row 1 of the statement',
+    'an id is needed');
+SELECT lives_ok('INSERT INTO loose VALUES (NULL, NULL, 1)', '... unless there is no place');
+DELETE FROM loose;
+SELECT is(differences('loose_mesh', 'TABLE loose'), 0::bigint, 'all rows at once');
+-- points on one line wait; the mesh comes and goes
+INSERT INTO loose SELECT i, i, i FROM generate_series(1, 9) i;
+INSERT INTO loose VALUES (10, 5, 6);
+SELECT is(count(*), 8::bigint, 'a point beside the line') FROM abacus_simplices('loose_mesh');
+UPDATE loose SET y = x WHERE id = 10;
+SELECT is(count(*), 0::bigint, '... and on it') FROM abacus_simplices('loose_mesh');
+SELECT is(differences('loose_mesh', 'TABLE loose'), 0::bigint, '... is kept');
+TRUNCATE loose;
+SELECT is(count(*), 0::bigint, 'TRUNCATE, where points wait') FROM abacus_vertices('loose_mesh');
+
+-- triggers of the table that change rows see the mesh in step afterwards
+CREATE FUNCTION snap() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN NEW.x := round(NEW.x); RETURN NEW; END $$;
+CREATE TRIGGER snap BEFORE INSERT OR UPDATE ON loose FOR EACH ROW EXECUTE FUNCTION snap();
+CREATE FUNCTION twin() RETURNS trigger LANGUAGE plpgsql AS $$
+BEGIN
+    IF NEW.id < 1000 THEN INSERT INTO loose VALUES (NEW.id + 1000, NEW.x + 0.6, NEW.y); END IF;
+    RETURN NULL;
+END $$;
+CREATE TRIGGER twin AFTER INSERT ON loose FOR EACH ROW EXECUTE FUNCTION twin();
+INSERT INTO loose SELECT i, i * 0.77, i * i % 13 FROM generate_series(1, 40) i;
+SELECT is(differences('loose_mesh', 'TABLE loose'), 0::bigint, 'triggers that change rows and add some');
+SELECT is(count(*), 80::bigint, '... all of them') FROM abacus_vertices('loose_mesh');
+-- disabled triggers, and the way back
+ALTER TABLE loose DISABLE TRIGGER USER;
+DELETE FROM loose WHERE id < 10;
+ALTER TABLE loose ENABLE TRIGGER USER;
+SELECT throws_ok($$ SELECT abacus_track('loose_mesh', 'loose') $$, '55000', NULL, 'out of step');
+SELECT is(abacus_track('loose_mesh', 'loose', synchronize => true), 71::bigint, '... and in step again');
+SELECT is(differences('loose_mesh', 'TABLE loose'), 0::bigint, '... exactly');
+
+SELECT * FROM finish();
+ROLLBACK;
