@@ -78,7 +78,7 @@ TEST(Probing, FindsDistantNeighboursInEveryPage) {
     // facet.
     Random random(2);
     std::vector<Point<2>> points;
-    for (int i = 0; i < 800; ++i)
+    for (int i = 0; i < 3000; ++i)
         points.push_back({i % 2 ? 0.01 * unit(random) : 1 - 0.01 * unit(random), unit(random)});
     Mesh mesh;
     const auto counters = insert(mesh, points, {.budget = little, .stored_links = false});
