@@ -109,7 +109,8 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 	}
 	vertices = page_store_vertex_table(&host->store);
 	writer_close(&writer);
-	truncate_if_empty(vertices);
+	if (truncate_if_empty(vertices))
+		SPI_commit();			/* lets readers at it */
 	SPI_finish();
 	UnlockRelationIdForSession(&lock, ShareRowExclusiveLock);
 	PG_RETURN_VOID();

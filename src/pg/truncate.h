@@ -4,6 +4,6 @@
 #ifndef ABACUS_TRUNCATE_H
 #define ABACUS_TRUNCATE_H
 
-extern void truncate_if_empty(Oid relid);
+extern bool truncate_if_empty(Oid relid);
 
 #endif

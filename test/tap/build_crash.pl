@@ -78,6 +78,26 @@ while ($struck < $kills)
 	sql("DROP TABLE $mesh");
 	$complete++;
 }
+# After the last batch the emptied vertex table is truncated. A crash right then, with nothing of
+# the write-ahead log on disk that no commit has asked for:
+sql("ALTER SYSTEM SET $_") for 'wal_writer_delay = 10000', 'bgwriter_delay = 10000', 'bgwriter_lru_maxpages = 0', 'autovacuum = off';
+$node->restart;
+sql("SELECT abacus_create('emptied', 2)");
+sql("SELECT abacus_stage('emptied', 'SELECT id, x, y FROM points WHERE id <= 20000')");
+sql('CHECKPOINT');
+my $session = $node->background_psql('postgres');
+$session->query_until(qr/begins/, "\\echo begins\nDO \$\$ BEGIN CALL abacus_build('emptied', 5000); PERFORM pg_sleep(3600); END \$\$;\n");
+$node->poll_query_until('postgres', "SELECT count(*) = 1 FROM pg_stat_activity WHERE wait_event = 'PgSleep'")
+  or die 'the build does not end';
+$node->stop('immediate');
+$session->{run}->finish;
+$node->start;
+is(inserted('emptied'), 20_000, 'emptied: complete');
+is(sql("SELECT pg_relation_size('emptied_vertices')"), 0, 'emptied: the vertex table is truncated');
+is_intact($node, 'postgres', 'emptied', 'emptied');
+sql("SELECT abacus_stage('emptied', 'SELECT id + 1000000, x / 2, y / 2 FROM points WHERE id <= 2000'); CALL abacus_build('emptied', 500)");
+is_intact($node, 'postgres', 'emptied', 'emptied, and built on');
+
 diag("$struck times stopped, $late times too late, $complete meshes completed");
 
 $node->stop;
