@@ -5,7 +5,9 @@
  * batch in a transaction of its own. At the end the vertex table holds nothing
  * but dead rows, and its file is as large as ever, until VACUUM comes and cuts
  * it. That can be done here and now if nobody is in the way: no transaction
- * that may still see a row, nobody who has the table open.
+ * that may still see a row, nobody who has the table open. On a standby somebody
+ * may have, and is cancelled when the truncation gets there, as after VACUUM's;
+ * the table's setting vacuum_truncate forbids both.
  *
  * As TRUNCATE does it, table and index get new files, and the old ones go at
  * commit. Cutting the files where they are is not for tables that must survive
@@ -57,22 +59,30 @@ truncate_table(Relation rel)
 	pgstat_count_truncate(rel);
 }
 
+/* Whether there is something to cut, and the table's settings let lazy VACUUM cut it. */
+static bool
+is_empty(Relation rel)
+{
+	bool		may = rel->rd_options == NULL ||
+		((StdRdOptions *) rel->rd_options)->vacuum_truncate;
+
+	return may && RelationGetNumberOfBlocks(rel) > 0 && !has_rows(rel);
+}
+
 /*
  * Truncates a table if it has only dead rows and nobody uses it; nobody can then until the
- * transaction ends. Returns whether.
+ * transaction ends. Returns whether. The lock is asked for only if it will be used: standbys
+ * hear of it.
  */
 bool
 truncate_if_empty(Oid relid)
 {
-	Relation	rel;
+	Relation	rel = try_relation_open(relid, AccessShareLock);
 	bool		empty;
 
-	if (!ConditionalLockRelationOid(relid, AccessExclusiveLock))
-		return false;
-	rel = try_relation_open(relid, NoLock);
 	if (rel == NULL)
 		return false;
-	empty = RelationGetNumberOfBlocks(rel) > 0 && !has_rows(rel);
+	empty = is_empty(rel) && ConditionalLockRelation(rel, AccessExclusiveLock) && is_empty(rel);
 	if (empty)
 		truncate_table(rel);
 	relation_close(rel, NoLock);
