@@ -86,7 +86,7 @@ while ($inserted < $points)
 }
 $builder->finish;
 is(join("\n", keys %wrong), '', "$looks looks during the build, each at one whole state");
-cmp_ok(scalar(keys %seen), '>=', 3, scalar(keys %seen) . ' states seen');
+cmp_ok(scalar(keys %seen), '>=', 2, scalar(keys %seen) . ' states seen');
 is($standby->safe_psql('postgres', 'SELECT sum(confl_snapshot) + sum(confl_lock) FROM pg_stat_database_conflicts'),
 	0, 'with feedback no reader is in the way');
 $primary->wait_for_catchup($standby);
@@ -118,13 +118,30 @@ ok($standby->log_contains('due to conflict with recovery'), '... and is told so'
 is_sound($standby, 'postgres', 'field', 'a new reader');
 is(mesh_content($standby, 'postgres', 'field'), mesh_content($primary, 'postgres', 'field'), '... sees the mesh of the primary');
 
-# promoted, in the middle of a build
+# promoted between two batches of a build: the first waits for a lock on the header row, the second
+# for one on the vertex table, which was asked for during the first
 $primary->safe_psql('postgres', "SELECT abacus_stage('field', 'SELECT id + 200000, 1 - x * x, y * y FROM points WHERE id <= 24000')");
+my $first = $primary->background_psql('postgres');
+$first->query_safe('BEGIN; SELECT FROM field WHERE code = -1 FOR UPDATE');
 $builder = build('field');
-$primary->poll_query_until('postgres', "SELECT value > 50000 FROM abacus_stats('field') WHERE name = 'inserted'");
+sub await_waiting
+{
+	my ($count) = @_;
+	return $primary->poll_query_until('postgres',
+		"SELECT count(*) = $count FROM pg_stat_activity WHERE wait_event_type = 'Lock'") || die 'nobody waits';
+}
+await_waiting(1);
+my $between = $primary->background_psql('postgres');
+$between->query_until(qr/asking/, "\\echo asking\nBEGIN; LOCK TABLE field_vertices IN ACCESS EXCLUSIVE MODE;\n");
+await_waiting(2);
+$first->query_safe('COMMIT');
+$primary->poll_query_until('postgres', "SELECT count(*) = 1 FROM pg_locks WHERE relation = 'field_vertices'::regclass AND mode = 'AccessExclusiveLock' AND granted")
+  or die 'the first batch does not end';
+$primary->wait_for_catchup($standby);
 $standby->promote;
+$_->quit for $first, $between;
 $builder->finish;
-cmp_ok(mesh_figure($standby, 'postgres', 'field', 'inserted'), '<', 72_000, 'promoted in the middle');
+is(mesh_figure($standby, 'postgres', 'field', 'inserted'), 48_000 + $batch, 'promoted in the middle');
 is_sound($standby, 'postgres', 'field', 'promoted');
 $standby->safe_psql('postgres', "CALL abacus_build('field')");
 is(mesh_content($standby, 'postgres', 'field'), mesh_content($primary, 'postgres', 'field'),
