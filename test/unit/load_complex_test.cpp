@@ -1,5 +1,5 @@
 // Which sets of simplices are complexes: a few at random on a small grid, where everything
-// degenerate happens, against a test of every pair with CGAL's kernel.
+// degenerate happens, against a test of every pair with CGAL's kernel over rationals.
 //
 // Two simplices meet in a common face if and only if no vertex of one lies in a face of the
 // other that does not have it, and in space no edge of one meets an edge or a triangle of the
@@ -7,7 +7,8 @@
 // "Triangulations", 2010, §4.1).
 #include "support/triangulations.hpp"
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_rational.h>
+#include <CGAL/Simple_cartesian.h>
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@
 namespace abacus::test {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Kernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
 
 auto cgal(const Point<2> &p) { return Kernel::Point_2(p[0], p[1]); }
 auto cgal(const Point<3> &p) { return Kernel::Point_3(p[0], p[1], p[2]); }
