@@ -208,8 +208,9 @@ create(TupleDesc desc, const abacus_header *header, int ids, int columns, size_t
 	packer->receiver.rShutdown = shut_down;
 	packer->receiver.rDestroy = shut_down;
 	packer->receiver.mydest = DestNone;
-	const char *name = column_name(packer, column);
-	const char *hint = packer->hint;
+	packer->origin = "the source query";
+	packer->hint = ids > 1 ? "Leave such simplices out with a WHERE clause."
+		: "Leave such points out with a WHERE clause.";
 	packer->kinds = palloc(columns * sizeof(PackKind));
 	for (int i = 0; i < columns; i++)
 	{
