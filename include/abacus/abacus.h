@@ -7,6 +7,7 @@
  *
  *   abacus_stage   points in, vertex pages in insertion order out   (dissertation §4.12.2)
  *   abacus_build   staged points in, simplex pages out              (§4.12.3-5)
+ *   abacus_load    vertices and simplices made elsewhere in, simplex pages out
  *   abacus_mesh    locate and walk over stored pages                (§4.11.3)
  *   abacus_scan, abacus_vertex_scan, abacus_check, abacus_draw      whole-mesh readers
  *
@@ -228,7 +229,10 @@ typedef struct abacus_header
 	uint64_t duplicates;   /* further points of the mesh, each equal to a vertex */
 	uint64_t serials;      /* serial number of the next such point */
 	uint64_t simplices;
-	uint64_t ghosts;       /* hull facets */
+	uint64_t ghosts;       /* hull facets; facets of the boundary if not_delaunay */
+	uint32_t not_delaunay; /* 1: loaded from elsewhere (abacus_load_open), and not the Delaunay
+							  triangulation of its vertices: it is read, never changed. Its
+							  vertices are listed in staged pages; staged = inserted = vertices */
 	abacus_counters counters; /* summed over all builds; peak_bytes: the largest */
 	char names[ABACUS_MAX_ATTRIBUTES][ABACUS_NAME_BYTES];
 } abacus_header;
@@ -305,6 +309,34 @@ ABACUS_API abacus_status abacus_build_delete(abacus_build *build, abacus_stage *
 ABACUS_API abacus_status abacus_build_clear(abacus_build *build, abacus_header *header,
 											uint64_t *deleted, abacus_error *error);
 ABACUS_API void abacus_build_close(abacus_build *build);
+
+/* ---- Loading ---------------------------------------------------------------- */
+
+typedef struct abacus_load abacus_load;
+
+/*
+ * Opens the loading of a triangulation made elsewhere into a mesh without points.
+ * `memory` bounds what it uses, in bytes (maintenance_work_mem); beyond it everything
+ * goes to spools. With `reorient` simplices of negative orientation are turned; without,
+ * they are refused.
+ */
+ABACUS_API abacus_status abacus_load_open(const abacus_host *host, const abacus_header *header,
+										  size_t memory, int reorient, abacus_load **load,
+										  abacus_error *error);
+/* Adds vertices, as abacus_stage_add does points; each id once. */
+ABACUS_API abacus_status abacus_load_vertices(abacus_load *load, const uint64_t *points,
+											  size_t count, abacus_error *error);
+/* After all vertices: adds simplices, dimension + 1 ids of vertices each. */
+ABACUS_API abacus_status abacus_load_simplices(abacus_load *load, const int64_t *ids,
+											   size_t count, abacus_error *error);
+/*
+ * Checks that the simplices form a complex, exactly, writes the pages and brings the
+ * header up to date. ABACUS_ERROR (argument) names the first fault found: an unknown,
+ * repeated or unused vertex, a flat simplex, a facet used too often, an overlap.
+ */
+ABACUS_API abacus_status abacus_load_finish(abacus_load *load, abacus_header *header,
+											abacus_error *error);
+ABACUS_API void abacus_load_close(abacus_load *load);
 
 /* ---- Reading ------------------------------------------------------------------ */
 

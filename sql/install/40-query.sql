@@ -5,7 +5,7 @@ RETURNS abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_locate'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_locate(regclass, double precision, double precision) IS
-    'the triangle of a mesh of dimension 2 that contains the point; NULL outside the convex hull';
+    'the triangle of a mesh of dimension 2 that contains the point; NULL outside the mesh';
 
 CREATE FUNCTION abacus_locate(
     mesh regclass,
@@ -16,14 +16,14 @@ RETURNS abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_locate'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_locate(regclass, double precision, double precision, double precision) IS
-    'the tetrahedron of a mesh of dimension 3 that contains the point; NULL outside the convex hull';
+    'the tetrahedron of a mesh of dimension 3 that contains the point; NULL outside the mesh';
 
 CREATE FUNCTION abacus_walk(mesh regclass, simplex abacus_simplex, facet integer)
 RETURNS abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_walk'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_walk(regclass, abacus_simplex, integer) IS
-    'the neighbour of a simplex across its facet opposite vertex i; NULL at the convex hull';
+    'the neighbour of a simplex across its facet opposite vertex i; NULL at the boundary of the mesh';
 
 CREATE FUNCTION abacus_simplices(mesh regclass)
 RETURNS SETOF abacus_simplex

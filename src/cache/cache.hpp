@@ -43,6 +43,14 @@ struct CacheOptions {
     bool stored_links = true;        // false: probe at every miss, to measure §4.10
     bool verify_links = false;       // compare every stored key with the simplex it leads to
     bool verify_checksums = true;    // false: for who looks for the damage itself
+    bool linked_ghosts = true;       // false: a ghost is its own neighbour across its ridges
+};
+
+/// A simplex for Cache::append(): its vertices as records (id, coordinates, attributes), the
+/// last null for the point at infinity; the keys of its neighbours.
+template <int D> struct LooseSimplex {
+    std::array<const std::uint64_t *, D + 1> vertex;
+    std::array<Key, D + 1> beyond;
 };
 
 template <int D> class Cache {
@@ -188,6 +196,12 @@ public:
     }
     /// Writes every changed block; they stay cached.
     void flush();
+    /// Writes a page of a mesh that is made in the order of keys, and keeps nothing of it.
+    /// False, and nothing is written, if it would have too many bytes.
+    bool append(const Key &lower, const Key &upper, const LooseSimplex<D> *simplices,
+                std::size_t n);
+    /// Simplices that a block takes.
+    std::uint32_t capacity() const { return capacity_; }
 
     const Host &host() const { return host_; }
     void poll() const { host_.poll(); }
@@ -313,8 +327,15 @@ private:
     void load_vertices();
     void load_simplices(Handle first);
     void link_outside();
+    /// Whether a facet is a ghost's ridge, in a mesh that does not link them.
+    bool is_loose(bool ghost, int facet) const {
+        return !options_.linked_ghosts && ghost && facet < D;
+    }
     void link_outside(Link link, const Key &beyond);
     bool leads_to(const Key &link, Handle h) const;
+
+    // cache_append.cpp
+    VertexIndex appended_vertex(const std::uint64_t *record);
 
     // probing.cpp
     void probe(Handle h, int facet);

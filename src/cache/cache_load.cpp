@@ -12,12 +12,6 @@
 
 namespace abacus {
 
-namespace {
-
-constexpr Link unset = 0xffffffffu;
-
-} // namespace
-
 template <int D> Link Cache<D>::miss(Handle h, int facet) {
     ++counters.misses;
     host_.poll();
@@ -108,10 +102,14 @@ template <int D> void Cache<D>::link_inside(Handle first) {
     for (int s = 0; s < simplices; ++s) {
         for (int i = 0; i <= D; ++i) {
             if (slots_[first + s].link[i] != unset) continue;
+            const Link link = make_link(first + s, i);
+            if (is_loose(view_.corner(s, D) == view_.vertices(), i)) {
+                slots_[first + s].link[i] = link;
+                continue;
+            }
             const FacetVertices<D, std::uint32_t> facet(view_.corners(s), i);
             std::uint64_t vertices = 0;
             for (const std::uint32_t v : facet.vertex) vertices = vertices << 16 | v;
-            const Link link = make_link(first + s, i);
             const Link odd = facet.odd ? absent : 0;
             std::size_t at = mask == 0 ? 0 : (vertices * 0x9e3779b97f4a7c15ull) >> shift;
             while (facets_[at].epoch == epoch_ && facets_[at].vertices != vertices)

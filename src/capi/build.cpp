@@ -2,6 +2,7 @@
 #include "delaunay/build.hpp"
 
 #include "capi/dimension.hpp"
+#include "capi/editable.hpp"
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
 #include "capi/stage.hpp"
@@ -17,6 +18,7 @@ struct abacus_build {
 abacus_status abacus_build_open(const abacus_host *host, const abacus_header *header,
                                 size_t cache_bytes, abacus_build **build, abacus_error *error) {
     return abacus::guard(error, [&] {
+        abacus::require_editable(*header);
         *build = abacus::create_handle<abacus_build>(host, *header, cache_bytes);
         return ABACUS_OK;
     });

@@ -1,6 +1,7 @@
 // Staging behind the C interface.
 #include "capi/stage.hpp"
 
+#include "capi/editable.hpp"
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
 
@@ -20,6 +21,7 @@ abacus_status dispatch(abacus_stage *stage, abacus_error *error, Call call) noex
 abacus_status abacus_stage_open(const abacus_host *host, const abacus_header *header, size_t memory,
                                 abacus_stage **stage, abacus_error *error) {
     return abacus::guard(error, [&] {
+        abacus::require_editable(*header);
         *stage = abacus::create_handle<abacus_stage>(host, *header, memory);
         return ABACUS_OK;
     });

@@ -3,7 +3,8 @@
 // simplex across a facet that separates it from the target, never back through
 // the one it came in by, the first facet tried drawn at random. In a Delaunay
 // triangulation no such walk visits a simplex twice, so one that is longer than the
-// mesh has simplices shows that the mesh is damaged.
+// mesh has simplices shows that the mesh is damaged. In others it may go round in circles
+// for a while, and end at a boundary that is not the hull: within() says so.
 #pragma once
 
 #include "cache/cache.hpp"
@@ -31,6 +32,12 @@ public:
     /// strictly beyond it if p lies outside the hull. `longest`: simplices of the mesh,
     /// ghosts included.
     Handle to(const Point<D> &p, Handle from, std::uint64_t longest) {
+        const Handle h = within(p, from, longest);
+        if (h == no_handle) throw_corrupted("A walk in the mesh does not end.");
+        return h;
+    }
+    /// The same; no_handle after `longest` steps.
+    Handle within(const Point<D> &p, Handle from, std::uint64_t longest) {
         ++cache_.counters.walks;
         Handle h = from;
         int entered = -1;
@@ -38,7 +45,7 @@ public:
         if (cache_.simplex(h).is_ghost()) h = link_simplex(cache_.cross(h, D));
         for (std::uint64_t steps = 0;; ++steps) {
             if (steps % 4096 == 4095) cache_.poll();
-            if (steps > longest) throw_corrupted("A walk in the mesh does not end.");
+            if (steps > longest) return no_handle;
             const Simplex<D> &s = cache_.simplex(h);
             if (s.is_ghost()) return h;
             Corners<D> corners = cache_.corners(s);

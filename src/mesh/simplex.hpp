@@ -24,6 +24,7 @@ inline constexpr VertexIndex infinite_vertex = 0;
 inline constexpr VertexIndex free_mark = 0xffffffffu; // vertex[0] of a free slot
 inline constexpr Handle no_handle = 0xffffffffu;
 inline constexpr Link absent = 0x80000000u;
+inline constexpr Link unset = 0xffffffffu;
 
 constexpr Link make_link(Handle simplex, int facet) {
     return simplex << 2 | static_cast<Link>(facet);

@@ -1,8 +1,9 @@
 /*
- * row_packer.c: rows from the executor into the core's records of points.
+ * row_packer.c: rows from the executor into the core's records of points, or
+ * of simplices.
  *
  * A DestReceiver that deforms each slot in place and packs (id, coordinates,
- * attributes) into eight-byte words. Columns go by position, as in every
+ * attributes), or the ids of a simplex's vertices, into eight-byte words. Columns go by position, as in every
  * function that takes a source query. This is the hot path of staging: a few
  * tens of nanoseconds a row beside the scan itself.
  */
@@ -20,6 +21,7 @@
 #include "pg/row_packer.h"
 
 static const char *const coordinate_names[ABACUS_MAX_DIMENSION] = {"x", "y", "z"};
+static const char *const corner_names[ABACUS_MAX_DIMENSION + 1] = {"v0", "v1", "v2", "v3"};
 
 /* What a column is called in messages, and in tables by default. */
 const char *
@@ -32,21 +34,29 @@ row_packer_column(const abacus_header *header, int column)
 	return header->names[column - 1 - header->dimension];
 }
 
+static const char *
+column_name(const RowPacker *packer, int column)
+{
+	return packer->ids > 1 ? corner_names[column] : row_packer_column(packer->header, column);
+}
+
 /* "id, x, y, height" */
 static char *
-expected_columns(const abacus_header *header)
+expected_columns(const RowPacker *packer)
 {
 	StringInfoData names;
 
 	initStringInfo(&names);
-	for (int i = 0; i < (int) (1 + header->dimension + header->attributes); i++)
-		appendStringInfo(&names, "%s%s", i > 0 ? ", " : "", row_packer_column(header, i));
+	for (int i = 0; i < packer->columns; i++)
+		appendStringInfo(&names, "%s%s", i > 0 ? ", " : "", column_name(packer, i));
 	return names.data;
 }
 
 static PackKind
-pack_kind(const abacus_header *header, int column, Oid type)
+pack_kind(const RowPacker *packer, int column, Oid type)
 {
+	bool		is_id = column < packer->ids;
+
 	switch (getBaseType(type))
 	{
 		case INT2OID:
@@ -56,23 +66,23 @@ pack_kind(const abacus_header *header, int column, Oid type)
 		case INT8OID:
 			return PACK_INT8;
 		case FLOAT4OID:
-			if (column > 0)
+			if (!is_id)
 				return PACK_FLOAT4;
 			break;
 		case FLOAT8OID:
-			if (column > 0)
+			if (!is_id)
 				return PACK_FLOAT8;
 			break;
 		case NUMERICOID:
-			if (column > 0)
+			if (!is_id)
 				return PACK_NUMERIC;
 			break;
 	}
 	ereport(ERROR,
 			(errcode(ERRCODE_DATATYPE_MISMATCH),
 			 errmsg("column %d (%s) of the source query has type %s", column + 1,
-					row_packer_column(header, column), format_type_be(type)),
-			 column == 0 ? errdetail("An id is smallint, integer or bigint.")
+					column_name(packer, column), format_type_be(type)),
+			 is_id ? errdetail("An id is smallint, integer or bigint.")
 			 : errdetail("Coordinates and attributes are double precision, real, numeric or integers."),
 			 errhint("Cast the column in the query.")));
 	return PACK_INT8;			/* not reached */
@@ -82,13 +92,14 @@ pack_kind(const abacus_header *header, int column, Oid type)
 static void
 refuse_value(const RowPacker *packer, const uint64 *point, int column, bool isnull)
 {
-	const char *name = row_packer_column(packer->header, column);
+	const char *name = column_name(packer, column);
 	const char *hint = packer->hint;
 
-	if (isnull && column == 0)
+	if (isnull && column < packer->ids)
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
-				 errmsg("id is NULL in row " UINT64_FORMAT " of %s", packer->row, packer->origin),
+				 errmsg("%s is NULL in row " UINT64_FORMAT " of %s", name, packer->row,
+						packer->origin),
 				 errhint("%s", hint)));
 	ereport(ERROR,
 			(errcode(isnull ? ERRCODE_NULL_VALUE_NOT_ALLOWED : ERRCODE_INVALID_PARAMETER_VALUE),
@@ -147,10 +158,13 @@ receive_row(TupleTableSlot *slot, DestReceiver *self)
 	if (unlikely(packer->any_numeric))
 		old = MemoryContextSwitchTo(packer->scratch);
 
-	if (unlikely(slot->tts_isnull[0]))
-		refuse_value(packer, point, 0, true);
-	point[0] = (uint64) to_id(packer->kinds[0], slot->tts_values[0]);
-	for (int i = 1; i < packer->columns; i++)
+	for (int i = 0; i < packer->ids; i++)
+	{
+		if (unlikely(slot->tts_isnull[i]))
+			refuse_value(packer, point, i, true);
+		point[i] = (uint64) to_id(packer->kinds[i], slot->tts_values[i]);
+	}
+	for (int i = packer->ids; i < packer->columns; i++)
 	{
 		bool		isnull = slot->tts_isnull[i];
 		double		value = isnull ? NAN : to_double(packer->kinds[i], slot->tts_values[i]);
@@ -175,38 +189,52 @@ shut_down(DestReceiver *self)
 {
 }
 
-/* A packer for rows of this shape, in the current memory context. */
-RowPacker *
-row_packer_create(TupleDesc desc, const abacus_header *header, size_t batch)
+static RowPacker *
+create(TupleDesc desc, const abacus_header *header, int ids, int columns, size_t batch)
 {
 	RowPacker  *packer = palloc0(sizeof(RowPacker));
-	int			columns = 1 + header->dimension + header->attributes;
 
+	packer->header = header;
+	packer->ids = ids;
+	packer->columns = columns;
 	if (desc->natts != columns)
 		ereport(ERROR,
 				(errcode(ERRCODE_DATATYPE_MISMATCH),
 				 errmsg("source query returns %d columns, but the mesh takes %d", desc->natts,
 						columns),
-				 errdetail("Columns go by position: %s.", expected_columns(header))));
+				 errdetail("Columns go by position: %s.", expected_columns(packer))));
 	packer->receiver.receiveSlot = receive_row;
 	packer->receiver.rStartup = start_up;
 	packer->receiver.rShutdown = shut_down;
 	packer->receiver.rDestroy = shut_down;
 	packer->receiver.mydest = DestNone;
 	packer->origin = "the source query";
-	packer->hint = "Leave such points out with a WHERE clause.";
-	packer->header = header;
-	packer->columns = columns;
+	packer->hint = ids > 1 ? "Leave such simplices out with a WHERE clause."
+		: "Leave such points out with a WHERE clause.";
 	packer->kinds = palloc(columns * sizeof(PackKind));
 	for (int i = 0; i < columns; i++)
 	{
-		packer->kinds[i] = pack_kind(header, i, TupleDescAttr(desc, i)->atttypid);
+		packer->kinds[i] = pack_kind(packer, i, TupleDescAttr(desc, i)->atttypid);
 		packer->any_numeric |= packer->kinds[i] == PACK_NUMERIC;
 	}
 	packer->points = palloc(batch * columns * sizeof(uint64));
 	packer->scratch = AllocSetContextCreate(CurrentMemoryContext, "Abacus row conversion",
 											ALLOCSET_DEFAULT_SIZES);
 	return packer;
+}
+
+/* A packer for rows that are points of the mesh, in the current memory context. */
+RowPacker *
+row_packer_create(TupleDesc desc, const abacus_header *header, size_t batch)
+{
+	return create(desc, header, 1, 1 + header->dimension + header->attributes, batch);
+}
+
+/* The same for simplices: ids of their vertices. */
+RowPacker *
+row_packer_create_simplices(TupleDesc desc, const abacus_header *header, size_t batch)
+{
+	return create(desc, header, header->dimension + 1, header->dimension + 1, batch);
 }
 
 void

@@ -1,5 +1,6 @@
 /*
- * row_packer.h: rows from the executor into the core's records of points.
+ * row_packer.h: rows from the executor into the core's records of points, or of
+ * simplices.
  */
 #ifndef ABACUS_ROW_PACKER_H
 #define ABACUS_ROW_PACKER_H
@@ -25,10 +26,11 @@ typedef struct RowPacker
 	const char *origin;			/* where the rows come from, for messages */
 	const char *hint;			/* what to do about one that cannot be placed */
 	const abacus_header *header;
-	int			columns;		/* id, coordinates, attributes */
+	int			columns;		/* id, coordinates, attributes; or ids */
+	int			ids;			/* columns of ids: 1, or all */
 	PackKind   *kinds;
 	bool		any_numeric;
-	uint64	   *points;			/* room for a batch */
+	uint64	   *points;			/* records: room for a batch */
 	size_t		count;
 	uint64		row;			/* rows seen, for messages */
 	MemoryContext scratch;		/* of conversions; emptied at each batch */
@@ -36,6 +38,8 @@ typedef struct RowPacker
 
 extern const char *row_packer_column(const abacus_header *header, int column);
 extern RowPacker *row_packer_create(TupleDesc desc, const abacus_header *header, size_t batch);
+extern RowPacker *row_packer_create_simplices(TupleDesc desc, const abacus_header *header,
+											  size_t batch);
 extern void row_packer_reset(RowPacker *packer);
 
 #endif

@@ -17,7 +17,7 @@
 
 #include "pg/source.h"
 
-#define POINTS_A_BATCH 1024
+#define ROWS_A_BATCH 1024
 
 static CachedPlanSource *
 plan_source(const Source *source)
@@ -73,7 +73,15 @@ void
 source_open(Source *source, const abacus_header *header)
 {
 	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
-	source->packer = row_packer_create(source->portal->tupDesc, header, POINTS_A_BATCH);
+	source->packer = row_packer_create(source->portal->tupDesc, header, ROWS_A_BATCH);
+}
+
+/* Starts reading simplices, by the ids of their vertices. */
+void
+source_open_simplices(Source *source, const abacus_header *header)
+{
+	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
+	source->packer = row_packer_create_simplices(source->portal->tupDesc, header, ROWS_A_BATCH);
 }
 
 /* Errors while reading say which query they come from, as SPI's do. */
@@ -83,7 +91,7 @@ describe_query(void *query)
 	errcontext("SQL statement \"%s\"", (const char *) query);
 }
 
-/* Reads on; the points stay valid until the next call. 0 at the end. */
+/* Reads on; the records stay valid until the next call. 0 at the end. */
 size_t
 source_fetch(Source *source, const uint64 **points)
 {
@@ -92,7 +100,7 @@ source_fetch(Source *source, const uint64 **points)
 
 	error_context_stack = &context;
 	row_packer_reset(source->packer);
-	PortalRunFetch(source->portal, FETCH_FORWARD, POINTS_A_BATCH, &source->packer->receiver);
+	PortalRunFetch(source->portal, FETCH_FORWARD, ROWS_A_BATCH, &source->packer->receiver);
 	error_context_stack = context.previous;
 	*points = source->packer->points;
 	return source->packer->count;

@@ -20,7 +20,10 @@ Check<D>::Check(const Host &host, const abacus_header &header, std::size_t cache
     const auto is_sound = [&] { return faults_.size() == unsealed_; };
     if (is_sound() && pages_ > 0) run("link", [&] { check_topology(); });
     if (is_sound()) run("point", [&] { check_repeated_points(); });
-    if (is_sound()) run("point", [&] { check_waiting_points(); });
+    if (is_sound())
+        run("point", [&] {
+            header.not_delaunay != 0 ? check_listed_vertices() : check_waiting_points();
+        });
 }
 
 template <int D> void Check<D>::fault(const char *kind, const Key &key, const char *message) {
@@ -51,7 +54,7 @@ template <int D> void Check<D>::check_header() {
     if ((h.simplices > 0) != (h.vertices > 0) || (h.ghosts > 0) != (h.vertices > 0))
         fault("count", first_key,
               "The header has vertices without simplices or the other way round.");
-    if (D == 2 && h.simplices > 0 && h.simplices + h.ghosts + 2 != 2 * h.vertices)
+    if (D == 2 && h.simplices > 0 && h.not_delaunay == 0 && h.simplices + h.ghosts + 2 != 2 * h.vertices)
         fault("euler", first_key, "Vertices, triangles and hull edges do not add up.");
     for (int i = 0; i < D; ++i)
         if (!(std::isfinite(h.lower[i]) && std::isfinite(h.upper[i]) && h.lower[i] <= h.upper[i]))
@@ -91,6 +94,7 @@ template <int D> void Check<D>::check_pages() {
 }
 
 template <int D> void Check<D>::check_page(const PageView<D> &page) {
+    page_vertices_ += static_cast<std::uint64_t>(page.vertices());
     check_simplices(page);
     bool has_parts = false;
     for (int i = 0; i < page.links(); ++i) has_parts = has_parts || page.link_part(i) != 0;
@@ -127,18 +131,21 @@ template <int D> void Check<D>::check_topology() {
     std::uint64_t pages = 0, vertices = 0;
     for (Key key = first_key; key < end_key;) {
         at_key_ = key;
-        cache.visit(key, [&](Handle h) {
+        const Key next = cache.visit(key, [&](Handle h) {
             if (!cache.is_home(h))
                 fault("key", at_key_, "A simplex lies in a page that does not own its key.");
             check_simplex(cache, h);
         });
-        key = own.collect(key);
-        vertices += own.list().size();
+        if (header_.not_delaunay == 0) {
+            own.collect(key);
+            vertices += own.list().size();
+        }
+        key = next;
         cache.trim();
         host_.poll();
         report(++pages);
     }
-    if (vertices != header_.vertices)
+    if (header_.not_delaunay == 0 && vertices != header_.vertices)
         fault("count", first_key, "The header counts other vertices than the pages hold.");
 }
 
@@ -147,20 +154,25 @@ template <int D> void Check<D>::check_simplex(Cache<D> &cache, Handle h) {
         const Link link = cache.cross(h, i); // throws unless it leads to a true neighbour
         const Simplex<D> &neighbour = cache.simplex(link_simplex(link));
         const VertexIndex opposite = neighbour.vertex[link_facet(link)];
-        if (opposite == infinite_vertex) continue;
-        const Simplex<D> &s = cache.simplex(h);
-        switch (side_of<D>(cache, s, cache.point(opposite))) {
-        case Side::outside:
-            break;
-        case Side::vertex:
-            fault("vertex", at_key_, "Two vertices have the same coordinates.");
-            break;
-        case Side::inside:
-            if (s.is_ghost())
-                fault("hull", at_key_, "The convex hull is not convex.");
-            else
-                fault("delaunay", at_key_, "A vertex lies inside a circumsphere.");
-        }
+        if (opposite == infinite_vertex || header_.not_delaunay != 0) continue;
+        check_empty_sphere(cache, cache.simplex(h), cache.point(opposite));
+    }
+}
+
+template <int D>
+void Check<D>::check_empty_sphere(const Cache<D> &cache, const Simplex<D> &s,
+                                  const Point<D> &opposite) {
+    switch (side_of<D>(cache, s, opposite)) {
+    case Side::outside:
+        break;
+    case Side::vertex:
+        fault("vertex", at_key_, "Two vertices have the same coordinates.");
+        break;
+    case Side::inside:
+        if (s.is_ghost())
+            fault("hull", at_key_, "The convex hull is not convex.");
+        else
+            fault("delaunay", at_key_, "A vertex lies inside a circumsphere.");
     }
 }
 
@@ -192,6 +204,33 @@ template <int D> void Check<D>::check_waiting_points() {
         fault("count", first.key, "There are points before the first that waits.");
     else if (host_.next(ABACUS_STAGED_PAGES, &end, page))
         fault("count", page.key, "There are points behind the last that waits.");
+}
+
+template <int D> void Check<D>::check_listed_vertices() {
+    Reader<D> mesh(host_, header_, {.budget = cache_bytes_, .verify_checksums = false});
+    VertexReader<D> list(host_, header_.attributes, 0, header_.staged);
+    std::uint64_t in_pages = 0, previous_code = 0;
+    Point<D> previous{};
+    while (list.advance()) {
+        at_key_ = {list.sequence(), 0};
+        const Point<D> p = list.point();
+        const std::uint64_t code = domain_.code(p);
+        if (list.sequence() > 0 && (code < previous_code || (code == previous_code &&
+                                                             !lexicographically_less<D>(previous, p))))
+            fault("vertex", at_key_, "The list of vertices is not in order.");
+        previous_code = code;
+        previous = p;
+        const std::uint64_t pages = mesh.pages_with(list.record());
+        if (pages == 0)
+            fault("vertex", at_key_, "A vertex of the list is none of the mesh, or another one.");
+        in_pages += pages;
+    }
+    if (in_pages != page_vertices_)
+        fault("vertex", first_key, "The mesh has vertices that are not in the list.");
+    const Key end{header_.staged - 1, 0};
+    abacus_page page;
+    if (host_.next(ABACUS_STAGED_PAGES, &end, page))
+        fault("count", page.key, "There are pages behind the list of vertices.");
 }
 
 template class Check<2>;

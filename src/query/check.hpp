@@ -12,6 +12,13 @@
 //   points    every repeated point equals a vertex; the sequence of those that wait is
 //             whole; the counts add up
 //
+// A mesh that is not Delaunay need not fulfil the empty-sphere criterion, Euler's relation
+// nor have a convex hull. What is verified instead across facets is that the two simplices
+// lie on their two sides, which follows from their orientations. That simplices that are no
+// neighbours do not overlap was verified when the mesh was loaded, and is not again.
+//
+// Its vertices are listed beside it, and the list is compared with the pages.
+//
 // What is stored once, the ids, attributes and places of points, nothing else in the
 // database repeats: that it is changed in a simplex page only the checksum tells. The other
 // passes don't depend on that, and tell what else has changed.
@@ -56,6 +63,8 @@ private:
     void check_simplex(Cache<D> &cache, Handle h);
     void check_repeated_points();
     void check_waiting_points();
+    void check_listed_vertices();
+    void check_empty_sphere(const Cache<D> &cache, const Simplex<D> &s, const Point<D> &opposite);
 
     /// Keeps a fault, if there is room for more.
     void fault(const char *kind, const Key &key, const char *message);
@@ -74,6 +83,7 @@ private:
     std::uint64_t pages_ = 0;
     std::uint64_t simplices_ = 0, ghosts_ = 0;
     std::size_t unsealed_ = 0; // pages with a wrong checksum and no other fault so far
+    std::uint64_t page_vertices_ = 0; // of all pages
 };
 
 } // namespace abacus

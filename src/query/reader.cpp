@@ -3,6 +3,7 @@
 #include "cache/domain_of.hpp"
 #include "host/memory.hpp"
 #include "query/describe.hpp"
+#include "staging/record.hpp"
 
 #include <memory_resource>
 #include <string>
@@ -10,13 +11,24 @@
 
 namespace abacus {
 
+namespace {
+
+CacheOptions linked_as(const abacus_header &header, CacheOptions options) {
+    options.linked_ghosts = header.not_delaunay == 0;
+    return options;
+}
+
+} // namespace
+
 template <int D>
 Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOptions &options)
     : size_(header.simplices == 0 ? 0 : header.simplices + header.ghosts),
-      cache_(host, domain_of<D>(header), static_cast<int>(header.attributes), options),
+      delaunay_(header.not_delaunay == 0), box_bytes_(options.budget / 8),
+      cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
+             linked_as(header, options)),
       walk_(cache_) {}
 
-template <int D> Handle Reader<D>::find(const Point<D> &p) {
+template <int D> Handle Reader<D>::start(const Point<D> &p) {
     if (size_ == 0) return no_handle;
     cache_.trim();
     const std::uint64_t code = cache_.domain().code(p);
@@ -24,8 +36,103 @@ template <int D> Handle Reader<D>::find(const Point<D> &p) {
     if (!cache_.is_live(from) || !(cache_.near(from, code) || walk_.is_close(from, p)))
         from = cache_.start(code, p);
     if (from == no_handle) throw_corrupted("The mesh has no simplices.");
-    return last_ = walk_.to(p, from, size_);
+    return from;
 }
+
+template <int D> Handle Reader<D>::find(const Point<D> &p) {
+    const Handle from = start(p);
+    return from == no_handle ? no_handle : last_ = walk_.to(p, from, size_);
+}
+
+// ---- Meshes that are not Delaunay ----------------------------------------------------
+
+template <int D> bool Reader<D>::contains(Handle h, const Point<D> &p, int least_sign) const {
+    Corners<D> corners = cache_.corners(cache_.simplex(h));
+    for (int i = 0; i <= D; ++i) {
+        const Point<D> *const corner = corners[i];
+        corners[i] = &p;
+        if (orientation<D>(corners) < least_sign) return false;
+        corners[i] = corner;
+    }
+    return true;
+}
+
+template <int D> Handle Reader<D>::walk_to_inside(const Point<D> &p) {
+    // From the block around p a walk takes some dozens of steps.
+    constexpr std::uint64_t longest = 1024;
+    const Handle from = start(p);
+    if (from == no_handle) return no_handle;
+    const Handle h = walk_.within(p, from, longest);
+    if (h == no_handle || cache_.simplex(h).is_ghost() || !contains(h, p, 1)) return no_handle;
+    return last_ = h;
+}
+
+template <int D>
+template <class Visit>
+void Reader<D>::search_pages(const Point<D> &p, Visit visit) {
+    if (size_ == 0) return;
+    if (!boxes_) boxes_.emplace(cache_.host(), cache_.vertices().attribute_count(), box_bytes_);
+    boxes_->around(p, [&](Key key, const Key &end) {
+        while (key < end) {
+            cache_.trim();
+            cache_.poll();
+            const std::optional<Key> next = visit(key);
+            if (!next) return false;
+            key = *next;
+        }
+        return true;
+    });
+}
+
+template <int D> template <class Visit> void Reader<D>::search(const Point<D> &p, Visit visit) {
+    search_pages(p, [&](const Key &page) -> std::optional<Key> {
+        bool go_on = true;
+        const Key next = cache_.visit(page, [&](Handle h) {
+            if (go_on && !cache_.simplex(h).is_ghost() && contains(h, p, 0))
+                go_on = visit(last_ = h);
+        });
+        return go_on ? std::optional(next) : std::nullopt;
+    });
+}
+
+template <int D> std::uint64_t Reader<D>::pages_with(const std::uint64_t *vertex) {
+    const Point<D> p = record_point<D>(vertex);
+    const VertexHeap<D> &heap = cache_.vertices();
+    std::uint64_t pages = 0;
+    bool same = true;
+    search_pages(p, [&](const Key &page) -> std::optional<Key> {
+        bool here = false;
+        const Key next = cache_.visit(page, [&](Handle h) {
+            const Simplex<D> &s = cache_.simplex(h);
+            for (int i = 0; i < s.finite_vertices(); ++i) {
+                const VertexIndex v = s.vertex[i];
+                if (!(cache_.point(v) == p)) continue;
+                here = true;
+                same = same && heap.id(v) == record_id(vertex) &&
+                       (heap.attribute_count() == 0 ||
+                        std::memcmp(heap.attributes(v), record_attributes<D>(vertex),
+                                    heap.attribute_count() * sizeof(double)) == 0);
+            }
+        });
+        pages += here;
+        return next;
+    });
+    return same ? pages : 0;
+}
+
+template <int D> bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex) {
+    bool found = false;
+    search(p, [&](Handle h) {
+        abacus_simplex other;
+        describe(h, other);
+        if (!found || comes_before<D>(other, simplex)) simplex = other;
+        found = true;
+        return true;
+    });
+    return found;
+}
+
+// ---- All meshes ------------------------------------------------------------------------
 
 template <int D> void Reader<D>::describe(Handle h, abacus_simplex &simplex) const {
     const Simplex<D> &s = cache_.simplex(h);
@@ -36,6 +143,12 @@ template <int D> void Reader<D>::describe(Handle h, abacus_simplex &simplex) con
 }
 
 template <int D> bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex) {
+    if (!delaunay_) {
+        const Handle inside = walk_to_inside(p);
+        if (inside == no_handle) return search_first(p, simplex);
+        describe(inside, simplex);
+        return true;
+    }
     const Handle h = find(p);
     if (h == no_handle || cache_.simplex(h).is_ghost()) return false;
     first_around(p, h, simplex);
@@ -106,7 +219,14 @@ bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
 
 template <int D>
 std::optional<typename Reader<D>::Found> Reader<D>::vertex_at(const Point<D> &p) {
-    const Handle h = find(p);
+    Handle h = no_handle;
+    if (delaunay_)
+        h = find(p);
+    else
+        search(p, [&](Handle found) {
+            h = found;
+            return false;
+        });
     if (h == no_handle) return std::nullopt;
     const Simplex<D> &s = cache_.simplex(h);
     for (int i = 0; i < s.finite_vertices(); ++i) {

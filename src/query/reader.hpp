@@ -1,8 +1,14 @@
 // Point location and walking over a stored mesh (dissertation §4.11.3), in a cache
 // that lives as long as the reader.
+//
+// In a mesh that is not Delaunay a walk may miss a point that the mesh contains: at the
+// border of a hole it ends, and it may take too long. Then, and for a point on a facet,
+// around which not all simplices need be neighbours of one another, all pages are looked
+// into whose box contains the point (page_boxes.hpp).
 #pragma once
 
 #include "delaunay/walk.hpp"
+#include "query/page_boxes.hpp"
 
 #include <optional>
 
@@ -28,17 +34,36 @@ public:
     };
     std::optional<Found> vertex_at(const Point<D> &p);
 
+    /// In a mesh that is not Delaunay: how many pages have this vertex, with its id and
+    /// attributes.
+    std::uint64_t pages_with(const std::uint64_t *vertex);
+
     const Cache<D> &cache() const { return cache_; }
     Cache<D> &cache() { return cache_; }
 
 private:
     /// A simplex with p in its closure, or a ghost that sees p; no_handle in an empty mesh.
     Handle find(const Point<D> &p);
+    /// Where a walk to p begins; no_handle in an empty mesh.
+    Handle start(const Point<D> &p);
+    /// In a mesh that is not Delaunay: the simplex with p inside to which a short walk leads,
+    /// or no_handle.
+    Handle walk_to_inside(const Point<D> &p);
+    /// Calls visit(key) for the pages that may contain p, until it returns false; visit
+    /// returns the key of the next page.
+    template <class Visit> void search_pages(const Point<D> &p, Visit visit);
+    /// Calls visit(handle) for every simplex that contains p, until it returns false.
+    template <class Visit> void search(const Point<D> &p, Visit visit);
+    bool contains(Handle h, const Point<D> &p, int least_sign) const;
+    bool search_first(const Point<D> &p, abacus_simplex &simplex);
     void describe(Handle h, abacus_simplex &simplex) const;
     /// All simplices around a point on a facet of h; the first of them.
     void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex);
 
     std::uint64_t size_; // simplices and ghosts
+    bool delaunay_;
+    std::size_t box_bytes_;
+    std::optional<PageBoxes<D>> boxes_; // once needed
     Cache<D> cache_;
     Walk<D> walk_;
     Handle last_ = no_handle;

@@ -17,10 +17,10 @@ template <int D> void fill(abacus_vertex &vertex, const std::uint64_t *record) {
 
 template <int D>
 VertexScan<D>::VertexScan(const Host &host, const abacus_header &header, std::size_t cache_bytes)
-    : attributes_(header.attributes), mesh_(host, header, cache_bytes), own_(mesh_.cache()),
+    : attributes_(header.attributes), listed_(header.not_delaunay != 0), mesh_(host, header, cache_bytes), own_(mesh_.cache()),
       page_(header.vertices > 0 ? first_key : end_key), records_(host),
       repeated_(host, domain_of<D>(header), header.attributes),
-      waiting_(host, header.attributes, header.inserted, header.staged) {}
+      waiting_(host, header.attributes, listed_ ? 0 : header.inserted, header.staged) {}
 
 template <int D> void VertexScan<D>::collect() {
     Cache<D> &cache = mesh_.cache();
@@ -62,7 +62,15 @@ template <int D> bool VertexScan<D>::next_waiting(abacus_vertex &vertex) {
     return true;
 }
 
+template <int D> bool VertexScan<D>::next_listed(abacus_vertex &vertex) {
+    if (!waiting_.advance()) return false;
+    fill<D>(vertex, waiting_.record());
+    vertex.vertex = vertex.id;
+    return true;
+}
+
 template <int D> bool VertexScan<D>::next(abacus_vertex &vertex) {
+    if (listed_) return next_listed(vertex);
     return next_vertex(vertex) || next_repeated(vertex) || next_waiting(vertex);
 }
 

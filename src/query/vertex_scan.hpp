@@ -20,8 +20,10 @@ private:
     bool next_repeated(abacus_vertex &vertex);
     bool next_waiting(abacus_vertex &vertex);
     void collect();
+    bool next_listed(abacus_vertex &vertex);
 
     const unsigned attributes_;
+    const bool listed_; // the vertices of a mesh that is not Delaunay have pages of their own
     Reader<D> mesh_;
     OwnVertices<D> own_;
     Key page_;                     // the next one to take vertices from

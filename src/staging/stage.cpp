@@ -1,22 +1,12 @@
 #include "staging/stage.hpp"
 
 #include "cache/domain_of.hpp"
+#include "staging/canonical.hpp"
 #include "staging/vertex_page.hpp"
 
 #include <algorithm>
 
 namespace abacus {
-namespace {
-
-[[noreturn]] void throw_not_finite(std::uint64_t id, int axis) {
-    throw Error(ABACUS_ERROR_ARGUMENT,
-                "point " + std::to_string(static_cast<std::int64_t>(id)) +
-                    " has a coordinate that is not a finite number",
-                std::string("The coordinate is ") + "xyz"[axis] + ".",
-                "Leave such points out in the source query.");
-}
-
-} // namespace
 
 template <int D>
 Stage<D>::Stage(const Host &host, const abacus_header &header, std::size_t memory)
@@ -43,16 +33,10 @@ template <int D> void Stage<D>::copy(const std::uint64_t *points, std::size_t co
     if (needed > buffer_.capacity())
         buffer_.reserve(std::min(room_ * stride_,
                                  std::max({needed, 2 * buffer_.capacity(), std::size_t{16384}})));
-    constexpr std::uint64_t exponent = 0x7ffull << 52, minus_zero = 1ull << 63;
     std::uint64_t *to = buffer_.data() + buffered_ * stride_;
     for (std::size_t i = 0; i < count; ++i, points += stride_, to += stride_) {
         for (std::size_t word = 0; word < stride_; ++word) to[word] = points[word];
-        for (int axis = 0; axis < D; ++axis) {
-            std::uint64_t &coordinate = to[1 + axis];
-            if ((coordinate & exponent) == exponent) [[unlikely]]
-                throw_not_finite(to[0], axis);
-            if (coordinate == minus_zero) coordinate = 0;
-        }
+        make_canonical<D>(to);
         box_.extend(record_point<D>(to));
     }
     buffered_ += count;

@@ -57,6 +57,18 @@ SELECT pg_temp.inject('growing', $$ SELECT abacus_triangulate('field') $$,
     $$ SELECT (SELECT count(*) FROM abacus_simplices('field')) = (SELECT count(*) FROM abacus_simplices('made')) $$);
 SELECT is_empty($$ SELECT * FROM abacus_check('field') $$, 'the grown mesh is sound');
 
+-- meshes made elsewhere, Delaunay and not
+CREATE TABLE triangles AS SELECT v0, v1, v2 FROM abacus_simplices('made');
+SELECT pg_temp.inject('load', $$ SELECT abacus_load('loaded', 'SELECT id, x, y FROM abacus_vertices(''made'')', 'TABLE triangles') $$,
+    $$ SELECT to_regclass('loaded') IS NULL AND to_regclass('loaded_vertices') IS NULL AND NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
+SET LOCAL maintenance_work_mem = '1MB';
+SELECT pg_temp.inject('load with holes', $$ SELECT abacus_load('holes', 'SELECT id, x, y FROM abacus_vertices(''made'')', 'SELECT * FROM triangles WHERE v0 % 5 > 0') $$,
+    $$ SELECT to_regclass('holes') IS NULL AND to_regclass('holes_vertices') IS NULL $$);
+RESET maintenance_work_mem;
+SELECT is_empty($$ SELECT * FROM abacus_check('loaded') UNION ALL SELECT * FROM abacus_check('holes') $$, 'the loaded meshes are sound');
+SELECT pg_temp.inject('locate in holes', $$ DO 'BEGIN SET LOCAL abacus.cache_size = ''5MB''; PERFORM abacus_locate(''holes'', x + 0.25, y + 0.25) FROM points; END' $$, 'SELECT true');
+SELECT pg_temp.inject('check holes', $$ SELECT count(*) FROM abacus_check('holes') $$, 'SELECT true');
+
 -- readers
 CREATE FUNCTION pg_temp.answers() RETURNS bigint LANGUAGE sql AS
     $$ SELECT sum((abacus_locate('field', x + 0.25, y + 0.25)).v0 % 1000003) FROM points $$;

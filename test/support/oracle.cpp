@@ -46,6 +46,13 @@ template <> struct Cgal<3> {
     static auto simplices(const Mesh &mesh) { return mesh.finite_cell_handles(); }
 };
 
+template <int D> std::vector<std::uint64_t> record_of(const InputOf<D> &input) {
+    std::vector<std::uint64_t> record{static_cast<std::uint64_t>(input.id)};
+    for (const double x : input.point) record.push_back(std::bit_cast<std::uint64_t>(x));
+    for (const double x : input.attributes) record.push_back(std::bit_cast<std::uint64_t>(x));
+    return record;
+}
+
 } // namespace
 
 template <int D> MeshOf<D>::MeshOf(int attributes, std::size_t bytes) : cache_bytes(bytes) {
@@ -62,14 +69,33 @@ abacus_status MeshOf<D>::with_stage(const std::vector<InputOf<D>> &points, std::
     abacus_status status = abacus_stage_open(host.table(), &header, memory, &stage, &error);
     if (status != ABACUS_OK) return status;
     for (const InputOf<D> &input : points) {
-        std::vector<std::uint64_t> record{static_cast<std::uint64_t>(input.id)};
-        for (const double x : input.point) record.push_back(std::bit_cast<std::uint64_t>(x));
-        for (const double x : input.attributes) record.push_back(std::bit_cast<std::uint64_t>(x));
+        const std::vector<std::uint64_t> record = record_of(input);
         status = abacus_stage_add(stage, record.data(), 1, &error);
         if (status != ABACUS_OK) break;
     }
     if (status == ABACUS_OK) status = use(stage);
     abacus_stage_close(stage);
+    return status;
+}
+
+template <int D>
+abacus_status MeshOf<D>::load(const std::vector<InputOf<D>> &vertices,
+                              const std::vector<std::array<std::int64_t, D + 1>> &simplices,
+                              std::size_t memory, bool reorient) {
+    abacus_load *load = nullptr;
+    abacus_status status =
+        abacus_load_open(host.table(), &header, memory, reorient, &load, &error);
+    if (status != ABACUS_OK) return status;
+    for (const InputOf<D> &vertex : vertices) {
+        const std::vector<std::uint64_t> record = record_of(vertex);
+        status = abacus_load_vertices(load, record.data(), 1, &error);
+        if (status != ABACUS_OK) break;
+    }
+    for (std::size_t at = 0; status == ABACUS_OK && at < simplices.size(); at += 100)
+        status = abacus_load_simplices(load, simplices[at].data(),
+                                       std::min<std::size_t>(100, simplices.size() - at), &error);
+    if (status == ABACUS_OK) status = abacus_load_finish(load, &header, &error);
+    abacus_load_close(load);
     return status;
 }
 

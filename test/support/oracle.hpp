@@ -42,6 +42,10 @@ template <int D> struct MeshOf {
     /// `deleted` becomes the number of points that there were.
     abacus_status remove(const std::vector<InputOf<D>> &points, std::uint64_t &deleted,
                          std::size_t memory = 16 << 20);
+    /// Loads a triangulation; simplices are named by the ids of their vertices.
+    abacus_status load(const std::vector<InputOf<D>> &vertices,
+                       const std::vector<std::array<std::int64_t, D + 1>> &simplices,
+                       std::size_t memory = 16 << 20, bool reorient = true);
     /// Where all simplices are, sorted.
     std::vector<Positions<D>> positions();
     /// What a scan gives; fails the test if it does not end well.

@@ -1,6 +1,6 @@
 // Whatever fails, at whatever moment: a clean status, every byte given back, no further
 // call of the host, and the header of the caller as it was.
-#include "support/oracle.hpp"
+#include "support/triangulations.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace abacus::test {
 namespace {
 
-constexpr std::size_t little = 40 << 10;
+constexpr std::size_t little = 40 << 10, ample = 64 << 20;
 
 std::vector<Input> random_points(int n, unsigned seed) {
     std::mt19937_64 random(seed);
@@ -93,6 +93,24 @@ abacus_status read(Mesh &mesh) {
     return status;
 }
 
+/// A triangulation with a hole, so not Delaunay, or one without.
+abacus_status load(Mesh &mesh, bool hole, std::size_t memory) {
+    auto t = delaunay<2>(unit_square_points(900, 3));
+    if (hole)
+        t = keeping<2>(t, [](const auto &c) { return std::abs(c[0] - 0.5) + c[1] > 0.3; });
+    for (auto &v : t.vertices) v.attributes = {v.point[0]};
+    return mesh.load(t.vertices, t.simplices, memory);
+}
+
+/// The same as read(), where walks end in a hole.
+abacus_status load_and_read(Mesh &mesh) {
+    const abacus_header empty = mesh.header;
+    abacus_status status = load(mesh, true, ample);
+    if (status == ABACUS_OK) status = read(mesh);
+    if (status == ABACUS_HOST_ERROR || status == ABACUS_ERROR) mesh.header = empty;
+    return status;
+}
+
 void PrintTo(const Work &work, std::ostream *out) { *out << work.name; }
 
 const Work works[] = {
@@ -101,6 +119,10 @@ const Work works[] = {
     {"insert", 0, 0, [](Mesh &mesh) { return mesh.insert(random_points(1500, 1)); }},
     {"insert_more", 700, 400, [](Mesh &mesh) { return mesh.insert(random_points(700, 7)); }},
     {"stage_more", 500, 500, [](Mesh &mesh) { return mesh.stage(random_points(300, 2)); }},
+    {"load", 0, 0, [](Mesh &mesh) { return load(mesh, false, ample); }},
+    {"load_with_a_hole", 0, 0, [](Mesh &mesh) { return load(mesh, true, ample); }},
+    {"load_through_spools", 0, 0, [](Mesh &mesh) { return load(mesh, true, 1); }},
+    {"load_and_read", 0, 0, load_and_read},
     {"build", 1500, 0, [](Mesh &mesh) { return mesh.build(); }},
     {"build_more", 1500, 900, [](Mesh &mesh) { return mesh.build(); }},
     {"read", 1500, 1500, read},

@@ -144,6 +144,26 @@ TEST(Header, ContradictionsAreRefused) {
     EXPECT_TRUE(refused([](abacus_header &h) { h.names[0][0] = '\0'; }));
 }
 
+TEST(Header, OfAMeshThatIsNotDelaunay) {
+    const auto taken = [](auto change) {
+        abacus_header header = full_header(1);
+        header.not_delaunay = 1;
+        header.staged = header.inserted = header.vertices;
+        header.duplicates = header.serials = 0;
+        change(header);
+        abacus_header decoded;
+        return decodes(encode(header), &decoded) && decoded.not_delaunay == header.not_delaunay;
+    };
+    EXPECT_TRUE(taken([](abacus_header &) {}));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.not_delaunay = 2; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.inserted = 0; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { ++h.staged; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.serials = 1; }));
+    EXPECT_FALSE(taken([](abacus_header &h) {
+        h.staged = h.inserted = h.vertices = h.simplices = h.ghosts = 0;
+    }));
+}
+
 TEST(Header, DamagedBytesNeverCrash) {
     const auto sound = encode(full_header(2));
     for (std::size_t byte = 0; byte < sound.size(); ++byte) {

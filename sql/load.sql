@@ -1,0 +1,137 @@
+-- abacus_load: triangulations made elsewhere.
+
+-- A square in two triangles that share the diagonal that Abacus chooses.
+CREATE TABLE corner (id bigint, x float8, y float8, height float8);
+INSERT INTO corner VALUES (1, 0, 0, 5), (2, 4, 0, 6), (3, 4, 4, NULL), (4, 0, 4, 8);
+CREATE TABLE triangle (a int, b bigint, c smallint);
+INSERT INTO triangle VALUES (1, 2, 4), (4, 2, 3);
+SELECT abacus_load('square', 'TABLE corner', 'TABLE triangle');
+SELECT v0, v1, v2, v3 FROM abacus_simplices('square') ORDER BY 1, 2, 3;
+SELECT id, x, y, attributes FROM abacus_vertices('square') ORDER BY id;
+SELECT * FROM abacus_check('square');
+SELECT name, value FROM abacus_stats('square')
+WHERE name IN ('dimension', 'attributes', 'vertices', 'simplices', 'hull_facets', 'delaunay')
+ORDER BY name;
+
+-- It is a Delaunay triangulation, so it can be added to: the same as made anew.
+SELECT abacus_insert('square', 'SELECT 5, 2, 9, 1');
+SELECT abacus_delete('square', 'SELECT 2, 4, 0');
+SELECT abacus_stage('square', 'SELECT 6, 3, 1, 1');
+SELECT abacus_triangulate('square');
+SELECT * FROM abacus_check('square');
+SELECT abacus_triangulate('anew', 'SELECT * FROM corner WHERE id <> 2 UNION ALL VALUES (5, 2, 9, 1), (6, 3, 1, 1)');
+(SELECT v0, v1, v2 FROM abacus_simplices('square') EXCEPT SELECT v0, v1, v2 FROM abacus_simplices('anew'))
+UNION ALL
+(SELECT v0, v1, v2 FROM abacus_simplices('anew') EXCEPT SELECT v0, v1, v2 FROM abacus_simplices('square'));
+
+-- With the other diagonal it is not: it can be read, not changed.
+SELECT abacus_load('other', 'TABLE corner', 'VALUES (1, 2, 3), (1, 3, 4)', attributes => '{h}');
+SELECT * FROM abacus_check('other');
+SELECT value FROM abacus_stats('other') WHERE name = 'delaunay';
+SELECT v0, v1, v2 FROM abacus_locate('other', 3, 1);
+SELECT n.v0, n.v1, n.v2 FROM abacus_locate('other', 3, 1) AS t, abacus_walk('other', t, 1) AS n;
+SELECT n IS NULL FROM abacus_locate('other', 3, 1) AS t, abacus_walk('other', t, 0) AS n;
+SELECT abacus_locate('other', 5, 1) IS NULL;
+SELECT id, attributes FROM abacus_vertices('other') ORDER BY id;
+SELECT length(abacus_draw('other', attribute => 'h', width => 40)) > 100 AS drawn;
+SELECT abacus_stage('other', 'SELECT 5, 2, 9, 1');
+SELECT abacus_triangulate('other');
+CALL abacus_build('other');
+SELECT abacus_insert('other', 'SELECT 5, 2, 9, 1');
+SELECT abacus_delete('other', 'SELECT 1, 0, 0');
+
+-- A ring: a hole in the middle, found by walks that end there.
+CREATE TABLE ring_vertex AS
+SELECT i * 2 + r AS id, (1 + r) * cos(i * pi() / 16) AS x, (1 + r) * sin(i * pi() / 16) AS y
+FROM generate_series(0, 31) AS i, generate_series(0, 1) AS r;
+CREATE TABLE ring_triangle AS
+SELECT i * 2 AS v0, i * 2 + 1 AS v1, (i * 2 + 3) % 64 AS v2 FROM generate_series(0, 31) AS i
+UNION ALL
+SELECT i * 2, (i * 2 + 3) % 64, (i * 2 + 2) % 64 FROM generate_series(0, 31) AS i;
+SELECT abacus_load('ring', 'TABLE ring_vertex', 'TABLE ring_triangle');
+SELECT * FROM abacus_check('ring');
+SELECT name, value FROM abacus_stats('ring') WHERE name IN ('hull_facets', 'delaunay') ORDER BY 1;
+SELECT count(*) AS places, count(t.code) AS inside,
+       count(*) FILTER (WHERE (t.code IS NOT NULL) <> (sqrt(x * x + y * y) BETWEEN 1 AND 1.9)) AS wrong
+FROM generate_series(-2.05, 2.05, 0.1) AS x, generate_series(-2.05, 2.05, 0.1) AS y,
+     abacus_locate('ring', x, y) AS t
+WHERE sqrt(x * x + y * y) NOT BETWEEN 0.95 AND 1.05 AND sqrt(x * x + y * y) NOT BETWEEN 1.85 AND 2.05;
+
+-- Two tetrahedra.
+SELECT abacus_load('solid',
+    'VALUES (1, 0, 0, 0), (2, 1, 0, 0), (3, 0, 1, 0), (4, 0, 0, 1), (5, 1, 1, 1)',
+    'VALUES (4, 3, 2, 1), (2, 3, 4, 5)');
+SELECT v0, v1, v2, v3 FROM abacus_simplices('solid') ORDER BY 1, 2, 3, 4;
+SELECT v0, v1, v2, v3 FROM abacus_locate('solid', 0.6, 0.6, 0.6);
+SELECT * FROM abacus_check('solid');
+
+-- A mesh goes out and in again.
+SELECT abacus_triangulate('grid', 'SELECT i, i % 50, i / 50 FROM generate_series(0, 2499) AS i');
+SELECT abacus_load('copy', 'SELECT id, x, y FROM abacus_vertices(''grid'')',
+                   'SELECT v0, v1, v2 FROM abacus_simplices(''grid'')');
+SELECT count(*) FROM (TABLE abacus_progress) AS running;
+SELECT * FROM abacus_check('copy');
+SELECT value FROM abacus_stats('copy') WHERE name = 'delaunay';
+
+-- Nothing at all.
+SELECT abacus_load('nothing', 'SELECT 1, 2, 3 WHERE false', 'SELECT 1, 2, 3 WHERE false');
+SELECT * FROM abacus_check('nothing');
+
+-- Vertices that no simplex names are left out.
+SELECT abacus_load('lone', 'TABLE corner', 'VALUES (1, 2, 3)');
+SELECT id FROM abacus_vertices('lone') ORDER BY id;
+SELECT * FROM abacus_check('lone');
+
+-- Orientation is put right, or refused.
+SELECT abacus_load('bad', 'TABLE corner', 'VALUES (1, 2, 3), (4, 3, 1)', reorient => false);
+
+-- Everything that is no triangulation is refused, and named.
+CREATE FUNCTION try_load(vertices text, simplices text) RETURNS text LANGUAGE plpgsql AS $$
+DECLARE
+    message text; detail text; hint text;
+BEGIN
+    RETURN abacus_load('bad', 'VALUES (1, 0, 0), (2, 4, 0), (3, 4, 4), (4, 0, 4)' || vertices,
+                       'VALUES (1, 2, 3), (1, 3, 4)' || simplices);
+EXCEPTION WHEN OTHERS THEN
+    GET STACKED DIAGNOSTICS message = MESSAGE_TEXT, detail = PG_EXCEPTION_DETAIL,
+        hint = PG_EXCEPTION_HINT;
+    RETURN SQLSTATE || ' ' || message || E'\n' || detail || E'\n' || hint;
+END $$;
+\pset format unaligned
+\pset tuples_only on
+SELECT try_load(', (4, 7, 7)', '');
+SELECT try_load(', (5, 4, 4)', ', (2, 5, 4)');
+SELECT try_load('', ', (2, 3, 7)');
+SELECT try_load('', ', (2, 3, 3)');
+SELECT try_load(', (5, 2, 2)', ', (1, 3, 5)');
+SELECT try_load('', ', (3, 2, 1)');
+SELECT try_load(', (5, 0, 5)', ', (1, 3, 5)');
+SELECT try_load(', (5, 3, 1), (6, 3, 2), (7, 9, 9)', ', (5, 6, 7)');
+SELECT try_load(', (5, 4, 2), (6, 6, 1), (7, 6, 3)', ', (5, 6, 7)');
+SELECT try_load(', (5, 4, -1)', ', (2, 3, 5)');
+SELECT try_load(', (5, 7, 7)', ', (2, 3, 5)');
+\pset format aligned
+\pset tuples_only off
+DROP TABLE bad;
+
+-- Arguments.
+SELECT abacus_load('bad', 'TABLE corner', 'VALUES (1, 2)');
+SELECT abacus_load('bad', 'TABLE corner', 'VALUES (1, 2, 3), (1, 3, NULL)');
+SELECT abacus_load('bad', 'TABLE corner', 'VALUES (1, 2, 3.5)');
+SELECT abacus_load('bad', 'SELECT id, x FROM corner', 'TABLE triangle');
+SELECT abacus_load('bad', 'SELECT id, x, ''nan''::float8 FROM corner', 'TABLE triangle');
+SELECT abacus_load('bad', 'TABLE corner', 'DELETE FROM triangle');
+SELECT abacus_load('bad', NULL, 'TABLE triangle');
+SELECT abacus_load('square', 'TABLE corner', 'TABLE triangle');
+SELECT to_regclass('bad') IS NULL AS nothing_left, to_regclass('bad_vertices') IS NULL AS here_neither;
+
+-- Little memory; the list of the vertices of a mesh that is not Delaunay is verified.
+SET maintenance_work_mem = '1MB';
+SELECT abacus_load('small', 'SELECT id, x, y FROM abacus_vertices(''grid'')',
+                   'SELECT v0, v1, v2 FROM abacus_simplices(''grid'') WHERE v0 % 7 > 0');
+SELECT * FROM abacus_check('small');
+SELECT count(*), count(DISTINCT id), bool_and(id = vertex AND sequence IS NULL) AS inserted FROM abacus_vertices('small');
+RESET maintenance_work_mem;
+
+DROP TABLE square, anew, other, ring, solid, grid, copy, nothing, lone, small, corner, triangle, ring_triangle, ring_vertex;
+DROP FUNCTION try_load;

@@ -1,0 +1,53 @@
+// Loading behind the C interface.
+#include "load/load.hpp"
+
+#include "capi/dimension.hpp"
+#include "capi/guard.hpp"
+#include "capi/handle.hpp"
+
+struct abacus_load {
+    abacus_load(const abacus_host *table, const abacus_header &header, std::size_t memory,
+                bool reorient)
+        : host(*table), load(host, header, memory, reorient) {}
+
+    const abacus::Host host;
+    abacus::ByDimension<abacus::Load> load;
+};
+
+abacus_status abacus_load_open(const abacus_host *host, const abacus_header *header,
+                               size_t memory, int reorient, abacus_load **load,
+                               abacus_error *error) {
+    return abacus::guard(error, [&] {
+        *load = abacus::create_handle<abacus_load>(host, *header, memory, reorient != 0);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_load_vertices(abacus_load *load, const uint64_t *points, size_t count,
+                                   abacus_error *error) {
+    return abacus::guard(error, [&] {
+        load->load.visit([&](auto &loading) { loading.add_vertices(points, count); });
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_load_simplices(abacus_load *load, const int64_t *ids, size_t count,
+                                    abacus_error *error) {
+    return abacus::guard(error, [&] {
+        load->load.visit([&](auto &loading) {
+            loading.add_simplices(reinterpret_cast<const std::uint64_t *>(ids), count);
+        });
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_load_finish(abacus_load *load, abacus_header *header, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        abacus_header changed = *header; // the caller's stays as it is if this fails
+        load->load.visit([&](auto &loading) { loading.finish(changed); });
+        *header = changed;
+        return ABACUS_OK;
+    });
+}
+
+void abacus_load_close(abacus_load *load) { abacus::destroy_handle(load); }

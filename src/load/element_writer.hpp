@@ -1,0 +1,48 @@
+// Simplices in the order of their keys, cut into pages.
+//
+// The pages are made by the cache, which is the only place that knows how: each is put
+// together as a block, written and dropped again. A page is cut where the code changes, so
+// that parts of keys need not be stored, unless one code has more simplices than half a
+// page: then links into it carry parts. What a page costs in bytes is known when it is
+// made; one that turns out too large is cut shorter.
+#pragma once
+
+#include "cache/cache.hpp"
+#include "load/record_sort.hpp"
+#include "load/records.hpp"
+
+namespace abacus {
+
+template <int D> class ElementWriter {
+public:
+    ElementWriter(const Host &host, const LoadLayout<D> &layout, const Domain<D> &domain,
+               unsigned attributes, bool linked_ghosts);
+
+    /// Writes the pages of all elements, which are sorted; reads them twice.
+    void write(RecordSort &elements, Pacer &pacer);
+    const abacus_counters &counters() const { return cache_.counters; }
+
+private:
+    void find_crowded(RecordSort &elements);
+    bool is_crowded(std::uint64_t code) const;
+    const Word *element(std::size_t i) const { return waiting_.data() + i * layout_.element; }
+    Key key(std::size_t i) const { return {element(i)[0], element(i)[1]}; }
+    std::size_t cut(std::size_t most) const;
+    void write_page(bool last);
+
+    const Host &host_;
+    const LoadLayout<D> layout_;
+    const bool linked_ghosts_;
+    Cache<D> cache_;
+    std::size_t capacity_;          // elements of a page
+    Arena<std::uint64_t> crowded_;  // codes of many elements, ascending
+    Arena<Word> waiting_;           // elements not written yet
+    std::size_t count_ = 0;
+    Arena<LooseSimplex<D>> loose_;  // those of the page at hand
+    Key lower_ = first_key;
+};
+
+extern template class ElementWriter<2>;
+extern template class ElementWriter<3>;
+
+} // namespace abacus

@@ -1,0 +1,97 @@
+// Loading a triangulation made elsewhere: vertices and simplices, from two queries, into
+// pages; Delaunay or not, checked, within a bound of memory.
+//
+// There is no cache and no search: everything that belongs together is brought together by
+// sorting (record_sort.hpp).
+//
+//   vertices by id       two of one id are found; merged with
+//   corners by id        unknown ids are found; vertices without simplices are left out
+//   vertices by place    two at one place are found; their order along the curve
+//   corners by simplex   coordinates: orientation, flat simplices, keys
+//   flanks by facet      neighbours; facets used more than twice, or twice from one side
+//   links by simplex     the Delaunay criterion; what has no neighbour is the boundary
+//   boundary by key      overlaps (overlap.hpp)
+//   flanks by ridge      neighbours of ghosts; whether the boundary is a convex hull
+//   elements by key      pages (element_writer.hpp)
+//
+// The mesh is the Delaunay triangulation of its vertices if and only if across every facet
+// the empty-sphere criterion holds under the perturbation, each ridge of the boundary joins
+// two facets and is convex, and it is in one piece (Delaunay 1934). What is convex at all
+// ridges of a connected boundary is convex (Tietze, Nakajima). Of two convex pieces, one
+// would have the least or the greatest vertex of all beyond one of its facets: if both were
+// in both pieces, so would be all that lies between them, which overlap.hpp excludes but for
+// an edge, and at such an edge four facets meet.
+//
+// In a mesh that is not Delaunay, a ghost knows the simplex behind it, and is its own
+// neighbour across its ridges: at a pinched ridge four or more would be, and nobody follows
+// them in a mesh that is not changed.
+#pragma once
+
+#include "geometry/locational_code.hpp"
+#include "load/record_sort.hpp"
+#include "load/record_spool.hpp"
+#include "load/records.hpp"
+#include "mesh/box_tree.hpp"
+
+#include <optional>
+
+namespace abacus {
+
+template <int D> class Load {
+public:
+    /// `reorient`: simplices of negative orientation are turned, not refused.
+    Load(const Host &host, const abacus_header &header, std::size_t memory, bool reorient);
+
+    /// Adds vertices, as in abacus_stage_add; all before the simplices.
+    void add_vertices(const std::uint64_t *points, std::size_t count);
+    /// Adds simplices: D + 1 vertex ids each.
+    void add_simplices(const std::uint64_t *ids, std::size_t count);
+    /// Checks, writes the pages and brings the header of the empty mesh up to date.
+    void finish(abacus_header &header);
+
+private:
+    void find_corners();
+    void use_vertex(const Word *vertex);
+    void order_vertices();
+    [[noreturn]] void refuse_unknown(Word number, Word id);
+    void assemble();
+    void add_simplex(const Word *corners);
+    void link();
+    void find_boundary();
+    void add_ghost(const Word *simplex, int facet, Key &key);
+    void link_ghosts();
+    void check_hull();
+    void add_ghosts();
+    void write_vertices();
+    Key key_of(const std::array<const Word *, D + 1> &vertices, int n) const;
+
+    void begin(std::optional<RecordSort> &sort, std::size_t stride, std::size_t key) {
+        sort.emplace(host_, stride, key, share_);
+    }
+    static void end(std::optional<RecordSort> &sort) {
+        sort->close();
+        sort.reset();
+    }
+
+    const Host &host_;
+    const unsigned attributes_;
+    const LoadLayout<D> layout_;
+    const bool reorient_;
+    const std::size_t share_; // of memory, for one of the sorts that are open at once
+    Pacer pacer_;
+    std::optional<Domain<D>> domain_;
+    Extent<D> box_ = Extent<D>::none();
+    bool delaunay_ = true;
+    Word vertex_count_ = 0, simplex_count_ = 0;
+    Point<D> least_{}, greatest_{}; // of the vertices, lexicographically
+
+    std::optional<RecordSort> vertices_, corners_, placed_, flanks_, links_, boundary_, elements_;
+    RecordSpool used_;      // vertices of simplices
+    RecordSpool ordered_;   // the same along the curve
+    RecordSpool simplices_; // in the order of the query
+};
+
+extern template class Load<2>;
+extern template class Load<3>;
+
+} // namespace abacus

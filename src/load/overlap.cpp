@@ -1,0 +1,132 @@
+#include "load/overlap.hpp"
+
+#include "geometry/contact.hpp"
+
+namespace abacus {
+
+namespace {
+
+[[noreturn]] void refuse_overlap(const std::string &a, const std::string &b) {
+    refuse(names_of(a, b) + " overlap", "Their interiors have points in common.",
+           "Simplices of a mesh meet in common faces only.");
+}
+
+constexpr std::size_t least_room = 64; // facets
+
+} // namespace
+
+template <int D>
+Overlap<D>::Overlap(const Host &host, const LoadLayout<D> &layout, std::size_t memory)
+    : host_(host), layout_(layout),
+      room_(std::max(least_room,
+                     memory / (sizeof(BoundaryFacet) + BoxTree<D>::bytes_per_box))),
+      facets_(host), tree_(host) {}
+
+template <int D>
+typename Overlap<D>::BoundaryFacet Overlap<D>::read(const Word *record) const {
+    BoundaryFacet facet;
+    for (int i = 0; i < D; ++i) {
+        const Word *vertex = layout_.boundary_vertex(record, i);
+        facet.id[i] = vertex[0];
+        facet.point[i] = point_in<D>(vertex);
+    }
+    const Word *opposite = layout_.behind(record) + 2;
+    facet.opposite_id = opposite[0];
+    facet.opposite = point_in<D>(opposite);
+    return facet;
+}
+
+/// Takes the next facets into memory; false if there are none.
+template <int D> bool Overlap<D>::fill(RecordSort &boundary) {
+    first_ += facets_.size();
+    facets_.clear();
+    tree_.clear();
+    boundary.rewind();
+    for (std::uint64_t i = 0; i < first_; ++i) boundary.next();
+    while (facets_.size() < room_) {
+        const Word *record = boundary.next();
+        if (record == nullptr) break;
+        facets_.push_back(read(record));
+        tree_.add(facets_.back().extent());
+    }
+    tree_.finish();
+    return !facets_.empty();
+}
+
+template <int D> void Overlap<D>::check(RecordSort &boundary, RecordSpool &simplices) {
+    while (fill(boundary)) {
+        check_simplices(simplices);
+        check_boundary(boundary);
+        if (first_ + facets_.size() == boundary.size()) break;
+    }
+    facets_.reset();
+}
+
+template <int D> void Overlap<D>::check_simplices(RecordSpool &simplices) const {
+    simplices.rewind();
+    while (const Word *simplex = simplices.next()) {
+        Corners<D> corners;
+        auto box = Extent<D>::none();
+        for (int i = 0; i <= D; ++i) {
+            corners[i] = &point_in<D>(layout_.simplex_vertex(simplex, i));
+            box.extend(*corners[i]);
+        }
+        tree_.visit(box, [&](std::size_t i) {
+            host_.poll();
+            if (!covers(corners, facets_[i])) return true;
+            std::array<Word, D> facet;
+            for (int k = 0; k < D; ++k) facet[k] = layout_.simplex_vertex(simplex, k)[0];
+            refuse_overlap(facets_[i].simplex(),
+                           sorted_name(facet, layout_.simplex_vertex(simplex, D)[0]));
+        });
+    }
+}
+
+template <int D>
+bool Overlap<D>::covers(const Corners<D> &corners, const BoundaryFacet &facet) {
+    for (int k = 0; k <= D; ++k) {
+        Corners<D> replaced = corners;
+        int side = 0;
+        for (int i = 0; i < D && side == 0; ++i) {
+            replaced[k] = &facet.point[i];
+            side = orientation<D>(replaced);
+        }
+        if (side == 0) { // the facet lies in this plane: towards or away from the simplex
+            Corners<D> base;
+            for (int i = 0; i < D; ++i) base[i] = &facet.point[i];
+            base[D] = &facet.opposite;
+            const int solid = orientation<D>(base);
+            base[D] = corners[k];
+            side = orientation<D>(base) == solid ? -1 : 1;
+        }
+        if (side < 0) return false;
+    }
+    return true;
+}
+
+template <int D> void Overlap<D>::check_boundary(RecordSort &boundary) const {
+    boundary.rewind();
+    for (std::uint64_t number = 0;; ++number) {
+        const Word *record = boundary.next();
+        if (record == nullptr) return;
+        if (number < first_) continue;
+        const BoundaryFacet facet = read(record);
+        tree_.visit(facet.extent(), [&](std::size_t i) {
+            host_.poll();
+            const BoundaryFacet &other = facets_[i];
+            if (first_ + i >= number) return false; // itself and later ones: their turn comes
+            if (meet_improperly(facet.vertices(), other.vertices()))
+                refuse(names_of(other.simplex(), facet.simplex()) +
+                           " meet in more than a common face",
+                       "Their facets " + sorted_name(other.id) + " and " +
+                           sorted_name(facet.id) + " cross or touch.",
+                       "Simplices of a mesh meet in common faces only.");
+            return true;
+        });
+    }
+}
+
+template class Overlap<2>;
+template class Overlap<3>;
+
+} // namespace abacus

@@ -1,0 +1,101 @@
+// An external merge sort of records of words, read back as a stream.
+//
+// The external sort of staging distributes points along the curve and refines what
+// shares a code by the points' own box: an order that is found while sorting. Here the
+// order is known, the words at the head of the records, and what is wanted is a stream
+// that can be joined with others and read again: so sorted runs, merged when read. Runs
+// are sorted by the same radix sort, on words that hold 33 bits of a key above a number;
+// what these bits do not tell apart is refined with the next ones.
+//
+// A sort takes no more than its share of memory: runs go to spools, and as many of one
+// level as are merged at once become one of the next.
+#pragma once
+
+#include "host/arena.hpp"
+#include "staging/radix_sort.hpp"
+#include "staging/spool.hpp"
+
+namespace abacus {
+
+class RecordSort {
+public:
+    /// Least share of memory, bytes.
+    static constexpr std::size_t least = std::size_t{192} << 10;
+
+    /// Records of `stride` words, ordered by their first `key` words as unsigned numbers.
+    RecordSort(const Host &host, std::size_t stride, std::size_t key, std::size_t memory);
+
+    /// Room for one more record, to be filled before the next call.
+    std::uint64_t *add() {
+        if (count_ == room_) spill();
+        ++size_;
+        return grow() + count_++ * stride_;
+    }
+    std::uint64_t size() const { return size_; }
+
+    /// Ends adding; next() then gives the records in order.
+    void finish();
+    /// The next record, valid until the next call; null after the last.
+    const std::uint64_t *next();
+    /// To the first record again.
+    void rewind();
+    /// Gives memory and spools back.
+    void close();
+
+private:
+    struct Run {
+        Spool spool;
+        unsigned level;
+        std::size_t at, end; // of the records of its piece in memory
+    };
+
+    bool in_memory() const { return runs_.empty(); }
+    std::uint64_t *grow() {
+        if ((count_ + 1) * stride_ > records_.size()) [[unlikely]]
+            records_.resize(std::min(room_, std::max<std::size_t>(2 * count_, 64)) * stride_);
+        return records_.data();
+    }
+    bool less(const std::uint64_t *a, const std::uint64_t *b) const {
+        for (std::size_t i = 0; i < key_; ++i)
+            if (a[i] != b[i]) return a[i] < b[i];
+        return false;
+    }
+    const std::uint64_t *record(std::uint64_t word) const {
+        return records_.data() + (word & index_mask) * stride_;
+    }
+    /// Orders words_[begin, end), equal in the key words before `word`.
+    void order(std::size_t begin, std::size_t end, std::size_t word);
+    void sort_buffer();
+    void spill();
+    void merge_level(unsigned level);
+
+    // Reading runs from `first` on, merged.
+    void open(std::size_t first);
+    bool fill(Run &run, std::size_t place);
+    const std::uint64_t *head(std::size_t run) const {
+        return pieces_.data() + ((run - first_) * piece_ + runs_[run].at) * stride_;
+    }
+    bool before(std::size_t a, std::size_t b) const { return less(head(heap_[a]), head(heap_[b])); }
+    void sift(std::size_t at);
+    const std::uint64_t *pop();
+
+    const Host &host_;
+    Pacer pacer_;
+    const std::size_t stride_, key_;
+    std::size_t room_, piece_; // records in the buffer; read or written at once
+    unsigned fan_in_;
+    std::uint64_t size_ = 0;
+
+    Arena<std::uint64_t> records_; // the buffer
+    std::size_t count_ = 0;
+    Arena<std::uint64_t> words_;   // its order, and as much again for sorting
+    std::size_t at_ = 0;           // next of it, when all is in the buffer
+
+    Arena<Run> runs_;
+    Arena<std::uint64_t> pieces_;
+    Arena<std::size_t> heap_; // runs that have records left, the least first
+    std::size_t first_ = 0;
+    bool advance_ = false;    // the head was handed out
+};
+
+} // namespace abacus

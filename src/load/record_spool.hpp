@@ -1,0 +1,59 @@
+// Records of a spool, one by one.
+#pragma once
+
+#include "host/arena.hpp"
+#include "staging/spool.hpp"
+
+namespace abacus {
+
+/// A spool with a piece of it in memory: first written, then read, as often as need be.
+class RecordSpool {
+public:
+    RecordSpool(const Host &host, std::size_t stride)
+        : host_(host), stride_(stride),
+          piece_(std::max<std::size_t>(1, (std::size_t{64} << 10) / (8 * stride))), words_(host) {
+        words_.reserve(piece_ * stride_);
+    }
+
+    /// Room for one more record.
+    std::uint64_t *add() {
+        if (count_ == piece_) flush();
+        return words_.data() + count_++ * stride_;
+    }
+    /// Ends adding, or goes back to the first record.
+    void rewind() {
+        if (writing_ && count_ > 0) flush();
+        writing_ = false;
+        spool_.rewind(host_);
+        at_ = count_ = 0;
+    }
+    const std::uint64_t *next() {
+        if (at_ == count_) {
+            host_.poll();
+            at_ = 0;
+            count_ = spool_.read(host_, words_.data(), piece_, stride_);
+            if (count_ == 0) return nullptr;
+        }
+        return words_.data() + at_++ * stride_;
+    }
+    void close() {
+        spool_.close(host_);
+        words_.reset();
+    }
+
+private:
+    void flush() {
+        host_.poll();
+        spool_.write(host_, words_.data(), count_, stride_);
+        count_ = 0;
+    }
+
+    const Host &host_;
+    std::size_t stride_, piece_;
+    Arena<std::uint64_t> words_;
+    Spool spool_;
+    std::size_t count_ = 0, at_ = 0;
+    bool writing_ = true;
+};
+
+} // namespace abacus

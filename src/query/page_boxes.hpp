@@ -1,0 +1,36 @@
+// Where the pages of a mesh are: their boxes, in memory, to find those around a point.
+//
+// Needed where walking does not lead to a point, in a mesh with holes or several pieces, and
+// made when that happens first: one run over all pages. It takes a box a page, 0.2 bytes a
+// simplex or so; if that is more than its bound, a box for every two, four, ... pages.
+#pragma once
+
+#include "mesh/box_tree.hpp"
+#include "query/page_scan.hpp"
+
+namespace abacus {
+
+template <int D> class PageBoxes {
+public:
+    PageBoxes(const Host &host, unsigned attributes, std::size_t bytes);
+
+    /// Calls visit(from, to) for intervals of keys, which end at pages, outside of which no
+    /// page has p in its box, until it returns false.
+    template <class Visit> void around(const Point<D> &p, Visit visit) const {
+        tree_.visit({p, p}, [&](std::size_t i) {
+            return visit(keys_[i], i + 1 < keys_.size() ? keys_[i + 1] : end_key);
+        });
+    }
+
+private:
+    void halve();
+
+    Arena<Key> keys_; // of the first page of each box
+    Arena<Extent<D>> boxes_;
+    BoxTree<D> tree_;
+};
+
+extern template class PageBoxes<2>;
+extern template class PageBoxes<3>;
+
+} // namespace abacus

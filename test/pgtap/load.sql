@@ -1,0 +1,71 @@
+-- abacus_load: the interface; meshes out and in again; holes; privileges.
+BEGIN;
+SELECT no_plan();
+
+SELECT has_function('abacus_load', ARRAY['text', 'text', 'text', 'text[]', 'double precision[]', 'double precision[]', 'boolean'], 'abacus_load');
+SELECT function_returns('abacus_load', 'bigint', 'it returns a number');
+SELECT volatility_is('abacus_load', 'volatile', 'it changes things');
+SELECT isnt(obj_description('abacus_load(text, text, text, text[], float8[], float8[], boolean)'::regprocedure), NULL, 'it has a comment');
+
+-- The same simplices and vertices, whatever the order of rows and corners.
+CREATE FUNCTION pg_temp.simplices(mesh regclass) RETURNS TABLE (ids bigint[]) LANGUAGE sql AS
+    $$ SELECT ARRAY(SELECT v FROM unnest(ARRAY[v0, v1, v2, v3]) AS v WHERE v IS NOT NULL ORDER BY v) FROM abacus_simplices(mesh) $$;
+
+CREATE TABLE flat AS SELECT i AS id, (i * 7919) % 1009 AS x, (i * 104729) % 997 AS y, i * 0.5 AS height FROM generate_series(1, 4000) AS i;
+SELECT abacus_triangulate('flat_mesh', 'TABLE flat');
+SELECT is(abacus_load('flat_copy', 'SELECT id, x, y, height FROM flat ORDER BY random()',
+                      'SELECT v2, v0, v1 FROM abacus_simplices(''flat_mesh'') ORDER BY random()'),
+          (SELECT count(*) FROM abacus_simplices('flat_mesh')), 'all triangles');
+SELECT set_eq($$ SELECT * FROM pg_temp.simplices('flat_copy') $$, $$ SELECT * FROM pg_temp.simplices('flat_mesh') $$, 'the same triangles');
+SELECT set_eq($$ SELECT id, x, y, attributes FROM abacus_vertices('flat_copy') $$, $$ SELECT id, x, y, attributes FROM abacus_vertices('flat_mesh') $$, 'the same vertices');
+SELECT is_empty($$ SELECT * FROM abacus_check('flat_copy') $$, 'sound');
+SELECT is((SELECT value FROM abacus_stats('flat_copy') WHERE name = 'delaunay'), 1::float8, 'Delaunay');
+SELECT is(abacus_insert('flat_copy', 'SELECT -id, x + 0.25, y + 0.25, 0 FROM flat WHERE id <= 500'), 500::bigint, 'points can be inserted');
+SELECT is(abacus_delete('flat_copy', 'SELECT -id, x + 0.25, y + 0.25 FROM flat WHERE id <= 500'), 500::bigint, 'and deleted');
+SELECT set_eq($$ SELECT * FROM pg_temp.simplices('flat_copy') $$, $$ SELECT * FROM pg_temp.simplices('flat_mesh') $$, 'the same triangles again');
+
+CREATE TABLE solid AS SELECT i AS id, (i * 7919) % 109 AS x, (i * 104729) % 97 AS y, (i * 31337) % 101 AS z FROM generate_series(1, 1500) AS i;
+SELECT abacus_triangulate('solid_mesh', 'TABLE solid', dimension => 3);
+CREATE TABLE tetrahedra AS SELECT v0, v1, v2, v3 FROM abacus_simplices('solid_mesh');
+SELECT is(abacus_load('solid_copy', 'TABLE solid', 'TABLE tetrahedra'), (SELECT count(*) FROM tetrahedra), 'all tetrahedra');
+SELECT set_eq($$ SELECT * FROM pg_temp.simplices('solid_copy') $$, $$ SELECT * FROM pg_temp.simplices('solid_mesh') $$, 'the same tetrahedra');
+SELECT is_empty($$ SELECT * FROM abacus_check('solid_copy') $$, 'sound');
+
+-- With holes: located wherever a simplex is left, and nowhere else.
+CREATE TABLE left_over AS SELECT * FROM tetrahedra WHERE (v0 + v1 + v2 + v3) % 3 > 0;
+SELECT is(abacus_load('holes', 'TABLE solid', 'TABLE left_over'), (SELECT count(*) FROM left_over), 'what is left over');
+SELECT is_empty($$ SELECT * FROM abacus_check('holes') $$, 'sound with holes');
+SELECT is((SELECT value FROM abacus_stats('holes') WHERE name = 'delaunay'), 0::float8, 'not Delaunay');
+SELECT is_empty($$
+    SELECT x, y, z
+    FROM generate_series(3.1, 108, 9.7) AS x, generate_series(3.1, 96, 9.7) AS y, generate_series(3.1, 100, 9.7) AS z,
+         abacus_locate('solid_mesh', x, y, z) AS whole, abacus_locate('holes', x, y, z) AS part
+    WHERE (part.v0, part.v1, part.v2, part.v3) IS DISTINCT FROM
+          CASE WHEN EXISTS (SELECT FROM left_over AS l WHERE (l.v0, l.v1, l.v2, l.v3) = (whole.v0, whole.v1, whole.v2, whole.v3))
+               THEN (whole.v0, whole.v1, whole.v2, whole.v3) ELSE (NULL::bigint, NULL::bigint, NULL::bigint, NULL::bigint) END $$,
+    'the same simplex as in the whole mesh, or none');
+SELECT set_eq($$ SELECT id FROM abacus_vertices('holes') $$, $$ SELECT unnest(ARRAY[v0, v1, v2, v3]) FROM left_over $$, 'its vertices are listed');
+SELECT throws_ok(format('SELECT %s', f), '55000', NULL, f || ' is refused')
+FROM unnest(ARRAY[$$abacus_stage('holes', 'SELECT 0, 1, 2, 3')$$, $$abacus_triangulate('holes')$$,
+                  $$abacus_insert('holes', 'SELECT 0, 1, 2, 3')$$, $$abacus_delete('holes', 'SELECT 0, 1, 2, 3')$$]) AS f;
+
+-- The list of vertices is verified.
+SAVEPOINT damage;
+DELETE FROM holes_vertices WHERE first = (SELECT min(first) FROM holes_vertices);
+SELECT isnt_empty($$ SELECT * FROM abacus_check('holes') $$, 'a page of the list is missing');
+ROLLBACK TO damage;
+UPDATE holes_vertices SET page = overlay(page::bytea PLACING '\xff' FROM 25)::abacus_page WHERE first = 0;
+SELECT isnt_empty($$ SELECT * FROM abacus_check('holes') WHERE fault = 'vertex' $$, 'an id of the list is another');
+ROLLBACK TO damage;
+
+-- Who may not read the source may not load it.
+CREATE ROLE abacus_reader;
+GRANT CREATE ON SCHEMA public TO abacus_reader;
+SET LOCAL ROLE abacus_reader;
+SELECT throws_ok($$ SELECT abacus_load('mine', 'SELECT 1, 0, 0', 'SELECT v0, v1, v2 FROM triangles_of_others') $$, '42P01', NULL, 'no such table');
+SELECT throws_ok($$ SELECT abacus_load('mine', 'TABLE flat', 'SELECT 1, 2, 3') $$, '42501', NULL, 'no privilege on the vertices');
+SELECT lives_ok($$ SELECT abacus_load('mine', 'VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1)', 'VALUES (3, 2, 1)') $$, 'a mesh of one''s own');
+RESET ROLE;
+
+SELECT * FROM finish();
+ROLLBACK;
