@@ -240,6 +240,6 @@ SELECT abacus_triangulate('field');
 \echo :LAST_ERROR_SQLSTATE
 ROLLBACK;
 
-DROP FUNCTION faults, after, last, flipped, number_at, little_endian, links_at, turned, altered;
+DROP FUNCTION faults, after, last, flipped, number_at, little_endian, word, words_of, bits_at, altered, moved, relinked;
 DROP PROCEDURE change_each_byte;
 DROP TABLE field, solid, field_1, solid_1;

@@ -20,6 +20,7 @@ CREATE TEMP TABLE wanted (name text, arguments text, result text, volatility "ch
 INSERT INTO wanted VALUES
     ('abacus_create', 'mesh text, dimension integer, attributes text[] DEFAULT ''{}''::text[], lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[]', 'regclass', 'v', false, 'u'),
     ('abacus_delete', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
+    ('abacus_load', 'mesh text, vertices text, simplices text, attributes text[] DEFAULT NULL::text[], lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], reorient boolean DEFAULT true', 'bigint', 'v', false, 'u'),
     ('abacus_insert', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_stage', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_track', 'mesh regclass, "table" regclass, columns text[] DEFAULT NULL::text[], synchronize boolean DEFAULT false', 'bigint', 'v', false, 'u'),
