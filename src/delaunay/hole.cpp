@@ -226,7 +226,8 @@ template <int D> void Hole<D>::sew(const Star<D> &star) {
     require_filled();
 }
 
-template class Hole<2>;
-template class Hole<3>;
+// Not the whole class: some members are for one dimension.
+template void Hole<2>::fill(const Star<2> &);
+template void Hole<3>::fill(const Star<3> &);
 
 } // namespace abacus
