@@ -82,7 +82,7 @@ tap_tests() {
     sources=$(dirname "$("$PG_CONFIG" --pgxs)")/..
     mkdir "$folder" "$folder/disk"
     cp -r test/tap/*.p[lm] test/tap/meshes "$folder"
-    if as_root mount -t tmpfs -o size=24m tmpfs "$folder/disk" 2>/dev/null; then
+    if as_root mount -t tmpfs -o size=14m tmpfs "$folder/disk" 2>/dev/null; then
         trap 'as_root umount -l "$cluster_folder/tap/disk"' EXIT
         mkdir "$folder/disk/space"
         export ABACUS_SMALL_DISK=$folder/disk/space

@@ -1,6 +1,6 @@
 # abacus_build on a full disk: what is committed stays, and with room again
 # the next call goes on. ABACUS_SMALL_DISK names an empty folder on a file
-# system of about 24 MB (scripts/test.sh mounts one).
+# system of about 14 MB (scripts/test.sh mounts one).
 use strict;
 use warnings;
 
