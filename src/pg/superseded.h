@@ -13,5 +13,7 @@ typedef struct Superseded Superseded;
 extern Superseded *superseded_create(MemoryContext memory);
 extern void superseded_add(Superseded *superseded, BlockNumber block);
 extern void superseded_reclaim(Superseded *superseded, Relation heap);
+extern Superseded *superseded_of_session(Relation heap);
+extern void superseded_reclaim_earlier(Superseded *superseded, Relation heap);
 
 #endif
