@@ -51,6 +51,8 @@ template <int D> void Cache<D>::choose_victims(Arena<BlockIndex> &victims) {
     const auto is_behind = [&](const Block &b) { return b.upper.code <= front_; };
     std::size_t behind = 0;
     for (const Block &b : blocks_) behind += b.state == Block::cached && is_behind(b);
+    // A small cache is no more than the window.
+    const bool along_the_curve = front_ != 0 && cached_blocks_ >= 2 * least_window;
     const bool window_is_full =
         behind > std::max(least_window, cached_blocks_ * window_share / 100);
     for (BlockIndex b = 0; b < blocks_.size(); ++b) {
@@ -58,7 +60,7 @@ template <int D> void Cache<D>::choose_victims(Arena<BlockIndex> &victims) {
         if (block.state != Block::cached) continue;
         Candidate &c = *candidates.extend(1);
         c = {last, block.used_at, b};
-        if (front_ == 0) continue;
+        if (!along_the_curve) continue;
         if (is_behind(block)) {
             c.rank = window_is_full ? first : second;
         } else if (block.lower.code > front_ && clock_ - block.used_at > in_use) {
