@@ -55,7 +55,6 @@ private:
     void order_vertices();
     [[noreturn]] void refuse_unknown(Word number, Word id);
     void assemble();
-    void add_simplex(const Word *corners);
     void link();
     void find_boundary();
     void add_ghost(const Word *simplex, int facet, Key &key);

@@ -30,7 +30,6 @@ typedef struct Change
 } Change;
 
 extern uint64 edit_insert(Oid mesh, Source *source, const char *command, abacus_header *header);
-extern uint64 edit_delete(Oid mesh, Source *source);
 extern Change *change_begin(Oid mesh, const char *command);
 extern void change_open_stage(Change *change, const abacus_header *shape);
 extern void change_add(Change *change, const uint64 *points, size_t count);

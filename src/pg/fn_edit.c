@@ -46,7 +46,7 @@ abacus_sql_insert(PG_FUNCTION_ARGS)
 }
 
 /* Takes the points of a prepared query away; returns how many there were. */
-uint64
+static uint64
 edit_delete(Oid mesh, Source *source)
 {
 	Change	   *change = change_begin(mesh, "abacus_delete()");
