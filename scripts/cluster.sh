@@ -4,6 +4,7 @@
 #   cluster_start NAME   a fresh one in build/cluster/NAME; exports PGHOST,
 #                        PGUSER and PGDATABASE for psql and friends
 #   cluster_stop         stops it; also done when the script ends
+#   cluster_restart      for the children of that script: settings that need a new start
 #
 # PostgreSQL refuses to run as root, so root runs the server as user postgres,
 # who may not be able to reach a checkout below /root: then the cluster lies in
@@ -60,6 +61,11 @@ cluster_stop() {
             cluster_as_server "$cluster_bin/pg_ctl" stop -s -w -m immediate -D "$cluster_folder/data"
     fi
     rm -rf "$cluster_folder/data"  # the log stays
+}
+
+cluster_restart() {
+    cluster_as_server "$("$PG_CONFIG" --bindir)/pg_ctl" restart -s -w -t 600 -D "$PGHOST/data" \
+        -l "$PGHOST/log"
 }
 
 # What an earlier run, or a killed one, left behind.

@@ -3,7 +3,8 @@
 
 Reads the binned GSHHG files of the Debian packages gmt-gshhg-full (resolution
 f) and gmt-gshhg-high (h) and writes rows (id bigint, lon float8, lat float8)
-for `COPY points FROM STDIN (FORMAT binary)` to standard output.
+for `COPY points FROM STDIN (FORMAT binary)` to standard output; or, asked for
+`raw`, the records that the programs of bench/comparators read.
 
 A bin is a square of a whole number of degrees; bins run eastward from
 Greenwich and southward from the pole. A point is two unsigned 16-bit fractions
@@ -23,6 +24,7 @@ ROW = np.dtype([("fields", ">i2"),
                 ("id_bytes", ">i4"), ("id", ">i8"),
                 ("lon_bytes", ">i4"), ("lon", ">f8"),
                 ("lat_bytes", ">i4"), ("lat", ">f8")])
+RECORD = np.dtype([("id", "<i8"), ("lon", "<f8"), ("lat", "<f8")])
 HEADER = b"PGCOPY\n\xff\r\n\0" + bytes(8)
 TRAILER = b"\xff\xff"
 
@@ -47,24 +49,27 @@ def points_of(path):
 
 
 def main():
-    resolution = sys.argv[1] if len(sys.argv) > 1 else "f"
-    if resolution not in ("f", "h"):
-        sys.exit("usage: gshhg_points.py [f|h]")
+    resolution, form = (sys.argv[1:] + ["f", "copy"][len(sys.argv) - 1:])[:2]
+    if resolution not in ("f", "h") or form not in ("copy", "raw") or len(sys.argv) > 3:
+        sys.exit("usage: gshhg_points.py [f|h [copy|raw]]")
     out = sys.stdout.buffer
-    out.write(HEADER)
+    if form == "copy":
+        out.write(HEADER)
     count = 0
     for kind in KINDS:
         lon, lat = points_of(f"{FOLDER}/binned_{kind}_{resolution}.nc")
-        rows = np.empty(len(lon), ROW)
-        rows["fields"] = 3
-        for field in ("id", "lon", "lat"):
-            rows[field + "_bytes"] = 8
+        rows = np.empty(len(lon), ROW if form == "copy" else RECORD)
+        if form == "copy":
+            rows["fields"] = 3
+            for field in ("id", "lon", "lat"):
+                rows[field + "_bytes"] = 8
         rows["id"] = np.arange(count + 1, count + 1 + len(lon))
         rows["lon"] = lon
         rows["lat"] = lat
         out.write(rows.data)
         count += len(lon)
-    out.write(TRAILER)
+    if form == "copy":
+        out.write(TRAILER)
 
 
 if __name__ == "__main__":

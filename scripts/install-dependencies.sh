@@ -4,7 +4,8 @@
 #
 #   install-dependencies.sh build     what the extension needs
 #   install-dependencies.sh demo      ... and the data of the demo
-#   install-dependencies.sh test      ... and all tests and benchmarks (default)
+#   install-dependencies.sh test      ... and all tests, which run the benchmarks once (default)
+#   install-dependencies.sh bench     ... and PostGIS, to compare with
 set -euo pipefail
 
 packages=(
@@ -20,14 +21,20 @@ demo=(
 test=(
     cmake clang libclang-rt-14-dev  # clang brings libFuzzer
     libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
+    libtet1.5-dev libqhull-dev      # TetGen and Qhull, to compare with
+    gnuplot-nox                     # plots of docs/benchmarks.md
     postgresql-15-pgtap libtap-parser-sourcehandler-pgtap-perl libipc-run-perl
+)
+bench=(
+    postgresql-15-postgis-3
 )
 
 case ${1:-test} in
 build) ;;
 demo) packages+=("${demo[@]}") ;;
 test) packages+=("${demo[@]}" "${test[@]}") ;;
-*) echo "usage: $0 [build|demo|test]" >&2; exit 2 ;;
+bench) packages+=("${demo[@]}" "${test[@]}" "${bench[@]}") ;;
+*) echo "usage: $0 [build|demo|test|bench]" >&2; exit 2 ;;
 esac
 
 missing=()

@@ -114,7 +114,6 @@ suite "documentation examples" documentation_examples
 suite "acceptance quick" scripts/acceptance.sh quick
 suite "model test" scripts/model_test.sh -t 30
 suite "bench smoke" scripts/bench.sh smoke
-suite "bench smoke 3D" scripts/bench.sh -d 3 -s quake smoke
 suite "statistics smoke" scripts/statistics.sh 300000 10000
 
 echo "$passed passed, $failed failed"

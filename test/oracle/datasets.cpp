@@ -150,6 +150,40 @@ template <int D> Points<D> duplicates(std::size_t size, Random &random) {
     });
 }
 
+/// Half of the points close around closed curves, half in Gaussian clusters of different widths: dense
+/// in few places, as shorelines, settlements and scanned surfaces are.
+template <int D> Points<D> curves(std::size_t size, Random &random) {
+    constexpr double turn = 6.283185307179586;
+    const auto normal = [&] { // Box and Muller
+        return std::sqrt(-2 * std::log(1 - random.unit())) * std::cos(turn * random.unit());
+    };
+    struct Shape {
+        Coordinates<D> centre;
+        double width; // of a cluster; of a curve, which is wound around its centre
+        std::array<double, D> frequency, phase;
+    };
+    std::vector<Shape> shapes(40);
+    for (Shape &shape : shapes) {
+        for (double &x : shape.centre) x = random.unit();
+        shape.width = std::pow(10, random.between(-3, -1));
+        for (double &x : shape.frequency) x = double(1 + random.below(5));
+        for (double &x : shape.phase) x = turn * random.unit();
+    }
+    Points<D> points(size);
+    for (auto &p : points) {
+        const std::size_t chosen = random.below(shapes.size());
+        const Shape &shape = shapes[chosen];
+        const double along = turn * random.unit();
+        for (int axis = 0; axis < D; ++axis)
+            p[axis] = shape.centre[axis] +
+                      (chosen % 2 == 0 ? shape.width * normal()
+                                       : shape.width * std::sin(shape.frequency[axis] * along +
+                                                                shape.phase[axis]) +
+                                             1e-5 * normal());
+    }
+    return points;
+}
+
 Points<3> quake_near(std::size_t size, Random &) { return quake(size); }
 
 template <int D> using Make = Points<D> (*)(std::size_t, Random &);
@@ -172,6 +206,7 @@ constexpr struct {
     {"flat", flat<2>, flat<3>, "integer points of one slanted line or plane"},
     {"flat_but_one", flat_but_one<2>, flat_but_one<3>, "the same, and a point off it"},
     {"clusters", clusters<2>, clusters<3>, "ten clusters with a spread of 1e-12 of the domain"},
+    {"curves", curves<2>, curves<3>, "thin curves and Gaussian clusters"},
     {"exponents", exponents<2>, exponents<3>, "coordinates from 1e-300 to 1e300"},
     {"duplicates", duplicates<2>, duplicates<3>, "ten points on each node of an integer grid"},
     {"octree", octree<2>, octree<3>, "corners of a random quadtree or octree, unbalanced"},

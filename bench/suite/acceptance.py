@@ -1,0 +1,82 @@
+"""What was wanted of the figures, what they are, and whether that was held or missed."""
+import dataclasses
+import typing
+
+from results import median, ratio
+
+SHORELINES = 14353294
+
+
+@dataclasses.dataclass
+class Wanted:
+    what: str
+    limit: float
+    at_most: bool
+    measured: typing.Callable  # of Results: the figure, or None
+    unit: str = ""
+
+    def verdict(self, value):
+        if value is None:
+            return "not measured"
+        held = value <= self.limit if self.at_most else value >= self.limit
+        return "held" if held else "**missed**"
+
+
+def build(results, engine, dimension, set, points, figure="wall", **labels):
+    """The median of a build. A set of about so many points is meant: quake sets are what they are."""
+    found = [measurement for measurement in
+             results.all(what="build", engine=engine, dimension=dimension, set=set, **labels)
+             if abs(measurement["points"] - points) <= 0.05 * points]
+    if len(found) > 1:
+        raise LookupError(f"{len(found)} builds: {engine} {set} {points}")
+    return found[0] if found else None
+
+
+def times(engine, other, dimension, set, points, cache="default", other_cache=None):
+    """Ratio of the times of two engines."""
+    def measured(results):
+        labels = {"cache": cache} if engine == "abacus" else {}
+        other_labels = {"cache": other_cache} if other == "abacus" else {}
+        one = build(results, engine, dimension, set, points, **labels)
+        two = build(results, other, dimension, set, points, **other_labels)
+        return ratio(one and median(one, "wall"), two and median(two, "wall"))
+    return measured
+
+
+def bytes_a_simplex(dimension, points):
+    def measured(results):
+        found = build(results, "abacus", dimension, "uniform", points, cache="default")
+        if found is None:
+            return None
+        disk = found["disk"]
+        return (disk["simplices"] + disk["index"]) / found["samples"][-1]["simplices"]
+    return measured
+
+
+def growth(results):
+    """Cost of a point at 100 M to that at 1 M, with 64 MB of cache."""
+    small = build(results, "abacus", 2, "uniform", 10**6, cache="64")
+    large = build(results, "abacus", 2, "uniform", 10**8, cache="64")
+    return ratio(large and median(large, "wall") / large["points"],
+                 small and median(small, "wall") / small["points"])
+
+
+WANTED = [
+    Wanted("2D, 1 M uniform: table to committed mesh ÷ CGAL in core", 1.0, True,
+           times("abacus", "cgal", 2, "uniform", 10**6)),
+    Wanted("2D, 10 M uniform: … ÷ CGAL in core", 0.8, True,
+           times("abacus", "cgal", 2, "uniform", 10**7)),
+    Wanted("2D, shorelines: … ÷ CGAL in core", 0.9, True,
+           times("abacus", "cgal", 2, "shorelines", SHORELINES)),
+    Wanted("2D, 1 M uniform: … ÷ PostGIS", 0.05, True,
+           times("abacus", "postgis", 2, "uniform", 10**6)),
+    Wanted("3D, 1 M uniform: … ÷ CGAL in core", 0.9, True,
+           times("abacus", "cgal", 3, "uniform", 10**6)),
+    Wanted("3D, quake set of 1 M: … ÷ CGAL in core", 0.9, True,
+           times("abacus", "cgal", 3, "quake", 1016926)),
+    Wanted("2D, 10 M uniform: cache of 8 MB ÷ unlimited", 1.3, True,
+           times("abacus", "abacus", 2, "uniform", 10**7, "8", "largest")),
+    Wanted("2D: cost of a point at 100 M ÷ at 1 M, cache of 64 MB", 1.25, True, growth),
+    Wanted("2D, 10 M uniform: bytes a triangle, index included", 18, True, bytes_a_simplex(2, 10**7)),
+    Wanted("3D, 1 M uniform: bytes a tetrahedron, index included", 24, True, bytes_a_simplex(3, 10**6)),
+]

@@ -1,0 +1,79 @@
+"""What is compared: each engine makes the triangulation of a point set once, as a sample.
+
+Abacus is timed from the table of points to the committed mesh, PostGIS from the same table to the
+geometry, which is kept nowhere; the others read a file of the same points and build in core
+(bench/comparators).
+"""
+import json
+import subprocess
+
+import paths
+import server
+from points import PointSet
+
+
+class Program:
+    """A program of bench/comparators."""
+
+    def __init__(self, engine):
+        self.labels = {"engine": engine}
+        self.program = paths.PROGRAMS / f"bench_{engine}"
+
+    def sample(self, points: PointSet):
+        done = subprocess.run([self.program, str(points.dimension), points.file],
+                              stdout=subprocess.PIPE, check=True)
+        return json.loads(done.stdout)
+
+    def details(self):
+        return {}
+
+
+class Abacus:
+    """abacus_triangulate with a cache of a given size, all other settings at their defaults."""
+
+    def __init__(self, cache):
+        self.labels = {"engine": "abacus", "cache": cache}
+
+    def sample(self, points: PointSet):
+        server.drop("mesh", "mesh_vertices")
+        server.settle()
+        megabytes = server.cache_size(self.labels["cache"])
+        with server.Session(abacus__cache_size=f"{megabytes}MB") as session:
+            sample = session.timed(points.triangulate())
+        sample["simplices"] = int(sample.pop("printed"))
+        return sample
+
+    def details(self):
+        """Of the mesh that the last run has left."""
+        return server.mesh_sizes()
+
+
+class PostGIS:
+    """ST_DelaunayTriangles. Its answer is counted, which takes next to no time."""
+
+    def __init__(self):
+        self.labels = {"engine": "postgis"}
+
+    def sample(self, points: PointSet):
+        server.query("SET client_min_messages = warning; CREATE EXTENSION IF NOT EXISTS postgis")
+        server.settle()
+        with server.Session() as session:
+            sample = session.timed("SELECT ST_NumGeometries(ST_DelaunayTriangles(ST_Collect("
+                                   "ST_MakePoint(x, y)))) FROM points")
+        sample["simplices"] = int(sample.pop("printed"))
+        return sample
+
+    def details(self):
+        return {}
+
+
+def engine(name, say):
+    """Of a name: cgal, tetgen, qhull, postgis, or abacus:CACHE; None if it is not installed."""
+    if name.startswith("abacus:"):
+        return Abacus(name.removeprefix("abacus:"))
+    if name != "postgis":
+        return Program(name)
+    if server.has_extension("postgis"):
+        return PostGIS()
+    say("PostGIS is not installed and left out")
+    return None

@@ -1,0 +1,51 @@
+"""The parts of the suite: what is measured, with how many points, in which mode."""
+import dataclasses
+import typing
+
+from builds import Contest
+
+
+@dataclasses.dataclass
+class Part:
+    name: str
+    what: str
+    minutes: float  # of the full mode, about
+    measure: typing.Callable
+
+
+def contests(*contests):
+    def measure(suite):
+        for contest in contests:
+            contest.measure(suite)
+    return measure
+
+
+FEWER = {"full": 3, "quick": 1, "smoke": 1}
+
+PARTS = [
+    Part("2d", "uniform points in the plane, all engines", 3, contests(
+        Contest(2, "uniform", {"full": 1000000, "quick": 200000, "smoke": 20000},
+                ("cgal", "abacus:default", "abacus:8", "abacus:64", "abacus:largest", "postgis",
+                 "qhull")))),
+    Part("2d-sets", "clusters and curves, and a grid", 2, contests(
+        Contest(2, "curves", {"full": 1000000, "quick": 200000, "smoke": 20000},
+                ("cgal", "abacus:default", "abacus:8", "postgis")),
+        Contest(2, "grid", {"full": 1000000, "quick": 200000, "smoke": 20000},
+                ("cgal", "abacus:default", "abacus:8", "postgis")))),
+    Part("2d-10m", "ten times as many uniform points", 6, contests(
+        Contest(2, "uniform", {"full": 10000000, "quick": 1000000},
+                ("cgal", "abacus:default", "abacus:8", "abacus:64", "abacus:largest"),
+                {"full": 5, "quick": 1}))),
+    Part("shorelines", "shorelines, borders and rivers of the world", 3, contests(
+        Contest(2, "shorelines", {"full": 0},
+                ("cgal", "abacus:default", "abacus:64", "abacus:8"), FEWER))),
+    Part("3d", "uniform points in space, all engines", 6, contests(
+        Contest(3, "uniform", {"full": 1000000, "quick": 100000, "smoke": 5000},
+                ("cgal", "abacus:default", "abacus:16", "abacus:largest", "tetgen", "qhull")))),
+    Part("3d-quake", "points of an earthquake model", 5, contests(
+        Contest(3, "quake", {"full": 1000000, "quick": 130000, "smoke": 5000},
+                ("cgal", "abacus:default", "abacus:16", "abacus:largest", "tetgen"), FEWER))),
+    Part("2d-100m", "a hundred times as many uniform points, 64 MB of cache", 6, contests(
+        Contest(2, "uniform", {"full": 100000000}, ("abacus:64",), {"full": 1},
+                disk=16 << 30))),
+]

@@ -1,0 +1,12 @@
+"""Where things are; everything that is measured or written in between lies below build/."""
+import pathlib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILD = ROOT / "build"
+RELEASE = BUILD / "release"
+PROGRAMS = RELEASE / "bench"
+ORACLE_POINTS = RELEASE / "test/oracle/oracle_points"
+DATA = BUILD / "bench"               # files of points, while a part runs
+RESULTS = BUILD / "bench-results"    # a JSON file a part; quick/ and smoke/ have their own
+DOCUMENT = ROOT / "docs/benchmarks.md"
+COMMITTED = ROOT / "docs/benchmarks/results.json"
