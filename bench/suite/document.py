@@ -20,6 +20,37 @@ def fill(text, generators):
     return REGION.sub(lambda match: match[1] + generators[match[2]]().rstrip("\n") + "\n" + match[3], text)
 
 
+class Document:
+    """The generators of a document's regions, by name, and the pictures that they draw."""
+
+    def __init__(self, results, pictures):
+        self.results, self.pictures = results, pictures
+        self.generators = {"machine": self.machine}
+
+    def fill(self, text):
+        return fill(text, self.generators)
+
+    def picture(self, name, alternative):
+        return f"![{alternative}]({self.pictures.name}/{name}.svg)\n"
+
+    def machine(self):
+        """Of every part: they may have been measured on different days."""
+        text, rows = "", []
+        machines = {}
+        for name, part in self.results.parts.items():
+            about = part["machine"]
+            rows.append((f"`{name}`", part["mode"], about["date"], about["commit"], number(about["load"]),
+                         f"{part['seconds'] / 60:.1f}"))
+            key = tuple(str(about[field]) for field in ("cpu", "cores", "memory_bytes", "kernel",
+                                                        "compiler", "flags", "packages"))
+            machines[key] = about
+        for about in machines.values():
+            packages = ", ".join(f"{name} {version}" for name, version in about["packages"].items())
+            text += (f"{about['cores']} cores of {about['cpu']}, {size(about['memory_bytes'])} of memory,"
+                     f" Linux {about['kernel']}; {about['compiler']}, `{about['flags']}`; {packages}.\n\n")
+        return text + table(("part", "mode", "date", "commit", "load before", "minutes"), rows)
+
+
 def table(head, rows):
     """A table of GitHub's Markdown; columns after the first are right-aligned."""
     lines = ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 1)]

@@ -1,16 +1,6 @@
 """The parts of the suite: what is measured, with how many points, in which mode."""
-import dataclasses
-import typing
-
 from builds import Contest
-
-
-@dataclasses.dataclass
-class Part:
-    name: str
-    what: str
-    minutes: float  # of the full mode, about
-    measure: typing.Callable
+from driver import Part
 
 
 def contests(*contests):

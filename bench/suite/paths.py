@@ -7,6 +7,3 @@ RELEASE = BUILD / "release"
 PROGRAMS = RELEASE / "bench"
 ORACLE_POINTS = RELEASE / "test/oracle/oracle_points"
 DATA = BUILD / "bench"               # files of points, while a part runs
-RESULTS = BUILD / "bench-results"    # a JSON file a part; quick/ and smoke/ have their own
-DOCUMENT = ROOT / "docs/benchmarks.md"
-COMMITTED = ROOT / "docs/benchmarks/results.json"

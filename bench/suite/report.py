@@ -1,8 +1,7 @@
 """Makes docs/benchmarks.md, its pictures and its table of acceptance from results."""
 import acceptance
-import document
 import plots
-from document import number, size, spread, table
+from document import Document, number, size, spread, table
 from results import median, ratio
 from results import spread as spread_of
 
@@ -18,19 +17,10 @@ def engine_name(measurement):
     return "Abacus, " + {"default": "128 MB", "largest": "no limit"}.get(cache, f"{cache} MB")
 
 
-class Report:
-    """The regions of the document, by name, and the pictures that they show."""
-
+class Report(Document):
     def __init__(self, results, pictures):
-        self.results, self.pictures = results, pictures
-        self.generators = {"acceptance": self.acceptance, "machine": self.machine,
-                           "builds": self.builds}
-
-    def fill(self, text):
-        return document.fill(text, self.generators)
-
-    def picture(self, name, alternative):
-        return f"![{alternative}]({self.pictures.name}/{name}.svg)\n"
+        super().__init__(results, pictures)
+        self.generators |= {"acceptance": self.acceptance, "builds": self.builds}
 
     def acceptance(self):
         rows = []
@@ -39,23 +29,6 @@ class Report:
             rows.append((wanted.what, f"{'≤' if wanted.at_most else '≥'} {wanted.limit:,}",
                          number(value), wanted.verdict(value)))
         return table(("", "wanted", "measured", ""), rows)
-
-    def machine(self):
-        """Of every part: they may have been measured on different days."""
-        text, rows = "", []
-        machines = {}
-        for name, part in self.results.parts.items():
-            about = part["machine"]
-            rows.append((f"`{name}`", part["mode"], about["date"], about["commit"], number(about["load"]),
-                         f"{part['seconds'] / 60:.1f}"))
-            key = tuple(str(about[field]) for field in ("cpu", "cores", "memory_bytes", "kernel",
-                                                        "compiler", "flags", "packages"))
-            machines[key] = about
-        for about in machines.values():
-            packages = ", ".join(f"{name} {version}" for name, version in about["packages"].items())
-            text += (f"{about['cores']} cores of {about['cpu']}, {size(about['memory_bytes'])} of memory,"
-                     f" Linux {about['kernel']}; {about['compiler']}, `{about['flags']}`; {packages}.\n\n")
-        return text + table(("part", "mode", "date", "commit", "load before", "minutes"), rows)
 
     def builds(self):
         """A table for each set of points, engines below one another; a plot of those with many."""

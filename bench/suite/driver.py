@@ -1,0 +1,109 @@
+"""Runs parts, keeps their results, and makes a document of them: what the benchmarks and the
+evaluation have in common.
+
+    full|quick|smoke [PART...], or report, or list
+"""
+import dataclasses
+import pathlib
+import subprocess
+import sys
+import time
+import typing
+
+import machine
+import paths
+import server
+from results import Results, write_part
+
+
+@dataclasses.dataclass
+class Part:
+    name: str
+    what: str
+    minutes: float  # of the full mode, about
+    measure: typing.Callable  # of a Suite
+
+
+@dataclasses.dataclass
+class Book:
+    """A document, what is measured for it, and what makes its regions and pictures of that."""
+    parts: list
+    document: pathlib.Path  # beside it, in a folder of its name: pictures and results.json
+    report: typing.Callable  # of the results and the folder of the pictures
+    results: pathlib.Path  # a JSON file a part; quick/ and smoke/ have their own
+
+    @property
+    def committed(self):
+        return self.document.with_suffix("") / "results.json"
+
+
+class Suite:
+    """One run of some parts: its mode, and what the part at work has measured."""
+
+    def __init__(self, mode, folder):
+        self.mode = mode
+        self.folder = folder if mode == "full" else folder / mode
+        self.measurements = []
+
+    def say(self, text):
+        print(text, flush=True)
+
+    def run(self, part):
+        """Measures a part; false if that failed, which leaves its earlier results as they were."""
+        self.say(f"\n== {part.name}: {part.what}")
+        self.measurements = []
+        start = time.monotonic()
+        about = machine.describe()
+        about["settings"] = server.settings()
+        try:
+            part.measure(self)
+        except server.NoDisk as problem:
+            self.say(f"left out: {problem}")
+            return True
+        except (server.Failure, subprocess.CalledProcessError) as problem:
+            self.say(f"FAILED: {problem}")
+            return False
+        if self.measurements:
+            write_part(self.folder, {
+                "part": part.name, "mode": self.mode, "seconds": round(time.monotonic() - start),
+                "machine": about, "measurements": self.measurements})
+        else:
+            self.say("nothing in this mode")
+        return True
+
+
+def chosen_parts(parts, names):
+    by_name = {part.name: part for part in parts}
+    unknown = set(names) - set(by_name)
+    if unknown:
+        sys.exit(f"no part {', '.join(sorted(unknown))}; there are {', '.join(by_name)}")
+    return [by_name[name] for name in names] or parts
+
+
+def write_report(book, mode):
+    """Of the full mode into docs/, together with what is there; of others beside their results."""
+    text = book.document.read_text()
+    if mode == "full":
+        results = Results.read(book.committed).merge_files(book.results)
+        results.write(book.committed)
+        document = book.document
+    else:
+        results = Results().merge_files(book.results / mode)
+        document = book.results / mode / book.document.name
+    document.write_text(book.report(results, document.with_suffix("")).fill(text))
+    print(f"\n{document.relative_to(paths.ROOT)} has been written")
+
+
+def main(book):
+    mode, *names = sys.argv[1:]
+    if mode == "list":
+        for part in book.parts:
+            print(f"{part.name:14} {part.minutes:4g} min   {part.what}")
+    elif mode == "report":
+        write_report(book, "full")
+    else:
+        suite = Suite(mode, book.results)
+        failed = [part.name for part in chosen_parts(book.parts, names) if not suite.run(part)]
+        write_report(book, mode)
+        if failed:
+            sys.exit(f"failed: {', '.join(failed)}")
