@@ -15,6 +15,7 @@
 // before.
 #include "cache/domain_of.hpp"
 #include "delaunay/insertion.hpp"
+#include "staged_file.hpp"
 #include "staging/vertex_reader.hpp"
 #include "support/memory_host.hpp"
 
@@ -22,7 +23,6 @@
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
-#include <vector>
 
 namespace {
 
@@ -76,25 +76,6 @@ private:
     Served served_;
 };
 
-void require(abacus_status status, const abacus_error &error) {
-    if (status != ABACUS_OK) throw std::runtime_error(error.message);
-}
-
-void stage(const abacus_host &host, abacus_header &header, const char *path) {
-    std::FILE *file = std::fopen(path, "rb");
-    if (file == nullptr) throw std::runtime_error(std::string("cannot open ") + path);
-    abacus_stage *stage = nullptr;
-    abacus_error error{};
-    require(abacus_stage_open(&host, &header, std::size_t{256} << 20, &stage, &error), error);
-    const std::size_t record_bytes = (1 + header.dimension) * sizeof(std::uint64_t);
-    std::vector<std::uint64_t> records((1 << 14) * (1 + header.dimension));
-    while (const std::size_t count = std::fread(records.data(), record_bytes, 1 << 14, file))
-        require(abacus_stage_add(stage, records.data(), count, &error), error);
-    require(abacus_stage_finish(stage, &header, &error), error);
-    abacus_stage_close(stage);
-    std::fclose(file);
-}
-
 /// Calls visit(point, id) for the staged points, until it returns false.
 template <int D, class Visit>
 void for_each_point(const Host &host, const abacus_header &header, Visit visit) {
@@ -108,7 +89,7 @@ template <int D> int run(const char *path, std::size_t cache_bytes) {
     const Host host(memory.watching());
     abacus_header header{};
     header.dimension = D;
-    stage(memory.watching(), header, path);
+    stage_file(memory.watching(), header, path);
 
     Cache<D> cache(host, domain_of<D>(header), 0, {.budget = cache_bytes, .stored_links = false});
     Delaunay<D> delaunay(host, cache, 0, 0);

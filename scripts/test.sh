@@ -114,7 +114,7 @@ suite "documentation examples" documentation_examples
 suite "acceptance quick" scripts/acceptance.sh quick
 suite "model test" scripts/model_test.sh -t 30
 suite "bench smoke" scripts/bench.sh smoke
-suite "statistics smoke" scripts/statistics.sh 300000 10000
+suite "evaluation smoke" scripts/evaluation.sh smoke
 
 echo "$passed passed, $failed failed"
 ((failed == 0))

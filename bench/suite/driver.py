@@ -22,6 +22,7 @@ class Part:
     what: str
     minutes: float  # of the full mode, about
     measure: typing.Callable  # of a Suite
+    only_named: bool = False
 
 
 @dataclasses.dataclass
@@ -77,7 +78,7 @@ def chosen_parts(parts, names):
     unknown = set(names) - set(by_name)
     if unknown:
         sys.exit(f"no part {', '.join(sorted(unknown))}; there are {', '.join(by_name)}")
-    return [by_name[name] for name in names] or parts
+    return [by_name[name] for name in names] or [part for part in parts if not part.only_named]
 
 
 def write_report(book, mode):

@@ -15,9 +15,11 @@ using namespace abacus::oracle;
 
 namespace {
 
+/// The places of the points in an order; none for that in which they were made.
 template <int D>
 std::vector<std::uint64_t> order_of(const Points<D> &points, const std::string &order,
                                     std::uint64_t seed) {
+    if (order == "made") return {};
     std::vector<std::uint64_t> places(points.size());
     std::iota(places.begin(), places.end(), 0);
     const auto less = [&](std::uint64_t a, std::uint64_t b) { return points[a] < points[b]; };
@@ -27,7 +29,7 @@ std::vector<std::uint64_t> order_of(const Points<D> &points, const std::string &
         std::stable_sort(places.begin(), places.end(), less);
     } else if (order == "reversed") {
         std::stable_sort(places.rbegin(), places.rend(), less);
-    } else if (order != "made") {
+    } else {
         throw std::invalid_argument("no order " + order);
     }
     return places;
@@ -37,29 +39,32 @@ template <int D>
 void write(const Points<D> &points, const std::vector<std::uint64_t> &places,
            const std::string &format) {
     File file("-", "w");
+    const auto each = [&](auto put) {
+        for (std::uint64_t n = 0; n < points.size(); ++n) put(places.empty() ? n : places[n]);
+    };
     if (format == "copy") {
         CopyWriter<D + 1> writer(file);
-        for (const std::uint64_t i : places) {
+        each([&](std::uint64_t i) {
             std::array<std::uint64_t, D + 1> row{i + 1};
             for (int axis = 0; axis < D; ++axis)
                 row[axis + 1] = std::bit_cast<std::uint64_t>(points[i][axis]);
             writer.put(row);
-        }
+        });
         writer.finish();
     } else if (format == "raw") {
-        for (const std::uint64_t i : places) {
+        each([&](std::uint64_t i) {
             const std::uint64_t id = i + 1;
             file.write(&id, sizeof id);
             file.write(&points[i], sizeof points[i]);
-        }
+        });
     } else if (format == "text") {
         char text[32];
         const auto put = [&](int size) { file.write(text, std::size_t(size)); };
-        for (const std::uint64_t i : places) {
+        each([&](std::uint64_t i) {
             put(std::snprintf(text, sizeof text, "%" PRIu64, i + 1));
             for (const double x : points[i]) put(std::snprintf(text, sizeof text, "\t%.17g", x));
             file.write("\n", 1);
-        }
+        });
     } else {
         throw std::invalid_argument("no format " + format);
     }

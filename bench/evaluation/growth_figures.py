@@ -1,0 +1,194 @@
+"""Figures 5.9 to 5.14: the time a million points take, as sets grow, with much and little memory,
+beside engines in core."""
+import plots
+from beside import HERE, NOTHING, Beside, clock, count, number, size
+from dissertation import FIGURE, POINTS_2D, POINTS_3D, numbers
+from document import table
+from parts import SMALL_MEMORY
+from point_sets import QUAKE_POINTS
+from results import median
+
+IN_CORE = {"cgal": "CGAL", "qhull": "Qhull", "tetgen": "TetGen"}
+PER_MILLION = "seconds a million points"
+
+
+class GrowthFigures:
+    def __init__(self, report):
+        self.report = report
+        self.generators = {
+            "figure-5-9": lambda: self.comparison(2, FIGURE["5.9"], ("Triangle (ii)", "Triangle (dc)")),
+            "figure-5-10": lambda: self.growth(2, "5.9", POINTS_2D, ("Triangle (ii)", "Triangle (dc)")),
+            "figure-5-11": lambda: self.comparison(3, FIGURE["5.11"], ("Pyramid",)),
+            "figure-5-12": lambda: self.growth(3, "5.11", POINTS_3D, ("Pyramid",)),
+            "figure-5-13": self.small_memory, "figure-5-14": self.small_memory_plot,
+            "caches": self.caches, "wall": self.wall}
+
+    def in_core(self, dimension, engine):
+        """Entries {key, points, sample} of an engine, in the order of their size."""
+        found = self.report.results.all(what="incore", dimension=dimension, engine=engine)
+        return sorted(({"key": m.get("frequency", m["points"]), "points": m["points"], "measurement": m}
+                       for m in found), key=lambda entry: entry["points"])
+
+    def comparison(self, dimension, figure, theirs):
+        entries = self.report.steps(dimension)
+        beside = self.report.beside(dimension, figure, entries)
+        beside.add("points", "vertices", lambda e: count(e["points"]))
+        beside.add("Abacus: staging", "stage", lambda e: clock(median(e["stage"], "wall")))
+        beside.add("Abacus: triangulating", "triangulate", lambda e: clock(median(e["triangulate"], "wall")))
+        beside.add("Abacus: both", "total", lambda e: clock(both(e)))
+        beside.add(f"Abacus: {PER_MILLION}", "amortized", lambda e: number(a_million(e)))
+        for name in theirs:
+            beside.add(name, figure[name]["wall"])
+            beside.add(f"{name}: memory", figure[name]["memory"])
+            beside.add(f"{name}: {PER_MILLION}", figure[name]["amortized"])
+        for engine, name in IN_CORE.items():
+            found = self.in_core(dimension, engine)
+            if not found:
+                continue
+            other = self.report.beside(dimension, figure, found)
+            other.keys, other.rows = beside.keys, beside.rows
+            other.add(name, None, lambda e: clock(median(e["measurement"], "wall")))
+            other.rows.append(["… memory", HERE, *self.memory_of(found, other, dimension)])
+            other.add(f"… {PER_MILLION}", None,
+                      lambda e: number(median(e["measurement"], "wall") / e["points"] * 1e6))
+        return beside.markdown()
+
+    def memory_of(self, found, beside, dimension):
+        """Of each column; in parentheses what follows from the largest set that was measured."""
+        largest = found[-1]
+        a_point = median(largest["measurement"], "memory") / largest["points"]
+        for key in beside.keys:
+            points = key if dimension == 2 else QUAKE_POINTS.get(key)
+            if key in beside.ours:
+                yield size(median(beside.ours[key]["measurement"], "memory"))
+            elif points and points > largest["points"]:
+                yield f"({size(a_point * points)})"
+            else:
+                yield NOTHING
+
+    def growth(self, dimension, figure, keys, theirs):
+        """A plot of the seconds a million points take, and where memory ends."""
+        series = {"Abacus, here": [plain(e["points"], a_million(e)) for e in self.report.steps(dimension)]}
+        wall = None
+        for engine, name in IN_CORE.items():
+            found = self.in_core(dimension, engine)
+            if found:
+                series[f"{name}, here"] = [
+                    plain(e["points"], median(e["measurement"], "wall") / e["points"] * 1e6) for e in found]
+            if found and engine == "cgal":
+                wall = self.memory_bytes() / (median(found[-1]["measurement"], "memory") / found[-1]["points"])
+        for name, values in [("Abacus, there", numbers(figure, "amortized")),
+                             *((f"{name}, there", numbers(figure, "amortized", name)) for name in theirs)]:
+            series[name] = [plain(key, value) for key, value in zip(keys, values) if value]
+        if wall:
+            series["memory of the machine, CGAL"] = [plain(wall, 0.5), plain(wall, 300)]
+        name = f"growth-{dimension}d"
+        plots.lines(self.report.pictures / f"{name}.svg", f"{dimension}D: {PER_MILLION}", "points",
+                    PER_MILLION, {label: rows for label, rows in series.items() if rows},
+                    logarithmic="xy", key="outside right")
+        return self.report.picture(name, f"{PER_MILLION}, by the number of points, in {dimension}D")
+
+    def memory_bytes(self):
+        return max(part["machine"]["memory_bytes"] for part in self.report.results.parts.values())
+
+    def small(self):
+        return self.report.steps(2, memory=SMALL_MEMORY)
+
+    def small_memory(self):
+        figure, entries = FIGURE["5.13"], self.small()
+        with_all = {entry["key"]: entry for entry in self.report.steps(2)}
+        beside = Beside(figure, POINTS_2D, entries, lambda key: count(key))
+        beside.add("points", "vertices", lambda e: count(e["points"]))
+        beside.add("tables and B-trees", "database", lambda e: size(sum(e["triangulate"]["disk"].values())))
+        beside.add("staging", "stage", lambda e: clock(median(e["stage"], "wall")))
+        beside.add("triangulating", "triangulate", lambda e: clock(median(e["triangulate"], "wall")))
+        beside.add("both", "total", lambda e: clock(both(e)))
+        beside.add(PER_MILLION, "amortized", lambda e: number(a_million(e)))
+        beside.add("÷ with all of the memory", "slowdown", lambda e: with_all.get(e["key"]) and number(
+            both(e) / both(with_all[e["key"]])))
+        beside.add("share of the time on the CPU, triangulating", None, lambda e: percent_of(e["triangulate"]))
+        beside.add("read from the disk, both steps", None, lambda e: size(total(e, "read")))
+        beside.add("written to it", None, lambda e: size(total(e, "written")))
+        beside.add("most memory of the group", None, lambda e: size(of_group(e, "peak")))
+        return beside.markdown() + "\n" + self.how_confined(entries)
+
+    def how_confined(self, entries):
+        samples = [sample for e in entries for sample in e["triangulate"]["samples"]]
+        if not samples:
+            return ""
+        if all("group" in sample for sample in samples):
+            return (f"Measured in a control group of {SMALL_MEMORY} MB; no process was killed.\n"
+                    if not any(sample["group"]["killed"] for sample in samples) else
+                    f"Measured in a control group of {SMALL_MEMORY} MB; processes were killed.\n")
+        cached = max(sample.get("page_cache", 0) for sample in samples)
+        return ("No control group could be made: what the kernel had cached of files was dropped before"
+                f" each step, and it cached up to {size(cached)} again.\n")
+
+    def small_memory_plot(self):
+        series = {"here, all of the memory": [plain(e["points"], a_million(e)) for e in self.report.steps(2)],
+                  f"here, {SMALL_MEMORY} MB": [plain(e["points"], a_million(e)) for e in self.small()],
+                  "there, 8 GB": [plain(*pair) for pair in zip(POINTS_2D, numbers("5.9", "amortized"))],
+                  "there, 64 MB": [plain(*pair) for pair in zip(POINTS_2D, numbers("5.13", "amortized"))]}
+        plots.lines(self.report.pictures / "memory.svg", f"2D: {PER_MILLION}, 8 MB of cache", "points",
+                    PER_MILLION, {label: rows for label, rows in series.items() if rows},
+                    logarithmic="xy", key="outside right")
+        return self.report.picture("memory", f"{PER_MILLION} with all of the memory and with little")
+
+    def caches(self):
+        """The same points with caches of several sizes."""
+        part = self.report.results.parts.get("caches")
+        if part is None:
+            return ""
+        rows, seen = [], {(m["dimension"], m["points"]) for m in part["measurements"]}
+        for m in self.report.results.all(what="triangulate", memory=None):
+            if (m["dimension"], m["points"]) in seen:
+                rows.append((f"{m['dimension']}D, {count(m['points'])}", m["cache"], m))
+        rows.sort(key=lambda row: (row[0], row[1]))
+        first = {}
+        text = []
+        for name, cache, m in rows:
+            wall, cpu = median(m, "wall"), median(m, "cpu")
+            first.setdefault(name, (wall, cpu))
+            text.append((name, f"{cache:,} MB", number(wall), number(wall / first[name][0]), number(cpu),
+                         number(cpu / first[name][1]), size(median(m, "memory")), f"{m['stats']['misses']:,.0f}"))
+        return table(("points", "cache", "triangulating, s", "÷ the smallest's", "CPU s", "÷ the smallest's",
+                      "private memory", "misses"), text)
+
+    def wall(self):
+        rows = []
+        for m in self.report.results.all(what="wall"):
+            sample = m["samples"][0]
+            rows.append((IN_CORE[m["engine"]], count(m["points"]), f"{m['memory']:,} MB",
+                         clock(sample["wall"]) if "wall" in sample else
+                         "killed: out of memory" if sample["group"]["killed"] else
+                         f"ended by {sample['returned']}"))
+            rows += [("Abacus", count(e["points"]), f"{m['memory']:,} MB", clock(both(e)))
+                     for e in self.report.steps(m["dimension"], m["cache"], m["memory"])
+                     if e["points"] == m["points"]]
+        return table(("engine", "points", "memory", "time"), rows) if rows else ""
+
+
+def both(entry):
+    return median(entry["stage"], "wall") + median(entry["triangulate"], "wall")
+
+
+def a_million(entry):
+    return both(entry) / entry["points"] * 1e6
+
+
+def total(entry, figure):
+    return median(entry["stage"], figure) + median(entry["triangulate"], figure)
+
+
+def percent_of(step):
+    return f"{100 * median(step, 'cpu') / median(step, 'wall'):.0f} %"
+
+
+def of_group(entry, figure):
+    samples = [s["group"] for step in ("stage", "triangulate") for s in entry[step]["samples"] if "group" in s]
+    return max((s[figure] for s in samples if s[figure] is not None), default=None)
+
+
+def plain(x, y):
+    """A point of a plot without a spread."""
+    return (x, y, y, y)

@@ -1,0 +1,31 @@
+#!/bin/bash
+# Measures what chapter 5 of the dissertation measured, and writes it beside its figures.
+#
+#   evaluation.sh quick [PART...]    minutes; into build/evaluation-results/quick/evaluation.md
+#   evaluation.sh full [PART...]     all sizes; into docs/evaluation.md
+#   evaluation.sh smoke              seconds, to see that everything works
+#   evaluation.sh report             docs/evaluation.md anew from the results that are there
+#   evaluation.sh list               the parts, and about how long each takes
+#
+# Each part leaves a file of results when it has ended, so a run that was broken off goes on
+# with the parts named that are left. What has no room on the disk is left out, and said.
+# Groups of limited memory are made by root (or sudo).
+set -euo pipefail
+. "$(dirname "$0")/common.sh"
+. scripts/cluster.sh
+
+mode=${1:-quick}
+case $mode in
+quick | full | smoke | report | list) shift $(($# > 0)) ;;
+*) fail "usage: $0 [quick|full|smoke|report|list] [PART...]" ;;
+esac
+if [[ $mode != list && $mode != report ]]; then
+    if [[ -z ${ABACUS_BUILT:-} ]]; then
+        scripts/install-dependencies.sh test
+        build_release oracle_points bench_cgal bench_tetgen bench_qhull io_trace probing_statistics
+        install_extension
+    fi
+    cluster_start evaluation
+    run_psql -c "CREATE EXTENSION abacus"
+fi
+PYTHONPATH=bench/suite PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 bench/evaluation "$mode" "$@"
