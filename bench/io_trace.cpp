@@ -11,20 +11,24 @@
 //
 // BLOCK is where a table's heap would have the page: within one transaction no space is used
 // again, so each version of a page gets the next block. PLACE is where the page begins: of
-// simplices on the curve, of vertices in the order of insertion; both from 0 to 1. The times are
-// those of the core alone, which is what makes the trace the same kind on every machine: what
-// becomes of a request, below, is up to the server and the file system.
+// simplices on the curve, of vertices in the order of insertion; both from 0 to 1. SECONDS are
+// those of the CPU, of the core alone: what becomes of a request, below, is up to the server and
+// the file system.
 #include "staged_file.hpp"
 #include "support/memory_host.hpp"
 
-#include <chrono>
-#include <cstring>
+#include <ctime>
 #include <unordered_map>
 
 namespace {
 
 using namespace abacus;
-using Clock = std::chrono::steady_clock;
+
+double cpu_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
 
 class TracingHost : public MemoryHost {
 public:
@@ -65,18 +69,19 @@ public:
     const abacus_host &tracing() const { return tracing_; }
     /// From now on requests are printed.
     void start(const abacus_header &header) {
-        spans_[ABACUS_SIMPLEX_PAGES] = double(std::uint64_t{1} << (header.dimension == 2 ? 62 : 63));
+        spans_[ABACUS_SIMPLEX_PAGES] =
+            double(std::uint64_t{1} << (header.dimension == 2 ? 62 : 63));
         spans_[ABACUS_STAGED_PAGES] = double(header.staged);
         spans_[ABACUS_REPEATED_PAGES] = spans_[ABACUS_SIMPLEX_PAGES];
         started_ = true;
-        start_ = Clock::now();
+        start_ = cpu_seconds();
     }
 
 private:
     /// Repeated points share the vertex table, but their pages are written at the end only.
     static constexpr const char *names[] = {"simplices", "vertices", "repeated"};
     struct Table {
-        std::uint64_t size = 0; // blocks
+        std::uint64_t size = 0;                                  // blocks
         std::unordered_map<std::uint64_t, std::uint64_t> blocks; // by location
     };
 
@@ -86,8 +91,7 @@ private:
 
     void note(abacus_page_kind kind, const char *what, const abacus_page &page) {
         if (!started_) return;
-        std::printf("%.6f %s %s %llu %.6f\n",
-                    std::chrono::duration<double>(Clock::now() - start_).count(), names[kind], what,
+        std::printf("%.6f %s %s %llu %.6f\n", cpu_seconds() - start_, names[kind], what,
                     static_cast<unsigned long long>(tables_[kind].blocks.at(page.location)),
                     double(page.key.code) / spans_[kind]);
     }
@@ -97,7 +101,7 @@ private:
     Table tables_[3];
     double spans_[3] = {};
     bool started_ = false;
-    Clock::time_point start_;
+    double start_ = 0;
 };
 
 void run(unsigned dimension, const char *path, std::size_t cache_bytes) {

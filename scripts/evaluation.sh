@@ -28,4 +28,4 @@ if [[ $mode != list && $mode != report ]]; then
     cluster_start evaluation
     run_psql -c "CREATE EXTENSION abacus"
 fi
-PYTHONPATH=bench/suite PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 bench/evaluation "$mode" "$@"
+PYTHONPATH=bench/suite python3 bench/evaluation "$mode" "$@"
