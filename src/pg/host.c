@@ -24,7 +24,7 @@
 #include "miscadmin.h"
 #include "utils/memutils.h"
 
-#include "pg/host.h"
+#include "pg/guard.h"
 #include "pg/spool.h"
 
 int			host_calls_to_failure = 0;
@@ -35,8 +35,8 @@ failure_is_due(void)
 	return host_calls_to_failure > 0 && --host_calls_to_failure == 0;
 }
 
-static void
-inject_failure(void)
+void
+host_inject_failure(void)
 {
 	if (unlikely(failure_is_due()))
 		ereport(ERROR,
@@ -46,8 +46,8 @@ inject_failure(void)
 }
 
 /* Keeps the error being handled until the core has returned. */
-static void
-keep_error(Host *host)
+void
+host_keep_error(Host *host)
 {
 	PG_TRY();
 	{
@@ -62,24 +62,6 @@ keep_error(Host *host)
 	PG_END_TRY();
 	FlushErrorState();
 }
-
-#define GUARD_BEGIN() \
-	do { \
-		MemoryContext guard_context = CurrentMemoryContext; \
-		PG_TRY(); \
-		{ \
-			inject_failure();
-
-#define GUARD_END(host) \
-		} \
-		PG_CATCH(); \
-		{ \
-			keep_error(host); \
-			MemoryContextSwitchTo(guard_context); \
-			return ABACUS_HOST_FAILED; \
-		} \
-		PG_END_TRY(); \
-	} while (0)
 
 /* ---- Memory ------------------------------------------------------------- */
 

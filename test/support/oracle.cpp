@@ -144,15 +144,20 @@ abacus_status MeshOf<D>::remove(const std::vector<InputOf<D>> &points, std::uint
     });
 }
 
-template <int D> std::vector<Positions<D>> MeshOf<D>::positions() {
+template <int D>
+std::vector<Positions<D>> positions_of(const std::vector<abacus_simplex> &simplices) {
     std::vector<Positions<D>> result;
-    for (const abacus_simplex &s : simplices(false)) {
+    for (const abacus_simplex &s : simplices) {
         Positions<D> corners;
         for (int i = 0; i <= D; ++i) std::copy_n(s.corner[i], D, corners[i].begin());
         result.push_back(canonical<D>(corners));
     }
     std::sort(result.begin(), result.end());
     return result;
+}
+
+template <int D> std::vector<Positions<D>> MeshOf<D>::positions() {
+    return positions_of<D>(simplices(false));
 }
 
 template <int D> std::vector<abacus_simplex> MeshOf<D>::simplices(bool ghosts) {
@@ -238,6 +243,8 @@ template class OpenMeshOf<2>;
 template class OpenMeshOf<3>;
 template std::vector<InputOf<2>> number<2>(const std::vector<Point<2>> &);
 template std::vector<InputOf<3>> number<3>(const std::vector<Point<3>> &);
+template std::vector<Positions<2>> positions_of<2>(const std::vector<abacus_simplex> &);
+template std::vector<Positions<3>> positions_of<3>(const std::vector<abacus_simplex> &);
 template std::vector<Positions<2>> cgal_simplices<2>(const std::vector<Point<2>> &);
 template std::vector<Positions<3>> cgal_simplices<3>(const std::vector<Point<3>> &);
 

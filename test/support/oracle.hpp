@@ -94,6 +94,9 @@ std::vector<Point<2>> unit_square_points(int n, unsigned seed);
 /// Points with the ids 0, 1, 2, ...
 template <int D> std::vector<InputOf<D>> number(const std::vector<Point<D>> &points);
 inline std::vector<Input> number(const std::vector<Point<2>> &points) { return number<2>(points); }
+/// Where finite simplices are, sorted.
+template <int D>
+std::vector<Positions<D>> positions_of(const std::vector<abacus_simplex> &simplices);
 /// Where CGAL's Delaunay simplices of the points are, sorted.
 template <int D> std::vector<Positions<D>> cgal_simplices(const std::vector<Point<D>> &points);
 

@@ -1,0 +1,27 @@
+// Goose behind the C interface.
+#include "goose/goose.hpp"
+
+#include "capi/guard.hpp"
+#include "capi/stage.hpp"
+
+namespace {
+
+template <int D>
+void run(const abacus::Host &host, const abacus_rtree &rtree, abacus::Stage<D> &stage,
+         const abacus_header &header, abacus_goose_figures &figures) {
+    abacus::Goose<D> goose(host, rtree, header, figures);
+    stage.emit(goose, header);
+}
+
+} // namespace
+
+abacus_status abacus_goose_run(const abacus_host *host, const abacus_rtree *rtree,
+                               abacus_stage *stage, const abacus_header *header,
+                               abacus_goose_figures *figures, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        const abacus::Host core_host(*host);
+        stage->stage.visit(
+            [&](auto &points) { run(core_host, *rtree, points, *header, *figures); });
+        return ABACUS_OK;
+    });
+}

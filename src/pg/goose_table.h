@@ -1,0 +1,40 @@
+/*
+ * goose_table.h: a table of one row a simplex under a GiST index of boxes, as
+ * the core's R-tree.
+ */
+#ifndef ABACUS_GOOSE_TABLE_H
+#define ABACUS_GOOSE_TABLE_H
+
+#include "access/skey.h"
+#include "executor/tuptable.h"
+#include "nodes/execnodes.h"
+#include "utils/rel.h"
+
+#include "pg/host.h"
+
+typedef struct GooseTable
+{
+	Oid			relid;
+	int			dimension;
+	Relation	heap;
+	Relation	index;
+	IndexInfo  *index_info;
+	IndexScanDesc scan;
+	TupleTableSlot *slot;
+	ScanKeyData overlaps;		/* box && given */
+	ScanKeyData equals;			/* box ~= given, or = */
+	CommandId	inserting;		/* under which rows are inserted: see goose_table.c */
+	abacus_boxed_simplex *found;
+	size_t		room;			/* of `found` */
+	MemoryContext memory;
+	MemoryContext scratch;		/* of one insertion */
+	Host	   *host;			/* keeps the errors */
+	abacus_rtree rtree;			/* what the core is given; its context is this table */
+} GooseTable;
+
+extern GooseTable *goose_table_create(text *name, int dimension);
+extern void goose_table_own(GooseTable *table, Host *host);
+extern void goose_table_remove_ghosts(GooseTable *table);
+extern void goose_table_close(GooseTable *table);
+
+#endif

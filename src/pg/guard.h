@@ -1,0 +1,38 @@
+/*
+ * guard.h: around the PostgreSQL calls of a function that the core calls.
+ *
+ *     GUARD_BEGIN();
+ *     page_store_put(&host->store, kind, page);
+ *     GUARD_END(host);
+ *     return ABACUS_HOST_OK;
+ *
+ * An error between the two is kept, and the function returns
+ * ABACUS_HOST_FAILED (host.c says why).
+ */
+#ifndef ABACUS_GUARD_H
+#define ABACUS_GUARD_H
+
+#include "pg/host.h"
+
+extern void host_inject_failure(void);
+extern void host_keep_error(Host *host);
+
+#define GUARD_BEGIN() \
+	do { \
+		MemoryContext guard_context = CurrentMemoryContext; \
+		PG_TRY(); \
+		{ \
+			host_inject_failure();
+
+#define GUARD_END(host) \
+		} \
+		PG_CATCH(); \
+		{ \
+			host_keep_error(host); \
+			MemoryContextSwitchTo(guard_context); \
+			return ABACUS_HOST_FAILED; \
+		} \
+		PG_END_TRY(); \
+	} while (0)
+
+#endif
