@@ -82,6 +82,7 @@ Bounds<D> around_half_space(const double (*corner)[ABACUS_MAX_DIMENSION], Bounds
         Interval others = 0;
         for (int j = 0; j < D; ++j)
             if (j != k) others += share[j];
+        if (!std::isfinite(others.sup())) continue;
         const Interval end = Interval(-others.sup()) / n[k] + corner[0][k];
         if (n[k].inf() > 0) bounds.lower[k] = end.inf();
         if (n[k].sup() < 0) bounds.upper[k] = end.sup();
