@@ -4,16 +4,17 @@
 # points with COPY into a table, abacus_triangulate, abacus_check, simplices
 # with COPY out, oracle_compare.
 #
-#   acceptance.sh [quick|full] [2d|3d] [DATA SET...]
+#   acceptance.sh [quick|full|goose] [2d|3d] [DATA SET...]
 #
-# quick takes two or three minutes, full (up to 14 M points a set) two hours. 2d and 3d
-# choose a dimension, names choose data sets; without any, all are compared.
+# quick takes two or three minutes, full (up to 14 M points a set) two hours; goose does the
+# same with abacus_goose and few points, in a minute. 2d and 3d choose a dimension, names choose
+# data sets; without any, all are compared.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh
 . scripts/points.sh
 
-usage="usage: $0 [quick|full] [2d|3d] [DATA SET...]"
+usage="usage: $0 [quick|full|goose] [2d|3d] [DATA SET...]"
 mode=${1:-quick}
 shift $(($# > 0))
 # dimension:data set:points, and cache (MB or a word of cache_size):order.
@@ -37,6 +38,14 @@ full)
         3:exponents:5000 3:duplicates:1000000 3:octree:1000000)
     runs=(smallest:made 8:made 64:made largest:made default:shuffled smallest:sorted 8:reversed
         8:grown)
+    ;;
+goose)
+    sets=(2:uniform:5000 2:grid:4900 2:circle:300 2:rounded_circle:300 2:wheel:301 2:lines:2000
+        2:flat_but_one:300 2:clusters:3000 2:exponents:1000 2:duplicates:5000 2:octree:3000
+        3:uniform:1000 3:grid:729 3:sphere:150 3:rounded_sphere:150 3:wheel:151 3:skew_lines:40
+        3:flat:1000 3:flat_but_one:200 3:clusters:500 3:exponents:100 3:duplicates:2000
+        3:octree:500 3:quake:1000)
+    runs=(default:goose)
     ;;
 *) fail "$usage" ;;
 esac
@@ -67,11 +76,15 @@ oracle=$ABACUS_BUILD/release/test/oracle
 compared=0 differing=0
 
 # Builds the mesh of the table points, with its rows in order $1; `grown`: all points but the
-# last one first, and that one in a second step.
+# last one first, and that one in a second step; `goose`: by abacus_goose.
 build_mesh() {
     local query="SELECT id, $columns FROM points" grow=()
     case $1 in
     made) ;;
+    goose)
+        run_psql -o /dev/null -c "SELECT abacus_goose('mesh', '$query', dimension => $dimension)"
+        return
+        ;;
     shuffled) query+=" ORDER BY hashint8(id), id" ;;
     sorted) query+=" ORDER BY $columns, id" ;;
     reversed) query+=" ORDER BY ${columns//,/ DESC,} DESC, id" ;;
@@ -88,19 +101,26 @@ build_mesh() {
 # One mesh of the table points: faults of abacus_check, then the comparison.
 compare() {
     local cache=$1 order=$2 corners="v0, v1, v2" first_ids=0 faults result start built checked
+    local faults_of="abacus_check('mesh') LIMIT 3" simplices="abacus_simplices('mesh')"
+    local tables="mesh, mesh_vertices"
+    if [[ $order == goose ]]; then
+        faults_of="mesh WHERE v$dimension IS NULL"
+        simplices="(SELECT 0::bigint AS code, * FROM mesh) AS m"
+        tables=mesh
+    fi
     if ((dimension == 3)); then corners+=", v3"; fi
     # Equal points are one vertex, which has the id of the first: where the file has it.
-    case $order in made | grown) first_ids=1 ;; esac
+    case $order in made | grown | goose) first_ids=1 ;; esac
     start=${EPOCHREALTIME/./}
     build_mesh "$order"
     built=${EPOCHREALTIME/./}
-    faults=$(run_psql -A -t -c "SELECT * FROM abacus_check('mesh') LIMIT 3")
+    faults=$(run_psql -A -t -c "SELECT * FROM $faults_of")
     checked=${EPOCHREALTIME/./}
-    result=$(run_psql -c "COPY (SELECT code, $corners FROM abacus_simplices('mesh'))
+    result=$(run_psql -c "COPY (SELECT code, $corners FROM $simplices)
                           TO STDOUT (FORMAT binary)" |
         ABACUS_ORACLE_FIRST_IDS=$first_ids \
             "$oracle/oracle_compare" "$dimension" "$folder/points.copy" - "$folder/kept") || true
-    run_psql -c "DROP TABLE mesh, mesh_vertices"
+    run_psql -c "DROP TABLE $tables"
     compared=$((compared + 1))
     printf '%dD %-15s cache %8s MB  %-8s  built in %6d ms, checked in %6d ms  %s\n' "$dimension" \
         "$name" "$cache" "$order" $(((built - start) / 1000)) $(((checked - built) / 1000)) \
@@ -117,7 +137,7 @@ if [[ ! -x $oracle/oracle_compare ]] || [[ -z ${ABACUS_BUILT:-} ]]; then
     install_extension
 fi
 cluster_start acceptance
-run_psql -c "CREATE EXTENSION abacus"
+run_psql -c "CREATE EXTENSION abacus" -c "CREATE EXTENSION cube"
 mkdir -p "$folder"
 
 for set in "${sets[@]}"; do

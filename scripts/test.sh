@@ -112,6 +112,7 @@ suite "pgTAP" pgtap_tests
 suite "TAP" tap_tests
 suite "documentation examples" documentation_examples
 suite "acceptance quick" scripts/acceptance.sh quick
+suite "acceptance goose" scripts/acceptance.sh goose
 suite "model test" scripts/model_test.sh -t 30
 suite "bench smoke" scripts/bench.sh smoke
 suite "evaluation smoke" scripts/evaluation.sh smoke

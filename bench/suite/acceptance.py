@@ -2,6 +2,7 @@
 import dataclasses
 import typing
 
+import habits
 from results import median, ratio
 
 SHORELINES = 14353294
@@ -79,4 +80,6 @@ WANTED = [
     Wanted("2D: cost of a point at 100 M ÷ at 1 M, cache of 64 MB", 1.25, True, growth),
     Wanted("2D, 10 M uniform: bytes a triangle, index included", 18, True, bytes_a_simplex(2, 10**7)),
     Wanted("3D, 1 M uniform: bytes a tetrahedron, index included", 24, True, bytes_a_simplex(3, 10**6)),
+    Wanted("`abacus_locate` at random places, warm ÷ a table of one row a triangle, by CPU time", 30, False,
+           habits.times_rows),
 ]

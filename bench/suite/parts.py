@@ -1,6 +1,8 @@
 """The parts of the suite: what is measured, with how many points, in which mode."""
 from builds import Contest
 from driver import Part
+from goose import Goose
+from rows import Rows
 
 
 def contests(*contests):
@@ -38,4 +40,10 @@ PARTS = [
     Part("2d-100m", "a hundred times as many uniform points, 64 MB of cache", 6, contests(
         Contest(2, "uniform", {"full": 100000000}, ("abacus:64",), {"full": 1},
                 disk=16 << 30))),
+    Part("goose", "insertion by an R-tree (chapter 2), in the plane", 4, Goose(
+        2, {"full": (25000, 50000, 100000, 200000), "quick": (10000, 20000), "smoke": (1000,)}, FEWER).measure),
+    Part("goose-3d", "insertion by an R-tree (chapter 2), in space", 4, Goose(
+        3, {"full": (5000, 10000, 20000), "quick": (2000, 4000), "smoke": (200,)}, FEWER).measure),
+    Part("rows", "location in a table of one row a triangle", 3, Rows(
+        {"full": (1000000, 200000), "quick": (100000, 50000), "smoke": (2000, 1000)}, FEWER).measure),
 ]

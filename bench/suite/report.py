@@ -1,5 +1,6 @@
 """Makes docs/benchmarks.md, its pictures and its table of acceptance from results."""
 import acceptance
+import habits
 import plots
 from document import Document, number, size, spread, table
 from results import median, ratio
@@ -20,7 +21,8 @@ def engine_name(measurement):
 class Report(Document):
     def __init__(self, results, pictures):
         super().__init__(results, pictures)
-        self.generators |= {"acceptance": self.acceptance, "builds": self.builds}
+        self.generators |= {"acceptance": self.acceptance, "builds": self.builds,
+                            "goose": lambda: habits.goose(results), "rows": lambda: habits.rows(results)}
 
     def acceptance(self):
         rows = []
