@@ -21,7 +21,8 @@ quick | full | smoke | report | list) shift $(($# > 0)) ;;
 esac
 if [[ $mode != list && $mode != report ]]; then
     if [[ -z ${ABACUS_BUILT:-} ]]; then
-        scripts/install-dependencies.sh test
+        if [[ $mode == smoke ]]; then packages=test; else packages=bench; fi
+        scripts/install-dependencies.sh "$packages"
         build_release oracle_points bench_cgal bench_tetgen bench_qhull io_trace probing_statistics
         install_extension
     fi

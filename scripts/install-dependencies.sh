@@ -5,7 +5,7 @@
 #   install-dependencies.sh build     what the extension needs
 #   install-dependencies.sh demo      ... and the data of the demo
 #   install-dependencies.sh test      ... and all tests, which run the benchmarks once (default)
-#   install-dependencies.sh bench     ... and PostGIS, to compare with
+#   install-dependencies.sh bench     ... and PostGIS, to compare with, and perf
 set -euo pipefail
 
 packages=(
@@ -27,6 +27,7 @@ test=(
 )
 bench=(
     postgresql-15-postgis-3
+    linux-perf                      # tells the functions that take most time
 )
 
 case ${1:-test} in

@@ -71,6 +71,8 @@ class EvaluationReport(Document):
         self.add_cpu(table, "triangulate")
         table.add("seconds a million points", "amortized", lambda e: number(
             median(e["triangulate"], "wall") / e["points"] * 1e6))
+        table.add("… of the CPU", None, lambda e: number(
+            median(e["triangulate"], "cpu") / e["points"] * 1e6))
         table.add("private memory", None, lambda e: size(median(e["triangulate"], "memory")))
         table.add("WAL", None, lambda e: size(median(e["triangulate"], "wal")))
         deleted, created = DELETED_CREATED[dimension]

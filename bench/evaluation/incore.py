@@ -77,4 +77,4 @@ class Wall:
         suite.measurements.append({"what": "wall", "engine": self.engine, "memory": self.memory,
                                    "cache": self.cache, **point_sets.labels(self.points),
                                    "samples": [sample]})
-        steps.Steps(self.points, self.cache, memory=self.memory).measure(suite)
+        steps.Steps(self.points, (self.cache,), memory=self.memory).measure(suite)

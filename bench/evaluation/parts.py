@@ -7,8 +7,9 @@ from point_sets import Quake, uniform
 from steps import Steps
 
 K, M = 10**3, 10**6
-CACHE_2D = 8       # MB, the dissertation's
-CACHE_3D = 128     # the default; the dissertation's is 6 GB
+CACHE_2D = (8,)    # MB, the dissertation's
+CACHE_3D = (128,)  # the default; the dissertation's is 6 GB
+TINY = (1,)
 SMALL_MEMORY = 64  # MB
 
 
@@ -20,15 +21,11 @@ def part(name, what, minutes, full=(), quick=(), smoke=(), only_named=False):
     return Part(name, what, minutes, measure, only_named)
 
 
-def caches(points, *sizes):
-    return [Steps(points, size) for size in sizes]
-
-
 PARTS = [
     part("2d-1m", "5.5, 5.7, 5.17: 1 M points in the plane", 0.3,
          full=[Steps(uniform(1 * M), CACHE_2D, runs=5)],
          quick=[Steps(uniform(1 * M), CACHE_2D)],
-         smoke=[Steps(uniform(20 * K), 1)]),
+         smoke=[Steps(uniform(20 * K), TINY)]),
     part("2d-10m", "… 10 M", 1, full=[Steps(uniform(10 * M), CACHE_2D, runs=2)],
          quick=[Steps(uniform(10 * M), CACHE_2D)]),
     part("2d-40m", "… 40 M", 2.5, full=[Steps(uniform(40 * M), CACHE_2D)]),
@@ -36,19 +33,18 @@ PARTS = [
     part("3d-0.25", "5.6, 5.8, 5.18: the earthquake model for 0.25 Hz", 0.5,
          full=[Steps(Quake(0.25), CACHE_3D, runs=2)],
          quick=[Steps(Quake(0.25), CACHE_3D)],
-         smoke=[Steps(Quake(0.05), 1)]),
+         smoke=[Steps(Quake(0.05), TINY)]),
     part("3d-0.5", "… for 0.5 Hz", 1.5, full=[Steps(Quake(0.5), CACHE_3D)]),
     part("3d-0.75", "… for 0.75 Hz", 4, full=[Steps(Quake(0.75), CACHE_3D)]),
     part("3d-1", "… for 1 Hz", 9, full=[Steps(Quake(1), CACHE_3D)]),
     part("caches", "§5.3.2: larger caches", 2,
-         full=caches(uniform(10 * M), 16, 64, 256, 1024, 4096) + [Steps(Quake(0.25), 16),
-                                                                  Steps(Quake(0.25), 6144)],
-         quick=caches(uniform(1 * M), 16, 64, 1024),
-         smoke=caches(uniform(20 * K), 8)),
+         full=[Steps(uniform(10 * M), (16, 64, 256, 1024, 4096)), Steps(Quake(0.25), (16, 1024, 6144))],
+         quick=[Steps(uniform(1 * M), (16, 64, 1024))],
+         smoke=[Steps(uniform(20 * K), (8,))]),
     part("memory", "5.13, 5.14: 64 MB of memory", 5,
          full=[Steps(uniform(size), CACHE_2D, memory=SMALL_MEMORY) for size in (1 * M, 10 * M, 40 * M)],
          quick=[Steps(uniform(1 * M), CACHE_2D, memory=SMALL_MEMORY)],
-         smoke=[Steps(uniform(20 * K), 1, memory=SMALL_MEMORY)]),
+         smoke=[Steps(uniform(20 * K), TINY, memory=SMALL_MEMORY)]),
     part("incore-2d", "5.9, 5.10: engines in core, in the plane", 3,
          full=[InCore(("cgal", "qhull"), [uniform(size) for size in (1 * M, 10 * M, 40 * M, 100 * M)])],
          quick=[InCore(("cgal", "qhull"), [uniform(1 * M)])],
@@ -58,17 +54,17 @@ PARTS = [
          quick=[InCore(("cgal",), [Quake(0.1)])],
          smoke=[InCore(("cgal", "tetgen"), [Quake(0.05)])]),
     part("wall", "§5.3.3: more points than memory holds, in core and not", 1.5,
-         full=[Wall("cgal", uniform(10 * M), CACHE_2D, 1024)],
-         quick=[Wall("cgal", uniform(2 * M), CACHE_2D, 256)],
-         smoke=[Wall("cgal", uniform(500 * K), CACHE_2D, 64)]),
+         full=[Wall("cgal", uniform(10 * M), 8, 1024)],
+         quick=[Wall("cgal", uniform(2 * M), 8, 256)],
+         smoke=[Wall("cgal", uniform(500 * K), 8, 64)]),
     part("trace", "5.15, 5.16: requests of pages", 3,
-         full=[Trace(uniform(100 * M), CACHE_2D)],
-         quick=[Trace(uniform(10 * M), CACHE_2D)],
+         full=[Trace(uniform(100 * M), 8)],
+         quick=[Trace(uniform(10 * M), 8)],
          smoke=[Trace(uniform(20 * K), 1)]),
     part("probing", "5.19, 5.20: links not stored", 10,
-         full=[Probing(uniform(size), CACHE_2D) for size in (1 * M, 10 * M, 40 * M)]
-         + [Probing(Quake(frequency), CACHE_3D) for frequency in (0.25, 0.5)],
-         quick=[Probing(uniform(1 * M), CACHE_2D), Probing(Quake(0.1), 16)],
+         full=[Probing(uniform(size), 8) for size in (1 * M, 10 * M, 40 * M)]
+         + [Probing(Quake(frequency), 128) for frequency in (0.25, 0.5)],
+         quick=[Probing(uniform(1 * M), 8), Probing(Quake(0.1), 16)],
          smoke=[Probing(uniform(300 * K), 1), Probing(Quake(0.05), 1)]),
     part("functions", "5.21: the functions that take most time", 3,
          full=[HotFunctions(uniform(40 * M), 16)],

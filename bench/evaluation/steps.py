@@ -15,27 +15,28 @@ MEGABYTE = 1 << 20
 
 @dataclasses.dataclass
 class Steps:
-    """The two steps for the same points, with a computational cache of so many megabytes.
+    """The two steps for the same points, with computational caches of so many megabytes, in turns.
 
     `memory`: None, or the megabytes of a control group that the server is confined to.
     """
     points: object
-    cache: int
+    caches: tuple
     runs: int = 1
     memory: int = None
 
     def measure(self, suite):
         point_sets.require_disk(self.points)
         count = self.points.create_table()
-        suite.say(f"{count:,} points in {self.points.dimension}D, {self.points.name};"
-                  f" cache of {self.cache} MB" + (f", {self.memory} MB in all" if self.memory else ""))
-        labels = {**point_sets.labels(self.points), "cache": self.cache, "memory": self.memory}
-        stage = {"what": "stage", **labels, "samples": []}
-        triangulate = {"what": "triangulate", **labels, "samples": []}
+        suite.say(f"{count:,} points in {self.points.dimension}D, {self.points.name}"
+                  + (f", {self.memory} MB of memory" if self.memory else ""))
+        measurements = [{"what": step, **point_sets.labels(self.points), "cache": cache,
+                         "memory": self.memory, "samples": []}
+                        for cache in self.caches for step in ("stage", "triangulate")]
         with confined(self.memory) as group:
             for _ in range(self.runs):
-                self.run(suite, stage, triangulate, group)
-        suite.measurements += [stage, triangulate]
+                for steps in zip(measurements[::2], measurements[1::2]):
+                    self.run(suite, *steps, group)
+        suite.measurements += measurements
         server.drop("mesh", "mesh_vertices", "points")
 
     def run(self, suite, stage, triangulate, group):
@@ -45,11 +46,11 @@ class Steps:
         for step, sql in ((stage, f"SELECT abacus_stage('mesh', 'SELECT id, {points.columns} FROM points')"),
                           (triangulate, "SELECT abacus_triangulate('mesh')")):
             server.settle()
-            sample = timed(sql, self.cache, group)
+            sample = timed(sql, step["cache"], group)
             sample["counted"] = int(sample.pop("printed"))
             step["samples"].append(sample)
             step["disk"] = disk()
-            suite.say(f"  {step['what']:12} {sample['wall']:9.3f} s   CPU {sample['cpu']:9.3f} s"
+            suite.say(f"  {step['what']:12} {step['cache']:5} MB  {sample['wall']:9.3f} s   CPU {sample['cpu']:9.3f} s"
                       f"   {sample['memory'] / MEGABYTE:6.0f} MB")
         triangulate["stats"] = json.loads(server.query(
             "SELECT json_object_agg(name, value) FROM abacus_stats('mesh')"))
