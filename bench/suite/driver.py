@@ -5,6 +5,7 @@ evaluation have in common.
 """
 import dataclasses
 import pathlib
+import signal
 import subprocess
 import sys
 import time
@@ -96,6 +97,7 @@ def write_report(book, mode):
 
 
 def main(book):
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # files of points and groups are removed
     mode, *names = sys.argv[1:]
     if mode == "list":
         for part in book.parts:
