@@ -45,6 +45,7 @@ PARTS = [
          full=[Steps(uniform(size), CACHE_2D, memory=SMALL_MEMORY) for size in (1 * M, 10 * M, 40 * M)],
          quick=[Steps(uniform(1 * M), CACHE_2D, memory=SMALL_MEMORY)],
          smoke=[Steps(uniform(20 * K), TINY, memory=SMALL_MEMORY)]),
+    part("memory-100m", "… 100 M", 7, full=[Steps(uniform(100 * M), CACHE_2D, memory=SMALL_MEMORY)]),
     part("incore-2d", "5.9, 5.10: engines in core, in the plane", 3,
          full=[InCore(("cgal", "qhull"), [uniform(size) for size in (1 * M, 10 * M, 40 * M, 100 * M)])],
          quick=[InCore(("cgal", "qhull"), [uniform(1 * M)])],

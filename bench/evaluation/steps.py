@@ -133,7 +133,10 @@ def confined(megabytes):
     if megabytes is None:
         yield None
         return
-    server.restart(shared_buffers=f"{megabytes // 4}MB", maintenance_work_mem=f"{megabytes // 8}MB")
+    # ANALYZE, which autovacuum may start, holds 300 rows for each unit of the target; here each is
+    # a page.
+    server.restart(shared_buffers=f"{megabytes // 4}MB", maintenance_work_mem=f"{megabytes // 8}MB",
+                   default_statistics_target=1)
     try:
         with contextlib.ExitStack() as stack:
             try:

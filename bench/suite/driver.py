@@ -55,9 +55,9 @@ class Suite:
         self.say(f"\n== {part.name}: {part.what}")
         self.measurements = []
         start = time.monotonic()
-        about = machine.describe()
-        about["settings"] = server.settings()
         try:
+            about = machine.describe()
+            about["settings"] = server.settings()
             part.measure(self)
         except server.NoDisk as problem:
             self.say(f"left out: {problem}")

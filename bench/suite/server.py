@@ -126,11 +126,19 @@ def settings():
 
 def restart(**changed):
     """Restarts the server: with these settings, and the others as they were at first."""
+    await_recovery()
     query("ALTER SYSTEM RESET ALL")
     for name, value in changed.items():
         query(f"ALTER SYSTEM SET {name} = '{value}'")
     subprocess.run(["bash", "-c", ". scripts/common.sh; . scripts/cluster.sh; cluster_restart"],
                    check=True, cwd=paths.ROOT, env=os.environ)
+
+
+def await_recovery(seconds=300):
+    """A server of which a process was killed takes a moment to come back."""
+    until = time.monotonic() + seconds
+    while subprocess.run(["pg_isready", "-q"]).returncode != 0 and time.monotonic() < until:
+        time.sleep(0.5)
 
 
 class NoDisk(Exception):
