@@ -3,8 +3,9 @@ import server
 from points import PointSet
 
 # Bytes of disk that a point takes while a mesh is made of it: its row in the table of points, the
-# vertex table, what staging spools, the simplex table; and what there is besides, of WAL mostly.
-BYTES_A_POINT = {2: 140, 3: 240}
+# vertex table, the simplex table (what staging spools is gone by then); and what there is besides,
+# of WAL mostly.
+BYTES_A_POINT = {2: 115, 3: 200}
 BYTES_BESIDES = 4 << 30
 
 # How many points abacus_quake has at the frequencies that are measured (docs/sql.md).
