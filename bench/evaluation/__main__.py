@@ -2,7 +2,7 @@
 import driver
 import paths
 from evaluation_report import EvaluationReport
-from parts import PARTS
+from evaluation_parts import PARTS
 
 driver.main(driver.Book(PARTS, paths.ROOT / "docs/evaluation.md", EvaluationReport,
                         paths.BUILD / "evaluation-results"))

@@ -54,7 +54,7 @@ def clock(seconds):
     """As the dissertation writes times: h:mm:ss, m:ss, m:ss.s for short ones."""
     if seconds is None:
         return None
-    if seconds < 60:
+    if round(seconds, 1) < 60:
         return f"0:{seconds:04.1f}"
     whole = round(seconds)
     hours, minutes = whole // 3600, whole // 60 % 60

@@ -4,7 +4,7 @@ import plots
 from beside import HERE, NOTHING, Beside, clock, count, number, size
 from dissertation import FIGURE, POINTS_2D, POINTS_3D, numbers
 from document import table
-from parts import SMALL_MEMORY
+from evaluation_parts import SMALL_MEMORY
 from point_sets import QUAKE_POINTS
 from results import median
 

@@ -70,5 +70,5 @@ def shares(record):
 
 def bare(symbol):
     """A function without its arguments and namespace."""
-    name = re.sub(r"\(.*", "", symbol.replace("(anonymous namespace)", ""))
+    name = re.sub(r"\(.*", "", symbol.replace("(anonymous namespace)::", ""))
     return name.removeprefix("abacus::") if not name.startswith("[") else "unknown"

@@ -34,11 +34,12 @@ class Results:
         for path in sorted(folder.glob("*.json")):
             part = json.loads(path.read_text())
             self.parts[part["part"]] = part
+        self.parts = dict(sorted(self.parts.items()))  # as they are written
         return self
 
     def write(self, path):
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(dump({"parts": dict(sorted(self.parts.items()))}) + "\n")
+        path.write_text(dump({"parts": self.parts}) + "\n")
 
     def all(self, **labels):
         """The measurements that have all of these labels."""
