@@ -2,7 +2,7 @@
 # All set-up and all tests, from a clean clone, re-runnable: packages, builds,
 # unit tests (plain and sanitized), a bounded fuzzing run, SQL tests, crashes, the
 # examples of the documentation, comparison with CGAL, random changes against a
-# model, smoke runs of the benchmarks and statistics. Logs are left in build/test.
+# model, reports of benchmarks, smoke runs of the benchmarks and the evaluation. Logs are left in build/test.
 set -uo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh
@@ -29,7 +29,7 @@ suite() {
 
 # The line of a log that says how much was tested.
 summary() {
-    grep -E -o '[0-9]+% tests passed.*|All [0-9]+ tests passed|^Files=.*Tests=[0-9]+|^[0-9]+ examples.*|^[0-9]+ meshes compared.*|^[0-9]+ steps in .*|^Done [0-9]+ runs.*' "$1" |
+    grep -E -o '[0-9]+% tests passed.*|All [0-9]+ tests passed|^Files=.*Tests=[0-9]+|^[0-9]+ examples.*|^[0-9]+ meshes compared.*|^[0-9]+ steps in .*|^Done [0-9]+ runs.*|^Ran [0-9]+ tests.*' "$1" |
         tail -n 1
 }
 
@@ -114,6 +114,7 @@ suite "documentation examples" documentation_examples
 suite "acceptance quick" scripts/acceptance.sh quick
 suite "acceptance goose" scripts/acceptance.sh goose
 suite "model test" scripts/model_test.sh -t 30
+suite "benchmark reports" python3 -m unittest discover -s test/suite -p '*_test.py'
 suite "bench smoke" scripts/bench.sh smoke
 suite "evaluation smoke" scripts/evaluation.sh smoke
 

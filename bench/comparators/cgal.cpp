@@ -41,8 +41,8 @@ template <> struct Delaunay<3> {
 
 template <int D> std::vector<typename Delaunay<D>::Point> read_points(const char *path) {
     std::vector<typename Delaunay<D>::Point> points;
-    comparator::for_each_point<D>(path,
-                                  [&](const double *x) { points.push_back(Delaunay<D>::point(x)); });
+    comparator::for_each_point<D>(
+        path, [&](const double *x) { points.push_back(Delaunay<D>::point(x)); });
     return points;
 }
 

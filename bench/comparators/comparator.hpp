@@ -38,7 +38,8 @@ template <int D, class Visit> void for_each_point(const char *path, Visit visit)
 /// The coordinates of one point after the other.
 template <int D> std::vector<double> read_coordinates(const char *path) {
     std::vector<double> coordinates;
-    for_each_point<D>(path, [&](const double *x) { coordinates.insert(coordinates.end(), x, x + D); });
+    for_each_point<D>(path,
+                      [&](const double *x) { coordinates.insert(coordinates.end(), x, x + D); });
     return coordinates;
 }
 

@@ -27,8 +27,8 @@ int main(int argc, char **argv) {
         qhT *qh = &state;
         qh_zero(qh, stderr);
         char options[] = "qhull d Qt Qbb Qc Qz Q12";
-        if (qh_new_qhull(qh, D, static_cast<int>(coordinates.size() / D), coordinates.data(),
-                         False, options, nullptr, stderr) != 0)
+        if (qh_new_qhull(qh, D, static_cast<int>(coordinates.size() / D), coordinates.data(), False,
+                         options, nullptr, stderr) != 0)
             throw std::runtime_error("Qhull has failed");
         watch.phase("build");
         watch.print(simplices(qh));

@@ -1,5 +1,6 @@
 """What was wanted of the figures, what they are, and whether that was held or missed."""
 import dataclasses
+import statistics
 import typing
 
 import habits
@@ -11,20 +12,24 @@ SHORELINES = 14353294
 @dataclasses.dataclass
 class Wanted:
     what: str
-    limit: float
+    limit: float | None  # None: it is only told
     at_most: bool
     measured: typing.Callable  # of Results: the figure, or None
-    unit: str = ""
+
+    def wanted(self):
+        return "–" if self.limit is None else f"{'≤' if self.at_most else '≥'} {self.limit:,}"
 
     def verdict(self, value):
         if value is None:
             return "not measured"
+        if self.limit is None:
+            return "told"
         held = value <= self.limit if self.at_most else value >= self.limit
         return "held" if held else "**missed**"
 
 
-def build(results, engine, dimension, set, points, figure="wall", **labels):
-    """The median of a build. A set of about so many points is meant: quake sets are what they are."""
+def build(results, engine, dimension, set, points, **labels):
+    """A build, or None. So many points are meant about: a quake set has what it has."""
     found = [measurement for measurement in
              results.all(what="build", engine=engine, dimension=dimension, set=set, **labels)
              if abs(measurement["points"] - points) <= 0.05 * points]
@@ -62,6 +67,21 @@ def growth(results):
                  small and median(small, "wall") / small["points"])
 
 
+def places_a_second(order, cache):
+    def measured(results):
+        found = results.one(what="locate", dimension=2, points=10**7, order=order, cache=cache)
+        return found and statistics.median(sample["places"] / sample["wall"] for sample in found["samples"])
+    return measured
+
+
+def cold_pages(question):
+    """Heap and index leaf pages, on average."""
+    def measured(results):
+        found = results.one(what="cold", dimension=2, points=10**7, question=question)
+        return found and statistics.mean(sample["heap"] + sample["leaf"] for sample in found["samples"])
+    return measured
+
+
 WANTED = [
     Wanted("2D, 1 M uniform: table to committed mesh ÷ CGAL in core", 1.0, True,
            times("abacus", "cgal", 2, "uniform", 10**6)),
@@ -80,6 +100,18 @@ WANTED = [
     Wanted("2D: cost of a point at 100 M ÷ at 1 M, cache of 64 MB", 1.25, True, growth),
     Wanted("2D, 10 M uniform: bytes a triangle, index included", 18, True, bytes_a_simplex(2, 10**7)),
     Wanted("3D, 1 M uniform: bytes a tetrahedron, index included", 24, True, bytes_a_simplex(3, 10**6)),
+    Wanted("`abacus_locate`, 10 M, warm, along the curve: places a second", 700000, False,
+           places_a_second("ordered", "largest")),
+    Wanted("`abacus_locate`, 10 M, at random, cache a tenth of the mesh, mesh in shared buffers: places a"
+           " second", 250000, False, places_a_second("places", "tenth")),
+    Wanted("`abacus_locate`, 10 M, cold, first of a session: heap and index leaf pages", 2, True,
+           cold_pages("first")),
+    Wanted("`abacus_locate`, 10 M, cold, mesh found before: heap and index leaf pages", 2, True,
+           cold_pages("next")),
     Wanted("`abacus_locate` at random places, warm ÷ a table of one row a triangle, by CPU time", 30, False,
            habits.times_rows),
+    Wanted("Goose ÷ Abacus, 100,000 points, by CPU time", None, True,
+           habits.times_abacus),
+    Wanted("Goose ÷ Abacus, 1 M points, extrapolated by the growth of both", None, True,
+           habits.times_abacus_extrapolated),
 ]

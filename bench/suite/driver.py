@@ -5,6 +5,7 @@ evaluation have in common.
 """
 import dataclasses
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -92,7 +93,10 @@ def write_report(book, mode):
     else:
         results = Results().merge_files(book.results / mode)
         document = book.results / mode / book.document.name
-    document.write_text(book.report(results, document.with_suffix("")).fill(text))
+    pictures = document.with_suffix("")
+    for picture in pictures.glob("*.svg"):  # of what is no longer measured
+        picture.unlink()
+    document.write_text(book.report(results, pictures).fill(text))
     print(f"\n{document.relative_to(paths.ROOT)} has been written")
 
 
@@ -106,6 +110,8 @@ def main(book):
         write_report(book, "full")
     else:
         suite = Suite(mode, book.results)
+        if mode != "full" and not names:
+            shutil.rmtree(suite.folder, ignore_errors=True)
         failed = [part.name for part in chosen_parts(book.parts, names) if not suite.run(part)]
         write_report(book, mode)
         if failed:

@@ -58,15 +58,30 @@ def times(pairs):
                   "found a search", "hits a search", "boxes a search", "bytes a simplex"), rows)
 
 
+def extrapolated(pairs, engine):
+    """CPU seconds for a million points, by the growth between the larger sizes."""
+    last = pairs[-1]
+    return median(last[engine], "cpu") * (EXTRAPOLATED / last[0]) ** exponent(pairs, engine)
+
+
 def extrapolation(pairs):
-    """To a million points, by the growth between the larger sizes."""
-    count, goose, abacus = pairs[-1]
-    grown = EXTRAPOLATED / count
-    seconds = median(goose, "cpu") * grown ** exponent(pairs, 1)
-    abacus_seconds = median(abacus, "cpu") * grown ** exponent(pairs, 2)
+    seconds = extrapolated(pairs, 1)
     return (f"CPU time grows with the {exponent(pairs, 1):.2f}th power of the number of points, that of Abacus"
             f" with the {exponent(pairs, 2):.2f}th. Extrapolated to a million points, Goose takes"
-            f" {number(seconds)} s, {number(seconds / abacus_seconds)} times as long as Abacus.")
+            f" {number(seconds)} s, {number(seconds / extrapolated(pairs, 2))} times as long as Abacus.")
+
+
+def times_abacus(results):
+    """CPU time of Goose to that of Abacus in the plane, at the dissertation's number of points."""
+    for count, goose_run, abacus in goose_pairs(results, 2):
+        if count == DISSERTATION_POINTS:
+            return ratio(median(goose_run, "cpu"), median(abacus, "cpu"))
+    return None
+
+
+def times_abacus_extrapolated(results):
+    pairs = goose_pairs(results, 2)
+    return extrapolated(pairs, 1) / extrapolated(pairs, 2) if len(pairs) > 1 else None
 
 
 def shares(pairs):

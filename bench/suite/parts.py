@@ -1,7 +1,10 @@
 """The parts of the suite: what is measured, with how many points, in which mode."""
 from builds import Contest
+from core import core
 from driver import Part
+from edits import Edits, cancelled_builds
 from goose import Goose
+from location import location
 from rows import Rows
 
 
@@ -40,10 +43,21 @@ PARTS = [
     Part("2d-100m", "a hundred times as many uniform points, 64 MB of cache", 6, contests(
         Contest(2, "uniform", {"full": 100000000}, ("abacus:64",), {"full": 1},
                 disk=16 << 30))),
+    Part("locate-2d", "places in a mesh in the plane, warm and cold", 3, location(
+        2, {"full": (10000000, 1000000), "quick": (500000, 200000), "smoke": (20000, 5000)})),
+    Part("locate-3d", "places in a mesh in space, warm and cold", 2, location(
+        3, {"full": (1000000, 500000), "quick": (100000, 100000), "smoke": (5000, 2000)})),
     Part("goose", "insertion by an R-tree (chapter 2), in the plane", 4, Goose(
         2, {"full": (25000, 50000, 100000, 200000), "quick": (10000, 20000), "smoke": (1000,)}, FEWER).measure),
     Part("goose-3d", "insertion by an R-tree (chapter 2), in space", 4, Goose(
         3, {"full": (5000, 10000, 20000), "quick": (2000, 4000), "smoke": (200,)}, FEWER).measure),
     Part("rows", "location in a table of one row a triangle", 3, Rows(
         {"full": (1000000, 200000), "quick": (100000, 50000), "smoke": (2000, 1000)}, FEWER).measure),
+    Part("edit-2d", "points in and out of a finished mesh in the plane", 1.5, Edits(
+        2, {"full": 1000000, "quick": 100000, "smoke": 5000}).measure),
+    Part("edit-3d", "points in and out of a finished mesh in space", 3, Edits(
+        3, {"full": 500000, "quick": 30000, "smoke": 2000}).measure),
+    Part("cancel", "how long a cancel takes", 0.5, cancelled_builds(
+        2, {"full": 1000000, "quick": 500000, "smoke": 50000})),
+    Part("core", "parts of the core by themselves", 3, core),
 ]

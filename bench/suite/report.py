@@ -2,7 +2,8 @@
 import acceptance
 import habits
 import plots
-from document import Document, number, size, spread, table
+import tables
+from document import Document, number, points, size, spread, table
 from results import median, ratio
 from results import spread as spread_of
 
@@ -21,15 +22,18 @@ def engine_name(measurement):
 class Report(Document):
     def __init__(self, results, pictures):
         super().__init__(results, pictures)
-        self.generators |= {"acceptance": self.acceptance, "builds": self.builds,
+        self.generators |= {"acceptance": self.acceptance, "builds": self.builds, "growth": self.growth,
+                            "caches": self.caches,
                             "goose": lambda: habits.goose(results), "rows": lambda: habits.rows(results)}
+        for name in ("location", "cold", "edits", "cancels", "core"):
+            make = getattr(tables, name)
+            self.generators[name] = lambda make=make: make(results)
 
     def acceptance(self):
         rows = []
         for wanted in acceptance.WANTED:
             value = wanted.measured(self.results)
-            rows.append((wanted.what, f"{'≤' if wanted.at_most else '≥'} {wanted.limit:,}",
-                         number(value), wanted.verdict(value)))
+            rows.append((wanted.what, wanted.wanted(), number(value), wanted.verdict(value)))
         return table(("", "wanted", "measured", ""), rows)
 
     def builds(self):
@@ -67,3 +71,37 @@ class Report(Document):
                 size(median(m, "wal")), f"{simplices:,}", len(m["samples"])))
         return table(("engine", "wall s", "CPU s", "wall ÷ CGAL", "CPU ÷ CGAL", "memory", "disk",
                       "bytes a simplex", "WAL", "simplices", "runs"), rows)
+
+    def microseconds(self, measurement):
+        """Of a point: median, least, greatest."""
+        return tuple(1e6 * value / measurement["points"] for value in spread_of(measurement, "wall"))
+
+    def growth(self):
+        """Cost of a point over the number of points, uniform in the plane."""
+        lines = {}
+        for m in self.results.all(what="build", dimension=2, set="uniform"):
+            if m["engine"] in ("abacus", "cgal"):
+                lines.setdefault(engine_name(m), []).append((m["points"], *self.microseconds(m)))
+        if len({point[0] for line in lines.values() for point in line}) < 2:
+            return "One number of points was measured.\n"
+        plots.lines(self.pictures / "growth.svg", "2D, uniform: cost of a point", "points",
+                    "microseconds a point", lines, "x", "bottom left")
+        return self.picture("growth", "Microseconds a point over the number of points")
+
+    def caches(self):
+        """Time over the size of the cache, relative to that without a limit."""
+        lines = {}
+        for unlimited in self.results.all(what="build", engine="abacus", cache="largest"):
+            labels = {key: unlimited[key] for key in ("dimension", "set", "points")}
+            base = median(unlimited, "wall")
+            name = f"{labels['dimension']}D, {SETS[labels['set']]}, {points(labels['points'])}"
+            for m in self.results.all(what="build", engine="abacus", **labels):
+                if m["cache"] != "largest":
+                    megabytes = 128 if m["cache"] == "default" else int(m["cache"])
+                    lines.setdefault(name, []).append(
+                        (megabytes, *(value / base for value in spread_of(m, "wall"))))
+        if not lines:
+            return ""
+        plots.lines(self.pictures / "caches.svg", "Time with a small cache", "abacus.cache_size, MB",
+                    "time, 1 = no limit", lines, "x", "bottom right")
+        return self.picture("caches", "Time over the size of the cache")

@@ -5,6 +5,7 @@ The signs are those of double precision, which is quick and may be wrong near an
 be no better: the cast from double precision rounds to 15 digits. So the rows are favoured.
 """
 import server
+from location import create_places
 from points import PointSet
 
 # box(p, p) lies in the box of the triangle's corners, and p is not to the right of an edge.
@@ -65,7 +66,7 @@ class Rows:
         labels = {"dimension": 2, "set": points.name, "points": points.create_table(), "places": places}
         server.query(points.triangulate())
         engines = make_tables()
-        make_places(places)
+        create_places(points, places)
         for order in "ordered", "places":
             measurements = [{"what": "rows", "engine": engine, "order": order, **labels,
                              "bytes": table_bytes(engine), "samples": []} for engine in engines]
@@ -98,17 +99,6 @@ def make_tables():
     for table in ["triangles", "polygons"][:len(engines) - 1]:
         server.query(f"VACUUM (FREEZE, ANALYZE) {table}")
     return engines
-
-
-def make_places(count):
-    """The table `places` at random in the unit square, and `ordered` along the curve."""
-    server.drop("places", "ordered")
-    server.query("SELECT setseed(0.5); CREATE TABLE places AS SELECT random() AS x, random() AS y"
-                 f" FROM generate_series(1, {count})")
-    server.query("CREATE TABLE ordered AS SELECT x, y FROM places"
-                 " ORDER BY coalesce((abacus_locate('mesh', x, y)).code, 0)")
-    for table in "places", "ordered":
-        server.query(f"VACUUM (FREEZE, ANALYZE) {table}")
 
 
 def table_bytes(engine):

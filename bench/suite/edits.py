@@ -1,0 +1,153 @@
+"""Parts that change a mesh: many points in a statement, one in a transaction, and cancelled builds."""
+import pathlib
+import statistics
+import subprocess
+import tempfile
+import threading
+import time
+
+import server
+from points import PointSet
+
+SINGLE = {"full": 5000, "quick": 1000, "smoke": 20}
+
+
+class Edits:
+    """Half of a point set as a mesh, the other half to be inserted."""
+
+    def __init__(self, dimension, sizes):
+        self.dimension, self.sizes = dimension, sizes
+
+    def measure(self, suite):
+        self.suite, self.size = suite, self.sizes[suite.mode]
+        self.points = PointSet(self.dimension, "uniform", 2 * self.size)
+        self.labels = {"dimension": self.dimension, "set": "uniform", "points": self.size}
+        self.points.create_table()
+        self.select = f"SELECT id, {self.points.columns} FROM points WHERE"
+        self.make = self.points.triangulate(f" WHERE id <= {self.size}")
+        runs = {"full": 3, "quick": 1, "smoke": 1}[suite.mode]
+        self.many("insert", f"id > {self.size}", self.size, runs)
+        self.many("delete", f"id <= {self.size} AND id % 2 = 0", self.size // 2, runs)
+        self.space()
+        server.restart(fsync="off")
+        try:
+            self.one_by_one()
+        finally:
+            server.restart()
+        faults = server.query("SELECT count(*) FROM abacus_check('mesh')")
+        if faults != "0":
+            raise server.Failure(f"{faults} faults after changes")
+        server.drop("mesh", "mesh_vertices", "points", "victims")
+
+    def fresh_mesh(self):
+        server.drop("mesh", "mesh_vertices")
+        server.query(self.make)
+        server.settle()
+
+    def record(self, change, samples, **figures):
+        self.suite.measurements.append({"what": "edit", "change": change, **self.labels, **figures,
+                                        "samples": samples})
+
+    def many(self, change, condition, count, runs):
+        """One statement that changes many points."""
+        samples = []
+        for _ in range(runs):
+            self.fresh_mesh()
+            with server.Session() as session:
+                sample = session.timed(f"SELECT abacus_{change}('mesh', '{self.select} {condition}')")
+            if int(sample.pop("printed")) != count:
+                raise server.Failure(f"abacus_{change} did not change {count} points")
+            samples.append(sample)
+            self.suite.say(f"  {change} {count:,} points: {sample['wall']:.3f} s")
+        self.record(f"{change} many", samples, changed=count)
+
+    def space(self):
+        """Half of the points replaced, at random places, in statements of a twentieth each."""
+        size = ("SELECT pg_total_relation_size('mesh') + pg_total_relation_size('mesh_vertices')")
+        self.fresh_mesh()
+        fresh, wal = int(server.query(size)), server.wal_position()
+        with server.Session() as session:
+            for part in range(10):
+                chosen = f"hashint8(id) & 1023 BETWEEN {51 * part} AND {51 * part + 50} AND id"
+                for change, which in (("delete", "<="), ("insert", ">")):
+                    session.run(f"SELECT abacus_{change}('mesh', '{self.select} {chosen} {which} {self.size}')")
+        changed = int(server.query("SELECT count(*) FROM points WHERE hashint8(id) & 1023 < 510"))
+        sample = {"fresh": fresh, "wal": server.wal_position() - wal, "after": int(server.query(size))}
+        server.query("VACUUM mesh, mesh_vertices")
+        sample["vacuumed"] = int(server.query(size))
+        self.suite.say(f"  {changed:,} points replaced: {sample['wal'] / changed:.0f} bytes of WAL each")
+        self.record("space", [sample], changed=changed)
+
+    def one_by_one(self):
+        """Latencies of single points, each in a transaction of its own, by pgbench."""
+        place = ", ".join(f"(:n % {prime}) / {prime}.0" for prime in (99991, 77773, 55541)[:self.dimension])
+        self.latency("insert", "\\set n random(1, 2000000000)\n"
+                     f"SELECT abacus_insert('mesh', 'SELECT 3000000000 + :n, {place}');")
+        server.drop("victims")
+        server.query("CREATE TABLE victims AS SELECT row_number() OVER (ORDER BY hashint8(id)) AS number,"
+                     f" id, {self.points.columns} FROM points"
+                     f" WHERE id <= {self.size} AND hashint8(id) & 1023 >= 510;"
+                     "CREATE UNIQUE INDEX ON victims (number);"
+                     "DROP SEQUENCE IF EXISTS next_victim; CREATE SEQUENCE next_victim")
+        self.latency("delete", f"SELECT abacus_delete('mesh', format('SELECT id, {self.points.columns}"
+                     " FROM victims WHERE number = %s', nextval('next_victim')));")
+
+    def latency(self, change, statement):
+        with tempfile.TemporaryDirectory() as folder:
+            script = pathlib.Path(folder) / "script"
+            script.write_text(statement + "\n")
+            count = SINGLE[self.suite.mode]
+            subprocess.run(["pgbench", "-n", "-t", str(count), "-f", script, "-l", f"--log-prefix={folder}/log"],
+                           check=True, capture_output=True)
+            seconds = [int(line.split()[2]) * 1e-6 for log in pathlib.Path(folder).glob("log.*")
+                       for line in log.read_text().splitlines()]
+        if len(seconds) != count:
+            raise server.Failure(f"pgbench ended {len(seconds)} of {count} transactions")
+        ordered = sorted(seconds)
+        self.suite.say(f"  {change} one point: {1000 * statistics.median(seconds):.2f} ms")
+        self.record(f"{change} one", [{"wall": round(statistics.median(seconds), 6)}], transactions=count,
+                    percentile99=ordered[len(ordered) * 99 // 100])
+
+
+def cancelled_builds(dimension, sizes):
+    """A part: how long a cancel takes at several moments of a build, which then leaves nothing."""
+    def measure(suite):
+        points = PointSet(dimension, "uniform", sizes[suite.mode])
+        count = points.create_table()
+        with server.Session() as session:
+            whole = session.timed(points.triangulate())["wall"]
+        samples = []
+        for share in (0.03, 0.1, 0.25, 0.4, 0.6, 0.8, 0.95):
+            server.drop("mesh", "mesh_vertices")
+            waited = cancel_after(points, share * whole)
+            if waited is not None:
+                samples.append({"wall": round(waited, 6), "share": share})
+        if samples:
+            suite.say(f"  longest wait for a cancel: {max(s['wall'] for s in samples):.3f} s")
+            suite.measurements.append({"what": "cancel", "dimension": dimension, "set": "uniform",
+                                       "points": count, "samples": samples})
+        server.drop("mesh", "mesh_vertices", "points")
+    return measure
+
+
+def cancel_after(points, seconds):
+    """Seconds from pg_cancel_backend to the end of the statement; None if that had ended before."""
+    outcome = []
+    with server.Session() as session, server.Session() as other:
+        def build():
+            try:
+                session.run(points.triangulate())
+            except server.Failure as failure:
+                outcome.append((time.monotonic(), str(failure)))
+        victim = threading.Thread(target=build)
+        victim.start()
+        time.sleep(seconds)
+        start = time.monotonic()
+        other.run(f"SELECT pg_cancel_backend({session.backend})")
+        victim.join()
+    if not outcome:
+        return None
+    ended, message = outcome[0]
+    if "canceling statement" not in message or server.query("SELECT to_regclass('mesh') IS NULL") != "t":
+        raise server.Failure(f"a cancelled build: {message}")
+    return ended - start

@@ -1,0 +1,79 @@
+"""Regions of docs/benchmarks.md that are tables alone: location, changes, cancels, the core."""
+from document import number, points, size, spread, table
+from results import spread as spread_of
+from results import values
+
+
+def mesh_name(measurement):
+    return f"{measurement['dimension']}D, {points(measurement['points'])} points"
+
+
+CACHES = {"largest": "of any size", "tenth": "a tenth of the mesh"}
+ORDERS = {"ordered": "along the curve", "places": "at random"}
+
+
+def location(results):
+    rows = []
+    for m in results.all(what="locate"):
+        rates = [sample["places"] / sample["wall"] for sample in m["samples"]]
+        rates.sort()
+        rows.append((mesh_name(m), ORDERS[m["order"]], CACHES[m["cache"]], f"{m['samples'][0]['places']:,}",
+                     spread((rates[len(rates) // 2], rates[0], rates[-1])),
+                     size(max(values(m, "memory"))), len(rates)))
+    return table(("mesh", "places", "cache", "places a statement", "places a second", "memory", "runs"), rows)
+
+
+QUESTIONS = {"first": "the first of a session: finds the mesh, too", "next": "one far away, after that"}
+
+
+def mean(measurement, figure):
+    return sum(values(measurement, figure)) / len(measurement["samples"])
+
+
+def cold(results):
+    rows = [(mesh_name(m), QUESTIONS[m["question"]], *(number(mean(m, kind)) for kind in ("heap", "leaf", "inner")),
+             number(mean(m, "heap") + mean(m, "leaf")), len(m["samples"]))
+            for m in results.all(what="cold")]
+    return table(("mesh", "question", "heap pages", "leaf pages", "inner pages", "heap and leaf", "runs"), rows)
+
+
+def edits(results):
+    rows = []
+    for m in results.all(what="edit"):
+        if m["change"].endswith("many"):
+            wall = spread_of(m, "wall")
+            rows.append((mesh_name(m), f"{m['change'].split()[0]} {m['changed']:,} in one statement",
+                         f"{spread(wall)} s", f"{number(1e6 * wall[0] / m['changed'])} µs",
+                         f"{number(spread_of(m, 'wal')[0] / m['changed'])}"))
+        elif m["change"].endswith("one"):
+            rows.append((mesh_name(m), f"{m['change'].split()[0]} one, median of {m['transactions']:,};"
+                         f" 99 of 100 take at most {number(1000 * m['percentile99'])} ms", "–",
+                         f"{number(1e6 * spread_of(m, 'wall')[0])} µs", "–"))
+        else:
+            sample = m["samples"][0]
+            rows.append((mesh_name(m), f"replace {m['changed']:,} at random places in 20 statements: size ×"
+                         f" {number(sample['after'] / sample['fresh'])},"
+                         f" × {number(sample['vacuumed'] / sample['fresh'])} after VACUUM", "–", "–",
+                         number(sample["wal"] / m["changed"])))
+    return table(("mesh", "change", "time", "a point", "WAL bytes a point"), rows)
+
+
+def cancels(results):
+    return "".join(
+        f"{mesh_name(m)}: longest {number(1000 * max(values(m, 'wall')))} ms, median"
+        f" {number(1000 * spread_of(m, 'wall')[0])} ms, of {len(m['samples'])} cancels at different moments.\n"
+        for m in results.all(what="cancel"))
+
+
+def seconds(value):
+    for unit, factor in (("s", 1), ("ms", 1e3), ("µs", 1e6), ("ns", 1e9)):
+        if value * factor >= 1 or unit == "ns":
+            return f"{number(value * factor)} {unit}"
+
+
+def core(results):
+    rows = []
+    for m in results.all(what="core"):
+        middle, least, greatest = spread_of(m, "wall")
+        rows.append((f"`{m['benchmark']}`", seconds(middle), seconds(least), seconds(greatest), len(m["samples"])))
+    return table(("benchmark", "median", "least", "greatest", "runs"), rows)

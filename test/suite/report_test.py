@@ -1,0 +1,131 @@
+#!/usr/bin/python3
+"""Reports of the benchmark suite: figures, verdicts, pictures, and that docs/benchmarks.md is what its
+results say."""
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "bench/suite"))
+
+import acceptance
+import document
+import plots
+import results
+from report import Report
+
+
+def build(engine, points, *seconds, **labels):
+    return {"what": "build", "engine": engine, "dimension": 2, "set": "uniform", "points": points, **labels,
+            "samples": [{"wall": wall, "cpu": wall, "memory": 1 << 20, "simplices": 2 * points}
+                        for wall in seconds]}
+
+
+def of(*measurements):
+    machine = {"cpu": "one", "cores": 1, "memory_bytes": 1 << 30, "kernel": "6", "compiler": "c++",
+               "flags": "-O3", "packages": {}, "commit": "0", "date": "today", "load": 0.0}
+    return results.Results({"part": {"part": "part", "mode": "full", "seconds": 60, "machine": machine,
+                                     "measurements": list(measurements)}})
+
+
+def verdict(number, found):
+    wanted = acceptance.WANTED[number]
+    return wanted.verdict(wanted.measured(found))
+
+
+class Verdicts(unittest.TestCase):
+    def test_a_ratio_of_medians_is_held_or_missed(self):
+        cgal = build("cgal", 10**6, 9, 1.0, 0.1)
+        self.assertEqual(verdict(0, of(cgal, build("abacus", 10**6, 1.0, cache="default"))), "held")
+        self.assertEqual(verdict(0, of(cgal, build("abacus", 10**6, 0.5, 1.1, 7, cache="default"))), "**missed**")
+
+    def test_what_was_not_measured_is_not_held(self):
+        self.assertEqual(verdict(0, of()), "not measured")
+        self.assertEqual(verdict(0, of(build("cgal", 10**6, 1))), "not measured")
+        # Another cache, another number of points
+        self.assertEqual(verdict(0, of(build("cgal", 10**6, 1), build("abacus", 10**6, 1, cache="8"))),
+                         "not measured")
+        self.assertEqual(verdict(0, of(build("cgal", 10**5, 1), build("abacus", 10**5, 1, cache="default"))),
+                         "not measured")
+
+    def test_a_rate_must_be_reached(self):
+        def found(seconds):
+            return of({"what": "locate", "engine": "abacus", "dimension": 2, "points": 10**7, "order": "ordered",
+                       "cache": "largest", "samples": [{"wall": seconds, "places": 10**6}]})
+        number = next(i for i, wanted in enumerate(acceptance.WANTED) if wanted.limit == 700000)
+        self.assertEqual(verdict(number, found(1.0)), "held")
+        self.assertEqual(verdict(number, found(2.0)), "**missed**")
+
+    def test_goose_is_extrapolated_by_the_growth_of_both(self):
+        def run(engine, points, seconds):
+            return {"what": "goose", "engine": engine, "dimension": 2, "points": points,
+                    "samples": [{"cpu": seconds}]}
+        found = of(run("goose", 10**4, 1.0), run("abacus", 10**4, 1.0),
+                   run("goose", 10**5, 20.0), run("abacus", 10**5, 10.0))
+        number = next(i for i, wanted in enumerate(acceptance.WANTED) if wanted.what.startswith("Goose ÷ Abacus, 1 M"))
+        self.assertAlmostEqual(acceptance.WANTED[number].measured(found), 4)
+        self.assertEqual(verdict(number, found), "told")
+
+
+class Storage(unittest.TestCase):
+    def test_json_comes_back(self):
+        content = {"a": [{"b": 1, "c": "é"}, {"d": [1, 2], "e": {}}], "f": [], "g": None}
+        text = results.dump(content)
+        self.assertEqual(json.loads(text), content)
+        self.assertIn('{"b": 1, "c": "é"}', text)  # a sample is a line
+
+    def test_a_part_measured_again_takes_the_place_of_the_earlier(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            old = of(build("cgal", 10**6, 1))
+            part = of(build("cgal", 10**6, 2)).parts["part"]
+            results.write_part(folder, part)
+            self.assertEqual(old.merge_files(folder).median("wall", engine="cgal"), 2)
+            old.write(folder / "all" / "results.json")
+            self.assertEqual(results.Results.read(folder / "all" / "results.json").parts, {"part": part})
+
+    def test_two_measurements_of_the_same_are_not_mixed(self):
+        with self.assertRaises(LookupError):
+            of(build("cgal", 1, 1), build("cgal", 1, 2)).one(engine="cgal")
+
+
+class Documents(unittest.TestCase):
+    def test_regions_are_replaced_and_nothing_else(self):
+        text = "a\n<!-- begin x -->\nold\n<!-- end x -->\nb\n"
+        self.assertEqual(document.fill(text, {"x": lambda: "new\n"}),
+                         "a\n<!-- begin x -->\nnew\n<!-- end x -->\nb\n")
+
+    def test_a_region_without_generator_is_an_error(self):
+        with self.assertRaises(LookupError):
+            document.fill("<!-- begin x -->\n<!-- end x -->\n", {})
+        with self.assertRaises(LookupError):
+            document.fill("", {"x": str})
+
+    def test_numbers(self):
+        self.assertEqual([document.number(x) for x in (None, 0, 0.01234, 1.5, 99.96, 123.4, 1234567)],
+                         ["–", "0", "0.0123", "1.50", "100", "123", "1,234,567"])
+        self.assertEqual(document.spread((2.0, 1.0, 3.0)), "2.00 (1.00–3.00)")
+
+    def test_pictures_are_the_same_every_time(self):
+        with tempfile.TemporaryDirectory() as name:
+            one, two = pathlib.Path(name) / "one.svg", pathlib.Path(name) / "two.svg"
+            for path in one, two:
+                plots.bars(path, "title", "seconds", [("a", 1, 0.5, 2), ("b \"quoted\"", 3, 3, 3)])
+            self.assertEqual(one.read_bytes(), two.read_bytes())
+            self.assertIn(b"<svg", one.read_bytes())
+
+    def test_the_page_is_what_the_results_say(self):
+        page = ROOT / "docs/benchmarks.md"
+        with tempfile.TemporaryDirectory() as name:
+            pictures = pathlib.Path(name) / "benchmarks"
+            found = results.Results.read(ROOT / "docs/benchmarks/results.json")
+            self.assertEqual(Report(found, pictures).fill(page.read_text()), page.read_text())
+            for picture in pictures.glob("*.svg"):
+                self.assertEqual(picture.read_bytes(), (ROOT / "docs/benchmarks" / picture.name).read_bytes(),
+                                 f"{picture.name}: scripts/bench.sh report makes it anew")
+
+
+if __name__ == "__main__":
+    unittest.main()
