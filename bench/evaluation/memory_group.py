@@ -12,7 +12,6 @@ import time
 
 ROOT_V1 = pathlib.Path("/sys/fs/cgroup/memory")
 ROOT_V2 = pathlib.Path("/sys/fs/cgroup")
-NAME = "abacus-evaluation"
 
 
 def as_root(*command, text=None):
@@ -50,15 +49,13 @@ class MemoryGroup:
     def __init__(self, limit):
         self.limit = limit
         self.version = 1 if (ROOT_V1 / "memory.limit_in_bytes").exists() else 2
-        self.folder = (ROOT_V1 if self.version == 1 else ROOT_V2) / NAME
+        self.folder = (ROOT_V1 if self.version == 1 else ROOT_V2) / f"abacus-{os.getpid()}"
 
     def __enter__(self):
         if self.version == 2:
             if "memory" not in (ROOT_V2 / "cgroup.controllers").read_text().split():
                 raise OSError("the memory controller is not there")
             write(ROOT_V2 / "cgroup.subtree_control", "+memory")
-        if self.folder.exists():
-            as_root("rmdir", str(self.folder))
         as_root("mkdir", str(self.folder))
         if self.version == 1:
             write(self.folder / "memory.limit_in_bytes", self.limit)
@@ -73,15 +70,14 @@ class MemoryGroup:
     def __exit__(self, *_):
         """Who is still there goes where this process is; one that ends takes a moment to leave."""
         home = self.folder.parent / self.own_group().lstrip("/")
-        for process in (self.folder / "cgroup.procs").read_text().split():
-            with contextlib.suppress(OSError):
-                write(home / "cgroup.procs", process)
         for _ in range(50):
-            try:
+            for process in (self.folder / "cgroup.procs").read_text().split():
+                with contextlib.suppress(OSError):
+                    write(home / "cgroup.procs", process)
+            with contextlib.suppress(OSError):
                 as_root("rmdir", str(self.folder))
                 return
-            except OSError:
-                time.sleep(0.1)
+            time.sleep(0.1)
 
     def own_group(self):
         """Of this process, among the groups of memory."""
