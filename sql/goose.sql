@@ -88,6 +88,14 @@ SELECT count(*) FROM passing;
 COMMIT;
 SELECT to_regclass('wrong') IS NULL AS nothing_left, count(*) FROM passing;
 
+-- A publication of all tables asks no replica identity of it.
+SET client_min_messages = error;
+CREATE PUBLICATION all_tables FOR ALL TABLES;
+RESET client_min_messages;
+SELECT count(*) AS figures FROM abacus_goose('published', 'TABLE site');
+SELECT count(*) FROM published;
+DROP PUBLICATION all_tables;
+
 -- A cancel is served at once, and leaves nothing behind.
 \set VERBOSITY terse
 SET statement_timeout = '300ms';

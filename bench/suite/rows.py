@@ -1,22 +1,25 @@
 """Point location as one does it without Abacus: a table of one row a triangle, with its box under
 GiST; what the index finds is tested by the signs of three areas.
 
-The signs are those of double precision, which is quick and may be wrong near an edge. Numeric would
-be no better: the cast from double precision rounds to 15 digits. So the rows are favoured.
+In double precision these are quick to get and may be wrong near an edge. As `numeric` they are
+exact, if coordinates can be had exactly: here all are multiples of 2^-53, so times 2^53 they are
+integers. (The plain cast from double precision rounds to 15 digits.)
 """
 import server
 from location import create_places
 from points import PointSet
 
-# box(p, p) lies in the box of the triangle's corners, and p is not to the right of an edge.
+SCALE = 2**53
+
+# The box of the triangle holds the place, and the place is not to the right of an edge.
 ROWS = """
-    SELECT count(t.v0), sum(t.v0 + t.v1 + t.v2) FROM {places} AS p
+    SELECT count(t.v0), sum(t.v0 + t.v1 + t.v2) FROM {{places}} AS p
     LEFT JOIN LATERAL (
-        SELECT v0, v1, v2 FROM triangles
+        SELECT v0, v1, v2 FROM {table}
         WHERE box && box(point(p.x, p.y), point(p.x, p.y))
-          AND (x1 - x0) * (p.y - y0) - (y1 - y0) * (p.x - x0) >= 0
-          AND (x2 - x1) * (p.y - y1) - (y2 - y1) * (p.x - x1) >= 0
-          AND (x0 - x2) * (p.y - y2) - (y0 - y2) * (p.x - x2) >= 0
+          AND (x1 - x0) * (p.{y} - y0) - (y1 - y0) * (p.{x} - x0) >= 0
+          AND (x2 - x1) * (p.{y} - y1) - (y2 - y1) * (p.{x} - x1) >= 0
+          AND (x0 - x2) * (p.{y} - y2) - (y0 - y2) * (p.{x} - x2) >= 0
         LIMIT 1) AS t ON true"""
 POSTGIS = """
     SELECT count(t.v0), sum(t.v0 + t.v1 + t.v2) FROM {places} AS p
@@ -37,6 +40,11 @@ TABLES = {
              JOIN points AS c ON c.id = v2
         ORDER BY code;
         CREATE INDEX ON triangles USING gist (box)""",
+    "exact_rows": """
+        CREATE TABLE exact_triangles AS SELECT v0, v1, v2, """
+    + ", ".join(f"({c}{i} * {SCALE})::bigint::numeric AS {c}{i}" for i in range(3) for c in "xy")
+    + """, box FROM triangles;
+        CREATE INDEX ON exact_triangles USING gist (box)""",
     "postgis": """
         CREATE TABLE polygons AS
         SELECT v0, v1, v2, ST_MakePolygon(ST_MakeLine(ARRAY[ST_MakePoint(x0, y0), ST_MakePoint(x1, y1),
@@ -44,29 +52,36 @@ TABLES = {
         FROM triangles;
         CREATE INDEX ON polygons USING gist (polygon)""",
 }
-STATEMENTS = {"abacus": ABACUS, "rows": ROWS, "postgis": POSTGIS}
+STATEMENTS = {"abacus": ABACUS, "rows": ROWS.format(table="triangles", x="x", y="y"),
+              "exact_rows": ROWS.format(table="exact_triangles", x="exact_x", y="exact_y"),
+              "postgis": POSTGIS}
+TABLE_OF = {"abacus": "mesh", "rows": "triangles", "exact_rows": "exact_triangles", "postgis": "polygons"}
 
 
 class Rows:
     """(points, places) by mode: places at random, and the same along the curve, warm."""
 
-    def __init__(self, sizes, runs):
-        self.sizes, self.runs = sizes, runs
+    def __init__(self, sizes, runs, habits=("rows", "exact_rows", "postgis"), disk=0):
+        self.sizes, self.runs, self.habits, self.disk = sizes, runs, habits, disk
 
     def measure(self, suite):
+        if suite.mode not in self.sizes:
+            return
+        server.require_disk(self.disk)
         size, places = self.sizes[suite.mode]
         server.restart(shared_buffers="2GB")
         try:
             self.compare(suite, PointSet(2, "uniform", size), places)
         finally:
             server.restart()
-        server.drop("mesh", "mesh_vertices", "points", "triangles", "polygons", "places", "ordered")
+        server.drop("mesh_vertices", "points", *TABLE_OF.values(), "places", "ordered")
 
     def compare(self, suite, points, places):
         labels = {"dimension": 2, "set": points.name, "points": points.create_table(), "places": places}
         server.query(points.triangulate())
-        engines = make_tables()
+        engines = ["abacus", *make_tables(self.habits)]
         create_places(points, places)
+        add_exact_places()
         for order in "ordered", "places":
             measurements = [{"what": "rows", "engine": engine, "order": order, **labels,
                              "bytes": table_bytes(engine), "samples": []} for engine in engines]
@@ -87,21 +102,28 @@ class Rows:
                 suite.say(f"  {order:8} {measurement['engine']:8} {places / cpu:12,.0f} places a CPU second")
 
 
-def make_tables():
-    """One for each habit; what to compare."""
-    engines = ["abacus", "rows"]
-    server.drop("triangles", "polygons")
-    server.query(TABLES["rows"])
+def make_tables(habits):
+    """One for each habit; those that there are."""
     if server.has_extension("postgis"):
         server.query("SET client_min_messages = warning; CREATE EXTENSION IF NOT EXISTS postgis")
-        server.query(TABLES["postgis"])
-        engines.append("postgis")
-    for table in ["triangles", "polygons"][:len(engines) - 1]:
+    else:
+        habits = [habit for habit in habits if habit != "postgis"]
+    server.drop(*(TABLE_OF[habit] for habit in habits))
+    for habit in habits:
+        server.query(TABLES[habit])
+        server.query(f"VACUUM (FREEZE, ANALYZE) {TABLE_OF[habit]}")
+    return habits
+
+
+def add_exact_places():
+    """As integers, beside those in double precision."""
+    for table in "places", "ordered":
+        server.query(f"ALTER TABLE {table} " + ", ".join(
+            f"ADD exact_{c} numeric GENERATED ALWAYS AS (({c} * {SCALE})::bigint::numeric) STORED"
+            for c in "xy"))
         server.query(f"VACUUM (FREEZE, ANALYZE) {table}")
-    return engines
 
 
 def table_bytes(engine):
     """With the index."""
-    table = {"abacus": "mesh", "rows": "triangles", "postgis": "polygons"}[engine]
-    return int(server.query(f"SELECT pg_total_relation_size('{table}')"))
+    return int(server.query(f"SELECT pg_total_relation_size('{TABLE_OF[engine]}')"))

@@ -33,6 +33,7 @@
 #include "access/relscan.h"
 #include "access/stratnum.h"
 #include "access/table.h"
+#include "access/tableam.h"
 #include "access/xact.h"
 #include "catalog/dependency.h"
 #include "catalog/index.h"
@@ -180,21 +181,6 @@ goose_table_close(GooseTable *table)
 	table_close(table->heap, NoLock);
 }
 
-/* The finished table has no ghosts. */
-void
-goose_table_remove_ghosts(GooseTable *table)
-{
-	char	   *command = psprintf("DELETE FROM %s WHERE v%d IS NULL",
-								   quote_qualified_identifier(get_namespace_name(RelationGetNamespace(table->heap)),
-															  RelationGetRelationName(table->heap)),
-								   table->dimension);
-
-	SPI_connect();
-	if (SPI_execute(command, false, 0) != SPI_OK_DELETE)
-		elog(ERROR, "could not run \"%s\"", command);
-	SPI_finish();
-}
-
 /* ---- Boxes as Datums ---------------------------------------------------------- */
 
 typedef union BoxRoom
@@ -256,10 +242,11 @@ read_box(int dimension, Datum datum, double *lower, double *upper)
 
 /* ---- Rows ------------------------------------------------------------------------ */
 
-/* False if the row is none that insert_row() makes. */
+/* Takes the row in table->slot apart; false if it is none that insert_row() makes. */
 static bool
-read_row(const GooseTable *table, TupleTableSlot *slot, abacus_boxed_simplex *row)
+decode_row(const GooseTable *table, abacus_boxed_simplex *row)
 {
+	TupleTableSlot *slot = table->slot;
 	int			dimension = table->dimension;
 	int			box = BOX_COLUMN(dimension);
 	int			corners;
@@ -288,6 +275,17 @@ read_row(const GooseTable *table, TupleTableSlot *slot, abacus_boxed_simplex *ro
 		ItemPointerGetOffsetNumber(&slot->tts_tid);
 	return !slot->tts_isnull[box] &&
 		read_box(dimension, slot->tts_values[box], row->lower, row->upper);
+}
+
+static void
+read_row(const GooseTable *table, abacus_boxed_simplex *row)
+{
+	if (!decode_row(table, row))
+		ereport(ERROR,
+				(errcode(ERRCODE_DATA_CORRUPTED),
+				 errmsg("table \"%s\" holds a row that is no simplex",
+						RelationGetRelationName(table->heap)),
+				 errhint("Nothing else may write the table while abacus_goose() makes it.")));
 }
 
 static void
@@ -376,12 +374,7 @@ find_rows(GooseTable *table, const double *point)
 				? MemoryContextAlloc(table->memory, table->room * sizeof(abacus_boxed_simplex))
 				: repalloc_huge(table->found, table->room * sizeof(abacus_boxed_simplex));
 		}
-		if (!read_row(table, table->slot, &table->found[count++]))
-			ereport(ERROR,
-					(errcode(ERRCODE_DATA_CORRUPTED),
-					 errmsg("table \"%s\" holds a row that is no simplex",
-							RelationGetRelationName(table->heap)),
-					 errhint("Nothing else may write the table while abacus_goose() makes it.")));
+		read_row(table, &table->found[count++]);
 	}
 	return count;
 }
@@ -402,6 +395,24 @@ kill_entry(GooseTable *table, const abacus_boxed_simplex *row)
 		if (ItemPointerEquals(tid, &wanted))
 			killed = table->scan->kill_prior_tuple = true;
 	return killed;
+}
+
+/* The finished table has no ghosts. */
+void
+goose_table_remove_ghosts(GooseTable *table)
+{
+	TableScanDesc scan = table_beginscan(table->heap, SnapshotSelf, 0, NULL);
+	abacus_boxed_simplex row;
+
+	while (table_scan_getnextslot(scan, ForwardScanDirection, table->slot))
+		if (slot_attisnull(table->slot, table->dimension + 1))
+		{
+			read_row(table, &row);
+			kill_entry(table, &row);
+			simple_heap_delete(table->heap, &table->slot->tts_tid);
+		}
+	ExecClearTuple(table->slot);
+	table_endscan(scan);
 }
 
 /* ---- What the core calls ------------------------------------------------------------ */

@@ -1,6 +1,7 @@
 // Goose makes the same triangulation as Abacus and CGAL, from rows that it finds by boxes
 // alone.
 #include "goose/circumbox.hpp"
+#include "goose/rim.hpp"
 #include "support/memory_rtree.hpp"
 #include "support/oracle.hpp"
 #include "support/point_sets.hpp"
@@ -110,6 +111,36 @@ TEST(Goose, TheFirstOfEqualPointsGivesTheId) {
     EXPECT_EQ(simplices[0].id[0], 0);
     EXPECT_EQ(simplices[0].id[1], 1);
     EXPECT_EQ(simplices[0].id[2], 2);
+}
+
+TEST(Goose, FindsTheRimOfACavityByTheFacetsThatComeOnce) {
+    const auto triangle = [](Point<2> a, Point<2> b, Point<2> c) {
+        abacus_simplex s{};
+        std::copy(a.begin(), a.end(), s.corner[0]);
+        std::copy(b.begin(), b.end(), s.corner[1]);
+        std::copy(c.begin(), c.end(), s.corner[2]);
+        return s;
+    };
+    MemoryHost memory;
+    const Host host = memory.host();
+    RimOfRows<2> rim(host);
+    const abacus_simplex lower = triangle({0, 0}, {1, 0}, {1, 1}),
+                         upper = triangle({0, 0}, {1, 1}, {0, 1}),
+                         other = triangle({1, 1}, {0, 0}, {5, 0});
+    abacus_simplex ghost = triangle({1, 0}, {0, 0}, {0, 0});
+    ghost.ghost = 1;
+
+    const abacus_simplex *square[] = {&lower, &upper, &ghost};
+    int outer = 0, infinite = 0;
+    for (const auto &facet : rim.find(square)) {
+        EXPECT_FALSE(facet.row == 0 && facet.facet == 1); // the diagonal
+        EXPECT_FALSE(facet.row == 0 && facet.facet == 2); // below it the ghost
+        ++(facet.number[0] == infinite_vertex ? infinite : outer);
+    }
+    EXPECT_EQ(outer, 3);
+    EXPECT_EQ(infinite, 2);
+    const abacus_simplex *no_ball[] = {&lower, &upper, &other};
+    EXPECT_THROW(rim.find(no_ball), Error);
 }
 
 // ---- Boxes ---------------------------------------------------------------------------------
