@@ -68,6 +68,18 @@ class Verdicts(unittest.TestCase):
         self.assertAlmostEqual(acceptance.WANTED[number].measured(found), 4)
         self.assertEqual(verdict(number, found), "told")
 
+    def test_rows_are_compared_in_the_largest_mesh(self):
+        def run(engine, points, seconds, order="ordered"):
+            return {"what": "rows", "engine": engine, "points": points, "order": order,
+                    "samples": [{"cpu": seconds}]}
+        found = of(run("abacus", 10**6, 1.0), run("exact_rows", 10**6, 50.0), run("abacus", 10**7, 2.0),
+                   run("exact_rows", 10**7, 40.0), run("exact_rows", 10**7, 99.0, "places"),
+                   run("rows", 10**6, 10.0))
+        number = next(i for i, wanted in enumerate(acceptance.WANTED) if "the exact test" in wanted.what)
+        self.assertEqual(acceptance.WANTED[number].measured(found), 20)
+        self.assertEqual(acceptance.WANTED[number + 1].measured(found), 10)
+        self.assertEqual(verdict(number, found), "**missed**")
+
 
 class Storage(unittest.TestCase):
     def test_json_comes_back(self):
