@@ -33,8 +33,9 @@ class Report(Document):
         rows = []
         for wanted in acceptance.WANTED:
             value = wanted.measured(self.results)
-            rows.append((wanted.what, wanted.wanted(), number(value), wanted.verdict(value)))
-        return table(("", "wanted", "measured", ""), rows)
+            rows.append((wanted.what, wanted.wanted(), number(value), number(wanted.by_cpu(self.results)),
+                         wanted.verdict(value)))
+        return table(("", "wanted", "measured", "by CPU time", ""), rows)
 
     def builds(self):
         """A table for each set of points, engines below one another; a plot of those with many."""

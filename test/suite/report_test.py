@@ -41,6 +41,12 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(verdict(0, of(cgal, build("abacus", 10**6, 1.0, cache="default"))), "held")
         self.assertEqual(verdict(0, of(cgal, build("abacus", 10**6, 0.5, 1.1, 7, cache="default"))), "**missed**")
 
+    def test_the_ratio_of_cpu_times_is_told_beside_it(self):
+        cgal, abacus = build("cgal", 10**6, 1.0), build("abacus", 10**6, 2.0, cache="default")
+        abacus["samples"][0]["cpu"] = 0.5
+        self.assertEqual(acceptance.WANTED[0].by_cpu(of(cgal, abacus)), 0.5)
+        self.assertEqual(verdict(0, of(cgal, abacus)), "**missed**")
+
     def test_what_was_not_measured_is_not_held(self):
         self.assertEqual(verdict(0, of()), "not measured")
         self.assertEqual(verdict(0, of(build("cgal", 10**6, 1))), "not measured")
@@ -66,7 +72,7 @@ class Verdicts(unittest.TestCase):
                    run("goose", 10**5, 20.0), run("abacus", 10**5, 10.0))
         number = next(i for i, wanted in enumerate(acceptance.WANTED) if wanted.what.startswith("Goose ÷ Abacus, 1 M"))
         self.assertAlmostEqual(acceptance.WANTED[number].measured(found), 4)
-        self.assertEqual(verdict(number, found), "told")
+        self.assertEqual(verdict(number, found), "–")
 
     def test_rows_are_compared_in_the_largest_mesh(self):
         def run(engine, points, seconds, order="ordered"):
