@@ -37,6 +37,7 @@ class GrowthFigures:
         beside.add("Abacus: triangulating", "triangulate", lambda e: clock(median(e["triangulate"], "wall")))
         beside.add("Abacus: both", "total", lambda e: clock(both(e)))
         beside.add(f"Abacus: {PER_MILLION}", "amortized", lambda e: number(a_million(e)))
+        beside.add("… of the CPU", None, lambda e: number(a_million(e, "cpu")))
         for name in theirs:
             beside.add(name, figure[name]["wall"])
             beside.add(f"{name}: memory", figure[name]["memory"])
@@ -49,8 +50,9 @@ class GrowthFigures:
             other.keys, other.rows = beside.keys, beside.rows
             other.add(name, None, lambda e: clock(median(e["measurement"], "wall")))
             other.rows.append(["… memory", HERE, *self.memory_of(found, other, dimension)])
-            other.add(f"… {PER_MILLION}", None,
-                      lambda e: number(median(e["measurement"], "wall") / e["points"] * 1e6))
+            for label, time in ((f"… {PER_MILLION}", "wall"), ("… of the CPU", "cpu")):
+                other.add(label, None, lambda e, time=time: number(
+                    median(e["measurement"], time) / e["points"] * 1e6))
         return beside.markdown()
 
     def memory_of(self, found, beside, dimension):
@@ -107,8 +109,8 @@ class GrowthFigures:
         beside.add("÷ with all of the memory", "slowdown", lambda e: with_all.get(e["key"]) and number(
             both(e) / both(with_all[e["key"]])))
         beside.add("share of the time on the CPU, triangulating", None, lambda e: percent_of(e["triangulate"]))
-        beside.add("read from the disk, both steps", None, lambda e: size(total(e, "read")))
-        beside.add("written to it", None, lambda e: size(total(e, "written")))
+        beside.add("read from the disk, both steps", None, lambda e: size(both(e, "read")))
+        beside.add("written to it", None, lambda e: size(both(e, "written")))
         beside.add("most memory of the group", None, lambda e: size(of_group(e, "peak")))
         return beside.markdown() + "\n" + self.how_confined(entries)
 
@@ -168,16 +170,12 @@ class GrowthFigures:
         return table(("engine", "points", "memory", "time"), rows) if rows else ""
 
 
-def both(entry):
-    return median(entry["stage"], "wall") + median(entry["triangulate"], "wall")
-
-
-def a_million(entry):
-    return both(entry) / entry["points"] * 1e6
-
-
-def total(entry, figure):
+def both(entry, figure="wall"):
     return median(entry["stage"], figure) + median(entry["triangulate"], figure)
+
+
+def a_million(entry, figure="wall"):
+    return both(entry, figure) / entry["points"] * 1e6
 
 
 def percent_of(step):
