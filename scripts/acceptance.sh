@@ -32,10 +32,10 @@ full)
     sets=(2:uniform:1000000 2:grid:4000000 2:circle:100000 2:rounded_circle:100000
         2:wheel:100000 2:lines:1000000 2:flat_but_one:100000 2:clusters:1000000
         2:exponents:20000 2:duplicates:1000000 2:octree:1000000 2:shorelines:0
-        2:uniform:10000000
+        2:curves:1000000 2:uniform:10000000
         3:uniform:1000000 3:quake:1000000 3:grid:1000000 3:sphere:50000 3:rounded_sphere:50000
         3:wheel:50001 3:skew_lines:2000 3:flat:50000 3:flat_but_one:50000 3:clusters:200000
-        3:exponents:5000 3:duplicates:1000000 3:octree:1000000)
+        3:exponents:5000 3:duplicates:1000000 3:octree:1000000 3:curves:200000)
     runs=(smallest:made 8:made 64:made largest:made default:shuffled smallest:sorted 8:reversed
         8:grown)
     ;;

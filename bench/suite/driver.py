@@ -106,6 +106,8 @@ def main(book):
     if mode == "list":
         for part in book.parts:
             print(f"{part.name:14} {part.minutes:4g} min   {part.what}")
+        unnamed = sum(part.minutes for part in book.parts if not part.only_named)
+        print(f"{'all':14} {unnamed:4g} min")
     elif mode == "report":
         write_report(book, "full")
     else:
