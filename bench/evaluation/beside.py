@@ -1,6 +1,5 @@
 """Tables with the dissertation's figures beside ours, and how the figures are written."""
 from document import number
-from results import median
 
 NOTHING = "–"
 THERE, HERE = "there", "here"
@@ -9,28 +8,31 @@ THERE, HERE = "there", "here"
 class Beside:
     """A table: a column for each data set, two lines for each row."""
 
-    def __init__(self, figure, keys, measured, heading):
-        """`keys` are the dissertation's columns; `measured` holds ours, in dictionaries with the
-        key of the column in their field `key`."""
+    def __init__(self, figure, keys, measured, heading, others=()):
+        """`keys` are the dissertation's columns; `measured` holds ours, in dictionaries with the key
+        of the column in their field `key`; `others` have columns too."""
         self.figure = figure
-        self.ours = {}
-        for entry in measured:
-            self.ours.setdefault(nearest(entry["key"], keys), entry)
-        self.keys = sorted({*keys, *self.ours})
         self.theirs = {key: place for place, key in enumerate(keys)}
+        self.ours = self.by_column(measured)
+        self.keys = sorted({*keys, *self.ours, *self.by_column(others)})
         self.head = ["", "", *map(heading, self.keys)]
         self.rows = []
 
-    def add(self, label, theirs, ours=None):
-        """A row: its name in the dissertation's table or None; our text of an entry or None."""
+    def by_column(self, entries):
+        return {nearest(entry["key"], self.theirs): entry for entry in entries}
+
+    def add(self, label, theirs, ours=None, entries=None):
+        """A row: its name in the dissertation's table or None; our text of an entry, of those by
+        column, or None."""
         if isinstance(theirs, str):
             theirs = self.figure[theirs]
         if theirs is not None:
             self.rows.append([label, THERE, *(theirs[self.theirs[key]] if key in self.theirs else NOTHING
-                                               for key in self.keys)])
+                                              for key in self.keys)])
         if ours is not None:
+            entries = self.ours if entries is None else entries
             self.rows.append(["" if theirs is not None else label, HERE,
-                              *(text(ours, self.ours.get(key)) for key in self.keys)])
+                              *(text(ours, entries.get(key)) for key in self.keys)])
 
     def markdown(self):
         lines = ["| " + " | ".join(self.head) + " |", "|---|---|" + "---:|" * len(self.keys)]

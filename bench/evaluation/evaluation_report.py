@@ -36,10 +36,10 @@ class EvaluationReport(Document):
                  for m in part["measurements"] if m["what"] == "stage"]
         return max(found, key=lambda m: m["points"])["cache"] if found else None
 
-    def beside(self, dimension, figure, entries):
+    def beside(self, dimension, figure, entries, others=()):
         if dimension == 2:
-            return Beside(figure, POINTS_2D, entries, lambda key: count(key))
-        return Beside(figure, FREQUENCIES, entries, lambda key: f"{key:g} Hz")
+            return Beside(figure, POINTS_2D, entries, count, others)
+        return Beside(figure, FREQUENCIES, entries, lambda key: f"{key:g} Hz", others)
 
     def sets(self, dimension, figure):
         table = self.beside(dimension, figure, self.steps(dimension))

@@ -1,7 +1,9 @@
 """Figures 5.9 to 5.14: the time a million points take, as sets grow, with much and little memory,
 beside engines in core."""
+import itertools
+
 import plots
-from beside import HERE, NOTHING, Beside, clock, count, number, size
+from beside import clock, count, number, percent, size
 from dissertation import FIGURE, POINTS_2D, POINTS_3D, numbers
 from document import table
 from evaluation_parts import SMALL_MEMORY
@@ -24,17 +26,19 @@ class GrowthFigures:
             "caches": self.caches, "wall": self.wall}
 
     def in_core(self, dimension, engine):
-        """Entries {key, points, sample} of an engine, in the order of their size."""
+        """Entries {key, points, measurement} of an engine, in the order of their size."""
         found = self.report.results.all(what="incore", dimension=dimension, engine=engine)
         return sorted(({"key": m.get("frequency", m["points"]), "points": m["points"], "measurement": m}
                        for m in found), key=lambda entry: entry["points"])
 
     def comparison(self, dimension, figure, theirs):
-        entries = self.report.steps(dimension)
-        beside = self.report.beside(dimension, figure, entries)
+        engines = {name: self.in_core(dimension, engine) for engine, name in IN_CORE.items()}
+        beside = self.report.beside(dimension, figure, self.report.steps(dimension),
+                                    itertools.chain(*engines.values()))
         beside.add("points", "vertices", lambda e: count(e["points"]))
         beside.add("Abacus: staging", "stage", lambda e: clock(median(e["stage"], "wall")))
-        beside.add("Abacus: triangulating", "triangulate", lambda e: clock(median(e["triangulate"], "wall")))
+        beside.add("Abacus: triangulating", "triangulate",
+                   lambda e: clock(median(e["triangulate"], "wall")))
         beside.add("Abacus: both", "total", lambda e: clock(both(e)))
         beside.add(f"Abacus: {PER_MILLION}", "amortized", lambda e: number(a_million(e)))
         beside.add("… of the CPU", None, lambda e: number(a_million(e, "cpu")))
@@ -42,31 +46,29 @@ class GrowthFigures:
             beside.add(name, figure[name]["wall"])
             beside.add(f"{name}: memory", figure[name]["memory"])
             beside.add(f"{name}: {PER_MILLION}", figure[name]["amortized"])
-        for engine, name in IN_CORE.items():
-            found = self.in_core(dimension, engine)
-            if not found:
-                continue
-            other = self.report.beside(dimension, figure, found)
-            other.keys, other.rows = beside.keys, beside.rows
-            other.add(name, None, lambda e: clock(median(e["measurement"], "wall")))
-            other.rows.append(["… memory", HERE, *self.memory_of(found, other, dimension)])
-            for label, time in ((f"… {PER_MILLION}", "wall"), ("… of the CPU", "cpu")):
-                other.add(label, None, lambda e, time=time: number(
-                    median(e["measurement"], time) / e["points"] * 1e6))
+        for name, found in engines.items():
+            if found:
+                self.add_in_core(beside, dimension, name, found)
         return beside.markdown()
 
-    def memory_of(self, found, beside, dimension):
-        """Of each column; in parentheses what follows from the largest set that was measured."""
+    def add_in_core(self, beside, dimension, name, found):
+        """Its rows; memory in parentheses is what follows from the largest set that was measured."""
         largest = found[-1]
         a_point = median(largest["measurement"], "memory") / largest["points"]
-        for key in beside.keys:
-            points = key if dimension == 2 else QUAKE_POINTS.get(key)
-            if key in beside.ours:
-                yield size(median(beside.ours[key]["measurement"], "memory"))
-            elif points and points > largest["points"]:
-                yield f"({size(a_point * points)})"
-            else:
-                yield NOTHING
+
+        def memory(entry):
+            if "measurement" in entry:
+                return size(median(entry["measurement"], "memory"))
+            return f"({size(a_point * entry['points'])})" if entry["points"] > largest["points"] else None
+
+        entries = beside.by_column(found)
+        unmeasured = {key: {"points": key if dimension == 2 else QUAKE_POINTS.get(key, 0)}
+                      for key in beside.keys}
+        beside.add(name, None, lambda e: clock(median(e["measurement"], "wall")), entries)
+        beside.add("… memory", None, memory, unmeasured | entries)
+        for label, time in ((f"… {PER_MILLION}", "wall"), ("… of the CPU", "cpu")):
+            beside.add(label, None, lambda e, time=time: number(
+                median(e["measurement"], time) / e["points"] * 1e6), entries)
 
     def growth(self, dimension, figure, keys, theirs):
         """A plot of the seconds a million points take, and where memory ends."""
@@ -78,7 +80,8 @@ class GrowthFigures:
                 series[f"{name}, here"] = [
                     plain(e["points"], median(e["measurement"], "wall") / e["points"] * 1e6) for e in found]
             if found and engine == "cgal":
-                wall = self.memory_bytes() / (median(found[-1]["measurement"], "memory") / found[-1]["points"])
+                a_point = median(found[-1]["measurement"], "memory") / found[-1]["points"]
+                wall = self.memory_bytes() / a_point
         for name, values in [("Abacus, there", numbers(figure, "amortized")),
                              *((f"{name}, there", numbers(figure, "amortized", name)) for name in theirs)]:
             series[name] = [plain(key, value) for key, value in zip(keys, values) if value]
@@ -99,7 +102,7 @@ class GrowthFigures:
     def small_memory(self):
         figure, entries = FIGURE["5.13"], self.small()
         with_all = {entry["key"]: entry for entry in self.report.steps(2)}
-        beside = Beside(figure, POINTS_2D, entries, lambda key: count(key))
+        beside = self.report.beside(2, figure, entries)
         beside.add("points", "vertices", lambda e: count(e["points"]))
         beside.add("tables and B-trees", "database", lambda e: size(sum(e["triangulate"]["disk"].values())))
         beside.add("staging", "stage", lambda e: clock(median(e["stage"], "wall")))
@@ -108,7 +111,8 @@ class GrowthFigures:
         beside.add(PER_MILLION, "amortized", lambda e: number(a_million(e)))
         beside.add("÷ with all of the memory", "slowdown", lambda e: with_all.get(e["key"]) and number(
             both(e) / both(with_all[e["key"]])))
-        beside.add("share of the time on the CPU, triangulating", None, lambda e: percent_of(e["triangulate"]))
+        beside.add("share of the time on the CPU, triangulating", None, lambda e: percent(
+            median(e["triangulate"], "cpu") / median(e["triangulate"], "wall"), 0))
         beside.add("read from the disk, both steps", None, lambda e: size(both(e, "read")))
         beside.add("written to it", None, lambda e: size(both(e, "written")))
         beside.add("most memory of the group", None, lambda e: size(of_group(e, "peak")))
@@ -152,9 +156,10 @@ class GrowthFigures:
             wall, cpu = median(m, "wall"), median(m, "cpu")
             first.setdefault(name, (wall, cpu))
             text.append((name, f"{cache:,} MB", number(wall), number(wall / first[name][0]), number(cpu),
-                         number(cpu / first[name][1]), size(median(m, "memory")), f"{m['stats']['misses']:,.0f}"))
-        return table(("points", "cache", "triangulating, s", "÷ the smallest's", "CPU s", "÷ the smallest's",
-                      "private memory", "misses"), text)
+                         number(cpu / first[name][1]), size(median(m, "memory")),
+                         f"{m['stats']['misses']:,.0f}"))
+        return table(("points", "cache", "triangulating, s", "÷ the smallest's", "CPU s",
+                      "÷ the smallest's", "private memory", "misses"), text)
 
     def wall(self):
         rows = []
@@ -178,13 +183,10 @@ def a_million(entry, figure="wall"):
     return both(entry, figure) / entry["points"] * 1e6
 
 
-def percent_of(step):
-    return f"{100 * median(step, 'cpu') / median(step, 'wall'):.0f} %"
-
-
 def of_group(entry, figure):
-    samples = [s["group"] for step in ("stage", "triangulate") for s in entry[step]["samples"] if "group" in s]
-    return max((s[figure] for s in samples if s[figure] is not None), default=None)
+    samples = [sample["group"] for step in ("stage", "triangulate") for sample in entry[step]["samples"]
+               if "group" in sample]
+    return max((sample[figure] for sample in samples if sample[figure] is not None), default=None)
 
 
 def plain(x, y):

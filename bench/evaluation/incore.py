@@ -7,7 +7,6 @@ import machine
 import memory_group
 import paths
 import point_sets
-import server
 import steps
 
 MEGABYTE = 1 << 20

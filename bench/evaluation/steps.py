@@ -50,8 +50,8 @@ class Steps:
             sample["counted"] = int(sample.pop("printed"))
             step["samples"].append(sample)
             step["disk"] = disk()
-            suite.say(f"  {step['what']:12} {step['cache']:5} MB  {sample['wall']:9.3f} s   CPU {sample['cpu']:9.3f} s"
-                      f"   {sample['memory'] / MEGABYTE:6.0f} MB")
+            suite.say(f"  {step['what']:12} {step['cache']:5} MB  {sample['wall']:9.3f} s"
+                      f"   CPU {sample['cpu']:9.3f} s   {sample['memory'] / MEGABYTE:6.0f} MB")
         triangulate["stats"] = json.loads(server.query(
             "SELECT json_object_agg(name, value) FROM abacus_stats('mesh')"))
 
