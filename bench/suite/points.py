@@ -35,10 +35,12 @@ class PointSet:
     def create_table(self):
         """The table `points`, settled; their number."""
         server.drop("points", "mesh", "mesh_vertices")
-        server.query(f"CREATE TABLE points (id bigint, {self.columns.replace(',', ' float8,')} float8)")
+        columns = self.columns.replace(",", " float8,") + " float8"
         with subprocess.Popen(self.command("copy"), stdout=subprocess.PIPE) as source:
-            subprocess.run(["psql", "-X", "-q", "-v", "ON_ERROR_STOP=1",
-                            "-c", "COPY points FROM STDIN (FORMAT binary)"],
+            # In one transaction, so that the rows can be frozen as they come.
+            subprocess.run(["psql", "-X", "-q", "-v", "ON_ERROR_STOP=1", "-1",
+                            "-c", f"CREATE TABLE points (id bigint, {columns})",
+                            "-c", "COPY points FROM STDIN (FORMAT binary, FREEZE)"],
                            stdin=source.stdout, check=True)
         if source.returncode != 0:
             raise server.Failure(f"no points of {self.name}")
