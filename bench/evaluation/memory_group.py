@@ -101,6 +101,7 @@ class MemoryGroup:
         return ["sh", "-c", join, "sh", *map(str, command)]
 
     def forget_peak(self):
+        """In version 2 the peak is that since the group was made: few kernels can forget it."""
         if self.version == 1:
             write(self.folder / "memory.max_usage_in_bytes", 0)
 
