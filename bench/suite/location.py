@@ -21,11 +21,13 @@ def create_places(points, count):
     """
     server.drop("places", "ordered")
     columns = points.columns.split(", ")
-    server.query(f"SELECT setseed(0.5); CREATE TABLE places AS SELECT "
+    server.query("SELECT setseed(0.5); CREATE TABLE places AS SELECT "
                  + ", ".join(f"random() AS {column}" for column in columns)
                  + f" FROM generate_series(1, {count})")
-    server.query(f"CREATE TABLE ordered AS SELECT {points.columns} FROM places ORDER BY"
-                 f" coalesce((abacus_locate('mesh', {points.columns})).code, 0)")
+    megabytes = server.cache_size("largest")
+    with server.Session(abacus__cache_size=f"{megabytes}MB", max_parallel_workers_per_gather=0) as session:
+        session.run(f"CREATE TABLE ordered AS SELECT {points.columns} FROM places ORDER BY"
+                    f" coalesce((abacus_locate('mesh', {points.columns})).code, 0)")
     server.query("VACUUM (FREEZE, ANALYZE) places, ordered")
 
 
