@@ -96,5 +96,6 @@ PG_SOURCES += src/pg/fn_load.c
 CORE_SOURCES += src/goose/circumbox.cpp
 CORE_SOURCES += src/goose/goose.cpp
 CORE_SOURCES += src/capi/goose.cpp
+PG_SOURCES += src/pg/goose_row.c
 PG_SOURCES += src/pg/goose_table.c
 PG_SOURCES += src/pg/fn_goose.c

@@ -36,10 +36,12 @@ share(uint64 part, uint64 whole)
 static void
 put_counts(ReturnSetInfo *set, const abacus_goose_figures *figures)
 {
-	put_figure(set, "vertices", (double) figures->vertices, "distinct points; 0 while they span no simplex");
+	put_figure(set, "vertices", (double) figures->vertices,
+			   "distinct points; 0 while they span no simplex");
 	put_figure(set, "duplicates", (double) figures->duplicates, "points that equal an earlier one");
 	put_figure(set, "simplices", (double) figures->simplices, "simplices, a row each");
-	put_figure(set, "hull_facets", (double) figures->ghosts, "facets of the convex hull, rows until the end");
+	put_figure(set, "hull_facets", (double) figures->ghosts,
+			   "facets of the convex hull, rows until the end");
 	put_figure(set, "created", (double) figures->created, "rows inserted, hull facets included");
 	put_figure(set, "deleted", (double) figures->deleted, "rows deleted again");
 	put_figure(set, "deleted_percent", 100 * share(figures->deleted, figures->created),

@@ -26,8 +26,6 @@
  */
 #include "postgres.h"
 
-#include <math.h>
-
 #include "access/genam.h"
 #include "access/heapam.h"
 #include "access/relscan.h"
@@ -35,52 +33,23 @@
 #include "access/table.h"
 #include "access/tableam.h"
 #include "access/xact.h"
-#include "catalog/dependency.h"
 #include "catalog/index.h"
 #include "catalog/namespace.h"
 #include "catalog/pg_am.h"
 #include "catalog/pg_type.h"
-#include "commands/extension.h"
 #include "executor/spi.h"
-#include "extension/cube/cubedata.h"
 #include "lib/stringinfo.h"
 #include "utils/builtins.h"
-#include "utils/geo_decls.h"
 #include "utils/lsyscache.h"
 #include "utils/memutils.h"
 #include "utils/snapmgr.h"
 #include "utils/varlena.h"
 
+#include "pg/goose_row.h"
 #include "pg/goose_table.h"
 #include "pg/guard.h"
 
-/* Columns: ids, coordinates, box. */
-#define CORNERS(dimension) ((dimension) + 1)
-#define FIRST_COORDINATE(dimension) CORNERS(dimension)
-#define BOX_COLUMN(dimension) (CORNERS(dimension) * ((dimension) + 1))
-#define MAX_COLUMNS (BOX_COLUMN(ABACUS_MAX_DIMENSION) + 1)
-
 /* ---- The table -------------------------------------------------------------- */
-
-/* The type of boxes: PostgreSQL's own in the plane, that of an extension in space. */
-static Oid
-box_type(int dimension)
-{
-	Oid			extension;
-	Oid			type;
-
-	if (dimension == 2)
-		return BOXOID;
-	extension = get_extension_oid("cube", true);
-	type = OidIsValid(extension) ? getExtensionType(extension, "cube") : InvalidOid;
-	if (!OidIsValid(type))
-		ereport(ERROR,
-				(errcode(ERRCODE_UNDEFINED_OBJECT),
-				 errmsg("type \"cube\" does not exist"),
-				 errdetail("In three dimensions abacus_goose() finds simplices by boxes of this type."),
-				 errhint("CREATE EXTENSION cube.")));
-	return type;
-}
 
 static void
 run_utility(const char *command)
@@ -101,13 +70,13 @@ create_table(const char *name, Oid namespace, int dimension)
 
 	initStringInfo(&command);
 	appendStringInfo(&command, "CREATE TABLE %s (", qualified);
-	for (int i = 0; i < CORNERS(dimension); i++)
+	for (int i = 0; i < GOOSE_CORNERS(dimension); i++)
 		appendStringInfo(&command, "v%d pg_catalog.int8, ", i);
-	for (int i = 0; i < CORNERS(dimension); i++)
+	for (int i = 0; i < GOOSE_CORNERS(dimension); i++)
 		for (int k = 0; k < dimension; k++)
 			appendStringInfo(&command, "%c%d pg_catalog.float8, ", axes[k], i);
 	appendStringInfo(&command, "box %s) USING heap",
-					 format_type_be_qualified(box_type(dimension)));
+					 format_type_be_qualified(goose_box_type(dimension)));
 	SPI_connect();
 	run_utility(command.data);
 	run_utility(psprintf("CREATE INDEX ON %s USING gist (box)", qualified));
@@ -121,14 +90,14 @@ static void
 check_shape(const GooseTable *table, List *indexes)
 {
 	TupleDesc	row = RelationGetDescr(table->heap);
-	int			columns = BOX_COLUMN(table->dimension) + 1;
+	int			columns = GOOSE_BOX_COLUMN(table->dimension) + 1;
 	bool		is = row->natts == columns && list_length(indexes) == 1 &&
 		table->heap->rd_rel->relam == HEAP_TABLE_AM_OID;
 
 	for (int i = 0; is && i < columns; i++)
 		is = TupleDescAttr(row, i)->atttypid ==
-			(i < FIRST_COORDINATE(table->dimension) ? INT8OID :
-			 i < columns - 1 ? FLOAT8OID : box_type(table->dimension));
+			(i < GOOSE_FIRST_COORDINATE(table->dimension) ? INT8OID :
+			 i < columns - 1 ? FLOAT8OID : goose_box_type(table->dimension));
 	if (!is)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
@@ -181,106 +150,12 @@ goose_table_close(GooseTable *table)
 	table_close(table->heap, NoLock);
 }
 
-/* ---- Boxes as Datums ---------------------------------------------------------- */
-
-typedef union BoxRoom
-{
-	BOX			box;
-	char		cube[CUBE_SIZE(ABACUS_MAX_DIMENSION)];
-	double		alignment;
-} BoxRoom;
-
-static Datum
-box_datum(int dimension, const double *lower, const double *upper, BoxRoom *room)
-{
-	NDBOX	   *cube = (NDBOX *) room->cube;
-
-	if (dimension == 2)
-	{
-		room->box.low.x = lower[0];
-		room->box.low.y = lower[1];
-		room->box.high.x = upper[0];
-		room->box.high.y = upper[1];
-		return BoxPGetDatum(&room->box);
-	}
-	SET_VARSIZE(cube, CUBE_SIZE(dimension));
-	cube->header = 0;
-	SET_DIM(cube, dimension);
-	memcpy(cube->x, lower, dimension * sizeof(double));
-	memcpy(cube->x + dimension, upper, dimension * sizeof(double));
-	return PointerGetDatum(cube);
-}
-
-static bool
-read_box(int dimension, Datum datum, double *lower, double *upper)
-{
-	if (dimension == 2)
-	{
-		const BOX  *box = DatumGetBoxP(datum);
-
-		lower[0] = box->low.x;
-		lower[1] = box->low.y;
-		upper[0] = box->high.x;
-		upper[1] = box->high.y;
-	}
-	else
-	{
-		const NDBOX *cube = DatumGetNDBOXP(datum);
-
-		if (DIM(cube) != dimension)
-			return false;
-		for (int k = 0; k < dimension; k++)
-		{
-			lower[k] = LL_COORD(cube, k);
-			upper[k] = UR_COORD(cube, k);
-		}
-		if ((Pointer) cube != DatumGetPointer(datum))
-			pfree(unconstify(NDBOX *, cube));
-	}
-	return true;
-}
-
 /* ---- Rows ------------------------------------------------------------------------ */
-
-/* Takes the row in table->slot apart; false if it is none that insert_row() makes. */
-static bool
-decode_row(const GooseTable *table, abacus_boxed_simplex *row)
-{
-	TupleTableSlot *slot = table->slot;
-	int			dimension = table->dimension;
-	int			box = BOX_COLUMN(dimension);
-	int			corners;
-
-	slot_getallattrs(slot);
-	MemSet(row, 0, sizeof(*row));
-	row->simplex.ghost = slot->tts_isnull[dimension];
-	corners = CORNERS(dimension) - row->simplex.ghost;
-	for (int i = 0; i < corners; i++)
-	{
-		if (slot->tts_isnull[i])
-			return false;
-		row->simplex.id[i] = DatumGetInt64(slot->tts_values[i]);
-		for (int k = 0; k < dimension; k++)
-		{
-			int			column = FIRST_COORDINATE(dimension) + i * dimension + k;
-
-			if (slot->tts_isnull[column])
-				return false;
-			row->simplex.corner[i][k] = DatumGetFloat8(slot->tts_values[column]);
-			if (!isfinite(row->simplex.corner[i][k]))
-				return false;
-		}
-	}
-	row->location = ((uint64) ItemPointerGetBlockNumber(&slot->tts_tid) << 16) |
-		ItemPointerGetOffsetNumber(&slot->tts_tid);
-	return !slot->tts_isnull[box] &&
-		read_box(dimension, slot->tts_values[box], row->lower, row->upper);
-}
 
 static void
 read_row(const GooseTable *table, abacus_boxed_simplex *row)
 {
-	if (!decode_row(table, row))
+	if (!goose_row_decode(table->dimension, table->slot, row))
 		ereport(ERROR,
 				(errcode(ERRCODE_DATA_CORRUPTED),
 				 errmsg("table \"%s\" holds a row that is no simplex",
@@ -298,33 +173,18 @@ location_of(const abacus_boxed_simplex *row, ItemPointer tid)
 static void
 insert_row(GooseTable *table, const abacus_boxed_simplex *row)
 {
-	int			dimension = table->dimension;
-	int			corners = CORNERS(dimension) - row->simplex.ghost;
+	int			box = GOOSE_BOX_COLUMN(table->dimension);
 	MemoryContext old = MemoryContextSwitchTo(table->scratch);
-	Datum		values[MAX_COLUMNS] = {0};
-	bool		isnull[MAX_COLUMNS];
-	BoxRoom		room;
+	Datum		values[GOOSE_MAX_COLUMNS];
+	bool		isnull[GOOSE_MAX_COLUMNS];
+	GooseBox	room;
 	HeapTuple	tuple;
 
-	memset(isnull, true, sizeof(isnull));
-	for (int i = 0; i < corners; i++)
-	{
-		values[i] = Int64GetDatum(row->simplex.id[i]);
-		isnull[i] = false;
-		for (int k = 0; k < dimension; k++)
-		{
-			int			column = FIRST_COORDINATE(dimension) + i * dimension + k;
-
-			values[column] = Float8GetDatum(row->simplex.corner[i][k]);
-			isnull[column] = false;
-		}
-	}
-	values[BOX_COLUMN(dimension)] = box_datum(dimension, row->lower, row->upper, &room);
-	isnull[BOX_COLUMN(dimension)] = false;
+	goose_row_encode(table->dimension, row, values, isnull, &room);
 	tuple = heap_form_tuple(RelationGetDescr(table->heap), values, isnull);
 	heap_insert(table->heap, tuple, table->inserting, 0, NULL);
-	index_insert(table->index, &values[BOX_COLUMN(dimension)], &isnull[BOX_COLUMN(dimension)],
-				 &tuple->t_self, table->heap, UNIQUE_CHECK_NO, false, table->index_info);
+	index_insert(table->index, &values[box], &isnull[box], &tuple->t_self, table->heap,
+				 UNIQUE_CHECK_NO, false, table->index_info);
 	MemoryContextSwitchTo(old);
 	MemoryContextReset(table->scratch);
 }
@@ -347,11 +207,11 @@ count_box(PG_FUNCTION_ARGS)
 
 /* Starts a search. */
 static void
-search(GooseTable *table, ScanKey key, const double *lower, const double *upper, BoxRoom *room)
+search(GooseTable *table, ScanKey key, const double *lower, const double *upper, GooseBox *room)
 {
 	FmgrInfo   *consistent = &table->scan->keyData[0].sk_func;
 
-	key->sk_argument = box_datum(table->dimension, lower, upper, room);
+	key->sk_argument = goose_box(table->dimension, lower, upper, room);
 	index_rescan(table->scan, key, 1, NULL, 0);
 	look_at_box = consistent->fn_addr;	/* a rescan puts it there anew */
 	consistent->fn_addr = count_box;
@@ -362,7 +222,7 @@ static size_t
 find_rows(GooseTable *table, const double *point)
 {
 	size_t		count = 0;
-	BoxRoom		room;
+	GooseBox		room;
 
 	search(table, &table->overlaps, point, point, &room);
 	while (index_getnext_slot(table->scan, ForwardScanDirection, table->slot))
@@ -386,7 +246,7 @@ kill_entry(GooseTable *table, const abacus_boxed_simplex *row)
 	bool		killed = false;
 	ItemPointerData wanted;
 	ItemPointer tid;
-	BoxRoom		room;
+	GooseBox		room;
 
 	location_of(row, &wanted);
 	search(table, &table->equals, row->lower, row->upper, &room);
