@@ -142,10 +142,9 @@ class GrowthFigures:
 
     def caches(self):
         """The same points with caches of several sizes."""
-        part = self.report.results.parts.get("caches")
-        if part is None:
-            return ""
-        rows, seen = [], {(m["dimension"], m["points"]) for m in part["measurements"]}
+        rows, seen = [], {(m["dimension"], m["points"])
+                          for name, part in self.report.results.parts.items()
+                          if name.startswith("caches-") for m in part["measurements"]}
         for m in self.report.results.all(what="triangulate", memory=None):
             if (m["dimension"], m["points"]) in seen:
                 rows.append((f"{m['dimension']}D, {count(m['points'])}", m["cache"], m))
@@ -159,7 +158,7 @@ class GrowthFigures:
                          number(cpu / first[name][1]), size(median(m, "memory")),
                          f"{m['stats']['misses']:,.0f}"))
         return table(("points", "cache", "triangulating, s", "÷ the smallest's", "CPU s",
-                      "÷ the smallest's", "private memory", "misses"), text)
+                      "÷ the smallest's", "private memory", "misses"), text) if text else ""
 
     def wall(self):
         rows = []
