@@ -122,6 +122,7 @@ WANTED = [
     Wanted("`abacus_locate`, warm, along the curve ÷ rows of triangles with the exact test, by CPU time",
            30, False, habits.times_rows("exact_rows")),
     Wanted("… ÷ rows of triangles with a test in double precision", 30, False, habits.times_rows("rows")),
+    Wanted("… ÷ polygons of PostGIS", 30, False, habits.times_rows("postgis")),
     Wanted("Goose ÷ Abacus, 100,000 points, by CPU time", None, True,
            habits.times_abacus),
     Wanted("Goose ÷ Abacus, 1 M points, extrapolated by the growth of both", None, True,
