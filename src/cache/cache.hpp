@@ -351,10 +351,11 @@ private:
     void shrink();
     void choose_victims(Arena<BlockIndex> &victims);
     void evict(Arena<BlockIndex> &victims);
-    /// Lists the block's facets on its border, and numbers its vertices, those on the
-    /// border first.
+    void prefetch_vertices(BlockIndex b) const;
+    /// Lists the block's facets on its border, and numbers its vertices.
     void survey(BlockIndex b);
-    /// Surveys the block and makes its page; false if that has too many bytes.
+    void mark_border();
+    /// Makes the block's page, which surveys it; false if that has too many bytes.
     bool encode(BlockIndex b);
     void store(BlockIndex b);
     /// Parts the block, just surveyed, from those that stay.
@@ -390,21 +391,16 @@ private:
         std::uint32_t epoch;
         Link link; // with `absent` for an odd facet
     };
-    static constexpr std::uint32_t at_infinity = PageWriter<D>::at_infinity;
     PageView<D> view_;
     PageWriter<D> writer_;
     typename VertexHeap<D>::Numbering numbered_; // vertices by local number
-    std::size_t border_vertices_ = 0; // of them are on the border
-    Arena<std::uint32_t> corners_;  // local numbers, or at_infinity; D + 1 a simplex
-    Arena<std::uint32_t> uses_;     // of the vertices among corners_, by 1 + number
+    Arena<bool> on_border_;         // of these
+    Arena<std::uint32_t> uses_;     // of the vertices of the page being loaded
     Arena<VertexIndex> left_;       // border vertices of the blocks evicted together
     Arena<Link> border_;            // facets on the border of a block, from inside
-    Arena<std::uint16_t> rows_;     // numbers of a block's simplices by slot
-    Arena<Link> across_;            // links by these numbers, D + 1 a simplex
     Arena<double> values_;          // attributes of a vertex
     Arena<LocalFacet> facets_;      // hash table of the facets inside a page
     std::uint32_t epoch_ = 0;       // of facets_
-    std::array<bool, page_vertices<D>> on_border_; // of the page being loaded
 };
 
 template <int D>

@@ -9,7 +9,7 @@
 //
 // What leaves has not been used for long, so it is in no processor cache, and a page
 // is made from some hundred places in memory: the vertices, and the simplices beyond
-// its border. survey() asks for all of them before it reads the first.
+// its border. All of them are asked for before the first is read.
 #include "cache/cache.hpp"
 
 #include "cache/stopwatch.hpp"
@@ -137,15 +137,13 @@ template <int D> void Cache<D>::unlink(BlockIndex b) {
         slots_[neighbour].link[link_facet(link)] =
             absent | visible_.add(facet(h, link_facet(inner)), key, link);
     }
+    for_each_simplex(b, [&](Handle h) {
+        for (const VertexIndex v : slots_[h].vertex) vertices_.release(v);
+    });
     // A vertex off the border has no other simplices than these.
-    uses_.resize(numbered_.size() + 1);
-    std::fill(uses_.begin(), uses_.end(), 0);
-    for (const std::uint32_t corner : corners_) ++uses_[corner + 1]; // 0 for at_infinity
-    vertices_.release(infinite_vertex, uses_[0]);
     for (std::size_t n = 0; n < numbered_.size(); ++n) {
         const VertexIndex v = numbered_[n];
-        vertices_.release(v, uses_[n + 1]);
-        if (n < border_vertices_) left_.push_back(v);
+        if (on_border_[n]) left_.push_back(v);
         else if (vertices_.in_use(v)) throw_corrupted("A vertex has two separate stars.");
         else vertices_.destroy(v);
     }
@@ -183,88 +181,66 @@ template <int D> Key Cache<D>::key_beyond(Handle h, int facet) const {
     return {code(s), blocks_[block_of<D>(neighbour)].has_parts() ? part(s) : 0};
 }
 
-template <int D> void Cache<D>::survey(BlockIndex b) {
-    const Handle first = b * block_slots<D>;
-    const Simplex<D> *const begin = &slots_[first], *const end = begin + blocks_[b].high_water;
-    border_.reserve(block_slots<D> * (D + 1));
-    Link *border = border_.begin();
-    Handle h = first;
-    for (const Simplex<D> *s = begin; s != end; ++s, ++h) {
-        if (s->is_free()) continue;
-        // Nearly every vertex is the first of some simplex.
-        __builtin_prefetch(&vertices_[s->vertex[0]], 1);
-        for (int i = 0; i <= D; ++i) {
-            // An absent link is far above the handles of any block.
-            const Handle neighbour = link_simplex(s->link[i]);
-            if (neighbour - first < block_slots<D>) continue;
-            if (!is_absent(s->link[i])) __builtin_prefetch(&slots_[neighbour]);
-            *border++ = make_link(h, i);
-        }
-    }
-    border_.resize(static_cast<std::size_t>(border - border_.begin()));
+template <int D> void Cache<D>::prefetch_vertices(BlockIndex b) const {
+    // Nearly every vertex is the first of some simplex.
+    const Simplex<D> *const begin = &slots_[b * block_slots<D>];
+    for (const Simplex<D> *s = begin; s != begin + blocks_[b].high_water; ++s)
+        if (!s->is_free()) __builtin_prefetch(&vertices_[s->vertex[0]], 1);
+}
 
+template <int D> void Cache<D>::survey(BlockIndex b) {
+    prefetch_vertices(b);
+    const Handle first = b * block_slots<D>;
     numbered_.clear();
+    border_.clear();
+    for_each_simplex(b, [&](Handle h) {
+        const Simplex<D> &s = slots_[h];
+        for (int i = 0; i <= D; ++i) {
+            if (s.vertex[i] != infinite_vertex) numbered_.number(vertices_, s.vertex[i]);
+            // An absent link is far above the handles of any block.
+            if (link_simplex(s.link[i]) - first >= block_slots<D>)
+                border_.push_back(make_link(h, i));
+        }
+    });
+    mark_border();
+}
+
+/// Of the vertices numbered, and asks for the simplices beyond.
+template <int D> void Cache<D>::mark_border() {
+    on_border_.resize(numbered_.size());
+    std::fill(on_border_.begin(), on_border_.end(), false);
     for (const Link inner : border_) {
         const Simplex<D> &s = slots_[link_simplex(inner)];
+        const Link outer = s.link[link_facet(inner)];
+        if (!is_absent(outer)) __builtin_prefetch(&slots_[link_simplex(outer)]);
         for (int i = 0; i <= D; ++i)
             if (i != link_facet(inner) && s.vertex[i] != infinite_vertex)
-                numbered_.number(vertices_, s.vertex[i]);
-        // Its opposite vertex is all of the neighbour that is not the facet's.
-        const Link link = s.link[link_facet(inner)];
-        if (!is_absent(link))
-            __builtin_prefetch(&vertices_[slots_[link_simplex(link)].vertex[link_facet(link)]]);
-    }
-    border_vertices_ = numbered_.size();
-    corners_.resize(std::size_t(blocks_[b].count) * (D + 1));
-    std::uint32_t *corner = corners_.begin();
-    for (const Simplex<D> *s = begin; s != end; ++s) {
-        if (s->is_free()) continue;
-        for (int i = 0; i <= D; ++i)
-            *corner++ = s->vertex[i] == infinite_vertex ? at_infinity
-                                                        : numbered_.number(vertices_, s->vertex[i]);
+                on_border_[vertices_[s.vertex[i]].number] = true;
     }
 }
 
 template <int D> bool Cache<D>::encode(BlockIndex b) {
     const Stopwatch stopwatch(counters.translation_ns);
-    survey(b);
-    // Cold memory, wanted after the simplices have been put in order.
-    for (std::size_t n = 0; n < numbered_.size(); ++n) vertices_.prefetch_id(numbered_[n]);
-
+    prefetch_vertices(b);
     const Handle first = b * block_slots<D>;
-    const Simplex<D> *const begin = &slots_[first], *const end = begin + blocks_[b].high_water;
-    rows_.resize(block_slots<D>);
-    std::uint16_t *const rows = rows_.data();
-    std::uint16_t count = 0;
-    for (const Simplex<D> *s = begin; s != end; ++s) {
-        rows[s - begin] = count;
-        count = static_cast<std::uint16_t>(count + !s->is_free());
+    writer_.order(&slots_[first], blocks_[b].high_water, first, vertices_, numbered_, border_);
+    mark_border();
+    // The opposite vertex is all of the neighbour that is not the facet's.
+    for (const Link inner : border_) {
+        const Link outer = slots_[link_simplex(inner)].link[link_facet(inner)];
+        if (!is_absent(outer))
+            __builtin_prefetch(&vertices_[slots_[link_simplex(outer)].vertex[link_facet(outer)]]);
     }
-    across_.resize(std::size_t(count) * (D + 1));
-    Link *across = across_.data();
-    std::size_t links = 0; // as survey() lists them
-    for (const Simplex<D> *s = begin; s != end; ++s) {
-        if (s->is_free()) continue;
-        for (const Link link : s->link) {
-            const Handle slot = link_simplex(link) - first;
-            if (slot < block_slots<D>) *across++ = make_link(rows[slot], link_facet(link));
-            else *across++ = PageWriter<D>::outside(links++);
-        }
-    }
-    writer_.order(corners_.data(), across_.data(), count, numbered_.size(), border_vertices_,
-                  links, vertices_.attribute_count());
-    for (std::size_t n = 0; n < numbered_.size(); ++n) {
-        const VertexIndex v = numbered_[n];
-        writer_.set_vertex(n, vertices_.id(v), vertices_.point(v), vertices_[v].code,
-                           vertices_.attributes(v));
-    }
-    for (std::size_t i = 0; i < links; ++i) {
+    for (std::size_t n = 0; n < numbered_.size(); ++n) vertices_.prefetch_id(numbered_[n]);
+    for (std::size_t i = 0; i < border_.size(); ++i) {
         Key beyond = key_beyond(link_simplex(border_[i]), link_facet(border_[i]));
         if (beyond.part == unknown_part) beyond.part = 0;
         writer_.set_link(i, beyond);
     }
-    const bool fits = writer_.finish(blocks_[b].lower, blocks_[b].upper);
-    learn_size(count, static_cast<double>(writer_.size()));
+    const bool fits = writer_.finish(blocks_[b].lower, blocks_[b].upper, vertices_, numbered_,
+                                     on_border_.data());
+    learn_size(static_cast<std::uint32_t>(writer_.simplices()),
+               static_cast<double>(writer_.size()));
     return fits;
 }
 

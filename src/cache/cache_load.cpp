@@ -127,7 +127,8 @@ template <int D> void Cache<D>::link_inside(Handle first) {
         }
     }
     border_.clear();
-    on_border_.fill(false);
+    on_border_.resize(static_cast<std::size_t>(view_.vertices()));
+    std::fill(on_border_.begin(), on_border_.end(), false);
     for (int s = 0; s < simplices; ++s)
         for (int i = 0; i <= D; ++i) {
             if (slots_[first + s].link[i] != unset) continue;

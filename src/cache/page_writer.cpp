@@ -1,16 +1,14 @@
 #include "cache/page_writer.hpp"
 
-#include <numeric>
-
 namespace abacus {
 
 namespace {
 
-/// Where in `added` each corner is. Both have the same orientation, so the first corner
+/// Where in `slot` each corner is. Both have the same orientation, so the first corner
 /// tells in 2D, the first two in 3D.
 template <int D>
-const std::array<std::uint8_t, 4> &arrangement(const std::uint32_t *added,
-                                               const std::uint32_t *corner) {
+const std::array<std::uint8_t, 4> &arrangement(const std::array<VertexIndex, D + 1> &slot,
+                                               const VertexIndex *corner) {
     static constexpr std::array<std::array<std::uint8_t, 4>, 3> rotations{
         {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}}};
     static constexpr std::array<std::array<std::uint8_t, 4>, 16> even = [] {
@@ -27,9 +25,9 @@ const std::array<std::uint8_t, 4> &arrangement(const std::uint32_t *added,
             }
         return table;
     }();
-    const auto place = [&](std::uint32_t vertex) {
+    const auto place = [&](VertexIndex vertex) {
         unsigned at = 0;
-        for (unsigned i = 1; i <= D; ++i) at += added[i] == vertex ? i : 0;
+        for (unsigned i = 1; i <= D; ++i) at += slot[i] == vertex ? i : 0;
         return at;
     };
     if constexpr (D == 2) return rotations[place(corner[0])];
@@ -41,107 +39,122 @@ const std::array<std::uint8_t, 4> &arrangement(const std::uint32_t *added,
 // What comes next in a tree is as hard to foresee as a coin, so nothing is decided by a
 // branch where a sum will do.
 template <int D>
-void PageWriter<D>::order(const std::uint32_t *corners, const Link *across, std::size_t simplices,
-                          std::size_t vertices, std::size_t shared, std::size_t links,
-                          int attributes) {
-    simplices_ = simplices;
-    vertices_ = vertices;
-    shared_ = shared;
-    attributes_ = attributes;
-    links_.resize(links);
-    codes_.resize(shared);
-    columns_.resize(vertices * static_cast<std::size_t>(1 + D + attributes));
-    const auto n = static_cast<std::uint32_t>(simplices);
-    order_.resize(n + 1); // one more, to be overwritten
-    written_.resize(n * (D + 1));
-    reached_.resize(n + 1);
-    std::fill_n(reached_.begin(), n, 0);
-    reached_[n] = 1; // what is outside is never reached
-    numbers_.resize(1 + vertices);
-    std::fill(numbers_.begin(), numbers_.end(), none);
-    numbers_[0] = static_cast<std::uint16_t>(vertices);
-    named_.resize(n * (D + 1) + 1);
-    link_order_.resize(links + 1);
+void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle first,
+                          Vertices &vertices, Numbering &numbered, Arena<Link> &border) {
+    attributes_ = vertices.attribute_count();
+    numbered.clear();
+    numbered.reserve(std::size_t(end) * (D + 1) + 1);
+    border.resize(std::size_t(end) * (D + 1) + 1); // here and below one more, to be overwritten
+    order_.resize(end + 1);
+    written_.resize(std::size_t(end) * (D + 1));
+    named_.resize(std::size_t(end) * (D + 1) + 1);
+    reached_.resize(end + 1);
+    std::fill_n(reached_.begin(), end, 0);
+    reached_[end] = 1; // what is outside is never reached
 
     Placed *const order = order_.data();
     std::uint8_t *const reached = reached_.data();
-    std::uint32_t *const written = written_.data();
-    std::uint16_t *const numbers = numbers_.data(), *named = named_.data();
-    std::uint32_t *link_order = link_order_.data();
+    VertexIndex *const written = written_.data();
+    std::uint16_t *named = named_.data();
+    Link *to_border = border.data();
     std::uint32_t count = 0, root = 0;
-    unsigned fresh = 0; // next number
-    const auto number = [&](std::uint32_t vertex) -> unsigned {
-        // at_infinity has the first.
-        const unsigned old = numbers[vertex + 1], is_new = old == none;
-        const unsigned number = old + (fresh - old) * is_new;
-        numbers[vertex + 1] = *named = static_cast<std::uint16_t>(number);
-        fresh += is_new;
-        return is_new;
+    const auto number = [&](VertexIndex v) -> unsigned { // whether it is the next number
+        if (v == infinite_vertex) [[unlikely]] {
+            *named = none;
+            return 0;
+        }
+        const std::size_t next = numbered.size();
+        const std::uint32_t number = numbered.number_in_room(vertices, v);
+        *named = static_cast<std::uint16_t>(number);
+        return number == next;
     };
-    for (std::uint32_t at = 0; at < n; ++at) {
+    for (std::uint32_t at = 0;; ++at) {
         if (at == count) [[unlikely]] {
-            while (reached[root]) ++root;
+            while (root < end && (reached[root] || slots[root].is_free())) ++root;
+            if (root == end) break;
             reached[root] = 1;
             order[count++] = {root, PageView<D>::no_link, 0, 0};
         }
         const Placed placed = order[at];
-        const std::uint32_t *const added = corners + placed.simplex * (D + 1);
-        std::uint32_t *const corner = written + at * (D + 1);
+        const Simplex<D> &s = slots[placed.slot];
+        VertexIndex *const corner = written + at * (D + 1);
         int entry = D + 1;
         unsigned step = 0;
         if (placed.parent == PageView<D>::no_link) [[unlikely]] {
             for (int i = 0; i <= D; ++i, ++named) {
-                corner[i] = added[i];
-                number(added[i]);
+                corner[i] = s.vertex[i];
+                number(corner[i]);
             }
         } else {
-            const std::uint32_t apex = added[placed.mirror];
+            const VertexIndex apex = s.vertex[placed.mirror];
             step = number(apex);
             named += 1 - step;
             entry = child_across<D>(written + link_simplex(placed.parent) * (D + 1),
-                                    link_facet(placed.parent), apex, at_infinity, corner);
+                                    link_facet(placed.parent), apex, infinite_vertex, corner);
         }
-        const Link *const beyond = across + placed.simplex * (D + 1);
-        const auto &arranged = arrangement<D>(added, corner);
+        const auto &arranged = arrangement<D>(s.vertex, corner);
         unsigned children = 0;
         for (int f = 0; f <= D; ++f) { // the parent has been reached
-            const Link link = beyond[arranged[f]];
-            const unsigned is_outside = link >> 31;
-            const std::uint32_t simplex = is_outside ? n : link_simplex(link);
-            const unsigned is_child = 1u - reached[simplex];
-            reached[simplex] = 1;
-            order[count] = {simplex, static_cast<std::uint16_t>(make_link(at, f)),
+            const Link link = s.link[arranged[f]];
+            const std::uint32_t inside = link_simplex(link) - first;
+            const bool is_outside = inside >= end;
+            const std::uint32_t slot = is_outside ? end : inside;
+            const unsigned is_child = 1u - reached[slot];
+            reached[slot] = 1;
+            order[count] = {slot, static_cast<std::uint16_t>(make_link(at, f)),
                             static_cast<std::uint8_t>(link_facet(link)), 0};
             count += is_child;
             children |= is_child << f;
-            *link_order = link & ~absent;
-            link_order += is_outside & (link != untold);
+            *to_border = make_link(first + placed.slot, arranged[f]);
+            to_border += is_outside & (link != untold);
         }
         const unsigned before = (1u << entry) - 1; // of a root: all
         const unsigned bits = (children & before) | (children >> 1 & ~before);
         order[at].step = static_cast<std::uint8_t>(entry > D ? bits : step | bits << 1);
     }
+    simplices_ = count;
     named_.resize(static_cast<std::size_t>(named - named_.data()));
-    for (std::uint32_t v = 1; v <= vertices; ++v) // without simplices: refused by readers
-        if (numbers[v] == none) numbers[v] = static_cast<std::uint16_t>(fresh++);
-    // Links of untold facets.
-    const bool are_untold = link_order == link_order_.data();
-    link_order_.resize(links);
-    if (are_untold) std::iota(link_order_.begin(), link_order_.end(), 0u);
+    border.resize(static_cast<std::size_t>(to_border - border.data()));
+    links_.resize(border.size());
 }
 
-template <int D> bool PageWriter<D>::finish(const Key &lower, const Key &upper) {
+template <int D>
+bool PageWriter<D>::finish(const Key &lower, const Key &upper, const Vertices &vertices,
+                           const Numbering &numbered, const bool *on_border) {
+    vertices_ = numbered.size();
     size_ = ABACUS_PAGE_BYTES + 1;
     if (vertices_ > page_vertices<D> || simplices_ > block_slots<D>) return false;
-    code_links();
-    plan_columns();
+    gather(vertices, numbered);
+    code_links(vertices, numbered, on_border);
     size_ = planned_size();
     if (size_ > ABACUS_PAGE_BYTES) return false;
     write(lower, upper);
     return true;
 }
 
-template <int D> void PageWriter<D>::code_links() {
+/// Fills the columns of the vertices.
+template <int D>
+void PageWriter<D>::gather(const Vertices &vertices, const Numbering &numbered) {
+    const auto columns = static_cast<std::size_t>(1 + D + attributes_);
+    columns_.resize(vertices_ * columns);
+    plans_.resize(columns);
+    for (std::size_t n = 0; n < vertices_; ++n) {
+        const VertexIndex v = numbered[n];
+        std::uint64_t *word = columns_.data() + n;
+        *word = static_cast<std::uint64_t>(vertices.id(v));
+        for (const double x : vertices.point(v)) *(word += vertices_) = ordered(x);
+        const double *const values = vertices.attributes(v);
+        for (int i = 0; i < attributes_; ++i) *(word += vertices_) = ordered(values[i]);
+    }
+    for (std::size_t i = 0; i < columns; ++i)
+        plans_[i] = {columns_.data() + i * vertices_, vertices_};
+}
+
+/// A link is the number of a vertex with its code, mostly one on the border; after the
+/// vertices come the codes that none of them has.
+template <int D>
+void PageWriter<D>::code_links(const Vertices &vertices, const Numbering &numbered,
+                               const bool *on_border) {
     foreign_.clear();
     parts_.resize(links_.size());
     link_vertices_.resize(links_.size());
@@ -149,41 +162,39 @@ template <int D> void PageWriter<D>::code_links() {
         foreign_plan_ = parts_plan_ = {};
         return;
     }
-    // The first half of what is numbered are the vertices, the second the foreign codes.
-    const std::size_t size = std::bit_ceil(2 * (shared_ + links_.size()));
+    codes_.clear();
+    coded_.clear();
+    for (std::size_t n = 0; n < vertices_; ++n) {
+        if (!on_border[n]) continue;
+        codes_.push_back(vertices[numbered[n]].code);
+        coded_.push_back(static_cast<std::uint16_t>(n));
+    }
+    const std::size_t size = std::bit_ceil(2 * (codes_.size() + links_.size()));
     const int shift = 64 - std::countr_zero(size);
     index_.resize(size);
     std::fill(index_.begin(), index_.end(), none);
-    for (std::uint32_t v = 0; v < shared_; ++v) {
-        std::size_t at = codes_[v] * 0x9e3779b97f4a7c15ull >> shift;
-        while (index_[at] != none && codes_[index_[at]] != codes_[v]) at = (at + 1) & (size - 1);
-        index_[at] = static_cast<std::uint16_t>(v);
-    }
+    // The place of a code, or the free one that it would have.
+    const auto place = [&](std::uint64_t code) -> std::uint16_t & {
+        std::size_t at = code * 0x9e3779b97f4a7c15ull >> shift;
+        while (index_[at] != none && codes_[index_[at]] != code) at = (at + 1) & (size - 1);
+        return index_[at];
+    };
+    for (std::size_t i = 0; i < codes_.size(); ++i)
+        place(codes_[i]) = static_cast<std::uint16_t>(i);
     for (std::size_t i = 0; i < links_.size(); ++i) {
-        const Key &link = links_[link_order_[i]];
+        const Key &link = links_[i];
         parts_[i] = link.part;
-        std::size_t at = link.code * 0x9e3779b97f4a7c15ull >> shift;
-        for (;; at = (at + 1) & (size - 1)) {
-            const std::uint16_t known = index_[at];
-            if (known == none) {
-                index_[at] = static_cast<std::uint16_t>(vertices_ + foreign_.size());
-                foreign_.push_back(link.code);
-                break;
-            }
-            const std::uint64_t code =
-                known < vertices_ ? codes_[known] : foreign_[known - vertices_];
-            if (code == link.code) break;
+        std::uint16_t &known = place(link.code);
+        if (known == none) {
+            known = static_cast<std::uint16_t>(codes_.size());
+            codes_.push_back(link.code);
+            coded_.push_back(static_cast<std::uint16_t>(vertices_ + foreign_.size()));
+            foreign_.push_back(link.code);
         }
-        link_vertices_[i] = index_[at] < vertices_ ? numbers_[1 + index_[at]] : index_[at];
+        link_vertices_[i] = coded_[known];
     }
     foreign_plan_ = {foreign_.data(), foreign_.size()};
     parts_plan_ = {parts_.data(), parts_.size()};
-}
-
-template <int D> void PageWriter<D>::plan_columns() {
-    plans_.resize(static_cast<std::size_t>(1 + D + attributes_));
-    for (std::size_t i = 0; i < plans_.size(); ++i)
-        plans_[i] = {columns_.data() + i * vertices_, vertices_};
 }
 
 template <int D> std::size_t PageWriter<D>::planned_size() const {
@@ -222,6 +233,8 @@ template <int D> void PageWriter<D>::write(const Key &lower, const Key &upper) {
     BitWriter steps(at);
     for (std::size_t s = 0; s < simplices_; ++s) steps.put(order_[s].step, D + 1);
     at = steps.close();
+    for (std::uint16_t &number : named_) // the point at infinity comes after the vertices
+        number = std::min(number, static_cast<std::uint16_t>(vertices_));
     put(named_, std::bit_width(vertices_));
     seal_page(page_, size_);
 }

@@ -102,6 +102,20 @@ public:
             }
             return number;
         }
+        /// The same without branches, for where no processor can foresee whether a vertex is
+        /// new; reserve() has made room for it.
+        std::uint32_t number_in_room(VertexHeap &heap, VertexIndex v) {
+            std::uint32_t &number = heap.vertices_[v].number;
+            const auto next = static_cast<std::uint32_t>(list_.size());
+            const std::uint32_t old = std::min(number, next);
+            list_.data()[next] = free_mark; // no vertex
+            const bool is_new = list_.data()[old] != v;
+            number = is_new ? next : old;
+            list_.data()[next] = v;
+            list_.resize(next + is_new);
+            return number;
+        }
+        void reserve(std::size_t n) { list_.reserve(n); }
 
     private:
         Arena<VertexIndex> list_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <stdexcept>
 
 namespace abacus::test {
@@ -38,55 +39,65 @@ PageEditor::PageEditor(const MemoryHost::Page &page, const abacus_header &mesh)
     }
 }
 
-std::vector<Link> PageEditor::across_facets(const std::vector<std::uint32_t> &corners) const {
+std::vector<Simplex<2>> PageEditor::slots() const {
     struct Facet {
         Link link;
         bool odd;
     };
-    std::map<std::array<std::uint32_t, 2>, std::vector<Facet>> facets;
-    for (std::size_t s = 0; s < simplices.size(); ++s)
+    std::vector<Simplex<2>> slots;
+    std::map<std::array<VertexIndex, 2>, std::vector<Facet>> facets;
+    for (const auto &corners : simplices) {
+        Simplex<2> &slot = slots.emplace_back();
+        const auto handle = static_cast<Handle>(slots.size() - 1);
+        for (int i = 0; i < 3; ++i) slot.vertex[i] = static_cast<VertexIndex>(corners[i] + 1);
+        slot.link.fill(absent);
         for (int i = 0; i < 3; ++i) {
-            const FacetVertices<2, std::uint32_t> facet(&corners[3 * s], i);
-            facets[facet.vertex].push_back({make_link(static_cast<Handle>(s), i), facet.odd});
+            const FacetVertices<2, VertexIndex> facet(slot.vertex, i);
+            facets[facet.vertex].push_back({make_link(handle, i), facet.odd});
         }
-    std::vector<Link> across(corners.size(), PageWriter<2>::untold);
-    const auto at = [&](Link link) -> Link & {
-        return across[3 * link_simplex(link) + static_cast<std::size_t>(link_facet(link))];
-    };
+    }
     bool is_sound = true;
+    std::size_t outside = 0;
     for (const auto &[vertices, sides] : facets) {
         is_sound &= sides.size() == 1 || (sides.size() == 2 && sides[0].odd != sides[1].odd);
+        outside += sides.size() == 1;
         if (sides.size() != 2) continue;
-        at(sides[0].link) = sides[1].link;
-        at(sides[1].link) = sides[0].link;
+        for (int i = 0; i < 2; ++i)
+            slots[link_simplex(sides[i].link)].link[link_facet(sides[i].link)] =
+                sides[1 - i].link;
     }
-    std::size_t outside = 0;
-    for (Link &link : across)
-        if (link == PageWriter<2>::untold) link = PageWriter<2>::outside(outside++);
     if (!is_sound || outside != links.size())
-        std::fill(across.begin(), across.end(), PageWriter<2>::untold);
-    return across;
+        for (Simplex<2> &slot : slots) slot.link.fill(PageWriter<2>::untold);
+    return slots;
 }
 
 void PageEditor::write(MemoryHost::Page &page) const {
+    static_assert(infinity + 1 == infinite_vertex);
     MemoryHost memory;
     const Host host = memory.host();
-    PageWriter<2> writer(host);
-    std::vector<std::uint32_t> corners;
-    for (const auto &simplex : simplices)
-        for (const int corner : simplex)
-            corners.push_back(corner == infinity ? PageWriter<2>::at_infinity
-                                                 : static_cast<std::uint32_t>(corner));
-    const std::vector<Link> across = across_facets(corners);
-    writer.order(corners.data(), across.data(), simplices.size(), ids.size(), ids.size(),
-                 links.size(), attribute_count);
+    VertexHeap<2> vertices(host, attribute_count);
     for (std::size_t v = 0; v < ids.size(); ++v) {
         std::vector<double> values = attributes[v];
         values.resize(static_cast<std::size_t>(attribute_count));
-        writer.set_vertex(v, ids[v], points[v], domain.code(points[v]), values.data());
+        vertices.create(points[v], domain.code(points[v]), ids[v], values.data());
     }
-    for (std::size_t i = 0; i < links.size(); ++i) writer.set_link(i, links[i]);
-    if (!writer.finish(lower, upper)) throw std::logic_error("too much for a page");
+    PageWriter<2> writer(host);
+    VertexHeap<2>::Numbering numbered(host);
+    Arena<Link> border(host);
+    const std::vector<Simplex<2>> slots = this->slots();
+    writer.order(slots.data(), static_cast<std::uint32_t>(slots.size()), 0, vertices, numbered,
+                 border);
+    for (VertexIndex v = 1; v <= ids.size(); ++v) numbered.number(vertices, v); // of no simplex
+    const bool is_told = !border.empty();
+    writer.expect_links(links.size());
+    for (std::size_t i = 0; i < links.size(); ++i)
+        writer.set_link(i, links[is_told ? link_of(static_cast<int>(link_simplex(border[i])),
+                                                   link_facet(border[i]))
+                                         : i]);
+    const auto on_border = std::make_unique<bool[]>(numbered.size());
+    std::fill_n(on_border.get(), numbered.size(), true);
+    if (!writer.finish(lower, upper, vertices, numbered, on_border.get()))
+        throw std::logic_error("too much for a page");
     page.assign(writer.bytes(), writer.size());
 }
 

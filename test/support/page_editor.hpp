@@ -4,6 +4,7 @@
 
 #include "geometry/locational_code.hpp"
 #include "cache/page_format.hpp"
+#include "mesh/simplex.hpp"
 #include "support/memory_host.hpp"
 
 #include <array>
@@ -39,8 +40,8 @@ struct PageEditor {
     std::vector<std::array<int, 3>> simplices;
 
 private:
-    /// What PageWriter is told of each facet.
-    std::vector<Link> across_facets(const std::vector<std::uint32_t> &corners) const;
+    /// What PageWriter is told: vertices by 1 + their number, and what lies across each facet.
+    std::vector<Simplex<2>> slots() const;
 };
 
 } // namespace abacus::test

@@ -84,19 +84,25 @@ protected:
     Square() : host_(memory_.host()), writer_(host_) {}
 
     const PageView<2> &write(bool told) {
-        const std::uint32_t corners[] = {0, 1, 2, 2, 3, 0};
-        std::vector<Link> across(6, PageWriter<2>::untold);
-        if (told)
-            across = {PageWriter<2>::outside(0), make_link(1, 1), PageWriter<2>::outside(1),
-                      PageWriter<2>::outside(2), make_link(0, 1), PageWriter<2>::outside(3)};
-        writer_.order(corners, across.data(), 2, 4, 4, 4, 1);
+        VertexHeap<2> vertices(host_, 1);
         const Point<2> points[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
         for (std::size_t v = 0; v < 4; ++v) {
             const double height = 0.5 * static_cast<double>(v);
-            writer_.set_vertex(v, 100 + static_cast<std::int64_t>(v), points[v], 10 * v, &height);
+            vertices.create(points[v], 10 * v, 100 + static_cast<std::int64_t>(v), &height);
         }
+        const Link side = told ? absent : PageWriter<2>::untold;
+        const Simplex<2> slots[] = {
+            {{1, 2, 3}, {side, told ? make_link(1, 1) : side, side}},
+            {{3, 4, 1}, {side, told ? make_link(0, 1) : side, side}},
+        };
+        VertexHeap<2>::Numbering numbered(host_);
+        Arena<Link> border(host_);
+        writer_.order(slots, 2, 0, vertices, numbered, border);
+        EXPECT_EQ(border.size(), told ? 4u : 0u);
+        writer_.expect_links(4);
         for (std::size_t i = 0; i < 4; ++i) writer_.set_link(i, {i < 2 ? 10 * i : 1000 + i, 0});
-        EXPECT_TRUE(writer_.finish({5, 6}, {7, 8}));
+        const bool on_border[] = {true, true, true, true};
+        EXPECT_TRUE(writer_.finish({5, 6}, {7, 8}, vertices, numbered, on_border));
         view_.read(writer_.bytes(), writer_.size(), 1);
         return view_;
     }
