@@ -8,13 +8,16 @@ namespace {
 /// What an open spool costs the host: a database buffers a page of each file.
 constexpr std::size_t host_bytes_per_spool = 8192;
 /// More spools at once would only make the writes smaller.
-constexpr unsigned most_spools = 128;
+constexpr unsigned most_spools = 256;
 constexpr std::size_t least_piece_bytes = 8192, most_piece_bytes = 65536;
 /// Page being filled, handle, lists of parts.
 constexpr std::size_t overhead = 65536;
 /// Share of the memory that a part is meant to fill; the rest is for the errors
 /// of the sample.
 constexpr double fill = 0.75;
+/// A part that is sorted in the processor's cache: its records come to the sink without
+/// misses. Smaller ones than memory holds, then, where spools can be had for them.
+constexpr std::size_t cached_part_bytes = std::size_t{1} << 20;
 /// Records that are copied together from where they lie in memory. Each is a miss of all
 /// caches, that of page addresses included; in a loop of its own many are under way at once.
 constexpr std::size_t gathered_at_once = 64;
@@ -108,8 +111,9 @@ template <int D>
 unsigned ExternalSort<D>::parts_for(std::uint64_t records, const Slice<D> &slice) const {
     const unsigned rounds = slice.rounds == nullptr ? 0 : slice.rounds->size();
     const unsigned room = (2 * budget_.spools - std::min(2 * budget_.spools, open_spools_)) / 2;
-    const double wanted =
-        std::ceil(static_cast<double>(records) / (fill * static_cast<double>(budget_.records)));
+    const double part = std::min(fill * static_cast<double>(budget_.records),
+                                 static_cast<double>(cached_part_bytes / (8 * stride_)));
+    const double wanted = std::ceil(static_cast<double>(records) / part);
     // Cutting between rounds and rounding up add one part a round.
     return static_cast<unsigned>(
         std::min<double>(wanted, std::max(3u, room > rounds ? room - rounds : 0)));
