@@ -14,6 +14,7 @@ CORE_SOURCES += src/staging/vertex_page.cpp
 CORE_SOURCES += src/staging/radix_sort.cpp
 CORE_SOURCES += src/staging/curve_sort.cpp
 CORE_SOURCES += src/staging/splitters.cpp
+CORE_SOURCES += src/staging/distributor.cpp
 CORE_SOURCES += src/staging/external_sort.cpp
 CORE_SOURCES += src/staging/stage.cpp
 CORE_SOURCES += src/staging/repeated_points.cpp

@@ -106,7 +106,7 @@ template <int D> void Load<D>::refuse_unknown(Word simplex, Word id) {
 }
 
 template <int D> void Load<D>::order_vertices() {
-    if (!domain_) domain_.emplace(box_.lower, box_.upper);
+    if (!domain_) domain_ = domain_around<D>(box_.lower, box_.upper);
     // Code, coordinates, then the rest of the record.
     RecordSort places(host_, 1 + layout_.vertex, 1 + D, share_);
     used_.rewind();
@@ -379,9 +379,11 @@ template <int D> void Load<D>::finish(abacus_header &header) {
     if (delaunay_) ordered_.close();
     else write_vertices();
 
-    header.has_domain = 1;
-    std::copy_n(domain_->lower().begin(), D, header.lower);
-    std::copy_n(domain_->upper().begin(), D, header.upper);
+    if (header.has_domain == 0) {
+        header.has_domain = 1;
+        std::copy_n(box_.lower.begin(), D, header.lower);
+        std::copy_n(box_.upper.begin(), D, header.upper);
+    }
     header.vertices = vertex_count_;
     header.simplices = simplex_count_;
     header.not_delaunay = !delaunay_;

@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t host_bytes_per_spool = 8192;
 /// More spools at once would only make the writes smaller.
 constexpr unsigned most_spools = 256;
-constexpr std::size_t least_piece_bytes = 8192, most_piece_bytes = 65536;
+constexpr std::size_t least_piece_bytes = 8192, most_piece_bytes = 16384;
 /// Page being filled, handle, lists of parts.
 constexpr std::size_t overhead = 65536;
 /// Share of the memory that a part is meant to fill; the rest is for the errors
@@ -53,18 +53,30 @@ void ExternalSort<D>::run(const std::uint64_t *records, std::size_t n, const Sli
     emit(records, order, n);
 }
 
-template <int D> void ExternalSort<D>::run(Spool &spool, const Slice<D> &slice) {
-    const std::uint64_t n = spool.size();
-    open_spools_ = 1;
-    Arena<Part> parts(host_);
+template <int D> void ExternalSort<D>::run(Arena<Spool> &spools, const Slice<D> &slice) {
+    std::uint64_t n = 0;
+    for (const Spool &spool : spools) n += spool.size();
+    open_spools_ = static_cast<unsigned>(spools.size());
     pacer_.begin(ABACUS_PHASE_SORTING, n);
-    cut(spool, slice, parts, true);
+    Arena<Part<D>> parts = cut(spools.data(), spools.size(), slice, true);
     pacer_.begin(sink_.phase(), n);
     sort_parts(parts);
 }
 
-template <int D> void ExternalSort<D>::sort_parts(Arena<Part> &parts) {
-    for (Part &part : parts) sort_spool(part.spool, part.slice);
+template <int D> void ExternalSort<D>::run(Arena<Part<D>> &parts) {
+    std::uint64_t n = 0;
+    for (const Part<D> &part : parts) {
+        n += part.spool.size();
+        open_spools_ += part.spool.size() > 0;
+    }
+    pacer_.begin(ABACUS_PHASE_SORTING, n); // which goes on between what the sink does
+    pacer_.poll();
+    pacer_.begin(sink_.phase(), n);
+    sort_parts(parts);
+}
+
+template <int D> void ExternalSort<D>::sort_parts(Arena<Part<D>> &parts) {
+    for (Part<D> &part : parts) sort_spool(part.spool, part.slice);
 }
 
 template <int D> void ExternalSort<D>::sort_spool(Spool &spool, const Slice<D> &slice) {
@@ -81,9 +93,9 @@ template <int D> void ExternalSort<D>::sort_spool(Spool &spool, const Slice<D> &
     sort_.release();
     const Box<D> box = survey(spool);
     if (slice.has_one_code() && box.is_point()) return emit_as_is(spool);
-    Arena<Part> parts(host_);
-    cut(spool, slice.has_one_code() ? Slice<D>{Domain<D>(box.lower, box.upper)} : slice, parts,
-        false);
+    Arena<Part<D>> parts =
+        cut(&spool, 1, slice.has_one_code() ? Slice<D>{Domain<D>(box.lower, box.upper)} : slice,
+            false);
     sort_parts(parts);
 }
 
@@ -119,49 +131,30 @@ unsigned ExternalSort<D>::parts_for(std::uint64_t records, const Slice<D> &slice
         std::min<double>(wanted, std::max(3u, room > rounds ? room - rounds : 0)));
 }
 
-/// Distributes a spool over spools, one for each part of its slice.
+/// Distributes spools over spools, one for each part of their slice, and closes them.
 template <int D>
-void ExternalSort<D>::cut(Spool &spool, const Slice<D> &slice, Arena<Part> &parts, bool report) {
-    const Splitters<D> splitters(host_, slice, sample_, parts_for(spool.size(), slice));
-    parts.reserve(splitters.size());
-    for (unsigned i = 0; i < splitters.size(); ++i) parts.push_back({Spool(), splitters.slice(i)});
-    distribute(spool, splitters, parts, report);
-    close(spool);
-}
-
-template <int D>
-void ExternalSort<D>::distribute(Spool &spool, const Splitters<D> &splitters, Arena<Part> &parts,
-                                 bool report) {
-    const std::size_t piece = budget_.piece, piece_words = piece * stride_;
+Arena<Part<D>> ExternalSort<D>::cut(Spool *spools, std::size_t n, const Slice<D> &slice,
+                                    bool report) {
+    std::uint64_t records = 0;
+    for (std::size_t i = 0; i < n; ++i) records += spools[i].size();
+    Distributor<D> distributor(host_, stride_, budget_.piece, slice, sample_,
+                               parts_for(records, slice));
     records_.reset();
-    records_.reserve((parts.size() + 1) * piece_words);
-    std::uint64_t *const input = records_.data() + parts.size() * piece_words;
-    Arena<std::size_t> waiting(host_); // records in the buffer of each part
-    waiting.resize(parts.size());
-    std::fill(waiting.begin(), waiting.end(), 0);
-    const auto write = [&](std::size_t part) {
-        if (parts[part].spool.size() == 0) ++open_spools_;
-        parts[part].spool.write(host_, records_.data() + part * piece_words, waiting[part],
-                                stride_);
-        waiting[part] = 0;
-    };
-
-    spool.rewind(host_);
-    std::uint64_t done = 0;
-    while (const std::size_t n = spool.read(host_, input, piece, stride_)) {
-        for (std::size_t i = 0; i < n; ++i) {
-            const std::uint64_t *record = input + i * stride_;
-            const unsigned part = splitters.part(record_point<D>(record));
-            std::uint64_t *to = records_.data() + part * piece_words + waiting[part] * stride_;
-            for (std::size_t word = 0; word < stride_; ++word) to[word] = record[word];
-            if (++waiting[part] == piece) write(part);
+    records_.reserve(budget_.piece * stride_);
+    for (std::size_t i = 0; i < n; ++i) {
+        spools[i].rewind(host_);
+        while (const std::size_t read =
+                   spools[i].read(host_, records_.data(), budget_.piece, stride_)) {
+            for (std::size_t r = 0; r < read; ++r)
+                distributor.add(records_.data() + r * stride_);
+            report ? pacer_.reached(distributor.size()) : pacer_.poll();
         }
-        done += n;
-        report ? pacer_.reached(done) : pacer_.poll();
+        close(spools[i]);
     }
-    for (std::size_t part = 0; part < parts.size(); ++part)
-        if (waiting[part] > 0) write(part);
     records_.reset();
+    Arena<Part<D>> parts = distributor.finish();
+    for (const Part<D> &part : parts) open_spools_ += part.spool.size() > 0;
+    return parts;
 }
 
 template <int D>

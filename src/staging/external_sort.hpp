@@ -8,9 +8,7 @@
 #pragma once
 
 #include "staging/curve_sort.hpp"
-#include "staging/sample.hpp"
-#include "staging/splitters.hpp"
-#include "staging/spool.hpp"
+#include "staging/distributor.hpp"
 #include "staging/record_sink.hpp"
 
 namespace abacus {
@@ -25,6 +23,8 @@ struct SortBudget {
     std::size_t records; ///< held and sorted at once
     std::size_t sampled; ///< points of a sample
     unsigned spools;     ///< written at once
+    /// Parts for records of which nobody knows yet how many come.
+    unsigned parts(unsigned rounds) const { return std::max(3u, spools - std::min(spools, rounds)); }
     std::size_t piece;   ///< records that are read or written at once
 };
 
@@ -35,20 +35,16 @@ public:
 
     /// Sorts n records in memory, at most budget.records.
     void run(const std::uint64_t *records, std::size_t n, const Slice<D> &slice);
-    /// Sorts a spool, of which `sample` is a sample, and closes it.
-    void run(Spool &spool, const Slice<D> &slice);
+    /// Sorts spools, of which `sample` is a sample, and closes them.
+    void run(Arena<Spool> &spools, const Slice<D> &slice);
+    /// Sorts parts that come one after the other, and closes their spools.
+    void run(Arena<Part<D>> &parts);
 
 private:
-    struct Part {
-        Spool spool;
-        Slice<D> slice;
-    };
-
     void sort_spool(Spool &spool, const Slice<D> &slice);
-    void cut(Spool &spool, const Slice<D> &slice, Arena<Part> &parts, bool report);
+    Arena<Part<D>> cut(Spool *spools, std::size_t n, const Slice<D> &slice, bool report);
     unsigned parts_for(std::uint64_t records, const Slice<D> &slice) const;
-    void distribute(Spool &spool, const Splitters<D> &splitters, Arena<Part> &parts, bool report);
-    void sort_parts(Arena<Part> &parts);
+    void sort_parts(Arena<Part<D>> &parts);
     Box<D> survey(Spool &spool);
     void emit(const std::uint64_t *records, const std::uint64_t *order, std::size_t n);
     void emit_as_is(Spool &spool);

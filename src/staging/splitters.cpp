@@ -1,7 +1,5 @@
 #include "staging/splitters.hpp"
 
-#include <algorithm>
-
 namespace abacus {
 namespace {
 
@@ -18,7 +16,7 @@ bool operator<(const Place &a, const Place &b) {
 
 template <int D>
 Splitters<D>::Splitters(const Host &host, const Slice<D> &slice, const Sample<D> &sample,
-                        unsigned parts)
+                        unsigned parts, bool more_rounds)
     : slice_(slice), rounds_(slice.rounds == nullptr ? 1 : slice.rounds->size()), lower_(host) {
     Arena<Place> places(host);
     places.reserve(sample.size());
@@ -35,8 +33,9 @@ Splitters<D>::Splitters(const Host &host, const Slice<D> &slice, const Sample<D>
         const double share = static_cast<double>(codes.size()) / static_cast<double>(places.size());
         // A slice of several rounds is cut at least between them.
         const unsigned least = rounds_ == 1 ? 2 : 1;
+        const bool whole = more_rounds && round == 0;
         cut_round(codes.data(), codes.size(),
-                  std::max(least, static_cast<unsigned>(std::ceil(parts * share))));
+                  whole ? 1 : std::max(least, static_cast<unsigned>(std::ceil(parts * share))));
         first_part_[round + 1] = static_cast<unsigned>(lower_.size());
     }
 }

@@ -10,12 +10,17 @@
 #include "staging/sample.hpp"
 #include "staging/slice.hpp"
 
+#include <algorithm>
+
 namespace abacus {
 
 template <int D> class Splitters {
 public:
-    /// Cuts into about `parts` parts, at least two; at most two more for each round.
-    Splitters(const Host &host, const Slice<D> &slice, const Sample<D> &sample, unsigned parts);
+    /// Cuts into about `parts` parts, at least two; at most two more for each round. With
+    /// `more_rounds` the round of the points promoted most often stays one part: when more
+    /// points come, it may become several.
+    Splitters(const Host &host, const Slice<D> &slice, const Sample<D> &sample, unsigned parts,
+              bool more_rounds = false);
 
     /// Number of parts.
     unsigned size() const { return first_part_[rounds_]; }
@@ -34,8 +39,12 @@ public:
         return static_cast<unsigned>(ends - lower_.data());
     }
 
-    /// The slice that is one of the parts.
+    /// The slice that is one of the parts, and its round.
     Slice<D> slice(unsigned part) const;
+    unsigned round(unsigned part) const {
+        return static_cast<unsigned>(
+            std::upper_bound(first_part_, first_part_ + rounds_, part) - first_part_ - 1);
+    }
 
 private:
     void cut_round(const std::uint64_t *codes, std::size_t n, unsigned parts);

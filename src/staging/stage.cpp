@@ -12,7 +12,9 @@ template <int D>
 Stage<D>::Stage(const Host &host, const abacus_header &header, std::size_t memory)
     : host_(host), stride_(record_words(D, header.attributes)),
       budget_(memory, 8 * stride_, D),
-      pacer_(host), sample_(host, budget_.sampled), buffer_(host), room_(budget_.records) {
+      pacer_(host), sample_(host, budget_.sampled), buffer_(host), room_(budget_.records),
+      piles_(host) {
+    if (header.has_domain != 0) domain_ = domain_of<D>(header);
     pacer_.begin(ABACUS_PHASE_READING, 0);
 }
 
@@ -42,20 +44,51 @@ template <int D> void Stage<D>::copy(const std::uint64_t *points, std::size_t co
     buffered_ += count;
 }
 
-/// Moves the buffer to the spool. From the first time on, the buffer is small.
+/// Moves the buffer to spools. From the first time on, the buffer is small.
 template <int D> void Stage<D>::spill() {
+    const std::size_t stride = stride_;
+    for (std::size_t i = 0; i < buffered_; ++i)
+        sample_.add(record_point<D>(buffer_.data() + i * stride));
+    if (spilled_ == 0) begin_to_distribute();
+    else if (distributor_ && !domain_ &&
+             !is_distributed_over(domain_around<D>(box_.lower, box_.upper)))
+        stop_distributing();
     for (std::size_t at = 0; at < buffered_;) {
         const std::size_t n = std::min(buffered_ - at, budget_.piece);
-        const std::uint64_t *records = buffer_.data() + at * stride_;
-        for (std::size_t i = 0; i < n; ++i) sample_.add(record_point<D>(records + i * stride_));
-        spool_.write(host_, records, n, stride_);
+        const std::uint64_t *records = buffer_.data() + at * stride;
+        if (distributor_)
+            for (std::size_t i = 0; i < n; ++i) distributor_->add(records + i * stride);
+        else
+            piles_.back().write(host_, records, n, stride);
         at += n;
         pacer_.poll();
     }
+    spilled_ += buffered_;
     buffered_ = 0;
     if (room_ == budget_.piece) return;
     buffer_.reset();
     room_ = budget_.piece;
+}
+
+template <int D> void Stage<D>::begin_to_distribute() {
+    piles_.push_back(Spool());
+    rounds_.emplace(buffered_);
+    if (rounds_->size() == 1) return;
+    const Slice<D> slice{domain_ ? *domain_ : domain_around<D>(box_.lower, box_.upper), &*rounds_};
+    distributor_.emplace(host_, stride_, budget_.piece, slice, sample_,
+                         budget_.parts(rounds_->size()), true);
+}
+
+template <int D> void Stage<D>::stop_distributing() {
+    for (const Part<D> &part : distributor_->finish())
+        if (part.spool.size() > 0) piles_.push_back(part.spool);
+    distributor_.reset();
+    piles_.push_back(Spool());
+}
+
+template <int D> bool Stage<D>::is_distributed_over(const Domain<D> &domain) const {
+    const Domain<D> &distributed = distributor_->slice().domain;
+    return distributed.lower() == domain.lower() && distributed.upper() == domain.upper();
 }
 
 template <int D> void Stage<D>::end(abacus_header &header) {
@@ -72,12 +105,24 @@ void Stage<D>::emit(RecordSink &sink, const abacus_header &header, bool reversed
     const Rounds<D> rounds(n, reversed);
     const Slice<D> all{domain_of<D>(header), rounds.size() > 1 ? &rounds : nullptr};
     ExternalSort<D> sort(host_, stride_, budget_, sample_, pacer_, sink);
-    if (spool_.size() == 0) {
+    if (spilled_ == 0) {
         sort.run(buffer_.data(), n, all);
     } else {
         spill();
         buffer_.reset();
-        sort.run(spool_, all);
+        if (distributor_ && !is_distributed_over(all.domain)) stop_distributing();
+        if (distributor_) {
+            Arena<Part<D>> parts = distributor_->finish();
+            // There may be more rounds now than there were: of those promoted most often.
+            parts[0].slice = all;
+            if (reversed) // inside a round the order is the same
+                std::stable_sort(parts.begin(), parts.end(), [](const auto &a, const auto &b) {
+                    return a.round > b.round;
+                });
+            sort.run(parts);
+        } else {
+            sort.run(piles_, all);
+        }
     }
     sink.finish();
     pacer_.end(n, sink.pages_moved());

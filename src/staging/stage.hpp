@@ -3,9 +3,17 @@
 //
 // The order is a function of the set of points (and of the input order of equal
 // ones) alone: not of the memory, nor of how the points came in.
+//
+// It depends on the domain, which is known for sure only with the last point. But a domain
+// is a coarse box around the points (domain_of.hpp): that of the first points, once they
+// are too many for memory, is most often that of all. So points are distributed over the
+// parts of the order as they come in; if the domain turns out to be another one, what has
+// been distributed is only a pile to be distributed anew.
 #pragma once
 
 #include "staging/external_sort.hpp"
+
+#include <optional>
 
 namespace abacus {
 
@@ -24,11 +32,15 @@ public:
     void finish(abacus_header &header);
 
     /// Points so far.
-    std::uint64_t points() const { return spool_.size() + buffered_; }
+    std::uint64_t points() const { return spilled_ + buffered_; }
 
 private:
     void copy(const std::uint64_t *points, std::size_t count);
     void spill();
+    /// Begins to distribute what comes, if it is enough for several rounds.
+    void begin_to_distribute();
+    void stop_distributing();
+    bool is_distributed_over(const Domain<D> &domain) const;
 
     const Host &host_;
     const std::size_t stride_;
@@ -39,7 +51,11 @@ private:
     Arena<std::uint64_t> buffer_;
     std::size_t buffered_ = 0; ///< records in the buffer
     std::size_t room_;         ///< records that may be in the buffer
-    Spool spool_;              ///< the records before those, once they are too many
+    std::uint64_t spilled_ = 0; ///< the records before those
+    std::optional<Domain<D>> domain_; ///< if the header has one from the start
+    std::optional<Rounds<D>> rounds_; ///< of the distributor's slice
+    std::optional<Distributor<D>> distributor_;
+    Arena<Spool> piles_; ///< what is in no distributor; the last one takes more
 };
 
 extern template class Stage<2>;

@@ -2,6 +2,7 @@
 // own, beside the points that it should have.
 #pragma once
 
+#include "cache/domain_of.hpp"
 #include "delaunay/insertion.hpp"
 #include "delaunay/removal.hpp"
 #include "support/oracle.hpp"
@@ -13,8 +14,8 @@
 
 namespace abacus::test {
 
-/// The domain around the points.
-template <int D> Domain<D> domain_around(const std::vector<Point<D>> &points) {
+/// The bounding box of the points, as a domain.
+template <int D> Domain<D> box_around(const std::vector<Point<D>> &points) {
     Point<D> lower, upper;
     lower.fill(std::numeric_limits<double>::max());
     upper.fill(std::numeric_limits<double>::lowest());
@@ -28,13 +29,14 @@ template <int D> Domain<D> domain_around(const std::vector<Point<D>> &points) {
 
 template <int D> class MeshInChange {
 public:
-    MeshInChange(const Domain<D> &domain, std::size_t cache_bytes, int attributes = 0)
+    MeshInChange(const Domain<D> &box, std::size_t cache_bytes, int attributes = 0)
         : mesh_(attributes), host_(mesh_.host.host()),
-          cache(host_, domain, attributes, {.budget = cache_bytes, .verify_links = true}),
+          cache(host_, domain_around<D>(box.lower(), box.upper()), attributes,
+                {.budget = cache_bytes, .verify_links = true}),
           delaunay(host_, cache, 0, 0), insertion(delaunay), removal(delaunay) {
         mesh_.header.has_domain = 1;
-        std::copy_n(domain.lower().begin(), D, mesh_.header.lower);
-        std::copy_n(domain.upper().begin(), D, mesh_.header.upper);
+        std::copy_n(box.lower().begin(), D, mesh_.header.lower);
+        std::copy_n(box.upper().begin(), D, mesh_.header.upper);
     }
 
     /// Starts the mesh with these points, in some order; false if they span no simplex.

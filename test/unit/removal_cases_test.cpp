@@ -67,7 +67,7 @@ TEST(RemovalInTurns, InSpace) { insert_and_remove<3>(12, 12000 / scale, 200); }
 template <int D> void remove_hub(const std::vector<Point<D>> &points, const Point<D> &hub) {
     auto all = points;
     all.push_back(hub);
-    const Domain<D> domain = domain_around<D>(all);
+    const Domain<D> domain = box_around<D>(all);
     std::sort(all.begin(), all.end(), [&](const Point<D> &a, const Point<D> &b) {
         return domain.code(a) < domain.code(b);
     });
@@ -126,7 +126,7 @@ TEST(RemovalOfAHub, ApexOverABumpyGrid) {
 template <int D> void expect_collapse(const std::vector<Point<D>> &points, const Point<D> &last) {
     auto all = points;
     all.push_back(last);
-    MeshInChange<D> mesh(domain_around<D>(all), little, 1);
+    MeshInChange<D> mesh(box_around<D>(all), little, 1);
     ASSERT_TRUE(mesh.build(all));
     const auto deleted = mesh.cache.counters.deleted;
     ASSERT_EQ(mesh.removal.remove(last), Removed::collapses);

@@ -17,7 +17,7 @@ constexpr std::size_t scale = 1;
 #endif
 
 template <int D> void remove_all(std::vector<Point<D>> points, std::size_t cache_bytes) {
-    MeshInChange<D> mesh(domain_around<D>(points), cache_bytes);
+    MeshInChange<D> mesh(box_around<D>(points), cache_bytes);
     std::vector<Point<D>> shuffled = distinct(points);
     Random random(1);
     std::shuffle(shuffled.begin(), shuffled.end(), random);

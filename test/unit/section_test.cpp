@@ -80,6 +80,7 @@ protected:
             staged.attributes = {std::bit_cast<std::uint64_t>(field(staged.point))};
         host.pages.clear();
         host.staged_pages.clear();
+        host.repeated_pages.clear();
         header = empty_header<3>(1);
         EXPECT_EQ(stage<3>(host, header, input, ample, error), ABACUS_OK);
         abacus_build *build = nullptr;

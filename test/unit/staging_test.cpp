@@ -45,6 +45,27 @@ TYPED_TEST(Staging, OrderOfDistinctPointsIsTheSameForEveryInputOrder) {
     }
 }
 
+// Points are distributed as they come, over the domain that the first ones seem to have and
+// the rounds that so many have.
+TYPED_TEST(Staging, OrderIsTheSameWhereverTheFirstPointsLie) {
+    constexpr int D = TypeParam::value;
+    std::vector<Point<D>> input = points<D>(Kind::uniform, D == 2 ? 400000 : 100000);
+    ASSERT_LT(Rounds<D>(15000).size(), Rounds<D>(input.size()).size());
+    const auto same = [&](const Input<D> &a, const Input<D> &b) {
+        return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                          [](const auto &p, const auto &q) { return p.point == q.point; });
+    };
+    const Input<D> order = order_of<D>(with_ids<D>(input));
+    EXPECT_TRUE(same(order_of<D>(with_ids<D>(input), tiny), order));
+    // Inside half of the domain, then all over it.
+    std::partition(input.begin(), input.end(), [](const Point<D> &p) { return p[0] < 0.5; });
+    EXPECT_TRUE(same(order_of<D>(with_ids<D>(input), tiny), order));
+    std::sort(input.begin(), input.end());
+    EXPECT_TRUE(same(order_of<D>(with_ids<D>(input), tiny), order));
+    std::reverse(input.begin(), input.end());
+    EXPECT_TRUE(same(order_of<D>(with_ids<D>(input), tiny), order));
+}
+
 TYPED_TEST(Staging, EqualPointsAreAdjacentInInputOrder) {
     constexpr int D = TypeParam::value;
     for (const Kind kind : all_kinds) {
