@@ -25,7 +25,8 @@ Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
     : host_(host), domain_(domain), options_(options), blocks_(host), slots_(host),
       vertices_(host, attributes), visible_(host), directory_(host), unused_blocks_(host),
       limbo_(host), places_(host), writer_(host), numbered_(host), on_border_(host), uses_(host),
-      left_(host), border_(host), values_(host), facets_(host) {
+      left_(host), border_(host), values_(host), codes_(host), open_(host), facets_(host),
+      chains_(host), hashes_(host), guesses_(host) {
     values_.resize(static_cast<std::size_t>(attributes));
     learn_size(1, page_overhead + most_bytes<D>(attributes));
 }

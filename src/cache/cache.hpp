@@ -281,9 +281,11 @@ private:
             if (!slots_[h].is_free()) visit(h);
         }
     }
-    FacetVertices<D, VertexIndex> facet(Handle h, int i) const {
-        return {slots_[h].vertex, i};
+    FacetVertices<D, VertexIndex> facet(Link link) const {
+        return {slots_[link_simplex(link)].vertex, link_facet(link)};
     }
+    /// Of the facet, among those visible.
+    std::uint32_t hash(Link link) const { return VisibleFacets<D>::hash(facet(link)); }
     std::uint64_t part(const Simplex<D> &s) const;
 
     // cache_place.cpp
@@ -299,6 +301,9 @@ private:
     /// the one there, which is the least from there on. places_.size() if impossible.
     std::size_t cut_near(std::size_t wanted);
     void make_room(BlockIndex b, std::uint64_t code);
+    /// Moves at most so many simplices, those with the least keys, to the block before, if that
+    /// has room for them; so that a block that has nearly all its points is not cut.
+    bool lend(BlockIndex b, std::size_t most);
     /// Gives all simplices of a block that was never stored, or has lost many, to its
     /// neighbours on the curve, if they take them; so that no page is written half empty.
     bool dissolve(BlockIndex b);
@@ -308,6 +313,11 @@ private:
     /// stored and, with `only_leaving`, is to be written too: so that pages are full from the
     /// beginning of the curve on.
     void fill_up(BlockIndex b, bool only_leaving);
+    /// Whether the second block continues the first one, and is to be written as well.
+    bool is_followed_by(BlockIndex b, BlockIndex next) const;
+    /// Moves at most so many simplices, those with the least keys, from the next block, whose
+    /// places have been collected. False if there is no border for it.
+    bool draw(BlockIndex b, BlockIndex next, std::size_t most);
     /// Cuts the block, whose simplices from places_[cut] on, and no others, have keys from
     /// `border` on; returns the new block, the upper part.
     BlockIndex split_at(BlockIndex b, std::size_t cut, const Key &border);
@@ -331,7 +341,7 @@ private:
     bool is_loose(bool ghost, int facet) const {
         return !options_.linked_ghosts && ghost && facet < D;
     }
-    void link_outside(Link link, const Key &beyond);
+    void link_outside(Link link, std::uint32_t hash, const Key &beyond);
     bool leads_to(const Key &link, Handle h) const;
 
     // cache_append.cpp
@@ -388,9 +398,10 @@ private:
     // Page translation: reused from page to page.
     struct LocalFacet {
         std::uint64_t vertices;
-        std::uint32_t epoch;
-        Link link; // with `absent` for an odd facet
+        Link link; // with `absent` for an odd facet; unset once it has found its partner
+        std::uint16_t next;
     };
+    static constexpr std::uint16_t no_facet = 0xffff;
     PageView<D> view_;
     PageWriter<D> writer_;
     typename VertexHeap<D>::Numbering numbered_; // vertices by local number
@@ -399,8 +410,12 @@ private:
     Arena<VertexIndex> left_;       // border vertices of the blocks evicted together
     Arena<Link> border_;            // facets on the border of a block, from inside
     Arena<double> values_;          // attributes of a vertex
-    Arena<LocalFacet> facets_;      // hash table of the facets inside a page
-    std::uint32_t epoch_ = 0;       // of facets_
+    Arena<std::uint64_t> codes_;    // of the vertices of a page
+    Arena<Link> open_;              // facets of a page whose partner has to be searched for
+    Arena<LocalFacet> facets_;      // those met so far
+    Arena<std::uint16_t> chains_;   // hash table of them: the last one of each chain
+    Arena<std::uint32_t> hashes_;   // of the facets of border_
+    Arena<std::uint32_t> guesses_;  // their entries among the visible ones, perhaps
 };
 
 template <int D>

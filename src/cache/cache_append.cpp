@@ -38,7 +38,7 @@ bool Cache<D>::append(const Key &lower, const Key &upper, const LooseSimplex<D> 
         for (int i = 0; i <= D; ++i) {
             const Link link = make_link(first + static_cast<Handle>(s), i);
             if (is_loose(slots_[first + s].is_ghost(), i)) slots_[first + s].link[i] = link;
-            else link_outside(link, simplices[s].beyond[i]);
+            else link_outside(link, hash(link), simplices[s].beyond[i]);
         }
 
     const bool fits = encode(b);

@@ -121,11 +121,17 @@ template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
 
 template <int D> void Cache<D>::unlink(BlockIndex b) {
     const Stopwatch stopwatch(counters.translation_ns);
-    for (const Link inner : border_)
-        visible_.prefetch_bucket(facet(link_simplex(inner), link_facet(inner)));
-    for (const Link inner : border_) {
-        const Handle h = link_simplex(inner);
-        const Link link = slots_[h].link[link_facet(inner)];
+    hashes_.resize(border_.size());
+    for (std::size_t i = 0; i < border_.size(); ++i) {
+        const Link link = slots_[link_simplex(border_[i])].link[link_facet(border_[i])];
+        if (is_absent(link)) visible_.prefetch_entry(link & ~absent);
+        else if (blocks_[block_of<D>(link_simplex(link))].leaving) continue;
+        hashes_[i] = hash(border_[i]);
+        visible_.prefetch(hashes_[i]);
+    }
+    for (std::size_t i = 0; i < border_.size(); ++i) {
+        const Handle h = link_simplex(border_[i]);
+        const Link link = slots_[h].link[link_facet(border_[i])];
         if (is_absent(link)) {
             visible_.remove(link & ~absent);
             continue;
@@ -135,7 +141,7 @@ template <int D> void Cache<D>::unlink(BlockIndex b) {
         const Simplex<D> &s = slots_[h];
         const Key key{code(s), blocks_[b].has_parts() ? part(s) : 0};
         slots_[neighbour].link[link_facet(link)] =
-            absent | visible_.add(facet(h, link_facet(inner)), key, link);
+            absent | visible_.add(hashes_[i], key, link);
     }
     for_each_simplex(b, [&](Handle h) {
         for (const VertexIndex v : slots_[h].vertex) vertices_.release(v);

@@ -82,61 +82,69 @@ template <int D> typename Cache<D>::BlockIndex Cache<D>::load(const abacus_page 
 
 template <int D> void Cache<D>::link_inside(Handle first) {
     const int simplices = view_.simplices();
-    std::size_t open = std::size_t(simplices) * (D + 1); // facets
+    for (int s = 0; s < simplices; ++s) slots_[first + s].link.fill(unset);
     for (int s = 0; s < simplices; ++s) {
-        slots_[first + s].link.fill(unset);
-        if (view_.parent(s) == PageView<D>::no_link) continue;
         const Link parent = view_.parent(s);
+        if (parent == PageView<D>::no_link) [[unlikely]] continue;
         connect(make_link(first + link_simplex(parent), link_facet(parent)),
                 make_link(first + s, view_.facet_to_parent(s)));
-        open -= 2;
     }
-    if (facets_.empty() || ++epoch_ == 0) { // at first, and once in four billion pages
-        facets_.resize(std::bit_ceil(std::size_t(block_slots<D>) * (D + 1) + 1));
-        std::fill(facets_.begin(), facets_.end(), LocalFacet{});
-        epoch_ = 1;
-    }
-    // As small as can be: at most one entry a facet, fewer in a sound page.
-    const std::size_t mask = std::bit_ceil(open + 1) - 1;
-    const int shift = 64 - std::bit_width(mask);
-    for (int s = 0; s < simplices; ++s) {
+    // The facets still open, gathered without a branch: which they are is hard to foresee.
+    open_.resize(std::size_t(simplices) * (D + 1) + 1); // one more, to be overwritten
+    Link *open = open_.begin();
+    for (int s = 0; s < simplices; ++s)
         for (int i = 0; i <= D; ++i) {
-            if (slots_[first + s].link[i] != unset) continue;
-            const Link link = make_link(first + s, i);
-            if (is_loose(view_.corner(s, D) == view_.vertices(), i)) {
-                slots_[first + s].link[i] = link;
-                continue;
-            }
-            const FacetVertices<D, std::uint32_t> facet(view_.corners(s), i);
-            std::uint64_t vertices = 0;
-            for (const std::uint32_t v : facet.vertex) vertices = vertices << 16 | v;
-            const Link odd = facet.odd ? absent : 0;
-            std::size_t at = mask == 0 ? 0 : (vertices * 0x9e3779b97f4a7c15ull) >> shift;
-            while (facets_[at].epoch == epoch_ && facets_[at].vertices != vertices)
-                at = (at + 1) & mask;
-            LocalFacet &entry = facets_[at];
-            if (entry.epoch != epoch_) {
-                entry = {vertices, epoch_, link | odd};
-            } else {
-                if (entry.link == unset) throw_corrupted("Three simplices share a facet.");
-                if ((entry.link & absent) == odd)
-                    throw_corrupted("Neighbours have different orientations.");
-                connect(entry.link & ~absent, link);
-                entry.link = unset;
-            }
+            *open = make_link(first + s, i);
+            open += slots_[first + s].link[i] == unset;
         }
+    open_.resize(static_cast<std::size_t>(open - open_.begin()));
+
+    // A hash table of short chains, small enough for the processor's first cache.
+    chains_.resize(std::bit_ceil(open_.size() + 1));
+    std::fill(chains_.begin(), chains_.end(), no_facet);
+    const int shift = 64 - std::countr_zero(chains_.size());
+    facets_.clear();
+    facets_.reserve(open_.size());
+    for (const Link link : open_) {
+        const int s = static_cast<int>(link_simplex(link) - first), i = link_facet(link);
+        if (is_loose(view_.corner(s, D) == view_.vertices(), i)) {
+            slots_[first + s].link[i] = link;
+            continue;
+        }
+        const FacetVertices<D, std::uint32_t> facet(view_.corners(s), i);
+        std::uint64_t vertices = 0;
+        for (const std::uint32_t v : facet.vertex) vertices = vertices << 16 | v;
+        const Link odd = facet.odd ? absent : 0;
+        std::uint16_t &chain =
+            chains_[shift == 64 ? 0 : vertices * 0x9e3779b97f4a7c15ull >> shift];
+        std::uint16_t at = chain;
+        while (at != no_facet && facets_[at].vertices != vertices) at = facets_[at].next;
+        if (at == no_facet) {
+            facets_.push_back({vertices, link | odd, chain});
+            chain = static_cast<std::uint16_t>(facets_.size() - 1);
+            continue;
+        }
+        LocalFacet &other = facets_[at];
+        if (other.link == unset) throw_corrupted("Three simplices share a facet.");
+        if ((other.link & absent) == odd)
+            throw_corrupted("Neighbours have different orientations.");
+        connect(other.link & ~absent, link);
+        other.link = unset;
     }
+
+    // What has found no partner is the border, in the order of its simplices.
     border_.clear();
     on_border_.resize(static_cast<std::size_t>(view_.vertices()));
     std::fill(on_border_.begin(), on_border_.end(), false);
-    for (int s = 0; s < simplices; ++s)
-        for (int i = 0; i <= D; ++i) {
-            if (slots_[first + s].link[i] != unset) continue;
-            border_.push_back(make_link(first + s, i));
-            for (int j = 0; j <= D; ++j)
-                if (j != i && view_.corner(s, j) < view_.vertices())
-                    on_border_[view_.corner(s, j)] = true;
-        }
+    for (const LocalFacet &facet : facets_) {
+        if (facet.link == unset) continue;
+        const Link link = facet.link & ~absent;
+        border_.push_back(link);
+        const int s = static_cast<int>(link_simplex(link) - first);
+        for (int j = 0; j <= D; ++j)
+            if (j != link_facet(link) && view_.corner(s, j) < view_.vertices())
+                on_border_[view_.corner(s, j)] = true;
+    }
     if (static_cast<int>(border_.size()) != view_.links())
         throw_corrupted("A page has another number of links than of facets on its border.");
 }
@@ -146,13 +154,16 @@ template <int D> void Cache<D>::load_vertices() {
         if (on_border_[n]) vertices_.prefetch_slot(view_.point(n));
     for (int n = 0; n < view_.vertices(); ++n)
         if (on_border_[n]) vertices_.prefetch_vertex(view_.point(n));
+    // By themselves, as each is a chain of table look-ups.
+    codes_.resize(static_cast<std::size_t>(view_.vertices()));
+    for (int n = 0; n < view_.vertices(); ++n) codes_[n] = domain_.code(view_.point(n));
     numbered_.clear();
     for (int n = 0; n < view_.vertices(); ++n) {
         const Point<D> &p = view_.point(n);
         for (int i = 0; i < view_.attributes(); ++i) values_[i] = view_.attribute(n, i);
         VertexIndex v = on_border_[n] ? vertices_.find_shared(p) : infinite_vertex;
         if (v == infinite_vertex) {
-            v = vertices_.create(p, domain_.code(p), view_.id(n), values_.data());
+            v = vertices_.create(p, codes_[n], view_.id(n), values_.data());
             if (on_border_[n]) vertices_.share(v);
         } else if (numbered_.contains(vertices_, v)) {
             throw_corrupted("A page has the same vertex twice.");
@@ -182,33 +193,43 @@ template <int D> void Cache<D>::load_simplices(Handle first) {
 }
 
 template <int D> void Cache<D>::link_outside() {
-    const auto facet_of = [&](Link link) { return facet(link_simplex(link), link_facet(link)); };
-    for (const Link link : border_) visible_.prefetch_bucket(facet_of(link));
-    for (const Link link : border_) visible_.prefetch_entry(facet_of(link));
+    // What is read of other blocks lies in cold memory: table, entry, simplex.
+    hashes_.resize(border_.size());
+    for (std::size_t i = 0; i < border_.size(); ++i) {
+        hashes_[i] = hash(border_[i]);
+        visible_.prefetch(hashes_[i]);
+    }
+    guesses_.resize(border_.size());
+    for (std::size_t i = 0; i < border_.size(); ++i) {
+        guesses_[i] = visible_.guess(hashes_[i]);
+        if (guesses_[i] != VisibleFacets<D>::none) visible_.prefetch_entry(guesses_[i]);
+    }
+    for (const std::uint32_t guess : guesses_)
+        if (guess != VisibleFacets<D>::none)
+            __builtin_prefetch(&slots_[link_simplex(visible_[guess].owner)], 1);
     for (std::size_t i = 0; i < border_.size(); ++i) {
         const int n = view_.link_vertex(static_cast<int>(i));
         const std::uint64_t code = n < view_.vertices() ? vertices_[numbered_[n]].code
                                                         : view_.foreign_code(n);
-        link_outside(border_[i], {code, view_.link_part(static_cast<int>(i))});
+        link_outside(border_[i], hashes_[i], {code, view_.link_part(static_cast<int>(i))});
     }
 }
 
-template <int D> void Cache<D>::link_outside(Link link, const Key &beyond) {
+template <int D>
+void Cache<D>::link_outside(Link link, std::uint32_t hash, const Key &beyond) {
     if ((beyond.code >= key_word_end && beyond.code != unknown_code) ||
         (beyond.part >= key_word_end && beyond.part != unknown_part))
         throw_corrupted("A page has a link to an impossible key.");
     const Handle h = link_simplex(link);
-    const auto outer = facet(h, link_facet(link));
-    const std::uint32_t number = visible_.find(outer, [&](Link owner) {
-        return facet(link_simplex(owner), link_facet(owner)).vertex == outer.vertex;
-    });
+    const auto outer = facet(link);
+    const std::uint32_t number =
+        visible_.find(hash, [&](Link owner) { return facet(owner).vertex == outer.vertex; });
     if (number == VisibleFacets<D>::none) {
-        slots_[h].link[link_facet(link)] = absent | visible_.add(outer, beyond, link);
+        slots_[h].link[link_facet(link)] = absent | visible_.add(hash, beyond, link);
         return;
     }
     const Link owner = visible_[number].owner;
-    if (facet(link_simplex(owner), link_facet(owner)).odd == outer.odd)
-        throw_corrupted("Neighbours have different orientations.");
+    if (facet(owner).odd == outer.odd) throw_corrupted("Neighbours have different orientations.");
     if (options_.verify_links &&
         !(leads_to(visible_[number].beyond, h) && leads_to(beyond, link_simplex(owner))))
         throw_corrupted("A link has the key of another simplex than its neighbour.");

@@ -19,6 +19,7 @@ constexpr double sequential_from = 0.5;
 constexpr unsigned measured_each = 32; // full blocks
 constexpr double dissolve_to = 0.93;
 constexpr double sparse = 0.5;
+constexpr double least_move = 1.0 / 16; // of a full block
 } // namespace
 
 template <int D> void Cache<D>::settle_limbo(std::uint64_t code) {
@@ -100,11 +101,24 @@ template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
         if (blocks_[b].count < capacity_) return;
     }
     collect_places(b);
-    const auto ahead = std::partition(places_.begin(), places_.end(),
-                                      [&](const Place &p) { return p.key.code < code; });
-    const auto behind = static_cast<std::size_t>(ahead - places_.begin());
-    if (behind >= sequential_from * places_.size()) split_at(b, behind, {code, 0});
-    else split_at_median(b);
+    const auto is_behind = [&](const Place &p) { return p.key.code < code; };
+    const auto behind = static_cast<std::size_t>(
+        std::count_if(places_.begin(), places_.end(), is_behind));
+    if (behind < sequential_from * places_.size()) {
+        split_at_median(b);
+    } else if (!lend(b, behind)) {
+        std::partition(places_.begin(), places_.end(), is_behind);
+        split_at(b, behind, {code, 0});
+    }
+}
+
+template <int D> bool Cache<D>::lend(BlockIndex b, std::size_t most) {
+    const BlockIndex before = directory_.before(blocks_[b].lower);
+    if (before == no_block || !blocks_[before].dirty || blocks_[before].count >= capacity_ ||
+        !is_followed_by(before, b))
+        return false;
+    const std::size_t room = capacity_ - blocks_[before].count;
+    return room >= least_move * capacity_ && draw(before, b, std::min(room, most));
 }
 
 template <int D> bool Cache<D>::dissolve(BlockIndex b) {
@@ -163,23 +177,31 @@ template <int D> bool Cache<D>::dissolve(BlockIndex b) {
 
 template <int D> void Cache<D>::fill_up(BlockIndex b, bool only_leaving) {
     const BlockIndex next = directory_.after(blocks_[b].lower);
-    if (next == no_block || !blocks_[b].dirty || blocks_[b].count >= capacity_) return;
-    const Key border = blocks_[b].upper, upper = blocks_[next].upper;
-    if (!(blocks_[next].lower == border) || blocks_[next].location != 0 ||
-        blocks_[b].has_parts() || blocks_[next].has_parts() ||
-        (only_leaving && !blocks_[next].leaving))
+    if (next == no_block || !blocks_[b].dirty || blocks_[b].count >= capacity_ ||
+        !is_followed_by(b, next) || (only_leaving && !blocks_[next].leaving))
         return;
     const std::size_t room = capacity_ - blocks_[b].count;
-    if (room < capacity_ / 16) return; // not worth it
+    if (room < least_move * capacity_ && room < blocks_[next].count) return; // not worth it
     collect_places(next);
+    draw(b, next, room);
+}
+
+template <int D> bool Cache<D>::is_followed_by(BlockIndex b, BlockIndex next) const {
+    return blocks_[next].lower == blocks_[b].upper && blocks_[next].dirty &&
+           !blocks_[b].has_parts() && !blocks_[next].has_parts();
+}
+
+template <int D> bool Cache<D>::draw(BlockIndex b, BlockIndex next, std::size_t most) {
+    const Key border = blocks_[next].lower, upper = blocks_[next].upper;
     std::size_t cut = places_.size();
-    if (cut > room) cut = cut_near(room);
-    if (cut > room) return;
+    if (cut > most) cut = cut_near(most);
+    if (cut > most) return false;
     const std::uint64_t used = blocks_[b].used_at, next_used = blocks_[next].used_at;
     const bool is_whole = cut == places_.size();
     const Key moved = is_whole ? upper : places_[cut].key;
     for (std::size_t i = 0; i < cut; ++i) move(places_[i].handle, b);
     directory_.erase(border);
+    erase_page(next); // it has another key now
     blocks_[b].own(blocks_[b].lower, moved);
     blocks_[b].used_at = used; // no more in use than before
     if (is_whole) {
@@ -190,6 +212,7 @@ template <int D> void Cache<D>::fill_up(BlockIndex b, bool only_leaving) {
         blocks_[next].used_at = next_used;
         directory_.insert(moved, next);
     }
+    return true;
 }
 
 template <int D> void Cache<D>::erase_page(BlockIndex b) {

@@ -47,7 +47,7 @@ public:
     /// Vertices in use, the one at infinity included; the bytes they take.
     std::size_t count() const { return vertices_.size() - free_.size(); }
     std::size_t bytes() const {
-        return count() * (sizeof(Vertex<D>) + sizeof(std::int64_t) + sizeof(VertexIndex) +
+        return count() * (sizeof(Vertex<D>) + sizeof(std::int64_t) + sizeof(Slot) +
                           attributes_ * sizeof(double));
     }
     /// Above every vertex index in use.
@@ -145,9 +145,12 @@ public:
 
     /// The shared vertex at p, or infinite_vertex.
     VertexIndex find_shared(const Point<D> &p) const {
-        for (std::size_t i = hash(p);; i = (i + 1) & mask_) {
-            const VertexIndex v = table_[i];
-            if (v == infinite_vertex || vertices_[v].point == p) return v;
+        const std::uint32_t hash = this->hash(p);
+        for (std::size_t i = hash & mask_;; i = (i + 1) & mask_) {
+            const Slot &slot = table_[i];
+            if (slot.vertex == infinite_vertex ||
+                (slot.hash == hash && vertices_[slot.vertex].point == p))
+                return slot.vertex;
         }
     }
 
@@ -156,50 +159,58 @@ public:
         if (attributes_ != 0) __builtin_prefetch(attributes(v));
     }
     /// Two steps of find_shared() or share() in advance, for many points at once.
-    void prefetch_slot(const Point<D> &p) const { __builtin_prefetch(&table_[hash(p)]); }
+    void prefetch_slot(const Point<D> &p) const { __builtin_prefetch(&table_[hash(p) & mask_]); }
     void prefetch_vertex(const Point<D> &p) const {
-        __builtin_prefetch(&vertices_[table_[hash(p)]]);
+        const std::uint32_t hash = this->hash(p);
+        std::size_t i = hash & mask_;
+        while (table_[i].vertex != infinite_vertex && table_[i].hash != hash) i = (i + 1) & mask_;
+        __builtin_prefetch(&vertices_[table_[i].vertex]);
     }
 
 private:
     static constexpr std::uint32_t shared = 0x80000000u;
 
-    std::size_t hash(const Point<D> &p) const {
+    /// With the hash of its vertex, so that others, in cold memory, need not be looked at.
+    struct Slot {
+        VertexIndex vertex; // infinite_vertex: empty
+        std::uint32_t hash;
+    };
+
+    std::uint32_t hash(const Point<D> &p) const {
         std::uint64_t h = 0;
         for (const double x : p) {
             h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ull;
             h ^= h >> 32;
         }
-        return h & mask_;
+        return static_cast<std::uint32_t>(h);
     }
 
     void insert(VertexIndex v) {
-        std::size_t i = hash(vertices_[v].point);
-        while (table_[i] != infinite_vertex) i = (i + 1) & mask_;
-        table_[i] = v;
+        const std::uint32_t hash = this->hash(vertices_[v].point);
+        std::size_t i = hash & mask_;
+        while (table_[i].vertex != infinite_vertex) i = (i + 1) & mask_;
+        table_[i] = {v, hash};
     }
 
     // Linear probing without tombstones: later entries of the run move up.
     void erase(VertexIndex v) {
-        std::size_t i = hash(vertices_[v].point);
-        while (table_[i] != v) i = (i + 1) & mask_;
+        std::size_t i = hash(vertices_[v].point) & mask_;
+        while (table_[i].vertex != v) i = (i + 1) & mask_;
         for (std::size_t j = i;;) {
             j = (j + 1) & mask_;
-            const VertexIndex w = table_[j];
-            if (w == infinite_vertex) break;
-            const std::size_t home = hash(vertices_[w].point);
-            if (((j - home) & mask_) >= ((j - i) & mask_)) {
-                table_[i] = w;
+            if (table_[j].vertex == infinite_vertex) break;
+            if (((j - table_[j].hash) & mask_) >= ((j - i) & mask_)) {
+                table_[i] = table_[j];
                 i = j;
             }
         }
-        table_[i] = infinite_vertex;
+        table_[i].vertex = infinite_vertex;
         --entries_;
     }
 
     void rehash(std::size_t size) {
         table_.resize(size);
-        std::fill(table_.begin(), table_.end(), infinite_vertex);
+        std::fill(table_.begin(), table_.end(), Slot{infinite_vertex, 0});
         mask_ = size - 1;
         for (VertexIndex v = 1; v < vertices_.size(); ++v)
             if (vertices_[v].references & shared) insert(v);
@@ -210,7 +221,7 @@ private:
     Arena<std::int64_t> ids_;
     Arena<double> values_;
     Arena<VertexIndex> free_;
-    Arena<VertexIndex> table_; // infinite_vertex = empty
+    Arena<Slot> table_;
     std::size_t mask_ = 0;
     std::size_t entries_ = 0;
 };

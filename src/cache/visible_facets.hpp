@@ -16,18 +16,17 @@ public:
     using Vertices = FacetVertices<D, VertexIndex>;
 
     struct Entry {
-        Key beyond;          // key of the simplex that is not in the cache
-        Link owner;          // the facet of the simplex that is
-        std::uint32_t hash;
-        std::uint32_t next;  // in the chain of its bucket, or of free entries
+        Key beyond;         // key of the simplex that is not in the cache
+        Link owner;         // the facet of the simplex that is; `unset` of a free entry
+        std::uint32_t hash; // of a free entry: the next one
     };
 
-    explicit VisibleFacets(const Host &host) : entries_(host), buckets_(host) { rehash(1024); }
+    explicit VisibleFacets(const Host &host) : entries_(host), table_(host) { rehash(1024); }
 
     Entry &operator[](std::uint32_t number) { return entries_[number]; }
     const Entry &operator[](std::uint32_t number) const { return entries_[number]; }
     std::size_t count() const { return count_; }
-    std::size_t bytes() const { return count_ * sizeof(Entry); }
+    std::size_t bytes() const { return count_ * (sizeof(Entry) + 2 * sizeof(Slot)); }
 
     static std::uint32_t hash(const Vertices &facet) {
         std::uint64_t h = 0;
@@ -38,69 +37,84 @@ public:
         return static_cast<std::uint32_t>(h >> 16);
     }
 
-    std::uint32_t add(const Vertices &facet, const Key &beyond, Link owner) {
+    /// Adds an entry for a facet with this hash, and returns its number.
+    std::uint32_t add(std::uint32_t hash, const Key &beyond, Link owner) {
         std::uint32_t number = free_;
         if (number != none) {
-            free_ = entries_[number].next;
+            free_ = entries_[number].hash;
         } else {
             number = static_cast<std::uint32_t>(entries_.size());
             entries_.resize(number + 1);
         }
-        const std::uint32_t h = hash(facet);
-        entries_[number] = {beyond, owner, h, buckets_[h & mask_]};
-        buckets_[h & mask_] = number;
-        if (++count_ > buckets_.size()) rehash(2 * buckets_.size());
+        entries_[number] = {beyond, owner, hash};
+        if (2 * ++count_ > table_.size()) rehash(2 * table_.size());
+        else insert({hash, number});
         return number;
     }
 
+    // Linear probing without tombstones: later slots of the run move up.
     void remove(std::uint32_t number) {
-        std::uint32_t *at = &buckets_[entries_[number].hash & mask_];
-        while (*at != number) at = &entries_[*at].next;
-        *at = entries_[number].next;
-        entries_[number].owner = free_owner;
-        entries_[number].next = free_;
+        Entry &entry = entries_[number];
+        std::size_t i = entry.hash & mask_;
+        while (table_[i].number != number) i = (i + 1) & mask_;
+        for (std::size_t j = i;;) {
+            j = (j + 1) & mask_;
+            if (table_[j].number == none) break;
+            if (((j - table_[j].hash) & mask_) >= ((j - i) & mask_)) {
+                table_[i] = table_[j];
+                i = j;
+            }
+        }
+        table_[i].number = none;
+        entry.owner = unset;
+        entry.hash = free_;
         free_ = number;
         --count_;
     }
 
-    /// Number of the entry for which same(owner link) holds, or `none`.
-    template <class Same> std::uint32_t find(const Vertices &facet, Same same) const {
-        const std::uint32_t h = hash(facet);
-        std::uint32_t number = buckets_[h & mask_];
-        while (number != none && !(entries_[number].hash == h && same(entries_[number].owner)))
-            number = entries_[number].next;
-        return number;
+    /// Number of the entry with this hash for which same(owner link) holds, or `none`.
+    template <class Same> std::uint32_t find(std::uint32_t hash, Same same) const {
+        for (std::size_t i = hash & mask_;; i = (i + 1) & mask_) {
+            const Slot &slot = table_[i];
+            if (slot.number == none ||
+                (slot.hash == hash && same(entries_[slot.number].owner)))
+                return slot.number;
+        }
+    }
+    /// The first entry with this hash, which is nearly always the one that find() finds.
+    std::uint32_t guess(std::uint32_t hash) const {
+        return find(hash, [](Link) { return true; });
     }
 
-    /// Two steps of find() or add() in advance, for many facets at once.
-    void prefetch_bucket(const Vertices &facet) const {
-        __builtin_prefetch(&buckets_[hash(facet) & mask_]);
-    }
-    void prefetch_entry(const Vertices &facet) const {
-        const std::uint32_t number = buckets_[hash(facet) & mask_];
-        if (number != none) __builtin_prefetch(&entries_[number]);
-    }
+    /// What find() and add(), and remove(), will read.
+    void prefetch(std::uint32_t hash) const { __builtin_prefetch(&table_[hash & mask_]); }
+    void prefetch_entry(std::uint32_t number) const { __builtin_prefetch(&entries_[number], 1); }
 
     static constexpr std::uint32_t none = 0xffffffffu;
 
 private:
-    static constexpr Link free_owner = 0xffffffffu;
+    struct Slot {
+        std::uint32_t hash;
+        std::uint32_t number; // `none` of an empty one
+    };
+
+    void insert(const Slot &slot) {
+        std::size_t i = slot.hash & mask_;
+        while (table_[i].number != none) i = (i + 1) & mask_;
+        table_[i] = slot;
+    }
 
     void rehash(std::size_t size) {
-        buckets_.resize(size);
-        std::fill(buckets_.begin(), buckets_.end(), none);
-        mask_ = static_cast<std::uint32_t>(size - 1);
-        for (std::uint32_t number = 0; number < entries_.size(); ++number) {
-            Entry &entry = entries_[number];
-            if (entry.owner == free_owner) continue;
-            entry.next = buckets_[entry.hash & mask_];
-            buckets_[entry.hash & mask_] = number;
-        }
+        table_.resize(size);
+        std::fill(table_.begin(), table_.end(), Slot{0, none});
+        mask_ = size - 1;
+        for (std::uint32_t number = 0; number < entries_.size(); ++number)
+            if (entries_[number].owner != unset) insert({entries_[number].hash, number});
     }
 
     Arena<Entry> entries_;
-    Arena<std::uint32_t> buckets_;
-    std::uint32_t mask_ = 0;
+    Arena<Slot> table_;
+    std::size_t mask_ = 0;
     std::uint32_t free_ = none;
     std::size_t count_ = 0;
 };

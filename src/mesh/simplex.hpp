@@ -59,15 +59,18 @@ template <int D, class Index> struct FacetVertices {
     std::array<Index, D> vertex;
     bool odd;
 
-    template <class Vertices> FacetVertices(const Vertices &simplex, int facet) {
-        odd = facet & 1;
-        for (int i = 0, n = 0; i <= D; ++i) {
-            if (i == facet) continue;
-            int at = n++;
-            const Index v = static_cast<Index>(simplex[i]);
-            for (; at > 0 && vertex[at - 1] > v; --at, odd = !odd) vertex[at] = vertex[at - 1];
-            vertex[at] = v;
-        }
+    /// Without a branch: which order it is no processor can foresee.
+    template <class Vertices>
+    FacetVertices(const Vertices &simplex, int facet) : odd((facet & 1) != 0) {
+        for (int i = 0; i < D; ++i) vertex[i] = static_cast<Index>(simplex[i + (i >= facet)]);
+        for (int last = D - 1; last > 0; --last)
+            for (int i = 0; i < last; ++i) {
+                const Index a = vertex[i], b = vertex[i + 1];
+                const bool turned = b < a;
+                vertex[i] = turned ? b : a;
+                vertex[i + 1] = turned ? a : b;
+                odd ^= turned;
+            }
     }
 };
 
