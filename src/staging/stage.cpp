@@ -2,11 +2,18 @@
 
 #include "cache/domain_of.hpp"
 #include "staging/canonical.hpp"
+#include "staging/density.hpp"
 #include "staging/vertex_page.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace abacus {
+
+namespace {
+// Of a mesh, for each point that is looked up there: a page has a hundred or more.
+constexpr double vertices_a_sample = 32;
+} // namespace
 
 template <int D>
 Stage<D>::Stage(const Host &host, const abacus_header &header, std::size_t memory)
@@ -98,19 +105,41 @@ template <int D> void Stage<D>::end(abacus_header &header) {
     std::copy_n(box_.upper.begin(), D, header.upper);
 }
 
+/// Whether the mesh has vertices where the points are, at least as many as an earlier round
+/// would have brought.
+template <int D>
+bool Stage<D>::mesh_stands_in(const abacus_header &header, const Domain<D> &domain) {
+    if (header.vertices == 0) return false;
+    const double wanted = static_cast<double>(points()) * promotion<D>; // vertices
+    const auto looked_up = static_cast<std::size_t>(std::ceil(wanted / vertices_a_sample));
+    Arena<std::uint64_t> codes(host_);
+    const auto take = [&](std::size_t n, auto point) {
+        const std::size_t step = std::max<std::size_t>(1, n / looked_up);
+        for (std::size_t i = 0; i < n; i += step) codes.push_back(domain.code(point(i)));
+    };
+    if (spilled_ > 0) take(sample_.size(), [&](std::size_t i) { return sample_.begin()[i]; });
+    else take(buffered_, [&](std::size_t i) {
+        return record_point<D>(buffer_.data() + i * stride_);
+    });
+    return is_dense(host_, codes, wanted / static_cast<double>(codes.size()));
+}
+
 template <int D>
 void Stage<D>::emit(RecordSink &sink, const abacus_header &header, bool reversed) {
     const std::uint64_t n = points();
     if (n == 0) return;
     const Rounds<D> rounds(n, reversed);
-    const Slice<D> all{domain_of<D>(header), rounds.size() > 1 ? &rounds : nullptr};
+    const Domain<D> domain = domain_of<D>(header);
+    const bool in_rounds = rounds.size() > 1 && (reversed || !mesh_stands_in(header, domain));
+    const Slice<D> all{domain, in_rounds ? &rounds : nullptr};
     ExternalSort<D> sort(host_, stride_, budget_, sample_, pacer_, sink);
     if (spilled_ == 0) {
         sort.run(buffer_.data(), n, all);
     } else {
         spill();
         buffer_.reset();
-        if (distributor_ && !is_distributed_over(all.domain)) stop_distributing();
+        if (distributor_ && (all.rounds == nullptr || !is_distributed_over(all.domain)))
+            stop_distributing();
         if (distributor_) {
             Arena<Part<D>> parts = distributor_->finish();
             // There may be more rounds now than there were: of those promoted most often.

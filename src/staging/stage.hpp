@@ -1,8 +1,9 @@
 // Staging (dissertation §4.12.2): takes points in any order and hands them on in the
 // order in which they are to be inserted, to vertex pages or at once.
 //
-// The order is a function of the set of points (and of the input order of equal
-// ones) alone: not of the memory, nor of how the points came in.
+// The order is a function of the set of points (and of the input order of equal ones) alone,
+// not of the memory, nor of how the points came in; except that points for a mesh which has
+// vertices near nearly all of them may come in one round (density.hpp).
 //
 // It depends on the domain, which is known for sure only with the last point. But a domain
 // is a coarse box around the points (domain_of.hpp): that of the first points, once they
@@ -41,6 +42,7 @@ private:
     void begin_to_distribute();
     void stop_distributing();
     bool is_distributed_over(const Domain<D> &domain) const;
+    bool mesh_stands_in(const abacus_header &header, const Domain<D> &domain);
 
     const Host &host_;
     const std::size_t stride_;
