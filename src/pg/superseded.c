@@ -119,6 +119,10 @@ reclaim(Relation heap, BlockNumber block)
 	Size		room;
 	bool		done;
 
+	/* a page that a row was deleted from, and that has room, would not be pruned for long */
+	LockBuffer(buffer, BUFFER_LOCK_EXCLUSIVE);
+	PageSetFull(page);
+	LockBuffer(buffer, BUFFER_LOCK_UNLOCK);
 	heap_page_prune_opt(heap, buffer);
 	LockBuffer(buffer, BUFFER_LOCK_SHARE);
 	room = PageGetHeapFreeSpace(page);
