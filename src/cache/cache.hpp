@@ -309,9 +309,9 @@ private:
     bool dissolve(BlockIndex b);
     /// Removes the block's page, if it is stored.
     void erase_page(BlockIndex b);
-    /// Fills a block that is to be written from the next one on the curve, if that was never
-    /// stored and, with `only_leaving`, is to be written too: so that pages are full from the
-    /// beginning of the curve on.
+    /// Fills a block that is to be written from the next one on the curve, if that is to be
+    /// written too, with `only_leaving` now: so that pages are full from the beginning of the
+    /// curve on.
     void fill_up(BlockIndex b, bool only_leaving);
     /// Whether the second block continues the first one, and is to be written as well.
     bool is_followed_by(BlockIndex b, BlockIndex next) const;

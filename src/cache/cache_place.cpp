@@ -1,17 +1,18 @@
-// Placement: simplices move to the blocks that own their keys, and full blocks
-// split in two along the curve.
+// Placement: simplices move to the blocks that own their keys, and full blocks lend to
+// the one before them or split in two along the curve.
 #include "cache/cache.hpp"
 
 #include <utility>
 
 namespace abacus {
 
-// A full block makes room in one of two ways, by where the point being inserted lies
+// A full block makes room in one of three ways, by where the point being inserted lies
 // among its simplices, in curve order. Points come in the same order.
 //
 //   Somewhere in the upper half: what lies behind the point is finished, since a
-//   simplex of the point has no smaller code than it. A cut at the point's code leaves a
-//   well-filled page there that will hardly be touched again (the sequential split).
+//   simplex of the point has no smaller code than it. The block before, finished too,
+//   takes as much of it as it has room for. If it has none, a cut at the point's code
+//   leaves a well-filled page that will hardly be touched again (the sequential split).
 //
 //   Otherwise the block is cut at the median key.
 namespace {
