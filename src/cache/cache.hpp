@@ -210,6 +210,8 @@ public:
         return cached_blocks_ * block_bytes + vertices_.bytes() + visible_.bytes();
     }
     std::size_t cached_blocks() const { return cached_blocks_; }
+    /// Whether the block that owns the key is in memory.
+    bool is_cached(const Key &key) const { return cached_owner(key) != no_block; }
 
     abacus_counters counters{};
 

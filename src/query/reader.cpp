@@ -26,7 +26,7 @@ Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOpti
       delaunay_(header.not_delaunay == 0), box_bytes_(options.budget / 8),
       cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
              linked_as(header, options)),
-      walk_(cache_) {}
+      glance_(cache_.host(), static_cast<int>(header.attributes)), walk_(cache_) {}
 
 template <int D> Handle Reader<D>::start(const Point<D> &p) {
     if (size_ == 0) return no_handle;
@@ -149,10 +149,19 @@ template <int D> bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simpl
         describe(inside, simplex);
         return true;
     }
+    if (glance(p, simplex)) return true;
     const Handle h = find(p);
     if (h == no_handle || cache_.simplex(h).is_ghost()) return false;
     first_around(p, h, simplex);
     return true;
+}
+
+template <int D> bool Reader<D>::glance(const Point<D> &p, abacus_simplex &simplex) {
+    if (cache_.counters.evictions == 0) return false; // the cache takes more
+    const Key key{cache_.domain().code(p), 0};
+    if (cache_.is_cached(key)) return false;
+    cache_.poll();
+    return glance_.find(key, cache_.domain(), p, simplex);
 }
 
 template <int D>

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "delaunay/walk.hpp"
+#include "query/glance.hpp"
 #include "query/page_boxes.hpp"
 
 #include <optional>
@@ -44,6 +45,8 @@ public:
 private:
     /// A simplex with p in its closure, or a ghost that sees p; no_handle in an empty mesh.
     Handle find(const Point<D> &p);
+    /// Locates p in a page that is not in the cache, if that has been full and it is worth while.
+    bool glance(const Point<D> &p, abacus_simplex &simplex);
     /// Where a walk to p begins; no_handle in an empty mesh.
     Handle start(const Point<D> &p);
     /// In a mesh that is not Delaunay: the simplex with p inside to which a short walk leads,
@@ -65,6 +68,7 @@ private:
     std::size_t box_bytes_;
     std::optional<PageBoxes<D>> boxes_; // once needed
     Cache<D> cache_;
+    Glance<D> glance_;
     Walk<D> walk_;
     Handle last_ = no_handle;
 };

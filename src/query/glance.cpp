@@ -1,0 +1,85 @@
+#include "query/glance.hpp"
+
+#include "query/describe.hpp"
+
+#include <algorithm>
+
+namespace abacus {
+
+template <int D> bool Glance<D>::was_seen(const Key &page) {
+    for (const Key &seen : seen_)
+        if (seen == page) return true;
+    seen_[next_++ % remembered] = page;
+    return false;
+}
+
+template <int D> int Glance<D>::search(const Point<D> &p) const {
+    for (int s = 0; s < view_.simplices(); ++s) {
+        if (view_.is_ghost(s)) continue;
+        Corners<D> corners;
+        for (int i = 0; i <= D; ++i) corners[i] = &view_.point(view_.corner(s, i));
+        // Nearly all are dismissed by their boxes.
+        bool is_in_box = true;
+        for (int axis = 0; axis < D; ++axis) {
+            double least = (*corners[0])[axis], greatest = least;
+            for (int i = 1; i <= D; ++i) {
+                least = std::min(least, (*corners[i])[axis]);
+                greatest = std::max(greatest, (*corners[i])[axis]);
+            }
+            is_in_box &= (least <= p[axis]) & (p[axis] <= greatest);
+        }
+        if (!is_in_box) continue;
+        bool is_inside = true;
+        for (int i = 0; i <= D && is_inside; ++i) {
+            const Point<D> *const corner = corners[i];
+            corners[i] = &p;
+            is_inside = orientation<D>(corners) > 0;
+            corners[i] = corner;
+        }
+        if (is_inside) return s;
+    }
+    return -1;
+}
+
+template <int D>
+void Glance<D>::describe(int number, const Domain<D> &domain, abacus_simplex &simplex) const {
+    std::uint64_t code = 0;
+    for (int i = 0; i <= D; ++i)
+        code = std::max(code, domain.code(view_.point(view_.corner(number, i))));
+    SimplexWriter<D> writer(simplex, code, false);
+    for (int i = 0; i <= D; ++i) {
+        const int vertex = view_.corner(number, i);
+        writer.corner(i, view_.id(vertex), view_.point(vertex));
+    }
+    writer.finish();
+}
+
+template <int D>
+bool Glance<D>::find(const Key &key, const Domain<D> &domain, const Point<D> &p,
+                     abacus_simplex &simplex) {
+    abacus_page page{};
+    if (!host_.find(ABACUS_SIMPLEX_PAGES, key, page) || was_seen(page.key)) return false;
+    if (look_into(page, domain, p, simplex)) return true;
+    // Near the border of the page's region it may be a neighbour's, on the curve as well.
+    const Key lower = view_.lower(), upper = view_.upper();
+    return (upper < end_key && host_.find(ABACUS_SIMPLEX_PAGES, upper, page) &&
+            look_into(page, domain, p, simplex)) ||
+           (first_key < lower && host_.find(ABACUS_SIMPLEX_PAGES, predecessor(lower), page) &&
+            look_into(page, domain, p, simplex));
+}
+
+template <int D>
+bool Glance<D>::look_into(const abacus_page &page, const Domain<D> &domain, const Point<D> &p,
+                          abacus_simplex &simplex) {
+    view_.read(page.bytes, page.size, attributes_);
+    if (!(view_.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
+    const int number = search(p);
+    if (number < 0) return false;
+    describe(number, domain, simplex);
+    return true;
+}
+
+template class Glance<2>;
+template class Glance<3>;
+
+} // namespace abacus

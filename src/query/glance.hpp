@@ -1,0 +1,55 @@
+// Locating a point in a stored page, without loading that into the cache.
+//
+// A page that is loaded pays off when it is asked again. Places at random in a mesh far
+// larger than the cache do not come back: then it is several times quicker to decode the
+// page, look for the one simplex, and keep nothing.
+//
+// Whether a page will be asked again nobody knows; so it is loaded at the second time, if it
+// is among the last pages looked into.
+#pragma once
+
+#include "cache/page_format.hpp"
+#include "geometry/locational_code.hpp"
+#include "geometry/predicates.hpp"
+#include "host/host.hpp"
+
+#include <array>
+#include <optional>
+
+namespace abacus {
+
+template <int D> class Glance {
+public:
+    explicit Glance(const Host &host, int attributes) : host_(host), attributes_(attributes) {}
+
+    /// Looks into the page that owns the key for a finite simplex with p strictly inside.
+    /// False if it has none, or is to be loaded.
+    bool find(const Key &key, const Domain<D> &domain, const Point<D> &p,
+              abacus_simplex &simplex);
+
+private:
+    static constexpr std::size_t remembered = 64; // pages
+    static constexpr Key no_page = end_key;
+
+    bool was_seen(const Key &page);
+    bool look_into(const abacus_page &page, const Domain<D> &domain, const Point<D> &p,
+                   abacus_simplex &simplex);
+    /// Number of the simplex in the page at hand, or -1.
+    int search(const Point<D> &p) const;
+    void describe(int number, const Domain<D> &domain, abacus_simplex &simplex) const;
+
+    const Host &host_;
+    const int attributes_;
+    PageView<D> view_;
+    std::array<Key, remembered> seen_ = [] {
+        std::array<Key, remembered> none;
+        none.fill(no_page);
+        return none;
+    }();
+    std::size_t next_ = 0; // of seen_
+};
+
+extern template class Glance<2>;
+extern template class Glance<3>;
+
+} // namespace abacus
