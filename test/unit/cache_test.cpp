@@ -101,6 +101,9 @@ TEST(Probing, ServesLinksWithoutAKey) {
                               (s.corner[0][1] + s.corner[1][1] + s.corner[2][1]) / 3};
         ASSERT_EQ(open.locate(middle, found), ABACUS_OK) << open.error.detail;
         EXPECT_EQ(found.id[0], s.id[0]);
+        // A place may be found in a page by itself; not so what lies across its facets.
+        for (int facet = 0; facet < 3; ++facet)
+            ASSERT_NE(open.walk(s, facet, found), ABACUS_ERROR) << open.error.detail;
     }
     // A page that was evicted is found again by the key it had; the others are probed for.
     const abacus_counters &counters = open.counters();
