@@ -2,6 +2,7 @@
 
 #include "cache/domain_of.hpp"
 #include "delaunay/conflict.hpp"
+#include "query/page_simplex.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -106,19 +107,12 @@ template <int D> void Check<D>::check_simplices(const PageView<D> &page) {
     for (int s = 0; s < page.simplices(); ++s) {
         const bool ghost = page.is_ghost(s);
         ++(ghost ? ghosts_ : simplices_);
-        std::array<Point<D>, D + 1> points;
-        std::uint64_t code = 0;
-        Corners<D> corners;
-        for (int i = 0; i < D + !ghost; ++i) {
-            points[i] = page.point(page.corner(s, i));
-            code = std::max(code, domain_.code(points[i]));
-            corners[i] = &points[i];
-        }
+        const std::uint64_t code = code_of(page, s, domain_);
         // Parts are compared by the topology pass, which has to compute them.
         const Key lowest{code, 0}, highest{code, key_word_end - 1};
         if (highest < page.lower() || page.upper() <= lowest)
             fault("key", at_key_, "A simplex lies in a page that does not own its key.");
-        if (!ghost && orientation<D>(corners) <= 0)
+        if (!ghost && orientation<D>(corners_of(page, s)) <= 0)
             fault("orientation", at_key_, "A simplex is flat or negatively oriented.");
     }
 }

@@ -1,6 +1,6 @@
 #include "query/glance.hpp"
 
-#include "query/describe.hpp"
+#include "query/page_simplex.hpp"
 
 #include <algorithm>
 
@@ -16,8 +16,7 @@ template <int D> bool Glance<D>::was_seen(const Key &page) {
 template <int D> int Glance<D>::search(const Point<D> &p) const {
     for (int s = 0; s < view_.simplices(); ++s) {
         if (view_.is_ghost(s)) continue;
-        Corners<D> corners;
-        for (int i = 0; i <= D; ++i) corners[i] = &view_.point(view_.corner(s, i));
+        Corners<D> corners = corners_of(view_, s);
         // Nearly all are dismissed by their boxes.
         bool is_in_box = true;
         for (int axis = 0; axis < D; ++axis) {
@@ -42,19 +41,6 @@ template <int D> int Glance<D>::search(const Point<D> &p) const {
 }
 
 template <int D>
-void Glance<D>::describe(int number, const Domain<D> &domain, abacus_simplex &simplex) const {
-    std::uint64_t code = 0;
-    for (int i = 0; i <= D; ++i)
-        code = std::max(code, domain.code(view_.point(view_.corner(number, i))));
-    SimplexWriter<D> writer(simplex, code, false);
-    for (int i = 0; i <= D; ++i) {
-        const int vertex = view_.corner(number, i);
-        writer.corner(i, view_.id(vertex), view_.point(vertex));
-    }
-    writer.finish();
-}
-
-template <int D>
 bool Glance<D>::find(const Key &key, const Domain<D> &domain, const Point<D> &p,
                      abacus_simplex &simplex) {
     abacus_page page{};
@@ -75,7 +61,7 @@ bool Glance<D>::look_into(const abacus_page &page, const Domain<D> &domain, cons
     if (!(view_.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
     const int number = search(p);
     if (number < 0) return false;
-    describe(number, domain, simplex);
+    describe(view_, number, domain, simplex);
     return true;
 }
 

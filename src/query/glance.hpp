@@ -36,7 +36,6 @@ private:
                    abacus_simplex &simplex);
     /// Number of the simplex in the page at hand, or -1.
     int search(const Point<D> &p) const;
-    void describe(int number, const Domain<D> &domain, abacus_simplex &simplex) const;
 
     const Host &host_;
     const int attributes_;

@@ -1,7 +1,7 @@
 #include "query/simplex_scan.hpp"
 
 #include "cache/domain_of.hpp"
-#include "query/describe.hpp"
+#include "query/page_simplex.hpp"
 
 namespace abacus {
 
@@ -19,18 +19,8 @@ template <int D> bool SimplexScan<D>::next(abacus_simplex &simplex) {
         const PageView<D> &page = pages_.page();
         while (at_ < page.simplices()) {
             const int s = at_++;
-            const bool ghost = page.is_ghost(s);
-            if (ghost && !ghosts_) continue;
-            std::array<Point<D>, D + 1> points;
-            std::uint64_t code = 0;
-            for (int i = 0; i < D + !ghost; ++i) {
-                points[i] = page.point(page.corner(s, i));
-                code = std::max(code, domain_.code(points[i]));
-            }
-            SimplexWriter<D> writer(simplex, code, ghost);
-            for (int i = 0; i < D + !ghost; ++i)
-                writer.corner(i, page.id(page.corner(s, i)), points[i]);
-            writer.finish();
+            if (page.is_ghost(s) && !ghosts_) continue;
+            describe(page, s, domain_, simplex);
             return true;
         }
         in_page_ = false;

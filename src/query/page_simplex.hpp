@@ -1,0 +1,39 @@
+// The simplices of a stored page as the mesh and its users see them, without a cache.
+#pragma once
+
+#include "cache/page_format.hpp"
+#include "geometry/locational_code.hpp"
+#include "geometry/predicates.hpp"
+#include "query/describe.hpp"
+
+namespace abacus {
+
+/// Corners of a finite simplex.
+template <int D> Corners<D> corners_of(const PageView<D> &page, int simplex) {
+    Corners<D> corners;
+    for (int i = 0; i <= D; ++i) corners[i] = &page.point(page.corner(simplex, i));
+    return corners;
+}
+
+/// Code of the simplex's key: the greatest of its vertices.
+template <int D>
+std::uint64_t code_of(const PageView<D> &page, int simplex, const Domain<D> &domain) {
+    std::uint64_t greatest = 0;
+    for (int i = 0; i < D + !page.is_ghost(simplex); ++i)
+        greatest = std::max(greatest, domain.code(page.point(page.corner(simplex, i))));
+    return greatest;
+}
+
+template <int D>
+void describe(const PageView<D> &page, int simplex, const Domain<D> &domain,
+              abacus_simplex &description) {
+    const bool ghost = page.is_ghost(simplex);
+    SimplexWriter<D> writer(description, code_of(page, simplex, domain), ghost);
+    for (int i = 0; i < D + !ghost; ++i) {
+        const int vertex = page.corner(simplex, i);
+        writer.corner(i, page.id(vertex), page.point(vertex));
+    }
+    writer.finish();
+}
+
+} // namespace abacus
