@@ -1,4 +1,5 @@
-// Exact predicates: orientation, and in-sphere under symbolic perturbation.
+// Exact predicates: orientation, and what follows from it; in-sphere under symbolic
+// perturbation.
 //
 // Each predicate first evaluates the determinant in doubles and compares it with
 // a bound on the rounding error; only when that does not decide does it call the
@@ -79,6 +80,19 @@ inline int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c,
 template <int D> inline int orientation(const Corners<D> &c) {
     if constexpr (D == 2) return orientation(*c[0], *c[1], *c[2]);
     else return orientation(*c[0], *c[1], *c[2], *c[3]);
+}
+
+/// Position of p to the simplex of positively oriented corners: +1 inside, 0 on a facet,
+/// -1 outside.
+template <int D> inline int in_simplex(Corners<D> corners, const Point<D> &p) {
+    int position = 1;
+    for (int i = 0; i <= D && position >= 0; ++i) {
+        const Point<D> *const corner = corners[i];
+        corners[i] = &p;
+        position = std::min(position, orientation<D>(corners));
+        corners[i] = corner;
+    }
+    return position;
 }
 
 /// Whether p is affinely independent of the first n points, which are.

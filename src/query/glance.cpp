@@ -16,7 +16,7 @@ template <int D> bool Glance<D>::was_seen(const Key &page) {
 template <int D> int Glance<D>::search(const Point<D> &p) const {
     for (int s = 0; s < view_.simplices(); ++s) {
         if (view_.is_ghost(s)) continue;
-        Corners<D> corners = corners_of(view_, s);
+        const Corners<D> corners = corners_of(view_, s);
         // Nearly all are dismissed by their boxes.
         bool is_in_box = true;
         for (int axis = 0; axis < D; ++axis) {
@@ -27,15 +27,7 @@ template <int D> int Glance<D>::search(const Point<D> &p) const {
             }
             is_in_box &= (least <= p[axis]) & (p[axis] <= greatest);
         }
-        if (!is_in_box) continue;
-        bool is_inside = true;
-        for (int i = 0; i <= D && is_inside; ++i) {
-            const Point<D> *const corner = corners[i];
-            corners[i] = &p;
-            is_inside = orientation<D>(corners) > 0;
-            corners[i] = corner;
-        }
-        if (is_inside) return s;
+        if (is_in_box && in_simplex<D>(corners, p) > 0) return s;
     }
     return -1;
 }

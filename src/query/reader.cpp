@@ -46,15 +46,9 @@ template <int D> Handle Reader<D>::find(const Point<D> &p) {
 
 // ---- Meshes that are not Delaunay ----------------------------------------------------
 
-template <int D> bool Reader<D>::contains(Handle h, const Point<D> &p, int least_sign) const {
-    Corners<D> corners = cache_.corners(cache_.simplex(h));
-    for (int i = 0; i <= D; ++i) {
-        const Point<D> *const corner = corners[i];
-        corners[i] = &p;
-        if (orientation<D>(corners) < least_sign) return false;
-        corners[i] = corner;
-    }
-    return true;
+template <int D> int Reader<D>::position(Handle h, const Point<D> &p) const {
+    const Simplex<D> &s = cache_.simplex(h);
+    return s.is_ghost() ? -1 : in_simplex<D>(cache_.corners(s), p);
 }
 
 template <int D> Handle Reader<D>::walk_to_inside(const Point<D> &p) {
@@ -63,7 +57,7 @@ template <int D> Handle Reader<D>::walk_to_inside(const Point<D> &p) {
     const Handle from = start(p);
     if (from == no_handle) return no_handle;
     const Handle h = walk_.within(p, from, longest);
-    if (h == no_handle || cache_.simplex(h).is_ghost() || !contains(h, p, 1)) return no_handle;
+    if (h == no_handle || position(h, p) <= 0) return no_handle;
     return last_ = h;
 }
 
@@ -88,8 +82,7 @@ template <int D> template <class Visit> void Reader<D>::search(const Point<D> &p
     search_pages(p, [&](const Key &page) -> std::optional<Key> {
         bool go_on = true;
         const Key next = cache_.visit(page, [&](Handle h) {
-            if (go_on && !cache_.simplex(h).is_ghost() && contains(h, p, 0))
-                go_on = visit(last_ = h);
+            if (go_on && position(h, p) >= 0) go_on = visit(last_ = h);
         });
         return go_on ? std::optional(next) : std::nullopt;
     });

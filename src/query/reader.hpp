@@ -57,7 +57,8 @@ private:
     template <class Visit> void search_pages(const Point<D> &p, Visit visit);
     /// Calls visit(handle) for every simplex that contains p, until it returns false.
     template <class Visit> void search(const Point<D> &p, Visit visit);
-    bool contains(Handle h, const Point<D> &p, int least_sign) const;
+    /// As in_simplex(); every point is outside of a ghost.
+    int position(Handle h, const Point<D> &p) const;
     bool search_first(const Point<D> &p, abacus_simplex &simplex);
     void describe(Handle h, abacus_simplex &simplex) const;
     /// All simplices around a point on a facet of h; the first of them.

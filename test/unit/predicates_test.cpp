@@ -39,6 +39,16 @@ template <int D> int unfiltered_orientation(const Corners<D> &c) {
         return exact::orientation(*c[0], *c[1], *c[2], *c[3]);
 }
 
+template <int D> int exact_position(const Corners<D> &c, const Point<D> &p) {
+    if constexpr (D == 2)
+        return Kernel::Triangle_2(cgal<D>(*c[0]), cgal<D>(*c[1]), cgal<D>(*c[2]))
+            .bounded_side(cgal<D>(p));
+    else
+        return Kernel::Tetrahedron_3(cgal<D>(*c[0]), cgal<D>(*c[1]), cgal<D>(*c[2]),
+                                     cgal<D>(*c[3]))
+            .bounded_side(cgal<D>(p));
+}
+
 /// CGAL's triangulations own the perturbation; what decides is protected.
 class Perturbed2 : public CGAL::Delaunay_triangulation_2<Kernel> {
 public:
@@ -132,6 +142,7 @@ protected:
             if (sign < 0) std::swap(corners[0], corners[1]);
             if (sign == 0) continue;
             ASSERT_EQ(orientation<D>(corners), 1);
+            ASSERT_EQ(in_simplex<D>(corners, p), exact_position<D>(corners, p));
             const int side = in_sphere(corners, p);
             const bool is_corner = std::find(points.begin(), points.end(), p) != points.end();
             ASSERT_EQ(side == 0, is_corner);
