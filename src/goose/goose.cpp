@@ -1,15 +1,13 @@
 #include "goose/goose.hpp"
 
 #include "cache/stopwatch.hpp"
+#include "geometry/conflict.hpp"
 #include "query/describe.hpp"
 
 namespace abacus {
 
 namespace {
 
-enum class Side { inside, outside, vertex };
-
-/// As side_of() of delaunay/conflict.hpp, for a row.
 template <int D> Side side_of(const abacus_simplex &row, const Point<D> &p) {
     std::array<Point<D>, D + 1> points;
     Corners<D> corners;
@@ -17,15 +15,7 @@ template <int D> Side side_of(const abacus_simplex &row, const Point<D> &p) {
         std::copy_n(row.corner[i], D, points[i].begin());
         corners[i] = &points[i];
     }
-    int sign;
-    if (row.ghost) {
-        points[D] = p;
-        sign = orientation<D>(corners);
-        if (sign == 0) sign = in_hull_facet(corners, p);
-    } else {
-        sign = in_sphere(corners, p);
-    }
-    return sign > 0 ? Side::inside : sign < 0 ? Side::outside : Side::vertex;
+    return row.ghost ? side_of_ghost<D>(corners, p) : side_of_simplex<D>(corners, p);
 }
 
 } // namespace
