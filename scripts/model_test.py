@@ -26,51 +26,25 @@ import sys
 import time
 
 from model_places import Places
+from psql_session import Failure, Session
 
-SENTINEL = "---- done ----"
 MOST_POINTS = {2: 20000, 3: 6000}  # enough to overflow a cache of 1 MB
 BEGINNINGS = (1, 10, 100, 1000, 12000)
 EXPECTED = ("injected failure", "out of memory", "lock timeout")
 SIZES = (1, 1, 1, 2, 5, 20, 100, 600)
 
 
-class Failure(Exception):
-    """The meshes are not as they should be."""
+class LoggedSession(Session):
+    """A session that leaves what it was told in a file."""
 
-
-class Session:
-    """A psql that is told one statement after the other."""
-
-    def __init__(self, log=None):
+    def __init__(self, log):
+        super().__init__()
         self.log = log
-        self.psql = subprocess.Popen(
-            ["psql", "-X", "-q", "-A", "-t"], text=True, bufsize=1,
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
-    def run(self, sql, may_fail=False):
-        """What it prints; None if it failed and may."""
-        if self.log:
-            self.log.write(sql + "\n")
-            self.log.flush()
-        self.psql.stdin.write(f"{sql}\n\\echo {SENTINEL}\n")
-        self.psql.stdin.flush()
-        lines = []
-        for line in self.psql.stdout:
-            if line == SENTINEL + "\n":
-                break
-            lines.append(line)
-        else:
-            raise Failure("the session has ended:\n" + "".join(lines))
-        printed = "".join(lines)
-        if "ERROR:" in printed:
-            if may_fail and any(cause in printed for cause in EXPECTED):
-                return None
-            raise Failure(f"{sql[:2000]}\n{printed}")
-        return printed.strip()
-
-    def close(self):
-        self.psql.stdin.close()
-        self.psql.wait()
+    def run(self, sql, expected=()):
+        self.log.write(sql + "\n")
+        self.log.flush()
+        return super().run(sql, expected)
 
 
 class World:
@@ -91,7 +65,7 @@ class World:
         self.next_savepoint = 1
         self.script = os.path.join(options.folder, f"seed-{seed}-world-{number}.sql")
         self.log = open(self.script, "w", encoding="utf-8")
-        self.session = Session(self.log)
+        self.session = LoggedSession(self.log)
         self.watcher = Session()
         self.watcher.run("SET lock_timeout = '20ms';")
 
@@ -206,7 +180,7 @@ class World:
             self.session.run(statement)
         if fails:
             self.session.run(f"SET abacus.fail_host_call = {int(10 ** self.chance.uniform(0, 3.3))};")
-        went = self.session.run(statements[-1], may_fail=fails) is not None
+        went = self.session.run(statements[-1], EXPECTED if fails else ()) is not None
         self.done["changes" if went else "failures"] += 1
         if alone:
             self.session.run("COMMIT;" if went else "ROLLBACK;")
@@ -277,7 +251,7 @@ class World:
         for mesh, table in (("mesh", "model"), ("followed", "tracked")):
             for session in (self.session, self.watcher):
                 found = session.run(self.differences(mesh, table),
-                                    may_fail=session is self.watcher)
+                                    EXPECTED if session is self.watcher else ())
                 if found is None:  # TRUNCATE keeps other readers out of the table
                     continue
                 if found != "0":

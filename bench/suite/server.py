@@ -12,47 +12,22 @@ import threading
 import time
 
 import paths
-
-SENTINEL = "---- done ----"
-
-
-class Failure(Exception):
-    """A statement failed."""
+import psql_session
+from psql_session import Failure
 
 
-class Session:
-    """A psql that is told one statement after the other, and its backend."""
+class Session(psql_session.Session):
+    """A psql whose backend is watched."""
 
     def __init__(self, **settings):
-        self.psql = subprocess.Popen(
-            ["psql", "-X", "-q", "-A", "-t"], text=True, bufsize=1,
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        super().__init__()
         self.backend = int(self.run("SELECT pg_backend_pid()"))
         for name, value in settings.items():
             self.run(f"SET {name.replace('__', '.')} = '{value}'")
 
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.psql.stdin.close()
-        self.psql.wait()
-
     def run(self, sql):
-        """What it prints."""
-        self.psql.stdin.write(f"{sql}\n;\n\\echo {SENTINEL}\n")
-        self.psql.stdin.flush()
-        lines = []
-        for line in self.psql.stdout:
-            if line == SENTINEL + "\n":
-                break
-            lines.append(line)
-        else:
-            raise Failure(f"the session has ended at\n{sql}\n{''.join(lines)}")
-        printed = "".join(lines).strip()
-        if "ERROR:" in printed:
-            raise Failure(f"{sql}\n{printed}")
-        return printed
+        """The statement need not end with a semicolon."""
+        return super().run(f"{sql}\n;")
 
     def cpu(self):
         """CPU seconds of the backend so far."""
