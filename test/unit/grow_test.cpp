@@ -1,12 +1,15 @@
 // Meshes that are changed all over: each page is loaded and stored about once, and pages
 // stay as full as those of a mesh that is built of the same points.
-#include "geometry/locational_code.hpp"
+#include "cache/domain_of.hpp"
 #include "staging/density.hpp"
+#include "staging/vertex_reader.hpp"
 #include "support/oracle.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <set>
 
 namespace abacus::test {
 namespace {
@@ -60,6 +63,37 @@ TYPED_TEST(Grow, AsManyPointsAgainAreOneRound) {
         const double again = cache == TestFixture::ample ? 1.0 : 2.2;
         EXPECT_LE(double(counters.loads), again * double(before));
         EXPECT_LE(double(counters.stores), again * double(mesh.host.pages.size()));
+        this->expect_as_fresh(mesh, points, 1.15);
+    }
+}
+
+// What memory does not hold is distributed over rounds as it comes in, and once more if the
+// mesh turns out to stand in for them.
+TYPED_TEST(Grow, MorePointsThanMemoryHoldsAreOneRound) {
+    constexpr int D = TypeParam::value;
+    constexpr auto many = TestFixture::many;
+    constexpr std::size_t scarce = (D == 2 ? 1024 : 512) << 10;
+    const auto points = this->uniform(2 * many, 5);
+    const auto more = this->part(points, many, 2 * many);
+    for (const std::size_t memory : {TestFixture::ample, scarce}) {
+        MeshOf<D> mesh;
+        ASSERT_EQ(mesh.insert(this->part(points, 0, many)), ABACUS_OK);
+        ASSERT_EQ(mesh.stage(more, memory), ABACUS_OK);
+        EXPECT_EQ(mesh.host.calls.spool_create > 0, memory == scarce);
+        ASSERT_EQ(mesh.header.staged, many);
+        const Host host = mesh.host.host();
+        VertexReader<D> waiting(host, 0, 0, many);
+        const Domain<D> domain = domain_of<D>(mesh.header);
+        std::vector<std::uint64_t> codes;
+        std::set<std::int64_t> ids;
+        while (waiting.advance()) {
+            codes.push_back(domain.code(waiting.point()));
+            ids.insert(waiting.id());
+        }
+        EXPECT_TRUE(std::is_sorted(codes.begin(), codes.end()));
+        EXPECT_EQ(ids.size(), many);
+        EXPECT_EQ(*ids.begin(), std::int64_t{many});
+        ASSERT_EQ(mesh.build(), ABACUS_OK);
         this->expect_as_fresh(mesh, points, 1.15);
     }
 }
