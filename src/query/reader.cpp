@@ -28,19 +28,17 @@ Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOpti
              linked_as(header, options)),
       glance_(cache_.host(), static_cast<int>(header.attributes)), walk_(cache_) {}
 
-template <int D> Handle Reader<D>::start(const Point<D> &p) {
+template <int D> Handle Reader<D>::start(const Point<D> &p, std::uint64_t code) {
     if (size_ == 0) return no_handle;
     cache_.trim();
-    const std::uint64_t code = cache_.domain().code(p);
-    Handle from = last_;
-    if (!cache_.is_live(from) || !(cache_.near(from, code) || walk_.is_close(from, p)))
-        from = cache_.start(code, p);
+    if (is_at_hand(code) || (cache_.is_live(last_) && walk_.is_close(last_, p))) return last_;
+    const Handle from = cache_.start(code, p);
     if (from == no_handle) throw_corrupted("The mesh has no simplices.");
     return from;
 }
 
-template <int D> Handle Reader<D>::find(const Point<D> &p) {
-    const Handle from = start(p);
+template <int D> Handle Reader<D>::find(const Point<D> &p, std::uint64_t code) {
+    const Handle from = start(p, code);
     return from == no_handle ? no_handle : last_ = walk_.to(p, from, size_);
 }
 
@@ -54,7 +52,7 @@ template <int D> int Reader<D>::position(Handle h, const Point<D> &p) const {
 template <int D> Handle Reader<D>::walk_to_inside(const Point<D> &p) {
     // From the block around p a walk takes some dozens of steps.
     constexpr std::uint64_t longest = 1024;
-    const Handle from = start(p);
+    const Handle from = start(p, cache_.domain().code(p));
     if (from == no_handle) return no_handle;
     const Handle h = walk_.within(p, from, longest);
     if (h == no_handle || position(h, p) <= 0) return no_handle;
@@ -142,17 +140,19 @@ template <int D> bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simpl
         describe(inside, simplex);
         return true;
     }
-    if (glance(p, simplex)) return true;
-    const Handle h = find(p);
+    const std::uint64_t code = cache_.domain().code(p);
+    if (glance(p, code, simplex)) return true;
+    const Handle h = find(p, code);
     if (h == no_handle || cache_.simplex(h).is_ghost()) return false;
     first_around(p, h, simplex);
     return true;
 }
 
-template <int D> bool Reader<D>::glance(const Point<D> &p, abacus_simplex &simplex) {
+template <int D>
+bool Reader<D>::glance(const Point<D> &p, std::uint64_t code, abacus_simplex &simplex) {
     if (cache_.counters.evictions == 0) return false; // the cache takes more
-    const Key key{cache_.domain().code(p), 0};
-    if (cache_.is_cached(key)) return false;
+    const Key key{code, 0};
+    if (is_at_hand(code) || cache_.is_cached(key)) return false;
     cache_.poll();
     return glance_.find(key, cache_.domain(), p, simplex);
 }
@@ -223,7 +223,7 @@ template <int D>
 std::optional<typename Reader<D>::Found> Reader<D>::vertex_at(const Point<D> &p) {
     Handle h = no_handle;
     if (delaunay_)
-        h = find(p);
+        h = find(p, cache_.domain().code(p));
     else
         search(p, [&](Handle found) {
             h = found;

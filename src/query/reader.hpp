@@ -44,11 +44,16 @@ public:
 
 private:
     /// A simplex with p in its closure, or a ghost that sees p; no_handle in an empty mesh.
-    Handle find(const Point<D> &p);
+    /// Here and below `code` is p's.
+    Handle find(const Point<D> &p, std::uint64_t code);
     /// Locates p in a page that is not in the cache, if that has been full and it is worth while.
-    bool glance(const Point<D> &p, abacus_simplex &simplex);
+    bool glance(const Point<D> &p, std::uint64_t code, abacus_simplex &simplex);
     /// Where a walk to p begins; no_handle in an empty mesh.
-    Handle start(const Point<D> &p);
+    Handle start(const Point<D> &p, std::uint64_t code);
+    /// Whether the block of the simplex found last owns the code.
+    bool is_at_hand(std::uint64_t code) const {
+        return cache_.is_live(last_) && cache_.near(last_, code);
+    }
     /// In a mesh that is not Delaunay: the simplex with p inside to which a short walk leads,
     /// or no_handle.
     Handle walk_to_inside(const Point<D> &p);
