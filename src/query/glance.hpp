@@ -14,22 +14,22 @@
 #include "host/host.hpp"
 
 #include <array>
-#include <optional>
 
 namespace abacus {
 
 template <int D> class Glance {
 public:
-    explicit Glance(const Host &host, int attributes) : host_(host), attributes_(attributes) {}
+    Glance(const Host &host, int attributes) : host_(host), attributes_(attributes) {
+        seen_.fill(end_key); // no page's
+    }
 
-    /// Looks into the page that owns the key for a finite simplex with p strictly inside.
-    /// False if it has none, or is to be loaded.
+    /// Looks for a finite simplex with p strictly inside: in the page that owns the key, then
+    /// in its neighbours on the curve. False if they have none, or the page is to be loaded.
     bool find(const Key &key, const Domain<D> &domain, const Point<D> &p,
               abacus_simplex &simplex);
 
 private:
     static constexpr std::size_t remembered = 64; // pages
-    static constexpr Key no_page = end_key;
 
     bool was_seen(const Key &page);
     bool look_into(const abacus_page &page, const Domain<D> &domain, const Point<D> &p,
@@ -40,11 +40,7 @@ private:
     const Host &host_;
     const int attributes_;
     PageView<D> view_;
-    std::array<Key, remembered> seen_ = [] {
-        std::array<Key, remembered> none;
-        none.fill(no_page);
-        return none;
-    }();
+    std::array<Key, remembered> seen_;
     std::size_t next_ = 0; // of seen_
 };
 

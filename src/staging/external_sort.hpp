@@ -23,9 +23,12 @@ struct SortBudget {
     std::size_t records; ///< held and sorted at once
     std::size_t sampled; ///< points of a sample
     unsigned spools;     ///< written at once
-    /// Parts for records of which nobody knows yet how many come.
-    unsigned parts(unsigned rounds) const { return std::max(3u, spools - std::min(spools, rounds)); }
     std::size_t piece;   ///< records that are read or written at once
+
+    /// Parts for records of which nobody knows yet how many come.
+    unsigned parts(unsigned rounds) const {
+        return std::max(3u, spools - std::min(spools, rounds));
+    }
 };
 
 template <int D> class ExternalSort {

@@ -53,20 +53,19 @@ template <int D> void Stage<D>::copy(const std::uint64_t *points, std::size_t co
 
 /// Moves the buffer to spools. From the first time on, the buffer is small.
 template <int D> void Stage<D>::spill() {
-    const std::size_t stride = stride_;
     for (std::size_t i = 0; i < buffered_; ++i)
-        sample_.add(record_point<D>(buffer_.data() + i * stride));
+        sample_.add(record_point<D>(buffer_.data() + i * stride_));
     if (spilled_ == 0) begin_to_distribute();
     else if (distributor_ && !domain_ &&
              !is_distributed_over(domain_around<D>(box_.lower, box_.upper)))
         stop_distributing();
     for (std::size_t at = 0; at < buffered_;) {
         const std::size_t n = std::min(buffered_ - at, budget_.piece);
-        const std::uint64_t *records = buffer_.data() + at * stride;
+        const std::uint64_t *records = buffer_.data() + at * stride_;
         if (distributor_)
-            for (std::size_t i = 0; i < n; ++i) distributor_->add(records + i * stride);
+            for (std::size_t i = 0; i < n; ++i) distributor_->add(records + i * stride_);
         else
-            piles_.back().write(host_, records, n, stride);
+            piles_.back().write(host_, records, n, stride_);
         at += n;
         pacer_.poll();
     }
