@@ -7,6 +7,7 @@
 // an insertion and surrounded by cached simplices is never hashed.
 #pragma once
 
+#include "cache/hash_slots.hpp"
 #include "geometry/locational_code.hpp"
 #include "host/arena.hpp"
 #include "mesh/simplex.hpp"
@@ -28,12 +29,11 @@ template <int D> class VertexHeap {
 public:
     VertexHeap(const Host &host, int attributes)
         : attributes_(attributes), vertices_(host), ids_(host), values_(host), free_(host),
-          table_(host) {
+          slots_(host) {
         // Vertex 0 is the point at infinity; NaN fails every floating-point filter.
         Point<D> nowhere;
         nowhere.fill(std::numeric_limits<double>::quiet_NaN());
         create(nowhere, 0, 0, nullptr); // the code is below all others
-        rehash(1024);
     }
 
     const Vertex<D> &operator[](VertexIndex v) const { return vertices_[v]; }
@@ -47,7 +47,7 @@ public:
     /// Vertices in use, the one at infinity included; the bytes they take.
     std::size_t count() const { return vertices_.size() - free_.size(); }
     std::size_t bytes() const {
-        return count() * (sizeof(Vertex<D>) + sizeof(std::int64_t) + sizeof(Slot) +
+        return count() * (sizeof(Vertex<D>) + sizeof(std::int64_t) + Slots::slot_bytes +
                           attributes_ * sizeof(double));
     }
     /// Above every vertex index in use.
@@ -130,7 +130,7 @@ public:
     bool in_use(VertexIndex v) const { return (vertices_[v].references & ~shared) != 0; }
 
     void destroy(VertexIndex v) {
-        if (vertices_[v].references & shared) erase(v);
+        if (vertices_[v].references & shared) slots_.remove(hash(point(v)), v);
         vertices_[v].references = 0;
         free_.push_back(v);
     }
@@ -139,19 +139,12 @@ public:
     void share(VertexIndex v) {
         if (vertices_[v].references & shared) return;
         vertices_[v].references |= shared;
-        if (2 * ++entries_ > table_.size()) rehash(2 * table_.size());
-        else insert(v);
+        slots_.add(hash(point(v)), v);
     }
 
     /// The shared vertex at p, or infinite_vertex.
     VertexIndex find_shared(const Point<D> &p) const {
-        const std::uint32_t hash = this->hash(p);
-        for (std::size_t i = hash & mask_;; i = (i + 1) & mask_) {
-            const Slot &slot = table_[i];
-            if (slot.vertex == infinite_vertex ||
-                (slot.hash == hash && vertices_[slot.vertex].point == p))
-                return slot.vertex;
-        }
+        return slots_.find(hash(p), [&](VertexIndex v) { return point(v) == p; });
     }
 
     void prefetch_id(VertexIndex v) const {
@@ -159,22 +152,15 @@ public:
         if (attributes_ != 0) __builtin_prefetch(attributes(v));
     }
     /// Two steps of find_shared() or share() in advance, for many points at once.
-    void prefetch_slot(const Point<D> &p) const { __builtin_prefetch(&table_[hash(p) & mask_]); }
+    void prefetch_slot(const Point<D> &p) const { slots_.prefetch(hash(p)); }
     void prefetch_vertex(const Point<D> &p) const {
-        const std::uint32_t hash = this->hash(p);
-        std::size_t i = hash & mask_;
-        while (table_[i].vertex != infinite_vertex && table_[i].hash != hash) i = (i + 1) & mask_;
-        __builtin_prefetch(&vertices_[table_[i].vertex]);
+        __builtin_prefetch(&vertices_[slots_.first(hash(p))]);
     }
 
 private:
     static constexpr std::uint32_t shared = 0x80000000u;
 
-    /// With the hash of its vertex, so that others, in cold memory, need not be looked at.
-    struct Slot {
-        VertexIndex vertex; // infinite_vertex: empty
-        std::uint32_t hash;
-    };
+    using Slots = HashSlots<infinite_vertex>;
 
     std::uint32_t hash(const Point<D> &p) const {
         std::uint64_t h = 0;
@@ -185,45 +171,12 @@ private:
         return static_cast<std::uint32_t>(h);
     }
 
-    void insert(VertexIndex v) {
-        const std::uint32_t hash = this->hash(vertices_[v].point);
-        std::size_t i = hash & mask_;
-        while (table_[i].vertex != infinite_vertex) i = (i + 1) & mask_;
-        table_[i] = {v, hash};
-    }
-
-    // Linear probing without tombstones: later entries of the run move up.
-    void erase(VertexIndex v) {
-        std::size_t i = hash(vertices_[v].point) & mask_;
-        while (table_[i].vertex != v) i = (i + 1) & mask_;
-        for (std::size_t j = i;;) {
-            j = (j + 1) & mask_;
-            if (table_[j].vertex == infinite_vertex) break;
-            if (((j - table_[j].hash) & mask_) >= ((j - i) & mask_)) {
-                table_[i] = table_[j];
-                i = j;
-            }
-        }
-        table_[i].vertex = infinite_vertex;
-        --entries_;
-    }
-
-    void rehash(std::size_t size) {
-        table_.resize(size);
-        std::fill(table_.begin(), table_.end(), Slot{infinite_vertex, 0});
-        mask_ = size - 1;
-        for (VertexIndex v = 1; v < vertices_.size(); ++v)
-            if (vertices_[v].references & shared) insert(v);
-    }
-
     int attributes_;
     Arena<Vertex<D>> vertices_;
     Arena<std::int64_t> ids_;
     Arena<double> values_;
     Arena<VertexIndex> free_;
-    Arena<Slot> table_;
-    std::size_t mask_ = 0;
-    std::size_t entries_ = 0;
+    Slots slots_; // of the shared vertices, by their points
 };
 
 } // namespace abacus

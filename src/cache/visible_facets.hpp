@@ -5,6 +5,7 @@
 // that comes in looks for its neighbours).
 #pragma once
 
+#include "cache/hash_slots.hpp"
 #include "cache/key.hpp"
 #include "host/arena.hpp"
 #include "mesh/simplex.hpp"
@@ -21,12 +22,12 @@ public:
         std::uint32_t hash; // of a free entry: the next one
     };
 
-    explicit VisibleFacets(const Host &host) : entries_(host), table_(host) { rehash(1024); }
+    explicit VisibleFacets(const Host &host) : entries_(host), slots_(host) {}
 
     Entry &operator[](std::uint32_t number) { return entries_[number]; }
     const Entry &operator[](std::uint32_t number) const { return entries_[number]; }
     std::size_t count() const { return count_; }
-    std::size_t bytes() const { return count_ * (sizeof(Entry) + 2 * sizeof(Slot)); }
+    std::size_t bytes() const { return count_ * (sizeof(Entry) + 2 * Slots::slot_bytes); }
 
     static std::uint32_t hash(const Vertices &facet) {
         std::uint64_t h = 0;
@@ -47,25 +48,14 @@ public:
             entries_.resize(number + 1);
         }
         entries_[number] = {beyond, owner, hash};
-        if (2 * ++count_ > table_.size()) rehash(2 * table_.size());
-        else insert({hash, number});
+        slots_.add(hash, number);
+        ++count_;
         return number;
     }
 
-    // Linear probing without tombstones: later slots of the run move up.
     void remove(std::uint32_t number) {
         Entry &entry = entries_[number];
-        std::size_t i = entry.hash & mask_;
-        while (table_[i].number != number) i = (i + 1) & mask_;
-        for (std::size_t j = i;;) {
-            j = (j + 1) & mask_;
-            if (table_[j].number == none) break;
-            if (((j - table_[j].hash) & mask_) >= ((j - i) & mask_)) {
-                table_[i] = table_[j];
-                i = j;
-            }
-        }
-        table_[i].number = none;
+        slots_.remove(entry.hash, number);
         entry.owner = unset;
         entry.hash = free_;
         free_ = number;
@@ -74,47 +64,23 @@ public:
 
     /// Number of the entry with this hash for which same(owner link) holds, or `none`.
     template <class Same> std::uint32_t find(std::uint32_t hash, Same same) const {
-        for (std::size_t i = hash & mask_;; i = (i + 1) & mask_) {
-            const Slot &slot = table_[i];
-            if (slot.number == none ||
-                (slot.hash == hash && same(entries_[slot.number].owner)))
-                return slot.number;
-        }
+        return slots_.find(hash,
+                           [&](std::uint32_t number) { return same(entries_[number].owner); });
     }
     /// The first entry with this hash, which is nearly always the one that find() finds.
-    std::uint32_t guess(std::uint32_t hash) const {
-        return find(hash, [](Link) { return true; });
-    }
+    std::uint32_t guess(std::uint32_t hash) const { return slots_.first(hash); }
 
     /// What find() and add(), and remove(), will read.
-    void prefetch(std::uint32_t hash) const { __builtin_prefetch(&table_[hash & mask_]); }
+    void prefetch(std::uint32_t hash) const { slots_.prefetch(hash); }
     void prefetch_entry(std::uint32_t number) const { __builtin_prefetch(&entries_[number], 1); }
 
     static constexpr std::uint32_t none = 0xffffffffu;
 
 private:
-    struct Slot {
-        std::uint32_t hash;
-        std::uint32_t number; // `none` of an empty one
-    };
-
-    void insert(const Slot &slot) {
-        std::size_t i = slot.hash & mask_;
-        while (table_[i].number != none) i = (i + 1) & mask_;
-        table_[i] = slot;
-    }
-
-    void rehash(std::size_t size) {
-        table_.resize(size);
-        std::fill(table_.begin(), table_.end(), Slot{0, none});
-        mask_ = size - 1;
-        for (std::uint32_t number = 0; number < entries_.size(); ++number)
-            if (entries_[number].owner != unset) insert({entries_[number].hash, number});
-    }
+    using Slots = HashSlots<none>;
 
     Arena<Entry> entries_;
-    Arena<Slot> table_;
-    std::size_t mask_ = 0;
+    Slots slots_; // of the entries
     std::uint32_t free_ = none;
     std::size_t count_ = 0;
 };
