@@ -55,7 +55,7 @@ class PostGIS:
         self.labels = {"engine": "postgis"}
 
     def sample(self, points: PointSet):
-        server.query("SET client_min_messages = warning; CREATE EXTENSION IF NOT EXISTS postgis")
+        server.create_extension("postgis")
         server.settle()
         with server.Session() as session:
             sample = session.timed("SELECT ST_NumGeometries(ST_DelaunayTriangles(ST_Collect("

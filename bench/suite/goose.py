@@ -1,6 +1,7 @@
 """Parts that time Goose, the dissertation's chapter 2, beside Abacus: the same points, in turns."""
 import json
 
+import engines
 import server
 from points import PointSet
 
@@ -13,14 +14,14 @@ class Goose:
 
     def measure(self, suite):
         if self.dimension == 3:
-            server.query("SET client_min_messages = warning; CREATE EXTENSION IF NOT EXISTS cube")
+            server.create_extension("cube")
         for size in self.sizes[suite.mode]:
             points = PointSet(self.dimension, "uniform", size)
             labels = {"dimension": self.dimension, "set": points.name, "points": points.create_table()}
             abacus = {"what": "goose", "engine": "abacus", **labels, "samples": []}
             goose = {"what": "goose", "engine": "goose", **labels, "samples": []}
             for _ in range(self.runs[suite.mode]):
-                abacus["samples"].append(take_abacus(points))
+                abacus["samples"].append(engines.Abacus("default").sample(points))
                 goose["samples"].append(take_goose(points))
             compare_simplices(self.dimension)
             suite.measurements += [abacus, goose]
@@ -29,15 +30,6 @@ class Goose:
                 suite.say(f"  {size:9,} points  {measurement['engine']:6} {sample['wall']:9.3f} s"
                           f"   CPU {sample['cpu']:9.3f} s")
             server.drop("mesh", "mesh_vertices", "rows", "points")
-
-
-def take_abacus(points):
-    server.drop("mesh", "mesh_vertices")
-    server.settle()
-    with server.Session() as session:
-        sample = session.timed(points.triangulate())
-    sample["simplices"] = int(sample.pop("printed"))
-    return sample
 
 
 def take_goose(points):

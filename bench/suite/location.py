@@ -76,8 +76,8 @@ def measure_cold(suite, points, labels):
     """What is read for the first place of a session after a fresh start of the server, and for a
     second place, far away, when the mesh is open. Averages over samples make the figures."""
     server.drop("index_pages")
-    server.query("CREATE EXTENSION IF NOT EXISTS pg_buffercache;"
-                 "CREATE EXTENSION IF NOT EXISTS pageinspect")
+    server.create_extension("pg_buffercache")
+    server.create_extension("pageinspect")
     server.query("CREATE TABLE index_pages AS"
                  " SELECT block, (bt_page_stats('mesh_pkey', block)).btpo_level AS level"
                  " FROM generate_series(1, pg_relation_size('mesh_pkey') / 8192 - 1) AS block")

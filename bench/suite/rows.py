@@ -105,7 +105,7 @@ class Rows:
 def make_tables(habits):
     """One for each habit; those that there are."""
     if server.has_extension("postgis"):
-        server.query("SET client_min_messages = warning; CREATE EXTENSION IF NOT EXISTS postgis")
+        server.create_extension("postgis")
     else:
         habits = [habit for habit in habits if habit != "postgis"]
     server.drop(*(TABLE_OF[habit] for habit in habits))

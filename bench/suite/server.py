@@ -91,6 +91,10 @@ def has_extension(name):
     return query(f"SELECT count(*) FROM pg_available_extensions WHERE name = '{name}'") == "1"
 
 
+def create_extension(name):
+    query(f"SET client_min_messages = warning; CREATE EXTENSION IF NOT EXISTS {name}")
+
+
 def settings():
     """Those that the server was told; the others have their defaults."""
     return json.loads(query(
