@@ -79,7 +79,7 @@ private:
     const std::size_t share_; // of memory, for one of the sorts that are open at once
     Pacer pacer_;
     std::optional<Domain<D>> domain_;
-    Extent<D> box_ = Extent<D>::none();
+    Box<D> box_;
     bool delaunay_ = true;
     Word vertex_count_ = 0, simplex_count_ = 0;
     Point<D> least_{}, greatest_{}; // of the vertices, lexicographically

@@ -47,7 +47,7 @@ template <int D> bool Overlap<D>::fill(RecordSort &boundary) {
         const Word *record = boundary.next();
         if (record == nullptr) break;
         facets_.push_back(read(record));
-        tree_.add(facets_.back().extent());
+        tree_.add(facets_.back().box());
     }
     tree_.finish();
     return !facets_.empty();
@@ -66,7 +66,7 @@ template <int D> void Overlap<D>::check_simplices(RecordSpool &simplices) const 
     simplices.rewind();
     while (const Word *simplex = simplices.next()) {
         Corners<D> corners;
-        auto box = Extent<D>::none();
+        Box<D> box;
         for (int i = 0; i <= D; ++i) {
             corners[i] = &point_in<D>(layout_.simplex_vertex(simplex, i));
             box.extend(*corners[i]);
@@ -111,7 +111,7 @@ template <int D> void Overlap<D>::check_boundary(RecordSort &boundary) const {
         if (record == nullptr) return;
         if (number < first_) continue;
         const BoundaryFacet facet = read(record);
-        tree_.visit(facet.extent(), [&](std::size_t i) {
+        tree_.visit(facet.box(), [&](std::size_t i) {
             host_.poll();
             const BoundaryFacet &other = facets_[i];
             if (first_ + i >= number) return false; // itself and later ones: their turn comes

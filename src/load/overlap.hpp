@@ -57,8 +57,8 @@ private:
             for (int i = 0; i < D; ++i) result[i] = &point[i];
             return result;
         }
-        Extent<D> extent() const {
-            auto box = Extent<D>::none();
+        Box<D> box() const {
+            Box<D> box;
             for (const Point<D> &p : point) box.extend(p);
             return box;
         }

@@ -5,49 +5,18 @@
 // no pointers are needed (Kamel and Faloutsos, "On Packing R-trees", 1993).
 #pragma once
 
-#include "geometry/point.hpp"
+#include "geometry/box.hpp"
 #include "host/arena.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace abacus {
-
-/// A closed box; empty at first.
-template <int D> struct Extent {
-    Point<D> lower, upper;
-
-    static Extent none() {
-        Extent box;
-        box.lower.fill(std::numeric_limits<double>::infinity());
-        box.upper.fill(-std::numeric_limits<double>::infinity());
-        return box;
-    }
-    void extend(const Point<D> &p) {
-        for (int i = 0; i < D; ++i) {
-            lower[i] = std::min(lower[i], p[i]);
-            upper[i] = std::max(upper[i], p[i]);
-        }
-    }
-    void extend(const Extent &box) {
-        for (int i = 0; i < D; ++i) {
-            lower[i] = std::min(lower[i], box.lower[i]);
-            upper[i] = std::max(upper[i], box.upper[i]);
-        }
-    }
-    bool meets(const Extent &box) const {
-        bool meets = true;
-        for (int i = 0; i < D; ++i)
-            meets &= lower[i] <= box.upper[i] && box.lower[i] <= upper[i];
-        return meets;
-    }
-};
 
 template <int D> class BoxTree {
 public:
     static constexpr std::size_t fan = 8;
     /// Memory for a box and its share of the nodes above, bytes.
-    static constexpr std::size_t bytes_per_box = sizeof(Extent<D>) * fan / (fan - 1) + 1;
+    static constexpr std::size_t bytes_per_box = sizeof(Box<D>) * fan / (fan - 1) + 1;
 
     explicit BoxTree(const Host &host) : boxes_(host) {}
 
@@ -56,7 +25,7 @@ public:
         size_ = 0;
         levels_ = 0;
     }
-    void add(const Extent<D> &box) { boxes_.push_back(box); }
+    void add(const Box<D> &box) { boxes_.push_back(box); }
     /// After the last add(): makes the nodes.
     void finish() {
         size_ = boxes_.size();
@@ -65,7 +34,7 @@ public:
             begin_[levels_++] = begin;
             if (end - begin <= 1) break;
             for (std::size_t i = begin; i < end; i += fan) {
-                Extent<D> node = boxes_[i];
+                Box<D> node = boxes_[i];
                 for (std::size_t k = i + 1; k < std::min(i + fan, end); ++k)
                     node.extend(boxes_[k]);
                 boxes_.push_back(node);
@@ -78,13 +47,13 @@ public:
 
     /// Calls visit(number) for each box that meets `box`, in order, until it returns
     /// false; returns whether it did not.
-    template <class Visit> bool visit(const Extent<D> &box, Visit visit) const {
+    template <class Visit> bool visit(const Box<D> &box, Visit visit) const {
         return size_ == 0 || visit_node(levels_ - 1, 0, box, visit);
     }
 
 private:
     template <class Visit>
-    bool visit_node(int level, std::size_t i, const Extent<D> &box, Visit &visit) const {
+    bool visit_node(int level, std::size_t i, const Box<D> &box, Visit &visit) const {
         if (!boxes_[begin_[level] + i].meets(box)) return true;
         if (level == 0) return visit(i);
         const std::size_t below = begin_[level] - begin_[level - 1];
@@ -93,7 +62,7 @@ private:
         return true;
     }
 
-    Arena<Extent<D>> boxes_;  // those added, then each level of nodes
+    Arena<Box<D>> boxes_;  // those added, then each level of nodes
     std::size_t size_ = 0;
     std::size_t begin_[24];   // of each level in boxes_
     int levels_ = 0;

@@ -16,18 +16,18 @@ PageBoxes<D>::PageBoxes(const Host &host, unsigned attributes, std::size_t bytes
                 pages *= 2;
             }
             keys_.push_back(scan.key());
-            boxes_.push_back(Extent<D>::none());
+            boxes_.push_back(Box<D>());
             in_last = 0;
         }
         ++in_last;
-        Extent<D> box;
+        Box<D> box;
         for (int i = 0; i < D; ++i) {
             box.lower[i] = scan.page().box(i);
             box.upper[i] = scan.page().box(D + i);
         }
         boxes_.back().extend(box);
     }
-    for (const Extent<D> &box : boxes_) tree_.add(box);
+    for (const Box<D> &box : boxes_) tree_.add(box);
     tree_.finish();
     boxes_.reset();
 }
@@ -36,7 +36,7 @@ PageBoxes<D>::PageBoxes(const Host &host, unsigned attributes, std::size_t bytes
 template <int D> void PageBoxes<D>::halve() {
     std::size_t n = 0;
     for (std::size_t i = 0; i < keys_.size(); i += 2, ++n) {
-        Extent<D> box = boxes_[i];
+        Box<D> box = boxes_[i];
         if (i + 1 < keys_.size()) box.extend(boxes_[i + 1]);
         keys_[n] = keys_[i];
         boxes_[n] = box;

@@ -26,7 +26,7 @@ private:
     void halve();
 
     Arena<Key> keys_; // of the first page of each box
-    Arena<Extent<D>> boxes_;
+    Arena<Box<D>> boxes_;
     BoxTree<D> tree_;
 };
 

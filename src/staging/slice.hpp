@@ -3,6 +3,7 @@
 // domain, or of a smaller box when the points share one code of the larger.
 #pragma once
 
+#include "geometry/box.hpp"
 #include "geometry/locational_code.hpp"
 #include "staging/radix_sort.hpp"
 #include "staging/rounds.hpp"
@@ -11,23 +12,6 @@
 #include <cstdint>
 
 namespace abacus {
-
-/// Bounding box of points with canonical coordinates.
-template <int D> struct Box {
-    Point<D> lower, upper;
-
-    Box() {
-        lower.fill(std::numeric_limits<double>::infinity());
-        upper.fill(-std::numeric_limits<double>::infinity());
-    }
-    void extend(const Point<D> &p) {
-        for (int i = 0; i < D; ++i) {
-            lower[i] = std::min(lower[i], p[i]);
-            upper[i] = std::max(upper[i], p[i]);
-        }
-    }
-    bool is_point() const { return lower == upper; }
-};
 
 template <int D> struct Slice {
     static constexpr std::uint64_t last_code = (std::uint64_t{1} << (D * code_bits<D>)) - 1;
