@@ -168,16 +168,7 @@ template <int D> void Insertion<D>::start(const std::array<VertexIndex, D + 1> &
     std::array<Handle, D + 2> created;
     created[D + 1] = cache_.create(corners);
     mesh_.count(1, D + 1);
-    for (int i = 0; i <= D; ++i) {
-        // The point at infinity is on the other side of facet i than corner i: one
-        // exchange of corners turns the orientation back. It brings infinity to its place,
-        // or, if it is there already, exchanges two others.
-        std::array<VertexIndex, D + 1> ghost = corners;
-        ghost[i] = infinite_vertex;
-        if (i == D) std::swap(ghost[0], ghost[1]);
-        else std::swap(ghost[i], ghost[D]);
-        created[i] = cache_.create(ghost);
-    }
+    for (int i = 0; i <= D; ++i) created[i] = cache_.create(ghost_on(corners, i, infinite_vertex));
     for (std::size_t a = 0; a < created.size(); ++a)
         for (std::size_t b = a + 1; b < created.size(); ++b)
             for (int i = 0; i <= D; ++i)

@@ -59,16 +59,7 @@ template <int D> void Goose<D>::start() {
     for (int i = 0; i <= D; ++i) points[i] = &simplex.vertex[i].point;
     if (orientation<D>(points) < 0) std::swap(simplex.vertex[0], simplex.vertex[1]);
     insert_row(simplex);
-    for (int i = 0; i <= D; ++i) {
-        // Infinity, on the other side of facet i than corner i, takes its place; one exchange
-        // turns the orientation back, and brings infinity to the end.
-        Row ghost{simplex.vertex, true};
-        if (i == D)
-            std::swap(ghost.vertex[0], ghost.vertex[1]);
-        else
-            std::swap(ghost.vertex[i], ghost.vertex[D]);
-        insert_row(ghost);
-    }
+    for (int i = 0; i <= D; ++i) insert_row({ghost_on(simplex.vertex, i, Vertex{}), true});
     figures_.vertices = D + 1;
     figures_.simplices = 1;
     figures_.ghosts = D + 1;

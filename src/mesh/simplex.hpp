@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 
 namespace abacus {
 
@@ -51,6 +52,18 @@ template <int D> struct Simplex {
         return D;
     }
 };
+
+/// Corners of the ghost on a facet of a positively oriented simplex. The point at infinity is
+/// on the other side of the facet than the corner opposite: one exchange turns the orientation
+/// back. It brings infinity to its place, or, if it is there already, exchanges two others.
+template <class Vertex, std::size_t n>
+constexpr std::array<Vertex, n> ghost_on(std::array<Vertex, n> corners, std::size_t facet,
+                                         const Vertex &infinity) {
+    corners[facet] = infinity;
+    if (facet == n - 1) std::swap(corners[0], corners[1]);
+    else std::swap(corners[facet], corners[n - 1]);
+    return corners;
+}
 
 /// Vertices of a facet in ascending order, and whether the order of the facet
 /// induced by its simplex is an odd permutation of it. Neighbours in an oriented
