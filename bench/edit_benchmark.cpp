@@ -40,7 +40,6 @@ public:
     /// Of all bytes in pages.
     double fill() const {
         std::size_t bytes = 0;
-        if (getenv("HIST")) { int h[21]={}; int i=0; for (const auto &[key, page] : host_.pages) { h[page.size*20/ABACUS_PAGE_BYTES]++; if (i++>=1000&&i<1100) fprintf(stderr,"%d ",int(page.size*100/ABACUS_PAGE_BYTES)); } fprintf(stderr,"\n"); for(int k=0;k<21;k++) fprintf(stderr,"%d%%:%d ",5*k,h[k]); fprintf(stderr,"\n"); }
         for (const auto &[key, page] : host_.pages) bytes += page.size;
         return double(bytes) / double(pages()) / ABACUS_PAGE_BYTES;
     }
