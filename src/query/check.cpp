@@ -55,7 +55,8 @@ template <int D> void Check<D>::check_header() {
     if ((h.simplices > 0) != (h.vertices > 0) || (h.ghosts > 0) != (h.vertices > 0))
         fault("count", first_key,
               "The header has vertices without simplices or the other way round.");
-    if (D == 2 && h.simplices > 0 && h.not_delaunay == 0 && h.simplices + h.ghosts + 2 != 2 * h.vertices)
+    if (D == 2 && h.simplices > 0 && h.not_delaunay == 0 &&
+        h.simplices + h.ghosts + 2 != 2 * h.vertices)
         fault("euler", first_key, "Vertices, triangles and hull edges do not add up.");
     for (int i = 0; i < D; ++i)
         if (!(std::isfinite(h.lower[i]) && std::isfinite(h.upper[i]) && h.lower[i] <= h.upper[i]))
@@ -209,8 +210,9 @@ template <int D> void Check<D>::check_listed_vertices() {
         at_key_ = {list.sequence(), 0};
         const Point<D> p = list.point();
         const std::uint64_t code = domain_.code(p);
-        if (list.sequence() > 0 && (code < previous_code || (code == previous_code &&
-                                                             !lexicographically_less<D>(previous, p))))
+        if (list.sequence() > 0 &&
+            (code < previous_code ||
+             (code == previous_code && !lexicographically_less<D>(previous, p))))
             fault("vertex", at_key_, "The list of vertices is not in order.");
         previous_code = code;
         previous = p;

@@ -3,8 +3,9 @@
 // A look at the header and three passes, each independent of how the mesh was made:
 //
 //   header    the counts do not contradict each other; in 2D, Euler's relation holds
-//   pages     every page decodes and has the checksum of its bytes; the intervals partition the curve; each simplex is in the page that owns its
-//             key and positively oriented; the counts add up
+//   pages     every page decodes and has the checksum of its bytes; the intervals
+//             partition the curve; each simplex is in the page that owns its key and
+//             positively oriented; the counts add up
 //   topology  every link leads, by its stored key, to the simplex with the same facet
 //             in the opposite orientation; pages agree about the vertices they share;
 //             across every facet the empty-sphere criterion holds under the
@@ -28,8 +29,8 @@
 // follows from Euler's relation in 2D; in 3D nothing proves it.
 #pragma once
 
-#include "query/page_scan.hpp"
 #include "query/own_vertices.hpp"
+#include "query/page_scan.hpp"
 #include "query/reader.hpp"
 #include "staging/repeated_points.hpp"
 #include "staging/vertex_reader.hpp"

@@ -19,15 +19,16 @@ private:
     bool next_vertex(abacus_vertex &vertex);
     bool next_repeated(abacus_vertex &vertex);
     bool next_waiting(abacus_vertex &vertex);
-    void collect();
     bool next_listed(abacus_vertex &vertex);
+    /// Takes the vertices of the next page.
+    void collect();
 
     const unsigned attributes_;
     const bool listed_; // the vertices of a mesh that is not Delaunay have pages of their own
     Reader<D> mesh_;
     OwnVertices<D> own_;
     Key page_;                     // the next one to take vertices from
-    Arena<std::uint64_t> records_; // vertices of the page before: the cache may change between calls
+    Arena<std::uint64_t> records_; // those of the page before: the cache may change between calls
     std::size_t at_ = 0;
     RepeatedReader<D> repeated_;
     bool more_repeated_ = true;

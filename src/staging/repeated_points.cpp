@@ -43,7 +43,8 @@ void decode(const abacus_page &page, const Domain<D> &domain, unsigned attribute
     if (header.count > room / (8 * stride) || header.count * 8 * stride != room)
         throw_bad_page("has a size that does not fit its number of points");
     entries.clear();
-    if (room > 0) std::memcpy(entries.extend(header.count * stride), page.bytes + sizeof header, room);
+    if (room > 0)
+        std::memcpy(entries.extend(header.count * stride), page.bytes + sizeof header, room);
     Key last = page.key;
     for (std::size_t i = 0; i < header.count; ++i) {
         const std::uint64_t *entry = entries.data() + i * stride;
