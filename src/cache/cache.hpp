@@ -363,7 +363,9 @@ private:
     void shrink();
     void choose_victims(Arena<BlockIndex> &victims);
     void evict(Arena<BlockIndex> &victims);
-    void prefetch_vertices(BlockIndex b) const;
+    /// So that they are in the processor's cache soon.
+    void ask_for_vertices(BlockIndex b) const;
+    void ask_for_slots(BlockIndex b) const;
     /// Lists the block's facets on its border, and numbers its vertices.
     void survey(BlockIndex b);
     void mark_border();

@@ -9,10 +9,13 @@
 //
 // What leaves has not been used for long, so it is in no processor cache, and a page
 // is made from some hundred places in memory: the vertices, and the simplices beyond
-// its border. All of them are asked for before the first is read.
+// its border. All of them are asked for before the first is read: the vertices while the
+// block before is made a page, and its slots, which tell the vertices, while the one before
+// that is.
 #include "cache/cache.hpp"
 
 #include "cache/stopwatch.hpp"
+#include "host/touch.hpp"
 
 namespace abacus {
 
@@ -94,6 +97,9 @@ template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
     left_.clear();
     for (std::size_t i = 0; i < victims.size(); ++i) {
         const BlockIndex b = victims[i];
+        if (i == 0) ask_for_vertices(b);
+        if (i + 1 < victims.size()) ask_for_vertices(victims[i + 1]);
+        if (i + 2 < victims.size()) ask_for_slots(victims[i + 2]);
         if (blocks_[b].dirty) {
             while (!encode(b)) victims.push_back(halve(b)); // too many bytes, not too many slots
             store(b);
@@ -171,6 +177,8 @@ template <int D> void Cache<D>::flush() {
         changed = false;
         for (BlockIndex b = 0; b < blocks_.size(); ++b) {
             if (blocks_[b].state != Block::cached || !blocks_[b].dirty) continue;
+            if (b + 1 < blocks_.size()) ask_for_vertices(b + 1);
+            if (b + 2 < blocks_.size()) ask_for_slots(b + 2);
             while (!encode(b)) halve(b);
             store(b);
             changed = true;
@@ -187,15 +195,23 @@ template <int D> Key Cache<D>::key_beyond(Handle h, int facet) const {
     return {code(s), blocks_[block_of<D>(neighbour)].has_parts() ? part(s) : 0};
 }
 
-template <int D> void Cache<D>::prefetch_vertices(BlockIndex b) const {
+template <int D> void Cache<D>::ask_for_vertices(BlockIndex b) const {
+    if (blocks_[b].state != Block::cached) return;
     // Nearly every vertex is the first of some simplex.
     const Simplex<D> *const begin = &slots_[b * block_slots<D>];
     for (const Simplex<D> *s = begin; s != begin + blocks_[b].high_water; ++s)
-        if (!s->is_free()) __builtin_prefetch(&vertices_[s->vertex[0]], 1);
+        if (!s->is_free()) touch(&vertices_[s->vertex[0]]);
+}
+
+/// They are one stretch of memory, where prefetch instructions do.
+template <int D> void Cache<D>::ask_for_slots(BlockIndex b) const {
+    if (blocks_[b].state != Block::cached) return;
+    const auto *const slots = reinterpret_cast<const char *>(&slots_[b * block_slots<D>]);
+    const std::size_t size = blocks_[b].high_water * sizeof(Simplex<D>);
+    for (std::size_t at = 0; at < size; at += cache_line) __builtin_prefetch(slots + at);
 }
 
 template <int D> void Cache<D>::survey(BlockIndex b) {
-    prefetch_vertices(b);
     const Handle first = b * block_slots<D>;
     numbered_.clear();
     border_.clear();
@@ -218,7 +234,7 @@ template <int D> void Cache<D>::mark_border() {
     for (const Link inner : border_) {
         const Simplex<D> &s = slots_[link_simplex(inner)];
         const Link outer = s.link[link_facet(inner)];
-        if (!is_absent(outer)) __builtin_prefetch(&slots_[link_simplex(outer)]);
+        if (!is_absent(outer)) touch(&slots_[link_simplex(outer)]);
         for (int i = 0; i <= D; ++i)
             if (i != link_facet(inner) && s.vertex[i] != infinite_vertex)
                 on_border_[vertices_[s.vertex[i]].number] = true;
@@ -227,7 +243,6 @@ template <int D> void Cache<D>::mark_border() {
 
 template <int D> bool Cache<D>::encode(BlockIndex b) {
     const Stopwatch stopwatch(counters.translation_ns);
-    prefetch_vertices(b);
     const Handle first = b * block_slots<D>;
     writer_.order(&slots_[first], blocks_[b].high_water, first, vertices_, numbered_, border_);
     mark_border();
@@ -235,7 +250,7 @@ template <int D> bool Cache<D>::encode(BlockIndex b) {
     for (const Link inner : border_) {
         const Link outer = slots_[link_simplex(inner)].link[link_facet(inner)];
         if (!is_absent(outer))
-            __builtin_prefetch(&vertices_[slots_[link_simplex(outer)].vertex[link_facet(outer)]]);
+            touch(&vertices_[slots_[link_simplex(outer)].vertex[link_facet(outer)]]);
     }
     for (std::size_t n = 0; n < numbered_.size(); ++n) vertices_.prefetch_id(numbered_[n]);
     for (std::size_t i = 0; i < border_.size(); ++i) {

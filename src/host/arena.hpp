@@ -1,11 +1,17 @@
 // A growing flat array in the host's memory. Elements are trivially copyable,
 // so that growth is one resize(): for large arrays the C library moves pages,
 // not bytes, and nothing is ever held twice.
+//
+// It begins with a line of the processor's cache, wherever the host's memory
+// does: so an element of a size that divides a line's is never in two of them.
 #pragma once
 
 #include "host/host.hpp"
+#include "host/touch.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <type_traits>
 #include <utility>
 
@@ -19,9 +25,10 @@ public:
     Arena(const Arena &) = delete;
     Arena &operator=(const Arena &) = delete;
     Arena(Arena &&other) noexcept
-        : host_(other.host_), data_(std::exchange(other.data_, nullptr)),
+        : host_(other.host_), block_(std::exchange(other.block_, nullptr)),
+          data_(std::exchange(other.data_, nullptr)),
           size_(std::exchange(other.size_, 0)), capacity_(std::exchange(other.capacity_, 0)) {}
-    ~Arena() { host_->release(data_); }
+    ~Arena() { host_->release(block_); }
 
     T &operator[](std::size_t i) { return data_[i]; }
     const T &operator[](std::size_t i) const { return data_[i]; }
@@ -36,10 +43,14 @@ public:
     bool empty() const { return size_ == 0; }
     std::size_t capacity() const { return capacity_; }
 
-    /// Room for n elements, exactly; those beyond size() are uninitialized.
+    /// Room for n elements, exactly. Those beyond size() stay too, which may have been written.
     void reserve(std::size_t n) {
         if (n <= capacity_) return;
-        data_ = static_cast<T *>(host_->resize(data_, n * sizeof(T)));
+        const std::size_t offset = gap(block_);
+        block_ = static_cast<char *>(host_->resize(block_, n * sizeof(T) + cache_line));
+        char *const data = block_ + gap(block_);
+        if (gap(block_) != offset) std::memmove(data, block_ + offset, capacity_ * sizeof(T));
+        data_ = reinterpret_cast<T *>(data);
         capacity_ = n;
     }
     /// New elements are uninitialized.
@@ -58,13 +69,20 @@ public:
     void clear() { size_ = 0; }
     /// Gives the memory back.
     void reset() {
-        host_->release(data_);
+        host_->release(block_);
+        block_ = nullptr;
         data_ = nullptr;
         size_ = capacity_ = 0;
     }
 
 private:
+    /// Bytes from a block's begin to that of a line.
+    static std::size_t gap(const char *block) {
+        return -reinterpret_cast<std::uintptr_t>(block) % cache_line;
+    }
+
     const Host *host_;
+    char *block_ = nullptr; // from the host
     T *data_ = nullptr;
     std::size_t size_ = 0;
     std::size_t capacity_ = 0;
