@@ -17,7 +17,10 @@ bool operator<(const Place &a, const Place &b) {
 template <int D>
 Splitters<D>::Splitters(const Host &host, const Slice<D> &slice, const Sample<D> &sample,
                         unsigned parts, bool more_rounds)
-    : slice_(slice), rounds_(slice.rounds == nullptr ? 1 : slice.rounds->size()), lower_(host) {
+    : slice_(slice), rounds_(slice.rounds == nullptr ? 1 : slice.rounds->size()), lower_(host),
+      cell_shift_(std::max<int>(0, std::bit_width(slice.upper - slice.lower) -
+                                  std::countr_zero(cells))),
+      first_in_cell_(host) {
     Arena<Place> places(host);
     places.reserve(sample.size());
     for (const Point<D> &p : sample)
@@ -37,6 +40,19 @@ Splitters<D>::Splitters(const Host &host, const Slice<D> &slice, const Sample<D>
         cut_round(codes.data(), codes.size(),
                   whole ? 1 : std::max(least, static_cast<unsigned>(std::ceil(parts * share))));
         first_part_[round + 1] = static_cast<unsigned>(lower_.size());
+    }
+    list_cells();
+}
+
+template <int D> void Splitters<D>::list_cells() {
+    std::uint16_t *at = first_in_cell_.extend(rounds_ * (cells + 1));
+    for (unsigned round = 0; round < rounds_; ++round) {
+        unsigned part = first_part_[round];
+        for (unsigned cell = 0; cell <= cells; ++cell) {
+            while (part + 1 < first_part_[round + 1] && cell_of(lower_[part + 1] - 1) < cell)
+                ++part; // it begins at or before the cell's begin
+            *at++ = static_cast<std::uint16_t>(part);
+        }
     }
 }
 

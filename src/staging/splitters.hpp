@@ -28,15 +28,17 @@ public:
     unsigned part(const Point<D> &p) const {
         const unsigned round = slice_.rounds == nullptr ? 0 : slice_.rounds->round(p);
         const std::uint64_t code = slice_.domain.code(p);
-        // The last lower end of a part of the round that is not above the code.
-        const std::uint64_t *ends = lower_.data() + first_part_[round];
-        unsigned count = first_part_[round + 1] - first_part_[round];
+        // The last lower end of a part of the round that is not above the code: one of those
+        // that the code's cell meets, nearly always one or two.
+        const std::uint16_t *cell = first_in_cell_.data() + round * (cells + 1) + cell_of(code);
+        const std::uint64_t *end = lower_.data() + cell[0];
+        unsigned count = cell[1] - cell[0] + 1u;
         while (count > 1) {
             const unsigned half = count / 2;
-            ends += ends[half] <= code ? half : 0;
+            end += end[half] <= code ? half : 0;
             count -= half;
         }
-        return static_cast<unsigned>(ends - lower_.data());
+        return static_cast<unsigned>(end - lower_.data());
     }
 
     /// The slice that is one of the parts, and its round.
@@ -47,12 +49,19 @@ public:
     }
 
 private:
+    /// Equal stretches of the slice's range of codes.
+    static constexpr unsigned cells = 2048;
+
+    std::size_t cell_of(std::uint64_t code) const { return (code - slice_.lower) >> cell_shift_; }
     void cut_round(const std::uint64_t *codes, std::size_t n, unsigned parts);
+    void list_cells();
 
     const Slice<D> &slice_;
     unsigned rounds_;
     unsigned first_part_[Rounds<D>::most + 1] = {};
     Arena<std::uint64_t> lower_; ///< of each part; ascending inside a round
+    int cell_shift_;
+    Arena<std::uint16_t> first_in_cell_; ///< of each round's cells and one more: the part there
 };
 
 extern template class Splitters<2>;
