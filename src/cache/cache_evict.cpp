@@ -88,9 +88,12 @@ template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
         return blocks_[a].lower < blocks_[b].lower;
     });
     for (const BlockIndex b : victims) blocks_[b].leaving = true;
-    for (const BlockIndex b : victims)
-        if (blocks_[b].state == Block::cached && !dissolve(b))
-            fill_up(b, true);
+    for (std::size_t i = 0; i < victims.size(); ++i) {
+        if (i + 2 < victims.size()) ask_for_vertices(victims[i + 2]);
+        if (i + 3 < victims.size()) ask_for_slots(victims[i + 3]);
+        if (blocks_[victims[i]].state == Block::cached && !dissolve(victims[i]))
+            fill_up(victims[i], true);
+    }
     const auto is_gone = [&](BlockIndex b) { return blocks_[b].state != Block::cached; };
     victims.resize(static_cast<std::size_t>(
         std::remove_if(victims.begin(), victims.end(), is_gone) - victims.begin()));
