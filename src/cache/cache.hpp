@@ -363,9 +363,9 @@ private:
     void shrink();
     void choose_victims(Arena<BlockIndex> &victims);
     void evict(Arena<BlockIndex> &victims);
-    /// So that they are in the processor's cache soon.
-    void ask_for_vertices(BlockIndex b) const;
-    void ask_for_slots(BlockIndex b) const;
+    /// Asks for what the blocks after this one of a list need to be made pages: the vertices of
+    /// the next, and the slots of the one after it, which tell its vertices.
+    void ask_ahead(const Arena<BlockIndex> &blocks, std::size_t at) const;
     /// Lists the block's facets on its border, and numbers its vertices.
     void survey(BlockIndex b);
     void mark_border();

@@ -15,7 +15,7 @@
 #include "cache/cache.hpp"
 
 #include "cache/stopwatch.hpp"
-#include "host/touch.hpp"
+#include "host/processor_cache.hpp"
 
 namespace abacus {
 
@@ -89,8 +89,7 @@ template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
     });
     for (const BlockIndex b : victims) blocks_[b].leaving = true;
     for (std::size_t i = 0; i < victims.size(); ++i) {
-        if (i + 2 < victims.size()) ask_for_vertices(victims[i + 2]);
-        if (i + 3 < victims.size()) ask_for_slots(victims[i + 3]);
+        ask_ahead(victims, i + 1); // it fills up from the next one
         if (blocks_[victims[i]].state == Block::cached && !dissolve(victims[i]))
             fill_up(victims[i], true);
     }
@@ -100,9 +99,7 @@ template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
     left_.clear();
     for (std::size_t i = 0; i < victims.size(); ++i) {
         const BlockIndex b = victims[i];
-        if (i == 0) ask_for_vertices(b);
-        if (i + 1 < victims.size()) ask_for_vertices(victims[i + 1]);
-        if (i + 2 < victims.size()) ask_for_slots(victims[i + 2]);
+        ask_ahead(victims, i);
         if (blocks_[b].dirty) {
             while (!encode(b)) victims.push_back(halve(b)); // too many bytes, not too many slots
             store(b);
@@ -171,21 +168,18 @@ template <int D> void Cache<D>::flush() {
             directory_.contains(key) ? directory_.floor(key) : directory_.after(key);
         if (b == no_block) break;
         key = blocks_[b].lower;
+        host_.poll();
         if (dissolve(b)) continue; // perhaps into the next one, under the same key
         fill_up(b, false);
         key = blocks_[b].upper;
     }
-    bool changed = true;
-    while (changed) { // a split while writing makes a block more
-        changed = false;
-        for (BlockIndex b = 0; b < blocks_.size(); ++b) {
-            if (blocks_[b].state != Block::cached || !blocks_[b].dirty) continue;
-            if (b + 1 < blocks_.size()) ask_for_vertices(b + 1);
-            if (b + 2 < blocks_.size()) ask_for_slots(b + 2);
-            while (!encode(b)) halve(b);
-            store(b);
-            changed = true;
-        }
+    Arena<BlockIndex> changed(host_);
+    for (BlockIndex b = 0; b < blocks_.size(); ++b)
+        if (blocks_[b].state == Block::cached && blocks_[b].dirty) changed.push_back(b);
+    for (std::size_t i = 0; i < changed.size(); ++i) {
+        ask_ahead(changed, i);
+        while (!encode(changed[i])) changed.push_back(halve(changed[i]));
+        store(changed[i]);
         host_.poll();
     }
 }
@@ -198,20 +192,22 @@ template <int D> Key Cache<D>::key_beyond(Handle h, int facet) const {
     return {code(s), blocks_[block_of<D>(neighbour)].has_parts() ? part(s) : 0};
 }
 
-template <int D> void Cache<D>::ask_for_vertices(BlockIndex b) const {
-    if (blocks_[b].state != Block::cached) return;
-    // Nearly every vertex is the first of some simplex.
-    const Simplex<D> *const begin = &slots_[b * block_slots<D>];
-    for (const Simplex<D> *s = begin; s != begin + blocks_[b].high_water; ++s)
-        if (!s->is_free()) touch(&vertices_[s->vertex[0]]);
-}
-
-/// They are one stretch of memory, where prefetch instructions do.
-template <int D> void Cache<D>::ask_for_slots(BlockIndex b) const {
-    if (blocks_[b].state != Block::cached) return;
-    const auto *const slots = reinterpret_cast<const char *>(&slots_[b * block_slots<D>]);
-    const std::size_t size = blocks_[b].high_water * sizeof(Simplex<D>);
-    for (std::size_t at = 0; at < size; at += cache_line) __builtin_prefetch(slots + at);
+template <int D>
+void Cache<D>::ask_ahead(const Arena<BlockIndex> &blocks, std::size_t at) const {
+    if (at + 1 < blocks.size() && blocks_[blocks[at + 1]].state == Block::cached) {
+        // Nearly every vertex is the first of some simplex.
+        const BlockIndex b = blocks[at + 1];
+        const Simplex<D> *const begin = &slots_[b * block_slots<D>];
+        for (const Simplex<D> *s = begin; s != begin + blocks_[b].high_water; ++s)
+            if (!s->is_free()) touch(&vertices_[s->vertex[0]]);
+    }
+    if (at + 2 < blocks.size()) {
+        // One stretch of memory, where prefetch instructions do.
+        const BlockIndex b = blocks[at + 2];
+        const auto *const slots = reinterpret_cast<const char *>(&slots_[b * block_slots<D>]);
+        const std::size_t size = blocks_[b].high_water * sizeof(Simplex<D>);
+        for (std::size_t i = 0; i < size; i += cache_line) __builtin_prefetch(slots + i);
+    }
 }
 
 template <int D> void Cache<D>::survey(BlockIndex b) {

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "host/host.hpp"
-#include "host/touch.hpp"
+#include "host/processor_cache.hpp"
 
 #include <algorithm>
 #include <cstdint>
