@@ -148,19 +148,26 @@ public:
     }
     /// A new simplex with unset links.
     Handle create(const std::array<VertexIndex, D + 1> &vertices) {
-        const std::uint64_t code = this->code(vertices);
-        BlockIndex b = at_hand_;
-        if (b == no_block || blocks_[b].count >= capacity_ || !blocks_[b].surely_owns(code))
-            [[unlikely]]
-            b = place_elsewhere(code);
-        const Handle h = take_slot(b);
+        const Handle h = allot(code(vertices));
         for (int i = 0; i <= D; ++i) {
             slots_[h].vertex[i] = vertices[i];
             vertices_.acquire(vertices[i]);
         }
-        ++counters.created;
         return h;
     }
+    /// The same in parts, for who knows the code already. A slot for a new simplex, ...
+    Handle allot(std::uint64_t code) {
+        BlockIndex b = at_hand_;
+        if (b == no_block || blocks_[b].count >= capacity_ || !blocks_[b].surely_owns(code))
+            [[unlikely]]
+            b = place_elsewhere(code);
+        ++counters.created;
+        return take_slot(b);
+    }
+    /// ... what is in it, ...
+    void set(Handle h, const Simplex<D> &s) { slots_[h] = s; }
+    /// ... and how many simplices more have the vertex.
+    void acquire(VertexIndex v, std::uint32_t simplices) { vertices_.acquire(v, simplices); }
     /// Frees the slot; the neighbours keep their links to it.
     void destroy(Handle h) {
         for (const VertexIndex v : slots_[h].vertex) vertices_.release(v);
@@ -168,9 +175,11 @@ public:
         ++counters.deleted;
     }
     void connect(Link a, Link b) {
-        slots_[link_simplex(a)].link[link_facet(a)] = b;
-        slots_[link_simplex(b)].link[link_facet(b)] = a;
+        point_at(a, b);
+        point_at(b, a);
     }
+    /// One side of it: beyond the facet `from` is the facet `to`.
+    void point_at(Link from, Link to) { slots_[link_simplex(from)].link[link_facet(from)] = to; }
     /// The block's page has to be written: call it for the neighbours of what changed.
     void mark_dirty(Handle h) {
         const BlockIndex b = block_of<D>(h);

@@ -17,13 +17,14 @@ namespace abacus {
 
 template <int D> class Hilbert {
 public:
-    /// Place on the curve of the cell with this Morton code, of at most 64 bits.
-    template <int bits> static constexpr std::uint64_t place(std::uint64_t morton) {
-        constexpr int groups = (bits + group_bits - 1) / group_bits;
+    /// Place on the curve of a cell with so many bits a coordinate.
+    template <int bits>
+    static constexpr std::uint64_t place(const std::array<std::uint32_t, D> &cell) {
         std::uint64_t place = 0;
         std::uint32_t state = 0;
-        for (int i = groups - 1; i >= 0; --i) {
-            const std::uint32_t group = morton >> (i * group_bits) & (group_size - 1);
+        for (int shift = (bits - 1) / levels * levels; shift >= 0; shift -= levels) {
+            std::uint32_t group = 0;
+            for (int i = 0; i < D; ++i) group |= (cell[i] >> shift & level_mask) << (i * levels);
             const std::uint32_t entry = table[state | group];
             place = place << group_bits | (entry & (group_size - 1));
             state = entry & ~(group_size - 1);
@@ -34,6 +35,7 @@ public:
 private:
     static constexpr std::uint32_t octants = 1u << D;
     static constexpr int levels = D == 2 ? 4 : 2; // that the table does at once
+    static constexpr std::uint32_t level_mask = (1u << levels) - 1;
     static constexpr int group_bits = D * levels;
     static constexpr std::uint32_t group_size = 1u << group_bits;
     static constexpr std::uint32_t states = octants * D;
@@ -60,15 +62,22 @@ private:
         return number;
     }
 
-    /// For each state and group of octants: the group of numbers, and above it the state
-    /// below them.
+    /// Octant of a group, which has some bits of each coordinate in turn.
+    static constexpr std::uint32_t octant(std::uint32_t group, int level) {
+        std::uint32_t octant = 0;
+        for (int i = 0; i < D; ++i) octant |= (group >> (i * levels + level) & 1) << i;
+        return octant;
+    }
+
+    /// For each state and group of octants: the group of their numbers, and above it the
+    /// state below them.
     static constexpr auto table = [] {
         std::array<std::uint16_t, states * group_size> table{};
         for (std::uint32_t i = 0; i < table.size(); ++i) {
             State state{i / group_size / D, i / group_size % D};
             std::uint32_t numbers = 0;
             for (int level = levels - 1; level >= 0; --level)
-                numbers = numbers << D | descend(state, i >> (level * D) & (octants - 1));
+                numbers = numbers << D | descend(state, octant(i, level));
             table[i] = static_cast<std::uint16_t>((state.entry * D + state.axis) * group_size | numbers);
         }
         return table;

@@ -57,7 +57,7 @@ template <int D> constexpr std::uint64_t morton(const Cell<D> &cell) {
 
 /// Locational code of a cell: its place on the Hilbert curve.
 template <int D> constexpr std::uint64_t curve_code(const Cell<D> &cell) {
-    return Hilbert<D>::template place<D * code_bits<D>>(morton<D>(cell));
+    return Hilbert<D>::template place<code_bits<D>>(cell);
 }
 
 /// Box over which the codes of a mesh are taken.

@@ -1,5 +1,6 @@
 // The predicates equal CGAL's exact ones, in sign and in the perturbation of
 // degenerate cases, on input that makes floating-point filters fail.
+#include "geometry/in_circle.hpp"
 #include "geometry/predicates.hpp"
 
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -149,11 +150,27 @@ protected:
             if (is_corner) continue;
             ASSERT_EQ(side, triangulation.in_sphere(corners, p));
             ASSERT_EQ(exact::in_sphere<D>(corners, p), side);
+            if constexpr (D == 2) in_circle_is_right_where_it_is_sure(corners, p, side);
             // The same for every even order of the corners.
             std::rotate(corners.begin(), corners.begin() + 1, corners.begin() + 3);
             ASSERT_EQ(in_sphere(corners, p), side);
         }
         RecordProperty("degenerate", degenerate);
+    }
+
+    /// The triangle seen across each of its edges.
+    void in_circle_is_right_where_it_is_sure(const Corners<2> &corners, const Point<2> &p,
+                                             int side) {
+        for (int i = 0; i < 3; ++i) {
+            const SeenPoint b = seen(*corners[i], p), a = seen(*corners[(i + 1) % 3], p),
+                            c = seen(*corners[(i + 2) % 3], p);
+            const InCircle test = in_circle(a, b, cross(a, b), c);
+            ASSERT_TRUE(!test.is_sure || test.is_inside == (side > 0));
+            // What the next tests are given: no number where there was an overflow.
+            const auto equal = [](double x, double y) { return x == y || (x != x && y != y); };
+            ASSERT_TRUE(equal(test.cross_ac, cross(a, c)));
+            ASSERT_TRUE(equal(test.cross_cb, cross(c, b)));
+        }
     }
 
     template <int D> void compare_independence() {
@@ -205,6 +222,23 @@ TEST(Predicates, HaveTheSignsOfTheirConvention) {
     const Point<3> e{0, 0, 0}, f{1, 0, 0}, g{0, 1, 0}, h{0, 0, 1};
     EXPECT_EQ(in_sphere({&e, &f, &g, &h}, {0.25, 0.25, 0.25}), 1);
     EXPECT_EQ(in_sphere({&e, &f, &g, &h}, {2, 2, 2}), -1);
+}
+
+TEST(Predicates, InCircleIsMostlySureAndNeverOfThePointAtInfinity) {
+    Random random(7);
+    int sure = 0;
+    for (int round = 0; round < 1000; ++round) {
+        const auto next = [&] { return Point<2>{unit(random), unit(random)}; };
+        const Point<2> p = next();
+        const SeenPoint a = seen(next(), p), b = seen(next(), p), c = seen(next(), p);
+        sure += in_circle(a, b, cross(a, b), c).is_sure;
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        const SeenPoint infinity = seen({nan, nan}, p);
+        EXPECT_FALSE(in_circle(a, b, cross(a, b), infinity).is_sure);
+        EXPECT_FALSE(in_circle(a, infinity, cross(a, infinity), c).is_sure);
+        EXPECT_FALSE(in_circle(infinity, b, cross(infinity, b), c).is_sure);
+    }
+    EXPECT_GT(sure, 990);
 }
 
 TEST(Predicates, PerturbationDecidesConsistently) {

@@ -1,0 +1,112 @@
+// The cavity of a point that is inserted (Bowyer 1981, Watson 1981; dissertation §4.12.3):
+// the simplices whose circumspheres contain it, a ghost's being the half-space beyond its
+// hull facet. It is star-shaped around the point, and is replaced by the simplices that join
+// the facets of its rim to the point.
+//
+// In the plane its triangles form a tree (the polygon has no vertex inside), so a depth-first
+// search that keeps the order of the edges around each triangle visits each once and lists
+// the rim as a cycle: an edge ends where the next one begins. Nothing is searched for or
+// looked up: the new triangle on an edge meets that on the next. Nor is anything computed
+// twice: the stack holds, of each edge, what the tests on both its sides have in common
+// (geometry/in_circle.hpp).
+//
+// In space the search marks what it has seen, and the new tetrahedra find one another by
+// their ridges, the edges of the rim, in small tables (ridges.hpp).
+#pragma once
+
+#include "delaunay/delaunay.hpp"
+#include "delaunay/ridges.hpp"
+#include "geometry/in_circle.hpp"
+
+namespace abacus {
+
+/// The simplices inside, of either dimension.
+template <int D> class CavityInside {
+protected:
+    explicit CavityInside(Delaunay<D> &mesh)
+        : mesh_(mesh), cache_(mesh.cache()), inside_(cache_.host()) {}
+
+    void add(Handle h) {
+        inside_.push_back(h);
+        if (inside_.size() % 4096 == 0) {
+            cache_.poll();
+            if (inside_.size() > cache_.cached_blocks() * std::size_t(block_slots<D>)) refuse();
+        }
+    }
+    /// Destroys them; returns how many were ghosts.
+    std::int64_t hollow_out() {
+        std::int64_t ghosts = 0;
+        for (const Handle h : inside_) {
+            // Only where the triangulation is no Delaunay one can the search come back.
+            if (cache_.simplex(h).is_free()) refuse();
+            ghosts += cache_.simplex(h).is_ghost();
+            cache_.destroy(h);
+        }
+        mesh_.forget();
+        return ghosts;
+    }
+    [[noreturn]] static void refuse() {
+        throw_corrupted("The simplices around a point are not a triangulation.");
+    }
+
+    Delaunay<D> &mesh_;
+    Cache<D> &cache_;
+    Arena<Handle> inside_;
+};
+
+template <int D> class Cavity;
+
+template <> class Cavity<2> : CavityInside<2> {
+public:
+    explicit Cavity(Delaunay<2> &mesh);
+
+    /// Finds the cavity of p, which is in conflict with `first`.
+    void find(const Point<2> &p, Handle first);
+    /// Replaces the cavity found last by the star of v, the vertex at its point.
+    void fill(VertexIndex v);
+
+private:
+    /// Of a triangle inside, counterclockwise; it ends where the one below it on the stack
+    /// begins.
+    struct Edge {
+        SeenPoint begin;
+        double cross; // of both ends
+        VertexIndex vertex;
+        Link inner;
+    };
+    /// It ends where the next one begins.
+    struct RimEdge {
+        VertexIndex begin;
+        Link outer;
+    };
+
+    /// Where in_circle() is not sure: above all of ghosts, whose point at infinity has no
+    /// coordinates. Apart, so that the loop around the test is small.
+    [[gnu::noinline]] bool is_surely_inside(Handle h, const Point<2> &p) const;
+    /// Room for more; returns where the top is now.
+    Edge *deepen(const Edge *top);
+    /// Slots for the star of a vertex with this code, one for each edge of the rim, the first
+    /// one again at the end.
+    void allot(std::uint64_t code);
+    void bring_infinity_last(Handle h);
+
+    Arena<Edge> stack_;
+    Arena<RimEdge> rim_; // the first one again at the end, while it is filled
+    Arena<Handle> created_;
+};
+
+template <> class Cavity<3> : CavityInside<3> {
+public:
+    explicit Cavity(Delaunay<3> &mesh);
+
+    void find(const Point<3> &p, Handle first);
+    void fill(VertexIndex v);
+
+private:
+    Ridges ridges_;
+    typename VertexHeap<3>::Numbering rim_vertices_;
+    Arena<Rim<3>> rim_;
+    Arena<Link> stack_;
+};
+
+} // namespace abacus
