@@ -28,7 +28,9 @@ class Edits:
         runs = {"full": 3, "quick": 1, "smoke": 1}[suite.mode]
         self.many("insert", f"id > {self.size}", self.size, runs)
         self.many("delete", f"id <= {self.size} AND id % 2 = 0", self.size // 2, runs)
-        self.space()
+        self.queue()
+        self.space(self.size // 20)
+        self.space(min(1000, self.size // 20))
         server.restart(fsync="off")
         try:
             self.one_by_one()
@@ -37,7 +39,7 @@ class Edits:
         faults = server.query("SELECT count(*) FROM abacus_check('mesh')")
         if faults != "0":
             raise server.Failure(f"{faults} faults after changes")
-        server.drop("mesh", "mesh_vertices", "points", "victims")
+        server.drop("mesh", "mesh_vertices", "points", "queue")
 
     def fresh_mesh(self):
         server.drop("mesh", "mesh_vertices")
@@ -61,36 +63,40 @@ class Edits:
             self.suite.say(f"  {change} {count:,} points: {sample['wall']:.3f} s")
         self.record(f"{change} many", samples, changed=count)
 
-    def space(self):
-        """Half of the points replaced, at random places, in statements of a twentieth each."""
-        size = ("SELECT pg_total_relation_size('mesh') + pg_total_relation_size('mesh_vertices')")
+    def space(self, at_once):
+        """Half of the points replaced, at random places, so many in a statement."""
+        size = "SELECT pg_total_relation_size('mesh') + pg_total_relation_size('mesh_vertices')"
         self.fresh_mesh()
         fresh, wal = int(server.query(size)), server.wal_position()
+        half = self.size // 2
         with server.Session() as session:
-            for part in range(10):
-                chosen = f"hashint8(id) & 1023 BETWEEN {51 * part} AND {51 * part + 50} AND id"
-                for change, which in (("delete", "<="), ("insert", ">")):
-                    session.run(f"SELECT abacus_{change}('mesh', '{self.select} {chosen} {which} {self.size}')")
-        changed = int(server.query("SELECT count(*) FROM points WHERE hashint8(id) & 1023 < 510"))
+            for first in range(0, half, at_once):
+                chosen = f"number > {first} AND number <= {min(first + at_once, half)}"
+                for change, which in (("delete", "NOT comes"), ("insert", "comes")):
+                    session.run(f"SELECT abacus_{change}('mesh', 'SELECT id, {self.points.columns}"
+                                f" FROM queue WHERE {which} AND {chosen}')")
         sample = {"fresh": fresh, "wal": server.wal_position() - wal, "after": int(server.query(size))}
         server.query("VACUUM mesh, mesh_vertices")
         sample["vacuumed"] = int(server.query(size))
-        self.suite.say(f"  {changed:,} points replaced: {sample['wal'] / changed:.0f} bytes of WAL each")
-        self.record("space", [sample], changed=changed)
+        self.suite.say(f"  {at_once:,} in a statement: {sample['vacuumed'] / fresh:.2f} times the size")
+        self.record("space", [sample], changed=2 * half, at_once=at_once)
+
+    def queue(self):
+        """A table of the points in random order: those of the mesh, and others that come."""
+        server.drop("queue")
+        server.query(f"CREATE TABLE queue AS SELECT id, {self.points.columns}, id > {self.size} AS comes,"
+                     f" row_number() OVER (PARTITION BY id > {self.size} ORDER BY hashint8(id)) AS number"
+                     " FROM points; CREATE UNIQUE INDEX ON queue (comes, number); ANALYZE queue")
 
     def one_by_one(self):
         """Latencies of single points, each in a transaction of its own, by pgbench."""
         place = ", ".join(f"(:n % {prime}) / {prime}.0" for prime in (99991, 77773, 55541)[:self.dimension])
         self.latency("insert", "\\set n random(1, 2000000000)\n"
                      f"SELECT abacus_insert('mesh', 'SELECT 3000000000 + :n, {place}');")
-        server.drop("victims")
-        server.query("CREATE TABLE victims AS SELECT row_number() OVER (ORDER BY hashint8(id)) AS number,"
-                     f" id, {self.points.columns} FROM points"
-                     f" WHERE id <= {self.size} AND hashint8(id) & 1023 >= 510;"
-                     "CREATE UNIQUE INDEX ON victims (number);"
-                     "DROP SEQUENCE IF EXISTS next_victim; CREATE SEQUENCE next_victim")
+        server.query("DROP SEQUENCE IF EXISTS next_victim;"
+                     f" CREATE SEQUENCE next_victim START {self.size // 2 + 1}")
         self.latency("delete", f"SELECT abacus_delete('mesh', format('SELECT id, {self.points.columns}"
-                     " FROM victims WHERE number = %s', nextval('next_victim')));")
+                     " FROM queue WHERE NOT comes AND number = %s', nextval('next_victim')));")
 
     def latency(self, change, statement):
         with tempfile.TemporaryDirectory() as folder:

@@ -52,9 +52,9 @@ PARTS = [
         3, {"full": (5000, 10000, 20000), "quick": (2000, 4000), "smoke": (200,)}, FEWER).measure),
     Part("rows", "location in a table of one row a triangle", 3, Rows(
         {"full": (1000000, 200000), "quick": (100000, 50000), "smoke": (2000, 1000)}, FEWER).measure),
-    Part("edit-2d", "points in and out of a finished mesh in the plane", 1, Edits(
+    Part("edit-2d", "points in and out of a finished mesh in the plane", 5, Edits(
         2, {"full": 1000000, "quick": 100000, "smoke": 5000}).measure),
-    Part("edit-3d", "points in and out of a finished mesh in space", 1.5, Edits(
+    Part("edit-3d", "points in and out of a finished mesh in space", 6, Edits(
         3, {"full": 500000, "quick": 30000, "smoke": 2000}).measure),
     Part("cancel", "how long a cancel takes", 0.5, cancelled_builds(
         2, {"full": 1000000, "quick": 500000, "smoke": 50000})),

@@ -54,7 +54,8 @@ def edits(results):
                          f"{number(1e6 * spread_of(m, 'wall')[0])} µs", "–"))
         else:
             sample = m["samples"][0]
-            rows.append((mesh_name(m), f"replace {m['changed']:,} at random places in 20 statements: size ×"
+            rows.append((mesh_name(m), f"{m['changed']:,} out and in at random places,"
+                         f" {m['at_once']:,} in a statement: size ×"
                          f" {number(sample['after'] / sample['fresh'])},"
                          f" × {number(sample['vacuumed'] / sample['fresh'])} after VACUUM", "–", "–",
                          number(sample["wal"] / m["changed"])))

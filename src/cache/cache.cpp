@@ -29,6 +29,7 @@ Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
       chains_(host), hashes_(host), guesses_(host) {
     values_.resize(static_cast<std::size_t>(attributes));
     learn_size(1, page_overhead + most_bytes<D>(attributes));
+    learned_ = 0; // a guess, that the first page replaces
 }
 
 template <int D> void Cache<D>::learn_size(std::uint32_t simplices, double page_bytes) {

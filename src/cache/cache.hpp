@@ -232,7 +232,8 @@ private:
         std::uint64_t location;               // of the stored page; 0 = none
         std::uint64_t used_at;
         std::uint32_t count;      // simplices
-        std::uint32_t high_water; // slots ever used
+        std::uint16_t high_water; // slots ever used
+        std::uint16_t settled;    // simplices that it was loaded with
         std::uint32_t free;       // chain of slots given back, by link[0]
         State state;
         bool dirty;
@@ -324,6 +325,13 @@ private:
     /// written too, with `only_leaving` now: so that pages are full from the beginning of the
     /// curve on.
     void fill_up(BlockIndex b, bool only_leaving);
+    /// How many simplices the block may take from its neighbours.
+    std::size_t room_to_pack(BlockIndex b) const;
+    /// Whether the block is new, or has won or lost more simplices since it was loaded than a
+    /// point or two bring with them.
+    bool has_changed_much(BlockIndex b) const;
+    /// Before so many simplices move from one block to another.
+    void share_settled(BlockIndex from, BlockIndex to, std::size_t moving);
     /// Whether the second block continues the first one, and is to be written as well.
     bool is_followed_by(BlockIndex b, BlockIndex next) const;
     /// Moves at most so many simplices, those with the least keys, from the next block, whose

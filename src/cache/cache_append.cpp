@@ -24,7 +24,7 @@ bool Cache<D>::append(const Key &lower, const Key &upper, const LooseSimplex<D> 
                       std::size_t n) {
     const BlockIndex b = new_block(Block::cached);
     blocks_[b].own(lower, upper);
-    blocks_[b].count = blocks_[b].high_water = static_cast<std::uint32_t>(n);
+    blocks_[b].count = blocks_[b].high_water = static_cast<std::uint16_t>(n);
     directory_.insert(lower, b);
     const Handle first = b * block_slots<D>;
     for (std::size_t s = 0; s < n; ++s) {

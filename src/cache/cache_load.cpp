@@ -69,7 +69,7 @@ template <int D> typename Cache<D>::BlockIndex Cache<D>::load(const abacus_page 
     Block &block = blocks_[b];
     block.own(view_.lower(), view_.upper());
     block.location = page.location;
-    block.count = block.high_water = static_cast<std::uint32_t>(view_.simplices());
+    block.count = block.high_water = block.settled = static_cast<std::uint16_t>(view_.simplices());
     // Small ones are mostly border, and say little of full ones.
     if (page.size > ABACUS_PAGE_BYTES / 2) learn_size(block.count, static_cast<double>(page.size));
     directory_.insert(block.lower, b);

@@ -15,12 +15,20 @@ namespace abacus {
 //   leaves a well-filled page that will hardly be touched again (the sequential split).
 //
 //   Otherwise the block is cut at the median key.
+//
+// That is for points that come close together. Where only one or two of them meet a block
+// that was stored, others will come another time, anywhere in it: it is cut at the median,
+// and its halves are left as they are, room for more. For the same reason neighbours take
+// no more from one another than leaves a little room: else the first change of a page
+// would always cut it.
 namespace {
 constexpr double sequential_from = 0.5;
 constexpr unsigned measured_each = 32; // full blocks
-constexpr double dissolve_to = 0.93;
 constexpr double sparse = 0.5;
-constexpr double least_move = 1.0 / 16; // of a full block
+// Of a full block:
+constexpr double packed = 0.95;
+constexpr double much = 1.0 / 64;
+constexpr double least_move = 1.0 / 16;
 } // namespace
 
 template <int D> void Cache<D>::settle_limbo(std::uint64_t code) {
@@ -105,7 +113,7 @@ template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
     const auto is_behind = [&](const Place &p) { return p.key.code < code; };
     const auto behind = static_cast<std::size_t>(
         std::count_if(places_.begin(), places_.end(), is_behind));
-    if (behind < sequential_from * places_.size()) {
+    if (!has_changed_much(b) || behind < sequential_from * places_.size()) {
         split_at_median(b);
     } else if (!lend(b, behind)) {
         std::partition(places_.begin(), places_.end(), is_behind);
@@ -115,10 +123,8 @@ template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
 
 template <int D> bool Cache<D>::lend(BlockIndex b, std::size_t most) {
     const BlockIndex before = directory_.before(blocks_[b].lower);
-    if (before == no_block || !blocks_[before].dirty || blocks_[before].count >= capacity_ ||
-        !is_followed_by(before, b))
-        return false;
-    const std::size_t room = capacity_ - blocks_[before].count;
+    if (before == no_block || !blocks_[before].dirty || !is_followed_by(before, b)) return false;
+    const std::size_t room = room_to_pack(before);
     return room >= least_move * capacity_ && draw(before, b, std::min(room, most));
 }
 
@@ -134,12 +140,9 @@ template <int D> bool Cache<D>::dissolve(BlockIndex b) {
     // The left neighbour keeps its key; the right one's key changes.
     const bool suits_right = right != no_block && blocks_[right].lower == upper && suits(right) &&
                              (blocks_[right].location == 0 || is_sparse);
-    const auto room = [&](BlockIndex n, bool suits) -> std::size_t {
-        const auto full = static_cast<std::uint32_t>(dissolve_to * capacity_);
-        return suits && blocks_[n].count < full ? full - blocks_[n].count : 0;
-    };
     const std::size_t n = blocks_[b].count;
-    const std::size_t room_left = room(left, suits_left), room_right = room(right, suits_right);
+    const std::size_t room_left = suits_left ? room_to_pack(left) : 0;
+    const std::size_t room_right = suits_right ? room_to_pack(right) : 0;
     if (!(suits_left || suits_right) || room_left + room_right < n) return false;
 
     collect_places(b);
@@ -155,6 +158,8 @@ template <int D> bool Cache<D>::dissolve(BlockIndex b) {
     // Their age stays: they are no more in use than before.
     const std::uint64_t left_used = to_left ? blocks_[left].used_at : 0;
     const std::uint64_t right_used = to_right ? blocks_[right].used_at : 0;
+    if (to_left) share_settled(b, left, cut);
+    if (to_right) share_settled(b, right, n - cut);
     for (std::size_t i = 0; i < n; ++i) move(places_[i].handle, i < cut ? left : right);
     directory_.erase(lower);
     if (to_left) {
@@ -178,13 +183,32 @@ template <int D> bool Cache<D>::dissolve(BlockIndex b) {
 
 template <int D> void Cache<D>::fill_up(BlockIndex b, bool only_leaving) {
     const BlockIndex next = directory_.after(blocks_[b].lower);
-    if (next == no_block || !blocks_[b].dirty || blocks_[b].count >= capacity_ ||
+    if (next == no_block || !blocks_[b].dirty || !has_changed_much(b) ||
         !is_followed_by(b, next) || (only_leaving && !blocks_[next].leaving))
         return;
-    const std::size_t room = capacity_ - blocks_[b].count;
+    const std::size_t room = room_to_pack(b);
     if (room < least_move * capacity_ && room < blocks_[next].count) return; // not worth it
     collect_places(next);
     draw(b, next, room);
+}
+
+template <int D> std::size_t Cache<D>::room_to_pack(BlockIndex b) const {
+    const auto full = static_cast<std::uint32_t>(packed * capacity_);
+    return full - std::min(full, blocks_[b].count);
+}
+
+template <int D> bool Cache<D>::has_changed_much(BlockIndex b) const {
+    const int settled = blocks_[b].settled, change = static_cast<int>(blocks_[b].count) - settled;
+    return settled == 0 || std::abs(change) >= much * capacity_;
+}
+
+template <int D>
+void Cache<D>::share_settled(BlockIndex from, BlockIndex to, std::size_t moving) {
+    if (moving == 0) return;
+    const auto share =
+        static_cast<std::uint16_t>(blocks_[from].settled * moving / blocks_[from].count);
+    blocks_[from].settled -= share;
+    blocks_[to].settled += share;
 }
 
 template <int D> bool Cache<D>::is_followed_by(BlockIndex b, BlockIndex next) const {
@@ -200,6 +224,7 @@ template <int D> bool Cache<D>::draw(BlockIndex b, BlockIndex next, std::size_t 
     const std::uint64_t used = blocks_[b].used_at, next_used = blocks_[next].used_at;
     const bool is_whole = cut == places_.size();
     const Key moved = is_whole ? upper : places_[cut].key;
+    share_settled(next, b, cut);
     for (std::size_t i = 0; i < cut; ++i) move(places_[i].handle, b);
     directory_.erase(border);
     erase_page(next); // it has another key now
@@ -235,6 +260,7 @@ typename Cache<D>::BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t cut, 
     left.own(left.lower, border);
     left.dirty = true;
     directory_.insert(border, right);
+    share_settled(b, right, places_.size() - cut);
     for (std::size_t i = cut; i < places_.size(); ++i) move(places_[i].handle, right);
     return right;
 }

@@ -53,7 +53,7 @@ TEST(CheckInSpace, FindsEveryFlippedBitOfASinglePage) {
 }
 
 TEST(CheckInSpace, FindsFlippedBitsAnywhere) {
-    Solid solid(points<3>(Kind::uniform, 500));
+    Solid solid(points<3>(Kind::uniform, 700));
     ASSERT_GT(solid.host.pages.size(), 5u);
     std::mt19937_64 random(1);
     for (int round = 0; round < 150; ++round) {

@@ -161,6 +161,32 @@ TYPED_TEST(Edit, ClearsAllPages) {
     }
 }
 
+TYPED_TEST(Edit, FewPointsAtATimeLeavePagesFilled) {
+    // A tenth of the points goes, and as many others come, some at a time.
+    constexpr int D = TypeParam::value;
+    for (const int some : {1, 40}) {
+        MeshOf<D> mesh(1, 1 << 20);
+        PointModel<D> model;
+        const auto points = this->fresh(D == 2 ? 12000 : 3000, 0);
+        model.insert(points);
+        ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+        const std::size_t pages = mesh.host.pages.size();
+        for (int changed = 0; changed < int(points.size()) / 10; changed += some) {
+            auto gone = model.points();
+            std::shuffle(gone.begin(), gone.end(), this->random);
+            gone.resize(some);
+            const auto come = this->fresh(some, 0);
+            model.remove(gone);
+            model.insert(come);
+            std::uint64_t deleted = 0;
+            ASSERT_EQ(mesh.remove(gone, deleted), ABACUS_OK) << mesh.error.detail;
+            ASSERT_EQ(mesh.insert(come), ABACUS_OK) << mesh.error.detail;
+        }
+        model.expect(mesh);
+        EXPECT_LE(mesh.host.pages.size(), pages * 1.4) << pages;
+    }
+}
+
 TYPED_TEST(Edit, EveryHostCallMayFail) {
     constexpr int D = TypeParam::value;
     MeshOf<D> sound(1, 40 << 10);

@@ -158,7 +158,7 @@ protected:
 };
 
 TEST_F(Section, FillsTheHullOfRandomPoints) {
-    build(full_cube(2000));
+    build(full_cube(2500));
     ASSERT_GT(host.pages.size(), 20u);
     for (int axis = 0; axis < 3; ++axis) {
         Point<3> normal{0, 0, 0};
