@@ -29,13 +29,12 @@ Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
       chains_(host), hashes_(host), guesses_(host) {
     values_.resize(static_cast<std::size_t>(attributes));
     learn_size(1, page_overhead + most_bytes<D>(attributes));
-    learned_ = 0; // a guess, that the first page replaces
 }
 
 template <int D> void Cache<D>::learn_size(std::uint32_t simplices, double page_bytes) {
     if (simplices == 0) return;
     const double bytes = (page_bytes - page_overhead) / simplices;
-    // From the first page at once, then slowly.
+    // Quickly from the first pages, then slowly.
     simplex_bytes_ += (bytes - simplex_bytes_) / std::min(++learned_, 8u);
     const double fit = capacity_margin * (ABACUS_PAGE_BYTES - page_overhead) / simplex_bytes_;
     capacity_ = static_cast<std::uint32_t>(std::clamp<double>(fit, 8, block_slots<D>));

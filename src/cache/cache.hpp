@@ -399,6 +399,7 @@ private:
     std::uint32_t capacity_; // simplices a block takes before it is split
     double simplex_bytes_ = 0; // in the pages made lately: capacity_ follows from it
     unsigned learned_ = 0;
+    bool guesses_size_ = true; // no page that tells it has been loaded
     unsigned full_blocks_ = 0; // so far
 
     Arena<Block> blocks_;

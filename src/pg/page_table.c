@@ -10,7 +10,8 @@
  *
  * Writing: heap_insert and index_insert, as the executor does it. No
  * BulkInsertState (its ring would evict the pages that are about to be read
- * again) and no SKIP_FSM (freed pages must be found). A writer sees its own
+ * again) and no SKIP_FSM (freed pages must be found; those that this session
+ * has freed are taken from the beginning of the table on). A writer sees its own
  * changes because its active snapshot is a private copy whose command id
  * follows each change, one CommandCounterIncrement between a change and the
  * next search or update.
@@ -52,6 +53,7 @@ page_table_open(PageTable *table)
 		return;
 	old = MemoryContextSwitchTo(table->memory);
 	table->heap = table_open(table->relid, lock);
+	table->room = 0;
 	table->index = page_index_open_primary(table->heap, lock);
 	if (table->writable)
 	{
@@ -253,6 +255,30 @@ form_row(PageTable *table, const int64 *key, const unsigned char *bytes, size_t 
 	return heap_form_tuple(RelationGetDescr(table->heap), values, isnull);
 }
 
+/*
+ * Has the next row go to a heap page that has become empty, the first one in the
+ * table, if there is one that we know of. If it has been taken meanwhile, the
+ * heap looks for another by itself.
+ */
+static void
+choose_heap_page(PageTable *table, HeapTuple tuple)
+{
+	Size		size = MAXALIGN(tuple->t_len) + sizeof(ItemIdData);
+
+	if (table->superseded == NULL)
+		return;
+	if (table->room < size)
+	{
+		BlockNumber block = superseded_take_empty(table->superseded, table->heap);
+
+		if (block == InvalidBlockNumber)
+			return;
+		RelationSetTargetBlock(table->heap, block);
+		table->room = BLCKSZ - SizeOfPageHeaderData;
+	}
+	table->room -= size;
+}
+
 /* Adds a row; *tid becomes its place. */
 void
 page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes, size_t size,
@@ -264,6 +290,7 @@ page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes
 
 	page_table_open(table);
 	tuple = form_row(table, key, bytes, size, values, isnull);
+	choose_heap_page(table, tuple);
 	heap_insert(table->heap, tuple, GetCurrentCommandId(true), 0, NULL);
 	page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self, false);
 	*tid = tuple->t_self;
@@ -281,8 +308,16 @@ page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes
 	HeapTuple	tuple;
 
 	page_table_open(table);
+	if (table->superseded != NULL &&
+		superseded_is_far(table->superseded, ItemPointerGetBlockNumber(tid)))
+	{
+		page_table_delete(table, tid);
+		page_table_insert(table, key, bytes, size, tid);
+		return;
+	}
 	see_own_changes(table);
 	tuple = form_row(table, key, bytes, size, values, isnull);
+	choose_heap_page(table, tuple);
 	simple_heap_update(table->heap, tid, tuple);
 	if (table->superseded != NULL)
 		superseded_add(table->superseded, ItemPointerGetBlockNumber(tid));

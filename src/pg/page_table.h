@@ -53,6 +53,7 @@ typedef struct PageTable
 	MemoryContext memory;		/* of what is open */
 	struct varlena *datum;		/* writers: room for one page */
 	Superseded *superseded;		/* where replaced rows lie; NULL if nobody asks */
+	Size		room;			/* on the empty heap page that is being written */
 } PageTable;
 
 extern void page_table_init(PageTable *table, Oid relid, bool writable, MemoryContext memory);

@@ -14,17 +14,26 @@
  * next time. What remains in any case, until VACUUM, are a line pointer of
  * four bytes and the index entry.
  *
- * The heap pages are remembered in a bitmap: 1 MB for 64 GB of table.
+ * What has become free is handed out from the beginning of the table on. The
+ * free space map goes round and round, so that a table that has grown once,
+ * because somebody saw the old versions for a while, would have pages in use up
+ * to its end for ever, and VACUUM could not cut it.
+ *
+ * The heap pages are remembered in bitmaps: 2 MB for 64 GB of table.
  */
 #include "postgres.h"
 
 #include "access/heapam.h"
 #include "miscadmin.h"
+#include "port/pg_bitutils.h"
 #include "storage/bufmgr.h"
 #include "storage/freespace.h"
 #include "storage/proc.h"
+#include "storage/procarray.h"
 #include "utils/memutils.h"
 #include "utils/rel.h"
+
+#include <abacus/abacus.h>
 
 #include "pg/superseded.h"
 
@@ -33,14 +42,18 @@
 #define MESHES_KEPT 4
 /* Heap pages that one page of the free space map is about, and fewer. */
 #define MAP_STRIDE 4000
+/* Heap pages; fewer are not worth a row's move. */
+#define FAR_PAGES 64
 
 struct Superseded
 {
 	Size		bytes;
-	uint8	   *bits;			/* of each heap page */
+	uint8	   *bits;			/* of each heap page: a row on it has been replaced */
 	uint64		count;			/* of bits set */
-	uint64		worth_trying;	/* with that many again */
+	uint8	   *free;			/* of each heap page: it has become empty */
+	Size		first_free;		/* no bit is set in the bytes before */
 	LocalTransactionId last;	/* that added one */
+	TransactionId horizon;		/* what somebody still saw when not all could be pruned */
 };
 
 /* What this session has left in the meshes that it changed lately. */
@@ -59,6 +72,7 @@ superseded_create(MemoryContext memory)
 
 	superseded->bytes = FIRST_BYTES;
 	superseded->bits = MemoryContextAllocZero(memory, FIRST_BYTES);
+	superseded->free = MemoryContextAllocZero(memory, FIRST_BYTES);
 	return superseded;
 }
 
@@ -73,7 +87,9 @@ superseded_add(Superseded *superseded, BlockNumber block)
 		Size		more = Max(byte + 1, superseded->bytes * 2);
 
 		superseded->bits = repalloc_huge(superseded->bits, more);
+		superseded->free = repalloc_huge(superseded->free, more);
 		MemSet(superseded->bits + superseded->bytes, 0, more - superseded->bytes);
+		MemSet(superseded->free + superseded->bytes, 0, more - superseded->bytes);
 		superseded->bytes = more;
 	}
 	if ((superseded->bits[byte] & (1 << (block % BITS_PER_BYTE))) == 0)
@@ -98,6 +114,7 @@ superseded_of_session(Relation heap)
 
 		kept[i].superseded = NULL;
 		pfree(old->bits);
+		pfree(old->free);
 		pfree(old);
 	}
 	kept[i].node = heap->rd_node;
@@ -106,13 +123,70 @@ superseded_of_session(Relation heap)
 	return kept[i].superseded;
 }
 
+/* An empty heap page is the next to be written, if none before it is. */
+static void
+hand_out(Superseded *superseded, BlockNumber block)
+{
+	Size		byte = block / BITS_PER_BYTE;
+
+	superseded->free[byte] |= 1 << (block % BITS_PER_BYTE);
+	superseded->first_free = Min(superseded->first_free, byte);
+}
+
+/* The first heap page that has become empty, or InvalidBlockNumber. */
+static BlockNumber
+first_empty(Superseded *superseded)
+{
+	for (; superseded->first_free < superseded->bytes; superseded->first_free++)
+	{
+		uint8		free = superseded->free[superseded->first_free];
+
+		if (free != 0)
+			return (BlockNumber) (superseded->first_free * BITS_PER_BYTE + pg_rightmost_one_pos32(free));
+	}
+	return InvalidBlockNumber;
+}
+
+/*
+ * Takes the first heap page that has become empty; InvalidBlockNumber if there
+ * is none. Another session may have written it meanwhile.
+ */
+BlockNumber
+superseded_take_empty(Superseded *superseded, Relation heap)
+{
+	BlockNumber blocks = RelationGetNumberOfBlocks(heap);
+	BlockNumber block;
+
+	/* VACUUM may have cut the table; it does not while we hold a lock on it */
+	do
+	{
+		block = first_empty(superseded);
+		if (block != InvalidBlockNumber)
+			superseded->free[block / BITS_PER_BYTE] &= ~(1 << (block % BITS_PER_BYTE));
+	} while (block != InvalidBlockNumber && block >= blocks);
+	return block;
+}
+
+/*
+ * Whether a row lies far behind the first empty heap page. A row of less than half
+ * a heap page is updated where it lies, the header above all, and the table
+ * could not be cut before it.
+ */
+bool
+superseded_is_far(Superseded *superseded, BlockNumber block)
+{
+	BlockNumber empty = first_empty(superseded);
+
+	return empty != InvalidBlockNumber && block > FAR_PAGES && (block - FAR_PAGES) / 2 > empty;
+}
+
 /*
  * Prunes a heap page and tells the free space map what room it has. Returns
  * false if there is more to prune, but not now: a row is seen by somebody
  * still, or the page is being read.
  */
 static bool
-reclaim(Relation heap, BlockNumber block)
+reclaim(Superseded *superseded, Relation heap, BlockNumber block)
 {
 	Buffer		buffer = ReadBuffer(heap, block);
 	Page		page = BufferGetPage(buffer);
@@ -129,6 +203,8 @@ reclaim(Relation heap, BlockNumber block)
 	done = !TransactionIdIsValid(((PageHeader) page)->pd_prune_xid);
 	UnlockReleaseBuffer(buffer);
 	RecordPageWithFreeSpace(heap, block, room);
+	if (room >= ABACUS_PAGE_BYTES)
+		hand_out(superseded, block);
 	return done;
 }
 
@@ -153,7 +229,7 @@ superseded_reclaim(Superseded *superseded, Relation heap)
 			if ((superseded->bits[byte] & (1 << bit)) == 0)
 				continue;
 			CHECK_FOR_INTERRUPTS();
-			if (block >= blocks || reclaim(heap, block))
+			if (block >= blocks || reclaim(superseded, heap, block))
 			{
 				superseded->bits[byte] &= ~(1 << bit);
 				superseded->count--;
@@ -176,14 +252,18 @@ superseded_reclaim(Superseded *superseded, Relation heap)
 
 /*
  * The same for what earlier transactions of the session have left. What cannot
- * be reclaimed yet is tried again only when it has doubled.
+ * be reclaimed yet is tried again when whoever saw it has ended.
  */
 void
 superseded_reclaim_earlier(Superseded *superseded, Relation heap)
 {
-	if (superseded->count == 0 || superseded->count < superseded->worth_trying ||
-		superseded->last == MyProc->lxid)
+	TransactionId horizon;
+
+	if (superseded->count == 0 || superseded->last == MyProc->lxid)
+		return;
+	horizon = GetOldestNonRemovableTransactionId(heap);
+	if (horizon == superseded->horizon)
 		return;
 	superseded_reclaim(superseded, heap);
-	superseded->worth_trying = 2 * superseded->count;
+	superseded->horizon = superseded->count > 0 ? horizon : InvalidTransactionId;
 }
