@@ -33,8 +33,6 @@
 #include "utils/memutils.h"
 #include "utils/rel.h"
 
-#include <abacus/abacus.h>
-
 #include "pg/superseded.h"
 
 #define FIRST_BYTES 1024
@@ -42,6 +40,11 @@
 #define MESHES_KEPT 4
 /* Heap pages that one page of the free space map is about, and fewer. */
 #define MAP_STRIDE 4000
+/*
+ * Of a heap page without rows. Until VACUUM each row that it had takes a line
+ * pointer; full pages of a mesh fit for long, since most leave some room.
+ */
+#define EMPTY_BYTES (BLCKSZ - BLCKSZ / 8)
 /* Heap pages; fewer are not worth a row's move. */
 #define FAR_PAGES 64
 
@@ -203,7 +206,7 @@ reclaim(Superseded *superseded, Relation heap, BlockNumber block)
 	done = !TransactionIdIsValid(((PageHeader) page)->pd_prune_xid);
 	UnlockReleaseBuffer(buffer);
 	RecordPageWithFreeSpace(heap, block, room);
-	if (room >= ABACUS_PAGE_BYTES)
+	if (room >= EMPTY_BYTES)
 		hand_out(superseded, block);
 	return done;
 }
