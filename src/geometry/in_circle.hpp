@@ -1,7 +1,7 @@
-// The in-circle test of a search that goes from triangle to triangle: of the next one's
-// corners two are those of the edge that it comes across, and what the test needs of them
-// has been computed. It is in_sphere() of predicates.hpp, term by term, so the same bound
-// holds.
+// The filter of the in-circle test, in parts. A search that goes from triangle to triangle
+// has tested the one before, with which the next shares an edge: what the test needs of
+// its two corners has been computed. in_sphere() of predicates.hpp puts the parts together
+// for a triangle by itself, and says what is done where they are not sure.
 #pragma once
 
 #include "geometry/pair.hpp"
@@ -40,6 +40,7 @@ inline InCircle in_circle(const SeenPoint &a, const SeenPoint &b, double cross_a
     const Pair minors = firsts(ac, bc) - seconds(ac, bc);
     const Pair terms = Pair{b.lift, a.lift} * minors;
     const double det = terms[0] + terms[1] - c.lift * cross_ab;
+    // No less than the permanent, since |ax cy| + |ay cx| <= |a||c| <= (a^2 + c^2) / 2.
     const double permanent = a.lift * b.lift + c.lift * (a.lift + b.lift);
     return {minors[0], minors[1], permanent > 1e-250 && std::fabs(det) > 1.1103e-15 * permanent,
             det > 0};

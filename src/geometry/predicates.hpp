@@ -25,7 +25,7 @@
 // that is det(b-a, c-a, d-a) > 0.
 #pragma once
 
-#include "geometry/pair.hpp"
+#include "geometry/in_circle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -118,19 +118,9 @@ inline bool is_independent(const Corners<3> &points, int n, const Point<3> &p) {
 /// -1 outside, points on the sphere perturbed to one or the other; 0 if and only
 /// if p equals a corner.
 inline int in_sphere(const Corners<2> &corners, const Point<2> &p) {
-    const Pair a = pair(*corners[0]) - pair(p), b = pair(*corners[1]) - pair(p),
-               c = pair(*corners[2]) - pair(p);
-    const Pair bc = b * swapped(c), ca = c * swapped(a), ab = a * swapped(b);
-    const Pair minors = firsts(bc, ca) - seconds(bc, ca);
-    const Pair aa = a * a, bb = b * b, cc = c * c;
-    const Pair lifts = firsts(aa, bb) + seconds(aa, bb);
-    const double lift_c = cc[0] + cc[1];
-    const Pair terms = lifts * minors;
-    const double det = terms[0] + terms[1] + lift_c * (ab[0] - ab[1]);
-    // No less than the permanent, since |bx cy| + |by cx| <= |b||c| <= (b^2 + c^2) / 2.
-    const double permanent = lifts[0] * lifts[1] + lift_c * (lifts[0] + lifts[1]);
-    const double bound = 1.1103e-15 * permanent;
-    if (permanent > 1e-250 && std::fabs(det) > bound) [[likely]] return det > 0 ? 1 : -1;
+    const SeenPoint a = seen(*corners[1], p), b = seen(*corners[0], p), c = seen(*corners[2], p);
+    const InCircle test = in_circle(a, b, cross(a, b), c);
+    if (test.is_sure) [[likely]] return test.is_inside ? 1 : -1;
     return exact::in_sphere<2>(corners, p);
 }
 
