@@ -308,6 +308,7 @@ page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes
 	HeapTuple	tuple;
 
 	page_table_open(table);
+	/* an update would leave a small row where it lies */
 	if (table->superseded != NULL &&
 		superseded_is_far(table->superseded, ItemPointerGetBlockNumber(tid)))
 	{

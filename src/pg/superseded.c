@@ -157,16 +157,15 @@ first_empty(Superseded *superseded)
 BlockNumber
 superseded_take_empty(Superseded *superseded, Relation heap)
 {
-	BlockNumber blocks = RelationGetNumberOfBlocks(heap);
 	BlockNumber block;
 
-	/* VACUUM may have cut the table; it does not while we hold a lock on it */
-	do
+	while ((block = first_empty(superseded)) != InvalidBlockNumber)
 	{
-		block = first_empty(superseded);
-		if (block != InvalidBlockNumber)
-			superseded->free[block / BITS_PER_BYTE] &= ~(1 << (block % BITS_PER_BYTE));
-	} while (block != InvalidBlockNumber && block >= blocks);
+		superseded->free[block / BITS_PER_BYTE] &= ~(1 << (block % BITS_PER_BYTE));
+		/* VACUUM may have cut the table; it does not while we hold a lock on it */
+		if (block < RelationGetNumberOfBlocks(heap))
+			break;
+	}
 	return block;
 }
 
