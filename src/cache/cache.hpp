@@ -155,7 +155,8 @@ public:
         }
         return h;
     }
-    /// The same in parts, for who knows the code already. A slot for a new simplex, ...
+    /// The same in parts, for who knows the code already: a slot for a simplex with this code,
+    /// whose content is then to be set and its vertices to be acquired.
     Handle allot(std::uint64_t code) {
         BlockIndex b = at_hand_;
         if (b == no_block || blocks_[b].count >= capacity_ || !blocks_[b].surely_owns(code))
@@ -164,9 +165,8 @@ public:
         ++counters.created;
         return take_slot(b);
     }
-    /// ... what is in it, ...
     void set(Handle h, const Simplex<D> &s) { slots_[h] = s; }
-    /// ... and how many simplices more have the vertex.
+    /// So many simplices more have the vertex.
     void acquire(VertexIndex v, std::uint32_t simplices) { vertices_.acquire(v, simplices); }
     /// Frees the slot; the neighbours keep their links to it.
     void destroy(Handle h) {
@@ -233,7 +233,7 @@ private:
         std::uint64_t used_at;
         std::uint32_t count;      // simplices
         std::uint16_t high_water; // slots ever used
-        std::uint16_t settled;    // simplices that it was loaded with
+        std::uint16_t settled;    // as many of them as were loaded, wherever they lie now
         std::uint32_t free;       // chain of slots given back, by link[0]
         State state;
         bool dirty;

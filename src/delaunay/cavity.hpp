@@ -16,7 +16,6 @@
 
 #include "delaunay/delaunay.hpp"
 #include "delaunay/ridges.hpp"
-#include "geometry/in_circle.hpp"
 
 namespace abacus {
 
@@ -82,7 +81,7 @@ private:
 
     /// Where in_circle() is not sure: above all of ghosts, whose point at infinity has no
     /// coordinates. Apart, so that the loop around the test is small.
-    [[gnu::noinline]] bool is_surely_inside(Handle h, const Point<2> &p) const;
+    [[gnu::noinline]] bool is_exactly_inside(Handle h, const Point<2> &p) const;
     /// Room for more; returns where the top is now.
     Edge *deepen(const Edge *top);
     /// Slots for the star of a vertex with this code, one for each edge of the rim, the first

@@ -31,7 +31,7 @@ void Cavity<2>::find(const Point<2> &p, Handle first) {
         const VertexIndex apex = cache_.simplex(h).vertex[facet];
         const SeenPoint point = seen(cache_.point(apex), p);
         const InCircle test = in_circle(top->begin, top[-1].begin, top->cross, point);
-        const bool is_inside = test.is_sure ? test.is_inside : is_surely_inside(h, p);
+        const bool is_inside = test.is_sure ? test.is_inside : is_exactly_inside(h, p);
         if (is_inside) {
             add(h);
             const int next = facet == 2 ? 0 : facet + 1, last = 3 - facet - next;
@@ -46,7 +46,7 @@ void Cavity<2>::find(const Point<2> &p, Handle first) {
     }
 }
 
-bool Cavity<2>::is_surely_inside(Handle h, const Point<2> &p) const {
+bool Cavity<2>::is_exactly_inside(Handle h, const Point<2> &p) const {
     return side_of<2>(cache_, cache_.simplex(h), p) == Side::inside;
 }
 
