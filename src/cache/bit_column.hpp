@@ -53,6 +53,13 @@ public:
         if (offset + width_ > 64) word |= std::uint64_t(at[8]) << (64 - offset);
         return word & mask_;
     }
+    /// The same of fields of at most 57 bits: a word has all of one, wherever it begins.
+    std::uint64_t narrow(std::size_t i) const {
+        const std::size_t bit = i * width_;
+        std::uint64_t word;
+        std::memcpy(&word, bytes_ + (bit >> 3), sizeof word);
+        return word >> (bit & 7) & mask_;
+    }
     unsigned width() const { return width_; }
 
 private:

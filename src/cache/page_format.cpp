@@ -13,13 +13,14 @@ namespace abacus {
 
 namespace {
 
-void require(bool condition, const char *detail) {
+// In sight of each of its callers: some are in loops.
+[[gnu::always_inline]] inline void require(bool condition, const char *detail) {
     if (!condition) [[unlikely]] throw_corrupted(detail);
 }
 
-void require_column(bool condition) {
-    require(condition, "A simplex page's size does not fit its counts.");
-}
+constexpr const char *wrong_size = "A simplex page's size does not fit its counts.";
+constexpr const char *unknown_vertex = "A simplex page names a vertex that it does not have.";
+constexpr const char *repeated_vertex = "A simplex has the same vertex twice.";
 
 } // namespace
 
@@ -64,15 +65,15 @@ void PageView<D>::read(const unsigned char *bytes, std::size_t size, int attribu
     const unsigned char *const end = bytes + size - checksum_bytes;
     const unsigned char *at = bytes + sizeof header_;
     const std::size_t v = header_.vertices, l = header_.links, s = header_.simplices;
-    require_column(ids_.read(at, end, v));
-    for (Column &axis : axes_) require_column(axis.read(at, end, v));
-    for (int i = 0; i < attributes; ++i) require_column(attributes_[i].read(at, end, v));
-    require_column(codes_.read(at, end, header_.codes));
-    require_column(parts_.read(at, end, l));
+    require(ids_.read(at, end, v), wrong_size);
+    for (Column &axis : axes_) require(axis.read(at, end, v), wrong_size);
+    for (int i = 0; i < attributes; ++i) require(attributes_[i].read(at, end, v), wrong_size);
+    require(codes_.read(at, end, header_.codes), wrong_size);
+    require(parts_.read(at, end, l), wrong_size);
     has_parts_ = parts_.is_not_zero();
     const auto fields = [&](std::size_t n, int width) {
         const std::size_t taken = bits_to_bytes(n * width);
-        require_column(static_cast<std::size_t>(end - at) >= taken);
+        require(static_cast<std::size_t>(end - at) >= taken, wrong_size);
         const BitFields result(at, width);
         at += taken;
         return result;
@@ -107,7 +108,21 @@ template <int D> void PageView<D>::read_points() {
 }
 
 template <int D>
-void PageView<D>::read_simplices(const BitFields &steps, const unsigned char *at,
+int PageView<D>::read_root(int s, const BitFields &numbers, std::size_t named, int fresh) {
+    const int infinity = vertices();
+    std::uint16_t *const corner = &corners_[s * (D + 1)];
+    for (int i = 0; i <= D; ++i) {
+        corner[i] = static_cast<std::uint16_t>(numbers.narrow(named++));
+        // The next one is new; only the last corner may be at infinity.
+        require(corner[i] == infinity ? i == D : corner[i] <= fresh, unknown_vertex);
+        fresh += corner[i] == fresh && fresh < infinity;
+        for (int j = 0; j < i; ++j) require(corner[j] != corner[i], repeated_vertex);
+    }
+    return fresh;
+}
+
+template <int D>
+void PageView<D>::read_simplices(const BitFields steps, const unsigned char *at,
                                  const unsigned char *end) {
     const int n = simplices(), infinity = vertices();
     const int width = std::bit_width(header_.vertices);
@@ -116,56 +131,49 @@ void PageView<D>::read_simplices(const BitFields &steps, const unsigned char *at
     const std::size_t most = width == 0 ? 0 : static_cast<std::size_t>(end - at) * 8 / width;
     std::size_t named = 0;
     int fresh = 0, reached = 0;
-    // What comes next is as hard to foresee as a coin: branches only lead to errors.
+    bool is_known = true, is_distinct = true; // each apex
+    // What comes next is as hard to foresee as a coin: branches only lead to errors, and those
+    // that nothing of this loop relies on are told after it.
     for (int s = 0; s < n; ++s) {
-        std::uint16_t *const corner = &corners_[s * (D + 1)];
-        auto bits = static_cast<unsigned>(steps[s]);
+        auto bits = static_cast<unsigned>(steps.narrow(s));
         unsigned entry = D + 1;
         if (s == reached) [[unlikely]] { // a root
             steps_[reached++] = {no_link, 0};
-            require(most - named > D, "A simplex page's size does not fit its counts.");
-            for (int i = 0; i <= D; ++i) {
-                corner[i] = static_cast<std::uint16_t>(numbers[named++]);
-                // The next one is new; only the last corner may be at infinity.
-                require(corner[i] == infinity ? i == D : corner[i] <= fresh,
-                        "A simplex page names a vertex that it does not have.");
-                fresh += corner[i] == fresh && fresh < infinity;
-                for (int j = 0; j < i; ++j)
-                    require(corner[j] != corner[i], "A simplex has the same vertex twice.");
-            }
+            require(named + D < most, wrong_size);
+            fresh = read_root(s, numbers, named, fresh);
+            named += D + 1;
         } else {
             const std::uint16_t parent = steps_[s].parent;
             const int is_new = bits & 1;
             bits >>= 1;
-            const auto number = static_cast<int>(numbers[named]);
-            const int limit = is_new ? infinity : fresh;
-            const auto apex = static_cast<std::uint16_t>(is_new ? fresh : number);
+            const auto number = static_cast<int>(numbers.narrow(named));
+            const int apex = is_new * fresh + (1 - is_new) * number;
+            const int limit = is_new * infinity + (1 - is_new) * fresh;
+            is_known &= (apex < limit) | ((apex == infinity) & (is_new == 0));
             fresh += is_new;
             named += 1 - is_new;
-            require(named <= most, "A simplex page's size does not fit its counts.");
-            require((apex < limit) | ((apex == infinity) & (is_new == 0)),
-                    "A simplex page names a vertex that it does not have.");
             const std::uint16_t *const above = corners(link_simplex(parent));
-            bool is_there = false;
-            for (int i = 0; i <= D; ++i) is_there |= above[i] == apex;
-            require(!is_there, "A simplex has the same vertex twice.");
-            entry = static_cast<unsigned>(
-                child_across<D>(above, link_facet(parent), apex,
-                                static_cast<std::uint16_t>(infinity), corner));
+            for (int i = 0; i <= D; ++i) is_distinct &= above[i] != apex;
+            entry = static_cast<unsigned>(child_across<D>(
+                above, link_facet(parent), static_cast<std::uint16_t>(apex),
+                static_cast<std::uint16_t>(infinity), &corners_[s * (D + 1)]));
             steps_[s].facet = static_cast<std::uint16_t>(entry);
         }
         // Bits of all facets: none towards the parent.
         const unsigned before = (1u << entry) - 1;
         const unsigned children = (bits & before) | (bits & ~before) << 1;
+#pragma GCC unroll 4
         for (int f = 0; f <= D; ++f) {
             steps_[reached].parent = static_cast<std::uint16_t>(make_link(s, f));
             reached += children >> f & 1;
-            require(reached <= n, "A simplex page has impossible counts.");
         }
+        require(reached <= n, "A simplex page has impossible counts.");
+        require(named <= most, wrong_size);
     }
+    require(is_known, unknown_vertex);
+    require(is_distinct, repeated_vertex);
     require(fresh == infinity, "A page has a vertex without simplices.");
-    require(at + bits_to_bytes(named * width) == end,
-            "A simplex page's size does not fit its counts.");
+    require(at + bits_to_bytes(named * width) == end, wrong_size);
 }
 
 template class PageView<2>;

@@ -81,7 +81,7 @@ constexpr int child_across(const Number *parent, int f, Number apex, Number infi
     child[0] = corner[1];
     child[1] = corner[0];
     for (int i = 2; i <= D; ++i) child[i] = corner[i];
-    return f < 2 ? 1 - f : f;
+    return f ^ static_cast<int>(f < 2);
 }
 
 /// A stored page, checked. What it says of vertices is read in place: it is valid as long as
@@ -143,7 +143,9 @@ private:
 
     void read_header(const unsigned char *bytes, std::size_t size, int attributes);
     void read_points();
-    void read_simplices(const BitFields &steps, const unsigned char *at, const unsigned char *end);
+    void read_simplices(BitFields steps, const unsigned char *at, const unsigned char *end);
+    /// Reads the corners of a tree's first simplex; returns how many vertices are known then.
+    int read_root(int simplex, const BitFields &numbers, std::size_t named, int fresh);
 
     PageHeader header_;
     Column ids_;
@@ -155,7 +157,7 @@ private:
     std::array<double, 2 * D> box_;
     std::array<Point<D>, page_vertices<D>> points_;
     std::array<std::uint16_t, block_slots<D> *(D + 1)> corners_;
-    std::array<Step, block_slots<D> + 1> steps_; // the last one is overwritten
+    std::array<Step, block_slots<D> + D + 1> steps_; // the last ones are overwritten
 };
 
 } // namespace abacus

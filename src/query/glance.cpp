@@ -3,6 +3,8 @@
 #include "query/page_simplex.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace abacus {
 
@@ -37,13 +39,35 @@ bool Glance<D>::find(const Key &key, const Domain<D> &domain, const Point<D> &p,
                      abacus_simplex &simplex) {
     abacus_page page{};
     if (!host_.find(ABACUS_SIMPLEX_PAGES, key, page) || was_seen(page.key)) return false;
-    if (look_into(page, domain, p, simplex)) return true;
-    // Near the border of the page's region it may be a neighbour's, on the curve as well.
-    const Key lower = view_.lower(), upper = view_.upper();
-    return (upper < end_key && host_.find(ABACUS_SIMPLEX_PAGES, upper, page) &&
-            look_into(page, domain, p, simplex)) ||
-           (first_key < lower && host_.find(ABACUS_SIMPLEX_PAGES, predecessor(lower), page) &&
-            look_into(page, domain, p, simplex));
+    return look_into(page, domain, p, simplex) || look_around(domain, p, simplex);
+}
+
+template <int D>
+bool Glance<D>::look_around(const Domain<D> &domain, const Point<D> &p,
+                            abacus_simplex &simplex) {
+    constexpr std::array<double, 2> distances{1, 2.5}; // more gained nothing
+    std::array<std::pair<Key, Key>, 1 + distances.size() * 2 * D> regions;
+    regions[0] = {view_.lower(), view_.upper()};
+    auto end = regions.begin() + 1;
+    Point<D> spacing; // of the page's vertices
+    for (int axis = 0; axis < D; ++axis)
+        spacing[axis] =
+            (view_.box(D + axis) - view_.box(axis)) / std::pow(view_.vertices(), 1.0 / D);
+    for (const double distance : distances)
+        for (int way = 0; way < 2 * D; ++way) {
+            const int axis = way / 2;
+            Point<D> q = p;
+            q[axis] += (way % 2 == 0 ? distance : -distance) * spacing[axis];
+            const Key key{domain.code(q), 0};
+            const bool is_known = std::any_of(regions.begin(), end, [&](const auto &region) {
+                return !(key < region.first) && key < region.second;
+            });
+            abacus_page page{};
+            if (is_known || !host_.find(ABACUS_SIMPLEX_PAGES, key, page)) continue;
+            if (look_into(page, domain, p, simplex)) return true;
+            *end++ = {view_.lower(), view_.upper()};
+        }
+    return false;
 }
 
 template <int D>

@@ -4,6 +4,10 @@
 // larger than the cache do not come back: then it is several times quicker to decode the
 // page, look for the one simplex, and keep nothing.
 //
+// A simplex belongs to the page that owns the greatest of its vertices' codes. So that of a
+// place may be in another page than the one that owns the place itself, in the plane one time
+// in ten, in space one in two: then a vertex not far away has that page's code.
+//
 // Whether a page will be asked again nobody knows; so it is loaded at the second time, if it
 // is among the last pages looked into.
 #pragma once
@@ -23,8 +27,8 @@ public:
         seen_.fill(end_key); // no page's
     }
 
-    /// Looks for a finite simplex with p strictly inside: in the page that owns the key, then
-    /// in its neighbours on the curve. False if they have none, or the page is to be loaded.
+    /// Looks for a finite simplex with p strictly inside: in the page that owns the key, p's,
+    /// then in those around. False if they have none, or the page is to be loaded.
     bool find(const Key &key, const Domain<D> &domain, const Point<D> &p,
               abacus_simplex &simplex);
 
@@ -34,6 +38,8 @@ private:
     bool was_seen(const Key &page);
     bool look_into(const abacus_page &page, const Domain<D> &domain, const Point<D> &p,
                    abacus_simplex &simplex);
+    /// In the pages that own places about as far from p as vertices are from one another.
+    bool look_around(const Domain<D> &domain, const Point<D> &p, abacus_simplex &simplex);
     /// Number of the simplex in the page at hand, or -1.
     int search(const Point<D> &p) const;
 
