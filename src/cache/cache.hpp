@@ -91,6 +91,14 @@ public:
     std::uint32_t number(typename VertexHeap<D>::Numbering &numbering, VertexIndex v) {
         return numbering.number(vertices_, v);
     }
+    /// The same without branches, in a numbering that has room.
+    std::uint32_t number_in_room(typename VertexHeap<D>::Numbering &numbering, VertexIndex v) {
+        return numbering.number_in_room(vertices_, v);
+    }
+    /// Makes a numbering valid again after another, which loading a page does, too.
+    void renumber(const typename VertexHeap<D>::Numbering &numbering) {
+        numbering.renew(vertices_);
+    }
 
     // ---- Keys ----------------------------------------------------------------
 
@@ -166,6 +174,7 @@ public:
         return take_slot(b);
     }
     void set(Handle h, const Simplex<D> &s) { slots_[h] = s; }
+    void set_corner(Handle h, int i, VertexIndex v) { slots_[h].vertex[i] = v; }
     /// So many simplices more have the vertex.
     void acquire(VertexIndex v, std::uint32_t simplices) { vertices_.acquire(v, simplices); }
     /// Frees the slot; the neighbours keep their links to it.

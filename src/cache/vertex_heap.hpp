@@ -116,6 +116,11 @@ public:
             return number;
         }
         void reserve(std::size_t n) { list_.reserve(n); }
+        /// Makes it the valid one again.
+        void renew(VertexHeap &heap) const {
+            for (std::size_t i = 0; i < list_.size(); ++i)
+                heap.vertices_[list_[i]].number = static_cast<std::uint32_t>(i);
+        }
 
     private:
         Arena<VertexIndex> list_;

@@ -3,19 +3,22 @@
 // hull facet. It is star-shaped around the point, and is replaced by the simplices that join
 // the facets of its rim to the point.
 //
-// In the plane its triangles form a tree (the polygon has no vertex inside), so a depth-first
+// A test of a simplex beyond a facet goes on from what those before have computed of the
+// facet's corners, and reads one vertex, the apex (geometry/in_sphere.hpp).
+//
+// In the plane the triangles form a tree (the polygon has no vertex inside), so a depth-first
 // search that keeps the order of the edges around each triangle visits each once and lists
 // the rim as a cycle: an edge ends where the next one begins. Nothing is searched for or
-// looked up: the new triangle on an edge meets that on the next. Nor is anything computed
-// twice: the stack holds, of each edge, what the tests on both its sides have in common
-// (geometry/in_circle.hpp).
+// looked up: the new triangle on an edge meets that on the next.
 //
-// In space the search marks what it has seen, and the new tetrahedra find one another by
-// their ridges, the edges of the rim, in small tables (ridges.hpp).
+// In space the search may come back to a tetrahedron, so it marks what it has seen, and
+// numbers the corners. The new tetrahedra find one another by their ridges, the edges of
+// the rim, in small tables (ridges.hpp).
 #pragma once
 
 #include "delaunay/delaunay.hpp"
 #include "delaunay/ridges.hpp"
+#include "geometry/in_sphere.hpp"
 
 namespace abacus {
 
@@ -68,7 +71,7 @@ private:
     /// Of a triangle inside, counterclockwise; it ends where the one below it on the stack
     /// begins.
     struct Edge {
-        SeenPoint begin;
+        SeenPoint<2> begin;
         double cross; // of both ends
         VertexIndex vertex;
         Link inner;
@@ -102,10 +105,39 @@ public:
     void fill(VertexIndex v);
 
 private:
+    /// Of a tetrahedron inside, which sees its corners s, t, u counterclockwise. They are
+    /// numbers of corners, and those of its edges st, su, tu numbers of cross products.
+    struct Facet {
+        Link inner;
+        std::array<std::uint8_t, 3> slot; // of the corners in the tetrahedron
+        std::int8_t sign;                 // -1: the first cross product is that of ts
+        std::array<std::uint32_t, 3> corner, edge;
+    };
+    struct RimFacet {
+        Link outer;
+        std::uint32_t facet;
+    };
+
+    void begin(const Point<3> &p, Handle first);
+    /// Across a facet. A page may be loaded then, and number its vertices.
+    Link cross(Link inner);
+    /// Adds the other three facets of a tetrahedron that is inside, too.
+    void enter(std::size_t facet, Link outer, const SeenPoint<3> &apex);
+    std::uint32_t add_corner(VertexIndex v, const SeenPoint<3> &point);
+    void make_room();
+    LiftedPlane plane(const Facet &facet) const;
+    [[gnu::noinline]] bool is_exactly_inside(Handle h, const Point<3> &p) const;
+    /// The new tetrahedron on a facet of the rim; it leaves its ridges.
+    Handle create(const RimFacet &rim, VertexIndex v, std::uint64_t code);
+
+    typename VertexHeap<3>::Numbering corners_;
+    Arena<SeenPoint<3>> seen_;   // of the corners
+    Arena<std::uint64_t> codes_; // of these, too
+    Arena<Cross> edges_;
+    Arena<Facet> facets_; // in the order in which they are crossed
+    Arena<RimFacet> rim_;
+    Arena<Handle> created_;
     Ridges ridges_;
-    typename VertexHeap<3>::Numbering rim_vertices_;
-    Arena<Rim<3>> rim_;
-    Arena<Link> stack_;
 };
 
 } // namespace abacus

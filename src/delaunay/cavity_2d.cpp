@@ -18,7 +18,7 @@ void Cavity<2>::find(const Point<2> &p, Handle first) {
     Edge *top = stack_.extend(4);
     for (int i = 3; i >= 0; --i, ++top) {
         const VertexIndex v = cache_.simplex(first).vertex[(i + 1) % 3];
-        const SeenPoint begin = seen(cache_.point(v), p);
+        const SeenPoint<2> begin = seen(cache_.point(v), p);
         *top = {begin, i == 3 ? 0 : cross(begin, top[-1].begin), v, make_link(first, i)};
     }
     --top;
@@ -29,7 +29,7 @@ void Cavity<2>::find(const Point<2> &p, Handle first) {
         const Handle h = link_simplex(outer);
         const int facet = link_facet(outer);
         const VertexIndex apex = cache_.simplex(h).vertex[facet];
-        const SeenPoint point = seen(cache_.point(apex), p);
+        const SeenPoint<2> point = seen(cache_.point(apex), p);
         const InCircle test = in_circle(top->begin, top[-1].begin, top->cross, point);
         const bool is_inside = test.is_sure ? test.is_inside : is_exactly_inside(h, p);
         if (is_inside) {

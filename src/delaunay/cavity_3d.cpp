@@ -1,77 +1,176 @@
 #include "delaunay/cavity.hpp"
 #include "delaunay/conflict.hpp"
 
+#include <algorithm>
+
 namespace abacus {
 
+namespace {
+
+/// Where corners a, b, c, u are in a tetrahedron whose corner u is in slot [u] and a in the
+/// first, second or third slot, as u sees them counterclockwise, of the others. Whoever
+/// enters across a, b, c sees these counterclockwise, so u sees them clockwise.
+constexpr std::array<std::array<std::array<std::uint8_t, 4>, 3>, 4> slots_beyond = [] {
+    constexpr std::uint8_t others[4][3] = {{2, 1, 3}, {0, 2, 3}, {1, 0, 3}, {0, 1, 2}};
+    std::array<std::array<std::array<std::uint8_t, 4>, 3>, 4> slots{};
+    for (std::uint8_t u = 0; u < 4; ++u)
+        for (int a = 0; a < 3; ++a)
+            slots[u][a] = {others[u][a], others[u][(a + 2) % 3], others[u][(a + 1) % 3], u};
+    return slots;
+}();
+
+} // namespace
+
 Cavity<3>::Cavity(Delaunay<3> &mesh)
-    : CavityInside(mesh), ridges_(cache_.host()), rim_vertices_(cache_.host()),
-      rim_(cache_.host()), stack_(cache_.host()) {}
+    : CavityInside(mesh), corners_(cache_.host()), seen_(cache_.host()), codes_(cache_.host()),
+      edges_(cache_.host()), facets_(cache_.host()), rim_(cache_.host()),
+      created_(cache_.host()), ridges_(cache_.host()) {
+    make_room();
+}
+
+void Cavity<3>::make_room() {
+    const std::size_t room = 2 * corners_.size() + 64;
+    corners_.reserve(room + 1);
+    seen_.reserve(room);
+    codes_.reserve(room);
+}
+
+inline std::uint32_t Cavity<3>::add_corner(VertexIndex v, const SeenPoint<3> &point) {
+    // New or not is hard to foresee: it is written in either case.
+    const std::uint32_t number = cache_.number_in_room(corners_, v);
+    if (number >= seen_.capacity()) [[unlikely]] make_room();
+    seen_[number] = point;
+    codes_[number] = cache_.vertices()[v].code;
+    return number;
+}
+
+inline Link Cavity<3>::cross(Link inner) {
+    const std::uint64_t loads = cache_.counters.loads;
+    const Link outer = cache_.cross(link_simplex(inner), link_facet(inner));
+    if (cache_.counters.loads != loads) [[unlikely]] cache_.renumber(corners_);
+    return outer;
+}
+
+inline LiftedPlane Cavity<3>::plane(const Facet &facet) const {
+    const auto &[s, t, u] = facet.corner;
+    const auto &[st, su, tu] = facet.edge;
+    return lifted_plane(seen_[s], seen_[t], seen_[u], edges_[st], edges_[su], edges_[tu],
+                        facet.sign);
+}
+
+bool Cavity<3>::is_exactly_inside(Handle h, const Point<3> &p) const {
+    return side_of<3>(cache_, cache_.simplex(h), p) == Side::inside;
+}
 
 void Cavity<3>::find(const Point<3> &p, Handle first) {
-    inside_.clear();
-    rim_.clear();
-    stack_.clear();
-    add(first);
-    mesh_.marks.set(first, Marks::inside);
-    Link *top = stack_.extend(4);
-    for (int i = 3; i >= 0; --i) *top++ = make_link(first, i);
-    while (!stack_.empty()) {
-        // The inner side of a facet: the outer one is asked for anew, since loading for an
-        // earlier facet may have linked it.
-        const Link inner = stack_.back();
-        stack_.pop_back();
-        const Link outer = cache_.cross(link_simplex(inner), link_facet(inner));
+    begin(p, first);
+    for (std::size_t at = 1; at < facets_.size(); ++at) {
+        // The outer side is asked for anew, since loading for an earlier facet may have
+        // linked it.
+        const Link outer = cross(facets_[at].inner);
         const Handle h = link_simplex(outer);
-        Marks::Mark mark = mesh_.marks.get(h);
+        const Marks::Mark mark = mesh_.marks.get(h);
         if (mark == Marks::inside) continue; // came back to the cavity from within
         if (mark == Marks::none) {
-            mark = side_of<3>(cache_, cache_.simplex(h), p) == Side::inside ? Marks::inside
-                                                                            : Marks::outside;
-            mesh_.marks.set(h, mark);
-        }
-        if (mark == Marks::inside) {
-            add(h);
-            top = stack_.extend(3);
-            for (int i = 3, facet = link_facet(outer); i > 0; --i) {
-                facet = facet == 0 ? 3 : facet - 1;
-                *top++ = make_link(h, facet);
+            const VertexIndex v = cache_.simplex(h).vertex[link_facet(outer)];
+            const SeenPoint<3> apex = seen(cache_.point(v), p);
+            const InSphere test = in_sphere(plane(facets_[at]), apex);
+            const bool is_inside = test.is_sure ? test.is_inside : is_exactly_inside(h, p);
+            mesh_.marks.set(h, is_inside ? Marks::inside : Marks::outside);
+            if (is_inside) {
+                add(h);
+                enter(at, outer, apex);
+                continue;
             }
-        } else {
-            rim_.push_back({outer, link_facet(inner), cache_.simplex(link_simplex(inner)).vertex});
         }
+        rim_.push_back({outer, static_cast<std::uint32_t>(at)});
     }
+}
+
+void Cavity<3>::begin(const Point<3> &p, Handle first) {
+    inside_.clear();
+    corners_.clear();
+    edges_.clear();
+    facets_.clear();
+    rim_.clear();
+    add(first);
+    mesh_.marks.set(first, Marks::inside);
+    const std::array<VertexIndex, 4> &vertex = cache_.simplex(first).vertex;
+    for (int i = 0; i < 3; ++i) add_corner(vertex[i], seen(cache_.point(vertex[i]), p));
+    Cross *const edge = edges_.extend(3);
+    edge[0] = abacus::cross(seen_[0], seen_[1]);
+    edge[1] = abacus::cross(seen_[0], seen_[2]);
+    edge[2] = abacus::cross(seen_[1], seen_[2]);
+    // One facet from both sides: as if the tetrahedron had been entered across it.
+    Facet *const facet = facets_.extend(2);
+    facet[0] = {unset, {}, -1, {1, 0, 2}, {0, 2, 1}};
+    facet[1] = {make_link(first, 3), {0, 1, 2}, 1, {0, 1, 2}, {0, 1, 2}};
+    enter(0, make_link(first, 3), seen(cache_.point(vertex[3]), p));
+}
+
+inline void Cavity<3>::enter(std::size_t facet, Link outer, const SeenPoint<3> &apex) {
+    const Handle h = link_simplex(outer);
+    const int in_u = link_facet(outer);
+    const std::array<VertexIndex, 4> &vertex = cache_.simplex(h).vertex;
+    const std::uint32_t u = add_corner(vertex[in_u], apex);
+    Facet *const created = facets_.extend(3);
+    const Facet &f = facets_[facet];
+    const auto &[a, b, c] = f.corner;
+    const auto &[ab, ac, bc] = f.edge;
+    const auto au = static_cast<std::uint32_t>(edges_.size()), bu = au + 1, cu = au + 2;
+    Cross *const edge = edges_.extend(3);
+    edge[0] = abacus::cross(seen_[a], apex);
+    edge[1] = abacus::cross(seen_[b], apex);
+    edge[2] = abacus::cross(seen_[c], apex);
+    const auto &orders = slots_beyond[in_u];
+    const VertexIndex first = corners_[a];
+    const auto &in =
+        orders[(vertex[orders[1][0]] == first) + 2 * (vertex[orders[2][0]] == first)];
+    created[0] = {make_link(h, in[2]), {in[0], in[1], in[3]}, f.sign, {a, b, u}, {ab, au, bu}};
+    created[1] = {make_link(h, in[0]), {in[1], in[2], in[3]}, 1, {b, c, u}, {bc, bu, cu}};
+    created[2] = {make_link(h, in[1]), {in[2], in[0], in[3]}, -1, {c, a, u}, {ac, cu, au}};
 }
 
 void Cavity<3>::fill(VertexIndex v) {
     std::int64_t ghosts = -hollow_out();
     for (const Handle h : inside_) mesh_.marks.set(h, Marks::none);
     ridges_.reset(rim_.size() * 3);
-    rim_vertices_.clear();
+    created_.resize(rim_.size());
+    const std::uint64_t code = cache_.vertices()[v].code;
+    cache_.acquire(v, static_cast<std::uint32_t>(rim_.size()));
     for (std::size_t n = 0; n < rim_.size(); ++n) {
-        Rim<3> &rim = rim_[n];
-        mesh_.marks.set(link_simplex(rim.outer), Marks::none);
-        ghosts += rim.vertex[3] == infinite_vertex && rim.facet != 3;
-        // v lies on the same side as the vertex in whose place it comes, so the orientation
-        // stays, and a ghost's point at infinity stays last.
-        rim.vertex[rim.facet] = v;
-        const Handle h = cache_.create(rim.vertex);
-        mesh_.remember(n, h);
-        cache_.connect(make_link(h, rim.facet), rim.outer);
-        cache_.mark_dirty(link_simplex(rim.outer));
-        // The facets besides the rim's: each has v and one edge of that.
-        std::array<std::uint32_t, 3> number;
-        std::array<Link, 3> link;
-        for (int i = 0, k = 0; i <= 3; ++i) {
-            if (i == rim.facet) continue;
-            number[k] = cache_.number(rim_vertices_, rim.vertex[i]);
-            link[k++] = make_link(h, i);
-        }
-        for (int i = 0; i < 3; ++i) {
-            const Link other = ridges_.match(number[(i + 1) % 3], number[(i + 2) % 3], link[i]);
-            if (other != Ridges::unmatched) cache_.connect(other, link[i]);
-        }
+        created_[n] = create(rim_[n], v, code);
+        mesh_.remember(n, created_[n]);
+        ghosts += cache_.simplex(created_[n]).is_ghost();
+    }
+    for (std::size_t n = 0; n < rim_.size(); ++n) {
+        const Facet &facet = facets_[rim_[n].facet];
+        for (int i = 0; i < 3; ++i)
+            cache_.point_at(make_link(created_[n], facet.slot[i]),
+                            ridges_.across(facet.corner[(i + 1) % 3], facet.corner[(i + 2) % 3]));
     }
     mesh_.count(static_cast<std::int64_t>(rim_.size() - inside_.size()) - ghosts, ghosts);
+}
+
+inline Handle Cavity<3>::create(const RimFacet &rim, VertexIndex v, std::uint64_t code) {
+    const Facet &facet = facets_[rim.facet];
+    const auto &corner = facet.corner;
+    const Handle h = cache_.allot(
+        std::max({code, codes_[corner[0]], codes_[corner[1]], codes_[corner[2]]}));
+    // v lies on the same side as the vertex in whose place it comes, so the orientation stays,
+    // and a ghost's point at infinity stays last.
+    const int opposite = link_facet(facet.inner);
+    cache_.set_corner(h, opposite, v);
+    for (int i = 0; i < 3; ++i) {
+        cache_.set_corner(h, facet.slot[i], corners_[corner[i]]);
+        cache_.acquire(corners_[corner[i]], 1);
+        // The facets besides the rim's: each has v and one edge of that.
+        ridges_.add(corner[(i + 1) % 3], corner[(i + 2) % 3], make_link(h, facet.slot[i]));
+    }
+    cache_.connect(make_link(h, opposite), rim.outer);
+    cache_.mark_dirty(link_simplex(rim.outer));
+    mesh_.marks.set(link_simplex(rim.outer), Marks::none);
+    return h;
 }
 
 } // namespace abacus

@@ -25,7 +25,7 @@
 // that is det(b-a, c-a, d-a) > 0.
 #pragma once
 
-#include "geometry/in_circle.hpp"
+#include "geometry/in_sphere.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -118,38 +118,19 @@ inline bool is_independent(const Corners<3> &points, int n, const Point<3> &p) {
 /// -1 outside, points on the sphere perturbed to one or the other; 0 if and only
 /// if p equals a corner.
 inline int in_sphere(const Corners<2> &corners, const Point<2> &p) {
-    const SeenPoint a = seen(*corners[1], p), b = seen(*corners[0], p), c = seen(*corners[2], p);
+    const SeenPoint<2> a = seen(*corners[1], p), b = seen(*corners[0], p),
+                       c = seen(*corners[2], p);
     const InCircle test = in_circle(a, b, cross(a, b), c);
     if (test.is_sure) [[likely]] return test.is_inside ? 1 : -1;
     return exact::in_sphere<2>(corners, p);
 }
 
 inline int in_sphere(const Corners<3> &corners, const Point<3> &p) {
-    const Point<3> &a = *corners[0], &b = *corners[1], &c = *corners[2], &d = *corners[3];
-    const Pair px = pair(p[0], p[0]), py = pair(p[1], p[1]), pz = pair(p[2], p[2]);
-    const Pair x_ac = pair(a[0], c[0]) - px, x_bd = pair(b[0], d[0]) - px;
-    const Pair y_ac = pair(a[1], c[1]) - py, y_bd = pair(b[1], d[1]) - py;
-    const Pair z_ac = pair(a[2], c[2]) - pz, z_bd = pair(b[2], d[2]) - pz;
-    const Pair lift_ac = x_ac * x_ac + y_ac * y_ac + z_ac * z_ac;
-    const Pair lift_bd = x_bd * x_bd + y_bd * y_bd + z_bd * z_bd;
-    const Pair ab_cd = x_ac * y_bd - x_bd * y_ac;
-    const Pair bc_da = x_bd * swapped(y_ac) - swapped(x_ac) * y_bd;
-    const Pair ac_bd = firsts(x_ac, x_bd) * seconds(y_ac, y_bd) -
-                       seconds(x_ac, x_bd) * firsts(y_ac, y_bd);
-    const Pair ac = firsts(-ac_bd, ac_bd), bd = seconds(-ac_bd, ac_bd);
-    const Pair abc_cda = z_ac * bc_da + z_bd * ac + swapped(z_ac) * ab_cd;
-    const Pair bcd_dab = z_bd * swapped(ab_cd) + swapped(z_ac) * bd + swapped(z_bd) * bc_da;
-    const Pair terms = swapped(lift_bd) * abc_cda - swapped(lift_ac * bcd_dab);
-    const double det = terms[0] + terms[1];
-    // The permanent of a 3x3 matrix is at most 2/sqrt(3) times the product of its rows'
-    // lengths (Carlen, Lieb, Loss, "An inequality of Hadamard type for permanents",
-    // 2006); so the whole is, for four corners whose lifts have this sum, at most
-    // 1/(4 sqrt(3)) < 0.1444 times its power of 5/2.
-    const Pair lifts = lift_ac + lift_bd;
-    const double sum = lifts[0] + lifts[1];
-    const double power = sum * sum * std::sqrt(sum);
-    const double bound = 2.57e-16 * power; // 16 u times 0.1444, and some more
-    if (power > 1e-200 && std::fabs(det) > bound) [[likely]] return det > 0 ? -1 : 1;
+    const SeenPoint<3> s = seen(*corners[1], p), t = seen(*corners[0], p),
+                       u = seen(*corners[2], p);
+    const LiftedPlane facet = lifted_plane(s, t, u, cross(s, t), cross(s, u), cross(t, u), 1);
+    const InSphere test = in_sphere(facet, seen(*corners[3], p));
+    if (test.is_sure) [[likely]] return test.is_inside ? 1 : -1;
     return exact::in_sphere<3>(corners, p);
 }
 

@@ -1,6 +1,6 @@
 // The predicates equal CGAL's exact ones, in sign and in the perturbation of
 // degenerate cases, on input that makes floating-point filters fail.
-#include "geometry/in_circle.hpp"
+#include "geometry/in_sphere.hpp"
 #include "geometry/predicates.hpp"
 
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -9,9 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <random>
+#include <utility>
 
 namespace abacus {
 namespace {
@@ -150,7 +152,7 @@ protected:
             if (is_corner) continue;
             ASSERT_EQ(side, triangulation.in_sphere(corners, p));
             ASSERT_EQ(exact::in_sphere<D>(corners, p), side);
-            if constexpr (D == 2) in_circle_is_right_where_it_is_sure(corners, p, side);
+            parts_are_right_where_they_are_sure(corners, p, side);
             // The same for every even order of the corners.
             std::rotate(corners.begin(), corners.begin() + 1, corners.begin() + 3);
             ASSERT_EQ(in_sphere(corners, p), side);
@@ -159,11 +161,11 @@ protected:
     }
 
     /// The triangle seen across each of its edges.
-    void in_circle_is_right_where_it_is_sure(const Corners<2> &corners, const Point<2> &p,
+    void parts_are_right_where_they_are_sure(const Corners<2> &corners, const Point<2> &p,
                                              int side) {
         for (int i = 0; i < 3; ++i) {
-            const SeenPoint b = seen(*corners[i], p), a = seen(*corners[(i + 1) % 3], p),
-                            c = seen(*corners[(i + 2) % 3], p);
+            const SeenPoint<2> b = seen(*corners[i], p), a = seen(*corners[(i + 1) % 3], p),
+                               c = seen(*corners[(i + 2) % 3], p);
             const InCircle test = in_circle(a, b, cross(a, b), c);
             ASSERT_TRUE(!test.is_sure || test.is_inside == (side > 0));
             // What the next tests are given: no number where there was an overflow.
@@ -171,6 +173,24 @@ protected:
             ASSERT_TRUE(equal(test.cross_ac, cross(a, c)));
             ASSERT_TRUE(equal(test.cross_cb, cross(c, b)));
         }
+    }
+
+    /// The tetrahedron seen across each of its facets, in each order of these.
+    void parts_are_right_where_they_are_sure(const Corners<3> &corners, const Point<3> &p,
+                                             int side) {
+        std::array<int, 4> order{0, 1, 2, 3};
+        do {
+            const SeenPoint<3> s = seen(*corners[order[0]], p), t = seen(*corners[order[1]], p),
+                               u = seen(*corners[order[2]], p), e = seen(*corners[order[3]], p);
+            if (orientation(*corners[order[0]], *corners[order[1]], *corners[order[2]],
+                            *corners[order[3]]) > 0)
+                continue; // the apex is not behind the facet
+            const Cross su = cross(s, u), tu = cross(t, u);
+            for (const InSphere &test :
+                 {in_sphere(lifted_plane(s, t, u, cross(s, t), su, tu, 1), e),
+                  in_sphere(lifted_plane(s, t, u, cross(t, s), su, tu, -1), e)})
+                ASSERT_TRUE(!test.is_sure || test.is_inside == (side > 0));
+        } while (std::next_permutation(order.begin(), order.end()));
     }
 
     template <int D> void compare_independence() {
@@ -230,13 +250,37 @@ TEST(Predicates, InCircleIsMostlySureAndNeverOfThePointAtInfinity) {
     for (int round = 0; round < 1000; ++round) {
         const auto next = [&] { return Point<2>{unit(random), unit(random)}; };
         const Point<2> p = next();
-        const SeenPoint a = seen(next(), p), b = seen(next(), p), c = seen(next(), p);
+        const SeenPoint<2> a = seen(next(), p), b = seen(next(), p), c = seen(next(), p);
         sure += in_circle(a, b, cross(a, b), c).is_sure;
         const double nan = std::numeric_limits<double>::quiet_NaN();
-        const SeenPoint infinity = seen({nan, nan}, p);
+        const SeenPoint<2> infinity = seen({nan, nan}, p);
         EXPECT_FALSE(in_circle(a, b, cross(a, b), infinity).is_sure);
         EXPECT_FALSE(in_circle(a, infinity, cross(a, infinity), c).is_sure);
         EXPECT_FALSE(in_circle(infinity, b, cross(infinity, b), c).is_sure);
+    }
+    EXPECT_GT(sure, 990);
+}
+
+TEST(Predicates, InSphereIsMostlySureAndNeverOfThePointAtInfinity) {
+    Random random(7);
+    int sure = 0;
+    for (int round = 0; round < 1000; ++round) {
+        const auto next = [&] { return Point<3>{unit(random), unit(random), unit(random)}; };
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        const Point<3> p = next();
+        std::array<SeenPoint<3>, 4> point;
+        for (SeenPoint<3> &corner : point) corner = seen(next(), p);
+        const auto is_sure = [&] {
+            const auto &[s, t, u, e] = point;
+            return in_sphere(lifted_plane(s, t, u, cross(s, t), cross(s, u), cross(t, u), 1), e)
+                .is_sure;
+        };
+        sure += is_sure();
+        for (SeenPoint<3> &corner : point) {
+            const SeenPoint<3> finite = std::exchange(corner, seen({nan, nan, nan}, p));
+            EXPECT_FALSE(is_sure());
+            corner = finite;
+        }
     }
     EXPECT_GT(sure, 990);
 }
