@@ -92,7 +92,8 @@ template <int D> void Cache<D>::free_block(BlockIndex b) {
     blocks_[b].state = Block::unused;
     unused_blocks_.push_back(b);
     --cached_blocks_;
-    if (at_hand_ == b) at_hand_ = no_block;
+    for (BlockIndex &near : at_hand_)
+        if (near == b) near = no_block;
 }
 
 template <int D> void Cache<D>::create_first_block() {
@@ -110,11 +111,13 @@ typename Cache<D>::BlockIndex Cache<D>::cached_owner(const Key &key) const {
 
 template <int D>
 typename Cache<D>::BlockIndex Cache<D>::place_elsewhere(std::uint64_t code) {
-    const BlockIndex b = cached_owner({code, 0});
-    if (b != no_block && blocks_[b].surely_owns(code)) {
-        at_hand_ = b;
-        if (blocks_[b].count < capacity_) return b;
+    // A star at the border of two blocks has simplices now in one, now in the other.
+    std::swap(at_hand_[0], at_hand_[1]);
+    if (at_hand_[0] == no_block || !blocks_[at_hand_[0]].surely_owns(code)) {
+        const BlockIndex b = cached_owner({code, 0});
+        at_hand_[0] = b != no_block && blocks_[b].surely_owns(code) ? b : no_block;
     }
+    if (at_hand_[0] != no_block && blocks_[at_hand_[0]].count < capacity_) return at_hand_[0];
     if (limbo_.empty() || blocks_[limbo_.back()].count >= block_slots<D>)
         limbo_.push_back(new_block(Block::limbo));
     return limbo_.back();

@@ -166,7 +166,7 @@ public:
     /// The same in parts, for who knows the code already: a slot for a simplex with this code,
     /// whose content is then to be set and its vertices to be acquired.
     Handle allot(std::uint64_t code) {
-        BlockIndex b = at_hand_;
+        BlockIndex b = at_hand_[0];
         if (b == no_block || blocks_[b].count >= capacity_ || !blocks_[b].surely_owns(code))
             [[unlikely]]
             b = place_elsewhere(code);
@@ -420,7 +420,7 @@ private:
     Arena<BlockIndex> limbo_;
     Arena<Place> places_;
     std::size_t cached_blocks_ = 0;
-    BlockIndex at_hand_ = no_block; // took the last simplex
+    std::array<BlockIndex, 2> at_hand_{no_block, no_block}; // took the last simplices
     std::uint64_t clock_ = 0;       // operations so far, for the replacement
     std::uint64_t front_ = 0;       // code of the last one
     BlockIndex marked_ = no_block;  // by the last mark_dirty()
