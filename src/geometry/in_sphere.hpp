@@ -118,10 +118,10 @@ inline InSphere in_sphere(const LiftedPlane &facet, const SeenPoint<3> &apex) {
     // lengths (Carlen, Lieb, Loss, "An inequality of Hadamard type for permanents",
     // 2006); so the whole is, for four corners whose lifts have this sum, at most
     // 1/(4 sqrt(3)) < 0.1444 times its power of 5/2. Each of its terms is rounded 17 times
-    // on its way to the determinant.
+    // on its way to the determinant. Squares are compared, which needs no root.
     const double sum = facet.lifts + apex.lift();
-    const double power = sum * sum * std::sqrt(sum);
-    return {power > 1e-200 && std::fabs(det) > 2.73e-16 * power, det > 0};
+    const double square = sum * sum, power = square * square * sum;
+    return {(power > 1e-250) & (det * det > 7.46e-32 * power), det > 0};
 }
 
 } // namespace abacus
