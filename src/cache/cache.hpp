@@ -321,6 +321,8 @@ private:
     /// Parts places_ at about `wanted`: all keys below the returned index are less than
     /// the one there, which is the least from there on. places_.size() if impossible.
     std::size_t cut_near(std::size_t wanted);
+    /// The same a little below, by a histogram of the codes; 0 if that does not tell.
+    std::size_t cut_below(std::size_t wanted);
     void make_room(BlockIndex b, std::uint64_t code);
     /// Moves at most so many simplices, those with the least keys, to the block before, if that
     /// has room for them; so that a block that has nearly all its points is not cut.

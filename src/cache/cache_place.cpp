@@ -29,6 +29,10 @@ constexpr double sparse = 0.5;
 constexpr double packed = 0.95;
 constexpr double much = 1.0 / 64;
 constexpr double least_move = 1.0 / 16;
+// Where a block is cut.
+constexpr int histogram_bits = 8;
+constexpr double near_enough = 1.0 / 64; // of the simplices
+constexpr auto by_key = [](const auto &a, const auto &b) { return a.key < b.key; };
 } // namespace
 
 template <int D> void Cache<D>::settle_limbo(std::uint64_t code) {
@@ -80,10 +84,30 @@ template <int D> void Cache<D>::collect_places(BlockIndex b) {
         for (Place &place : places_) place.key.part = part(slots_[place.handle]);
 }
 
+template <int D> std::size_t Cache<D>::cut_below(std::size_t wanted) {
+    std::uint64_t least = key_word_end, greatest = 0;
+    for (const Place &p : places_) {
+        least = std::min(least, p.key.code);
+        greatest = std::max(greatest, p.key.code);
+    }
+    std::array<std::uint16_t, 1 << histogram_bits> histogram{};
+    const int shift =
+        std::max(0, static_cast<int>(std::bit_width(greatest - least)) - histogram_bits);
+    for (const Place &p : places_) ++histogram[(p.key.code - least) >> shift];
+    std::size_t below = 0, bin = 0;
+    while (below + histogram[bin] <= wanted) below += histogram[bin++];
+    if (below == 0 || wanted - below > near_enough * places_.size()) return 0;
+    const std::uint64_t border = least + (std::uint64_t{bin} << shift);
+    const auto upper = std::partition(places_.begin(), places_.end(),
+                                      [&](const Place &p) { return p.key.code < border; });
+    std::iter_swap(upper, std::min_element(upper, places_.end(), by_key));
+    return below;
+}
+
 template <int D> std::size_t Cache<D>::cut_near(std::size_t wanted) {
-    const auto by_key = [](const Place &a, const Place &b) { return a.key < b.key; };
     const std::size_t n = places_.size();
     wanted = std::clamp<std::size_t>(wanted, 1, n - 1);
+    if (const std::size_t below = cut_below(wanted)) return below;
     std::nth_element(places_.begin(), places_.begin() + wanted, places_.end(), by_key);
     // Equal keys stay together: all that equal the wanted one go to the upper part, or,
     // when nothing would be left below, to the lower one.
