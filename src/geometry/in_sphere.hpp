@@ -121,7 +121,8 @@ inline InSphere in_sphere(const LiftedPlane &facet, const SeenPoint<3> &apex) {
     // on its way to the determinant. Squares are compared, which needs no root.
     const double sum = facet.lifts + apex.lift();
     const double square = sum * sum, power = square * square * sum;
-    return {(power > 1e-250) & (det * det > 7.46e-32 * power), det > 0};
+    const bool is_sure = (power > 1e-250) & (det * det > 7.46e-32 * power); // no branch
+    return {is_sure, det > 0};
 }
 
 } // namespace abacus
