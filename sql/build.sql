@@ -54,7 +54,7 @@ SELECT * FROM counts('line');
 SELECT * FROM abacus_check('line');
 
 -- Pages are rewritten in each batch, and what they leave is used again.
-INSERT INTO points SELECT i, (i * 7919) % 10007, (i * 104729) % 9973, 0 FROM generate_series(3001, 50000::bigint) i;
+INSERT INTO points SELECT i, (i * 7919) % 10007, (i * 104729) % 9973, 0 FROM generate_series(3001, 80000::bigint) i;
 SELECT abacus_triangulate('large', 'SELECT id, x, y FROM points') AS simplices;
 SELECT abacus_create('small', 2);
 SELECT abacus_stage('small', 'SELECT id, x, y FROM points');

@@ -257,26 +257,24 @@ form_row(PageTable *table, const int64 *key, const unsigned char *bytes, size_t 
 
 /*
  * Has the next row go to a heap page that has become empty, the first one in the
- * table, if there is one that we know of. If it has been taken meanwhile, the
- * heap looks for another by itself.
+ * table, if there is one that we know of; else the heap looks for a page by itself.
  */
 static void
 choose_heap_page(PageTable *table, HeapTuple tuple)
 {
-	Size		size = MAXALIGN(tuple->t_len) + sizeof(ItemIdData);
+	Size		size = MAXALIGN(tuple->t_len);
+	BlockNumber block;
 
 	if (table->superseded == NULL)
 		return;
 	if (table->room < size)
 	{
-		BlockNumber block = superseded_take_empty(table->superseded, table->heap);
-
+		block = superseded_take_empty(table->superseded, table->heap, size, &table->room);
 		if (block == InvalidBlockNumber)
 			return;
 		RelationSetTargetBlock(table->heap, block);
-		table->room = BLCKSZ - SizeOfPageHeaderData;
 	}
-	table->room -= size;
+	table->room -= Min(size + sizeof(ItemIdData), table->room);
 }
 
 /* Adds a row; *tid becomes its place. */

@@ -79,22 +79,29 @@ superseded_create(MemoryContext memory)
 	return superseded;
 }
 
+/* Room in the bitmaps for this heap page. */
+static void
+cover(Superseded *superseded, BlockNumber block)
+{
+	Size		more;
+
+	if (block / BITS_PER_BYTE < superseded->bytes)
+		return;
+	more = Max(block / BITS_PER_BYTE + 1, superseded->bytes * 2);
+	superseded->bits = repalloc_huge(superseded->bits, more);
+	superseded->free = repalloc_huge(superseded->free, more);
+	MemSet(superseded->bits + superseded->bytes, 0, more - superseded->bytes);
+	MemSet(superseded->free + superseded->bytes, 0, more - superseded->bytes);
+	superseded->bytes = more;
+}
+
 /* Remembers that a row on this heap page has been replaced. */
 void
 superseded_add(Superseded *superseded, BlockNumber block)
 {
 	Size		byte = block / BITS_PER_BYTE;
 
-	if (byte >= superseded->bytes)
-	{
-		Size		more = Max(byte + 1, superseded->bytes * 2);
-
-		superseded->bits = repalloc_huge(superseded->bits, more);
-		superseded->free = repalloc_huge(superseded->free, more);
-		MemSet(superseded->bits + superseded->bytes, 0, more - superseded->bytes);
-		MemSet(superseded->free + superseded->bytes, 0, more - superseded->bytes);
-		superseded->bytes = more;
-	}
+	cover(superseded, block);
 	if ((superseded->bits[byte] & (1 << (block % BITS_PER_BYTE))) == 0)
 		superseded->count++;
 	superseded->bits[byte] |= 1 << (block % BITS_PER_BYTE);
@@ -132,6 +139,7 @@ hand_out(Superseded *superseded, BlockNumber block)
 {
 	Size		byte = block / BITS_PER_BYTE;
 
+	cover(superseded, block);
 	superseded->free[byte] |= 1 << (block % BITS_PER_BYTE);
 	superseded->first_free = Min(superseded->first_free, byte);
 }
@@ -150,12 +158,26 @@ first_empty(Superseded *superseded)
 	return InvalidBlockNumber;
 }
 
+/* For how large a row a heap page has room. */
+static Size
+room_on(Relation heap, BlockNumber block)
+{
+	Buffer		buffer = ReadBuffer(heap, block);
+	Size		room;
+
+	LockBuffer(buffer, BUFFER_LOCK_SHARE);
+	room = PageGetHeapFreeSpace(BufferGetPage(buffer));
+	UnlockReleaseBuffer(buffer);
+	return room;
+}
+
 /*
- * Takes the first heap page that has become empty; InvalidBlockNumber if there
- * is none. Another session may have written it meanwhile.
+ * Takes the first heap page that has become empty and has room for `size`
+ * bytes, now: another session may have written it meanwhile. Its room goes to
+ * *room. InvalidBlockNumber if there is none.
  */
 BlockNumber
-superseded_take_empty(Superseded *superseded, Relation heap)
+superseded_take_empty(Superseded *superseded, Relation heap, Size size, Size *room)
 {
 	BlockNumber block;
 
@@ -163,7 +185,7 @@ superseded_take_empty(Superseded *superseded, Relation heap)
 	{
 		superseded->free[block / BITS_PER_BYTE] &= ~(1 << (block % BITS_PER_BYTE));
 		/* VACUUM may have cut the table; it does not while we hold a lock on it */
-		if (block < RelationGetNumberOfBlocks(heap))
+		if (block < RelationGetNumberOfBlocks(heap) && (*room = room_on(heap, block)) >= size)
 			break;
 	}
 	return block;

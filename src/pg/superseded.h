@@ -12,7 +12,8 @@ typedef struct Superseded Superseded;
 
 extern Superseded *superseded_create(MemoryContext memory);
 extern void superseded_add(Superseded *superseded, BlockNumber block);
-extern BlockNumber superseded_take_empty(Superseded *superseded, Relation heap);
+extern BlockNumber superseded_take_empty(Superseded *superseded, Relation heap, Size size,
+										 Size *room);
 extern bool superseded_is_far(Superseded *superseded, BlockNumber block);
 extern void superseded_reclaim(Superseded *superseded, Relation heap);
 extern Superseded *superseded_of_session(Relation heap);
