@@ -6,7 +6,9 @@
  * new header under one transaction. So whatever stops the build, the mesh is
  * that of the last batch, and the header says where to go on.
  *
- * At the end the vertex table has only dead rows, as a rule, and is truncated.
+ * At the end rows are moved to the beginning of their tables, if these are
+ * half empty, so that VACUUM can cut them. The vertex table has only dead rows,
+ * as a rule, and is truncated.
  *
  * From one batch to the next the core keeps its cache. What it holds of the
  * mesh, the places of stored pages included, stays true because a lock of the
@@ -20,6 +22,7 @@
 #include "nodes/parsenodes.h"
 #include "storage/lmgr.h"
 
+#include "pg/compact.h"
 #include "pg/settings.h"
 #include "pg/sql_function.h"
 #include "pg/truncate.h"
@@ -107,6 +110,8 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 		writer_continue(&writer);
 		superseded_reclaim(simplices->superseded, simplices->heap);
 	}
+	host_own(host, NULL, NULL);	/* the core would look for pages where they were */
+	compact(&writer);
 	vertices = page_store_vertex_table(&host->store);
 	writer_close(&writer);
 	if (truncate_if_empty(vertices))

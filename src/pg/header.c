@@ -66,16 +66,26 @@ header_read(Host *host, abacus_header *header, ItemPointer tid)
 	header_decode(host, &row, header);
 }
 
+/*
+ * Writes the header at *tid anew, which the caller has locked: the mesh is the
+ * same, its rows lie elsewhere. Sessions may keep what they have of it; a writer
+ * whose snapshot is older cannot go by that.
+ */
+void
+header_rewrite(Host *host, const abacus_header *header, ItemPointer tid)
+{
+	unsigned char bytes[ABACUS_PAGE_BYTES];
+	size_t		size = abacus_header_encode(header, bytes);
+
+	page_table_update(&host->store.simplices, header_key, bytes, size, tid);
+}
+
 /* Replaces the header at *tid, which the caller has locked. */
 void
 header_update(Host *host, abacus_header *header, ItemPointer tid)
 {
-	unsigned char bytes[ABACUS_PAGE_BYTES];
-	size_t		size;
-
 	new_stamp(header);
-	size = abacus_header_encode(header, bytes);
-	page_table_update(&host->store.simplices, header_key, bytes, size, tid);
+	header_rewrite(host, header, tid);
 }
 
 /* Number of the attribute with this name, -1 if there is none. */

@@ -257,24 +257,26 @@ form_row(PageTable *table, const int64 *key, const unsigned char *bytes, size_t 
 
 /*
  * Has the next row go to a heap page that has become empty, the first one in the
- * table, if there is one that we know of; else the heap looks for a page by itself.
+ * table, if there is one that we know of, and returns it; else the heap looks
+ * for a page by itself, and InvalidBlockNumber is returned.
  */
-static void
+static BlockNumber
 choose_heap_page(PageTable *table, HeapTuple tuple)
 {
 	Size		size = MAXALIGN(tuple->t_len);
 	BlockNumber block;
 
 	if (table->superseded == NULL)
-		return;
+		return InvalidBlockNumber;
 	if (table->room < size)
 	{
 		block = superseded_take_empty(table->superseded, table->heap, size, &table->room);
 		if (block == InvalidBlockNumber)
-			return;
+			return block;
 		RelationSetTargetBlock(table->heap, block);
 	}
 	table->room -= Min(size + sizeof(ItemIdData), table->room);
+	return RelationGetTargetBlock(table->heap);
 }
 
 /* Adds a row; *tid becomes its place. */
@@ -337,4 +339,41 @@ page_table_delete(PageTable *table, ItemPointer tid)
 	if (table->superseded != NULL)
 		superseded_add(table->superseded, ItemPointerGetBlockNumber(tid));
 	table->wrote = true;
+}
+
+/* Starts a scan of the rows on one heap page, as they are after our changes. */
+TableScanDesc
+page_table_scan_heap_page(PageTable *table, BlockNumber block)
+{
+	ItemPointerData first;
+	ItemPointerData last;
+
+	page_table_open(table);
+	see_own_changes(table);
+	ItemPointerSet(&first, block, FirstOffsetNumber);
+	ItemPointerSet(&last, block, MaxOffsetNumber);
+	return table_beginscan_tidrange(table->heap, GetActiveSnapshot(), &first, &last);
+}
+
+/*
+ * Moves the row in the slot, as it is, to the first heap page that has become
+ * empty; returns false if that is none before the one on which it lies.
+ */
+bool
+page_table_move(PageTable *table, TupleTableSlot *slot)
+{
+	HeapTuple	tuple = ExecCopySlotHeapTuple(slot);
+	bool		moves = choose_heap_page(table, tuple) < ItemPointerGetBlockNumber(&slot->tts_tid);
+
+	if (moves)
+	{
+		slot_getallattrs(slot);
+		page_table_delete(table, &slot->tts_tid);
+		heap_insert(table->heap, tuple, GetCurrentCommandId(true), 0, NULL);
+		page_index_insert(table->indexes, table->heap, slot->tts_values, slot->tts_isnull,
+						  &tuple->t_self, true);
+		table->wrote = true;
+	}
+	heap_freetuple(tuple);
+	return moves;
 }

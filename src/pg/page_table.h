@@ -11,6 +11,7 @@
 
 #include "access/genam.h"
 #include "access/skey.h"
+#include "access/tableam.h"
 #include "executor/tuptable.h"
 #include "utils/rel.h"
 
@@ -69,5 +70,8 @@ extern void page_table_insert(PageTable *table, const int64 *key, const unsigned
 extern void page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes,
 							  size_t size, ItemPointer tid);
 extern void page_table_delete(PageTable *table, ItemPointer tid);
+
+extern TableScanDesc page_table_scan_heap_page(PageTable *table, BlockNumber block);
+extern bool page_table_move(PageTable *table, TupleTableSlot *slot);
 
 #endif

@@ -19,6 +19,9 @@
  * because somebody saw the old versions for a while, would have pages in use up
  * to its end for ever, and VACUUM could not cut it.
  *
+ * What other sessions have left, and what was rolled back, is looked for only
+ * when rows are moved anyway (compact.c): that takes a look at every heap page.
+ *
  * The heap pages are remembered in bitmaps: 2 MB for 64 GB of table.
  */
 #include "postgres.h"
@@ -45,8 +48,6 @@
  * pointer; full pages of a mesh fit for long, since most leave some room.
  */
 #define EMPTY_BYTES (BLCKSZ - BLCKSZ / 8)
-/* Heap pages; fewer are not worth a row's move. */
-#define FAR_PAGES 64
 
 struct Superseded
 {
@@ -201,25 +202,61 @@ superseded_is_far(Superseded *superseded, BlockNumber block)
 {
 	BlockNumber empty = first_empty(superseded);
 
-	return empty != InvalidBlockNumber && block > FAR_PAGES && (block - FAR_PAGES) / 2 > empty;
+	return empty != InvalidBlockNumber && block > SUPERSEDED_FAR_PAGES &&
+		(block - SUPERSEDED_FAR_PAGES) / 2 > empty;
+}
+
+/* Whether there is an empty heap page before this one. */
+bool
+superseded_has_empty_before(Superseded *superseded, BlockNumber block)
+{
+	return first_empty(superseded) < block; /* so InvalidBlockNumber is not */
+}
+
+/* Whether a row is there whose insertion was rolled back; the page's header does not tell. */
+static bool
+has_rolled_back(Relation heap, Buffer buffer)
+{
+	Page		page = BufferGetPage(buffer);
+
+	for (OffsetNumber offset = FirstOffsetNumber; offset <= PageGetMaxOffsetNumber(page); offset++)
+	{
+		ItemId		item = PageGetItemId(page, offset);
+		HeapTupleData tuple;
+		TransactionId dead_after;
+
+		if (!ItemIdIsNormal(item))
+			continue;
+		tuple.t_data = (HeapTupleHeader) PageGetItem(page, item);
+		tuple.t_len = ItemIdGetLength(item);
+		tuple.t_tableOid = RelationGetRelid(heap);
+		ItemPointerSet(&tuple.t_self, BufferGetBlockNumber(buffer), offset);
+		if (HeapTupleSatisfiesVacuumHorizon(&tuple, buffer, &dead_after) == HEAPTUPLE_DEAD)
+			return true;
+	}
+	return false;
 }
 
 /*
- * Prunes a heap page and tells the free space map what room it has. Returns
- * false if there is more to prune, but not now: a row is seen by somebody
- * still, or the page is being read.
+ * Prunes a heap page and tells the free space map what room it has; *is_empty
+ * is whether it has become empty. Returns false if there is more to prune, but
+ * not now: a row is seen by somebody still, or the page is being read.
  */
 static bool
-reclaim(Superseded *superseded, Relation heap, BlockNumber block)
+reclaim(Superseded *superseded, Relation heap, BlockNumber block, bool *is_empty)
 {
 	Buffer		buffer = ReadBuffer(heap, block);
 	Page		page = BufferGetPage(buffer);
 	Size		room;
 	bool		done;
 
-	/* a page that a row was deleted from, and that has room, would not be pruned for long */
 	LockBuffer(buffer, BUFFER_LOCK_EXCLUSIVE);
-	PageSetFull(page);
+	/* a transaction long ended: what was rolled back has been dead since ever */
+	if (has_rolled_back(heap, buffer))
+		PageSetPrunable(page, heap->rd_rel->relfrozenxid);
+	/* a page that a row was deleted from, and that has room, would not be pruned for long */
+	if (TransactionIdIsValid(((PageHeader) page)->pd_prune_xid))
+		PageSetFull(page);
 	LockBuffer(buffer, BUFFER_LOCK_UNLOCK);
 	heap_page_prune_opt(heap, buffer);
 	LockBuffer(buffer, BUFFER_LOCK_SHARE);
@@ -227,7 +264,8 @@ reclaim(Superseded *superseded, Relation heap, BlockNumber block)
 	done = !TransactionIdIsValid(((PageHeader) page)->pd_prune_xid);
 	UnlockReleaseBuffer(buffer);
 	RecordPageWithFreeSpace(heap, block, room);
-	if (room >= EMPTY_BYTES)
+	*is_empty = room >= EMPTY_BYTES;
+	if (*is_empty)
 		hand_out(superseded, block);
 	return done;
 }
@@ -243,6 +281,7 @@ superseded_reclaim(Superseded *superseded, Relation heap)
 	BlockNumber first = InvalidBlockNumber;
 	BlockNumber last = InvalidBlockNumber;
 	BlockNumber blocks = RelationGetNumberOfBlocks(heap);	/* VACUUM may have cut it */
+	bool		is_empty;
 
 	for (Size byte = 0; byte < superseded->bytes; byte++)
 	{
@@ -253,7 +292,7 @@ superseded_reclaim(Superseded *superseded, Relation heap)
 			if ((superseded->bits[byte] & (1 << bit)) == 0)
 				continue;
 			CHECK_FOR_INTERRUPTS();
-			if (block >= blocks || reclaim(superseded, heap, block))
+			if (block >= blocks || reclaim(superseded, heap, block, &is_empty))
 			{
 				superseded->bits[byte] &= ~(1 << bit);
 				superseded->count--;
@@ -290,4 +329,27 @@ superseded_reclaim_earlier(Superseded *superseded, Relation heap)
 		return;
 	superseded_reclaim(superseded, heap);
 	superseded->horizon = superseded->count > 0 ? horizon : InvalidTransactionId;
+}
+
+/*
+ * Looks at one of so many heap pages, from *block to before `end`, until so many
+ * are found to be empty; these are handed out now. Whoever has left dead rows
+ * there, their space is reclaimed. Returns how many are empty.
+ */
+uint64
+superseded_survey(Superseded *superseded, Relation heap, uint64 *block, uint64 end,
+				  uint64 one_of, uint64 enough)
+{
+	uint64		empty = 0;
+
+	for (; *block < end && empty < enough; *block += one_of)
+	{
+		bool		is_empty;
+
+		CHECK_FOR_INTERRUPTS();
+		reclaim(superseded, heap, (BlockNumber) *block, &is_empty);
+		if (is_empty)
+			empty++;
+	}
+	return empty;
 }

@@ -8,6 +8,9 @@
 #include "storage/block.h"
 #include "utils/rel.h"
 
+/* Heap pages; fewer are not worth a row's move. */
+#define SUPERSEDED_FAR_PAGES 64
+
 typedef struct Superseded Superseded;
 
 extern Superseded *superseded_create(MemoryContext memory);
@@ -15,6 +18,9 @@ extern void superseded_add(Superseded *superseded, BlockNumber block);
 extern BlockNumber superseded_take_empty(Superseded *superseded, Relation heap, Size size,
 										 Size *room);
 extern bool superseded_is_far(Superseded *superseded, BlockNumber block);
+extern bool superseded_has_empty_before(Superseded *superseded, BlockNumber block);
+extern uint64 superseded_survey(Superseded *superseded, Relation heap, uint64 *block, uint64 end,
+								uint64 one_of, uint64 enough);
 extern void superseded_reclaim(Superseded *superseded, Relation heap);
 extern Superseded *superseded_of_session(Relation heap);
 extern void superseded_reclaim_earlier(Superseded *superseded, Relation heap);

@@ -106,9 +106,12 @@ writer_begin(Writer *writer, Oid mesh, const char *command)
 	progress_begin(&writer->host->progress, mesh);
 }
 
-/* Gives up the tables and the snapshot, without which no transaction ends. */
-static void
-release(Writer *writer)
+/*
+ * Gives up the tables and the snapshot, as long as which are held no transaction
+ * ends. Nothing has changed, or the header has been written.
+ */
+void
+writer_release(Writer *writer)
 {
 	host_release(writer->host);
 	PopActiveSnapshot();
@@ -119,13 +122,13 @@ void
 writer_store(Writer *writer)
 {
 	header_update(writer->host, writer->header, &writer->header_tid);
-	release(writer);
+	writer_release(writer);
 }
 
 /*
- * After writer_store() and a commit: opens the mesh for the next change. What
- * the core holds of it is still so if the caller has kept others from
- * changing it meanwhile, by mesh_lock_for_session().
+ * After writer_store() or writer_release(), and a commit: opens the mesh for
+ * the next change. What the core holds of it is still so if the caller has kept
+ * others from changing it meanwhile, by mesh_lock_for_session().
  */
 void
 writer_continue(Writer *writer)
@@ -146,7 +149,7 @@ destroy(Writer *writer)
 void
 writer_close(Writer *writer)
 {
-	release(writer);
+	writer_release(writer);
 	destroy(writer);
 }
 

@@ -20,6 +20,7 @@ typedef struct Writer
 
 extern void writer_begin(Writer *writer, Oid mesh, const char *command);
 extern void writer_store(Writer *writer);
+extern void writer_release(Writer *writer);
 extern void writer_continue(Writer *writer);
 extern void writer_close(Writer *writer);
 extern void writer_end(Writer *writer);
