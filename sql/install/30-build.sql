@@ -57,4 +57,4 @@ CREATE PROCEDURE abacus_build(mesh regclass, batch bigint DEFAULT 1000000)
 AS 'MODULE_PATHNAME', 'abacus_sql_build'
 LANGUAGE C;
 COMMENT ON PROCEDURE abacus_build(regclass, bigint) IS
-    'inserts all staged points into the Delaunay triangulation and commits after each batch of that many; called again after a failure, it goes on from the last batch';
+    'inserts all staged points into the Delaunay triangulation and commits after each batch of that many; called again after a failure, it goes on from the last batch; then, if much of a table is empty, moves pages to its beginning, so that VACUUM can cut it';

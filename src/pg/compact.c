@@ -8,7 +8,7 @@
  * where VACUUM could cut it. Nothing that happens inside one transaction helps.
  * abacus_build commits as it likes, and keeps other writers away meanwhile: so
  * it is there that the rows at the end are moved to the empty heap pages at the
- * beginning, until these meet. Each is moved at most once. In the vertex table
+ * beginning, until these meet; each once, as a rule. In the vertex table
  * the points that were staged leave such a beginning, and the pages of repeated
  * points lie behind it.
  *
