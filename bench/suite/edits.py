@@ -64,7 +64,7 @@ class Edits:
         self.record(f"{change} many", samples, changed=count)
 
     def space(self, at_once):
-        """Half of the points replaced, at random places, so many in a statement."""
+        """Half of the points replaced, at random places, so many in a statement: the table's size."""
         size = "SELECT pg_total_relation_size('mesh') + pg_total_relation_size('mesh_vertices')"
         self.fresh_mesh()
         fresh, wal = int(server.query(size)), server.wal_position()
@@ -78,7 +78,11 @@ class Edits:
         sample = {"fresh": fresh, "wal": server.wal_position() - wal, "after": int(server.query(size))}
         server.query("VACUUM mesh, mesh_vertices")
         sample["vacuumed"] = int(server.query(size))
-        self.suite.say(f"  {at_once:,} in a statement: {sample['vacuumed'] / fresh:.2f} times the size")
+        server.query("CALL abacus_build('mesh')")
+        server.query("VACUUM (INDEX_CLEANUP ON) mesh, mesh_vertices")
+        sample["compacted"] = int(server.query(size))
+        self.suite.say(f"  {at_once:,} in a statement: {sample['vacuumed'] / fresh:.2f} times the size,"
+                       f" {sample['compacted'] / fresh:.2f} after abacus_build")
         self.record("space", [sample], changed=2 * half, at_once=at_once)
 
     def queue(self):

@@ -54,10 +54,11 @@ def edits(results):
                          f"{number(1e6 * spread_of(m, 'wall')[0])} µs", "–"))
         else:
             sample = m["samples"][0]
+            sizes = [f"× {number(sample[which] / sample['fresh'])}{after}" for which, after in (
+                ("after", ""), ("vacuumed", " after VACUUM"), ("compacted", " after abacus_build and VACUUM"))
+                     if which in sample]
             rows.append((mesh_name(m), f"{m['changed']:,} out and in at random places,"
-                         f" {m['at_once']:,} in a statement: size ×"
-                         f" {number(sample['after'] / sample['fresh'])},"
-                         f" × {number(sample['vacuumed'] / sample['fresh'])} after VACUUM", "–", "–",
+                         f" {m['at_once']:,} in a statement: size {', '.join(sizes)}", "–", "–",
                          number(sample["wal"] / m["changed"])))
     return table(("mesh", "change", "time", "a point", "WAL bytes a point"), rows)
 
