@@ -43,7 +43,7 @@ CONF
 	return $node;
 }
 
-# After the postmaster has been killed, the others take a moment to notice.
+# After all processes have been killed, it takes a moment until they are gone.
 sub start_again
 {
 	my ($node) = @_;
@@ -84,8 +84,11 @@ sub strike
 		"SELECT pid FROM pg_stat_activity WHERE backend_type = 'checkpointer'");
 	if ($victim eq 'postmaster')
 	{
+		# all of them: one that waits for a lock of the killed backend notices nothing
+		my @others = split /\n/, $node->safe_psql('postgres',
+			'SELECT pid FROM pg_stat_activity WHERE pid <> pg_backend_pid()');
 		$node->kill9;
-		kill 9, $pid;
+		kill 9, $pid, @others;
 		start_again($node);
 	}
 	else
