@@ -233,7 +233,8 @@ template <int D> void Cache<D>::mark_border() {
     for (const Link inner : border_) {
         const Simplex<D> &s = slots_[link_simplex(inner)];
         const Link outer = s.link[link_facet(inner)];
-        if (!is_absent(outer)) touch(&slots_[link_simplex(outer)]);
+        if (is_absent(outer)) visible_.prefetch_entry(outer & ~absent);
+        else touch(&slots_[link_simplex(outer)]);
         for (int i = 0; i <= D; ++i)
             if (i != link_facet(inner) && s.vertex[i] != infinite_vertex)
                 on_border_[vertices_[s.vertex[i]].number] = true;

@@ -19,10 +19,10 @@ public:
     struct Entry {
         Key beyond;         // key of the simplex that is not in the cache
         Link owner;         // the facet of the simplex that is; `unset` of a free entry
-        std::uint32_t hash; // of a free entry: the next one
+        std::uint32_t hash;
     };
 
-    explicit VisibleFacets(const Host &host) : entries_(host), slots_(host) {}
+    explicit VisibleFacets(const Host &host) : entries_(host), free_(host), slots_(host) {}
 
     Entry &operator[](std::uint32_t number) { return entries_[number]; }
     const Entry &operator[](std::uint32_t number) const { return entries_[number]; }
@@ -40,9 +40,10 @@ public:
 
     /// Adds an entry for a facet with this hash, and returns its number.
     std::uint32_t add(std::uint32_t hash, const Key &beyond, Link owner) {
-        std::uint32_t number = free_;
-        if (number != none) {
-            free_ = entries_[number].hash;
+        std::uint32_t number;
+        if (!free_.empty()) {
+            number = free_.back();
+            free_.pop_back();
         } else {
             number = static_cast<std::uint32_t>(entries_.size());
             entries_.resize(number + 1);
@@ -57,8 +58,7 @@ public:
         Entry &entry = entries_[number];
         slots_.remove(entry.hash, number);
         entry.owner = unset;
-        entry.hash = free_;
-        free_ = number;
+        free_.push_back(number);
         --count_;
     }
 
@@ -80,8 +80,8 @@ private:
     using Slots = HashSlots<none>;
 
     Arena<Entry> entries_;
+    Arena<std::uint32_t> free_; // apart, so that an entry is taken without reading it
     Slots slots_; // of the entries
-    std::uint32_t free_ = none;
     std::size_t count_ = 0;
 };
 

@@ -39,13 +39,24 @@ template <int D> void Build<D>::start(const std::array<VertexIndex, D + 1> &vert
     header_->vertices = D + 1;
 }
 
-template <int D> void Build<D>::add(const std::uint64_t *record) {
-    if (core_->insertion.insert(record_point<D>(record), record_id(record),
-                                record_attributes<D>(record))) {
-        ++header_->vertices;
-    } else {
-        repeated_.add(header_->serials++, record);
-        ++header_->duplicates;
+template <int D> void Build<D>::add(const std::uint64_t *records, std::size_t n) {
+    const std::size_t stride = record_words(D, attributes_);
+    // Each is a chain of table look-ups, and in a loop of their own many are under way at once.
+    std::array<std::uint64_t, 64> codes;
+    while (n > 0) {
+        const std::size_t some = std::min(n, codes.size());
+        for (std::size_t i = 0; i < some; ++i)
+            codes[i] = domain_.code(record_point<D>(records + i * stride));
+        for (std::size_t i = 0; i < some; ++i, records += stride) {
+            if (core_->insertion.insert(record_point<D>(records), codes[i], record_id(records),
+                                        record_attributes<D>(records))) {
+                ++header_->vertices;
+            } else {
+                repeated_.add(header_->serials++, records);
+                ++header_->duplicates;
+            }
+        }
+        n -= some;
     }
 }
 
@@ -74,7 +85,7 @@ template <int D> void Build<D>::insert_waiting(std::uint64_t limit) {
         const std::uint64_t done = reader.sequence() - from;
         if (done % 256 == 0) host_.poll();
         if (done % report_every == 0) report(ABACUS_PHASE_INSERTING, done, to - from);
-        if (!first.contains(reader.sequence())) add(reader.record());
+        if (!first.contains(reader.sequence())) add(reader.record(), 1);
     }
     header_->inserted = to;
 }

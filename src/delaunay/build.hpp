@@ -50,7 +50,7 @@ private:
     bool has_waiting() const { return header_->inserted < header_->staged; }
     VertexIndex create(const std::uint64_t *record);
     void start(const std::array<VertexIndex, D + 1> &vertices);
-    void add(const std::uint64_t *record);
+    void add(const std::uint64_t *records, std::size_t n);
     void insert_waiting(std::uint64_t limit);
     /// Takes a point of the triangulation away; false if there is none.
     bool erase(const Point<D> &p, std::int64_t id);

@@ -26,8 +26,8 @@ template <int D> Handle Insertion<D>::find_conflict(const Point<D> &p, std::uint
 }
 
 template <int D>
-bool Insertion<D>::insert(const Point<D> &p, std::int64_t id, const double *attributes) {
-    const std::uint64_t code = cache_.domain().code(p);
+bool Insertion<D>::insert(const Point<D> &p, std::uint64_t code, std::int64_t id,
+                          const double *attributes) {
     const Handle first = find_conflict(p, code);
     if (first == no_handle) return false;
     cavity_.find(p, first);

@@ -17,7 +17,11 @@ public:
     void start(const std::array<VertexIndex, D + 1> &vertices);
 
     /// Inserts p. Returns false if the mesh has a vertex there already.
-    bool insert(const Point<D> &p, std::int64_t id, const double *attributes);
+    bool insert(const Point<D> &p, std::int64_t id, const double *attributes) {
+        return insert(p, cache_.domain().code(p), id, attributes);
+    }
+    /// With p's code, where it is known already.
+    bool insert(const Point<D> &p, std::uint64_t code, std::int64_t id, const double *attributes);
 
 private:
     /// A simplex of p's cavity, or no_handle if p is a vertex.

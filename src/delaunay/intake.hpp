@@ -21,7 +21,7 @@ public:
 
     void add(const std::uint64_t *record) override {
         if (build_.has_simplices()) {
-            build_.add(record);
+            build_.add(record, 1);
         } else if (pages_) {
             pages_->add(record);
         } else {
@@ -30,6 +30,10 @@ public:
             if (first_.is_complete()) start();
             else if (held() == most_held) stage();
         }
+    }
+    void add(const std::uint64_t *records, std::size_t n, std::size_t stride) override {
+        for (; n > 0 && !build_.has_simplices(); --n, records += stride) add(records);
+        build_.add(records, n);
     }
     void finish() override {
         if (build_.has_simplices()) return;
@@ -54,7 +58,7 @@ private:
         for (int i = 0; i <= D; ++i) vertices[i] = build_.create(held(first_.number(i)));
         build_.start(vertices);
         for (std::size_t i = 0; i < held(); ++i)
-            if (!first_.contains(i)) build_.add(held(i));
+            if (!first_.contains(i)) build_.add(held(i), 1);
         held_.reset();
     }
     void stage() {

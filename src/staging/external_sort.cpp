@@ -169,7 +169,7 @@ void ExternalSort<D>::emit(const std::uint64_t *records, const std::uint64_t *or
                 const std::uint64_t *record = records + (order[first + i] & index_mask) * stride_;
                 for (std::size_t word = 0; word < stride_; ++word) to[word] = record[word];
             }
-            for (std::size_t i = 0; i < some; ++i) sink_.add(gathered_.data() + i * stride_);
+            sink_.add(gathered_.data(), some, stride_);
         }
         handed_on(end - begin);
     });
@@ -179,7 +179,7 @@ void ExternalSort<D>::emit(const std::uint64_t *records, const std::uint64_t *or
 template <int D> void ExternalSort<D>::emit_as_is(Spool &spool) {
     spool.rewind(host_);
     while (const std::size_t n = spool.read(host_, records_.data(), budget_.piece, stride_)) {
-        for (std::size_t i = 0; i < n; ++i) sink_.add(records_.data() + i * stride_);
+        sink_.add(records_.data(), n, stride_);
         handed_on(n);
     }
     close(spool);

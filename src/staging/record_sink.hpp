@@ -10,6 +10,10 @@ class RecordSink {
 public:
     /// Takes the next point: a record as in abacus_stage_add.
     virtual void add(const std::uint64_t *record) = 0;
+    /// Takes the next n, of `stride` words each.
+    virtual void add(const std::uint64_t *records, std::size_t n, std::size_t stride) {
+        for (; n > 0; --n, records += stride) add(records);
+    }
     /// After the last point.
     virtual void finish() = 0;
     /// What its work is called, and what pages it has moved so far.
