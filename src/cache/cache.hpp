@@ -188,7 +188,8 @@ public:
         point_at(b, a);
     }
     /// One side of it: beyond the facet `from` is the facet `to`.
-    void point_at(Link from, Link to) { slots_[link_simplex(from)].link[link_facet(from)] = to; }
+    void point_at(Link from, Link to) { point_at(link_simplex(from), link_facet(from), to); }
+    void point_at(Handle h, int facet, Link to) { slots_[h].link[facet] = to; }
     /// The block's page has to be written: call it for the neighbours of what changed.
     void mark_dirty(Handle h) {
         const BlockIndex b = block_of<D>(h);
@@ -421,6 +422,7 @@ private:
     Arena<BlockIndex> unused_blocks_;
     Arena<BlockIndex> limbo_;
     Arena<Place> places_;
+    std::uint64_t least_code_ = 0, greatest_code_ = 0; // of places_
     std::size_t cached_blocks_ = 0;
     std::array<BlockIndex, 2> at_hand_{no_block, no_block}; // took the last simplices
     std::uint64_t clock_ = 0;       // operations so far, for the replacement

@@ -79,25 +79,22 @@ template <int D> void Cache<D>::collect_places(BlockIndex b) {
         greatest = std::max(greatest, c);
         places_.push_back({{c, 0}, h});
     });
+    least_code_ = least;
+    greatest_code_ = greatest;
     // Parts are dear to compute and rarely matter: only inside one code.
     if (least == greatest || blocks_[b].has_parts())
         for (Place &place : places_) place.key.part = part(slots_[place.handle]);
 }
 
 template <int D> std::size_t Cache<D>::cut_below(std::size_t wanted) {
-    std::uint64_t least = key_word_end, greatest = 0;
-    for (const Place &p : places_) {
-        least = std::min(least, p.key.code);
-        greatest = std::max(greatest, p.key.code);
-    }
     std::array<std::uint16_t, 1 << histogram_bits> histogram{};
-    const int shift =
-        std::max(0, static_cast<int>(std::bit_width(greatest - least)) - histogram_bits);
-    for (const Place &p : places_) ++histogram[(p.key.code - least) >> shift];
+    const int bits = static_cast<int>(std::bit_width(greatest_code_ - least_code_));
+    const int shift = std::max(0, bits - histogram_bits);
+    for (const Place &p : places_) ++histogram[(p.key.code - least_code_) >> shift];
     std::size_t below = 0, bin = 0;
     while (below + histogram[bin] <= wanted) below += histogram[bin++];
     if (below == 0 || wanted - below > near_enough * places_.size()) return 0;
-    const std::uint64_t border = least + (std::uint64_t{bin} << shift);
+    const std::uint64_t border = least_code_ + (std::uint64_t{bin} << shift);
     const auto upper = std::partition(places_.begin(), places_.end(),
                                       [&](const Place &p) { return p.key.code < border; });
     std::iter_swap(upper, std::min_element(upper, places_.end(), by_key));

@@ -119,8 +119,8 @@ private:
     };
 
     void begin(const Point<3> &p, Handle first);
-    /// Across a facet. A page may be loaded then, and number its vertices.
-    Link cross(Link inner);
+    /// The other side of a facet. A page may be loaded then, and number its vertices.
+    Link beyond(Link inner);
     /// Adds the other three facets of a tetrahedron that is inside, too.
     void enter(std::size_t facet, Link outer, const SeenPoint<3> &apex);
     std::uint32_t add_corner(VertexIndex v, const SeenPoint<3> &point);
@@ -128,7 +128,8 @@ private:
     LiftedPlane plane(const Facet &facet) const;
     [[gnu::noinline]] bool is_exactly_inside(Handle h, const Point<3> &p) const;
     /// The new tetrahedron on a facet of the rim; it leaves its ridges.
-    Handle create(const RimFacet &rim, VertexIndex v, std::uint64_t code);
+    template <class View>
+    Handle create(const RimFacet &rim, VertexIndex v, std::uint64_t code, const View &ridges);
 
     typename VertexHeap<3>::Numbering corners_;
     Arena<SeenPoint<3>> seen_;   // of the corners

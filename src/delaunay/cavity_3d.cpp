@@ -44,7 +44,7 @@ inline std::uint32_t Cavity<3>::add_corner(VertexIndex v, const SeenPoint<3> &po
     return number;
 }
 
-inline Link Cavity<3>::cross(Link inner) {
+inline Link Cavity<3>::beyond(Link inner) {
     const std::uint64_t loads = cache_.counters.loads;
     const Link outer = cache_.cross(link_simplex(inner), link_facet(inner));
     if (cache_.counters.loads != loads) [[unlikely]] cache_.renumber(corners_);
@@ -67,7 +67,7 @@ void Cavity<3>::find(const Point<3> &p, Handle first) {
     for (std::size_t at = 1; at < facets_.size(); ++at) {
         // The outer side is asked for anew, since loading for an earlier facet may have
         // linked it.
-        const Link outer = cross(facets_[at].inner);
+        const Link outer = beyond(facets_[at].inner);
         const Handle h = link_simplex(outer);
         const Marks::Mark mark = mesh_.marks.get(h);
         if (mark == Marks::inside) continue; // came back to the cavity from within
@@ -98,9 +98,9 @@ void Cavity<3>::begin(const Point<3> &p, Handle first) {
     const std::array<VertexIndex, 4> &vertex = cache_.simplex(first).vertex;
     for (int i = 0; i < 3; ++i) add_corner(vertex[i], seen(cache_.point(vertex[i]), p));
     Cross *const edge = edges_.extend(3);
-    edge[0] = abacus::cross(seen_[0], seen_[1]);
-    edge[1] = abacus::cross(seen_[0], seen_[2]);
-    edge[2] = abacus::cross(seen_[1], seen_[2]);
+    edge[0] = cross(seen_[0], seen_[1]);
+    edge[1] = cross(seen_[0], seen_[2]);
+    edge[2] = cross(seen_[1], seen_[2]);
     // One facet from both sides: as if the tetrahedron had been entered across it.
     Facet *const facet = facets_.extend(2);
     facet[0] = {unset, {}, -1, {1, 0, 2}, {0, 2, 1}};
@@ -108,7 +108,8 @@ void Cavity<3>::begin(const Point<3> &p, Handle first) {
     enter(0, make_link(first, 3), seen(cache_.point(vertex[3]), p));
 }
 
-inline void Cavity<3>::enter(std::size_t facet, Link outer, const SeenPoint<3> &apex) {
+// A call would cost some 20 instructions, some 20 times a point.
+[[gnu::always_inline]] inline void Cavity<3>::enter(std::size_t facet, Link outer, const SeenPoint<3> &apex) {
     const Handle h = link_simplex(outer);
     const int in_u = link_facet(outer);
     const std::array<VertexIndex, 4> &vertex = cache_.simplex(h).vertex;
@@ -119,9 +120,9 @@ inline void Cavity<3>::enter(std::size_t facet, Link outer, const SeenPoint<3> &
     const auto &[ab, ac, bc] = f.edge;
     const auto au = static_cast<std::uint32_t>(edges_.size()), bu = au + 1, cu = au + 2;
     Cross *const edge = edges_.extend(3);
-    edge[0] = abacus::cross(seen_[a], apex);
-    edge[1] = abacus::cross(seen_[b], apex);
-    edge[2] = abacus::cross(seen_[c], apex);
+    edge[0] = cross(seen_[a], apex);
+    edge[1] = cross(seen_[b], apex);
+    edge[2] = cross(seen_[c], apex);
     const auto &orders = slots_beyond[in_u];
     const VertexIndex first = corners_[a];
     const auto &in =
@@ -134,27 +135,30 @@ inline void Cavity<3>::enter(std::size_t facet, Link outer, const SeenPoint<3> &
 void Cavity<3>::fill(VertexIndex v) {
     std::int64_t ghosts = -hollow_out();
     for (const Handle h : inside_) mesh_.marks.set(h, Marks::none);
-    ridges_.reset(rim_.size() * 3);
     created_.resize(rim_.size());
     const std::uint64_t code = cache_.vertices()[v].code;
     cache_.acquire(v, static_cast<std::uint32_t>(rim_.size()));
-    for (std::size_t n = 0; n < rim_.size(); ++n) {
-        created_[n] = create(rim_[n], v, code);
-        mesh_.remember(n, created_[n]);
-        ghosts += cache_.simplex(created_[n]).is_ghost();
-    }
-    for (std::size_t n = 0; n < rim_.size(); ++n) {
-        const Facet &facet = facets_[rim_[n].facet];
-        for (int i = 0; i < 3; ++i)
-            cache_.point_at(make_link(created_[n], facet.slot[i]),
-                            ridges_.across(facet.corner[(i + 1) % 3], facet.corner[(i + 2) % 3]));
-    }
+    ridges_.pair(rim_.size() * 3, corners_.size(), [&](const auto ridges) {
+        for (std::size_t n = 0; n < rim_.size(); ++n) {
+            created_[n] = create(rim_[n], v, code, ridges);
+            mesh_.remember(n, created_[n]);
+            ghosts += cache_.simplex(created_[n]).is_ghost();
+        }
+        for (std::size_t n = 0; n < rim_.size(); ++n) {
+            const Facet &facet = facets_[rim_[n].facet];
+            for (int i = 0; i < 3; ++i)
+                cache_.point_at(created_[n], facet.slot[i],
+                                ridges.across(facet.corner[(i + 1) % 3], facet.corner[(i + 2) % 3]));
+        }
+    });
     mesh_.count(static_cast<std::int64_t>(rim_.size() - inside_.size()) - ghosts, ghosts);
 }
 
-inline Handle Cavity<3>::create(const RimFacet &rim, VertexIndex v, std::uint64_t code) {
+template <class View>
+inline Handle Cavity<3>::create(const RimFacet &rim, VertexIndex v, std::uint64_t code,
+                                const View &ridges) {
     const Facet &facet = facets_[rim.facet];
-    const auto &corner = facet.corner;
+    const auto corner = facet.corner;
     const Handle h = cache_.allot(
         std::max({code, codes_[corner[0]], codes_[corner[1]], codes_[corner[2]]}));
     // v lies on the same side as the vertex in whose place it comes, so the orientation stays,
@@ -165,7 +169,7 @@ inline Handle Cavity<3>::create(const RimFacet &rim, VertexIndex v, std::uint64_
         cache_.set_corner(h, facet.slot[i], corners_[corner[i]]);
         cache_.acquire(corners_[corner[i]], 1);
         // The facets besides the rim's: each has v and one edge of that.
-        ridges_.add(corner[(i + 1) % 3], corner[(i + 2) % 3], make_link(h, facet.slot[i]));
+        ridges.add(corner[(i + 1) % 3], corner[(i + 2) % 3], make_link(h, facet.slot[i]));
     }
     cache_.connect(make_link(h, opposite), rim.outer);
     cache_.mark_dirty(link_simplex(rim.outer));

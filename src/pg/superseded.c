@@ -252,7 +252,7 @@ reclaim(Superseded *superseded, Relation heap, BlockNumber block, bool *is_empty
 
 	LockBuffer(buffer, BUFFER_LOCK_EXCLUSIVE);
 	/* a transaction long ended: what was rolled back has been dead since ever */
-	if (has_rolled_back(heap, buffer))
+	if (!TransactionIdIsValid(((PageHeader) page)->pd_prune_xid) && has_rolled_back(heap, buffer))
 		PageSetPrunable(page, heap->rd_rel->relfrozenxid);
 	/* a page that a row was deleted from, and that has room, would not be pruned for long */
 	if (TransactionIdIsValid(((PageHeader) page)->pd_prune_xid))
