@@ -192,12 +192,9 @@ public:
     void point_at(Handle h, int facet, Link to) { slots_[h].link[facet] = to; }
     /// The block's page has to be written: call it for the neighbours of what changed.
     void mark_dirty(Handle h) {
-        const BlockIndex b = block_of<D>(h);
-        if (b == marked_ && clock_ == marked_at_) return; // most often
-        marked_ = b;
-        marked_at_ = clock_;
-        blocks_[b].dirty = true;
-        blocks_[b].used_at = clock_;
+        Block &block = blocks_[block_of<D>(h)];
+        block.dirty = true;
+        block.used_at = clock_;
     }
     /// Ends an operation: brings limbo home. Sequential splits cut at `code`, which is 0 if
     /// the operations do not come along the curve. Returns whether simplices moved: see
@@ -427,8 +424,6 @@ private:
     std::array<BlockIndex, 2> at_hand_{no_block, no_block}; // took the last simplices
     std::uint64_t clock_ = 0;       // operations so far, for the replacement
     std::uint64_t front_ = 0;       // code of the last one
-    BlockIndex marked_ = no_block;  // by the last mark_dirty()
-    std::uint64_t marked_at_ = 0;
 
     // Page translation: reused from page to page.
     struct LocalFacet {
