@@ -74,7 +74,11 @@ private:
         SeenPoint<2> begin;
         double cross; // of both ends
         VertexIndex vertex;
-        Link inner;
+        // Of the triangle beyond:
+        bool is_inside;
+        Link outer;
+        SeenPoint<2> apex;
+        double cross_ac, cross_cb; // of the begin and the apex, the apex and the end
     };
     /// It ends where the next one begins.
     struct RimEdge {
@@ -82,6 +86,8 @@ private:
         Link outer;
     };
 
+    /// Tests the triangle beyond an edge whose begin is known.
+    void look_beyond(Edge &edge, Link inner, const SeenPoint<2> &end, const Point<2> &p);
     /// Where in_circle() is not sure: above all of ghosts, whose point at infinity has no
     /// coordinates. Apart, so that the loop around the test is small.
     [[gnu::noinline]] bool is_exactly_inside(Handle h, const Point<2> &p) const;

@@ -15,35 +15,48 @@ void Cavity<2>::find(const Point<2> &p, Handle first) {
     // The edges opposite the corners 0, 1, 2 in turn, from the top; at the bottom, where the
     // last one ends.
     stack_.clear();
-    Edge *top = stack_.extend(4);
+    Edge *const bottom = stack_.extend(4), *top = bottom;
     for (int i = 3; i >= 0; --i, ++top) {
-        const VertexIndex v = cache_.simplex(first).vertex[(i + 1) % 3];
-        const SeenPoint<2> begin = seen(cache_.point(v), p);
-        *top = {begin, i == 3 ? 0 : cross(begin, top[-1].begin), v, make_link(first, i)};
+        top->vertex = cache_.simplex(first).vertex[(i + 1) % 3];
+        top->begin = seen(cache_.point(top->vertex), p);
+        top->cross = i == 3 ? 0 : cross(top->begin, top[-1].begin);
     }
+    for (int i = 0; i < 3; ++i)
+        look_beyond(bottom[3 - i], make_link(first, i), bottom[2 - i].begin, p);
     --top;
     while (top != stack_.data()) {
-        // The inner side is kept and the outer one asked for anew, since loading for an
-        // earlier edge may have linked it.
-        const Link outer = cache_.cross(link_simplex(top->inner), link_facet(top->inner));
-        const Handle h = link_simplex(outer);
-        const int facet = link_facet(outer);
-        const VertexIndex apex = cache_.simplex(h).vertex[facet];
-        const SeenPoint<2> point = seen(cache_.point(apex), p);
-        const InCircle test = in_circle(top->begin, top[-1].begin, top->cross, point);
-        const bool is_inside = test.is_sure ? test.is_inside : is_exactly_inside(h, p);
-        if (is_inside) {
-            add(h);
-            const int next = facet == 2 ? 0 : facet + 1, last = 3 - facet - next;
-            if (top + 2 > stack_.data() + stack_.capacity()) [[unlikely]] top = deepen(top);
-            top[1] = {top->begin, test.cross_ac, top->vertex, make_link(h, next)};
-            top[0] = {point, test.cross_cb, apex, make_link(h, last)};
-            ++top;
-        } else {
+        const Link outer = top->outer;
+        if (!top->is_inside) {
             rim_.push_back({top->vertex, outer});
             --top;
+            continue;
         }
+        const Handle h = link_simplex(outer);
+        const int facet = link_facet(outer);
+        const int next = facet == 2 ? 0 : facet + 1, last = 3 - facet - next;
+        add(h);
+        if (top + 2 > stack_.data() + stack_.capacity()) [[unlikely]] top = deepen(top);
+        top[1].begin = top->begin;
+        top[1].cross = top->cross_ac;
+        top[1].vertex = top->vertex;
+        top[0].begin = top->apex;
+        top[0].cross = top->cross_cb;
+        top[0].vertex = cache_.simplex(h).vertex[facet];
+        look_beyond(top[1], make_link(h, next), top[0].begin, p);
+        look_beyond(top[0], make_link(h, last), top[-1].begin, p);
+        ++top;
     }
+}
+
+inline void Cavity<2>::look_beyond(Edge &edge, Link inner, const SeenPoint<2> &end,
+                                   const Point<2> &p) {
+    edge.outer = cache_.cross(link_simplex(inner), link_facet(inner));
+    const Handle h = link_simplex(edge.outer);
+    edge.apex = seen(cache_.point(cache_.simplex(h).vertex[link_facet(edge.outer)]), p);
+    const InCircle test = in_circle(edge.begin, end, edge.cross, edge.apex);
+    edge.cross_ac = test.cross_ac;
+    edge.cross_cb = test.cross_cb;
+    edge.is_inside = test.is_sure ? test.is_inside : is_exactly_inside(h, p);
 }
 
 bool Cavity<2>::is_exactly_inside(Handle h, const Point<2> &p) const {
