@@ -2,6 +2,8 @@
 // the one before them or split in two along the curve.
 #include "cache/cache.hpp"
 
+#include "host/processor_cache.hpp"
+
 #include <utility>
 
 namespace abacus {
@@ -72,6 +74,8 @@ template <int D> Handle Cache<D>::move(Handle h, BlockIndex to) {
 
 template <int D> void Cache<D>::collect_places(BlockIndex b) {
     places_.clear();
+    // Half of the block is ahead, and has not been used for long.
+    for_each_simplex(b, [&](Handle h) { touch(&vertices_[slots_[h].vertex[0]].code); });
     std::uint64_t least = key_word_end, greatest = 0;
     for_each_simplex(b, [&](Handle h) {
         const std::uint64_t c = code(slots_[h]);
