@@ -54,13 +54,15 @@ public:
         return word & mask_;
     }
     /// The same of fields of at most 57 bits: a word has all of one, wherever it begins.
-    std::uint64_t narrow(std::size_t i) const {
-        const std::size_t bit = i * width_;
+    std::uint64_t narrow(std::size_t i) const { return word(i) >> (i * width_ & 7) & mask_; }
+    /// All that follow in the word that begins with a field's first byte.
+    std::uint64_t word(std::size_t i) const {
         std::uint64_t word;
-        std::memcpy(&word, bytes_ + (bit >> 3), sizeof word);
-        return word >> (bit & 7) & mask_;
+        std::memcpy(&word, bytes_ + (i * width_ >> 3), sizeof word);
+        return word;
     }
     unsigned width() const { return width_; }
+    const unsigned char *begin() const { return bytes_; }
 
 private:
     const unsigned char *bytes_ = nullptr;

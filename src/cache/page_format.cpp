@@ -21,6 +21,8 @@ namespace {
 constexpr const char *wrong_size = "A simplex page's size does not fit its counts.";
 constexpr const char *unknown_vertex = "A simplex page names a vertex that it does not have.";
 constexpr const char *repeated_vertex = "A simplex has the same vertex twice.";
+constexpr const char *not_finite = "A simplex page has a coordinate that is not finite.";
+constexpr const char *minus_zero = "A simplex page has a coordinate of minus zero.";
 
 } // namespace
 
@@ -57,7 +59,7 @@ void PageView<D>::read_header(const unsigned char *bytes, std::size_t size, int 
 }
 
 template <int D>
-void PageView<D>::read(const unsigned char *bytes, std::size_t size, int attributes,
+void PageView<D>::open(const unsigned char *bytes, std::size_t size, int attributes,
                        Checksum checksum) {
     read_header(bytes, size, attributes);
     require(checksum == Checksum::ignore || page_is_sealed(bytes, size),
@@ -79,101 +81,132 @@ void PageView<D>::read(const unsigned char *bytes, std::size_t size, int attribu
         return result;
     };
     link_vertices_ = fields(l, std::bit_width(v + header_.codes));
-    for (std::size_t i = 0; i < l; ++i)
-        require(link_vertices_[i] < v + header_.codes, "A simplex page has a link to no code.");
-    const BitFields steps = fields(s, D + 1);
+    steps_ = fields(s, D + 1);
+    const int width = std::bit_width(v);
+    numbers_ = {at, width};
+    end_ = end;
+    // A width of 0 means no vertices, and the first simplex is refused.
+    most_named_ = width == 0 ? 0 : static_cast<std::size_t>(end - at) * 8 / width;
+    named_ = 0;
+    fresh_ = reached_ = read_ = 0;
+}
+
+template <int D>
+void PageView<D>::read(const unsigned char *bytes, std::size_t size, int attributes,
+                       Checksum checksum) {
+    open(bytes, size, attributes, checksum);
+    for (int i = 0; i < links(); ++i)
+        require(link_vertex(i) < vertices() + header_.codes, "A simplex page has a link to no code.");
     read_points();
-    read_simplices(steps, at, end);
+    read_simplices(simplices());
 }
 
 template <int D> void PageView<D>::read_points() {
-    constexpr std::uint64_t minus_zero = ordered(-0.0);
-    for (int i = 0; i < D; ++i) {
+        for (int i = 0; i < D; ++i) {
         std::uint64_t least = ~0ull, greatest = 0;
         bool has_minus_zero = false;
         for (int v = 0; v < vertices(); ++v) {
             const std::uint64_t rank = axes_[i][v];
             least = std::min(least, rank);
             greatest = std::max(greatest, rank);
-            has_minus_zero |= rank == minus_zero;
+            has_minus_zero |= rank == ordered(-0.0);
             points_[v][i] = from_ordered(rank);
         }
         constexpr double most = std::numeric_limits<double>::infinity();
         box_[i] = vertices() > 0 ? from_ordered(least) : most;
         box_[D + i] = vertices() > 0 ? from_ordered(greatest) : -most;
         require(vertices() == 0 || (least > ordered(-most) && greatest < ordered(most)),
-                "A simplex page has a coordinate that is not finite.");
-        require(!has_minus_zero, "A simplex page has a coordinate of minus zero.");
+                not_finite);
+        require(!has_minus_zero, minus_zero);
     }
 }
 
-template <int D>
-int PageView<D>::read_root(int s, const BitFields &numbers, std::size_t named, int fresh) {
+template <int D> void PageView<D>::read_point(int vertex) {
+    constexpr double most = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < D; ++i) {
+        const std::uint64_t rank = axes_[i][vertex];
+        require(rank > ordered(-most) && rank < ordered(most), not_finite);
+        require(rank != ordered(-0.0), minus_zero);
+        points_[vertex][i] = from_ordered(rank);
+    }
+}
+
+template <int D> int PageView<D>::read_root(int s, std::size_t named, int fresh) {
     const int infinity = vertices();
-    std::uint16_t *const corner = &corners_[s * (D + 1)];
+    Lanes &corner = corners_[s];
+    corner = Lanes{} + no_vertex;
     for (int i = 0; i <= D; ++i) {
-        corner[i] = static_cast<std::uint16_t>(numbers.narrow(named++));
+        const auto v = static_cast<std::uint16_t>(numbers_.narrow(named++));
         // The next one is new; only the last corner may be at infinity.
-        require(corner[i] == infinity ? i == D : corner[i] <= fresh, unknown_vertex);
-        fresh += corner[i] == fresh && fresh < infinity;
-        for (int j = 0; j < i; ++j) require(corner[j] != corner[i], repeated_vertex);
+        require(v == infinity ? i == D : v <= fresh, unknown_vertex);
+        fresh += v == fresh && fresh < infinity;
+        for (int j = 0; j < i; ++j) require(corner[j] != v, repeated_vertex);
+        corner[i] = v;
     }
     return fresh;
 }
 
-template <int D>
-void PageView<D>::read_simplices(const BitFields steps, const unsigned char *at,
-                                 const unsigned char *end) {
-    const int n = simplices(), infinity = vertices();
-    const int width = std::bit_width(header_.vertices);
-    const BitFields numbers(at, width);
-    // A width of 0 means no vertices, and the first simplex is refused.
-    const std::size_t most = width == 0 ? 0 : static_cast<std::size_t>(end - at) * 8 / width;
-    std::size_t named = 0;
-    int fresh = 0, reached = 0;
-    bool is_known = true, is_distinct = true; // each apex
+template <int D> int PageView<D>::read_simplices(int until) {
+    const int n = simplices();
+    const auto infinity = static_cast<std::size_t>(vertices());
+    const BitFields numbers = numbers_; // here and below: in registers
+    const std::size_t most = most_named_;
+    std::size_t named = named_, fresh = static_cast<std::size_t>(fresh_);
+    std::uint16_t *reached = parents_.data() + reached_;
+    int s = read_;
+    Lanes repeated{}; // where an apex is, too
     // What comes next is as hard to foresee as a coin: branches only lead to errors, and those
     // that nothing of this loop relies on are told after it.
-    for (int s = 0; s < n; ++s) {
-        auto bits = static_cast<unsigned>(steps.narrow(s));
-        unsigned entry = D + 1;
-        if (s == reached) [[unlikely]] { // a root
-            steps_[reached++] = {no_link, 0};
-            require(named + D < most, wrong_size);
-            fresh = read_root(s, numbers, named, fresh);
-            named += D + 1;
-        } else {
-            const std::uint16_t parent = steps_[s].parent;
-            const int is_new = bits & 1;
-            bits >>= 1;
-            const auto number = static_cast<int>(numbers.narrow(named));
-            const int apex = is_new * fresh + (1 - is_new) * number;
-            const int limit = is_new * infinity + (1 - is_new) * fresh;
-            is_known &= (apex < limit) | ((apex == infinity) & (is_new == 0));
-            fresh += is_new;
-            named += 1 - is_new;
-            const std::uint16_t *const above = corners(link_simplex(parent));
-            for (int i = 0; i <= D; ++i) is_distinct &= above[i] != apex;
-            entry = static_cast<unsigned>(child_across<D>(
-                above, link_facet(parent), static_cast<std::uint16_t>(apex),
-                static_cast<std::uint16_t>(infinity), &corners_[s * (D + 1)]));
-            steps_[s].facet = static_cast<std::uint16_t>(entry);
+    while (s < std::min(until, n)) {
+        std::uint64_t steps = steps_.word(static_cast<std::size_t>(s));
+        for (const int end = std::min(s + simplices_at_once, n); s < end; ++s) {
+            auto bits = static_cast<unsigned>(steps) & ((2u << D) - 1);
+            steps >>= D + 1;
+            int facet = D + 1;
+            if (parents_.data() + s == reached) [[unlikely]] { // a root
+                require(named + D < most, wrong_size);
+                fresh = static_cast<std::size_t>(read_root(s, named, static_cast<int>(fresh)));
+                named += D + 1;
+                *reached++ = no_link;
+            } else {
+                const std::uint16_t parent = parents_[s];
+                const std::size_t is_new = bits & 1;
+                bits >>= 1;
+                const std::size_t number = numbers.narrow(named);
+                const std::size_t apex = number ^ ((number ^ fresh) & -is_new);
+                const std::size_t known = fresh + is_new;
+                const Lanes corners = corners_[link_simplex(parent)];
+                const Lanes everywhere = Lanes{} + static_cast<std::uint16_t>(apex);
+                repeated |= corners == everywhere;
+                facet = link_facet(parent);
+                Lanes child = child_across(corners, facet, everywhere);
+                if (apex >= known) [[unlikely]] {
+                    require(apex == infinity && is_new == 0, unknown_vertex);
+                    if (facet != D) child = ghost_across<D>(corners, facet, everywhere[0]);
+                    facet = D;
+                }
+                corners_[s] = child;
+                fresh = known;
+                named += 1 - is_new;
+            }
+            const Lanes parents =
+                children<D>.facets[facet][bits] + static_cast<std::uint16_t>(make_link(s, 0));
+            std::memcpy(reached, &parents, sizeof parents);
+            reached += children<D>.count[facet][bits];
+            require(named <= most, wrong_size);
         }
-        // Bits of all facets: none towards the parent.
-        const unsigned before = (1u << entry) - 1;
-        const unsigned children = (bits & before) | (bits & ~before) << 1;
-#pragma GCC unroll 4
-        for (int f = 0; f <= D; ++f) {
-            steps_[reached].parent = static_cast<std::uint16_t>(make_link(s, f));
-            reached += children >> f & 1;
-        }
-        require(reached <= n, "A simplex page has impossible counts.");
-        require(named <= most, wrong_size);
+        require(reached <= parents_.data() + n, "A simplex page has impossible counts.");
     }
-    require(is_known, unknown_vertex);
-    require(is_distinct, repeated_vertex);
-    require(fresh == infinity, "A page has a vertex without simplices.");
-    require(at + bits_to_bytes(named * width) == end, wrong_size);
+    require(fresh <= infinity, unknown_vertex);
+    require(std::bit_cast<std::uint64_t>(repeated) == 0, repeated_vertex);
+    if (s == n) {
+        require(fresh == infinity, "A page has a vertex without simplices.");
+        require(numbers.begin() + bits_to_bytes(named * numbers.width()) == end_, wrong_size);
+    }
+    named_ = named;
+    fresh_ = static_cast<int>(fresh);
+    reached_ = static_cast<int>(reached - parents_.data());
+    return read_ = s;
 }
 
 template class PageView<2>;

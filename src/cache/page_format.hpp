@@ -29,11 +29,11 @@
 
 #include "cache/bit_column.hpp"
 #include "cache/key.hpp"
+#include "cache/page_tree.hpp"
 #include "geometry/point.hpp"
 #include "mesh/simplex.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace abacus {
 
@@ -63,29 +63,11 @@ bool page_is_sealed(const unsigned char *bytes, std::size_t size);
 /// Vertices of a page are at most as many as simplices of a block.
 template <int D> inline constexpr std::uint32_t page_vertices = block_slots<D>;
 
-/// Vertices of the simplex across facet `f` of `parent`, whose apex is `apex`, in an order
-/// of the same orientation with the point at infinity last; and the facet towards the parent.
-template <int D, class Number>
-constexpr int child_across(const Number *parent, int f, Number apex, Number infinity,
-                           Number *child) {
-    std::array<Number, D + 1> corner;
-    for (int i = 0; i <= D; ++i) { // which one is replaced no processor can foresee
-        const auto mask = static_cast<Number>(-(i == f));
-        corner[i] = static_cast<Number>((parent[i] & ~mask) | (apex & mask));
-    }
-    if (apex == infinity && f != D) [[unlikely]] {
-        std::swap(corner[f], corner[D]);
-        for (int i = 0; i <= D; ++i) child[i] = corner[i];
-        return D;
-    }
-    child[0] = corner[1];
-    child[1] = corner[0];
-    for (int i = 2; i <= D; ++i) child[i] = corner[i];
-    return f ^ static_cast<int>(f < 2);
-}
-
 /// A stored page, checked. What it says of vertices is read in place: it is valid as long as
 /// its bytes.
+///
+/// Who looks for one simplex opens the page and reads on until it is found. What was read is
+/// checked as far as it went: nothing beyond has been looked at.
 template <int D> class PageView {
 public:
     enum class Checksum { verify, ignore };
@@ -94,6 +76,19 @@ public:
     /// `attributes` attributes.
     void read(const unsigned char *bytes, std::size_t size, int attributes,
               Checksum checksum = Checksum::verify);
+
+    /// The same in parts: first all but the links, points and simplices,
+    void open(const unsigned char *bytes, std::size_t size, int attributes,
+              Checksum checksum = Checksum::verify);
+    /// then simplices up to this number, or a few more, and how many are read now. Those of
+    /// an array end with the last.
+    int read_simplices(int until);
+    /// Vertices of the simplices that have been read: they are numbered in order of use.
+    int vertices_read() const { return fresh_; }
+    /// The coordinate of a vertex as it is stored, ordered().
+    const Column &ranks(int axis) const { return axes_[axis]; }
+    /// One vertex's point(), and no others'.
+    void read_point(int vertex);
 
     const Key &lower() const { return header_.lower; }
     const Key &upper() const { return header_.upper; }
@@ -124,28 +119,29 @@ public:
     std::uint64_t link_part(int link) const { return has_parts_ ? parts_[link] : unknown_part; }
 
     /// Vertex number of a corner; vertices() for the point at infinity.
-    int corner(int simplex, int i) const { return corners_[simplex * (D + 1) + i]; }
-    const std::uint16_t *corners(int simplex) const { return &corners_[simplex * (D + 1)]; }
+    int corner(int simplex, int i) const { return corners(simplex)[i]; }
+    const Lanes &corners(int simplex) const { return corners_[simplex]; }
     bool is_ghost(int simplex) const { return corner(simplex, D) == vertices(); }
 
     /// The facet across which a simplex was reached, as its parent sees it: simplices of the
     /// page are its handles; `no_link` of a root.
     static constexpr std::uint16_t no_link = 0xffff;
-    std::uint16_t parent(int simplex) const { return steps_[simplex].parent; }
+    std::uint16_t parent(int simplex) const { return parents_[simplex]; }
     /// ... and as the simplex itself sees it.
-    int facet_to_parent(int simplex) const { return steps_[simplex].facet; }
+    int facet_to_parent(int simplex) const {
+        const std::uint16_t up = parent(simplex);
+        const bool begins_ghosts = is_ghost(simplex) && !is_ghost(link_simplex(up));
+        return begins_ghosts ? D : facet_back(link_facet(up));
+    }
 
 private:
-    struct Step {
-        std::uint16_t parent;
-        std::uint16_t facet;
-    };
+    /// So many steps end with a byte, and come in one word.
+    static constexpr int simplices_at_once = 16;
 
     void read_header(const unsigned char *bytes, std::size_t size, int attributes);
     void read_points();
-    void read_simplices(BitFields steps, const unsigned char *at, const unsigned char *end);
     /// Reads the corners of a tree's first simplex; returns how many vertices are known then.
-    int read_root(int simplex, const BitFields &numbers, std::size_t named, int fresh);
+    int read_root(int simplex, std::size_t named, int fresh);
 
     PageHeader header_;
     Column ids_;
@@ -154,10 +150,18 @@ private:
     Column codes_, parts_;
     BitFields link_vertices_;
     bool has_parts_;
+    BitFields steps_, numbers_;
+    const unsigned char *end_; // of the numbers
+    std::size_t most_named_;   // numbers before the end
+    // How far read_simplices() has come:
+    std::size_t named_;  // numbers read
+    int fresh_;          // vertices used
+    int reached_, read_; // simplices
     std::array<double, 2 * D> box_;
     std::array<Point<D>, page_vertices<D>> points_;
-    std::array<std::uint16_t, block_slots<D> *(D + 1)> corners_;
-    std::array<Step, block_slots<D> + D + 1> steps_; // the last ones are overwritten
+    std::array<Lanes, block_slots<D>> corners_;
+    // The last ones are overwritten, until it is known that there are too many.
+    std::array<std::uint16_t, block_slots<D> + simplices_at_once *(D + 2) + lanes> parents_;
 };
 
 } // namespace abacus
