@@ -61,6 +61,18 @@ public:
         std::memcpy(&word, bytes_ + (i * width_ >> 3), sizeof word);
         return word;
     }
+    /// The greatest bits of the fields from `begin` to `end`, as many as `bits`, at most 25.
+    template <class Prefix>
+    void prefixes(std::size_t begin, std::size_t end, unsigned bits, Prefix *prefix) const {
+        const unsigned taken = width_ < bits ? width_ : bits;
+        const std::uint32_t mask = (1u << taken) - 1;
+        std::size_t bit = begin * width_ + (width_ - taken);
+        for (std::size_t i = begin; i < end; ++i, bit += width_) {
+            std::uint32_t word;
+            std::memcpy(&word, bytes_ + (bit >> 3), sizeof word);
+            *prefix++ = static_cast<Prefix>(word >> (bit & 7) & mask);
+        }
+    }
     unsigned width() const { return width_; }
     const unsigned char *begin() const { return bytes_; }
 
@@ -93,10 +105,28 @@ public:
     }
 
     std::uint64_t operator[](std::size_t i) const { return base_ + (fields_[i] << shift_); }
+
+    /// The greatest bits of words, for comparisons that need not be exact: of two words one is
+    /// greater if its prefix is, and either may be if these are equal.
+    using Prefix = std::int16_t;
+    void prefixes(std::size_t begin, std::size_t end, Prefix *prefix) const {
+        fields_.prefixes(begin, end, prefix_bits, prefix);
+    }
+    /// That of any word, also of one that the column cannot have.
+    Prefix prefix(std::uint64_t word) const {
+        if (word < base_) return -1;
+        const unsigned width = fields_.width();
+        const std::uint64_t field = (word - base_) >> shift_;
+        const std::uint64_t cut = width > prefix_bits ? field >> (width - prefix_bits) : field;
+        return static_cast<Prefix>(cut >> prefix_bits == 0 ? cut : 1u << prefix_bits);
+    }
+
     /// Whether not all words are 0.
     bool is_not_zero() const { return base_ != 0 || fields_.width() != 0; }
 
 private:
+    static constexpr unsigned prefix_bits = 14;
+
     BitFields fields_;
     std::uint64_t base_ = 0;
     unsigned shift_ = 0;

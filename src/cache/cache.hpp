@@ -206,6 +206,8 @@ public:
         settle_limbo(code);
         return true;
     }
+    /// Others need some of the memory.
+    void set_budget(std::size_t bytes) { options_.budget = bytes; }
     /// Evicts while the budget is exceeded. Handles may die: see is_live().
     void trim() {
         if (bytes() > options_.budget) [[unlikely]] shrink();

@@ -39,14 +39,12 @@ using Lanes = std::uint16_t __attribute__((vector_size(2 * lanes)));
 inline constexpr std::uint16_t no_vertex = 0xffff;
 
 /// All bits of lane `f`.
-alignas(Lanes) inline constexpr std::array<std::array<std::uint16_t, lanes>, lanes> lane_masks{
-    {{0xffff, 0, 0, 0}, {0, 0xffff, 0, 0}, {0, 0, 0xffff, 0}, {0, 0, 0, 0xffff}}};
+inline constexpr std::array<Lanes, lanes> lane_masks{
+    Lanes{0xffff, 0, 0, 0}, Lanes{0, 0xffff, 0, 0}, Lanes{0, 0, 0xffff, 0}, Lanes{0, 0, 0, 0xffff}};
 
 /// child_across() with an apex that is not at infinity, or replaces that; it is in all lanes.
 inline Lanes child_across(Lanes parent, int f, Lanes apex) {
-    Lanes mask;
-    __builtin_memcpy(&mask, &lane_masks[f], sizeof mask);
-    const Lanes corners = parent ^ ((parent ^ apex) & mask);
+    const Lanes corners = parent ^ ((parent ^ apex) & lane_masks[f]);
     return __builtin_shufflevector(corners, corners, 1, 0, 2, 3);
 }
 /// ... and with one that is, across a facet that has not been.

@@ -59,6 +59,10 @@ public:
     bool find(abacus_page_kind kind, abacus_key key, abacus_page &page) const {
         return found(table_->find(table_->context, kind, key, &page));
     }
+    /// False when it is no longer there.
+    bool fetch(abacus_page_kind kind, abacus_page &page) const {
+        return found(table_->fetch(table_->context, kind, &page));
+    }
     bool next(abacus_page_kind kind, const abacus_key *key, abacus_page &page) const {
         return found(table_->next(table_->context, kind, key, &page));
     }

@@ -136,6 +136,18 @@ host_find(void *context, abacus_page_kind kind, abacus_key key, abacus_page *pag
 }
 
 static abacus_host_status
+host_fetch(void *context, abacus_page_kind kind, abacus_page *page)
+{
+	Host	   *host = context;
+	volatile bool found = false;
+
+	GUARD_BEGIN();
+	found = page_store_fetch(&host->store, kind, page);
+	GUARD_END(host);
+	return found ? ABACUS_HOST_OK : ABACUS_HOST_NONE;
+}
+
+static abacus_host_status
 host_next(void *context, abacus_page_kind kind, const abacus_key *key, abacus_page *page)
 {
 	Host	   *host = context;
@@ -264,6 +276,7 @@ host_create(MemoryContext parent, Oid mesh, MeshAccess access)
 	host->table.poll = host_poll;
 	host->table.progress = host_progress;
 	host->table.find = host_find;
+	host->table.fetch = host_fetch;
 	host->table.next = host_next;
 	host->table.put = host_put;
 	host->table.erase = host_erase;

@@ -183,6 +183,7 @@ validate(Oid relid, Entry *entry)
 	host = entry->cached.host;
 	host->busy = true;			/* until all went well */
 	header_read(host, &header, NULL);
+	page_store_expect_moves(&host->store);
 	host->busy = true;
 	if (entry->cached.mesh == NULL || entry->stamp != header.stamp)
 	{

@@ -103,6 +103,28 @@ page_store_find(PageStore *store, abacus_page_kind kind, abacus_key key, abacus_
 	return true;
 }
 
+/* Others may have moved pages since. */
+void
+page_store_expect_moves(PageStore *store)
+{
+	page_table_expect_moves(&store->simplices);
+	page_table_expect_moves(&store->vertices);
+}
+
+bool
+page_store_fetch(PageStore *store, abacus_page_kind kind, abacus_page *page)
+{
+	ItemPointerData tid;
+	StoredPage	stored;
+
+	unpack_location(page->location, &tid);
+	if (!page_table_fetch(table_of(store, kind), &tid, &stored) ||
+		stored.key[0] < least_column(kind))
+		return false;
+	hand_out(&stored, kind, page);
+	return true;
+}
+
 bool
 page_store_next(PageStore *store, abacus_page_kind kind, const abacus_key *key, abacus_page *page)
 {

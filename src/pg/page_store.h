@@ -23,6 +23,8 @@ extern Oid	page_store_vertex_table(PageStore *store);
 
 extern bool page_store_find(PageStore *store, abacus_page_kind kind, abacus_key key,
 							abacus_page *page);
+extern void page_store_expect_moves(PageStore *store);
+extern bool page_store_fetch(PageStore *store, abacus_page_kind kind, abacus_page *page);
 extern bool page_store_next(PageStore *store, abacus_page_kind kind, const abacus_key *key,
 							abacus_page *page);
 extern void page_store_put(PageStore *store, abacus_page_kind kind, abacus_page *page);

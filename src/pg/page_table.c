@@ -8,6 +8,11 @@
  * nbtree from copying all matches of a leaf page, gained nothing when
  * measured.)
  *
+ * Fetching: the row at a place that a search gave, without the index. Rows
+ * that have been moved are not there any more, and VACUUM may have cut the
+ * file. That takes a lock which ours excludes: so the length of the file is
+ * asked for once for each time that page_table_expect_moves() is called.
+ *
  * Writing: heap_insert and index_insert, as the executor does it. No
  * BulkInsertState (its ring would evict the pages that are about to be read
  * again) and no SKIP_FSM (freed pages must be found; those that this session
@@ -43,18 +48,22 @@ page_table_init(PageTable *table, Oid relid, bool writable, MemoryContext memory
 	table->memory = memory;
 }
 
+static LOCKMODE
+lock_mode(const PageTable *table)
+{
+	return table->writable ? RowExclusiveLock : AccessShareLock;
+}
+
 void
 page_table_open(PageTable *table)
 {
-	LOCKMODE	lock = table->writable ? RowExclusiveLock : AccessShareLock;
 	MemoryContext old;
 
 	if (table->heap != NULL)
 		return;
 	old = MemoryContextSwitchTo(table->memory);
-	table->heap = table_open(table->relid, lock);
+	table->heap = table_open(table->relid, lock_mode(table));
 	table->room = 0;
-	table->index = page_index_open_primary(table->heap, lock);
 	if (table->writable)
 	{
 		table->indexes = page_index_open_all(table->heap);
@@ -84,10 +93,14 @@ page_table_close(PageTable *table)
 		return;
 	close_scan(&table->floor);
 	close_scan(&table->forward);
+	if (table->fetched != NULL)
+		ExecDropSingleTupleTableSlot(table->fetched);
+	table->fetched = NULL;
 	table->at_key = false;
 	page_index_close_all(table->indexes);
 	table->indexes = NIL;
-	index_close(table->index, NoLock);
+	if (table->index != NULL)
+		index_close(table->index, NoLock);
 	table_close(table->heap, NoLock);
 	table->heap = NULL;
 	table->index = NULL;
@@ -146,6 +159,8 @@ search(PageTable *table, PageScan *scan, ScanKey keys, int count)
 	{
 		MemoryContext old = MemoryContextSwitchTo(table->memory);
 
+		if (table->index == NULL)
+			table->index = page_index_open_primary(table->heap, lock_mode(table));
 		scan->slot = MakeSingleTupleTableSlot(RelationGetDescr(table->heap), &TTSOpsBufferHeapTuple);
 		scan->scan = index_beginscan(table->heap, table->index, GetActiveSnapshot(), count, 0);
 		MemoryContextSwitchTo(old);
@@ -209,6 +224,37 @@ page_table_floor(PageTable *table, const int64 *key, StoredPage *page)
 	if (!index_getnext_slot(table->floor.scan, BackwardScanDirection, table->floor.slot))
 		return false;
 	read_row(table, table->floor.slot, page);
+	return true;
+}
+
+/* Others may have moved rows. */
+void
+page_table_expect_moves(PageTable *table)
+{
+	table->blocks = 0;
+}
+
+/* The row at *tid, whatever it is; false if there is none that we see. */
+bool
+page_table_fetch(PageTable *table, ItemPointer tid, StoredPage *page)
+{
+	page_table_open(table);
+	see_own_changes(table);
+	if (ItemPointerGetBlockNumber(tid) >= table->blocks)
+		table->blocks = RelationGetNumberOfBlocks(table->heap);
+	if (ItemPointerGetBlockNumber(tid) >= table->blocks)
+		return false;
+	if (table->fetched == NULL)
+	{
+		MemoryContext old = MemoryContextSwitchTo(table->memory);
+
+		table->fetched = MakeSingleTupleTableSlot(RelationGetDescr(table->heap),
+												  &TTSOpsBufferHeapTuple);
+		MemoryContextSwitchTo(old);
+	}
+	if (!table_tuple_fetch_row_version(table->heap, tid, GetActiveSnapshot(), table->fetched))
+		return false;
+	read_row(table, table->fetched, page);
 	return true;
 }
 

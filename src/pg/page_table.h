@@ -42,13 +42,15 @@ typedef struct PageTable
 	bool		writable;
 
 	Relation	heap;			/* NULL while closed */
-	Relation	index;
+	Relation	index;			/* NULL until searched */
 	List	   *indexes;		/* writers: all that they keep */
 
 	PageScan	floor;			/* backward: greatest key <= given */
 	PageScan	forward;		/* least key > given, and onward */
 	bool		at_key;			/* forward stands at forward_key */
 	int64		forward_key[PAGE_TABLE_KEYS];
+	TupleTableSlot *fetched;	/* NULL while none is */
+	BlockNumber blocks;			/* of the heap, at least; 0: not known */
 
 	bool		wrote;			/* changes that our snapshot does not see yet */
 	MemoryContext memory;		/* of what is open */
@@ -63,6 +65,8 @@ extern void page_table_close(PageTable *table);
 
 extern bool page_table_get(PageTable *table, const int64 *key, StoredPage *page);
 extern bool page_table_floor(PageTable *table, const int64 *key, StoredPage *page);
+extern void page_table_expect_moves(PageTable *table);
+extern bool page_table_fetch(PageTable *table, ItemPointer tid, StoredPage *page);
 extern bool page_table_next(PageTable *table, const int64 *key, StoredPage *page);
 
 extern void page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes,

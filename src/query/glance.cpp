@@ -4,9 +4,78 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace abacus {
+
+// ---- Where to look --------------------------------------------------------------------
+
+template <int D>
+bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex) {
+    looks_ = 0;
+    const KnownPage *const known = known_.find(code);
+    if (known == nullptr) { // then it is not known either how far to look around
+        if (is_cached(code)) return false;
+        const Outcome outcome = look(code, nullptr, p, simplex);
+        if (outcome != Outcome::not_here) return outcome == Outcome::found;
+    }
+    const KnownPage own = known == nullptr ? at_hand_ : *known; // a copy: others will be added
+    const Cell<D> cell = cache_.domain().cell(p);
+    for (const double distance : distances) {
+        const bool is_first = distance == distances[0];
+        Codes codes = around(cell, distance * own.spacing);
+        std::uint64_t *const begin = codes.code.data();
+        if (is_first) begin[codes.count++] = code;
+        std::sort(begin, begin + codes.count, std::greater());
+        if (is_first) {
+            code = begin[0];
+            const auto is_here = [&](std::uint64_t c) { return is_cached(c); };
+            if (std::all_of(begin, begin + codes.count, is_here)) return false;
+        }
+        for (int i = 0; i < codes.count; ++i) {
+            if (begin[i] < own.lower || has_looked(begin[i])) continue;
+            const KnownPage *const there = begin[i] < own.upper ? &own : known_.find(begin[i]);
+            const Outcome outcome = look(begin[i], there, p, simplex);
+            if (outcome != Outcome::not_here) return outcome == Outcome::found;
+        }
+    }
+    return false;
+}
+
+template <int D>
+typename Glance<D>::Codes Glance<D>::around(const Cell<D> &cell, double distance) const {
+    constexpr std::int64_t last = (std::int64_t{1} << code_bits<D>) - 1;
+    Codes codes;
+    const auto add = [&](const std::array<int, D> &way, double step) {
+        Cell<D> other;
+        for (int i = 0; i < D; ++i)
+            other[i] = static_cast<std::uint32_t>(std::clamp<std::int64_t>(
+                cell[i] + way[i] * static_cast<std::int64_t>(step + 1), 0, last));
+        codes.code[codes.count++] = curve_code<D>(other);
+    };
+    for (int axis = 0; axis < D; ++axis)
+        for (const int sign : {-1, 1}) {
+            std::array<int, D> way{};
+            way[axis] = sign;
+            add(way, distance);
+        }
+    for (unsigned signs = 0; signs < 1u << D; ++signs) {
+        std::array<int, D> way;
+        for (int i = 0; i < D; ++i) way[i] = (signs >> i & 1) != 0 ? 1 : -1;
+        add(way, distance * diagonal);
+    }
+    return codes;
+}
+
+// ---- Pages ----------------------------------------------------------------------------
+
+template <int D> bool Glance<D>::has_looked(std::uint64_t code) const {
+    const Key key{code, 0};
+    return std::any_of(looked_.begin(), looked_.begin() + looks_, [&](const auto &page) {
+        return page.first <= key && key < page.second;
+    });
+}
 
 template <int D> bool Glance<D>::was_seen(const Key &page) {
     for (const Key &seen : seen_)
@@ -15,71 +84,83 @@ template <int D> bool Glance<D>::was_seen(const Key &page) {
     return false;
 }
 
-template <int D> int Glance<D>::search(const Point<D> &p) const {
-    for (int s = 0; s < view_.simplices(); ++s) {
-        if (view_.is_ghost(s)) continue;
-        const Corners<D> corners = corners_of(view_, s);
-        // Nearly all are dismissed by their boxes.
-        bool is_in_box = true;
-        for (int axis = 0; axis < D; ++axis) {
-            double least = (*corners[0])[axis], greatest = least;
-            for (int i = 1; i <= D; ++i) {
-                least = std::min(least, (*corners[i])[axis]);
-                greatest = std::max(greatest, (*corners[i])[axis]);
-            }
-            is_in_box &= (least <= p[axis]) & (p[axis] <= greatest);
+template <int D>
+bool Glance<D>::fetch(std::uint64_t code, const KnownPage *known, abacus_page &page) {
+    const Host &host = cache_.host();
+    if (known != nullptr) {
+        page.location = known->location;
+        if (host.fetch(ABACUS_SIMPLEX_PAGES, page) && page.key == Key{known->lower, 0}) return true;
+    }
+    return host.find(ABACUS_SIMPLEX_PAGES, {code, 0}, page);
+}
+
+template <int D>
+typename Glance<D>::Outcome Glance<D>::look(std::uint64_t code, const KnownPage *known,
+                                            const Point<D> &p, abacus_simplex &simplex) {
+    abacus_page page{};
+    if (!fetch(code, known, page) || (looks_ == 0 && was_seen(page.key))) return Outcome::not_now;
+    view_.open(page.bytes, page.size, cache_.vertices().attribute_count());
+    if (!(view_.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
+    looked_[looks_++] = {view_.lower(), view_.upper()};
+    if (known == nullptr || known->location != page.location) {
+        at_hand_ = {view_.lower().code, view_.upper().code, page.location, spacing()};
+        if (view_.lower().part == 0) known_.learn(at_hand_);
+    }
+
+    const int number = search(p);
+    if (number < 0) return Outcome::not_here;
+    describe(view_, number, cache_.domain(), simplex);
+    return Outcome::found;
+}
+
+template <int D> double Glance<D>::spacing() const {
+    // Of points at random; some of the page's vertices are other pages', too.
+    constexpr double simplices_per_vertex = D == 2 ? 2 : 6.77;
+    constexpr std::uint64_t end = std::uint64_t{1} << (D * code_bits<D>);
+    const double cells = static_cast<double>(std::min(view_.upper().code, end)) -
+                         static_cast<double>(std::min(view_.lower().code, end));
+    const double cells_per_vertex = cells * simplices_per_vertex / std::max(view_.simplices(), 1);
+    return D == 2 ? std::sqrt(cells_per_vertex) : std::cbrt(cells_per_vertex);
+}
+
+// ---- In a page ------------------------------------------------------------------------
+
+template <int D> void Glance<D>::compare(const Point<D> &p, int begin, int end) {
+    std::array<Column::Prefix, page_vertices<D>> others;
+    for (int axis = 0; axis < D; ++axis) {
+        const Column &ranks = view_.ranks(axis);
+        const Column::Prefix own = ranks.prefix(ordered(p[axis]));
+        ranks.prefixes(static_cast<std::size_t>(begin), static_cast<std::size_t>(end), &others[begin]);
+        const auto below = static_cast<Side>(1 << 2 * axis), above = static_cast<Side>(2 << 2 * axis);
+        for (int v = begin; v < end; ++v) {
+            const auto side = static_cast<Side>((others[v] < own ? below : 0) | (others[v] > own ? above : 0));
+            sides_[v] = static_cast<Side>(axis == 0 ? side : sides_[v] | side);
         }
-        if (is_in_box && in_simplex<D>(corners, p) > 0) return s;
+    }
+}
+
+template <int D> bool Glance<D>::contains(int simplex, const Point<D> &p) {
+    if (view_.is_ghost(simplex)) return false;
+    for (int i = 0; i <= D; ++i) view_.read_point(view_.corner(simplex, i));
+    return in_simplex<D>(corners_of(view_, simplex), p) > 0;
+}
+
+template <int D> int Glance<D>::search(const Point<D> &p) {
+    constexpr int at_once = 64; // simplices
+    sides_[view_.vertices()] = static_cast<Side>(-1);
+    for (int s = 0, compared = 0; s < view_.simplices();) {
+        const int end = view_.read_simplices(s + at_once);
+        compare(p, std::exchange(compared, view_.vertices_read()), view_.vertices_read());
+        for (; s < end; ++s) {
+            const Lanes &corners = view_.corners(s);
+            unsigned common = sides_[corners[0]];
+            for (int i = 1; i <= D; ++i) common &= sides_[corners[i]];
+            if (common == 0 && contains(s, p)) return s;
+        }
     }
     return -1;
 }
 
-template <int D>
-bool Glance<D>::find(const Key &key, const Domain<D> &domain, const Point<D> &p,
-                     abacus_simplex &simplex) {
-    abacus_page page{};
-    if (!host_.find(ABACUS_SIMPLEX_PAGES, key, page) || was_seen(page.key)) return false;
-    return look_into(page, domain, p, simplex) || look_around(domain, p, simplex);
-}
-
-template <int D>
-bool Glance<D>::look_around(const Domain<D> &domain, const Point<D> &p,
-                            abacus_simplex &simplex) {
-    constexpr std::array<double, 2> distances{1, 2.5}; // more gained nothing
-    std::array<std::pair<Key, Key>, 1 + distances.size() * 2 * D> regions;
-    regions[0] = {view_.lower(), view_.upper()};
-    auto end = regions.begin() + 1;
-    Point<D> spacing; // of the page's vertices
-    for (int axis = 0; axis < D; ++axis)
-        spacing[axis] =
-            (view_.box(D + axis) - view_.box(axis)) / std::pow(view_.vertices(), 1.0 / D);
-    for (const double distance : distances)
-        for (int way = 0; way < 2 * D; ++way) {
-            const int axis = way / 2;
-            Point<D> q = p;
-            q[axis] += (way % 2 == 0 ? distance : -distance) * spacing[axis];
-            const Key key{domain.code(q), 0};
-            const bool is_known = std::any_of(regions.begin(), end, [&](const auto &region) {
-                return !(key < region.first) && key < region.second;
-            });
-            abacus_page page{};
-            if (is_known || !host_.find(ABACUS_SIMPLEX_PAGES, key, page)) continue;
-            if (look_into(page, domain, p, simplex)) return true;
-            *end++ = {view_.lower(), view_.upper()};
-        }
-    return false;
-}
-
-template <int D>
-bool Glance<D>::look_into(const abacus_page &page, const Domain<D> &domain, const Point<D> &p,
-                          abacus_simplex &simplex) {
-    view_.read(page.bytes, page.size, attributes_);
-    if (!(view_.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
-    const int number = search(p);
-    if (number < 0) return false;
-    describe(view_, number, domain, simplex);
-    return true;
-}
 
 template class Glance<2>;
 template class Glance<3>;

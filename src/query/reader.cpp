@@ -23,10 +23,10 @@ CacheOptions linked_as(const abacus_header &header, CacheOptions options) {
 template <int D>
 Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOptions &options)
     : size_(header.simplices == 0 ? 0 : header.simplices + header.ghosts),
-      delaunay_(header.not_delaunay == 0), box_bytes_(options.budget / 8),
+      delaunay_(header.not_delaunay == 0), budget_(options.budget),
       cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
              linked_as(header, options)),
-      glance_(cache_.host(), static_cast<int>(header.attributes)), walk_(cache_) {}
+      glance_(cache_, options.budget / 10), walk_(cache_) {}
 
 template <int D> Handle Reader<D>::start(const Point<D> &p, std::uint64_t code) {
     if (size_ == 0) return no_handle;
@@ -63,7 +63,7 @@ template <int D>
 template <class Visit>
 void Reader<D>::search_pages(const Point<D> &p, Visit visit) {
     if (size_ == 0) return;
-    if (!boxes_) boxes_.emplace(cache_.host(), cache_.vertices().attribute_count(), box_bytes_);
+    if (!boxes_) boxes_.emplace(cache_.host(), cache_.vertices().attribute_count(), budget_ / 8);
     boxes_->around(p, [&](Key key, const Key &end) {
         while (key < end) {
             cache_.trim();
@@ -140,7 +140,7 @@ template <int D> bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simpl
         describe(inside, simplex);
         return true;
     }
-    const std::uint64_t code = cache_.domain().code(p);
+    std::uint64_t code = cache_.domain().code(p);
     if (glance(p, code, simplex)) return true;
     const Handle h = find(p, code);
     if (h == no_handle || cache_.simplex(h).is_ghost()) return false;
@@ -149,12 +149,13 @@ template <int D> bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simpl
 }
 
 template <int D>
-bool Reader<D>::glance(const Point<D> &p, std::uint64_t code, abacus_simplex &simplex) {
+bool Reader<D>::glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex) {
     if (cache_.counters.evictions == 0) return false; // the cache takes more
-    const Key key{code, 0};
-    if (is_at_hand(code) || cache_.is_cached(key)) return false;
+    if (is_at_hand(code)) return false;
     cache_.poll();
-    return glance_.find(key, cache_.domain(), p, simplex);
+    const bool is_found = glance_.find(code, p, simplex);
+    cache_.set_budget(budget_ - std::min(budget_, glance_.bytes()));
+    return is_found;
 }
 
 template <int D>

@@ -44,10 +44,11 @@ public:
 
 private:
     /// A simplex with p in its closure, or a ghost that sees p; no_handle in an empty mesh.
-    /// Here and below `code` is p's.
+    /// Here and below `code` is p's, or that of where its simplex may be expected.
     Handle find(const Point<D> &p, std::uint64_t code);
     /// Locates p in a page that is not in the cache, if that has been full and it is worth while.
-    bool glance(const Point<D> &p, std::uint64_t code, abacus_simplex &simplex);
+    /// Else says where a walk should begin.
+    bool glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex);
     /// Where a walk to p begins; no_handle in an empty mesh.
     Handle start(const Point<D> &p, std::uint64_t code);
     /// Whether the block of the simplex found last owns the code.
@@ -71,7 +72,7 @@ private:
 
     std::uint64_t size_; // simplices and ghosts
     bool delaunay_;
-    std::size_t box_bytes_;
+    std::size_t budget_;
     std::optional<PageBoxes<D>> boxes_; // once needed
     Cache<D> cache_;
     Glance<D> glance_;

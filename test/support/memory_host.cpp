@@ -14,7 +14,7 @@ void MemoryHost::Page::assign(const unsigned char *bytes, std::size_t new_size) 
 }
 
 std::uint64_t MemoryHost::Calls::fallible() const {
-    return poll + progress + find + next + put + erase + spool_create + spool_write + spool_rewind +
+    return poll + progress + find + fetch + next + put + erase + spool_create + spool_write + spool_rewind +
            spool_read + spool_close;
 }
 
@@ -127,6 +127,18 @@ struct MemoryHost::Functions {
         auto it = pages.upper_bound(key);
         if (it == pages.begin()) return ABACUS_HOST_NONE;
         --it;
+        host.hand_out(it->first, it->second, page);
+        return ABACUS_HOST_OK;
+    }
+
+    static abacus_host_status fetch(void *context, abacus_page_kind kind, abacus_page *page) {
+        MemoryHost &host = self(context);
+        if (!host.enter(host.calls.fetch)) return ABACUS_HOST_FAILED;
+        const auto key = host.keys_by_location_.find(page->location);
+        if (key == host.keys_by_location_.end()) return ABACUS_HOST_NONE;
+        const auto it = host.pages_of(kind).find(key->second);
+        if (it == host.pages_of(kind).end() || it->second.location != page->location)
+            return ABACUS_HOST_NONE;
         host.hand_out(it->first, it->second, page);
         return ABACUS_HOST_OK;
     }
@@ -271,6 +283,7 @@ MemoryHost::MemoryHost() {
     table_.poll = Functions::poll;
     table_.progress = Functions::progress;
     table_.find = Functions::find;
+    table_.fetch = Functions::fetch;
     table_.next = Functions::next;
     table_.put = Functions::put;
     table_.erase = Functions::erase;

@@ -47,7 +47,7 @@ public:
     /// Calls so far, by function.
     struct Calls {
         std::uint64_t resize = 0, poll = 0, progress = 0;
-        std::uint64_t find = 0, next = 0, put = 0, erase = 0;
+        std::uint64_t find = 0, fetch = 0, next = 0, put = 0, erase = 0;
         std::uint64_t spool_create = 0, spool_write = 0, spool_rewind = 0, spool_read = 0,
                       spool_close = 0;
 

@@ -78,6 +78,65 @@ TEST(Column, OrdersDoublesAsTheyAre) {
     EXPECT_EQ(std::bit_cast<std::uint64_t>(from_ordered(ordered(payload))), 0xfff8123456789abcull);
 }
 
+TEST(Column, ComparesWordsByTheirPrefixes) {
+    std::mt19937_64 random(2);
+    for (int width = 0; width <= 64; ++width)
+        for (const int shift : {0, 3, 40}) {
+            if (width + shift > 60 && shift > 0) continue;
+            const std::uint64_t base = shift > 0 ? random() >> 4 : 0;
+            Words words;
+            for (int i = 0; i < 90; ++i)
+                words.push_back(base + ((width == 0 ? 0 : random() >> (64 - width)) << shift));
+            const ColumnPlan plan(words.data(), words.size());
+            std::vector<unsigned char> bytes(plan.size() + 16);
+            const unsigned char *at = bytes.data();
+            plan.write(words.data(), bytes.data());
+            Column column;
+            ASSERT_TRUE(column.read(at, at + plan.size(), words.size()));
+            std::vector<Column::Prefix> prefixes(80);
+            column.prefixes(10, 90, prefixes.data());
+            for (const std::uint64_t other : Words{words[3], words[40] + 1, base - 1, base, random(), ~0ull}) {
+                const Column::Prefix prefix = column.prefix(other);
+                for (std::size_t i = 10; i < 90; ++i) {
+                    if (prefixes[i - 10] != prefix) {
+                        ASSERT_EQ(prefixes[i - 10] < prefix, words[i] < other);
+                    }
+                    if (words[i] == other) {
+                        ASSERT_EQ(prefixes[i - 10], prefix);
+                    }
+                }
+            }
+        }
+}
+
+template <int D> void expect_lanes_to_do_as_numbers() {
+    constexpr std::uint16_t infinity = 100;
+    for (const bool is_ghost : {false, true})
+        for (int f = 0; f <= D; ++f)
+            for (const std::uint16_t apex : {std::uint16_t{50}, infinity}) {
+                if (apex == infinity && is_ghost && f != D) continue; // it would be there twice
+                std::array<std::uint16_t, D + 1> parent, child;
+                for (int i = 0; i <= D; ++i) parent[i] = static_cast<std::uint16_t>(10 + i);
+                if (is_ghost) parent[D] = infinity;
+                const int back = child_across<D>(parent.data(), f, apex, infinity, child.data());
+                Lanes in_lanes = Lanes{} + no_vertex;
+                for (int i = 0; i <= D; ++i) in_lanes[i] = parent[i];
+                const bool is_first_ghost = apex == infinity && f != D;
+                in_lanes = is_first_ghost ? ghost_across<D>(in_lanes, f, infinity)
+                                          : child_across(in_lanes, f, Lanes{} + apex);
+                for (int i = 0; i <= D; ++i) EXPECT_EQ(in_lanes[i], child[i]);
+                if (D == 2) {
+                    EXPECT_EQ(in_lanes[3], no_vertex);
+                }
+                EXPECT_EQ(back, is_first_ghost ? D : facet_back(f));
+            }
+}
+
+TEST(PageTree, DoesInLanesWhatItDoesWithNumbers) {
+    expect_lanes_to_do_as_numbers<2>();
+    expect_lanes_to_do_as_numbers<3>();
+}
+
 /// A square of four vertices in two triangles, with a link across each of its sides.
 class Square : public testing::Test {
 protected:

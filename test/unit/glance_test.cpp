@@ -1,0 +1,211 @@
+// Places located in the bytes of pages: the same answers as by a walk in memory, with few
+// searches of the host, wherever that has moved its pages.
+#include "cache/page_writer.hpp"
+#include "support/oracle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <tuple>
+
+namespace abacus::test {
+namespace {
+
+using Random = std::mt19937_64;
+constexpr std::size_t ample = 256 << 20;
+
+template <int D> Point<D> unit_point(Random &random) {
+    Point<D> p;
+    for (double &x : p) x = std::uniform_real_distribution<double>(0, 1)(random);
+    return p;
+}
+
+template <int D> auto rank(const abacus_simplex &s) {
+    return std::tuple(s.code, s.id[0], s.id[1], s.id[2], D == 2 ? 0 : s.id[D]);
+}
+
+/// A mesh far larger than the cache of the reader whose answers are compared.
+template <int D> struct Large : MeshOf<D> {
+    explicit Large(int points, int attributes = 0) : MeshOf<D>(attributes, ample) {
+        std::vector<InputOf<D>> input;
+        for (int i = 0; i < points; ++i) {
+            Point<D> p = unit_point<D>(random);
+            if (i % 3 == 0) p[0] = p[0] * p[0] * p[0] * p[0]; // here and there denser
+            if (i % 5 == 0) p[D - 1] = i % 64 / 64.0;         // and on a grid
+            points_.push_back(p);
+            input.push_back({i, p, std::vector<double>(static_cast<std::size_t>(attributes), 0.5)});
+        }
+        EXPECT_EQ(this->insert(input), ABACUS_OK) << this->error.detail;
+    }
+    std::size_t tenth() const { return this->host.pages.size() * ABACUS_PAGE_BYTES / 10; }
+    /// Inside, at vertices, halfway to others, outside.
+    Point<D> place(int round) {
+        const auto &a = points_[random() % points_.size()], &b = points_[random() % points_.size()];
+        Point<D> p = unit_point<D>(random);
+        for (int i = 0; i < D; ++i) {
+            if (round % 10 == 7) p[i] = a[i];
+            if (round % 10 == 8) p[i] = a[i] + (b[i] - a[i]) / 2;
+            if (round % 10 == 9) p[i] = 1.2 * p[i] - 0.1;
+        }
+        return p;
+    }
+
+    Random random{7};
+    std::vector<Point<D>> points_;
+};
+
+template <int D> void expect_same_answers(Large<D> &mesh, OpenMeshOf<D> &one, int rounds) {
+    OpenMeshOf<D> other(mesh, ample);
+    for (int round = 0; round < rounds; ++round) {
+        const Point<D> p = mesh.place(round);
+        abacus_simplex a{}, b{};
+        const abacus_status status = other.locate(p, b);
+        ASSERT_EQ(one.locate(p, a), status) << one.error.detail;
+        if (status != ABACUS_OK) continue;
+        ASSERT_EQ(rank<D>(a), rank<D>(b));
+        for (int i = 0; i <= D; ++i)
+            ASSERT_TRUE(std::equal(a.corner[i], a.corner[i] + D, b.corner[i]));
+    }
+    EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
+}
+
+template <class Dimension> class Glance : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Glance, Dimensions);
+
+TYPED_TEST(Glance, GivesTheAnswersOfAWalk) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(D == 2 ? 60000 : 12000, 1);
+    OpenMeshOf<D> open(mesh, mesh.tenth());
+    expect_same_answers<D>(mesh, open, 4000);
+}
+
+TYPED_TEST(Glance, KnowsWherePagesAre) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(D == 2 ? 200000 : 40000);
+    OpenMeshOf<D> open(mesh, mesh.tenth());
+    abacus_simplex simplex;
+    const auto locate_some = [&] {
+        for (int round = 0; round < 10000; ++round)
+            ASSERT_NE(open.locate(unit_point<D>(mesh.random), simplex), ABACUS_ERROR);
+    };
+    locate_some();
+    const auto calls = mesh.host.calls;
+    const auto loads = open.counters().loads;
+    locate_some();
+    // Some pages are loaded still: those that are looked into twice, and around what is far
+    // from everything.
+    EXPECT_LT(open.counters().loads - loads, 10000u / (D == 2 ? 5 : 2));
+    EXPECT_LT(mesh.host.calls.find - calls.find, 10000u / (D == 2 ? 4 : 1));
+    const auto fetches = mesh.host.calls.fetch - calls.fetch;
+    EXPECT_GT(fetches, 8000u);
+    EXPECT_LT(fetches, 10000u * (D == 2 ? 12 : 16) / 10); // not many pages a place
+}
+
+TYPED_TEST(Glance, FindsPagesThatHaveBeenMoved) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(D == 2 ? 60000 : 12000);
+    OpenMeshOf<D> open(mesh, mesh.tenth());
+    expect_same_answers<D>(mesh, open, 2000);
+    const Host host = mesh.host.host();
+    for (auto &[key, stored] : MemoryHost::Pages(mesh.host.pages)) {
+        if (mesh.random() % 2 == 0) continue;
+        abacus_page page{key, stored.bytes(), stored.size, stored.location};
+        host.put(ABACUS_SIMPLEX_PAGES, page);
+    }
+    expect_same_answers<D>(mesh, open, 2000);
+}
+
+/// A host whose pages have changed places with others.
+const abacus_host *sound_host;
+abacus_host_status fetch_another(void *context, abacus_page_kind kind, abacus_page *page) {
+    page->location = page->location / 2 + 1;
+    return sound_host->fetch(context, kind, page);
+}
+
+TYPED_TEST(Glance, IsNotMisledByAnotherPage) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(D == 2 ? 60000 : 12000);
+    sound_host = mesh.host.table();
+    abacus_host table = *sound_host;
+    table.fetch = fetch_another;
+    abacus_mesh *handle = nullptr;
+    ASSERT_EQ(abacus_mesh_open(&table, &mesh.header, mesh.tenth(), &handle, &mesh.error), ABACUS_OK);
+    OpenMeshOf<D> other(mesh, ample);
+    for (int round = 0; round < 2000; ++round) {
+        const Point<D> p = mesh.place(round);
+        abacus_simplex a{}, b{};
+        const abacus_status status = other.locate(p, b);
+        ASSERT_EQ(abacus_mesh_locate(handle, p.data(), &a, &mesh.error), status);
+        if (status == ABACUS_OK) {
+            ASSERT_EQ(rank<D>(a), rank<D>(b));
+        }
+    }
+    abacus_mesh_close(handle);
+}
+
+TYPED_TEST(Glance, RefusesDamagedPages) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(D == 2 ? 30000 : 6000);
+    for (auto &[key, page] : mesh.host.pages)
+        page.bytes()[mesh.random() % page.size] ^= static_cast<unsigned char>(1 << mesh.random() % 8);
+    OpenMeshOf<D> open(mesh, mesh.tenth());
+    abacus_simplex simplex;
+    EXPECT_EQ(open.locate(mesh.place(0), simplex), ABACUS_ERROR);
+    EXPECT_EQ(open.error.kind, ABACUS_ERROR_CORRUPTED);
+}
+
+/// Damaged pages with checksums that are right: any answer or error, but nothing else.
+TYPED_TEST(Glance, SurvivesSealedDamage) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(D == 2 ? 30000 : 6000);
+    const auto sound = mesh.host.pages;
+    for (int trial = 0; trial < 200; ++trial) {
+        mesh.host.pages = sound;
+        OpenMeshOf<D> open(mesh, mesh.tenth());
+        abacus_simplex simplex;
+        for (int i = 0; i < 200; ++i) open.locate(unit_point<D>(mesh.random), simplex);
+        for (auto &[key, page] : mesh.host.pages)
+            for (int i = 0; i < 3; ++i) {
+                const std::size_t at = 48 + mesh.random() % (page.size - 48 - checksum_bytes);
+                page.bytes()[at] ^= static_cast<unsigned char>(1 + mesh.random() % 255);
+                seal_page(page.bytes(), page.size);
+            }
+        abacus_status status = ABACUS_OK;
+        for (int i = 0; i < 50 && status != ABACUS_ERROR; ++i)
+            status = open.locate(unit_point<D>(mesh.random), simplex);
+        if (status == ABACUS_ERROR) {
+            EXPECT_EQ(open.error.kind, ABACUS_ERROR_CORRUPTED);
+        }
+    }
+    EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
+}
+
+TYPED_TEST(Glance, ReadsPagesInPartsAsInOne) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(D == 2 ? 30000 : 6000);
+    PageView<D> whole, parts;
+    for (auto &[key, page] : mesh.host.pages) {
+        whole.read(page.bytes(), page.size, 0);
+        parts.open(page.bytes(), page.size, 0);
+        for (int read = 0; read < parts.simplices();) {
+            const int until = read + 1 + static_cast<int>(mesh.random() % 100);
+            read = parts.read_simplices(until);
+            ASSERT_GE(read, std::min(until, parts.simplices()));
+            for (int s = 0; s < read; ++s)
+                for (int i = 0; i <= D; ++i) {
+                    ASSERT_EQ(parts.corner(s, i), whole.corner(s, i));
+                    ASSERT_TRUE(parts.corner(s, i) < parts.vertices_read() ||
+                                parts.corner(s, i) == parts.vertices());
+                }
+        }
+        for (int v = 0; v < parts.vertices(); ++v) {
+            parts.read_point(v);
+            ASSERT_EQ(parts.point(v), whole.point(v));
+        }
+    }
+}
+
+} // namespace
+} // namespace abacus::test
