@@ -23,49 +23,56 @@ bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &sim
     const KnownPage own = known == nullptr ? at_hand_ : *known; // a copy: others will be added
     const Cell<D> cell = cache_.domain().cell(p);
     for (const double distance : distances) {
+        Codes codes;
+        add_along_axes(cell, distance * own.spacing, codes);
         const bool is_first = distance == distances[0];
-        Codes codes = around(cell, distance * own.spacing);
-        std::uint64_t *const begin = codes.code.data();
-        if (is_first) begin[codes.count++] = code;
-        std::sort(begin, begin + codes.count, std::greater());
+        if (is_first) codes.add(code);
+        else add_diagonally(cell, distance * own.spacing, codes);
+        std::sort(codes.begin(), codes.end(), std::greater());
         if (is_first) {
-            code = begin[0];
+            code = *codes.begin();
             const auto is_here = [&](std::uint64_t c) { return is_cached(c); };
-            if (std::all_of(begin, begin + codes.count, is_here)) return false;
+            if (std::all_of(codes.begin(), codes.end(), is_here)) return false;
         }
-        for (int i = 0; i < codes.count; ++i) {
-            if (begin[i] < own.lower || has_looked(begin[i])) continue;
-            const KnownPage *const there = begin[i] < own.upper ? &own : known_.find(begin[i]);
-            const Outcome outcome = look(begin[i], there, p, simplex);
+        for (const std::uint64_t c : codes) {
+            if (c < own.lower || has_looked(c)) continue;
+            const Outcome outcome = look(c, c < own.upper ? &own : known_.find(c), p, simplex);
             if (outcome != Outcome::not_here) return outcome == Outcome::found;
         }
     }
     return false;
 }
 
+/// Code of the cell so far away in a direction, or at the border of the domain.
 template <int D>
-typename Glance<D>::Codes Glance<D>::around(const Cell<D> &cell, double distance) const {
+static std::uint64_t code_at(const Cell<D> &cell, const std::array<int, D> &way, double distance) {
     constexpr std::int64_t last = (std::int64_t{1} << code_bits<D>) - 1;
-    Codes codes;
-    const auto add = [&](const std::array<int, D> &way, double step) {
-        Cell<D> other;
-        for (int i = 0; i < D; ++i)
-            other[i] = static_cast<std::uint32_t>(std::clamp<std::int64_t>(
-                cell[i] + way[i] * static_cast<std::int64_t>(step + 1), 0, last));
-        codes.code[codes.count++] = curve_code<D>(other);
-    };
+    const std::int64_t step = static_cast<std::int64_t>(distance) + 1;
+    Cell<D> other;
+    for (int i = 0; i < D; ++i)
+        other[i] = static_cast<std::uint32_t>(
+            std::clamp<std::int64_t>(std::int64_t{cell[i]} + way[i] * step, 0, last));
+    return curve_code<D>(other);
+}
+
+template <int D>
+void Glance<D>::add_along_axes(const Cell<D> &cell, double distance, Codes &codes) {
     for (int axis = 0; axis < D; ++axis)
         for (const int sign : {-1, 1}) {
             std::array<int, D> way{};
             way[axis] = sign;
-            add(way, distance);
+            codes.add(code_at<D>(cell, way, distance));
         }
+}
+
+template <int D>
+void Glance<D>::add_diagonally(const Cell<D> &cell, double distance, Codes &codes) {
+    constexpr double along_axis = D == 2 ? 0.85 : 0.7; // a little farther than along the axes
     for (unsigned signs = 0; signs < 1u << D; ++signs) {
         std::array<int, D> way;
         for (int i = 0; i < D; ++i) way[i] = (signs >> i & 1) != 0 ? 1 : -1;
-        add(way, distance * diagonal);
+        codes.add(code_at<D>(cell, way, distance * along_axis));
     }
-    return codes;
 }
 
 // ---- Pages ----------------------------------------------------------------------------
@@ -88,6 +95,7 @@ template <int D>
 bool Glance<D>::fetch(std::uint64_t code, const KnownPage *known, abacus_page &page) {
     const Host &host = cache_.host();
     if (known != nullptr) {
+        known->prefetch();
         page.location = known->location;
         if (host.fetch(ABACUS_SIMPLEX_PAGES, page) && page.key == Key{known->lower, 0}) return true;
     }
@@ -102,8 +110,8 @@ typename Glance<D>::Outcome Glance<D>::look(std::uint64_t code, const KnownPage 
     view_.open(page.bytes, page.size, cache_.vertices().attribute_count());
     if (!(view_.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
     looked_[looks_++] = {view_.lower(), view_.upper()};
-    if (known == nullptr || known->location != page.location) {
-        at_hand_ = {view_.lower().code, view_.upper().code, page.location, spacing()};
+    if (known == nullptr || known->location != page.location || known->bytes != page.bytes) {
+        at_hand_ = {view_.lower().code, view_.upper().code, page.location, spacing(), page.bytes};
         if (view_.lower().part == 0) known_.learn(at_hand_);
     }
 
@@ -130,10 +138,11 @@ template <int D> void Glance<D>::compare(const Point<D> &p, int begin, int end) 
     for (int axis = 0; axis < D; ++axis) {
         const Column &ranks = view_.ranks(axis);
         const Column::Prefix own = ranks.prefix(ordered(p[axis]));
-        ranks.prefixes(static_cast<std::size_t>(begin), static_cast<std::size_t>(end), &others[begin]);
-        const auto below = static_cast<Side>(1 << 2 * axis), above = static_cast<Side>(2 << 2 * axis);
+        ranks.prefixes(static_cast<std::size_t>(begin), static_cast<std::size_t>(end),
+                       &others[begin]);
+        const int below = 1 << 2 * axis, above = 2 << 2 * axis;
         for (int v = begin; v < end; ++v) {
-            const auto side = static_cast<Side>((others[v] < own ? below : 0) | (others[v] > own ? above : 0));
+            const int side = (others[v] < own ? below : 0) | (others[v] > own ? above : 0);
             sides_[v] = static_cast<Side>(axis == 0 ? side : sides_[v] | side);
         }
     }

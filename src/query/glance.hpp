@@ -39,21 +39,24 @@ public:
 
 private:
     static constexpr std::size_t remembered = 32; // pages
-    static constexpr int most_around = 2 * D + (1 << D);
     /// Distances of places around p, in those of vertices.
     static constexpr std::array<double, 4> distances{0.6, 1.2, 2.2, 4};
-    static constexpr double diagonal = 1.2 / (D == 2 ? 1.414 : 1.732); // of a step along an axis
+    static constexpr int most_codes = 2 * D + (1 << D); // at one of them
 
     using Side = std::uint16_t; // as wide as what is compared
-    /// Codes in descending order.
     struct Codes {
-        std::array<std::uint64_t, most_around + 1> code;
+        std::array<std::uint64_t, most_codes> code;
         int count = 0;
+
+        void add(std::uint64_t another) { code[count++] = another; }
+        std::uint64_t *begin() { return code.data(); }
+        std::uint64_t *end() { return code.data() + count; }
     };
     enum class Outcome { found, not_here, not_now };
 
-    /// Of places around a cell.
-    Codes around(const Cell<D> &cell, double distance) const;
+    /// Codes of places around a cell.
+    static void add_along_axes(const Cell<D> &cell, double distance, Codes &codes);
+    static void add_diagonally(const Cell<D> &cell, double distance, Codes &codes);
     /// Looks into the page that owns a code, which may be known.
     Outcome look(std::uint64_t code, const KnownPage *known, const Point<D> &p,
                  abacus_simplex &simplex);
@@ -77,7 +80,7 @@ private:
     /// is below p, or above. What all corners have in common dismisses a simplex.
     std::array<Side, page_vertices<D> + 1> sides_;
     /// What the pages own that have been looked into for this place.
-    std::array<std::pair<Key, Key>, 2 + distances.size() * most_around> looked_;
+    std::array<std::pair<Key, Key>, 1 + distances.size() * most_codes> looked_;
     std::size_t looks_ = 0;
     std::array<Key, remembered> seen_;
     std::size_t next_ = 0; // of seen_

@@ -64,6 +64,13 @@ for my $m (@meshes)
 	sql("VACUUM $mesh");
 	cmp_ok(size($mesh), '>', 1.6 * $m->{fresh}, "$mesh: VACUUM alone does not cut it");
 
+	# A session that knows where pages are, for it has looked into them.
+	my $places = "SELECT sum(hashint8(v0) + hashint8(v1) * 2::bigint + hashint8(v2) * 3::bigint) FROM points p,
+		LATERAL abacus_locate('$mesh', " . ($m->{dimension} == 2 ? 'y, x' : 'y, z, x') . ') WHERE id <= 20000';
+	my $locator = $node->background_psql('postgres');
+	$locator->query_safe("SET abacus.cache_size = '1MB'");
+	my $located = $locator->query_safe($places);
+
 	# A session in the middle of a cursor, with the mesh in its cache.
 	my $reader = $node->background_psql('postgres', on_error_stop => 0);
 	$reader->query_safe("BEGIN ISOLATION LEVEL REPEATABLE READ;
@@ -75,6 +82,7 @@ for my $m (@meshes)
 	my $grown = size($mesh);
 	sql("CALL abacus_build('$mesh'); CALL abacus_build('$mesh'); VACUUM $mesh");
 	cmp_ok(size($mesh), '<=', $grown, "$mesh: ... again and again");
+	is($locator->query_safe($places), $located, "$mesh: ... and where the pages have gone is found");
 	is(1000 + $reader->query_safe("SELECT rest('reading')"), mesh_figure($node, 'postgres', $mesh, 'simplices'),
 		"$mesh: ... who reads on");
 	is($reader->query_safe("SELECT count(*) FROM abacus_check('$mesh')"), 0, "$mesh: ... all of it");
@@ -87,6 +95,8 @@ for my $m (@meshes)
 	sql("CALL abacus_build('$mesh'); VACUUM (INDEX_CLEANUP ON) $mesh");
 	cmp_ok(size($mesh), '<=', 1.1 * $m->{fresh}, "$mesh: hardly larger than a fresh one");
 	is(content($mesh), $m->{content}, "$mesh: the same mesh");
+	is($locator->query_safe($places), $located, "$mesh: ... also for who knew pages where the table is cut");
+	$locator->quit;
 	is_intact($node, 'postgres', $mesh, $mesh);
 }
 
