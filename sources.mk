@@ -44,6 +44,7 @@ PG_SOURCES += src/pg/mesh.c
 PG_SOURCES += src/pg/superseded.c
 PG_SOURCES += src/pg/truncate.c
 PG_SOURCES += src/pg/page_index.c
+PG_SOURCES += src/pg/stored_page.c
 PG_SOURCES += src/pg/page_table.c
 PG_SOURCES += src/pg/page_store.c
 PG_SOURCES += src/pg/spool.c

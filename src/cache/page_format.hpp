@@ -66,8 +66,8 @@ template <int D> inline constexpr std::uint32_t page_vertices = block_slots<D>;
 /// A stored page, checked. What it says of vertices is read in place: it is valid as long as
 /// its bytes.
 ///
-/// Who looks for one simplex opens the page and reads on until it is found. What was read is
-/// checked as far as it went: nothing beyond has been looked at.
+/// Who looks for one simplex opens the page and reads on until it is found. What has been read
+/// has been checked; what comes behind has not been looked at.
 template <int D> class PageView {
 public:
     enum class Checksum { verify, ignore };
@@ -77,11 +77,11 @@ public:
     void read(const unsigned char *bytes, std::size_t size, int attributes,
               Checksum checksum = Checksum::verify);
 
-    /// The same in parts: first all but the links, points and simplices,
+    /// The same in parts. First all but links, points and simplices, ...
     void open(const unsigned char *bytes, std::size_t size, int attributes,
               Checksum checksum = Checksum::verify);
-    /// then simplices up to this number, or a few more, and how many are read now. Those of
-    /// an array end with the last.
+    /// ... then the simplices before this one, and perhaps a few more; returns how many have been
+    /// read by now.
     int read_simplices(int until);
     /// Vertices of the simplices that have been read: they are numbered in order of use.
     int vertices_read() const { return fresh_; }

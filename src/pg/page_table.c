@@ -119,38 +119,6 @@ see_own_changes(PageTable *table)
 	}
 }
 
-/* Bytes in a table can be anything: checks what the core relies on. */
-static void
-read_row(PageTable *table, TupleTableSlot *slot, StoredPage *page)
-{
-	struct varlena *datum;
-	bool		sound = true;
-
-	slot_getsomeattrs(slot, PAGE_TABLE_KEYS + 1);
-	for (int i = 0; i <= PAGE_TABLE_KEYS; i++)
-		sound &= !slot->tts_isnull[i];
-	if (sound)
-	{
-		for (int i = 0; i < PAGE_TABLE_KEYS; i++)
-			page->key[i] = DatumGetInt64(slot->tts_values[i]);
-		datum = (struct varlena *) DatumGetPointer(slot->tts_values[PAGE_TABLE_KEYS]);
-		sound = VARATT_IS_4B_U(datum) && VARSIZE(datum) >= PAGE_TYPE_OVERHEAD &&
-			VARSIZE(datum) <= PAGE_TYPE_OVERHEAD + ABACUS_PAGE_BYTES &&
-			PointerIsAligned(datum, double) && page->key[1] >= 0;
-	}
-	if (!sound)
-		ereport(ERROR,
-				(errcode(ERRCODE_DATA_CORRUPTED),
-				 errmsg("table \"%s\" holds a row that is no page of a mesh",
-						RelationGetRelationName(table->heap)),
-				 errdetail("The row is at (%u,%u).", ItemPointerGetBlockNumber(&slot->tts_tid),
-						   ItemPointerGetOffsetNumber(&slot->tts_tid)),
-				 errhint("Restore the mesh from a backup or build it anew.")));
-	page->bytes = page_type_bytes(datum);
-	page->size = page_type_size(datum);
-	page->tid = slot->tts_tid;
-}
-
 /* Starts a search with these scan keys; opens the scan when first used. */
 static void
 search(PageTable *table, PageScan *scan, ScanKey keys, int count)
@@ -207,7 +175,7 @@ page_table_get(PageTable *table, const int64 *key, StoredPage *page)
 		close_scan(&table->forward);
 		return false;
 	}
-	read_row(table, table->forward.slot, page);
+	stored_page_read(table->heap, table->forward.slot, page);
 	return true;
 }
 
@@ -223,7 +191,7 @@ page_table_floor(PageTable *table, const int64 *key, StoredPage *page)
 	search(table, &table->floor, &bound, 1);
 	if (!index_getnext_slot(table->floor.scan, BackwardScanDirection, table->floor.slot))
 		return false;
-	read_row(table, table->floor.slot, page);
+	stored_page_read(table->heap, table->floor.slot, page);
 	return true;
 }
 
@@ -254,7 +222,7 @@ page_table_fetch(PageTable *table, ItemPointer tid, StoredPage *page)
 	}
 	if (!table_tuple_fetch_row_version(table->heap, tid, GetActiveSnapshot(), table->fetched))
 		return false;
-	read_row(table, table->fetched, page);
+	stored_page_read(table->heap, table->fetched, page);
 	return true;
 }
 
@@ -279,7 +247,7 @@ page_table_next(PageTable *table, const int64 *key, StoredPage *page)
 		table->at_key = false;
 		return false;
 	}
-	read_row(table, table->forward.slot, page);
+	stored_page_read(table->heap, table->forward.slot, page);
 	memcpy(table->forward_key, page->key, sizeof(table->forward_key));
 	table->at_key = true;
 	return true;

@@ -16,16 +16,8 @@
 #include "utils/rel.h"
 
 #include "pg/page_index.h"
+#include "pg/stored_page.h"
 #include "pg/superseded.h"
-
-/* A stored page as a search finds it; bytes stay valid until the next search. */
-typedef struct StoredPage
-{
-	int64		key[PAGE_TABLE_KEYS];
-	const unsigned char *bytes;
-	size_t		size;
-	ItemPointerData tid;
-} StoredPage;
 
 /* A kept-open index scan in one direction. */
 typedef struct PageScan

@@ -161,7 +161,7 @@ TYPED_TEST(Glance, SurvivesSealedDamage) {
     constexpr int D = TypeParam::value;
     Large<D> mesh(D == 2 ? 30000 : 6000);
     const auto sound = mesh.host.pages;
-    for (int trial = 0; trial < 200; ++trial) {
+    for (int trial = 0; trial < 60; ++trial) {
         mesh.host.pages = sound;
         OpenMeshOf<D> open(mesh, mesh.tenth());
         abacus_simplex simplex;
