@@ -102,7 +102,7 @@ void PageView<D>::read(const unsigned char *bytes, std::size_t size, int attribu
 }
 
 template <int D> void PageView<D>::read_points() {
-        for (int i = 0; i < D; ++i) {
+    for (int i = 0; i < D; ++i) {
         std::uint64_t least = ~0ull, greatest = 0;
         bool has_minus_zero = false;
         for (int v = 0; v < vertices(); ++v) {
