@@ -170,7 +170,6 @@ template <int D> int Glance<D>::search(const Point<D> &p) {
     return -1;
 }
 
-
 template class Glance<2>;
 template class Glance<3>;
 
