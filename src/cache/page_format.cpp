@@ -96,7 +96,8 @@ void PageView<D>::read(const unsigned char *bytes, std::size_t size, int attribu
                        Checksum checksum) {
     open(bytes, size, attributes, checksum);
     for (int i = 0; i < links(); ++i)
-        require(link_vertex(i) < vertices() + header_.codes, "A simplex page has a link to no code.");
+        require(link_vertex(i) < vertices() + header_.codes,
+                "A simplex page has a link to no code.");
     read_points();
     read_simplices(simplices());
 }

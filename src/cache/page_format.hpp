@@ -161,7 +161,7 @@ private:
     std::array<Point<D>, page_vertices<D>> points_;
     std::array<Lanes, block_slots<D>> corners_;
     // The last ones are overwritten, until it is known that there are too many.
-    std::array<std::uint16_t, block_slots<D> + simplices_at_once *(D + 2) + lanes> parents_;
+    std::array<std::uint16_t, block_slots<D> + simplices_at_once * (D + 2) + lanes> parents_;
 };
 
 } // namespace abacus

@@ -109,7 +109,8 @@ void Cavity<3>::begin(const Point<3> &p, Handle first) {
 }
 
 // A call would cost some 20 instructions, some 20 times a point.
-[[gnu::always_inline]] inline void Cavity<3>::enter(std::size_t facet, Link outer, const SeenPoint<3> &apex) {
+[[gnu::always_inline]] inline void Cavity<3>::enter(std::size_t facet, Link outer,
+                                                    const SeenPoint<3> &apex) {
     const Handle h = link_simplex(outer);
     const int in_u = link_facet(outer);
     const std::array<VertexIndex, 4> &vertex = cache_.simplex(h).vertex;
@@ -146,9 +147,10 @@ void Cavity<3>::fill(VertexIndex v) {
         }
         for (std::size_t n = 0; n < rim_.size(); ++n) {
             const Facet &facet = facets_[rim_[n].facet];
+            const auto &corner = facet.corner;
             for (int i = 0; i < 3; ++i)
                 cache_.point_at(created_[n], facet.slot[i],
-                                ridges.across(facet.corner[(i + 1) % 3], facet.corner[(i + 2) % 3]));
+                                ridges.across(corner[(i + 1) % 3], corner[(i + 2) % 3]));
         }
     });
     mesh_.count(static_cast<std::int64_t>(rim_.size() - inside_.size()) - ghosts, ghosts);
