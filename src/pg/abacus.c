@@ -8,6 +8,7 @@
 #include "pg/mesh_cache.h"
 #include "pg/settings.h"
 #include "pg/sql_function.h"
+#include "pg/vacuum.h"
 
 PG_MODULE_MAGIC;
 
@@ -20,6 +21,7 @@ _PG_init(void)
 {
 	settings_define();
 	mesh_cache_init();
+	vacuum_init();
 }
 
 /* Version of the module, which may differ from that of the extension's SQL objects. */

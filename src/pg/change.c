@@ -29,7 +29,7 @@ change_begin(Oid mesh, const char *command)
 {
 	Change	   *change = palloc0(sizeof(Change));
 
-	writer_begin(&change->writer, mesh, command);
+	writer_begin(&change->writer, mesh, MESH_WRITE, command);
 	host_own(change->writer.host, change, close_handles);
 	return change;
 }

@@ -31,6 +31,7 @@
 #include "executor/spi.h"
 #include "miscadmin.h"
 #include "storage/bufmgr.h"
+#include "utils/memutils.h"
 
 #include "pg/compact.h"
 
@@ -39,17 +40,31 @@
 /* Rows moved in one transaction, which a cancel or a crash undoes. */
 #define ROWS_AT_ONCE 1024
 
-/* Whether much of the table is empty, judged by some of its heap pages. */
+/* Whether much of a table is empty, judged by some of its heap pages. */
 static bool
-is_worthwhile(PageTable *table)
+is_worthwhile(Superseded *superseded, Relation heap)
 {
-	uint64		blocks = RelationGetNumberOfBlocks(table->heap);
+	uint64		blocks = RelationGetNumberOfBlocks(heap);
 	uint64		one_of = blocks / SAMPLE + 1;
 	uint64		block = 0;
-	uint64		empty = superseded_survey(table->superseded, table->heap, &block, blocks, one_of,
-										  blocks);
+	uint64		empty = superseded_survey(superseded, heap, &block, blocks, one_of, blocks);
 
 	return empty * one_of > blocks / 8 + SUPERSEDED_FAR_PAGES;
+}
+
+/*
+ * Whether compact() would do something, as far as the table tells, which any
+ * lock keeps; a snapshot must be active.
+ */
+bool
+compact_is_worthwhile(Relation heap)
+{
+	MemoryContext memory = AllocSetContextCreate(CurrentMemoryContext, "Abacus sample",
+												 ALLOCSET_SMALL_SIZES);
+	bool		is = is_worthwhile(superseded_create(memory), heap);
+
+	MemoryContextDelete(memory);
+	return is;
 }
 
 /* Whether a row lies behind an empty heap page; if so, *end is behind the last one. */
@@ -100,49 +115,57 @@ move_rows(PageTable *table, BlockNumber *end)
 	return moved;
 }
 
-/* Moves the rows of a table to its beginning, if that is worth it. */
-static void
+/* Moves the rows of a table to its beginning, if that is worth it. Returns how many. */
+static uint64
 compact_table(Writer *writer, PageTable *table)
 {
 	uint64		looked = 0;		/* at the heap pages before this one */
+	uint64		moved = 0;
 	BlockNumber end;
-	bool		moves = true;
+	int			rows = -1;
 
 	page_table_open(table);
-	if (!is_worthwhile(table))
-		return;
+	table->superseded = superseded_create(writer->host->home);
+	if (!is_worthwhile(table->superseded, table->heap))
+		return 0;
 	end = RelationGetNumberOfBlocks(table->heap);
-	while (moves)
+	while (rows != 0)
 	{
 		superseded_survey(table->superseded, table->heap, &looked, end, 1, ROWS_AT_ONCE);
 		if (!find_last_row(table, &end))
 			break;
 		/* the header first, as long as there is room for it at the beginning */
 		header_rewrite(writer->host, writer->header, &writer->header_tid);
-		moves = move_rows(table, &end) > 0;
+		rows = move_rows(table, &end);
+		moved += rows;
 		writer_release(writer);
 		SPI_commit();
 		writer_continue(writer);
 		page_table_open(table);
 	}
+	return moved;
 }
 
 /*
- * Moves the rows of a mesh to the beginning of their tables, and commits after
- * each batch. The caller has kept others from changing the mesh by
- * mesh_lock_for_session(), and no core handle has it open.
+ * Moves the rows of a mesh to the beginning of the one table, the other or both,
+ * and commits after each batch. The caller has kept others from changing the
+ * mesh by a lock of the session (mesh.h), and no core handle has it open. Returns
+ * how many were moved.
  */
-void
-compact(Writer *writer)
+uint64
+compact(Writer *writer, bool simplices, bool vertices)
 {
 	PageStore  *store = &writer->host->store;
+	const abacus_header *header = writer->header;
+	uint64		moved = 0;
 
-	compact_table(writer, &store->simplices);
+	if (simplices)
+		moved += compact_table(writer, &store->simplices);
 	/* without such points all rows of the vertex table are dead, and it is truncated */
-	if (writer->header->duplicates > 0 || writer->header->inserted < writer->header->staged)
+	if (vertices && (header->duplicates > 0 || header->inserted < header->staged))
 	{
 		page_store_vertex_table(store);
-		store->vertices.superseded = superseded_create(writer->host->home);
-		compact_table(writer, &store->vertices);
+		moved += compact_table(writer, &store->vertices);
 	}
+	return moved;
 }

@@ -93,7 +93,7 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 
 	SPI_connect_ext(SPI_OPT_NONATOMIC); /* its memory outlives transactions */
 	lock = mesh_lock_for_session(mesh);
-	writer_begin(&writer, mesh, "abacus_build()");
+	writer_begin(&writer, mesh, MESH_WRITE, "abacus_build()");
 	host = writer.host;
 	header = writer.header;
 	simplices = &host->store.simplices;
@@ -111,7 +111,7 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 		superseded_reclaim(simplices->superseded, simplices->heap);
 	}
 	host_own(host, NULL, NULL);	/* the core would look for pages where they were */
-	compact(&writer);
+	compact(&writer, true, true);
 	vertices = page_store_vertex_table(&host->store);
 	writer_close(&writer);
 	if (truncate_if_empty(vertices))

@@ -43,7 +43,7 @@ load(Oid mesh, Source *vertices, Source *simplices, bool reorient)
 	size_t		count;
 	uint64		loaded;
 
-	writer_begin(&writer, mesh, "abacus_load()");
+	writer_begin(&writer, mesh, MESH_WRITE, "abacus_load()");
 	host = writer.host;
 	host_run(host, abacus_load_open(&host->table, writer.header,
 									(size_t) maintenance_work_mem * 1024, reorient, &loading,

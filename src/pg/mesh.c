@@ -33,6 +33,7 @@
 #include "utils/acl.h"
 #include "utils/builtins.h"
 #include "utils/fmgroids.h"
+#include "utils/inval.h"
 #include "utils/lsyscache.h"
 #include "utils/rls.h"
 #include "utils/syscache.h"
@@ -93,7 +94,7 @@ is_vertex_table(Oid relid)
 
 /* What the executor would refuse; `mesh` is the one whose vertex table this is, or NULL. */
 static void
-check_access(Relation rel, MeshAccess access, Relation mesh)
+check_privileges(Relation rel, MeshAccess access, Relation mesh)
 {
 	Oid			relid = RelationGetRelid(rel);
 	AclMode		needed = access == MESH_READ ? ACL_SELECT
@@ -115,6 +116,14 @@ check_access(Relation rel, MeshAccess access, Relation mesh)
 						RelationGetRelationName(rel), GetUserNameFromId(GetUserId(), false)),
 				 errdetail("A page holds many simplices; policies on its rows have no meaning."),
 				 errhint("Disable row-level security on the table and use GRANT.")));
+}
+
+static void
+check_access(Relation rel, MeshAccess access, Relation mesh)
+{
+	/* who moves rows sees nothing of them: as with VACUUM FULL, the owner's rights are enough */
+	if (access != MESH_MOVE)
+		check_privileges(rel, access, mesh);
 	if (rel->rd_rel->relam != HEAP_TABLE_AM_OID)
 		ereport(ERROR,
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
@@ -156,7 +165,7 @@ Relation
 mesh_table_open(Oid relid, MeshAccess access)
 {
 	return open_mesh_table(relid, access,
-						   access == MESH_WRITE ? RowExclusiveLock : AccessShareLock);
+						   access == MESH_READ ? AccessShareLock : RowExclusiveLock);
 }
 
 /*
@@ -213,6 +222,98 @@ find_bound_table(Oid class, Oid object, bool dependent, bool (*wanted) (Oid))
 	return found;
 }
 
+/* The vertex table of a mesh, which its name alone tells of; InvalidOid if there is none. */
+static Oid
+find_named_vertex_table(Oid mesh)
+{
+	char	   *name = get_rel_name(mesh);
+	Oid			relid;
+
+	if (name == NULL)
+		return InvalidOid;
+	relid = get_relname_relid(psprintf("%s" VERTEX_TABLE_SUFFIX, name), get_rel_namespace(mesh));
+	if (OidIsValid(relid) &&
+		(!is_vertex_table(relid) ||
+		 OidIsValid(find_bound_table(RelationRelationId, relid, true, is_simplex_table))))
+		relid = InvalidOid;
+	return relid;
+}
+
+/* The vertex table of a mesh, unlocked and unchecked; InvalidOid if there is none. */
+Oid
+mesh_find_vertex_table(Oid mesh)
+{
+	Oid			relid = find_bound_table(RelationRelationId, mesh, false, is_vertex_table);
+
+	return OidIsValid(relid) ? relid : find_named_vertex_table(mesh);
+}
+
+/* The mesh of which this is the simplex table or the vertex table; InvalidOid if of none. */
+Oid
+mesh_of_table(Oid relid)
+{
+	const size_t suffix = strlen(VERTEX_TABLE_SUFFIX);
+	Oid			mesh;
+	char	   *name;
+
+	if (is_simplex_table(relid))
+		return relid;
+	if (!is_vertex_table(relid))
+		return InvalidOid;
+	mesh = find_bound_table(RelationRelationId, relid, true, is_simplex_table);
+	if (OidIsValid(mesh))
+		return mesh;
+	name = get_rel_name(relid);
+	if (name == NULL || strlen(name) <= suffix)
+		return InvalidOid;
+	name[strlen(name) - suffix] = '\0';
+	mesh = get_relname_relid(name, get_rel_namespace(relid));
+	return is_simplex_table(mesh) && mesh_find_vertex_table(mesh) == relid ? mesh : InvalidOid;
+}
+
+static bool
+try_lock_for_session(Oid relid, LockRelId *lock)
+{
+	LOCKTAG		tag;
+
+	lock->relId = relid;
+	lock->dbId = MyDatabaseId;
+	SET_LOCKTAG_RELATION(tag, lock->dbId, lock->relId);
+	return LockAcquire(&tag, ExclusiveLock, true, true) != LOCKACQUIRE_NOT_AVAIL;
+}
+
+/*
+ * Locks both tables of a mesh as mesh_lock_for_session() does, if nobody has them locked for
+ * more than reading; else returns false. Here EXCLUSIVE, so that nobody holds a row lock either
+ * for which a writer would wait. The caller unlocks; an error unlocks by itself.
+ */
+bool
+mesh_try_lock_for_session(Oid relid, MeshLocks *locks)
+{
+	Oid			vertices = mesh_find_vertex_table(relid);
+
+	if (!OidIsValid(vertices) || !try_lock_for_session(relid, &locks->simplices))
+		return false;
+	if (!try_lock_for_session(vertices, &locks->vertices))
+	{
+		UnlockRelationIdForSession(&locks->simplices, ExclusiveLock);
+		return false;
+	}
+	/* the tables may have been dropped or renamed meanwhile */
+	AcceptInvalidationMessages();
+	if (mesh_of_table(relid) == relid && mesh_find_vertex_table(relid) == vertices)
+		return true;
+	mesh_unlock_for_session(locks);
+	return false;
+}
+
+void
+mesh_unlock_for_session(MeshLocks *locks)
+{
+	UnlockRelationIdForSession(&locks->vertices, ExclusiveLock);
+	UnlockRelationIdForSession(&locks->simplices, ExclusiveLock);
+}
+
 /* The table of the mesh's vertex pages, locked and checked; writers bind it when it is not. */
 Oid
 mesh_vertex_table(Relation mesh, MeshAccess access)
@@ -220,29 +321,21 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 	Oid			relid = find_bound_table(RelationRelationId, RelationGetRelid(mesh), false,
 										 is_vertex_table);
 	bool		bound = OidIsValid(relid);
-	char	   *name = psprintf("%s" VERTEX_TABLE_SUFFIX, RelationGetRelationName(mesh));
 	Relation	rel = NULL;
 
 	if (!bound)
-	{
-		relid = get_relname_relid(name, RelationGetNamespace(mesh));
-		if (OidIsValid(relid) &&
-			(!is_vertex_table(relid) ||
-			 OidIsValid(find_bound_table(RelationRelationId, relid, true, is_simplex_table))))
-			relid = InvalidOid;
-	}
+		relid = find_named_vertex_table(RelationGetRelid(mesh));
 	/* it may be dropped while we wait for the lock */
 	if (OidIsValid(relid))
-		rel = try_relation_open(relid, access == MESH_WRITE ? RowExclusiveLock : AccessShareLock);
+		rel = try_relation_open(relid, access == MESH_READ ? AccessShareLock : RowExclusiveLock);
 	if (rel == NULL)
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_TABLE),
 				 errmsg("mesh \"%s\" has no vertex table", RelationGetRelationName(mesh)),
-				 errdetail("There is no table \"%s\" of type %s beside it.", name,
-						   VERTEX_PAGE_TYPE),
+				 errdetail("There is no table \"%s" VERTEX_TABLE_SUFFIX "\" of type %s beside it.",
+						   RelationGetRelationName(mesh), VERTEX_PAGE_TYPE),
 				 errhint("After a restore, give the vertex table that name; if it is lost, "
 						 "restore it from a backup.")));
-	pfree(name);
 	check_access(rel, access, mesh);
 	if (!bound && access == MESH_WRITE && pg_class_ownercheck(relid, GetUserId()) &&
 		pg_class_ownercheck(RelationGetRelid(mesh), GetUserId()))

@@ -16,11 +16,23 @@
 typedef enum MeshAccess
 {
 	MESH_READ,
-	MESH_WRITE
+	MESH_WRITE,
+	MESH_MOVE					/* the same rows elsewhere, for somebody who may VACUUM */
 } MeshAccess;
+
+/* Locks of the session on both tables. */
+typedef struct MeshLocks
+{
+	LockRelId	simplices;
+	LockRelId	vertices;
+} MeshLocks;
 
 extern Relation mesh_table_open(Oid relid, MeshAccess access);
 extern LockRelId mesh_lock_for_session(Oid relid);
+extern bool mesh_try_lock_for_session(Oid relid, MeshLocks *locks);
+extern void mesh_unlock_for_session(MeshLocks *locks);
+extern Oid	mesh_of_table(Oid relid);
+extern Oid	mesh_find_vertex_table(Oid mesh);
 extern Oid	mesh_vertex_table(Relation mesh, MeshAccess access);
 extern void mesh_bind_vertex_table(Oid mesh, Oid vertices);
 extern Oid	mesh_of_trigger(Oid trigger);

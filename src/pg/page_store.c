@@ -20,8 +20,8 @@ page_store_init(PageStore *store, Oid mesh, MeshAccess access, MemoryContext mem
 {
 	store->mesh = mesh;
 	store->access = access;
-	page_table_init(&store->simplices, mesh, access == MESH_WRITE, memory);
-	page_table_init(&store->vertices, InvalidOid, access == MESH_WRITE, memory);
+	page_table_init(&store->simplices, mesh, access != MESH_READ, memory);
+	page_table_init(&store->vertices, InvalidOid, access != MESH_READ, memory);
 }
 
 void

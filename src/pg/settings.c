@@ -10,6 +10,7 @@
 
 static int	cache_size_mb = 128;
 static int	fail_host_call = 0;
+static bool vacuum_moves_rows = true;
 
 static void
 assign_fail_host_call(int value, void *extra)
@@ -31,6 +32,10 @@ settings_define(void)
 							"Counted from the moment of setting; 0 means none. For tests.",
 							&fail_host_call, 0, 0, INT_MAX, PGC_SUSET,
 							GUC_NOT_IN_SAMPLE, NULL, assign_fail_host_call, NULL);
+	DefineCustomBoolVariable("abacus.vacuum_moves_rows",
+							 "Lets VACUUM move the rows of meshes to the beginning of their tables.",
+							 "So it can cut the files.",
+							 &vacuum_moves_rows, true, PGC_USERSET, 0, NULL, NULL, NULL);
 	MarkGUCPrefixReserved("abacus");
 }
 
@@ -39,4 +44,11 @@ size_t
 setting_cache_bytes(void)
 {
 	return (size_t) cache_size_mb * 1024 * 1024;
+}
+
+/* Whether VACUUM moves the rows of meshes before it cuts their files. */
+bool
+setting_vacuum_moves_rows(void)
+{
+	return vacuum_moves_rows;
 }

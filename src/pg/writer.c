@@ -65,7 +65,7 @@ static void
 open_and_lock(Writer *writer)
 {
 	Host	   *host = writer->host;
-	Relation	table = mesh_table_open(host->store.mesh, MESH_WRITE);
+	Relation	table = mesh_table_open(host->store.mesh, host->store.access);
 
 	/* also refuses a second writer inside the first one's source query */
 	CheckTableNotInUse(table, "change mesh");
@@ -90,17 +90,17 @@ open_and_lock(Writer *writer)
 }
 
 /*
- * Opens a mesh for changing, with its header locked and an active snapshot
- * that sees it. `command` names the function for messages. The writer lives
- * in the current memory context.
+ * Opens a mesh for changing, or for moving its rows, with its header locked and
+ * an active snapshot that sees it. `command` names the function for messages.
+ * The writer lives in the current memory context.
  */
 void
-writer_begin(Writer *writer, Oid mesh, const char *command)
+writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command)
 {
 	PreventCommandIfReadOnly(command);
 	PreventCommandIfParallelMode(command);
 
-	writer->host = host_create(CurrentMemoryContext, mesh, MESH_WRITE);
+	writer->host = host_create(CurrentMemoryContext, mesh, access);
 	writer->header = MemoryContextAlloc(writer->host->home, sizeof(abacus_header));
 	open_and_lock(writer);
 	progress_begin(&writer->host->progress, mesh);
@@ -128,7 +128,7 @@ writer_store(Writer *writer)
 /*
  * After writer_store() or writer_release(), and a commit: opens the mesh for
  * the next change. What the core holds of it is still so if the caller has kept
- * others from changing it meanwhile, by mesh_lock_for_session().
+ * others from changing it meanwhile, by a lock of the session (mesh.h).
  */
 void
 writer_continue(Writer *writer)
