@@ -55,7 +55,8 @@ def edits(results):
         else:
             sample = m["samples"][0]
             sizes = [f"× {number(sample[which] / sample['fresh'])}{after}" for which, after in (
-                ("after", ""), ("vacuumed", " after VACUUM"), ("compacted", " after abacus_build and VACUUM"))
+                ("after", ""), ("vacuumed", " after VACUUM that moves no pages"), ("moved", " after VACUUM"),
+                ("compacted", " after abacus_build and VACUUM"))
                      if which in sample]
             rows.append((mesh_name(m), f"{m['changed']:,} out and in at random places,"
                          f" {m['at_once']:,} in a statement: size {', '.join(sizes)}", "–", "–",

@@ -272,36 +272,39 @@ mesh_of_table(Oid relid)
 }
 
 static bool
-try_lock_for_session(Oid relid, LockRelId *lock)
+try_lock_for_session(Oid relid, LOCKMODE mode, LockRelId *lock)
 {
 	LOCKTAG		tag;
 
 	lock->relId = relid;
 	lock->dbId = MyDatabaseId;
 	SET_LOCKTAG_RELATION(tag, lock->dbId, lock->relId);
-	return LockAcquire(&tag, ExclusiveLock, true, true) != LOCKACQUIRE_NOT_AVAIL;
+	return LockAcquire(&tag, mode, true, true) != LOCKACQUIRE_NOT_AVAIL;
 }
 
 /*
- * Locks both tables of a mesh as mesh_lock_for_session() does, if nobody has them locked for
- * more than reading; else returns false. Here EXCLUSIVE, so that nobody holds a row lock either
- * for which a writer would wait. The caller unlocks; an error unlocks by itself.
+ * Does what mesh_lock_for_session() does if nobody has the mesh locked for more than reading;
+ * else returns false. EXCLUSIVE, so that nobody holds a row lock either for which a writer would
+ * wait. The vertex table is locked as a writer does, or, if its rows will be written, likewise.
+ * The caller unlocks; an error unlocks by itself.
  */
 bool
-mesh_try_lock_for_session(Oid relid, MeshLocks *locks)
+mesh_try_lock_for_session(Oid relid, bool vertices, MeshLocks *locks)
 {
-	Oid			vertices = mesh_find_vertex_table(relid);
+	Oid			vertex_table = mesh_find_vertex_table(relid);
 
-	if (!OidIsValid(vertices) || !try_lock_for_session(relid, &locks->simplices))
+	locks->vertices_mode = vertices ? ExclusiveLock : RowExclusiveLock;
+	if (!OidIsValid(vertex_table) ||
+		!try_lock_for_session(relid, ExclusiveLock, &locks->simplices))
 		return false;
-	if (!try_lock_for_session(vertices, &locks->vertices))
+	if (!try_lock_for_session(vertex_table, locks->vertices_mode, &locks->vertices))
 	{
 		UnlockRelationIdForSession(&locks->simplices, ExclusiveLock);
 		return false;
 	}
 	/* the tables may have been dropped or renamed meanwhile */
 	AcceptInvalidationMessages();
-	if (mesh_of_table(relid) == relid && mesh_find_vertex_table(relid) == vertices)
+	if (mesh_of_table(relid) == relid && mesh_find_vertex_table(relid) == vertex_table)
 		return true;
 	mesh_unlock_for_session(locks);
 	return false;
@@ -310,7 +313,7 @@ mesh_try_lock_for_session(Oid relid, MeshLocks *locks)
 void
 mesh_unlock_for_session(MeshLocks *locks)
 {
-	UnlockRelationIdForSession(&locks->vertices, ExclusiveLock);
+	UnlockRelationIdForSession(&locks->vertices, locks->vertices_mode);
 	UnlockRelationIdForSession(&locks->simplices, ExclusiveLock);
 }
 

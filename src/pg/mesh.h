@@ -25,11 +25,12 @@ typedef struct MeshLocks
 {
 	LockRelId	simplices;
 	LockRelId	vertices;
+	LOCKMODE	vertices_mode;
 } MeshLocks;
 
 extern Relation mesh_table_open(Oid relid, MeshAccess access);
 extern LockRelId mesh_lock_for_session(Oid relid);
-extern bool mesh_try_lock_for_session(Oid relid, MeshLocks *locks);
+extern bool mesh_try_lock_for_session(Oid relid, bool vertices, MeshLocks *locks);
 extern void mesh_unlock_for_session(MeshLocks *locks);
 extern Oid	mesh_of_table(Oid relid);
 extern Oid	mesh_find_vertex_table(Oid mesh);

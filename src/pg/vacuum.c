@@ -278,7 +278,7 @@ move_mesh(Job *job, const Options *options, MemoryContext memory)
 		job->vertices = InvalidOid;
 	if (!OidIsValid(job->simplices) && !OidIsValid(job->vertices))
 		return false;
-	if (!mesh_try_lock_for_session(job->mesh, &locks))
+	if (!mesh_try_lock_for_session(job->mesh, OidIsValid(job->vertices), &locks))
 	{
 		ereport(level,
 				(errmsg("pages of mesh \"%s\" are not moved, since somebody has it locked",

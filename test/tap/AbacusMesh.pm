@@ -7,7 +7,7 @@ use warnings;
 use Exporter 'import';
 use Test::More;
 
-our @EXPORT = qw(mesh_figure mesh_content mesh_bytes other_simplices is_sound is_intact);
+our @EXPORT = qw(mesh_figure mesh_content mesh_bytes mesh_pages spread_mesh other_simplices is_sound is_intact);
 
 # Value of a row of abacus_stats.
 sub mesh_figure
@@ -35,6 +35,22 @@ sub mesh_bytes
 	my ($node, $database, $table) = @_;
 	return $node->safe_psql($database,
 		"SELECT md5(string_agg(t::text, ' ' ORDER BY t::text COLLATE \"C\")) FROM $table AS t");
+}
+
+# Heap pages of both tables.
+sub mesh_pages
+{
+	my ($node, $database, $mesh) = @_;
+	return $node->safe_psql($database,
+		"SELECT (pg_relation_size('$mesh') + pg_relation_size('${mesh}_vertices')) / 8192");
+}
+
+# Has all rows leave the first half of their table for a second one.
+sub spread_mesh
+{
+	my ($node, $database, $mesh) = @_;
+	$node->safe_psql($database, "UPDATE $mesh SET part = part; UPDATE ${mesh}_vertices SET part = part");
+	return;
 }
 
 # How many simplices one mesh has and the other has not.
