@@ -6,7 +6,7 @@
  * VACUUM is followed by what abacus_build does at its end, where that is worth
  * it: rows are moved to the beginning of their tables. Then these tables are
  * vacuumed again, which removes what the moves have left from the indexes, and
- * cuts the files.
+ * cuts the files. What is still seen by somebody keeps its place until a later one.
  *
  * Not before VACUUM, once, for two reasons. Statements that change few points
  * leave a few hundred dead line pointers on each heap page, so that no row fits,
@@ -263,7 +263,10 @@ move_rows(const Job *job, MemoryContext memory)
 	return moved;
 }
 
-/* Moves the rows of one mesh, if that is worth it and nobody is in the way. Returns whether. */
+/*
+ * Moves the rows of one mesh, if that is worth it and nobody is in the way. Returns
+ * whether; where none had to be moved, VACUUM has put off what is before the cut.
+ */
 static bool
 move_mesh(Job *job, const Options *options, MemoryContext memory)
 {
@@ -293,7 +296,7 @@ move_mesh(Job *job, const Options *options, MemoryContext memory)
 							   "moved %llu pages of mesh \"%s\" to the beginning of its table",
 							   (unsigned long) moved, (unsigned long long) moved,
 							   full_name(job->mesh))));
-	return moved > 0;
+	return true;
 }
 
 /*
@@ -339,12 +342,12 @@ move_meshes(List *jobs, const Options *options, MemoryContext home)
 		MemoryContextSwitchTo(memory);
 		PG_TRY();
 		{
-			bool		moved = move_mesh(job, options, memory);
+			bool		again = move_mesh(job, options, memory);
 
 			MemoryContextSwitchTo(home);
-			if (moved && OidIsValid(job->simplices))
+			if (again && OidIsValid(job->simplices))
 				tables = lappend(tables, makeVacuumRelation(NULL, job->simplices, NIL));
-			if (moved && OidIsValid(job->vertices))
+			if (again && OidIsValid(job->vertices))
 				tables = lappend(tables, makeVacuumRelation(NULL, job->vertices, NIL));
 		}
 		PG_CATCH();

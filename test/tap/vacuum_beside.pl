@@ -106,6 +106,21 @@ is_cut('plane', 'reader: when it has gone');
 is($locator->query_safe($places), $located, 'reader: pages where the file was cut are found, too');
 $locator->quit;
 
+# The same with so few pages that VACUUM by itself puts off their index entries, and with them the cut.
+spread('plane');
+sql($_) for 'SET abacus.vacuum_moves_rows = off; VACUUM plane',
+	'UPDATE plane SET part = part WHERE ctid NOT IN (SELECT ctid FROM plane ORDER BY ctid DESC LIMIT 3)',
+	'SET abacus.vacuum_moves_rows = off; VACUUM plane';
+$reader = $node->background_psql('postgres');
+$reader->query_safe('BEGIN ISOLATION LEVEL REPEATABLE READ; SELECT 1');
+like(told('VACUUM (VERBOSE) plane'), qr/ moved [1-5] pages? of mesh "public.plane"/, 'few pages: they are moved');
+cmp_ok(pages('plane'), '>', 1.9 * $fresh, 'few pages: they are seen still');
+$reader->query_safe('ROLLBACK');
+$reader->quit;
+$told = told('VACUUM (VERBOSE) plane');
+like($told, qr/index scan bypassed.*index scan needed/s, 'few pages: VACUUM does not put them off again');
+is_cut('plane', 'few pages');
+
 # What keeps pages from being moved is told, keeps no lock, and does not keep VACUUM from the next mesh. By both
 # protocols, of which one lets the statement's plan go with the transaction.
 my $refused = qq{WARNING:  could not move pages of mesh "public.plane"
