@@ -6,11 +6,11 @@
  * has committed: so the table becomes twice as large. From then on half of it
  * is empty, each time another half, and there are always rows near its end,
  * where VACUUM could cut it. Nothing that happens inside one transaction helps.
- * abacus_build commits as it likes, and keeps other writers away meanwhile: so
- * it is there that the rows at the end are moved to the empty heap pages at the
- * beginning, until these meet; each once, as a rule. In the vertex table
- * the points that were staged leave such a beginning, and the pages of repeated
- * points lie behind it.
+ * abacus_build and VACUUM (vacuum.c) commit as they like: so it is there that
+ * the rows at the end are moved to the empty heap pages at the beginning, until
+ * these meet; each once, as a rule. Other writers are kept away meanwhile. In the
+ * vertex table the points that were staged leave such a beginning, and the pages
+ * of repeated points lie behind it.
  *
  * A move is a deletion and an insertion of the same row: an update would leave
  * a small row on its heap page. Readers see the one or the other, by their

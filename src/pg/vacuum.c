@@ -392,7 +392,7 @@ static bool
 is_due(void)
 {
 	return setting_vacuum_moves_rows() && !XactReadOnly && !RecoveryInProgress() &&
-		ActivePortal != NULL && old_snapshot_threshold < 0 &&	/* else VACUUM cuts no file */
+		old_snapshot_threshold < 0 &&	/* else VACUUM cuts no file */
 		OidIsValid(get_extension_oid("abacus", true));
 }
 
@@ -404,8 +404,14 @@ process_utility(PlannedStmt *planned, const char *query, bool read_only_tree,
 {
 	VacuumStmt *statement = NULL;
 
-	if (context == PROCESS_UTILITY_TOPLEVEL && IsA(planned->utilityStmt, VacuumStmt))
+	if (context == PROCESS_UTILITY_TOPLEVEL && IsA(planned->utilityStmt, VacuumStmt) &&
+		ActivePortal != NULL)
+	{
+		MemoryContext old = MemoryContextSwitchTo(PortalContext);	/* outlives transactions */
+
 		statement = copyObject(castNode(VacuumStmt, planned->utilityStmt));
+		MemoryContextSwitchTo(old);
+	}
 	(previous_hook != NULL ? previous_hook : standard_ProcessUtility)
 		(planned, query, read_only_tree, context, params, environment, destination, completion);
 	if (statement != NULL && statement->is_vacuumcmd && is_due())

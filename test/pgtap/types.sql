@@ -60,6 +60,8 @@ SELECT columns_are('abacus_progress', ARRAY['pid', 'mesh', 'phase', 'done', 'tot
 SELECT isnt(abacus_version(), NULL, 'the module is loaded');
 SELECT is(current_setting('abacus.cache_size'), '128MB', 'default cache');
 SELECT is((SELECT context FROM pg_settings WHERE name = 'abacus.cache_size'), 'user', 'anyone may set the cache size');
+SELECT is(current_setting('abacus.vacuum_moves_rows'), 'on', 'VACUUM moves pages');
+SELECT is((SELECT context FROM pg_settings WHERE name = 'abacus.vacuum_moves_rows'), 'user', 'anyone may say whether');
 SELECT is((SELECT context FROM pg_settings WHERE name = 'abacus.fail_host_call'), 'superuser', 'failing is for superusers');
 
 SELECT * FROM finish();

@@ -16,7 +16,7 @@ my $seconds = $ENV{ABACUS_SECONDS} || 10;
 
 my $node = PostgreSQL::Test::Cluster->new('concurrent');
 $node->init;
-$node->append_conf('postgresql.conf', "fsync = off\nautovacuum_naptime = 1s");
+$node->append_conf('postgresql.conf', "fsync = off\nautovacuum_naptime = 1s\nsession_preload_libraries = 'abacus'");
 $node->start;
 $node->safe_psql('postgres', 'CREATE EXTENSION abacus; CREATE EXTENSION amcheck');
 make_models($node);
