@@ -62,6 +62,7 @@ PG_SOURCES += src/pg/fn_create.c
 PG_SOURCES += src/pg/fn_stage.c
 PG_SOURCES += src/pg/fn_triangulate.c
 PG_SOURCES += src/pg/compact.c
+PG_SOURCES += src/pg/vacuum_moves.c
 PG_SOURCES += src/pg/vacuum.c
 PG_SOURCES += src/pg/fn_build.c
 PG_SOURCES += src/pg/fn_edit.c
