@@ -99,15 +99,16 @@ sub strike
 	return;
 }
 
-# Runs a statement and strikes after at most $longest seconds. What $look returns
+# Runs a statement, or several of a list, and strikes after at most $longest seconds. What $look returns
 # at that moment is returned, the victim, and whether the statement was still running.
 sub run_and_strike
 {
 	my ($node, $statement, $longest, $look) = @_;
+	my @statements = ref $statement ? @$statement : ($statement);
 	my ($out, $err) = ('', '');
 	my $session = IPC::Run::start(
 		[   'psql', '-XAtq', '-v', 'ON_ERROR_STOP=1', '-d', $node->connstr('postgres'),
-			'-c', 'SELECT pg_backend_pid()', '-c', $statement,
+			'-c', 'SELECT pg_backend_pid()', (map { ('-c', $_) } @statements),
 			'-c', "SELECT 'done'", '-c', 'SELECT pg_sleep(3600)' ], # so that there is one to kill
 		'>', \$out, '2>', \$err,
 		IPC::Run::timeout($PostgreSQL::Test::Utils::timeout_default));
@@ -117,7 +118,7 @@ sub run_and_strike
 	usleep(1e6 * rand($longest));
 	my $seen = $look->();
 	$session->pump_nb;
-	BAIL_OUT("$statement: $err") if $err =~ /ERROR/;
+	BAIL_OUT("@statements: $err") if $err =~ /ERROR/;
 	my $victim = $out =~ /done/ ? 'terminate' : $victims[0];
 	strike($node, $victim, $pid);
 	$session->finish;
