@@ -26,19 +26,27 @@
 #include "utils/acl.h"
 #include "utils/lsyscache.h"
 #include "utils/memutils.h"
+#include "utils/syscache.h"
 
 #include "pg/compact.h"
 #include "pg/vacuum_moves.h"
 
-/* Whether VACUUM has refused the table, or would leave its file as it is. */
+/* Whether VACUUM does not refuse the table; false if it has gone. */
+static bool
+may_vacuum(Oid relid)
+{
+	return SearchSysCacheExists1(RELOID, ObjectIdGetDatum(relid)) &&
+		(pg_class_ownercheck(relid, GetUserId()) ||
+		 pg_database_ownercheck(MyDatabaseId, GetUserId()));
+}
+
+/* Whether VACUUM would leave the table's file as it is. */
 static bool
 is_spared(Relation rel, const VacuumOptions *options)
 {
 	const StdRdOptions *settings = (const StdRdOptions *) rel->rd_options;
-	bool		owner = pg_class_ownercheck(RelationGetRelid(rel), GetUserId()) ||
-		pg_database_ownercheck(MyDatabaseId, GetUserId());
 
-	return !owner || rel->rd_rel->relam != HEAP_TABLE_AM_OID || RELATION_IS_OTHER_TEMP(rel) ||
+	return rel->rd_rel->relam != HEAP_TABLE_AM_OID || RELATION_IS_OTHER_TEMP(rel) ||
 		(settings != NULL && !options->truncate && !settings->vacuum_truncate) ||
 		(settings != NULL && !options->index_cleanup &&
 		 settings->vacuum_index_cleanup == STDRD_OPTION_VACUUM_INDEX_CLEANUP_OFF);
@@ -59,7 +67,7 @@ is_wanted(Oid relid, const VacuumOptions *options)
 		UnlockRelationOid(relid, AccessShareLock);
 		return false;
 	}
-	wanted = !is_spared(rel, options) && compact_is_worthwhile(rel);
+	wanted = may_vacuum(relid) && !is_spared(rel, options) && compact_is_worthwhile(rel);
 	relation_close(rel, AccessShareLock);
 	return wanted;
 }
@@ -104,7 +112,8 @@ move_mesh(VacuumJob *job, const VacuumOptions *options, MemoryContext memory)
 		job->simplices = InvalidOid;
 	if (!is_wanted(job->vertices, options))
 		job->vertices = InvalidOid;
-	if (!OidIsValid(job->simplices) && !OidIsValid(job->vertices))
+	/* the header is in the simplex table, and written in any case */
+	if ((!OidIsValid(job->simplices) && !OidIsValid(job->vertices)) || !may_vacuum(job->mesh))
 		return false;
 	if (!mesh_try_lock_for_session(job->mesh, OidIsValid(job->vertices), &locks))
 	{

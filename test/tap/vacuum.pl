@@ -130,6 +130,7 @@ cuts('FULL', 'VACUUM FULL plane, plane_vertices');
 
 # Pages of repeated points lie behind those of points that were staged. A vertex table that was
 # restored is found by its name.
+sql('CREATE ROLE one');
 for my $bound (1, 0)
 {
 	sql("SELECT abacus_create('twice', 2)");
@@ -137,6 +138,9 @@ for my $bound (1, 0)
 	my $staged = sql("SELECT pg_relation_size('twice_vertices')");
 	sql("SELECT abacus_triangulate('twice')");
 	sql("DELETE FROM pg_depend WHERE objid = 'twice_vertices'::regclass AND refobjid = 'twice'::regclass") unless $bound;
+	sql('ALTER TABLE twice_vertices OWNER TO one');
+	unlike(vacuum('VACUUM (VERBOSE) twice_vertices', 'SET ROLE one'), qr/ moved|ERROR|WARNING/,
+		"vertex table, bound $bound: not by somebody who does not own the mesh");
 	like(vacuum('VACUUM (VERBOSE) twice_vertices'), qr/ moved \d+ pages of mesh "public.twice"/, "vertex table, bound $bound: it is moved");
 	cmp_ok(sql("SELECT pg_relation_size('twice_vertices')"), '<', 0.2 * $staged, "vertex table, bound $bound: the file is cut");
 	is(mesh_figure($node, 'postgres', 'twice', 'inserted'), 63_000, "vertex table, bound $bound: all points are there");
