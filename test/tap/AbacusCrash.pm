@@ -120,6 +120,8 @@ sub run_and_strike
 	$session->pump_nb;
 	BAIL_OUT("@statements: $err") if $err =~ /ERROR/;
 	my $victim = $out =~ /done/ ? 'terminate' : $victims[0];
+	# between two statements a session does not notice that it is cancelled
+	$victim = 'terminate' if $victim eq 'cancel' && @statements > 1;
 	strike($node, $victim, $pid);
 	$session->finish;
 	my $in_time = $out !~ /done/;
