@@ -23,25 +23,39 @@ typedef struct PageIndex
 	IndexInfo  *info;
 } PageIndex;
 
+/*
+ * The valid primary key. The table's list of indexes may be older than the lock
+ * on the index: REINDEX CONCURRENTLY puts another one in its place meanwhile.
+ * Then whoever gets the lock hears of both, and the list is a new one.
+ */
+static Relation
+open_valid_primary(Relation heap, LOCKMODE lock)
+{
+	Oid			looked_at = InvalidOid;
+	Oid			index_oid;
+
+	while ((index_oid = RelationGetPrimaryKeyIndex(heap)) != looked_at)
+	{
+		Relation	index = index_open(index_oid, lock);
+
+		if (index->rd_index->indisvalid)
+			return index;
+		index_close(index, lock);
+		looked_at = index_oid;
+	}
+	return NULL;
+}
+
 /* The primary key, which must be what we search by. */
 Relation
 page_index_open_primary(Relation heap, LOCKMODE lock)
 {
-	Oid			index_oid = RelationGetPrimaryKeyIndex(heap);
-	Relation	index = NULL;
-	bool		usable = OidIsValid(index_oid);
+	Relation	index = open_valid_primary(heap, lock);
+	bool		usable = index != NULL && index->rd_rel->relam == BTREE_AM_OID &&
+		index->rd_index->indimmediate && index->rd_index->indnkeyatts == PAGE_TABLE_KEYS;
 
-	if (usable)
-	{
-		Form_pg_index form;
-
-		index = index_open(index_oid, lock);
-		form = index->rd_index;
-		usable = index->rd_rel->relam == BTREE_AM_OID && form->indisvalid && form->indimmediate &&
-			form->indnkeyatts == PAGE_TABLE_KEYS;
-		for (int i = 0; usable && i < PAGE_TABLE_KEYS; i++)
-			usable = form->indkey.values[i] == i + 1;
-	}
+	for (int i = 0; usable && i < PAGE_TABLE_KEYS; i++)
+		usable = index->rd_index->indkey.values[i] == i + 1;
 	if (!usable)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),

@@ -77,6 +77,17 @@ unlike($err, qr/error|abort/i, 'nor does VACUUM or REINDEX');
 my ($count) = $all =~ /number of transactions actually processed: (\d+)/;
 my ($retried) = $all =~ /number of transactions retried: (\d+)/;
 cmp_ok($count, '>', 50, "$count transactions, $retried of them tried again");
+
+# Calls that begin just when one index takes the place of another
+my ($calls, $reindex) = map { $node->basedir . "/$_.sql" } qw(calls reindex);
+append_to_file($calls, "SELECT count(*) FROM abacus_stats('mesh2');");
+append_to_file($reindex, 'REINDEX TABLE CONCURRENTLY mesh2;');
+my @bench = ('pgbench', '-n', '-T', 3);
+$keeper = IPC::Run::start([ @bench, '-f', $reindex, $node->connstr('postgres') ], '>', \$out, '2>', \$err);
+($all, $errors) = run_command([ @bench, '-c', 4, '-f', $calls, $node->connstr('postgres') ]);
+$keeper->finish;
+unlike($errors, qr/error|abort/i, 'nor does a short call beside REINDEX CONCURRENTLY');
+
 for my $d (2, 3)
 {
 	cmp_ok(mesh_figure($node, 'postgres', "mesh$d", 'removals'), '>', 0, "dimension $d: changed");
