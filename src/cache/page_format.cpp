@@ -183,7 +183,7 @@ template <int D> int PageView<D>::read_simplices(int until) {
                 Lanes child = child_across(corners, facet, everywhere);
                 if (apex >= known) [[unlikely]] {
                     require(apex == infinity && is_new == 0, unknown_vertex);
-                    if (facet != D) child = ghost_across<D>(corners, facet, everywhere[0]);
+                    if (facet != D) child = ghost_across<D>(corners, facet, everywhere);
                     facet = D;
                 }
                 corners_[s] = child;

@@ -1,56 +1,41 @@
 // From a simplex to its child in the trees of a page (cache/page_format.hpp): the one across a
 // facet, with its vertices in an order of the same orientation and the point at infinity last.
-// What the writer of a page says, vertex by vertex, the reader does with four numbers at once.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <utility>
+#include <type_traits>
 
 namespace abacus {
 
 /// The facet towards the parent of a child across facet `f`, unless its apex alone is at infinity.
 constexpr int facet_back(int f) { return f ^ static_cast<int>(f < 2); }
 
-/// Vertices of the simplex across facet `f` of `parent`, whose apex is `apex`; and the facet
-/// towards the parent.
-template <int D, class Number>
-constexpr int child_across(const Number *parent, int f, Number apex, Number infinity,
-                           Number *child) {
-    std::array<Number, D + 1> corner;
-    for (int i = 0; i <= D; ++i) { // which one is replaced no processor can foresee
-        const auto mask = static_cast<Number>(-(i == f));
-        corner[i] = static_cast<Number>((parent[i] & ~mask) | (apex & mask));
-    }
-    if (apex == infinity && f != D) [[unlikely]] {
-        std::swap(corner[f], corner[D]);
-        for (int i = 0; i <= D; ++i) child[i] = corner[i];
-        return D;
-    }
-    child[0] = corner[1];
-    child[1] = corner[0];
-    for (int i = 2; i <= D; ++i) child[i] = corner[i];
-    return facet_back(f);
-}
-
-/// Vertex numbers of a simplex; what is no corner is `no_vertex`.
+/// The vertices of a simplex, four numbers in one word: in a page's reader by their places there,
+/// in its writer by those in the cache. In the plane the last one is no vertex.
 inline constexpr int lanes = 4;
 using Lanes = std::uint16_t __attribute__((vector_size(2 * lanes)));
+using WideLanes = std::uint32_t __attribute__((vector_size(4 * lanes)));
 inline constexpr std::uint16_t no_vertex = 0xffff;
 
 /// All bits of lane `f`.
-inline constexpr std::array<Lanes, lanes> lane_masks{
-    Lanes{0xffff, 0, 0, 0}, Lanes{0, 0xffff, 0, 0}, Lanes{0, 0, 0xffff, 0}, Lanes{0, 0, 0, 0xffff}};
+template <class Word>
+inline constexpr std::array<Word, lanes> lane_masks = [] {
+    constexpr std::remove_cvref_t<decltype(Word{}[0])> all = -1;
+    return std::array{Word{all, 0, 0, 0}, Word{0, all, 0, 0}, Word{0, 0, all, 0},
+                      Word{0, 0, 0, all}};
+}();
 
-/// child_across() with an apex that is not at infinity, or replaces that; it is in all lanes.
-inline Lanes child_across(Lanes parent, int f, Lanes apex) {
-    const Lanes corners = parent ^ ((parent ^ apex) & lane_masks[f]);
+/// Vertices of the simplex across facet `f` of `parent`, whose apex, in all lanes, is not at
+/// infinity, or replaces what is. Which one it replaces no processor can foresee.
+template <class Word> Word child_across(Word parent, int f, Word apex) {
+    const Word corners = parent ^ ((parent ^ apex) & lane_masks<Word>[f]);
     return __builtin_shufflevector(corners, corners, 1, 0, 2, 3);
 }
-/// ... and with one that is, across a facet that has not been.
-template <int D> Lanes ghost_across(Lanes parent, int f, std::uint16_t infinity) {
+/// ... and where the apex is at infinity, across a facet that is not; the facet back is D.
+template <int D, class Word> Word ghost_across(Word parent, int f, Word infinity) {
     parent[f] = parent[D];
-    parent[D] = infinity;
+    parent[D] = infinity[D];
     return parent;
 }
 

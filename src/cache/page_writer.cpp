@@ -1,38 +1,50 @@
 #include "cache/page_writer.hpp"
 
+#include <algorithm>
+
 namespace abacus {
 
 namespace {
 
-/// Where in `slot` each corner is. Both have the same orientation, so the first corner
-/// tells in 2D, the first two in 3D.
-template <int D>
-const std::array<std::uint8_t, 4> &arrangement(const std::array<VertexIndex, D + 1> &slot,
-                                               const VertexIndex *corner) {
-    static constexpr std::array<std::array<std::uint8_t, 4>, 3> rotations{
-        {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}}};
-    static constexpr std::array<std::array<std::uint8_t, 4>, 16> even = [] {
-        std::array<std::array<std::uint8_t, 4>, 16> table{};
-        for (unsigned a = 0; a < 4; ++a)
-            for (unsigned b = 0; b < 4; ++b) {
-                if (a == b) continue;
-                const unsigned rest = 0xfu & ~(1u << a | 1u << b);
-                unsigned c = static_cast<unsigned>(std::countr_zero(rest)), d = 6 - a - b - c;
-                const unsigned inversions = (a > b) + (a > c) + (a > d) + (b > c) + (b > d);
-                if (inversions % 2 == 1) std::swap(c, d); // c < d before
-                table[4 * a + b] = {static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b),
-                                    static_cast<std::uint8_t>(c), static_cast<std::uint8_t>(d)};
+/// Where in a slot the facets of a simplex are, but for that to its parent. Corners and slot have
+/// the same orientation, and that facet is `entry` among the corners, `mirror` in the slot: this
+/// is all in 2D. In 3D the place of one corner more is asked for, which is on that facet.
+template <int D> class OtherFacets {
+public:
+    using Places = std::array<std::uint8_t, 4>;
+
+    constexpr OtherFacets() {
+        Places all{0, 1, 2, 3};
+        do {
+            if (!is_even(all)) continue;
+            for (int entry = 0; entry <= D; ++entry) {
+                Places &others = even_[entry][all[entry]][D == 2 ? 0 : all[asked_for(entry)]];
+                for (int i = 0; i < D; ++i) others[i] = all[i + (i >= entry)];
             }
-        return table;
-    }();
-    const auto place = [&](VertexIndex vertex) {
-        unsigned at = 0;
-        for (unsigned i = 1; i <= D; ++i) at += slot[i] == vertex ? i : 0;
-        return at;
-    };
-    if constexpr (D == 2) return rotations[place(corner[0])];
-    else return even[4 * place(corner[0]) + place(corner[1])];
-}
+        } while (std::next_permutation(all.begin(), all.begin() + D + 1));
+    }
+
+    const Places &find(int entry, int mirror, WideLanes corners,
+                       const std::array<VertexIndex, D + 1> &slot) const {
+        unsigned place = 0;
+        if constexpr (D == 3)
+            for (unsigned i = 1; i <= D; ++i)
+                place += slot[i] == corners[asked_for(entry)] ? i : 0;
+        return even_[entry][mirror][place];
+    }
+
+private:
+    static constexpr int asked_for(int entry) { return entry == 0; }
+    static constexpr bool is_even(const Places &places) {
+        int inversions = 0;
+        for (int i = 0; i <= D; ++i)
+            for (int j = 0; j < i; ++j) inversions += places[j] > places[i];
+        return inversions % 2 == 0;
+    }
+
+    Places even_[D + 1][D + 1][D == 2 ? 1 : D + 1]{};
+};
+template <int D> constexpr OtherFacets<D> other_facets;
 
 } // namespace
 
@@ -46,7 +58,7 @@ void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle fir
     numbered.reserve(std::size_t(end) * (D + 1) + 1);
     border.resize(std::size_t(end) * (D + 1) + 1); // here and below one more, to be overwritten
     order_.resize(end + 1);
-    written_.resize(std::size_t(end) * (D + 1));
+    corners_.resize(end);
     named_.resize(std::size_t(end) * (D + 1) + 1);
     reached_.resize(end + 1);
     std::fill_n(reached_.begin(), end, 0);
@@ -54,7 +66,7 @@ void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle fir
 
     Placed *const order = order_.data();
     std::uint8_t *const reached = reached_.data();
-    VertexIndex *const written = written_.data();
+    WideLanes *const corners = corners_.data();
     std::uint16_t *named = named_.data();
     Link *to_border = border.data();
     std::uint32_t count = 0, root = 0;
@@ -77,25 +89,9 @@ void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle fir
         }
         const Placed placed = order[at];
         const Simplex<D> &s = slots[placed.slot];
-        VertexIndex *const corner = written + at * (D + 1);
-        int entry = D + 1;
-        unsigned step = 0;
-        if (placed.parent == PageView<D>::no_link) [[unlikely]] {
-            for (int i = 0; i <= D; ++i, ++named) {
-                corner[i] = s.vertex[i];
-                number(corner[i]);
-            }
-        } else {
-            const VertexIndex apex = s.vertex[placed.mirror];
-            step = number(apex);
-            named += 1 - step;
-            entry = child_across<D>(written + link_simplex(placed.parent) * (D + 1),
-                                    link_facet(placed.parent), apex, infinite_vertex, corner);
-        }
-        const auto &arranged = arrangement<D>(s.vertex, corner);
-        unsigned children = 0;
-        for (int f = 0; f <= D; ++f) { // the parent has been reached
-            const Link link = s.link[arranged[f]];
+        // Facet f among the corners, i in the slot: a child, 1, or none.
+        const auto look_across = [&](int f, int i) -> unsigned {
+            const Link link = s.link[i];
             const std::uint32_t inside = link_simplex(link) - first;
             const bool is_outside = inside >= end;
             const std::uint32_t slot = is_outside ? end : inside;
@@ -104,13 +100,36 @@ void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle fir
             order[count] = {slot, static_cast<std::uint16_t>(make_link(at, f)),
                             static_cast<std::uint8_t>(link_facet(link)), 0};
             count += is_child;
-            children |= is_child << f;
-            *to_border = make_link(first + placed.slot, arranged[f]);
+            *to_border = make_link(first + placed.slot, i);
             to_border += is_outside & (link != untold);
+            return is_child;
+        };
+        unsigned step = 0;
+        if (placed.parent == PageView<D>::no_link) [[unlikely]] {
+            for (int i = 0; i <= D; ++i, ++named) {
+                corners[at][i] = s.vertex[i];
+                number(s.vertex[i]);
+            }
+            for (int i = 0; i <= D; ++i) step |= look_across(i, i) << i;
+        } else {
+            const VertexIndex apex = s.vertex[placed.mirror];
+            const WideLanes parent = corners[link_simplex(placed.parent)];
+            const WideLanes everywhere = WideLanes{} + apex;
+            const int facet = link_facet(placed.parent);
+            int entry = facet_back(facet);
+            WideLanes child = child_across(parent, facet, everywhere);
+            if (apex == infinite_vertex && facet != D) [[unlikely]] {
+                entry = D;
+                child = ghost_across<D>(parent, facet, everywhere);
+            }
+            corners[at] = child;
+            step = number(apex);
+            named += 1 - step;
+            const auto &others = other_facets<D>.find(entry, placed.mirror, child, s.vertex);
+            for (int i = 0; i < D; ++i)
+                step |= look_across(i + (i >= entry), others[i]) << (i + 1);
         }
-        const unsigned before = (1u << entry) - 1; // of a root: all
-        const unsigned bits = (children & before) | (children >> 1 & ~before);
-        order[at].step = static_cast<std::uint8_t>(entry > D ? bits : step | bits << 1);
+        order[at].step = static_cast<std::uint8_t>(step);
     }
     simplices_ = count;
     named_.resize(static_cast<std::size_t>(named - named_.data()));

@@ -21,7 +21,7 @@ public:
     static constexpr Link untold = unset;
 
     explicit PageWriter(const Host &host)
-        : order_(host), reached_(host), written_(host), named_(host), links_(host),
+        : order_(host), reached_(host), corners_(host), named_(host), links_(host),
           columns_(host), plans_(host), foreign_(host), parts_(host), link_vertices_(host),
           codes_(host), coded_(host), index_(host) {}
 
@@ -65,7 +65,7 @@ private:
     };
     Arena<Placed> order_;
     Arena<std::uint8_t> reached_;    // of the slots
-    Arena<VertexIndex> written_;     // corners
+    Arena<WideLanes> corners_;
     Arena<std::uint16_t> named_;     // numbers that do not follow from the steps; none: infinity
     Arena<Key> links_;
     Arena<std::uint64_t> columns_;   // ids, ranks of coordinates and of attributes

@@ -109,32 +109,43 @@ TEST(Column, ComparesWordsByTheirPrefixes) {
         }
 }
 
-template <int D> void expect_lanes_to_do_as_numbers() {
-    constexpr std::uint16_t infinity = 100;
+// The child has the facet, the apex opposite, and the other orientation: were the apex where the
+// corner was that it replaces, the order of the two would be an odd permutation of one another.
+template <int D, class Word> void expect_children_beyond_their_facets() {
+    using Number = std::remove_cvref_t<decltype(Word{}[0])>;
+    constexpr Number infinity = 100;
     for (const bool is_ghost : {false, true})
         for (int f = 0; f <= D; ++f)
-            for (const std::uint16_t apex : {std::uint16_t{50}, infinity}) {
+            for (const Number apex : {Number{50}, infinity}) {
                 if (apex == infinity && is_ghost && f != D) continue; // it would be there twice
-                std::array<std::uint16_t, D + 1> parent, child;
-                for (int i = 0; i <= D; ++i) parent[i] = static_cast<std::uint16_t>(10 + i);
+                Word parent = Word{} + no_vertex;
+                for (int i = 0; i <= D; ++i) parent[i] = static_cast<Number>(10 + i);
                 if (is_ghost) parent[D] = infinity;
-                const int back = child_across<D>(parent.data(), f, apex, infinity, child.data());
-                Lanes in_lanes = Lanes{} + no_vertex;
-                for (int i = 0; i <= D; ++i) in_lanes[i] = parent[i];
+                const Word everywhere = Word{} + apex;
                 const bool is_first_ghost = apex == infinity && f != D;
-                in_lanes = is_first_ghost ? ghost_across<D>(in_lanes, f, infinity)
-                                          : child_across(in_lanes, f, Lanes{} + apex);
-                for (int i = 0; i <= D; ++i) EXPECT_EQ(in_lanes[i], child[i]);
-                if (D == 2) {
-                    EXPECT_EQ(in_lanes[3], no_vertex);
+                const Word child = is_first_ghost ? ghost_across<D>(parent, f, everywhere)
+                                                  : child_across(parent, f, everywhere);
+                EXPECT_EQ(child[is_first_ghost ? D : facet_back(f)], apex);
+                if (is_ghost && f != D) EXPECT_EQ(child[D], infinity);
+
+                Word replaced = parent;
+                replaced[f] = apex;
+                int moved = 0; // of an exchange two, which is odd
+                for (int i = 0; i <= D; ++i) moved += child[i] != replaced[i];
+                EXPECT_EQ(moved, 2);
+                for (int i = 0; i < lanes; ++i) {
+                    int times = 0;
+                    for (int j = 0; j < lanes; ++j) times += child[j] == replaced[i];
+                    EXPECT_EQ(times, 1);
                 }
-                EXPECT_EQ(back, is_first_ghost ? D : facet_back(f));
             }
 }
 
-TEST(PageTree, DoesInLanesWhatItDoesWithNumbers) {
-    expect_lanes_to_do_as_numbers<2>();
-    expect_lanes_to_do_as_numbers<3>();
+TEST(PageTree, ChildrenLieBeyondTheirFacets) {
+    expect_children_beyond_their_facets<2, Lanes>();
+    expect_children_beyond_their_facets<2, WideLanes>();
+    expect_children_beyond_their_facets<3, Lanes>();
+    expect_children_beyond_their_facets<3, WideLanes>();
 }
 
 /// A square of four vertices in two triangles, with a link across each of its sides.
