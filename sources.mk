@@ -77,6 +77,7 @@ PG_SOURCES += src/pg/fn_stats.c
 PG_SOURCES += src/pg/fn_draw.c
 CORE_SOURCES += src/delaunay/build.cpp
 CORE_SOURCES += src/delaunay/build_delete.cpp
+CORE_SOURCES += src/delaunay/build_rekey.cpp
 CORE_SOURCES += src/query/glance.cpp
 CORE_SOURCES += src/query/reader.cpp
 CORE_SOURCES += src/query/simplex_scan.cpp

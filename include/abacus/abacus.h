@@ -225,6 +225,7 @@ typedef struct abacus_header
 	uint32_t has_domain;   /* 0 until given or taken from the first points */
 	double lower[ABACUS_MAX_DIMENSION]; /* domain; used for clustering only */
 	double upper[ABACUS_MAX_DIMENSION];
+	uint64_t outside;      /* points that have come from outside the domain since it was set */
 	uint64_t stamp;        /* never repeats; set by the host at each change */
 	uint64_t staged;       /* sequence number of the next staged point */
 	uint64_t inserted;     /* ... of the first that waits; those before it are in the mesh */
@@ -311,6 +312,14 @@ ABACUS_API abacus_status abacus_build_delete(abacus_build *build, abacus_stage *
 /* clear: takes away all points, those that wait too, at the cost of erasing their pages. */
 ABACUS_API abacus_status abacus_build_clear(abacus_build *build, abacus_header *header,
 											uint64_t *deleted, abacus_error *error);
+/*
+ * rekey: gives a mesh many of whose points came from outside its domain one around all of them,
+ * and all its pages other keys, with `memory` bytes for sorting; *done is 0 if it had no need
+ * to. The simplices are the same. The insertion of many points does so by itself.
+ */
+ABACUS_API abacus_status abacus_build_rekey(abacus_build *build, size_t memory,
+											abacus_header *header, int *done,
+											abacus_error *error);
 ABACUS_API void abacus_build_close(abacus_build *build);
 
 /* ---- Loading ---------------------------------------------------------------- */

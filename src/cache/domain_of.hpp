@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/box.hpp"
 #include "geometry/locational_code.hpp"
 
 #include <abacus/abacus.h>
@@ -34,6 +35,14 @@ template <int D> Domain<D> domain_of(const abacus_header &header) {
     std::copy_n(header.lower, D, lower.begin());
     std::copy_n(header.upper, D, upper.begin());
     return domain_around<D>(lower, upper);
+}
+
+/// Gives a mesh a domain with room for all points of a box.
+template <int D> void set_domain(abacus_header &header, const Box<D> &box) {
+    header.has_domain = 1;
+    header.outside = 0;
+    std::copy_n(box.lower.begin(), D, header.lower);
+    std::copy_n(box.upper.begin(), D, header.upper);
 }
 
 } // namespace abacus

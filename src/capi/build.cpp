@@ -70,4 +70,11 @@ abacus_status abacus_build_clear(abacus_build *build, abacus_header *header, uin
                [&](auto &opened, abacus_header &changed) { *deleted = opened.clear(changed); });
 }
 
+abacus_status abacus_build_rekey(abacus_build *build, size_t memory, abacus_header *header,
+                                 int *done, abacus_error *error) {
+    return run(build, header, error, [&](auto &opened, abacus_header &changed) {
+        *done = opened.rekey(memory, changed);
+    });
+}
+
 void abacus_build_close(abacus_build *build) { abacus::destroy_handle(build); }

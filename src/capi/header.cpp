@@ -83,6 +83,7 @@ template <class Header, class Visit> void visit_fields(Header &header, Visit &vi
     visit(header.has_domain);
     for (auto &value : header.lower) visit(value);
     for (auto &value : header.upper) visit(value);
+    visit(header.outside);
     visit(header.stamp);
     visit(header.staged);
     visit(header.inserted);
@@ -105,7 +106,7 @@ void check_domain(abacus_header &header) {
 }
 
 void check_counts(const abacus_header &header) {
-    if (header.staged >= count_limit || header.inserted > header.staged ||
+    if (header.staged >= count_limit || header.outside >= count_limit || header.inserted > header.staged ||
         header.vertices >= count_limit || header.serials >= count_limit ||
         header.duplicates > header.serials || (header.vertices == 0 && header.duplicates > 0))
         throw_corrupted("The header's counts of points contradict each other.");

@@ -12,6 +12,9 @@ namespace abacus {
 namespace {
 
 constexpr std::uint64_t report_every = 4096; // points: some hundred times a second
+// A mesh of so many vertices is keyed anew whatever comes; a larger one only for points that
+// are this share of it.
+constexpr std::uint64_t rekeyed_at_once = 1 << 16, rekeyed_by_share = 64;
 
 } // namespace
 
@@ -27,7 +30,7 @@ template <int D>
 Build<D>::Build(const Host &host, const abacus_header &header, std::size_t cache_bytes)
     : host_(host), attributes_(header.attributes), cache_bytes_(cache_bytes),
       domain_(domain_of<D>(header)), core_(std::in_place, host_, header, cache_bytes),
-      repeated_(host_, domain_, header.attributes) {}
+      repeated_(std::in_place, host_, domain_, header.attributes) {}
 
 template <int D> VertexIndex Build<D>::create(const std::uint64_t *record) {
     return core_->cache.create_vertex(record_point<D>(record), record_id(record),
@@ -52,7 +55,7 @@ template <int D> void Build<D>::add(const std::uint64_t *records, std::size_t n)
                                         record_attributes<D>(records))) {
                 ++header_->vertices;
             } else {
-                repeated_.add(header_->serials++, records);
+                repeated_->add(header_->serials++, records);
                 ++header_->duplicates;
             }
         }
@@ -101,7 +104,7 @@ void Build<D>::change(abacus_header &header, Change change) {
         const std::uint64_t done = change();
         report(ABACUS_PHASE_FLUSHING, done, done);
         core_->cache.flush();
-        repeated_.flush();
+        repeated_->flush();
     }
     header.simplices = static_cast<std::uint64_t>(core_->mesh.simplices());
     header.ghosts = static_cast<std::uint64_t>(core_->mesh.ghosts());
@@ -120,6 +123,11 @@ template <int D> void Build<D>::run(std::uint64_t limit, abacus_header &header) 
 template <int D> void Build<D>::insert(Stage<D> &stage, abacus_header &header) {
     change(header, [&] {
         const std::uint64_t points = stage.points();
+        // Not for a few points: a single one would have to wait for all of a large mesh.
+        const bool is_worth_it = header.vertices <= rekeyed_at_once ||
+                                 header.vertices / rekeyed_by_share <= points;
+        if (is_worth_it && has_outgrown_domain(points))
+            change_domain(stage.box(), stage.memory());
         insert_waiting(0);
         Intake intake(*this);
         stage.emit(intake, header);
@@ -145,7 +153,7 @@ template <int D> std::uint64_t Build<D>::clear(abacus_header &header) {
     std::uint64_t points = 0;
     change(header, [&] {
         points = header.vertices + header.duplicates + (header.staged - header.inserted);
-        repeated_.forget();
+        repeated_->forget();
         erase_pages(ABACUS_STAGED_PAGES);
         erase_pages(ABACUS_REPEATED_PAGES);
         header.inserted = header.staged;
@@ -153,6 +161,17 @@ template <int D> std::uint64_t Build<D>::clear(abacus_header &header) {
         return points;
     });
     return points;
+}
+
+template <int D> bool Build<D>::rekey(std::size_t memory, abacus_header &header) {
+    header_ = &header;
+    if (!has_outgrown_domain(0)) return false;
+    change(header, [&] {
+        const std::uint64_t points = header.vertices + header.duplicates;
+        change_domain({}, memory);
+        return points;
+    });
+    return true;
 }
 
 template <int D>

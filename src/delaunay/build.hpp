@@ -5,6 +5,8 @@
 // vertex of simplex pages, or, if it equals a vertex, is a repeated point
 // (repeated_points.hpp). While the points span no simplex all of them wait.
 //
+// A mesh much of which came from outside its domain is keyed anew (build_rekey.cpp).
+//
 // Each change ends with all pages written and the header brought up to date.
 #pragma once
 
@@ -32,6 +34,9 @@ public:
     std::uint64_t remove(Stage<D> &stage, abacus_header &header);
     /// Takes away all points, those that wait too; returns how many there were.
     std::uint64_t clear(abacus_header &header);
+    /// Gives a mesh that has outgrown its domain another one, with `memory` bytes for sorting;
+    /// false if it has not.
+    bool rekey(std::size_t memory, abacus_header &header);
 
 private:
     class Intake;
@@ -60,6 +65,12 @@ private:
     void erase_pages(abacus_page_kind kind);
     /// Begins anew without a triangulation.
     void forget_simplices();
+    /// With so many points that come.
+    bool has_outgrown_domain(std::uint64_t coming) const;
+    using Record = std::array<std::uint64_t, record_words(D, ABACUS_MAX_ATTRIBUTES)>;
+    /// A new domain, around all points and this box; the triangulation made anew over it.
+    void change_domain(Box<D> box, std::size_t memory);
+    void take_apart(Stage<D> &points, std::array<Record, D + 1> &corners);
     /// Runs a change, which returns how many points it has dealt with, and ends it.
     template <class Change> void change(abacus_header &header, Change change);
     void report(abacus_phase phase, std::uint64_t done, std::uint64_t total);
@@ -67,9 +78,9 @@ private:
     const Host &host_;
     const unsigned attributes_;
     const std::size_t cache_bytes_;
-    const Domain<D> domain_;
+    Domain<D> domain_;
     std::optional<Core> core_; ///< always there; optional, to be made anew
-    RepeatedPoints<D> repeated_;
+    std::optional<RepeatedPoints<D>> repeated_; ///< as well
     abacus_header *header_ = nullptr; ///< of the change at hand
 };
 

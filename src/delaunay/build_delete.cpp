@@ -7,11 +7,11 @@ namespace abacus {
 
 template <int D> bool Build<D>::erase(const Point<D> &p, std::int64_t id) {
     Removal<D> &removal = core_->removal;
-    if (header_->duplicates > 0 && repeated_.contains(p)) {
+    if (header_->duplicates > 0 && repeated_->contains(p)) {
         const auto vertex = removal.id_at(p);
         if (!vertex) throw_corrupted("A repeated point equals no vertex of the mesh.");
-        if (*vertex == id || !repeated_.take(p, id)) { // then the next point takes over
-            const std::uint64_t *next = repeated_.take_first(p);
+        if (*vertex == id || !repeated_->take(p, id)) { // then the next point takes over
+            const std::uint64_t *next = repeated_->take_first(p);
             removal.rename(p, record_id(next), record_attributes<D>(next));
         }
         --header_->duplicates;
@@ -35,10 +35,10 @@ template <int D> void Build<D>::collapse() {
                        attributes_);
         pages.add(record);
     });
-    repeated_.flush();
+    repeated_->flush();
     RepeatedReader<D> repeated(host_, domain_, attributes_, true);
     while (repeated.advance()) pages.add(repeated.record());
-    repeated_.forget();
+    repeated_->forget();
     pages.finish();
     header_->staged = pages.next();
     forget_simplices();

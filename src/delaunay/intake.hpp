@@ -16,7 +16,7 @@ template <int D> class Build<D>::Intake final : public RecordSink {
 public:
     explicit Intake(Build &build)
         : build_(build), stride_(record_words(D, build.attributes_)), held_(build.host_) {
-        if (build_.has_waiting()) stage();
+        if (build_.has_waiting() && !build_.has_simplices()) stage();
     }
 
     void add(const std::uint64_t *record) override {

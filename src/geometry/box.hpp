@@ -30,6 +30,11 @@ template <int D> struct Box {
             upper[i] = std::max(upper[i], box.upper[i]);
         }
     }
+    bool contains(const Point<D> &p) const {
+        bool contains = true;
+        for (int i = 0; i < D; ++i) contains &= lower[i] <= p[i] && p[i] <= upper[i];
+        return contains;
+    }
     bool is_point() const { return lower == upper; }
     bool meets(const Box &box) const {
         bool meets = true;

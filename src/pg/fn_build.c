@@ -64,6 +64,30 @@ insert_batch(Writer *writer, abacus_build *build, uint64 limit)
 	return true;
 }
 
+/* A change by itself, where it is due: other keys for a mesh that has outgrown its domain. */
+static bool
+rekey(Writer *writer, abacus_build *build)
+{
+	Host	   *host = writer->host;
+	int			done;
+
+	host_run(host, abacus_build_rekey(build, (size_t) maintenance_work_mem * 1024, writer->header,
+									  &done, &host->failure));
+	return done;
+}
+
+/* Ends a change and goes on with the next one. */
+static void
+commit(Writer *writer)
+{
+	PageTable  *simplices = &writer->host->store.simplices;
+
+	writer_store(writer);
+	SPI_commit();
+	writer_continue(writer);
+	superseded_reclaim(simplices->superseded, simplices->heap);
+}
+
 /* abacus_build(mesh regclass, batch bigint), a procedure */
 Datum
 abacus_sql_build(PG_FUNCTION_ARGS)
@@ -103,13 +127,10 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 									 &host->failure));
 	host_own(host, build, (void (*) (void *)) abacus_build_close);
 
+	if (rekey(&writer, build))
+		commit(&writer);
 	while (header->inserted < header->staged && insert_batch(&writer, build, (uint64) batch))
-	{
-		writer_store(&writer);
-		SPI_commit();
-		writer_continue(&writer);
-		superseded_reclaim(simplices->superseded, simplices->heap);
-	}
+		commit(&writer);
 	host_own(host, NULL, NULL);	/* the core would look for pages where they were */
 	compact(&writer, true, true);
 	vertices = page_store_vertex_table(&host->store);

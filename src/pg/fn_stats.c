@@ -126,6 +126,8 @@ put_counts(Figures *figures, const abacus_header *header)
 	put_figure(figures, "simplices", (double) header->simplices, "simplices of the mesh");
 	put_figure(figures, "hull_facets", (double) header->ghosts,
 			   header->not_delaunay ? "facets of its boundary" : "facets of its convex hull");
+	put_figure(figures, "outside", (double) header->outside,
+			   "points that came from outside the domain since it was set");
 	put_figure(figures, "delaunay", header->not_delaunay ? 0 : 1,
 			   "1: a Delaunay triangulation, which can be changed; 0: loaded, and another one");
 }

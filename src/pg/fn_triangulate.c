@@ -4,6 +4,7 @@
  */
 #include "postgres.h"
 
+#include "miscadmin.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
@@ -21,8 +22,11 @@ abacus_sql_triangulate(PG_FUNCTION_ARGS)
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
 	uint64		simplices;
+	int			rekeyed;
 
 	change_open_build(change);
+	host_run(host, abacus_build_rekey(change->build, (size_t) maintenance_work_mem * 1024, header,
+									  &rekeyed, &host->failure));
 	host_run(host, abacus_build_run(change->build, 0, header, &host->failure));
 	simplices = header->simplices;
 	change_end(change);

@@ -29,7 +29,7 @@
 // follows from Euler's relation in 2D; in 3D nothing proves it.
 #pragma once
 
-#include "query/own_vertices.hpp"
+#include "delaunay/own_vertices.hpp"
 #include "query/page_scan.hpp"
 #include "query/reader.hpp"
 #include "staging/repeated_points.hpp"

@@ -1,7 +1,7 @@
 // All points: the vertices of the mesh page by page, those equal to one, those that wait.
 #pragma once
 
-#include "query/own_vertices.hpp"
+#include "delaunay/own_vertices.hpp"
 #include "query/reader.hpp"
 #include "staging/repeated_points.hpp"
 #include "staging/vertex_reader.hpp"

@@ -18,7 +18,7 @@ constexpr double vertices_a_sample = 32;
 template <int D>
 Stage<D>::Stage(const Host &host, const abacus_header &header, std::size_t memory)
     : host_(host), stride_(record_words(D, header.attributes)),
-      budget_(memory, 8 * stride_, D),
+      memory_(memory), budget_(memory, 8 * stride_, D),
       pacer_(host), sample_(host, budget_.sampled), buffer_(host), room_(budget_.records),
       piles_(host) {
     if (header.has_domain != 0) domain_ = domain_of<D>(header);
@@ -49,6 +49,11 @@ template <int D> void Stage<D>::copy(const std::uint64_t *points, std::size_t co
         box_.extend(record_point<D>(to));
     }
     buffered_ += count;
+    if (!domain_) return;
+    const Box<D> inside(domain_->lower(), domain_->upper());
+    if (inside.contains(box_.lower) && inside.contains(box_.upper)) return;
+    for (std::size_t i = 0; i < count; ++i)
+        outside_ += !inside.contains(record_point<D>(to -= stride_));
 }
 
 /// Moves the buffer to spools. From the first time on, the buffer is small.
@@ -98,10 +103,8 @@ template <int D> bool Stage<D>::is_distributed_over(const Domain<D> &domain) con
 }
 
 template <int D> void Stage<D>::end(abacus_header &header) {
-    if (header.has_domain != 0 || points() == 0) return;
-    header.has_domain = 1;
-    std::copy_n(box_.lower.begin(), D, header.lower);
-    std::copy_n(box_.upper.begin(), D, header.upper);
+    if (header.has_domain != 0) header.outside += outside_;
+    else if (points() > 0) set_domain(header, box_);
 }
 
 /// Whether the mesh has vertices where the points are, at least as many as an earlier round

@@ -24,7 +24,8 @@ public:
 
     /// Adds records as in abacus_stage_add.
     void add(const std::uint64_t *points, std::size_t count);
-    /// No more points come: a header without a domain gets theirs.
+    /// No more points come: a header without a domain gets theirs, another one counts those
+    /// outside its domain.
     void end(abacus_header &header);
     /// Hands the points on: in insertion order, or with the rounds in reverse order, in which
     /// points are best taken away. Once, with the header that end() has seen.
@@ -34,6 +35,10 @@ public:
 
     /// Points so far.
     std::uint64_t points() const { return spilled_ + buffered_; }
+    /// Around these.
+    const Box<D> &box() const { return box_; }
+    /// What it may use, in bytes.
+    std::size_t memory() const { return memory_; }
 
 private:
     void copy(const std::uint64_t *points, std::size_t count);
@@ -46,6 +51,7 @@ private:
 
     const Host &host_;
     const std::size_t stride_;
+    const std::size_t memory_;
     const SortBudget budget_;
     Pacer pacer_;
     Sample<D> sample_;
@@ -55,6 +61,7 @@ private:
     std::size_t room_;         ///< records that may be in the buffer
     std::uint64_t spilled_ = 0; ///< the records before those
     std::optional<Domain<D>> domain_; ///< if the header has one from the start
+    std::uint64_t outside_ = 0;       ///< points that it does not contain
     std::optional<Rounds<D>> rounds_; ///< of the distributor's slice
     std::optional<Distributor<D>> distributor_;
     Arena<Spool> piles_; ///< what is in no distributor; the last one takes more

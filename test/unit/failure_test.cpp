@@ -111,6 +111,14 @@ abacus_status load_and_read(Mesh &mesh) {
     return status;
 }
 
+/// Around the mesh, which gets another domain.
+abacus_status insert_outside(Mesh &mesh) {
+    auto points = random_points(700, 9);
+    for (Input &p : points)
+        for (double &x : p.point) x = 20 * x - 10;
+    return mesh.insert(points);
+}
+
 void PrintTo(const Work &work, std::ostream *out) { *out << work.name; }
 
 const Work works[] = {
@@ -118,6 +126,7 @@ const Work works[] = {
     {"stage_through_spools", 0, 0, [](Mesh &mesh) { return mesh.stage(random_points(400, 1), 1); }},
     {"insert", 0, 0, [](Mesh &mesh) { return mesh.insert(random_points(1500, 1)); }},
     {"insert_more", 700, 400, [](Mesh &mesh) { return mesh.insert(random_points(700, 7)); }},
+    {"insert_outside", 700, 400, insert_outside},
     {"stage_more", 500, 500, [](Mesh &mesh) { return mesh.stage(random_points(300, 2)); }},
     {"load", 0, 0, [](Mesh &mesh) { return load(mesh, false, ample); }},
     {"load_with_a_hole", 0, 0, [](Mesh &mesh) { return load(mesh, true, ample); }},

@@ -21,6 +21,7 @@ abacus_header full_header(unsigned attributes) {
         header.upper[i] = 5e-324 * i;
     }
     header.stamp = UINT64_MAX;
+    header.outside = 7;
     header.staged = 1000;
     header.inserted = 900;
     header.vertices = 800;

@@ -126,7 +126,9 @@ template <int D, class Word> void expect_children_beyond_their_facets() {
                 const Word child = is_first_ghost ? ghost_across<D>(parent, f, everywhere)
                                                   : child_across(parent, f, everywhere);
                 EXPECT_EQ(child[is_first_ghost ? D : facet_back(f)], apex);
-                if (is_ghost && f != D) EXPECT_EQ(child[D], infinity);
+                if (is_ghost && f != D) {
+                    EXPECT_EQ(child[D], infinity);
+                }
 
                 Word replaced = parent;
                 replaced[f] = apex;

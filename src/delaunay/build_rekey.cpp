@@ -1,0 +1,119 @@
+// Another domain for a mesh that has outgrown its own.
+//
+// The domain is that of the first points, or a given one. Points outside have the codes of its
+// border: they are in the right mesh all the same, but what is near together in space is far
+// apart on the curve, and pages are found slowly. A few do no harm, and a domain around one far
+// away would do harm to all others. But a mesh may begin in one corner and grow, tile by tile or
+// row by row.
+//
+// So the header counts the points that came from outside. When they are many, the mesh is taken
+// apart and built again along the curve of a domain around all of them. Thus it is the same as if
+// they had come at once. There is room around that domain for the next ones, so that a mesh
+// that goes on growing is keyed anew when it is a few times as wide, and pays for all of that
+// no more than for a second build.
+#include "delaunay/build.hpp"
+
+#include "cache/domain_of.hpp"
+#include "delaunay/intake.hpp"
+#include "delaunay/own_vertices.hpp"
+
+#include <algorithm>
+
+namespace abacus {
+
+namespace {
+
+constexpr std::uint64_t harmless = 64; // points outside
+constexpr double room = 1.5; // on either side of the box, of its greatest extent
+
+template <int D> void widen(Box<D> &box) {
+    double extent = 0;
+    for (int i = 0; i < D; ++i) extent = std::max(extent, box.upper[i] - box.lower[i]);
+    if (!(extent < 1e290)) return;
+    for (int i = 0; i < D; ++i) {
+        box.lower[i] -= room * extent;
+        box.upper[i] += room * extent;
+    }
+}
+
+} // namespace
+
+template <int D> bool Build<D>::has_outgrown_domain(std::uint64_t coming) const {
+    const std::uint64_t waiting = header_->staged - header_->inserted;
+    const std::uint64_t points = header_->vertices + header_->duplicates + waiting + coming;
+    return header_->outside > harmless + points / 8;
+}
+
+template <int D> void Build<D>::change_domain(Box<D> box, std::size_t memory) {
+    VertexReader<D> waiting(host_, attributes_, header_->inserted, header_->staged);
+    while (waiting.advance()) box.extend(waiting.point());
+    box.extend(Point<D>(domain_.lower())); // what is known of a given one
+    box.extend(Point<D>(domain_.upper()));
+
+    abacus_header shape = *header_;
+    shape.has_domain = 0; // nor vertices: there is no mesh yet where the points go
+    shape.vertices = 0;
+    Stage<D> points(host_, shape, memory);
+    std::array<Record, D + 1> corners;
+    const bool is_mesh = has_simplices();
+    if (is_mesh) take_apart(points, corners);
+    box.extend(points.box());
+    widen(box);
+    set_domain(*header_, box);
+    forget_simplices();
+    domain_ = domain_of<D>(*header_);
+    repeated_.emplace(host_, domain_, attributes_);
+    if (!is_mesh) return;
+
+    set_domain(shape, box);
+    std::array<VertexIndex, D + 1> vertices;
+    for (int i = 0; i <= D; ++i) vertices[i] = create(corners[i].data());
+    start(vertices);
+    Intake intake(*this);
+    points.emit(intake, shape);
+}
+
+/// Moves all points of the triangulation to a stage, of equal ones the vertex first; but for the
+/// corners of one simplex, from which the next triangulation can begin.
+template <int D>
+void Build<D>::take_apart(Stage<D> &points, std::array<Record, D + 1> &corners) {
+    Cache<D> &cache = core_->cache;
+    Record record;
+    const auto read = [&](Record &to, VertexIndex v) {
+        fill_record<D>(to.data(), cache.vertices().id(v), cache.point(v),
+                       cache.vertices().attributes(v), attributes_);
+    };
+    Handle simplex = no_handle;
+    for (Key page = first_key; simplex == no_handle && page < end_key;) {
+        cache.trim();
+        page = cache.visit(page, [&](Handle h) {
+            if (!cache.simplex(h).is_ghost()) simplex = h;
+        });
+    }
+    if (simplex == no_handle) throw_corrupted("A mesh with vertices has no simplices.");
+    for (int i = 0; i <= D; ++i) read(corners[i], cache.simplex(simplex).vertex[i]);
+
+    OwnVertices<D> own(cache);
+    for (Key page = first_key; page < end_key;) {
+        cache.trim();
+        page = own.collect(page);
+        for (const VertexIndex v : own.list()) {
+            const auto is_at = [&](const Record &corner) {
+                return record_point<D>(corner.data()) == cache.point(v);
+            };
+            if (std::any_of(corners.begin(), corners.end(), is_at)) continue;
+            read(record, v);
+            points.add(record.data(), 1);
+        }
+    }
+    repeated_->flush();
+    RepeatedReader<D> repeated(host_, domain_, attributes_, true);
+    while (repeated.advance()) points.add(repeated.record(), 1);
+}
+
+template bool Build<2>::has_outgrown_domain(std::uint64_t) const;
+template bool Build<3>::has_outgrown_domain(std::uint64_t) const;
+template void Build<2>::change_domain(Box<2>, std::size_t);
+template void Build<3>::change_domain(Box<3>, std::size_t);
+
+} // namespace abacus

@@ -1,0 +1,177 @@
+// Meshes that grow out of their domain get another one, when it is worth it; and stay the mesh
+// of their points.
+#include "cache/domain_of.hpp"
+#include "support/point_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace abacus::test {
+namespace {
+
+constexpr std::size_t little = 40 << 10, ample = 64 << 20;
+
+template <class Dimension> class OtherDomain : public testing::Test {
+protected:
+    static constexpr int D = Dimension::value;
+    using Points = std::vector<InputOf<D>>;
+
+    /// Points of a box with this corner and edge, a few of them twice.
+    Points fresh(std::size_t n, double corner, double edge) {
+        std::uniform_real_distribution<double> unit(0, 1);
+        Points points;
+        for (std::size_t i = 0; i < n; ++i, ++next_id_) {
+            Point<D> p;
+            for (double &x : p) x = corner + edge * unit(random_);
+            if (i > 0 && random_() % 16 == 0) p = points[random_() % i].point;
+            points.push_back({next_id_, p, {double(next_id_) / 4}});
+        }
+        return points;
+    }
+    static Domain<D> domain(const MeshOf<D> &mesh) { return domain_of<D>(mesh.header); }
+    static double edge(const MeshOf<D> &mesh) {
+        return domain(mesh).upper()[0] - domain(mesh).lower()[0];
+    }
+    abacus_status rekey(MeshOf<D> &mesh, int &done) {
+        return mesh.with_build([&](abacus_build *build) {
+            return abacus_build_rekey(build, 16 << 20, &mesh.header, &done, &mesh.error);
+        });
+    }
+
+private:
+    std::mt19937_64 random_{3};
+    std::int64_t next_id_ = 0;
+};
+using Dimensions =
+    testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(OtherDomain, Dimensions);
+
+TYPED_TEST(OtherDomain, ForManyPointsOutside) {
+    constexpr int D = TypeParam::value;
+    for (const std::size_t cache_bytes : {little, ample})
+        for (const std::size_t memory : {std::size_t(1), ample}) {
+            MeshOf<D> mesh(1, cache_bytes);
+            PointModel<D> model;
+            double edge = 1;
+            for (int round = 0; round < 4; ++round, edge *= -7) { // to and fro
+                auto points = this->fresh(500, 0, edge);
+                const auto old = model.points();
+                for (std::size_t i = 0; i < old.size(); i += 40) { // equal to what is there
+                    points.push_back(old[i]);
+                    points.back().id = -std::int64_t(i) - 1000 * round;
+                }
+                model.insert(points);
+                ASSERT_EQ(mesh.insert(points, memory), ABACUS_OK) << mesh.error.detail;
+                EXPECT_EQ(mesh.header.outside, 0u);
+                ASSERT_NO_FATAL_FAILURE(model.expect(mesh));
+            }
+        }
+}
+
+TYPED_TEST(OtherDomain, OneByOneFromNothing) {
+    constexpr int D = TypeParam::value;
+    MeshOf<D> mesh(1, ample);
+    PointModel<D> model;
+    for (int i = 0; i < 300; ++i) {
+        const auto point = this->fresh(1, 0, 1);
+        model.insert(point);
+        ASSERT_EQ(mesh.insert(point), ABACUS_OK) << mesh.error.detail;
+    }
+    model.expect(mesh);
+    EXPECT_GE(this->edge(mesh), 0.9);
+    EXPECT_LE(mesh.header.outside, 110u);
+}
+
+TYPED_TEST(OtherDomain, AsFewPagesAsOfAFreshMesh) {
+    constexpr int D = TypeParam::value;
+    MeshOf<D> mesh(1), fresh(1);
+    const auto corner = this->fresh(2000, 0, 0.05), all = this->fresh(20000, 0, 1);
+    ASSERT_EQ(mesh.insert(corner), ABACUS_OK);
+    ASSERT_EQ(mesh.insert(all), ABACUS_OK);
+    ASSERT_EQ(fresh.insert(all), ABACUS_OK);
+    ASSERT_EQ(fresh.insert(corner), ABACUS_OK);
+    EXPECT_LE(double(mesh.host.pages.size()), 1.15 * double(fresh.host.pages.size()));
+    EXPECT_EQ(mesh.positions(), fresh.positions());
+}
+
+TYPED_TEST(OtherDomain, NotForAFewFarAway) {
+    constexpr int D = TypeParam::value;
+    MeshOf<D> mesh(1);
+    PointModel<D> model;
+    auto points = this->fresh(1000, 0, 1);
+    model.insert(points);
+    ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+    const Domain<D> before = this->domain(mesh);
+    points = this->fresh(20, 1e9, 1e9);
+    model.insert(points);
+    ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+    EXPECT_EQ(mesh.header.outside, 20u);
+    EXPECT_EQ(this->domain(mesh).upper(), before.upper());
+    int done = 1;
+    ASSERT_EQ(this->rekey(mesh, done), ABACUS_OK);
+    EXPECT_EQ(done, 0);
+    EXPECT_EQ(mesh.header.outside, 20u);
+    model.expect(mesh);
+}
+
+TYPED_TEST(OtherDomain, WithPointsThatWait) {
+    constexpr int D = TypeParam::value;
+    MeshOf<D> mesh(1, little);
+    PointModel<D> model;
+    auto points = this->fresh(600, 0, 1);
+    model.insert(points);
+    ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+    points = this->fresh(600, -3, 5);
+    model.stage(points);
+    ASSERT_EQ(mesh.stage(points), ABACUS_OK);
+    EXPECT_GT(mesh.header.outside, 300u);
+    int done = 0;
+    ASSERT_EQ(this->rekey(mesh, done), ABACUS_OK);
+    EXPECT_EQ(done, 1);
+    EXPECT_EQ(mesh.header.staged - mesh.header.inserted, 600u);
+    EXPECT_GE(this->edge(mesh), 5);
+    model.expect(mesh);
+    ASSERT_EQ(this->rekey(mesh, done), ABACUS_OK);
+    EXPECT_EQ(done, 0);
+    ASSERT_EQ(mesh.build(), ABACUS_OK);
+    model.insert({});
+    model.expect(mesh);
+}
+
+TYPED_TEST(OtherDomain, WhereAllPointsLieOnALine) {
+    constexpr int D = TypeParam::value;
+    MeshOf<D> mesh(1);
+    PointModel<D> model;
+    for (const double edge : {1.0, 100.0, 1e4}) {
+        auto points = this->fresh(300, 0, edge);
+        for (auto &p : points) p.point.fill(p.point[0]);
+        model.insert(points);
+        ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+        EXPECT_EQ(mesh.header.vertices, 0u);
+        EXPECT_GE(this->edge(mesh), 0.9 * edge);
+    }
+    const auto points = this->fresh(300, 0, 1e6);
+    model.insert(points);
+    ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+    model.expect(mesh);
+}
+
+// Who inserts a few points into a large mesh does not wait until all of it has other keys.
+TYPED_TEST(OtherDomain, OfALargeMeshNotForAFewPoints) {
+    constexpr int D = TypeParam::value;
+    MeshOf<D> mesh(1);
+    ASSERT_EQ(mesh.insert(this->fresh(75000, 0, 1)), ABACUS_OK);
+    const Domain<D> before = this->domain(mesh);
+    for (int i = 0; i < 26; ++i) ASSERT_EQ(mesh.insert(this->fresh(500, 1.3, 2)), ABACUS_OK);
+    EXPECT_EQ(this->domain(mesh).upper(), before.upper());
+    EXPECT_GT(mesh.header.outside, 12000u);
+    ASSERT_EQ(mesh.insert(this->fresh(2000, 1.3, 2)), ABACUS_OK);
+    EXPECT_EQ(mesh.header.outside, 0u);
+    EXPECT_GE(this->edge(mesh), 3);
+    EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+    EXPECT_EQ(mesh.header.vertices + mesh.header.duplicates, 90000u);
+}
+
+} // namespace
+} // namespace abacus::test
