@@ -118,6 +118,22 @@ CALL abacus_build('once', 3);
 SELECT * FROM abacus_check('once');
 RESET default_transaction_isolation;
 
+-- A large mesh that single rows have led out of its domain gets another one, also when nothing waits.
+SELECT count(abacus_triangulate('corner', 'SELECT i, i * 7919 % 70001, i * 104729 % 70003 FROM generate_series(1::bigint, 70000) i'));
+CREATE VIEW outside AS SELECT value AS outside FROM abacus_stats('corner') WHERE name = 'outside';
+DO $$ BEGIN FOR n IN 0 .. 9 LOOP
+    PERFORM abacus_insert('corner', format('SELECT 70000 + i, 100000 + i * 7919 %% 70001, i * 104729 %% 70003 FROM generate_series(%s + 1::bigint, %s + 1050) i', 1050 * n, 1050 * n));
+END LOOP; END $$;
+TABLE outside;
+CREATE TEMP TABLE before AS SELECT v0, v1, v2 FROM abacus_simplices('corner');
+CALL abacus_build('corner');
+TABLE outside;
+SELECT count(*) FROM (SELECT v0, v1, v2 FROM abacus_simplices('corner') EXCEPT TABLE before) AS other;
+SELECT count(*) FROM (TABLE before EXCEPT SELECT v0, v1, v2 FROM abacus_simplices('corner')) AS gone;
+SELECT * FROM abacus_check('corner');
+DROP TABLE before;
+DROP TABLE corner CASCADE;
+
 -- Without its vertex table a mesh cannot be built.
 DROP TABLE line_vertices;
 CALL abacus_build('line');
