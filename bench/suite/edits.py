@@ -9,6 +9,7 @@ import time
 import server
 from points import PointSet
 
+TILES_OF_AN_AXIS = {2: 20, 3: 6}
 SINGLE = {"full": 5000, "quick": 1000, "smoke": 20}
 
 
@@ -28,6 +29,7 @@ class Edits:
         runs = {"full": 3, "quick": 1, "smoke": 1}[suite.mode]
         self.many("insert", f"id > {self.size}", self.size, runs)
         self.many("delete", f"id <= {self.size} AND id % 2 = 0", self.size // 2, runs)
+        self.grow(runs)
         self.queue()
         self.space(self.size // 20)
         self.space(min(1000, self.size // 20))
@@ -62,6 +64,34 @@ class Edits:
             samples.append(sample)
             self.suite.say(f"  {change} {count:,} points: {sample['wall']:.3f} s")
         self.record(f"{change} many", samples, changed=count)
+
+    def grow(self, runs):
+        """A mesh that begins with the points of one tile, a corner, and gets the others tile by tile."""
+        axis = TILES_OF_AN_AXIS[self.dimension]
+        tiles = axis ** self.dimension
+        tile = " + ".join(f"floor({axis} * {x})::int * {axis ** i}"
+                          for i, x in enumerate(self.points.columns.split(",")))
+        server.drop("tiles")
+        server.query(f"CREATE TABLE tiles AS SELECT *, {tile} AS tile FROM points WHERE id <= {self.size};"
+                     " CREATE INDEX ON tiles (tile); ANALYZE tiles")
+        of_tile = f"SELECT id, {self.points.columns} FROM tiles WHERE tile ="
+        samples = []
+        for _ in range(runs):
+            server.drop("mesh", "mesh_vertices")
+            server.query(f"SELECT abacus_triangulate('mesh', '{of_tile} 0', dimension => {self.dimension})")
+            server.settle()
+            with server.Session() as session:
+                sample = session.timed(f"DO $$ BEGIN FOR tile IN 1 .. {tiles - 1} LOOP"
+                                       f" PERFORM abacus_insert('mesh', '{of_tile} ' || tile); COMMIT;"
+                                       " END LOOP; END $$")
+            del sample["printed"]
+            samples.append(sample)
+            self.suite.say(f"  {tiles} tiles: {sample['wall']:.3f} s")
+        count = int(server.query("SELECT value FROM abacus_stats('mesh') WHERE name = 'points'"))
+        if count != self.size:
+            raise server.Failure(f"{count} of {self.size} points are in the tiles")
+        server.drop("tiles")
+        self.record("grow many", samples, changed=self.size, tiles=tiles)
 
     def space(self, at_once):
         """Half of the points replaced, at random places, so many in a statement: the table's size."""
