@@ -7,7 +7,7 @@ use warnings;
 use Exporter 'import';
 use Test::More;
 
-our @EXPORT = qw(mesh_figure mesh_content mesh_bytes mesh_pages spread_mesh other_simplices is_sound is_intact);
+our @EXPORT = qw(mesh_figure mesh_content mesh_bytes mesh_pages spread_mesh create_rest other_simplices is_sound is_intact);
 
 # Value of a row of abacus_stats.
 sub mesh_figure
@@ -50,6 +50,23 @@ sub spread_mesh
 {
 	my ($node, $database, $mesh) = @_;
 	$node->safe_psql($database, "UPDATE $mesh SET part = part; UPDATE ${mesh}_vertices SET part = part");
+	return;
+}
+
+# A function rest(cursor): how many rows of a cursor are still to come, all fetched.
+sub create_rest
+{
+	my ($node, $database) = @_;
+	$node->safe_psql($database, <<'SQL');
+CREATE FUNCTION rest(cursor refcursor) RETURNS bigint LANGUAGE plpgsql AS $$
+DECLARE
+	rows bigint;
+BEGIN
+	MOVE FORWARD ALL FROM cursor;
+	GET DIAGNOSTICS rows = ROW_COUNT;
+	RETURN rows;
+END $$
+SQL
 	return;
 }
 

@@ -26,15 +26,8 @@ sub size { return sql("SELECT pg_total_relation_size('$_[0]') + pg_total_relatio
 
 sql(q{SELECT setseed(0.5);
 	CREATE TABLE points AS
-	SELECT i AS id, random() AS x, random() AS y, random() AS z, random() AS turn FROM generate_series(1, 60000) AS i;
-	CREATE FUNCTION rest(cursor refcursor) RETURNS bigint LANGUAGE plpgsql AS $$
-	DECLARE
-		rows bigint;
-	BEGIN
-		MOVE FORWARD ALL FROM cursor;
-		GET DIAGNOSTICS rows = ROW_COUNT;
-		RETURN rows;
-	END $$});
+	SELECT i AS id, random() AS x, random() AS y, random() AS z, random() AS turn FROM generate_series(1, 60000) AS i;});
+create_rest($node, 'postgres');
 
 # Statements that take a twentieth of the points away, and put them back.
 sub change

@@ -38,15 +38,8 @@ sub told
 sql(q{CREATE EXTENSION abacus; CREATE EXTENSION amcheck; SELECT setseed(0.5);
 	CREATE TABLE points AS SELECT i AS id, random() AS x, random() AS y FROM generate_series(1, 60000) AS i;
 	SELECT abacus_triangulate('plane', 'SELECT * FROM points');
-	SELECT abacus_triangulate('other', 'SELECT * FROM points');
-	CREATE FUNCTION rest(cursor refcursor) RETURNS bigint LANGUAGE plpgsql AS $$
-	DECLARE
-		rows bigint;
-	BEGIN
-		MOVE FORWARD ALL FROM cursor;
-		GET DIAGNOSTICS rows = ROW_COUNT;
-		RETURN rows;
-	END $$});
+	SELECT abacus_triangulate('other', 'SELECT * FROM points');});
+create_rest($node, 'postgres');
 my $fresh = pages('plane');
 my $content = mesh_content($node, 'postgres', 'plane');
 my $header = 'SELECT xmin FROM plane WHERE code = -1';
