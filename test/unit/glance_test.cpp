@@ -1,13 +1,12 @@
 // Places located in the bytes of pages: the same answers as by a walk in memory, with few
 // searches of the host, wherever that has moved its pages.
 #include "cache/page_writer.hpp"
-#include "support/oracle.hpp"
+#include "support/containment.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
-#include <tuple>
 
 namespace abacus::test {
 namespace {
@@ -19,10 +18,6 @@ template <int D> Point<D> unit_point(Random &random) {
     Point<D> p;
     for (double &x : p) x = std::uniform_real_distribution<double>(0, 1)(random);
     return p;
-}
-
-template <int D> auto rank(const abacus_simplex &s) {
-    return std::tuple(s.code, s.id[0], s.id[1], s.id[2], D == 2 ? 0 : s.id[D]);
 }
 
 /// A mesh far larger than the cache of the reader whose answers are compared.

@@ -1,34 +1,15 @@
 // Locating and walking in loaded meshes that are not Delaunay, not convex, in pieces: against
 // brute force over all simplices.
+#include "support/containment.hpp"
 #include "support/triangulations.hpp"
 
 #include <gtest/gtest.h>
 
-#include <tuple>
 
 namespace abacus::test {
 namespace {
 
 constexpr std::size_t little = 60 << 10, ample = 64 << 20;
-
-template <int D> auto rank(const abacus_simplex &s) {
-    return std::tuple(s.code, std::vector<std::int64_t>(s.id, s.id + D + 1));
-}
-
-template <int D> bool contains(const abacus_simplex &s, const Point<D> &p) {
-    std::array<Point<D>, D + 1> at;
-    Corners<D> corners;
-    for (int k = 0; k <= D; ++k) {
-        std::copy_n(s.corner[k], D, at[k].begin());
-        corners[k] = &at[k];
-    }
-    for (int k = 0; k <= D; ++k) {
-        corners[k] = &p;
-        if (orientation<D>(corners) < 0) return false;
-        corners[k] = &at[k];
-    }
-    return true;
-}
 
 template <int D> std::vector<Point<D>> grid(int n) {
     std::vector<Point<D>> points;

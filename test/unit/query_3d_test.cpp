@@ -1,7 +1,6 @@
 // Locating, walking and scanning tetrahedra: against brute force over all of them, which
 // the tetrahedralization tests compare with CGAL, and against CGAL's own point location.
-#include "geometry/predicates.hpp"
-#include "support/oracle.hpp"
+#include "support/containment.hpp"
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -12,7 +11,6 @@
 #include <array>
 #include <map>
 #include <random>
-#include <tuple>
 
 namespace abacus::test {
 namespace {
@@ -47,27 +45,6 @@ void build(Mesh3 &mesh, std::vector<InputOf<3>> input, unsigned seed = 0) {
     ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message << mesh.error.detail;
 }
 
-auto rank(const abacus_simplex &s) {
-    return std::tuple(s.code, s.id[0], s.id[1], s.id[2], s.id[3]);
-}
-
-/// Sign of the orientation with corner i replaced by p; p = null: of the simplex itself.
-int side(const abacus_simplex &s, int i, const Point<3> *p) {
-    std::array<Point<3>, 4> at;
-    Corners<3> corners;
-    for (int k = 0; k < 4; ++k) {
-        std::copy_n(s.corner[k], 3, at[k].begin());
-        corners[k] = k == i && p != nullptr ? p : &at[k];
-    }
-    return orientation<3>(corners);
-}
-
-bool contains(const abacus_simplex &s, const Point<3> &p) {
-    for (int i = 0; i < 4; ++i)
-        if (side(s, i, &p) < 0) return false;
-    return true;
-}
-
 /// The facet opposite corner i, its ids in order.
 Facet facet(const abacus_simplex &s, int i) {
     Facet ids{s.id[(i + 1) % 4], s.id[(i + 2) % 4], s.id[(i + 3) % 4]};
@@ -96,13 +73,13 @@ TEST(LocateInSpace, GivesTheFirstOfTheTetrahedraAroundThePoint) {
         for (const Point<3> &p : targets) {
             const abacus_simplex *expected = nullptr;
             for (const abacus_simplex &s : all)
-                if (contains(s, p) && (expected == nullptr || rank(s) < rank(*expected)))
+                if (contains<3>(s, p) && (expected == nullptr || rank<3>(s) < rank<3>(*expected)))
                     expected = &s;
             for (OpenMesh3 *mesh : {&large, &small}) {
                 abacus_simplex found;
                 ASSERT_EQ(mesh->locate(p, found), expected ? ABACUS_OK : ABACUS_END);
                 if (expected) {
-                    EXPECT_EQ(rank(found), rank(*expected));
+                    EXPECT_EQ(rank<3>(found), rank<3>(*expected));
                 }
             }
         }
@@ -144,7 +121,7 @@ TEST(LocateInSpace, TreatsOddCoordinatesProperly) {
     abacus_simplex plus, minus;
     ASSERT_EQ(open.locate({0.0, 0.0, 0.0}, plus), ABACUS_OK);
     ASSERT_EQ(open.locate({-0.0, 0.0, -0.0}, minus), ABACUS_OK);
-    EXPECT_EQ(rank(plus), rank(minus));
+    EXPECT_EQ(rank<3>(plus), rank<3>(minus));
     for (const double far : {1e300, -1e300, 1.7e308, -1.7e308, -5e-324})
         EXPECT_EQ(open.locate({0.5, far, 0.5}, plus), ABACUS_END);
     for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
@@ -173,7 +150,7 @@ TEST(WalkInSpace, CrossesEveryFacetOfEveryTetrahedron) {
                 if (both.size() == 1)
                     ++hull;
                 else
-                    EXPECT_EQ(rank(found), rank(*both[both[0] == &s]));
+                    EXPECT_EQ(rank<3>(found), rank<3>(*both[both[0] == &s]));
             }
         EXPECT_EQ(hull, mesh.header.ghosts);
         EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
@@ -190,7 +167,7 @@ TEST(WalkInSpace, TakesTheIdsInAnyOrderAndRefusesOthers) {
         std::swap(s.id[0], s.id[3]); // the facet opposite the same corner
         ASSERT_EQ(open.walk(s, 3, found), status);
         if (status == ABACUS_OK) {
-            EXPECT_EQ(rank(found), rank(expected));
+            EXPECT_EQ(rank<3>(found), rank<3>(expected));
         }
         for (const int facet : {-1, 4, INT32_MIN, INT32_MAX}) {
             OpenMesh3 other(mesh, ample);
@@ -218,7 +195,7 @@ TEST(ScanInSpace, GivesPositiveTetrahedraAndAClosedHull) {
             ++finite;
             EXPECT_EQ(s.id[0], *std::min_element(s.id, s.id + 4));
             EXPECT_EQ(s.id[1], *std::min_element(s.id + 1, s.id + 4));
-            EXPECT_EQ(side(s, 0, nullptr), 1);
+            EXPECT_EQ(side<3>(s, 0, nullptr), 1);
         }
         EXPECT_EQ(finite, mesh.header.simplices);
         EXPECT_EQ(ghosts, mesh.header.ghosts);

@@ -1,7 +1,6 @@
 // Locating, walking and scanning: against brute force over all triangles, which the
 // triangulation tests compare with CGAL, and against CGAL's own point location.
-#include "geometry/predicates.hpp"
-#include "support/oracle.hpp"
+#include "support/containment.hpp"
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -37,18 +36,10 @@ void build(Mesh &mesh, std::vector<Input> input, unsigned seed = 0) {
     ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message << mesh.error.detail;
 }
 
-auto rank(const abacus_simplex &s) { return std::tuple(s.code, s.id[0], s.id[1], s.id[2]); }
-
 Point<2> corner(const abacus_simplex &s, int i) { return {s.corner[i][0], s.corner[i][1]}; }
 
-bool contains(const abacus_simplex &s, const Point<2> &p) {
-    for (int i = 0; i < 3; ++i)
-        if (orientation(corner(s, (i + 1) % 3), corner(s, (i + 2) % 3), p) < 0) return false;
-    return true;
-}
-
 void expect_same(const abacus_simplex &a, const abacus_simplex &b) {
-    EXPECT_EQ(rank(a), rank(b));
+    EXPECT_EQ(rank<2>(a), rank<2>(b));
     EXPECT_EQ(a.ghost, b.ghost);
     for (int i = 0; i < 3; ++i) EXPECT_EQ(corner(a, i), corner(b, i));
 }
@@ -70,7 +61,7 @@ TEST(Locate, GivesTheFirstOfTheTrianglesAroundThePoint) {
         for (const Point<2> &p : targets) {
             const abacus_simplex *expected = nullptr;
             for (const abacus_simplex &s : all)
-                if (contains(s, p) && (expected == nullptr || rank(s) < rank(*expected)))
+                if (contains<2>(s, p) && (expected == nullptr || rank<2>(s) < rank<2>(*expected)))
                     expected = &s;
             for (OpenMesh *mesh : {&large, &small}) {
                 abacus_simplex found;
