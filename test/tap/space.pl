@@ -19,6 +19,8 @@ $node->start;
 # Each change is a transaction of its own, and meets a few of the mesh's pages.
 $node->safe_psql('postgres', <<'SQL');
 CREATE EXTENSION abacus;
+-- always the same places: on them depends how far back a row lies that nobody has replaced since
+SELECT setseed(0.5);
 CREATE TABLE points AS SELECT n AS id, random() AS x, random() AS y FROM generate_series(1, 40000) AS n;
 SELECT abacus_triangulate('mesh', 'SELECT * FROM points WHERE id <= 20000');
 CREATE PROCEDURE exchange(first int, last int) LANGUAGE plpgsql AS $$
@@ -59,9 +61,7 @@ $keeper->finish;
 
 cmp_ok($grown, '>', 3 * $fresh, 'old versions that somebody sees stay');
 cmp_ok($after, '<=', $grown, 'afterwards their space is used');
-# One row that nobody has replaced since can lie further back than all others: of a file sixteen
-# times as long 1.2 times are left most often, 1.65 were seen.
-cmp_ok($vacuumed, '<=', 2 * $fresh, 'and VACUUM cuts what is left');
+cmp_ok($vacuumed, '<=', 1.6 * $fresh, 'and VACUUM cuts what is left');
 is_sound($node, 'postgres', 'mesh', 'after it');
 is(mesh_figure($node, 'postgres', 'mesh', 'points'), 20000, 'all points are there');
 
