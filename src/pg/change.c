@@ -8,8 +8,6 @@
  */
 #include "postgres.h"
 
-#include "miscadmin.h"
-
 #include "pg/build.h"
 #include "pg/settings.h"
 
@@ -43,8 +41,8 @@ change_open_stage(Change *change, const abacus_header *shape)
 	abacus_stage_close(change->stage);
 	change->stage = NULL;
 	change->points = 0;
-	host_run(host, abacus_stage_open(&host->table, shape, (size_t) maintenance_work_mem * 1024,
-									 &change->stage, &host->failure));
+	host_run(host, abacus_stage_open(&host->table, shape, setting_sort_bytes(), &change->stage,
+									 &host->failure));
 }
 
 /* Adds points to the stage. */

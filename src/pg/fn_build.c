@@ -71,8 +71,8 @@ rekey(Writer *writer, abacus_build *build)
 	Host	   *host = writer->host;
 	int			done;
 
-	host_run(host, abacus_build_rekey(build, (size_t) maintenance_work_mem * 1024, writer->header,
-									  &done, &host->failure));
+	host_run(host, abacus_build_rekey(build, setting_sort_bytes(), writer->header, &done,
+									  &host->failure));
 	return done;
 }
 

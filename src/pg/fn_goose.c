@@ -10,6 +10,7 @@
 
 #include "pg/build.h"
 #include "pg/goose_table.h"
+#include "pg/settings.h"
 #include "pg/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_goose);
@@ -116,7 +117,7 @@ triangulate(GooseTable *table, Source *source, abacus_header *header,
 
 	goose_table_own(table, host);
 	progress_begin(&host->progress, table->relid);
-	host_run(host, abacus_stage_open(&host->table, header, (size_t) maintenance_work_mem * 1024,
+	host_run(host, abacus_stage_open(&host->table, header, setting_sort_bytes(),
 									 &stage, &host->failure));
 	host_own(host, stage, (void (*) (void *)) abacus_stage_close);
 	source_open(source, header);

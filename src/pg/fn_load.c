@@ -7,11 +7,11 @@
  */
 #include "postgres.h"
 
-#include "miscadmin.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
 #include "pg/build.h"
+#include "pg/settings.h"
 #include "pg/sql_function.h"
 #include "pg/writer.h"
 
@@ -45,9 +45,8 @@ load(Oid mesh, Source *vertices, Source *simplices, bool reorient)
 
 	writer_begin(&writer, mesh, MESH_WRITE, "abacus_load()");
 	host = writer.host;
-	host_run(host, abacus_load_open(&host->table, writer.header,
-									(size_t) maintenance_work_mem * 1024, reorient, &loading,
-									&host->failure));
+	host_run(host, abacus_load_open(&host->table, writer.header, setting_sort_bytes(), reorient,
+									&loading, &host->failure));
 	host_own(host, loading, (void (*) (void *)) abacus_load_close);
 	source_open(vertices, writer.header);
 	while ((count = source_fetch(vertices, &records)) > 0)

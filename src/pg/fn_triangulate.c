@@ -4,11 +4,11 @@
  */
 #include "postgres.h"
 
-#include "miscadmin.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
 #include "pg/build.h"
+#include "pg/settings.h"
 #include "pg/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_triangulate);
@@ -25,7 +25,7 @@ abacus_sql_triangulate(PG_FUNCTION_ARGS)
 	int			rekeyed;
 
 	change_open_build(change);
-	host_run(host, abacus_build_rekey(change->build, (size_t) maintenance_work_mem * 1024, header,
+	host_run(host, abacus_build_rekey(change->build, setting_sort_bytes(), header,
 									  &rekeyed, &host->failure));
 	host_run(host, abacus_build_run(change->build, 0, header, &host->failure));
 	simplices = header->simplices;

@@ -3,6 +3,7 @@
  */
 #include "postgres.h"
 
+#include "miscadmin.h"
 #include "utils/guc.h"
 
 #include "pg/host.h"
@@ -44,6 +45,20 @@ size_t
 setting_cache_bytes(void)
 {
 	return (size_t) cache_size_mb * 1024 * 1024;
+}
+
+/* Bytes that bringing points into order may take, for a change of a mesh. */
+size_t
+setting_sort_bytes(void)
+{
+	return (size_t) maintenance_work_mem * 1024;
+}
+
+/* The same for a query. */
+size_t
+setting_query_sort_bytes(void)
+{
+	return (size_t) work_mem * 1024;
 }
 
 /* Whether VACUUM moves the rows of meshes before it cuts their files. */
