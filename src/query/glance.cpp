@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <functional>
+#include <limits>
 #include <utility>
 
 namespace abacus {
@@ -14,13 +16,17 @@ namespace abacus {
 template <int D>
 bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex) {
     looks_ = 0;
-    const KnownPage *const known = known_.find(code);
-    if (known == nullptr) { // then it is not known either how far to look around
+    KnownPage own; // a copy: others will be added
+    if (const Held *const held = find_held(code)) {
+        own = held->page;
+    } else if (const KnownPage *const known = known_.find(code)) {
+        own = *known;
+    } else { // then it is not known either how far to look around
         if (is_cached(code)) return false;
         const Outcome outcome = look(code, nullptr, p, simplex);
         if (outcome != Outcome::not_here) return outcome == Outcome::found;
+        own = find_held(code)->page;
     }
-    const KnownPage own = known == nullptr ? at_hand_ : *known; // a copy: others will be added
     const Cell<D> cell = cache_.domain().cell(p);
     for (const double distance : distances) {
         Codes codes;
@@ -32,7 +38,8 @@ bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &sim
         if (is_first) {
             code = *codes.begin();
             const auto is_here = [&](std::uint64_t c) { return is_cached(c); };
-            if (std::all_of(codes.begin(), codes.end(), is_here)) return false;
+            if (find_held(code) == nullptr && std::all_of(codes.begin(), codes.end(), is_here))
+                return false;
         }
         for (const std::uint64_t c : codes) {
             if (c < own.lower || has_looked(c)) continue;
@@ -102,70 +109,158 @@ bool Glance<D>::fetch(std::uint64_t code, const KnownPage *known, abacus_page &p
     return host.find(ABACUS_SIMPLEX_PAGES, {code, 0}, page);
 }
 
+template <int D> typename Glance<D>::Held *Glance<D>::find_held(std::uint64_t code) {
+    const Key key{code, 0};
+    for (Held &held : held_)
+        if (held.lower <= key && key < held.upper) return &held;
+    return nullptr;
+}
+
+template <int D>
+typename Glance<D>::Held &Glance<D>::hold(const abacus_page &page, const KnownPage *known) {
+    Held &held = *std::min_element(held_.begin(), held_.end(), [](const Held &a, const Held &b) {
+        return a.last_use < b.last_use;
+    });
+    ++pages_read_;
+    held.upper = {}; // no page's, until all went well
+    held.asked = 0;
+    held.prefixed = 0;
+    held.has_boxes = false;
+    PageView<D> &view = held.view;
+    std::memcpy(held.bytes.data(), page.bytes, std::min(page.size, held.bytes.size()));
+    view.open(held.bytes.data(), page.size, cache_.vertices().attribute_count());
+    if (!(view.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
+    const bool is_known = known != nullptr && known->location == page.location &&
+                          known->bytes == page.bytes;
+    held.page = is_known ? *known
+                         : KnownPage{view.lower().code, view.upper().code, page.location,
+                                     spacing(view), page.bytes};
+    if (!is_known && view.lower().part == 0) known_.learn(held.page);
+    held.lower = view.lower();
+    held.upper = view.upper();
+    return held;
+}
+
 template <int D>
 typename Glance<D>::Outcome Glance<D>::look(std::uint64_t code, const KnownPage *known,
                                             const Point<D> &p, abacus_simplex &simplex) {
-    abacus_page page{};
-    if (!fetch(code, known, page) || (looks_ == 0 && was_seen(page.key))) return Outcome::not_now;
-    view_.open(page.bytes, page.size, cache_.vertices().attribute_count());
-    if (!(view_.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
-    looked_[looks_++] = {view_.lower(), view_.upper()};
-    if (known == nullptr || known->location != page.location || known->bytes != page.bytes) {
-        at_hand_ = {view_.lower().code, view_.upper().code, page.location, spacing(), page.bytes};
-        if (view_.lower().part == 0) known_.learn(at_hand_);
+    Held *held = find_held(code);
+    if (held == nullptr) {
+        abacus_page page{};
+        if (!fetch(code, known, page)) return Outcome::not_now;
+        if (!in_order_ && looks_ == 0 && was_seen(page.key)) return Outcome::not_now;
+        held = &hold(page, known);
     }
+    held->last_use = ++uses_;
+    ++held->asked;
+    looked_[looks_++] = {held->lower, held->upper};
 
-    const int number = search(p);
+    const int number = search(*held, p);
     if (number < 0) return Outcome::not_here;
-    describe(view_, number, cache_.domain(), simplex);
+    describe(held->view, number, cache_.domain(), simplex);
     return Outcome::found;
 }
 
-template <int D> double Glance<D>::spacing() const {
+template <int D> double Glance<D>::spacing(const PageView<D> &view) {
     // Of points at random; some of the page's vertices are other pages', too.
     constexpr double simplices_per_vertex = D == 2 ? 2 : 6.77;
     constexpr std::uint64_t end = std::uint64_t{1} << (D * code_bits<D>);
-    const double cells = static_cast<double>(std::min(view_.upper().code, end)) -
-                         static_cast<double>(std::min(view_.lower().code, end));
-    const double cells_per_vertex = cells * simplices_per_vertex / std::max(view_.simplices(), 1);
+    const double cells = static_cast<double>(std::min(view.upper().code, end)) -
+                         static_cast<double>(std::min(view.lower().code, end));
+    const double cells_per_vertex = cells * simplices_per_vertex / std::max(view.simplices(), 1);
     return D == 2 ? std::sqrt(cells_per_vertex) : std::cbrt(cells_per_vertex);
 }
 
 // ---- In a page ------------------------------------------------------------------------
 
-template <int D> void Glance<D>::compare(const Point<D> &p, int begin, int end) {
-    std::array<Column::Prefix, page_vertices<D>> others;
+template <int D> void Glance<D>::read_prefixes(Held &held, int end) {
+    if (held.prefixed >= end) return;
+    for (int axis = 0; axis < D; ++axis)
+        held.view.ranks(axis).prefixes(static_cast<std::size_t>(held.prefixed),
+                                       static_cast<std::size_t>(end),
+                                       &held.prefixes[axis][held.prefixed]);
+    held.prefixed = end;
+}
+
+template <int D> void Glance<D>::compare(Held &held, const Point<D> &p, int begin, int end) {
+    read_prefixes(held, end);
     for (int axis = 0; axis < D; ++axis) {
-        const Column &ranks = view_.ranks(axis);
-        const Column::Prefix own = ranks.prefix(ordered(p[axis]));
-        ranks.prefixes(static_cast<std::size_t>(begin), static_cast<std::size_t>(end),
-                       &others[begin]);
+        const auto &prefixes = held.prefixes[axis];
+        const Prefix own = held.view.ranks(axis).prefix(ordered(p[axis]));
         const int below = 1 << 2 * axis, above = 2 << 2 * axis;
         for (int v = begin; v < end; ++v) {
-            const int side = (others[v] < own ? below : 0) | (others[v] > own ? above : 0);
+            const int side = (prefixes[v] < own ? below : 0) | (prefixes[v] > own ? above : 0);
             sides_[v] = static_cast<Side>(axis == 0 ? side : sides_[v] | side);
         }
     }
 }
 
-template <int D> bool Glance<D>::contains(int simplex, const Point<D> &p) {
-    if (view_.is_ghost(simplex)) return false;
-    for (int i = 0; i <= D; ++i) view_.read_point(view_.corner(simplex, i));
-    return in_simplex<D>(corners_of(view_, simplex), p) > 0;
+template <int D> bool Glance<D>::contains(PageView<D> &view, int simplex, const Point<D> &p) {
+    if (view.is_ghost(simplex)) return false;
+    for (int i = 0; i <= D; ++i) view.read_point(view.corner(simplex, i));
+    return in_simplex<D>(corners_of(view, simplex), p) > 0;
 }
 
-template <int D> int Glance<D>::search(const Point<D> &p) {
+template <int D> int Glance<D>::search_and_read(Held &held, const Point<D> &p) {
     constexpr int at_once = 64; // simplices
-    sides_[view_.vertices()] = static_cast<Side>(-1);
-    for (int s = 0, compared = 0; s < view_.simplices();) {
-        const int end = view_.read_simplices(s + at_once);
-        compare(p, std::exchange(compared, view_.vertices_read()), view_.vertices_read());
+    PageView<D> &view = held.view;
+    sides_[view.vertices()] = static_cast<Side>(-1);
+    for (int s = 0, compared = 0; s < view.simplices();) {
+        const int end = view.read_simplices(s + at_once);
+        compare(held, p, std::exchange(compared, view.vertices_read()), view.vertices_read());
         for (; s < end; ++s) {
-            const Lanes &corners = view_.corners(s);
+            const Lanes &corners = view.corners(s);
             unsigned common = sides_[corners[0]];
             for (int i = 1; i <= D; ++i) common &= sides_[corners[i]];
-            if (common == 0 && contains(s, p)) return s;
+            if (common == 0 && contains(view, s, p)) return s;
         }
+    }
+    return -1;
+}
+
+template <int D> void Glance<D>::make_boxes(Held &held) {
+    constexpr auto most = std::numeric_limits<Prefix>::max(), least = Prefix(~most);
+    PageView<D> &view = held.view;
+    const int n = view.read_simplices(view.simplices());
+    read_prefixes(held, view.vertices());
+    for (int axis = 0; axis < D; ++axis) {
+        const auto &prefixes = held.prefixes[axis];
+        auto &lower = held.boxes.lower[axis], &upper = held.boxes.upper[axis];
+        for (int s = 0; s < n; ++s) {
+            const Lanes &corners = view.corners(s);
+            Prefix below = most, above = least;
+            for (int i = 0; i <= D && !view.is_ghost(s); ++i) {
+                below = std::min(below, prefixes[corners[i]]);
+                above = std::max(above, prefixes[corners[i]]);
+            }
+            lower[s] = below;
+            upper[s] = above;
+        }
+        std::fill_n(&lower[n], Boxes::at_once, most);
+        std::fill_n(&upper[n], Boxes::at_once, least);
+    }
+    held.has_boxes = true;
+}
+
+template <int D> int Glance<D>::search_boxes(Held &held, const Point<D> &p) {
+    if (!held.has_boxes) make_boxes(held);
+    std::array<PrefixLanes, D> own;
+    for (int axis = 0; axis < D; ++axis)
+        own[axis] = PrefixLanes{} + held.view.ranks(axis).prefix(ordered(p[axis]));
+    const auto load = [](const Prefix *from) {
+        PrefixLanes lanes;
+        std::memcpy(&lanes, from, sizeof lanes);
+        return lanes;
+    };
+    for (int first = 0; first < held.view.simplices(); first += Boxes::at_once) {
+        PrefixLanes inside = PrefixLanes{} - 1;
+        for (int axis = 0; axis < D; ++axis)
+            inside &= (load(&held.boxes.lower[axis][first]) <= own[axis]) &
+                      (own[axis] <= load(&held.boxes.upper[axis][first]));
+        const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(inside);
+        if ((halves[0] | halves[1]) == 0) continue;
+        for (int i = 0; i < Boxes::at_once; ++i)
+            if (inside[i] != 0 && contains(held.view, first + i, p)) return first + i;
     }
     return -1;
 }

@@ -5,6 +5,10 @@
 // simplex in the page's bytes, to decode no more of them than that takes, and to keep nothing
 // but where the page is (known_pages.hpp).
 //
+// The last few pages looked into are held, with all that has been decoded of them: places that
+// come along the curve find theirs there, one after the other. Where several come, the boxes of
+// the page's simplices are worth having: then a place is compared with eight of them at once.
+//
 // A simplex belongs to the page that owns the greatest of its vertices' codes. So that of a
 // place is in the plane one time in ten, in space four in ten, in another page than the one that
 // owns the place itself: in one further on the curve. The vertices are about as far away as they
@@ -12,7 +16,7 @@
 // right page nineteen times in twenty, and four in five.
 //
 // Whether a page will be asked again nobody knows; so it is loaded at the second time, if it
-// is among the last pages looked into.
+// is among the last pages looked into and no longer held.
 #pragma once
 
 #include "cache/cache.hpp"
@@ -35,10 +39,18 @@ public:
     /// loaded. The code is p's, and becomes that of where it may be expected first.
     bool find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex);
 
+    /// From now on places come along the curve: a page that is looked into again will not be
+    /// asked for long.
+    void expect_places_in_order() { in_order_ = true; }
+
     std::size_t bytes() const { return known_.bytes(); }
+    std::uint64_t pages_read() const { return pages_read_; }
 
 private:
     static constexpr std::size_t remembered = 32; // pages
+    static constexpr std::size_t held_at_once = D == 2 ? 8 : 16;
+    /// Places in a held page for which the boxes of its simplices are worth having.
+    static constexpr unsigned worth_boxes = 8;
     /// Distances of places around p, in those of vertices.
     static constexpr std::array<double, 4> distances{0.6, 1.2, 2.2, 4};
     static constexpr int most_codes = 2 * D + (1 << D); // at one of them
@@ -54,6 +66,30 @@ private:
     };
     enum class Outcome { found, not_here, not_now };
 
+    using Prefix = Column::Prefix;
+    using PrefixLanes = Prefix __attribute__((vector_size(16)));
+    /// The least and the greatest prefix of each simplex's vertices on each axis. A ghost
+    /// contains nothing, nor does what follows the last simplex.
+    struct Boxes {
+        static constexpr int at_once = 8;
+        using Bounds = std::array<Prefix, block_slots<D> + at_once>;
+        std::array<Bounds, D> lower, upper;
+    };
+
+    /// A page as it was when it was looked into. A page's bytes are the host's for a while only.
+    struct Held {
+        Key lower{}, upper{}; ///< what it owns; nothing at first
+        KnownPage page;
+        std::uint64_t last_use = 0;
+        unsigned asked = 0;  ///< places looked for
+        int prefixed = 0;    ///< vertices whose prefixes are there
+        bool has_boxes = false;
+        PageView<D> view;
+        std::array<std::array<Prefix, page_vertices<D>>, D> prefixes;
+        Boxes boxes;
+        alignas(8) std::array<unsigned char, ABACUS_PAGE_BYTES> bytes;
+    };
+
     /// Codes of places around a cell.
     static void add_along_axes(const Cell<D> &cell, double distance, Codes &codes);
     static void add_diagonally(const Cell<D> &cell, double distance, Codes &codes);
@@ -61,21 +97,33 @@ private:
     Outcome look(std::uint64_t code, const KnownPage *known, const Point<D> &p,
                  abacus_simplex &simplex);
     bool fetch(std::uint64_t code, const KnownPage *known, abacus_page &page);
+    /// The held page that owns a code, or null.
+    Held *find_held(std::uint64_t code);
+    /// Holds a page, in place of the one used longest ago.
+    Held &hold(const abacus_page &page, const KnownPage *known);
     bool is_cached(std::uint64_t code) const { return cache_.is_cached({code, 0}); }
     bool has_looked(std::uint64_t code) const;
     bool was_seen(const Key &page);
-    /// Number of the simplex in the page at hand, or -1.
-    int search(const Point<D> &p);
+    /// Number of the simplex in the page, or -1.
+    int search(Held &held, const Point<D> &p) {
+        return held.asked > worth_boxes ? search_boxes(held, p) : search_and_read(held, p);
+    }
+    int search_and_read(Held &held, const Point<D> &p);
+    static int search_boxes(Held &held, const Point<D> &p);
+    static void make_boxes(Held &held);
+    static void read_prefixes(Held &held, int end);
     /// Sets the sides of these vertices.
-    void compare(const Point<D> &p, int begin, int end);
-    bool contains(int simplex, const Point<D> &p);
-    /// Of the vertices in the page at hand, in cells.
-    double spacing() const;
+    void compare(Held &held, const Point<D> &p, int begin, int end);
+    static bool contains(PageView<D> &view, int simplex, const Point<D> &p);
+    /// Of the page's vertices, in cells.
+    static double spacing(const PageView<D> &view);
 
     const Cache<D> &cache_;
     KnownPages known_;
-    PageView<D> view_;
-    KnownPage at_hand_;
+    std::array<Held, held_at_once> held_;
+    std::uint64_t uses_ = 0;
+    std::uint64_t pages_read_ = 0;
+    bool in_order_ = false;
     /// Of each vertex, and of the point at infinity behind them, two bits an axis: whether it
     /// is below p, or above. What all corners have in common dismisses a simplex.
     std::array<Side, page_vertices<D> + 1> sides_;

@@ -143,15 +143,18 @@ template <int D> bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simpl
     std::uint64_t code = cache_.domain().code(p);
     if (glance(p, code, simplex)) return true;
     const Handle h = find(p, code);
-    if (h == no_handle || cache_.simplex(h).is_ghost()) return false;
+    is_outside_ = h == no_handle || cache_.simplex(h).is_ghost();
+    if (is_outside_) return false;
     first_around(p, h, simplex);
     return true;
 }
 
 template <int D>
 bool Reader<D>::glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex) {
-    if (cache_.counters.evictions == 0) return false; // the cache takes more
-    if (is_at_hand(code)) return false;
+    if (cache_.counters.evictions == 0 && !in_order_) return false; // the cache takes more
+    if (size_ == 0) return false;
+    // Of places in order those outside come together, too: only they are not found at a glance.
+    if ((!in_order_ || is_outside_) && is_at_hand(code)) return false;
     cache_.poll();
     const bool is_found = glance_.find(code, p, simplex);
     cache_.set_budget(budget_ - std::min(budget_, glance_.bytes()));

@@ -24,6 +24,12 @@ public:
     /// The simplex that contains p; of several, the first by comes_before(). False
     /// outside the hull.
     bool locate(const Point<D> &p, abacus_simplex &simplex);
+    /// From now on places come along the curve: then a page need not be loaded to be looked
+    /// into, whether or not the cache has room for it.
+    void expect_places_in_order() {
+        in_order_ = true;
+        glance_.expect_places_in_order();
+    }
     /// The neighbour across facet `facet` of the simplex with this code and these ids.
     /// False at the hull; throws an Error (argument) if there is no such simplex.
     bool walk(std::uint64_t code, const std::int64_t *ids, int facet, abacus_simplex &simplex);
@@ -38,6 +44,9 @@ public:
     /// In a mesh that is not Delaunay: how many pages have this vertex, with its id and
     /// attributes.
     std::uint64_t pages_with(const std::uint64_t *vertex);
+
+    /// Pages loaded or looked into.
+    std::uint64_t pages_read() const { return cache_.counters.loads + glance_.pages_read(); }
 
     const Cache<D> &cache() const { return cache_; }
     Cache<D> &cache() { return cache_; }
@@ -72,6 +81,8 @@ private:
 
     std::uint64_t size_; // simplices and ghosts
     bool delaunay_;
+    bool in_order_ = false;
+    bool is_outside_ = false; // of the place that a walk looked for last
     std::size_t budget_;
     std::optional<PageBoxes<D>> boxes_; // once needed
     Cache<D> cache_;
