@@ -19,6 +19,20 @@ SELECT abacus_locate('field', 'NaN', 0);
 SELECT abacus_locate('field', 1, 1, 1);
 \echo :LAST_ERROR_SQLSTATE
 
+-- many places at once: the same simplices, along the curve
+SELECT id, v0, v1, v2, v3 FROM abacus_locate('field', 'VALUES (1, 2, 0.5), (2, 0.5, 1.5), (3, 3.5, 1.5), (4, 2, 3), (5, 5, 5)');
+SELECT q.id, (q.code, q.v0, q.v1, q.v2, q.v3)::abacus_simplex = abacus_locate('field', x, y) AS same
+FROM (VALUES (1, 1, 0.5), (2, 2, 1), (3, 2, 0), (4, 4, 4)) AS p (id, x, y)
+     JOIN abacus_locate('field', 'VALUES (1, 1, 0.5), (2, 2, 1), (3, 2, 0), (4, 4, 4)') AS q USING (id) ORDER BY id;
+SELECT * FROM abacus_locate('field', 'SELECT 1, 2, 3 WHERE false');
+SELECT abacus_locate('field', 'SELECT 1, ''Infinity''::float8, 0');
+\echo :LAST_ERROR_SQLSTATE
+SELECT abacus_locate('field', 'SELECT 1, 1, 1, 1');
+\echo :LAST_ERROR_SQLSTATE
+SELECT abacus_locate('no_mesh', 'SELECT 1, 1, 1');
+SELECT abacus_locate('pg_class', 'SELECT 1, 1, 1');
+\echo :LAST_ERROR_SQLSTATE
+
 -- walking there and back across every facet
 SELECT count(*) AS steps, count(n.code) AS inner_steps,
        count(*) FILTER (WHERE s IN (abacus_walk('field', n, 0), abacus_walk('field', n, 1), abacus_walk('field', n, 2))) AS back

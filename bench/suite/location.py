@@ -21,9 +21,9 @@ def create_places(points, count):
     """
     server.drop("places", "ordered")
     columns = points.columns.split(", ")
-    server.query("SELECT setseed(0.5); CREATE TABLE places AS SELECT "
+    server.query("SELECT setseed(0.5); CREATE TABLE places AS SELECT id, "
                  + ", ".join(f"random() AS {column}" for column in columns)
-                 + f" FROM generate_series(1, {count})")
+                 + f" FROM generate_series(1, {count}) AS id")
     megabytes = server.cache_size("largest")
     with server.Session(abacus__cache_size=f"{megabytes}MB", max_parallel_workers_per_gather=0) as session:
         session.run(f"CREATE TABLE ordered AS SELECT {points.columns} FROM places ORDER BY"
@@ -31,12 +31,21 @@ def create_places(points, count):
     server.query("VACUUM (FREEZE, ANALYZE) places, ordered")
 
 
-def measure_rate(suite, points, labels, table, cache, runs, places=None):
+def a_call_each(points, table, places):
+    return (f"SELECT count(abacus_locate('mesh', {points.columns}))"
+            f" FROM (SELECT * FROM {table} LIMIT {places or 'ALL'}) AS place")
+
+
+def one_call(points, table, places):
+    return (f"SELECT count(code) FROM abacus_locate('mesh', 'SELECT id, {points.columns}"
+            f" FROM {table} LIMIT {places or 'ALL'}')")
+
+
+def measure_rate(suite, points, labels, table, cache, runs, places=None, form=a_call_each):
     """Samples of one SELECT over a table of places, or the first of them; the first time, which
     is not counted, fills the cache."""
-    measurement = {"what": "locate", "order": table, "cache": cache, **labels, "samples": []}
-    statement = (f"SELECT count(abacus_locate('mesh', {points.columns}))"
-                 f" FROM (SELECT * FROM {table} LIMIT {places or 'ALL'}) AS place")
+    measurement = {"what": "locate", "order": table, "cache": cache, "form": form.__name__, **labels, "samples": []}
+    statement = form(points, table, places)
     megabytes = tenth_of_mesh() if cache == "tenth" else server.cache_size(cache)
     with server.Session(abacus__cache_size=f"{megabytes}MB", max_parallel_workers_per_gather=0) as session:
         places = places or int(session.run(f"SELECT count(*) FROM {table}"))
@@ -46,7 +55,7 @@ def measure_rate(suite, points, labels, table, cache, runs, places=None):
             del sample["printed"]
             sample["places"] = places
             measurement["samples"].append(sample)
-            suite.say(f"  {table:8} cache {cache:8} {places / sample['wall']:12,.0f} places a second")
+            suite.say(f"  {table:8} cache {cache:8} {form.__name__:11} {places / sample['wall']:12,.0f} places a second")
     suite.measurements.append(measurement)
 
 
@@ -110,6 +119,8 @@ def location(dimension, sizes):
             measure_rate(suite, points, labels, "ordered", "largest", runs)
             measure_rate(suite, points, labels, "places", "largest", runs)
             measure_rate(suite, points, labels, "places", "tenth", runs, places // 50)
+            for some in None, places // 10, places // 50:
+                measure_rate(suite, points, labels, "places", "tenth", runs, some, one_call)
             measure_cold(suite, points, labels)
         finally:
             server.restart()

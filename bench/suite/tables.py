@@ -12,6 +12,7 @@ def mesh_name(measurement):
 
 CACHES = {"largest": "of any size", "tenth": "a tenth of the mesh"}
 ORDERS = {"ordered": "along the curve", "places": "at random"}
+FORMS = {"a_call_each": "each a call", "one_call": "in one call"}
 
 
 def location(results):
@@ -19,7 +20,7 @@ def location(results):
     for m in results.all(what="locate"):
         rates = sorted(sample["places"] / sample["wall"] for sample in m["samples"])
         by_cpu = statistics.median(sample["places"] / sample["cpu"] for sample in m["samples"])
-        rows.append((mesh_name(m), ORDERS[m["order"]], CACHES[m["cache"]],
+        rows.append((mesh_name(m), f"{ORDERS[m['order']]}, {FORMS[m['form']]}", CACHES[m["cache"]],
                      f"{m['samples'][0]['places']:,}", spread((statistics.median(rates), rates[0], rates[-1])),
                      number(by_cpu), size(max(values(m, "memory"))), len(rates)))
     return table(("mesh", "places", "cache", "places a statement", "places a second",

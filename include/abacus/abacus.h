@@ -9,6 +9,7 @@
  *   abacus_build   staged points in, simplex pages out              (§4.12.3-5)
  *   abacus_load    vertices and simplices made elsewhere in, simplex pages out
  *   abacus_mesh    locate and walk over stored pages                (§4.11.3)
+ *   abacus_places  locate many places at once
  *   abacus_scan, abacus_vertex_scan, abacus_check, abacus_draw      whole-mesh readers
  *
  * Errors travel by return value only. A host function that fails returns
@@ -147,7 +148,8 @@ typedef enum abacus_phase
 	ABACUS_PHASE_INSERTING,    /* triangulating */
 	ABACUS_PHASE_FLUSHING,     /* writing what the cache still holds */
 	ABACUS_PHASE_CHECKING,
-	ABACUS_PHASE_DELETING      /* points out of the triangulation */
+	ABACUS_PHASE_DELETING,     /* points out of the triangulation */
+	ABACUS_PHASE_LOCATING      /* places in the triangulation */
 } abacus_phase;
 
 typedef struct abacus_progress
@@ -387,6 +389,28 @@ ABACUS_API abacus_status abacus_mesh_locate(abacus_mesh *mesh, const double *poi
 ABACUS_API abacus_status abacus_mesh_walk(abacus_mesh *mesh, uint64_t code, const int64_t *ids,
 										  int facet, abacus_simplex *simplex, abacus_error *error);
 ABACUS_API void abacus_mesh_counters(const abacus_mesh *mesh, abacus_counters *counters);
+
+/*
+ * Many places at once: sorted along the curve within `memory` bytes, beyond it in
+ * spools, then located page by page.
+ */
+typedef struct abacus_places abacus_places;
+ABACUS_API abacus_status abacus_places_open(const abacus_host *host, const abacus_header *header,
+											size_t memory, size_t cache_bytes,
+											abacus_places **places, abacus_error *error);
+/* Adds `count` places: each 1 + dimension words of 8 bytes, as in abacus_stage_add. */
+ABACUS_API abacus_status abacus_places_add(abacus_places *places, const uint64_t *records,
+										   size_t count, abacus_error *error);
+/*
+ * Gets the id of a place and the simplex that contains it as abacus_mesh_locate finds it,
+ * NULL outside the hull; valid during the call. May fail as a host function may.
+ */
+typedef abacus_host_status (*abacus_place_report)(void *context, int64_t id,
+												  const abacus_simplex *simplex);
+/* No more places come: reports each of them, in the order of the curve. */
+ABACUS_API abacus_status abacus_places_locate(abacus_places *places, abacus_place_report report,
+											  void *context, abacus_error *error);
+ABACUS_API void abacus_places_close(abacus_places *places);
 
 /* All simplices, page by page in key order; with `ghosts` the hull facets too. */
 typedef struct abacus_scan abacus_scan;

@@ -18,6 +18,21 @@ LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_locate(regclass, double precision, double precision, double precision) IS
     'the tetrahedron of a mesh of dimension 3 that contains the point; NULL outside the mesh';
 
+CREATE FUNCTION abacus_locate(
+    mesh regclass,
+    query text,
+    OUT id bigint,
+    OUT code bigint,
+    OUT v0 bigint,
+    OUT v1 bigint,
+    OUT v2 bigint,
+    OUT v3 bigint)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_locate_places'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE COST 1000 ROWS 100000;
+COMMENT ON FUNCTION abacus_locate(regclass, text) IS
+    'the simplices of a mesh that contain the places of a query (id, x, y[, z]); NULL outside the mesh';
+
 CREATE FUNCTION abacus_walk(mesh regclass, simplex abacus_simplex, facet integer)
 RETURNS abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_walk'

@@ -1,4 +1,4 @@
--- Live figures of the builds that run in any session.
+-- Live figures of the builds, and of other long work, that run in any session.
 --
 -- The slots are those that src/pg/progress.c fills. Like the progress views
 -- of PostgreSQL it shows figures of other users' sessions only to members of
@@ -31,6 +31,7 @@ SELECT pid,
            WHEN 5 THEN 'flushing'
            WHEN 6 THEN 'checking'
            WHEN 7 THEN 'deleting'
+           WHEN 8 THEN 'locating'
        END AS phase,
        done,
        total,
@@ -41,11 +42,11 @@ SELECT pid,
        pages_read,
        pages_written
 FROM build;
-COMMENT ON VIEW abacus_progress IS 'live figures of the builds and checks that run in any session';
+COMMENT ON VIEW abacus_progress IS 'live figures of the builds, checks and locations of many places that run in any session';
 COMMENT ON COLUMN abacus_progress.pid IS 'process id of the session';
 COMMENT ON COLUMN abacus_progress.mesh IS 'the mesh; a number while its creation is not committed, NULL in another database';
-COMMENT ON COLUMN abacus_progress.phase IS 'starting, reading, sorting, staging, inserting, deleting, flushing or checking';
-COMMENT ON COLUMN abacus_progress.done IS 'points (checking: pages) done in this phase';
+COMMENT ON COLUMN abacus_progress.phase IS 'starting, reading, sorting, staging, inserting, deleting, flushing, checking or locating';
+COMMENT ON COLUMN abacus_progress.done IS 'points or places (checking: pages) done in this phase';
 COMMENT ON COLUMN abacus_progress.total IS 'of how many; NULL if not known';
 COMMENT ON COLUMN abacus_progress.per_second IS 'mean rate in this phase';
 COMMENT ON COLUMN abacus_progress.time_left IS 'in this phase, at that rate';

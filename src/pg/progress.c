@@ -13,6 +13,7 @@
 
 #include "commands/progress.h"
 #include "utils/backend_progress.h"
+#include "utils/backend_status.h"
 #include "utils/timestamp.h"
 
 #include "pg/progress.h"
@@ -40,6 +41,17 @@ progress_begin(Progress *state, Oid mesh)
 	pgstat_progress_update_multi_param(lengthof(slots), slots, values);
 	MemSet(state, 0, sizeof(*state));
 	state->active = true;
+}
+
+/*
+ * The same for a query, which may be part of a command that reports progress
+ * of its own: COPY, or a function of ours whose source query this is.
+ */
+void
+progress_begin_reading(Progress *state, Oid mesh)
+{
+	if (MyBEEntry->st_progress_command == PROGRESS_COMMAND_INVALID)
+		progress_begin(state, mesh);
 }
 
 /* The figures shall be those of all batches together, of `total` points. */
@@ -87,6 +99,7 @@ progress_report(Progress *state, const abacus_progress *progress)
 void
 progress_end(Progress *state)
 {
-	pgstat_progress_end_command();
+	if (state->active)
+		pgstat_progress_end_command();
 	state->active = false;
 }

@@ -16,9 +16,10 @@ constexpr double vertices_a_sample = 32;
 } // namespace
 
 template <int D>
-Stage<D>::Stage(const Host &host, const abacus_header &header, std::size_t memory)
+Stage<D>::Stage(const Host &host, const abacus_header &header, std::size_t memory,
+                bool with_rounds)
     : host_(host), stride_(record_words(D, header.attributes)),
-      memory_(memory), budget_(memory, 8 * stride_, D),
+      memory_(memory), with_rounds_(with_rounds), budget_(memory, 8 * stride_, D),
       pacer_(host), sample_(host, budget_.sampled), buffer_(host), room_(budget_.records),
       piles_(host) {
     if (header.has_domain != 0) domain_ = domain_of<D>(header);
@@ -83,11 +84,14 @@ template <int D> void Stage<D>::spill() {
 
 template <int D> void Stage<D>::begin_to_distribute() {
     piles_.push_back(Spool());
-    rounds_.emplace(buffered_);
-    if (rounds_->size() == 1) return;
-    const Slice<D> slice{domain_ ? *domain_ : domain_around<D>(box_.lower, box_.upper), &*rounds_};
+    if (with_rounds_) {
+        rounds_.emplace(buffered_);
+        if (rounds_->size() == 1) return;
+    }
+    const Slice<D> slice{domain_ ? *domain_ : domain_around<D>(box_.lower, box_.upper),
+                         rounds_ ? &*rounds_ : nullptr};
     distributor_.emplace(host_, stride_, budget_.piece, slice, sample_,
-                         budget_.parts(rounds_->size()), true);
+                         budget_.parts(rounds_ ? rounds_->size() : 0), with_rounds_);
 }
 
 template <int D> void Stage<D>::stop_distributing() {
@@ -100,6 +104,12 @@ template <int D> void Stage<D>::stop_distributing() {
 template <int D> bool Stage<D>::is_distributed_over(const Domain<D> &domain) const {
     const Domain<D> &distributed = distributor_->slice().domain;
     return distributed.lower() == domain.lower() && distributed.upper() == domain.upper();
+}
+
+template <int D> bool Stage<D>::is_distributed_by(const Slice<D> &slice) const {
+    const bool both_have_rounds =
+        (distributor_->slice().rounds != nullptr) == (slice.rounds != nullptr);
+    return both_have_rounds && is_distributed_over(slice.domain);
 }
 
 template <int D> void Stage<D>::end(abacus_header &header) {
@@ -132,7 +142,8 @@ void Stage<D>::emit(RecordSink &sink, const abacus_header &header, bool reversed
     if (n == 0) return;
     const Rounds<D> rounds(n, reversed);
     const Domain<D> domain = domain_of<D>(header);
-    const bool in_rounds = rounds.size() > 1 && (reversed || !mesh_stands_in(header, domain));
+    const bool in_rounds = with_rounds_ && rounds.size() > 1 &&
+                           (reversed || !mesh_stands_in(header, domain));
     const Slice<D> all{domain, in_rounds ? &rounds : nullptr};
     ExternalSort<D> sort(host_, stride_, budget_, sample_, pacer_, sink);
     if (spilled_ == 0) {
@@ -140,12 +151,11 @@ void Stage<D>::emit(RecordSink &sink, const abacus_header &header, bool reversed
     } else {
         spill();
         buffer_.reset();
-        if (distributor_ && (all.rounds == nullptr || !is_distributed_over(all.domain)))
-            stop_distributing();
+        if (distributor_ && !is_distributed_by(all)) stop_distributing();
         if (distributor_) {
             Arena<Part<D>> parts = distributor_->finish();
             // There may be more rounds now than there were: of those promoted most often.
-            parts[0].slice = all;
+            if (in_rounds) parts[0].slice = all;
             if (reversed) // inside a round the order is the same
                 std::stable_sort(parts.begin(), parts.end(), [](const auto &a, const auto &b) {
                     return a.round > b.round;

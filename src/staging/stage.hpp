@@ -20,7 +20,9 @@ namespace abacus {
 
 template <int D> class Stage {
 public:
-    Stage(const Host &host, const abacus_header &header, std::size_t memory);
+    /// Without rounds the order is that of the curve alone, as places are best looked for.
+    Stage(const Host &host, const abacus_header &header, std::size_t memory,
+          bool with_rounds = true);
 
     /// Adds records as in abacus_stage_add.
     void add(const std::uint64_t *points, std::size_t count);
@@ -47,11 +49,13 @@ private:
     void begin_to_distribute();
     void stop_distributing();
     bool is_distributed_over(const Domain<D> &domain) const;
+    bool is_distributed_by(const Slice<D> &slice) const;
     bool mesh_stands_in(const abacus_header &header, const Domain<D> &domain);
 
     const Host &host_;
     const std::size_t stride_;
     const std::size_t memory_;
+    const bool with_rounds_;
     const SortBudget budget_;
     Pacer pacer_;
     Sample<D> sample_;
@@ -62,7 +66,7 @@ private:
     std::uint64_t spilled_ = 0; ///< the records before those
     std::optional<Domain<D>> domain_; ///< if the header has one from the start
     std::uint64_t outside_ = 0;       ///< points that it does not contain
-    std::optional<Rounds<D>> rounds_; ///< of the distributor's slice
+    std::optional<Rounds<D>> rounds_; ///< of the distributor's slice, if it has any
     std::optional<Distributor<D>> distributor_;
     Arena<Spool> piles_; ///< what is in no distributor; the last one takes more
 };

@@ -1,5 +1,6 @@
 // Whatever fails, at whatever moment: a clean status, every byte given back, no further
 // call of the host, and the header of the caller as it was.
+#include "support/located_places.hpp"
 #include "support/triangulations.hpp"
 
 #include <gtest/gtest.h>
@@ -93,6 +94,13 @@ abacus_status read(Mesh &mesh) {
     return status;
 }
 
+/// Many places at once, sorted in spools.
+abacus_status locate_many(Mesh &mesh) {
+    auto places = random_points(3000, 5);
+    std::vector<LocatedPlace> located;
+    return locate_places<2>(mesh, places, located, 1);
+}
+
 /// A triangulation with a hole, so not Delaunay, or one without.
 abacus_status load(Mesh &mesh, bool hole, std::size_t memory) {
     auto t = delaunay<2>(unit_square_points(900, 3));
@@ -135,6 +143,7 @@ const Work works[] = {
     {"build", 1500, 0, [](Mesh &mesh) { return mesh.build(); }},
     {"build_more", 1500, 900, [](Mesh &mesh) { return mesh.build(); }},
     {"read", 1500, 1500, read},
+    {"locate_many", 1500, 1500, locate_many},
     {"scan", 1500, 1500, scan},
     {"vertex_scan", 1500, 900, vertex_scan},
     {"check", 1500, 900, check},

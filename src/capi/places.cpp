@@ -1,0 +1,49 @@
+// Many places behind the C interface.
+#include "query/places.hpp"
+
+#include "capi/dimension.hpp"
+#include "capi/guard.hpp"
+#include "capi/handle.hpp"
+
+struct abacus_places {
+    abacus_places(const abacus_host *table, const abacus_header &header, std::size_t memory,
+                  std::size_t cache_bytes)
+        : host(*table), places(host, header, memory, cache_bytes) {}
+
+    const abacus::Host host;
+    abacus::ByDimension<abacus::Places> places;
+};
+
+namespace {
+
+/// Runs `call` on the places of whatever dimension.
+template <class Call>
+abacus_status dispatch(abacus_places *places, abacus_error *error, Call call) noexcept {
+    return abacus::guard(error, [&] {
+        places->places.visit(call);
+        return ABACUS_OK;
+    });
+}
+
+} // namespace
+
+abacus_status abacus_places_open(const abacus_host *host, const abacus_header *header,
+                                 size_t memory, size_t cache_bytes, abacus_places **places,
+                                 abacus_error *error) {
+    return abacus::guard(error, [&] {
+        *places = abacus::create_handle<abacus_places>(host, *header, memory, cache_bytes);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_places_add(abacus_places *places, const uint64_t *records, size_t count,
+                                abacus_error *error) {
+    return dispatch(places, error, [&](auto &all) { all.add(records, count); });
+}
+
+abacus_status abacus_places_locate(abacus_places *places, abacus_place_report report,
+                                   void *context, abacus_error *error) {
+    return dispatch(places, error, [&](auto &all) { all.locate(report, context); });
+}
+
+void abacus_places_close(abacus_places *places) { abacus::destroy_handle(places); }

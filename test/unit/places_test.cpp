@@ -1,0 +1,158 @@
+// Many places located at once: the same answers as one by one, each page read about once.
+#include "support/containment.hpp"
+#include "support/large_mesh.hpp"
+#include "support/located_places.hpp"
+#include "support/triangulations.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace abacus::test {
+namespace {
+
+template <class Dimension> class Places : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Places, Dimensions);
+
+/// Places of all kinds, some more than once, some with the id of another.
+template <int D> std::vector<InputOf<D>> places_in(Large<D> &mesh, int n) {
+    constexpr double far = std::numeric_limits<double>::max();
+    std::vector<InputOf<D>> places;
+    for (int i = 0; i < n; ++i) {
+        places.push_back({i, mesh.place(i)});
+        if (i % 50 == 0) places.push_back({i / 2, places[static_cast<std::size_t>(i) / 3].point});
+    }
+    for (const double x : {far, -far, -0.0, 0.0}) {
+        Point<D> p;
+        p.fill(x);
+        places.push_back({n++, p});
+    }
+    return places;
+}
+
+template <int D>
+void expect_answers_of_each(MeshOf<D> &mesh, const std::vector<InputOf<D>> &places,
+                            const std::vector<LocatedPlace> &located) {
+    OpenMeshOf<D> open(mesh, ample);
+    const auto answer = [](std::int64_t id, const abacus_simplex *s) {
+        return std::pair(id, s == nullptr ? decltype(rank<D>(*s)){} : rank<D>(*s));
+    };
+    std::vector<decltype(answer(0, nullptr))> one_by_one, together;
+    for (const InputOf<D> &place : places) {
+        abacus_simplex s;
+        const abacus_status status = open.locate(place.point, s);
+        ASSERT_TRUE(status == ABACUS_OK || status == ABACUS_END) << open.error.detail;
+        one_by_one.push_back(answer(place.id, status == ABACUS_OK ? &s : nullptr));
+    }
+    for (const LocatedPlace &place : located)
+        together.push_back(answer(place.id, place.simplex ? &*place.simplex : nullptr));
+    std::sort(one_by_one.begin(), one_by_one.end());
+    std::sort(together.begin(), together.end());
+    EXPECT_EQ(together, one_by_one);
+    EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
+}
+
+TYPED_TEST(Places, HaveTheAnswersOfEach) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(D == 2 ? 60000 : 12000, 1);
+    const auto places = places_in(mesh, 30000);
+    const std::size_t bytes = mesh.host.bytes;
+    std::vector<std::int64_t> order;
+    for (const std::size_t cache : {std::size_t{40} << 10, mesh.tenth(), ample})
+        for (const std::size_t memory : {std::size_t{1}, ample}) {
+            mesh.cache_bytes = cache;
+            std::vector<LocatedPlace> located;
+            const auto spools = mesh.host.calls.spool_create;
+            ASSERT_EQ(locate_places<D>(mesh, places, located, memory), ABACUS_OK)
+                << mesh.error.detail;
+            EXPECT_EQ(mesh.host.calls.spool_create > spools, memory == 1);
+            EXPECT_EQ(mesh.host.bytes, bytes);
+            expect_answers_of_each<D>(mesh, places, located);
+            // The order is that of the places, however much memory there is.
+            std::vector<std::int64_t> ids;
+            for (const LocatedPlace &place : located) ids.push_back(place.id);
+            if (order.empty()) order = ids;
+            EXPECT_EQ(ids, order);
+        }
+}
+
+TYPED_TEST(Places, AreFoundPageByPage) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(D == 2 ? 100000 : 20000);
+    mesh.cache_bytes = mesh.tenth();
+    std::vector<InputOf<D>> places;
+    for (int i = 0; i < 100000; ++i) places.push_back({i, unit_point<D>(mesh.random)});
+    const auto calls = mesh.host.calls;
+    std::vector<LocatedPlace> located;
+    ASSERT_EQ(locate_places<D>(mesh, places, located), ABACUS_OK);
+    const auto pages = mesh.host.pages.size();
+    EXPECT_GE(mesh.host.calls.find - calls.find, pages / 2);
+    EXPECT_LT(mesh.host.calls.find + mesh.host.calls.fetch - calls.find - calls.fetch,
+              pages * (D == 2 ? 6 : 20));
+    EXPECT_GT(places.size(), pages * 100); // one by one: a call each
+}
+
+TYPED_TEST(Places, OutsideAreReportedAsSuch) {
+    constexpr int D = TypeParam::value;
+    const std::vector<InputOf<D>> places{{7, Point<D>{}}, {8, Point<D>{1}}, {7, Point<D>{2}}};
+    MeshOf<D> mesh;
+    const auto expect_outside = [&] {
+        std::vector<LocatedPlace> located;
+        ASSERT_EQ(locate_places<D>(mesh, places, located), ABACUS_OK) << mesh.error.message;
+        ASSERT_EQ(located.size(), 3u);
+        for (const LocatedPlace &place : located) EXPECT_FALSE(place.simplex);
+    };
+    expect_outside(); // there is nothing
+    ASSERT_EQ(mesh.insert({{1, Point<D>{}}, {2, Point<D>{1}}}), ABACUS_OK);
+    expect_outside(); // nor does this span a simplex
+    std::vector<LocatedPlace> located;
+    ASSERT_EQ(locate_places<D>(mesh, {}, located), ABACUS_OK);
+    EXPECT_TRUE(located.empty());
+}
+
+TYPED_TEST(Places, InAMeshThatIsNotDelaunay) {
+    constexpr int D = TypeParam::value;
+    Random random(3);
+    std::vector<Point<D>> points;
+    for (int i = 0; i < 600; ++i) points.push_back(unit_point<D>(random));
+    const auto t = keeping<D>(delaunay<D>(points), [](const auto &c) {
+        return std::abs(c[0] - 0.5) + std::abs(c[1] - 0.5) > 0.2; // a hole
+    });
+    MeshOf<D> mesh(0, std::size_t{60} << 10);
+    ASSERT_EQ(mesh.load(t.vertices, t.simplices), ABACUS_OK) << mesh.error.detail;
+    std::vector<InputOf<D>> places;
+    for (int i = 0; i < 2000; ++i) places.push_back({i, unit_point<D>(random)});
+    std::vector<LocatedPlace> located;
+    ASSERT_EQ(locate_places<D>(mesh, places, located), ABACUS_OK) << mesh.error.detail;
+    expect_answers_of_each<D>(mesh, places, located);
+}
+
+TYPED_TEST(Places, EndWithTheReport) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(2000);
+    std::vector<LocatedPlace> located;
+    const std::size_t bytes = mesh.host.bytes;
+    const auto fail_at_ten = [](void *context, std::int64_t id, const abacus_simplex *s) {
+        keep_place(context, id, s);
+        const auto &kept = *static_cast<std::vector<LocatedPlace> *>(context);
+        return kept.size() == 10 ? ABACUS_HOST_FAILED : ABACUS_HOST_OK;
+    };
+    EXPECT_EQ(locate_places<D>(mesh, places_in(mesh, 1000), located, ample, fail_at_ten),
+              ABACUS_HOST_ERROR);
+    EXPECT_EQ(located.size(), 10u);
+    EXPECT_EQ(mesh.host.bytes, bytes);
+}
+
+TYPED_TEST(Places, InDamagedPagesAreAnError) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(D == 2 ? 30000 : 6000);
+    for (auto &[key, page] : mesh.host.pages)
+        page.bytes()[mesh.random() % page.size] ^= static_cast<unsigned char>(1 << mesh.random() % 8);
+    std::vector<LocatedPlace> located;
+    EXPECT_EQ(locate_places<D>(mesh, places_in(mesh, 1000), located), ABACUS_ERROR);
+    EXPECT_EQ(mesh.error.kind, ABACUS_ERROR_CORRUPTED);
+}
+
+} // namespace
+} // namespace abacus::test
