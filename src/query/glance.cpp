@@ -16,6 +16,7 @@ namespace abacus {
 template <int D>
 bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex) {
     looks_ = 0;
+    if (!in_order_) held_[0].upper = {}; // its bytes were the host's, for a while
     KnownPage own; // a copy: others will be added
     if (const Held *const held = find_held(code)) {
         own = held->page;
@@ -118,17 +119,21 @@ template <int D> typename Glance<D>::Held *Glance<D>::find_held(std::uint64_t co
 
 template <int D>
 typename Glance<D>::Held &Glance<D>::hold(const abacus_page &page, const KnownPage *known) {
-    Held &held = *std::min_element(held_.begin(), held_.end(), [](const Held &a, const Held &b) {
-        return a.last_use < b.last_use;
-    });
+    const auto used_before = [](const Held &a, const Held &b) { return a.last_use < b.last_use; };
+    Held &held =
+        in_order_ ? *std::min_element(held_.begin(), held_.end(), used_before) : held_[0];
     ++pages_read_;
     held.upper = {}; // no page's, until all went well
     held.asked = 0;
     held.prefixed = 0;
     held.has_boxes = false;
     PageView<D> &view = held.view;
-    std::memcpy(held.bytes.data(), page.bytes, std::min(page.size, held.bytes.size()));
-    view.open(held.bytes.data(), page.size, cache_.vertices().attribute_count());
+    const unsigned char *bytes = page.bytes;
+    if (in_order_) {
+        std::memcpy(held.bytes.data(), bytes, std::min(page.size, held.bytes.size()));
+        bytes = held.bytes.data();
+    }
+    view.open(bytes, page.size, cache_.vertices().attribute_count());
     if (!(view.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
     const bool is_known = known != nullptr && known->location == page.location &&
                           known->bytes == page.bytes;
