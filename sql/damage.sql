@@ -79,6 +79,17 @@ SELECT abacus_locate('field', 1.5, 1.5);
 \echo :LAST_ERROR_SQLSTATE
 ROLLBACK;
 BEGIN;
+UPDATE field SET page = set_byte(page::bytea, 60, get_byte(page::bytea, 60) # 1)::abacus_page WHERE code >= 0;
+SELECT count(*) FROM abacus_locate('field', 'SELECT 1, 1.5, 1.5');
+\echo :LAST_ERROR_SQLSTATE
+ROLLBACK;
+-- a page is gone: its places are looked for in no other one
+BEGIN;
+DELETE FROM field WHERE code = last('field');
+SELECT count(*) FROM abacus_locate('field', 'SELECT x + 1000 * y, x + 0.3, y + 0.6 FROM generate_series(0, 28) x, generate_series(0, 28) y');
+\echo :LAST_ERROR_SQLSTATE
+ROLLBACK;
+BEGIN;
 UPDATE field SET part = -1 WHERE code = last('field');
 \set VERBOSITY terse
 SELECT count(*) FROM abacus_simplices('field');

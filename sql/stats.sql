@@ -32,6 +32,12 @@ BEGIN
 END $$;
 SELECT abacus_stage('field', 'SELECT 10000, 200, 200, look()');
 SELECT count(*) FROM abacus_progress;
+-- many places are located; within another function that one's progress stays
+SELECT id FROM abacus_locate('field', 'SELECT 1, 50, 50 + look()');
+SELECT abacus_triangulate('other', 'VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1)');
+SELECT abacus_stage('other', 'SELECT id, 2, look() FROM abacus_locate(''field'', ''SELECT 1, 50, 50'')');
+SELECT count(*) FROM abacus_progress;
+DROP TABLE other;
 
 -- pictures
 SELECT substr(abacus_draw('field', 64), 1, 8) = '\x89504e470d0a1a0a' AS png;

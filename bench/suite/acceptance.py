@@ -78,11 +78,12 @@ def growth(results, figure="wall"):
                  small and median(small, figure) / small["points"])
 
 
-def places_a_second(order, cache, form="a_call_each"):
+def places_a_second(order, cache, **labels):
+    labels = labels or {"form": "a_call_each"}
+
     def measured(results, figure="wall"):
-        found = next((m for m in results.all(what="locate", dimension=2, points=10**7, order=order,
-                                             cache=cache, form=form)), None)
-        return found and statistics.median(sample["places"] / sample[figure] for sample in found["samples"])
+        found = results.one(what="locate", dimension=2, points=10**7, order=order, cache=cache, **labels)
+        return found and statistics.median(found["places"] / sample[figure] for sample in found["samples"])
     return measured
 
 
@@ -117,7 +118,7 @@ WANTED = [
     Timed("`abacus_locate`, 10 M, at random, cache a tenth of the mesh, mesh in shared buffers: places a"
           " second", 250000, False, places_a_second("places", "tenth")),
     Timed("… a million of them in one call", 250000, False,
-          places_a_second("places", "tenth", "one_call")),
+          places_a_second("places", "tenth", form="one_call", places=10**6)),
     Wanted("`abacus_locate`, 10 M, cold, first of a session: heap and index leaf pages", 2, True,
            cold_pages("first")),
     Wanted("`abacus_locate`, 10 M, cold, mesh found before: heap and index leaf pages", 2, True,

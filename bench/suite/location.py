@@ -44,16 +44,16 @@ def one_call(points, table, places):
 def measure_rate(suite, points, labels, table, cache, runs, places=None, form=a_call_each):
     """Samples of one SELECT over a table of places, or the first of them; the first time, which
     is not counted, fills the cache."""
-    measurement = {"what": "locate", "order": table, "cache": cache, "form": form.__name__, **labels, "samples": []}
+    measurement = {"what": "locate", "order": table, "cache": cache, "form": form.__name__, **labels}
     statement = form(points, table, places)
     megabytes = tenth_of_mesh() if cache == "tenth" else server.cache_size(cache)
     with server.Session(abacus__cache_size=f"{megabytes}MB", max_parallel_workers_per_gather=0) as session:
         places = places or int(session.run(f"SELECT count(*) FROM {table}"))
+        measurement |= {"places": places, "samples": []}
         session.run(statement)
         for _ in range(runs):
             sample = session.timed(statement)
             del sample["printed"]
-            sample["places"] = places
             measurement["samples"].append(sample)
             suite.say(f"  {table:8} cache {cache:8} {form.__name__:11} {places / sample['wall']:12,.0f} places a second")
     suite.measurements.append(measurement)

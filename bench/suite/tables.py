@@ -18,10 +18,10 @@ FORMS = {"a_call_each": "each a call", "one_call": "in one call"}
 def location(results):
     rows = []
     for m in results.all(what="locate"):
-        rates = sorted(sample["places"] / sample["wall"] for sample in m["samples"])
-        by_cpu = statistics.median(sample["places"] / sample["cpu"] for sample in m["samples"])
+        rates = sorted(m["places"] / sample["wall"] for sample in m["samples"])
+        by_cpu = statistics.median(m["places"] / sample["cpu"] for sample in m["samples"])
         rows.append((mesh_name(m), f"{ORDERS[m['order']]}, {FORMS[m['form']]}", CACHES[m["cache"]],
-                     f"{m['samples'][0]['places']:,}", spread((statistics.median(rates), rates[0], rates[-1])),
+                     f"{m['places']:,}", spread((statistics.median(rates), rates[0], rates[-1])),
                      number(by_cpu), size(max(values(m, "memory"))), len(rates)))
     return table(("mesh", "places", "cache", "places a statement", "places a second",
                   "places a CPU second", "memory", "runs"), rows)

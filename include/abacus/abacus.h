@@ -407,7 +407,7 @@ ABACUS_API abacus_status abacus_places_add(abacus_places *places, const uint64_t
  */
 typedef abacus_host_status (*abacus_place_report)(void *context, int64_t id,
 												  const abacus_simplex *simplex);
-/* No more places come: reports each of them, in the order of the curve. */
+/* No more places come: reports each of them, in the order of the curve. Once. */
 ABACUS_API abacus_status abacus_places_locate(abacus_places *places, abacus_place_report report,
 											  void *context, abacus_error *error);
 ABACUS_API void abacus_places_close(abacus_places *places);

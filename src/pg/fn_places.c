@@ -3,8 +3,8 @@
  *
  * All places are read before the first is located, for they are brought into
  * the order of the curve; so the rows go into a tuplestore, as those of a
- * function in FROM do anyway. The session's cache has no part in it: each page
- * is looked into once.
+ * function in FROM do anyway. The session's cache has no part in it: the core
+ * looks into a page once for all places in it, and keeps none.
  */
 #include "postgres.h"
 

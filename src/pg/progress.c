@@ -1,5 +1,5 @@
 /*
- * progress.c: live figures of a running build that other sessions can read.
+ * progress.c: live figures of a build, or of other long work, that other sessions can read.
  *
  * Every backend has progress slots in shared memory, but only for core
  * commands. We report as CREATE INDEX, which also builds something ordered

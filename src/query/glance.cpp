@@ -2,7 +2,6 @@
 
 #include "query/page_simplex.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -118,7 +117,8 @@ template <int D> typename Glance<D>::Held *Glance<D>::find_held(std::uint64_t co
 }
 
 template <int D>
-typename Glance<D>::Held &Glance<D>::hold(const abacus_page &page, const KnownPage *known) {
+typename Glance<D>::Held &Glance<D>::hold(std::uint64_t code, const abacus_page &page,
+                                          const KnownPage *known) {
     const auto used_before = [](const Held &a, const Held &b) { return a.last_use < b.last_use; };
     Held &held =
         in_order_ ? *std::min_element(held_.begin(), held_.end(), used_before) : held_[0];
@@ -135,6 +135,7 @@ typename Glance<D>::Held &Glance<D>::hold(const abacus_page &page, const KnownPa
     }
     view.open(bytes, page.size, cache_.vertices().attribute_count());
     if (!(view.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
+    if (view.upper() <= Key{code, 0}) throw_corrupted("No page owns a part of the curve.");
     const bool is_known = known != nullptr && known->location == page.location &&
                           known->bytes == page.bytes;
     held.page = is_known ? *known
@@ -154,14 +155,15 @@ typename Glance<D>::Outcome Glance<D>::look(std::uint64_t code, const KnownPage 
         abacus_page page{};
         if (!fetch(code, known, page)) return Outcome::not_now;
         if (!in_order_ && looks_ == 0 && was_seen(page.key)) return Outcome::not_now;
-        held = &hold(page, known);
+        held = &hold(code, page, known);
     }
     held->last_use = ++uses_;
     ++held->asked;
     looked_[looks_++] = {held->lower, held->upper};
 
     const int number = search(*held, p);
-    if (number < 0) return Outcome::not_here;
+    if (number == nowhere) return Outcome::not_here;
+    if (number == on_facet) return Outcome::not_now;
     describe(held->view, number, cache_.domain(), simplex);
     return Outcome::found;
 }
@@ -200,10 +202,10 @@ template <int D> void Glance<D>::compare(Held &held, const Point<D> &p, int begi
     }
 }
 
-template <int D> bool Glance<D>::contains(PageView<D> &view, int simplex, const Point<D> &p) {
-    if (view.is_ghost(simplex)) return false;
+template <int D> int Glance<D>::position(PageView<D> &view, int simplex, const Point<D> &p) {
+    if (view.is_ghost(simplex)) return -1;
     for (int i = 0; i <= D; ++i) view.read_point(view.corner(simplex, i));
-    return in_simplex<D>(corners_of(view, simplex), p) > 0;
+    return in_simplex<D>(corners_of(view, simplex), p);
 }
 
 template <int D> int Glance<D>::search_and_read(Held &held, const Point<D> &p) {
@@ -217,10 +219,12 @@ template <int D> int Glance<D>::search_and_read(Held &held, const Point<D> &p) {
             const Lanes &corners = view.corners(s);
             unsigned common = sides_[corners[0]];
             for (int i = 1; i <= D; ++i) common &= sides_[corners[i]];
-            if (common == 0 && contains(view, s, p)) return s;
+            if (common != 0) continue;
+            const int inside = position(view, s, p);
+            if (inside >= 0) return inside > 0 ? s : on_facet;
         }
     }
-    return -1;
+    return nowhere;
 }
 
 template <int D> void Glance<D>::make_boxes(Held &held) {
@@ -258,16 +262,19 @@ template <int D> int Glance<D>::search_boxes(Held &held, const Point<D> &p) {
         return lanes;
     };
     for (int first = 0; first < held.view.simplices(); first += Boxes::at_once) {
-        PrefixLanes inside = PrefixLanes{} - 1;
+        PrefixLanes within = PrefixLanes{} - 1;
         for (int axis = 0; axis < D; ++axis)
-            inside &= (load(&held.boxes.lower[axis][first]) <= own[axis]) &
+            within &= (load(&held.boxes.lower[axis][first]) <= own[axis]) &
                       (own[axis] <= load(&held.boxes.upper[axis][first]));
-        const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(inside);
+        const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(within);
         if ((halves[0] | halves[1]) == 0) continue;
-        for (int i = 0; i < Boxes::at_once; ++i)
-            if (inside[i] != 0 && contains(held.view, first + i, p)) return first + i;
+        for (int i = 0; i < Boxes::at_once; ++i) {
+            if (within[i] == 0) continue;
+            const int inside = position(held.view, first + i, p);
+            if (inside >= 0) return inside > 0 ? first + i : on_facet;
+        }
     }
-    return -1;
+    return nowhere;
 }
 
 template class Glance<2>;

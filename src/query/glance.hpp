@@ -21,35 +21,39 @@
 #pragma once
 
 #include "cache/cache.hpp"
+#include "host/memory.hpp"
 #include "query/known_pages.hpp"
 
+#include <algorithm>
 #include <array>
+#include <memory_resource>
+#include <vector>
 
 namespace abacus {
 
 template <int D> class Glance {
 public:
-    /// `bytes` are for what is known of pages.
-    Glance(const Cache<D> &cache, std::size_t bytes)
-        : cache_(cache), known_(cache.host(), bytes) {
+    /// `bytes` are for what is known of pages, as many again for pages that are held, if places
+    /// come in the order of the curve; then a page that is looked into again will not be asked
+    /// for long.
+    Glance(const Cache<D> &cache, std::size_t bytes, bool in_order)
+        : cache_(cache), known_(cache.host(), bytes), in_order_(in_order), memory_(cache.host()),
+          held_(in_order ? std::clamp<std::size_t>(bytes / sizeof(Held), 2, most_held) : 1,
+                &memory_) {
         seen_.fill(end_key); // no page's
     }
 
-    /// Looks for a finite simplex with p strictly inside, in pages that are not in the cache.
-    /// False if there is none where it may be expected, or a page is in the cache or to be
-    /// loaded. The code is p's, and becomes that of where it may be expected first.
+    /// Looks for a finite simplex with p strictly inside, in pages. False if there is none where
+    /// it may be expected, or p is on a facet, or a page is in the cache, or to be loaded. The
+    /// code is p's, and becomes that of where it may be expected first.
     bool find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex);
 
-    /// From now on places come along the curve: a page that is looked into again will not be
-    /// asked for long.
-    void expect_places_in_order() { in_order_ = true; }
-
-    std::size_t bytes() const { return known_.bytes(); }
+    std::size_t bytes() const { return known_.bytes() + held_.size() * sizeof(Held); }
     std::uint64_t pages_read() const { return pages_read_; }
 
 private:
     static constexpr std::size_t remembered = 32; // pages
-    static constexpr std::size_t held_at_once = D == 2 ? 8 : 16;
+    static constexpr std::size_t most_held = D == 2 ? 8 : 16;
     /// Places in a held page for which the boxes of its simplices are worth having.
     static constexpr unsigned worth_boxes = 8;
     /// Distances of places around p, in those of vertices.
@@ -80,6 +84,8 @@ private:
     /// A page that has been looked into. Its bytes are the host's, and gone with the next call;
     /// for places in order they are copied.
     struct Held {
+        Held() {} // the arrays get their content with the page
+
         Key lower{}, upper{}; ///< what it owns; nothing at first
         KnownPage page;
         std::uint64_t last_use = 0;
@@ -101,12 +107,14 @@ private:
     bool fetch(std::uint64_t code, const KnownPage *known, abacus_page &page);
     /// The held page that owns a code, or null; of places in no order that looked into last.
     Held *find_held(std::uint64_t code);
-    /// Opens a page, in place of the one used longest ago.
-    Held &hold(const abacus_page &page, const KnownPage *known);
+    /// Opens the page that owns a code, in place of the one used longest ago.
+    Held &hold(std::uint64_t code, const abacus_page &page, const KnownPage *known);
     bool is_cached(std::uint64_t code) const { return cache_.is_cached({code, 0}); }
     bool has_looked(std::uint64_t code) const;
     bool was_seen(const Key &page);
-    /// Number of the simplex in the page, or -1.
+    /// What a search gives instead of a simplex's number: there is none, or p is on its border
+    /// and so inside of no other.
+    static constexpr int nowhere = -1, on_facet = -2;
     int search(Held &held, const Point<D> &p) {
         return held.asked > worth_boxes ? search_boxes(held, p) : search_and_read(held, p);
     }
@@ -116,16 +124,18 @@ private:
     static void read_prefixes(Held &held, int end);
     /// Sets the sides of these vertices.
     void compare(Held &held, const Point<D> &p, int begin, int end);
-    static bool contains(PageView<D> &view, int simplex, const Point<D> &p);
+    /// As in_simplex(); every point is outside of a ghost.
+    static int position(PageView<D> &view, int simplex, const Point<D> &p);
     /// Of the page's vertices, in cells.
     static double spacing(const PageView<D> &view);
 
     const Cache<D> &cache_;
     KnownPages known_;
-    std::array<Held, held_at_once> held_;
+    const bool in_order_;
+    HostMemory memory_;
+    std::pmr::vector<Held> held_;
     std::uint64_t uses_ = 0;
     std::uint64_t pages_read_ = 0;
-    bool in_order_ = false;
     /// Of each vertex, and of the point at infinity behind them, two bits an axis: whether it
     /// is below p, or above. What all corners have in common dismisses a simplex.
     std::array<Side, page_vertices<D> + 1> sides_;

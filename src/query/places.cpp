@@ -40,9 +40,7 @@ template <int D>
 Places<D>::Places(const Host &host, const abacus_header &header, std::size_t memory,
                   std::size_t cache_bytes)
     : shape_(without_attributes(header)), stage_(host, shape_, memory, false),
-      reader_(host, header, cache_bytes) {
-    reader_.expect_places_in_order();
-}
+      reader_(host, header, CacheOptions{.budget = cache_bytes}, true) {}
 
 template <int D> void Places<D>::locate(abacus_place_report report, void *context) {
     stage_.end(shape_); // a mesh without points has no domain

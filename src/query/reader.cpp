@@ -21,12 +21,13 @@ CacheOptions linked_as(const abacus_header &header, CacheOptions options) {
 } // namespace
 
 template <int D>
-Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOptions &options)
+Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOptions &options,
+                  bool in_order)
     : size_(header.simplices == 0 ? 0 : header.simplices + header.ghosts),
-      delaunay_(header.not_delaunay == 0), budget_(options.budget),
+      delaunay_(header.not_delaunay == 0), in_order_(in_order), budget_(options.budget),
       cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
              linked_as(header, options)),
-      glance_(cache_, options.budget / 10), walk_(cache_) {}
+      glance_(cache_, options.budget / 10, in_order), walk_(cache_) {}
 
 template <int D> Handle Reader<D>::start(const Point<D> &p, std::uint64_t code) {
     if (size_ == 0) return no_handle;
@@ -143,8 +144,8 @@ template <int D> bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simpl
     std::uint64_t code = cache_.domain().code(p);
     if (glance(p, code, simplex)) return true;
     const Handle h = find(p, code);
-    is_outside_ = h == no_handle || cache_.simplex(h).is_ghost();
-    if (is_outside_) return false;
+    is_no_glance_ = in_order_ && h != no_handle && position(h, p) <= 0;
+    if (h == no_handle || cache_.simplex(h).is_ghost()) return false;
     first_around(p, h, simplex);
     return true;
 }
@@ -153,8 +154,8 @@ template <int D>
 bool Reader<D>::glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex) {
     if (cache_.counters.evictions == 0 && !in_order_) return false; // the cache takes more
     if (size_ == 0) return false;
-    // Of places in order those outside come together, too: only they are not found at a glance.
-    if ((!in_order_ || is_outside_) && is_at_hand(code)) return false;
+    // Of places in order those that no glance finds come together, too.
+    if ((!in_order_ || is_no_glance_) && is_at_hand(code)) return false;
     cache_.poll();
     const bool is_found = glance_.find(code, p, simplex);
     cache_.set_budget(budget_ - std::min(budget_, glance_.bytes()));

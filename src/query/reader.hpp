@@ -19,17 +19,14 @@ template <int D> class Reader {
 public:
     Reader(const Host &host, const abacus_header &header, std::size_t cache_bytes)
         : Reader(host, header, CacheOptions{.budget = cache_bytes}) {}
-    Reader(const Host &host, const abacus_header &header, const CacheOptions &options);
+    /// `in_order`: places come along the curve. Then a page need not be loaded to be looked into,
+    /// whether or not the cache has room for it.
+    Reader(const Host &host, const abacus_header &header, const CacheOptions &options,
+           bool in_order = false);
 
     /// The simplex that contains p; of several, the first by comes_before(). False
     /// outside the hull.
     bool locate(const Point<D> &p, abacus_simplex &simplex);
-    /// From now on places come along the curve: then a page need not be loaded to be looked
-    /// into, whether or not the cache has room for it.
-    void expect_places_in_order() {
-        in_order_ = true;
-        glance_.expect_places_in_order();
-    }
     /// The neighbour across facet `facet` of the simplex with this code and these ids.
     /// False at the hull; throws an Error (argument) if there is no such simplex.
     bool walk(std::uint64_t code, const std::int64_t *ids, int facet, abacus_simplex &simplex);
@@ -55,8 +52,8 @@ private:
     /// A simplex with p in its closure, or a ghost that sees p; no_handle in an empty mesh.
     /// Here and below `code` is p's, or that of where its simplex may be expected.
     Handle find(const Point<D> &p, std::uint64_t code);
-    /// Locates p in a page that is not in the cache, if that has been full and it is worth while.
-    /// Else says where a walk should begin.
+    /// Locates p in a page that is not in the cache, if that has been full, or places come in order,
+    /// and it is worth while. Else says where a walk should begin.
     bool glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex);
     /// Where a walk to p begins; no_handle in an empty mesh.
     Handle start(const Point<D> &p, std::uint64_t code);
@@ -81,8 +78,9 @@ private:
 
     std::uint64_t size_; // simplices and ghosts
     bool delaunay_;
-    bool in_order_ = false;
-    bool is_outside_ = false; // of the place that a walk looked for last
+    const bool in_order_;
+    /// The place that a walk looked for last was outside or on a facet: none that a glance finds.
+    bool is_no_glance_ = false;
     std::size_t budget_;
     std::optional<PageBoxes<D>> boxes_; // once needed
     Cache<D> cache_;

@@ -1,5 +1,5 @@
-// Where points go, one after the other, once they are in order: vertex pages, or the
-// triangulation itself.
+// Where points go, one after the other, once they are in order: vertex pages, the triangulation
+// itself, or who looks for them there.
 #pragma once
 
 #include "staging/pacer.hpp"

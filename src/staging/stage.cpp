@@ -107,9 +107,8 @@ template <int D> bool Stage<D>::is_distributed_over(const Domain<D> &domain) con
 }
 
 template <int D> bool Stage<D>::is_distributed_by(const Slice<D> &slice) const {
-    const bool both_have_rounds =
-        (distributor_->slice().rounds != nullptr) == (slice.rounds != nullptr);
-    return both_have_rounds && is_distributed_over(slice.domain);
+    const bool has_rounds = distributor_->slice().rounds != nullptr;
+    return has_rounds == (slice.rounds != nullptr) && is_distributed_over(slice.domain);
 }
 
 template <int D> void Stage<D>::end(abacus_header &header) {

@@ -1,5 +1,6 @@
 // Staging (dissertation §4.12.2): takes points in any order and hands them on in the
-// order in which they are to be inserted, to vertex pages or at once.
+// order in which they are to be inserted, to vertex pages or at once; places to be located in the
+// order of the curve.
 //
 // The order is a function of the set of points (and of the input order of equal ones) alone,
 // not of the memory, nor of how the points came in; except that points for a mesh which has

@@ -102,6 +102,29 @@ public:
             });
     }
 
+    static abacus_host_status ignore_place(void *, std::int64_t, const abacus_simplex *) {
+        return ABACUS_HOST_OK;
+    }
+
+    void locate_places() {
+        run([&](abacus_error &error) {
+            abacus_places *places = nullptr;
+            abacus_status status =
+                abacus_places_open(host.table(), &header, 1 << 20, cache_bytes, &places, &error);
+            for (int i = 0; i < 100 && status == ABACUS_OK; ++i) {
+                std::vector<std::uint64_t> record{static_cast<std::uint64_t>(i)};
+                for (const int step : {7, 31, 53}) // dense enough for many in one page
+                    record.push_back(std::bit_cast<std::uint64_t>(i * step % 100 / 100.0));
+                record.resize(1 + header.dimension);
+                status = abacus_places_add(places, record.data(), 1, &error);
+            }
+            if (status == ABACUS_OK)
+                status = abacus_places_locate(places, ignore_place, nullptr, &error);
+            abacus_places_close(places);
+            return status;
+        });
+    }
+
     void scan() {
         run([&](abacus_error &error) {
             abacus_scan *scan = nullptr;
@@ -166,6 +189,7 @@ public:
     /// All of it; the build, which changes pages, last.
     void do_everything() {
         locate_and_walk();
+        locate_places();
         scan();
         vertex_scan();
         check();

@@ -77,7 +77,7 @@ CREATE TEMP TABLE answer AS SELECT pg_temp.answers();
 SELECT pg_temp.inject('locate', $$ DO 'BEGIN SET LOCAL abacus.cache_size = ''3MB''; PERFORM pg_temp.answers(); END' $$,
     $$ SELECT pg_temp.answers() = (TABLE answer) $$);
 SET LOCAL work_mem = '64kB';
-SELECT pg_temp.inject('locate many', $$ SELECT count(*) FROM abacus_locate('field', 'SELECT id, x + 0.25, y + 0.25 FROM points') $$,
+SELECT pg_temp.inject('locate many', $$ SELECT count(*) FROM abacus_locate('field', 'SELECT id, x + 0.25, y + 0.25 FROM points, generate_series(1, 4)') $$,
     $$ SELECT pg_temp.answers() = (TABLE answer) AND NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
 RESET work_mem;
 SELECT pg_temp.inject('walk', $$ DO 'BEGIN SET LOCAL abacus.cache_size = ''4MB''; PERFORM abacus_walk(''field'', s, 0) FROM abacus_simplices(''field'') s; END' $$,

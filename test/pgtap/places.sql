@@ -25,8 +25,8 @@ SELECT bag_eq($$ SELECT * FROM abacus_locate('field', 'SELECT id, x, y FROM plac
 SELECT bag_eq($$ SELECT * FROM abacus_locate('solid', 'SELECT id, x, y, z FROM places') $$, $$ SELECT * FROM pg_temp.one_by_one_in_space() $$, 'in space');
 RESET work_mem;
 RESET abacus.cache_size;
-SELECT results_eq($$ SELECT id FROM abacus_locate('field', 'SELECT id, x, y FROM places ORDER BY x, id') $$,
-                  $$ SELECT id FROM abacus_locate('field', 'SELECT id, x, y FROM places ORDER BY x, id') $$, 'in an order that depends on the places');
+SELECT results_eq($$ SELECT id FROM abacus_locate('field', 'SELECT id, x, z FROM points ORDER BY x') $$,
+                  $$ SELECT id FROM abacus_locate('field', 'SELECT id, x, z FROM points ORDER BY z') $$, 'in an order that depends on the places alone');
 
 -- as part of other queries
 SELECT is((SELECT count(*) FROM (SELECT abacus_locate('field', 'SELECT id, x, y FROM places') LIMIT 3) AS t), 3::bigint, 'among the columns');
@@ -67,7 +67,9 @@ BEGIN
         RETURN NEXT answer;
     END LOOP;
 END $$;
-SELECT is_empty($$ SELECT * FROM pg_temp.rest() EXCEPT TABLE before $$, 'a cursor goes on with what it began');
+CREATE TEMP TABLE rest AS SELECT * FROM pg_temp.rest();
+SELECT is((SELECT count(*) FROM rest), 999::bigint, 'a cursor goes on');
+SELECT is_empty($$ TABLE rest EXCEPT TABLE before $$, 'with what it began');
 
 -- what cannot be located
 SELECT throws_ok($$ SELECT abacus_locate('field', 'SELECT 1, 0.5') $$, '42804', 'source query returns 2 columns, but the mesh takes 3', 'a column is missing');

@@ -59,7 +59,7 @@ class Verdicts(unittest.TestCase):
     def test_a_rate_must_be_reached(self):
         def found(seconds):
             return of({"what": "locate", "engine": "abacus", "dimension": 2, "points": 10**7, "order": "ordered",
-                       "cache": "largest", "samples": [{"wall": seconds, "places": 10**6}]})
+                       "cache": "largest", "form": "a_call_each", "places": 10**6, "samples": [{"wall": seconds}]})
         number = next(i for i, wanted in enumerate(acceptance.WANTED) if wanted.limit == 700000)
         self.assertEqual(verdict(number, found(1.0)), "held")
         self.assertEqual(verdict(number, found(2.0)), "**missed**")

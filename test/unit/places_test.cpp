@@ -1,4 +1,5 @@
 // Many places located at once: the same answers as one by one, each page read about once.
+#include "cache/page_writer.hpp"
 #include "support/containment.hpp"
 #include "support/large_mesh.hpp"
 #include "support/located_places.hpp"
@@ -56,7 +57,7 @@ void expect_answers_of_each(MeshOf<D> &mesh, const std::vector<InputOf<D>> &plac
 TYPED_TEST(Places, HaveTheAnswersOfEach) {
     constexpr int D = TypeParam::value;
     Large<D> mesh(D == 2 ? 60000 : 12000, 1);
-    const auto places = places_in(mesh, 30000);
+    const auto places = places_in(mesh, 10000);
     const std::size_t bytes = mesh.host.bytes;
     std::vector<std::int64_t> order;
     for (const std::size_t cache : {std::size_t{40} << 10, mesh.tenth(), ample})
@@ -80,7 +81,7 @@ TYPED_TEST(Places, HaveTheAnswersOfEach) {
 TYPED_TEST(Places, AreFoundPageByPage) {
     constexpr int D = TypeParam::value;
     Large<D> mesh(D == 2 ? 100000 : 20000);
-    mesh.cache_bytes = mesh.tenth();
+    mesh.cache_bytes = std::size_t{4} << 20; // which holds no mesh of so many pages
     std::vector<InputOf<D>> places;
     for (int i = 0; i < 100000; ++i) places.push_back({i, unit_point<D>(mesh.random)});
     const auto calls = mesh.host.calls;
@@ -142,6 +143,79 @@ TYPED_TEST(Places, EndWithTheReport) {
               ABACUS_HOST_ERROR);
     EXPECT_EQ(located.size(), 10u);
     EXPECT_EQ(mesh.host.bytes, bytes);
+}
+
+TYPED_TEST(Places, OnVerticesAndFacetsCostNoMorePages) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(D == 2 ? 60000 : 12000);
+    mesh.cache_bytes = std::size_t{4} << 20;
+    std::vector<InputOf<D>> places;
+    for (const Point<D> &p : mesh.points_) places.push_back({1, p});
+    const auto calls = mesh.host.calls;
+    std::vector<LocatedPlace> located;
+    ASSERT_EQ(locate_places<D>(mesh, places, located), ABACUS_OK) << mesh.error.detail;
+    for (const LocatedPlace &place : located) ASSERT_TRUE(place.simplex);
+    EXPECT_LT(mesh.host.calls.find + mesh.host.calls.fetch - calls.find - calls.fetch,
+              mesh.host.pages.size() * (D == 2 ? 4 : 12));
+}
+
+TYPED_TEST(Places, AreReportedAsProgress) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(2000);
+    const auto places = places_in(mesh, 1000);
+    std::vector<abacus_phase> phases;
+    std::uint64_t done = 0;
+    mesh.host.on_progress = [&](const abacus_progress &progress) {
+        if (phases.empty() || phases.back() != progress.phase) phases.push_back(progress.phase);
+        done = progress.done;
+    };
+    std::vector<LocatedPlace> located;
+    ASSERT_EQ(locate_places<D>(mesh, places, located), ABACUS_OK);
+    EXPECT_EQ(phases, (std::vector{ABACUS_PHASE_READING, ABACUS_PHASE_SORTING, ABACUS_PHASE_LOCATING}));
+    EXPECT_EQ(done, places.size());
+}
+
+/// Damaged pages with checksums that are right, intervals included, and pages that are gone: any
+/// answer or error, but nothing else.
+TYPED_TEST(Places, SurviveSealedDamage) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(D == 2 ? 20000 : 4000);
+    const auto places = places_in(mesh, 4000); // so many that boxes are made
+    const auto sound = mesh.host.pages;
+    for (int trial = 0; trial < 60; ++trial) {
+        mesh.host.pages = sound;
+        for (auto &[key, page] : mesh.host.pages) {
+            if (trial % 3 != 0 && mesh.random() % 8 != 0) continue;
+            // Every other trial the header's counts and interval, too.
+            const std::size_t from = trial % 2 == 0 ? 8 : 48;
+            for (int i = 0; i < 3; ++i) {
+                const std::size_t at = from + mesh.random() % (page.size - from - checksum_bytes);
+                page.bytes()[at] ^= static_cast<unsigned char>(1 + mesh.random() % 255);
+            }
+            seal_page(page.bytes(), page.size);
+        }
+        if (trial % 3 == 1) std::erase_if(mesh.host.pages, [&](auto &) { return mesh.random() % 9 == 0; });
+        std::vector<LocatedPlace> located;
+        const abacus_status status = locate_places<D>(mesh, places, located);
+        if (status == ABACUS_ERROR) {
+            EXPECT_EQ(mesh.error.kind, ABACUS_ERROR_CORRUPTED);
+        } else {
+            EXPECT_EQ(located.size(), places.size());
+        }
+    }
+    EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
+}
+
+TYPED_TEST(Places, WhoseOwnerIsGoneAreAnError) {
+    constexpr int D = TypeParam::value;
+    Large<D> mesh(D == 2 ? 20000 : 4000);
+    const auto places = places_in(mesh, 1000);
+    auto gone = mesh.host.pages.begin();
+    std::advance(gone, mesh.host.pages.size() / 2);
+    mesh.host.pages.erase(gone);
+    std::vector<LocatedPlace> located;
+    EXPECT_EQ(locate_places<D>(mesh, places, located), ABACUS_ERROR);
+    EXPECT_EQ(mesh.error.kind, ABACUS_ERROR_CORRUPTED);
 }
 
 TYPED_TEST(Places, InDamagedPagesAreAnError) {
