@@ -122,6 +122,9 @@ public:
     bool near(Handle h, std::uint64_t code) const {
         return blocks_[block_of<D>(h)].surely_owns(code);
     }
+    /// Asks for the simplices of the block around h, and for their vertices once they are there.
+    void ask_for_simplices(Handle h) const { ask_for_slots(block_of<D>(h)); }
+    void ask_for_their_vertices(Handle h) const { ask_for_vertices(block_of<D>(h)); }
     /// Lower key of the block, and of its page, that h is in.
     const Key &lower(Handle h) const { return blocks_[block_of<D>(h)].lower; }
     /// Some simplex of the block that owns the code, loaded if need be, preferably
@@ -394,6 +397,8 @@ private:
     /// Asks for what the blocks after this one of a list need to be made pages: the vertices of
     /// the next, and the slots of the one after it, which tell its vertices.
     void ask_ahead(const Arena<BlockIndex> &blocks, std::size_t at) const;
+    void ask_for_slots(BlockIndex b) const;
+    void ask_for_vertices(BlockIndex b) const;
     /// Lists the block's facets on its border, and numbers its vertices.
     void survey(BlockIndex b);
     void mark_border();

@@ -192,22 +192,25 @@ template <int D> Key Cache<D>::key_beyond(Handle h, int facet) const {
     return {code(s), blocks_[block_of<D>(neighbour)].has_parts() ? part(s) : 0};
 }
 
+template <int D> void Cache<D>::ask_for_vertices(BlockIndex b) const {
+    // Nearly every vertex is the first of some simplex.
+    const Simplex<D> *const begin = &slots_[b * block_slots<D>];
+    for (const Simplex<D> *s = begin; s != begin + blocks_[b].high_water; ++s)
+        if (!s->is_free()) touch(&vertices_[s->vertex[0]]);
+}
+
+template <int D> void Cache<D>::ask_for_slots(BlockIndex b) const {
+    // One stretch of memory, where prefetch instructions do.
+    const auto *const slots = reinterpret_cast<const char *>(&slots_[b * block_slots<D>]);
+    const std::size_t size = blocks_[b].high_water * sizeof(Simplex<D>);
+    for (std::size_t i = 0; i < size; i += cache_line) __builtin_prefetch(slots + i);
+}
+
 template <int D>
 void Cache<D>::ask_ahead(const Arena<BlockIndex> &blocks, std::size_t at) const {
-    if (at + 1 < blocks.size() && blocks_[blocks[at + 1]].state == Block::cached) {
-        // Nearly every vertex is the first of some simplex.
-        const BlockIndex b = blocks[at + 1];
-        const Simplex<D> *const begin = &slots_[b * block_slots<D>];
-        for (const Simplex<D> *s = begin; s != begin + blocks_[b].high_water; ++s)
-            if (!s->is_free()) touch(&vertices_[s->vertex[0]]);
-    }
-    if (at + 2 < blocks.size()) {
-        // One stretch of memory, where prefetch instructions do.
-        const BlockIndex b = blocks[at + 2];
-        const auto *const slots = reinterpret_cast<const char *>(&slots_[b * block_slots<D>]);
-        const std::size_t size = blocks_[b].high_water * sizeof(Simplex<D>);
-        for (std::size_t i = 0; i < size; i += cache_line) __builtin_prefetch(slots + i);
-    }
+    if (at + 1 < blocks.size() && blocks_[blocks[at + 1]].state == Block::cached)
+        ask_for_vertices(blocks[at + 1]);
+    if (at + 2 < blocks.size()) ask_for_slots(blocks[at + 2]);
 }
 
 template <int D> void Cache<D>::survey(BlockIndex b) {

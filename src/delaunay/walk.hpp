@@ -50,17 +50,19 @@ public:
             if (s.is_ghost()) return h;
             Corners<D> corners = cache_.corners(s);
             int separating = -1;
+            ends_on_facet_ = false;
             int facet = static_cast<int>(random() % (D + 1));
             for (int i = 0; i <= D; ++i, facet = facet == D ? 0 : facet + 1) {
                 if (facet == entered) continue;
                 const Point<D> *const corner = corners[facet];
                 corners[facet] = &p;
-                const bool beyond = orientation<D>(corners) < 0;
+                const int side = orientation<D>(corners);
                 corners[facet] = corner;
-                if (beyond) {
+                if (side < 0) {
                     separating = facet;
                     break;
                 }
+                ends_on_facet_ = ends_on_facet_ || side == 0;
             }
             if (separating < 0) return h;
             const Link link = cache_.cross(h, separating);
@@ -68,6 +70,10 @@ public:
             entered = link_facet(link);
         }
     }
+
+    /// Whether the point that the last walk led to is on a facet of the simplex, which is finite:
+    /// not strictly inside.
+    bool ends_on_facet() const { return ends_on_facet_; }
 
 private:
     // xorshift; the walk's path depends on it, its end does not.
@@ -80,6 +86,7 @@ private:
 
     Cache<D> &cache_;
     std::uint32_t state_ = 2463534242u;
+    bool ends_on_facet_ = false;
 };
 
 } // namespace abacus

@@ -19,8 +19,6 @@
  */
 #include "postgres.h"
 
-#include <fenv.h>
-
 #include "miscadmin.h"
 #include "utils/memutils.h"
 
@@ -316,7 +314,6 @@ void
 host_enter(Host *host)
 {
 	host->busy = true;
-	host->rounding = fegetround();
 }
 
 static int
@@ -344,8 +341,6 @@ sqlstate_of(abacus_error_kind kind)
 abacus_status
 host_leave(Host *host, abacus_status status)
 {
-	if (unlikely(fegetround() != host->rounding))
-		fesetround(host->rounding);
 	if (likely(status == ABACUS_OK || status == ABACUS_END))
 	{
 		host->busy = false;

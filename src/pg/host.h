@@ -25,7 +25,6 @@ typedef struct Host
 	abacus_error failure;		/* the core's own error */
 	ErrorData  *error;			/* PostgreSQL's error, kept until the core has returned */
 	bool		busy;			/* in a core call, or left in one by an error */
-	int			rounding;		/* floating-point rounding mode of the caller */
 	PageStore	store;
 	Progress	progress;
 	MemoryContext home;			/* of this struct and the open tables */

@@ -32,7 +32,16 @@ Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOpti
 template <int D> Handle Reader<D>::start(const Point<D> &p, std::uint64_t code) {
     if (size_ == 0) return no_handle;
     cache_.trim();
-    if (is_at_hand(code) || (cache_.is_live(last_) && walk_.is_close(last_, p))) return last_;
+    if (is_at_hand(code)) {
+        // One after the other in one block: places along the curve. More will come, so the block
+        // is asked for as a whole, and not line by line as walks get there.
+        ++in_row_;
+        if (in_row_ == 2) cache_.ask_for_simplices(last_);
+        if (in_row_ == 4) cache_.ask_for_their_vertices(last_);
+        return last_;
+    }
+    in_row_ = 0;
+    if (cache_.is_live(last_) && walk_.is_close(last_, p)) return last_;
     const Handle from = cache_.start(code, p);
     if (from == no_handle) throw_corrupted("The mesh has no simplices.");
     return from;
@@ -144,9 +153,11 @@ template <int D> bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simpl
     std::uint64_t code = cache_.domain().code(p);
     if (glance(p, code, simplex)) return true;
     const Handle h = find(p, code);
-    is_no_glance_ = in_order_ && h != no_handle && position(h, p) <= 0;
-    if (h == no_handle || cache_.simplex(h).is_ghost()) return false;
-    first_around(p, h, simplex);
+    const bool is_inside = h != no_handle && !cache_.simplex(h).is_ghost();
+    is_no_glance_ = !is_inside || walk_.ends_on_facet();
+    if (!is_inside) return false;
+    describe(h, simplex);
+    if (walk_.ends_on_facet()) first_around(p, h, simplex);
     return true;
 }
 
@@ -164,7 +175,6 @@ bool Reader<D>::glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &s
 
 template <int D>
 void Reader<D>::first_around(const Point<D> &p, Handle h, abacus_simplex &simplex) {
-    describe(h, simplex);
     // Across every facet that p lies on there is another simplex that contains p.
     HostMemory memory(cache_.host());
     std::pmr::unordered_set<Handle> seen(&memory);

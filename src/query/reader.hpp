@@ -73,7 +73,7 @@ private:
     int position(Handle h, const Point<D> &p) const;
     bool search_first(const Point<D> &p, abacus_simplex &simplex);
     void describe(Handle h, abacus_simplex &simplex) const;
-    /// All simplices around a point on a facet of h; the first of them.
+    /// The first of all simplices around a point on a facet of h, which `simplex` describes.
     void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex);
 
     std::uint64_t size_; // simplices and ghosts
@@ -87,6 +87,7 @@ private:
     Glance<D> glance_;
     Walk<D> walk_;
     Handle last_ = no_handle;
+    unsigned in_row_ = 0; // places at hand
 };
 
 } // namespace abacus

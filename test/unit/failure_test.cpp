@@ -226,7 +226,9 @@ TEST_P(Failure, OfACancelInAnyPhase) {
                 if (++at == report) host.cancel();
             };
         });
-        EXPECT_EQ(status, ABACUS_HOST_ERROR) << "report " << report;
+        // How often a long phase reports depends on the time; after the last report all is done.
+        if (succeeded(status)) EXPECT_EQ(calls_.progress, report);
+        else EXPECT_EQ(status, ABACUS_HOST_ERROR) << "report " << report;
     }
 }
 
