@@ -1,8 +1,7 @@
 // Loading behind the C interface.
 #include "load/load.hpp"
 
-#include "capi/dimension.hpp"
-#include "capi/guard.hpp"
+#include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
 
 struct abacus_load {
@@ -25,28 +24,22 @@ abacus_status abacus_load_open(const abacus_host *host, const abacus_header *hea
 
 abacus_status abacus_load_vertices(abacus_load *load, const uint64_t *points, size_t count,
                                    abacus_error *error) {
-    return abacus::guard(error, [&] {
-        load->load.visit([&](auto &loading) { loading.add_vertices(points, count); });
-        return ABACUS_OK;
-    });
+    return abacus::dispatch(load->load, error,
+                            [&](auto &loading) { loading.add_vertices(points, count); });
 }
 
 abacus_status abacus_load_simplices(abacus_load *load, const int64_t *ids, size_t count,
                                     abacus_error *error) {
-    return abacus::guard(error, [&] {
-        load->load.visit([&](auto &loading) {
-            loading.add_simplices(reinterpret_cast<const std::uint64_t *>(ids), count);
-        });
-        return ABACUS_OK;
+    return abacus::dispatch(load->load, error, [&](auto &loading) {
+        loading.add_simplices(reinterpret_cast<const std::uint64_t *>(ids), count);
     });
 }
 
 abacus_status abacus_load_finish(abacus_load *load, abacus_header *header, abacus_error *error) {
-    return abacus::guard(error, [&] {
+    return abacus::dispatch(load->load, error, [&](auto &loading) {
         abacus_header changed = *header; // the caller's stays as it is if this fails
-        load->load.visit([&](auto &loading) { loading.finish(changed); });
+        loading.finish(changed);
         *header = changed;
-        return ABACUS_OK;
     });
 }
 

@@ -1,8 +1,7 @@
 // Many places behind the C interface.
 #include "query/places.hpp"
 
-#include "capi/dimension.hpp"
-#include "capi/guard.hpp"
+#include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
 
 struct abacus_places {
@@ -13,19 +12,6 @@ struct abacus_places {
     const abacus::Host host;
     abacus::ByDimension<abacus::Places> places;
 };
-
-namespace {
-
-/// Runs `call` on the places of whatever dimension.
-template <class Call>
-abacus_status dispatch(abacus_places *places, abacus_error *error, Call call) noexcept {
-    return abacus::guard(error, [&] {
-        places->places.visit(call);
-        return ABACUS_OK;
-    });
-}
-
-} // namespace
 
 abacus_status abacus_places_open(const abacus_host *host, const abacus_header *header,
                                  size_t memory, size_t cache_bytes, abacus_places **places,
@@ -38,12 +24,12 @@ abacus_status abacus_places_open(const abacus_host *host, const abacus_header *h
 
 abacus_status abacus_places_add(abacus_places *places, const uint64_t *records, size_t count,
                                 abacus_error *error) {
-    return dispatch(places, error, [&](auto &all) { all.add(records, count); });
+    return abacus::dispatch(places->places, error, [&](auto &all) { all.add(records, count); });
 }
 
 abacus_status abacus_places_locate(abacus_places *places, abacus_place_report report,
                                    void *context, abacus_error *error) {
-    return dispatch(places, error, [&](auto &all) { all.locate(report, context); });
+    return abacus::dispatch(places->places, error, [&](auto &all) { all.locate(report, context); });
 }
 
 void abacus_places_close(abacus_places *places) { abacus::destroy_handle(places); }

@@ -1,22 +1,9 @@
 // Staging behind the C interface.
 #include "capi/stage.hpp"
 
+#include "capi/dispatch.hpp"
 #include "capi/editable.hpp"
-#include "capi/guard.hpp"
 #include "capi/handle.hpp"
-
-namespace {
-
-/// Runs `call` on the stage of whatever dimension.
-template <class Call>
-abacus_status dispatch(abacus_stage *stage, abacus_error *error, Call call) noexcept {
-    return abacus::guard(error, [&] {
-        stage->stage.visit(call);
-        return ABACUS_OK;
-    });
-}
-
-} // namespace
 
 abacus_status abacus_stage_open(const abacus_host *host, const abacus_header *header, size_t memory,
                                 abacus_stage **stage, abacus_error *error) {
@@ -29,15 +16,15 @@ abacus_status abacus_stage_open(const abacus_host *host, const abacus_header *he
 
 abacus_status abacus_stage_add(abacus_stage *stage, const uint64_t *points, size_t count,
                                abacus_error *error) {
-    return dispatch(stage, error, [&](auto &staging) { staging.add(points, count); });
+    return abacus::dispatch(stage->stage, error, [&](auto &staging) { staging.add(points, count); });
 }
 
 abacus_status abacus_stage_end(abacus_stage *stage, abacus_header *header, abacus_error *error) {
-    return dispatch(stage, error, [&](auto &staging) { staging.end(*header); });
+    return abacus::dispatch(stage->stage, error, [&](auto &staging) { staging.end(*header); });
 }
 
 abacus_status abacus_stage_finish(abacus_stage *stage, abacus_header *header, abacus_error *error) {
-    return dispatch(stage, error, [&](auto &staging) {
+    return abacus::dispatch(stage->stage, error, [&](auto &staging) {
         abacus_header changed = *header; // the caller's stays as it is if staging fails
         staging.finish(changed);
         *header = changed;
