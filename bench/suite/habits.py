@@ -15,8 +15,9 @@ FIGURE_2_9 = (("search the R-tree", "search_percent", "16"), ("in-circle tests",
 DISSERTATION_POINTS = 100000
 EXTRAPOLATED = 10**6
 ORDERS = {"ordered": "along the curve", "places": "at random"}
-ROWS_NAMES = {"abacus": "`abacus_locate`", "rows": "rows, test in double precision",
-              "exact_rows": "rows, exact test (`numeric`)", "postgis": "PostGIS polygons under GiST, `ST_Intersects`"}
+ROWS_NAMES = {"abacus": "`abacus_locate` among the columns", "abacus_joined": "`abacus_locate` in a `LATERAL` join",
+              "rows": "rows, test in double precision", "exact_rows": "rows, exact test (`numeric`)",
+              "postgis": "PostGIS polygons under GiST, `ST_Intersects`"}
 
 
 def goose_pairs(results, dimension):
