@@ -34,9 +34,14 @@ summary() {
 }
 
 build_sanitized() {
-    cmake -S . -B build/sanitize -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
-        -DABACUS_SANITIZE=ON >/dev/null &&
+    cmake -S . -B build/sanitize -DABACUS_SANITIZE=ON >/dev/null &&
         cmake --build build/sanitize -j "$ABACUS_JOBS"
+}
+
+build_fuzz() {
+    cmake -S . -B build/fuzz -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
+        -DABACUS_FUZZ=ON >/dev/null &&
+        cmake --build build/fuzz -j "$ABACUS_JOBS"
 }
 
 unit_tests() {
@@ -53,7 +58,7 @@ fuzz() {
         mkdir -p "$corpus"
         local folders=("$corpus")
         if [[ -d test/fuzz/corpus/$target ]]; then folders+=("test/fuzz/corpus/$target"); fi
-        "build/sanitize/test/$target" -max_total_time=$((FUZZ_SECONDS / ${#targets[@]})) \
+        "build/fuzz/test/$target" -max_total_time=$((FUZZ_SECONDS / ${#targets[@]})) \
             -artifact_prefix=build/fuzz/ -print_final_stats=1 -verbosity=1 "${folders[@]}" || return
     done
 }
@@ -95,6 +100,7 @@ scripts/install-dependencies.sh test || fail "packages are missing"
 export ABACUS_BUILT=1 # tells the scripts below that all is built and installed
 suite "build" build_release
 suite "build sanitized" build_sanitized
+suite "build fuzz targets" build_fuzz
 suite "build extension" install_extension
 suite "unit tests" unit_tests build/release
 suite "unit tests sanitized" unit_tests build/sanitize
