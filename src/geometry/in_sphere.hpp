@@ -53,8 +53,10 @@ inline InCircle in_circle(const SeenPoint<2> &a, const SeenPoint<2> &b, double c
     const Pair terms = Pair{b.lift, a.lift} * minors;
     const double det = terms[0] + terms[1] - c.lift * cross_ab;
     // No less than the permanent, since |ax cy| + |ay cx| <= |a||c| <= (a^2 + c^2) / 2.
-    const double permanent = a.lift * b.lift + c.lift * (a.lift + b.lift);
-    const bool is_sure = (permanent > 1e-250) & (std::fabs(det) > 1.1103e-15 * permanent);
+    const double ends = a.lift + b.lift, permanent = a.lift * b.lift + c.lift * ends;
+    // An underflow of a minor is multiplied by a lift.
+    const bool is_sure = (permanent > 1e-250) & (permanent > 1e-250 * (ends + c.lift)) &
+                         (std::fabs(det) > 1.1103e-15 * permanent);
     return {minors[0], minors[1], is_sure, det > 0};
 }
 

@@ -10,8 +10,9 @@
 // in-sphere tests take instead of the permanent in them what is no less and quicker to
 // compute, and a constant rounded up far enough for the roundings of that. They hold
 // while nothing underflows or overflows. An overflow makes the bound infinite, which
-// nothing exceeds; magnitudes so small that an underflow could count go to the exact
-// form too.
+// nothing exceeds. An underflow takes at most the least double from a product, which
+// then grows by what that is multiplied with: where this could count beside what the
+// constants are rounded up by, the exact form decides too.
 //
 // Degeneracy: cospherical points are resolved by perturbing the lifting to the
 // paraboloid symbolically, in the lexicographic order of the points (Devillers
@@ -50,7 +51,7 @@ inline int orientation(const Point<2> &a, const Point<2> &b, const Point<2> &c) 
     const double right = (a[1] - c[1]) * (b[0] - c[0]);
     const double det = left - right;
     const double sum = std::fabs(left) + std::fabs(right);
-    const double bound = 3.3306690738754716e-16 * sum;
+    const double bound = 3.3307e-16 * sum;
     if (sum > 1e-290) [[likely]] {
         if (det > bound) return 1;
         if (det < -bound) return -1;
@@ -69,8 +70,9 @@ inline int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c,
     const double permanent = std::fabs(az) * (std::fabs(bc) + std::fabs(cb)) +
                              std::fabs(bz) * (std::fabs(ca) + std::fabs(ac)) +
                              std::fabs(cz) * (std::fabs(ab) + std::fabs(ba));
-    const double bound = 7.7715611723761027e-16 * permanent;
-    if (permanent > 1e-250) [[likely]] {
+    const double bound = 7.7716e-16 * permanent;
+    const double size = std::fabs(az) + std::fabs(bz) + std::fabs(cz);
+    if (permanent > 1e-250 && permanent > 1e-290 * size) [[likely]] {
         if (det > bound) return -1;
         if (det < -bound) return 1;
     }

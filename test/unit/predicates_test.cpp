@@ -109,7 +109,17 @@ const Source sources[] = {
     {"largest", [](Random &r) { return unit(r) * std::numeric_limits<double>::max(); }},
     {"largest_grid",
      [](Random &r) { return (double(r() % 3) - 1) * std::numeric_limits<double>::max(); }},
-    {"all_exponents", [](Random &r) { return std::ldexp(unit(r), int(r() % 2040) - 1020); }},
+    {"all_exponents",
+     [](Random &r) {
+         const double mantissa = unit(r); // before the exponent, whatever the compiler
+         return std::ldexp(mantissa, int(r() % 2040) - 1020);
+     }},
+    // Products of small ones underflow, and are multiplied by large ones.
+    {"far_apart_exponents",
+     [](Random &r) {
+         const double mantissa = unit(r);
+         return std::ldexp(mantissa, r() % 3 == 0 ? 1000 : -int(r() % 560) - 20);
+     }},
     {"mixed",
      [](Random &r) {
          return r() % 3 ? double(r() % 3) : std::ldexp(unit(r), int(r() % 400) - 200);
