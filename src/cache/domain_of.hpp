@@ -22,10 +22,13 @@ template <int D> Domain<D> domain_around(Point<D> lower, Point<D> upper) {
     if (!(extent > 1e-290 && extent < 1e290)) return {lower, upper};
     double side = 0;
     for (int i = 0; i < D; ++i) {
-        lower[i] = std::floor(lower[i] / step) * step;
+        // From 2^53 steps on every double is on the grid, and the quotient might overflow. Neither
+        // a quotient that underflows nor a sum that is rounded shall leave out a point of the box.
+        if (std::fabs(lower[i]) < 0x1p53 * step)
+            lower[i] = std::min(lower[i], std::floor(lower[i] / step) * step);
         side = std::max(side, std::ceil((upper[i] - lower[i]) / step) * step);
     }
-    for (int i = 0; i < D; ++i) upper[i] = lower[i] + side;
+    for (int i = 0; i < D; ++i) upper[i] = std::max(upper[i], lower[i] + side);
     return {lower, upper};
 }
 

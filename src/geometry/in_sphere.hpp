@@ -120,7 +120,9 @@ inline InSphere in_sphere(const LiftedPlane &facet, const SeenPoint<3> &apex) {
     // lengths (Carlen, Lieb, Loss, "An inequality of Hadamard type for permanents",
     // 2006); so the whole is, for four corners whose lifts have this sum, at most
     // 1/(4 sqrt(3)) < 0.1444 times its power of 5/2. Each of its terms is rounded 17 times
-    // on its way to the determinant. Squares are compared, which needs no root.
+    // on its way to the determinant. Squares are compared, which needs no root. An underflow
+    // takes the least double, times the cube of the greatest length at most if that is more:
+    // nothing beside the fifth power of a length above 1e-26.
     const double sum = facet.lifts + apex.lift();
     const double square = sum * sum, power = square * square * sum;
     const bool is_sure = (power > 1e-250) & (det * det > 7.46e-32 * power); // no branch

@@ -39,13 +39,15 @@ differences(const std::array<const Point<D> *, N> &points, const Point<D> &origi
             difference[n][axis] = d;
         }
     if (!(rounded == 0 && largest > 1e-250 && largest < 1e250)) return std::nullopt;
-    const double scale = std::ldexp(1.0, bits - 1 - std::ilogb(largest));
+    const double scale = std::ldexp(1.0, bits - 1 - std::ilogb(largest)), unit = 1 / scale;
     std::array<std::array<std::int64_t, D>, N> result;
     for (std::size_t n = 0; n < N; ++n)
         for (int axis = 0; axis < D; ++axis) {
-            const double scaled = difference[n][axis] * scale;
-            result[n][axis] = static_cast<std::int64_t>(scaled);
-            if (static_cast<double>(result[n][axis]) != scaled) return std::nullopt;
+            const double d = difference[n][axis];
+            result[n][axis] = static_cast<std::int64_t>(d * scale);
+            // Compared with d, not with d * scale, which underflows to 0 where d is far smaller
+            // than the largest.
+            if (static_cast<double>(result[n][axis]) * unit != d) return std::nullopt;
         }
     return result;
 }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace abacus::test {
@@ -155,6 +156,44 @@ TYPED_TEST(OtherDomain, WhereAllPointsLieOnALine) {
     model.insert(points);
     ASSERT_EQ(mesh.insert(points), ABACUS_OK);
     model.expect(mesh);
+}
+
+TYPED_TEST(OtherDomain, HasRoomForBoxesOfAnyMagnitude) {
+    constexpr int D = TypeParam::value;
+    std::mt19937_64 random(4);
+    for (int round = 0; round < 20000; ++round) {
+        Box<D> box;
+        for (int axis = 0; axis < D; ++axis)
+            for (double *end : {&box.lower[axis], &box.upper[axis]}) {
+                const double mantissa = double(random() >> 12) * 0x1p-51 - 1;
+                *end = std::ldexp(mantissa, int(random() % 2098) - 1074);
+            }
+        for (int axis = 0; axis < D; ++axis) {
+            if (random() % 3 == 0) box.upper[axis] = box.lower[axis];
+            if (box.upper[axis] < box.lower[axis]) std::swap(box.upper[axis], box.lower[axis]);
+        }
+        const Domain<D> domain = domain_around<D>(box.lower, box.upper);
+        const Box<D> room(domain.lower(), domain.upper());
+        ASSERT_TRUE(room.contains(box.lower) && room.contains(box.upper)) << round;
+        for (int axis = 0; axis < D; ++axis)
+            ASSERT_TRUE(std::isfinite(room.upper[axis] / 2 - room.lower[axis] / 2)) << round;
+    }
+}
+
+TYPED_TEST(OtherDomain, FromOneWhereAnAxisIsFarFromZero) {
+    constexpr int D = TypeParam::value;
+    for (const double far : {1e200, -1e200}) {
+        MeshOf<D> mesh(1);
+        PointModel<D> model;
+        auto points = this->fresh(10, 0, 1e-200);
+        for (auto &p : points) p.point[1] = far;
+        model.insert(points);
+        ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+        points = this->fresh(300, 0, 1);
+        model.insert(points);
+        ASSERT_EQ(mesh.insert(points), ABACUS_OK) << mesh.error.detail;
+        model.expect(mesh);
+    }
 }
 
 // Who inserts a few points into a large mesh does not wait until all of it has other keys.

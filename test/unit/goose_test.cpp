@@ -1,5 +1,7 @@
 // Goose makes the same triangulation as Abacus and CGAL, from rows that it finds by boxes
 // alone.
+#include "geometry/box.hpp"
+#include "geometry/conflict.hpp"
 #include "goose/circumbox.hpp"
 #include "goose/rim.hpp"
 #include "support/memory_rtree.hpp"
@@ -245,6 +247,56 @@ TEST(Circumbox, HoldsEveryPointInConflict) {
         }
     }
     EXPECT_GT(conflicts, 5000);
+}
+
+template <int D> void expect_conflicts_in_boxes() {
+    Random random(6);
+    int conflicts = 0;
+    for (int n = 0; n < 4000; ++n) {
+        // Each axis of its own magnitude, or each coordinate.
+        const bool is_by_axis = n % 2 == 0;
+        std::array<int, D> exponent;
+        const auto draw = [&](int &e) { e = int(random() % 2098) - 1074; };
+        for (int &e : exponent) draw(e);
+        Box<D> box;
+        std::vector<Point<D>> points(D + 6);
+        for (Point<D> &p : points) {
+            for (int k = 0; k < D; ++k) {
+                if (!is_by_axis) draw(exponent[k]);
+                const double mantissa = 2 * unit(random) - 1;
+                p[k] = std::ldexp(mantissa, exponent[k]);
+            }
+            box.extend(p);
+        }
+        Corners<D> corners;
+        for (int i = 0; i <= D; ++i) corners[i] = &points[i];
+        const int turn = orientation<D>(corners);
+        if (turn == 0) continue;
+        if (turn < 0) std::swap(points[0], points[1]);
+        abacus_header header = domain<D>(0, 0);
+        std::copy_n(box.lower.begin(), D, header.lower);
+        std::copy_n(box.upper.begin(), D, header.upper);
+        const Circumboxes<D> boxes(header);
+        const auto finite = boxed<D>(boxes, {points.begin(), points.begin() + D + 1});
+        const auto ghost = boxed<D>(boxes, {points.begin(), points.begin() + D});
+        for (std::size_t i = D + 1; i < points.size(); ++i) {
+            const Point<D> &p = points[i];
+            const auto expect_in = [&](const abacus_boxed_simplex &row) {
+                ++conflicts;
+                Point<D> at;
+                boxes.scale(p, at.data());
+                for (int k = 0; k < D; ++k)
+                    EXPECT_TRUE(row.lower[k] <= at[k] && at[k] <= row.upper[k]) << n;
+            };
+            if (side_of_simplex<D>(corners, p) == Side::inside) expect_in(finite);
+            if (side_of_ghost<D>(corners, p) == Side::inside) expect_in(ghost);
+        }
+    }
+    EXPECT_GT(conflicts, 4000);
+}
+TEST(Circumbox, HoldsEveryPointInConflictOfAnyMagnitude) {
+    expect_conflicts_in_boxes<2>();
+    expect_conflicts_in_boxes<3>();
 }
 
 TEST(Circumbox, BringsDomainsToASizeThatBoxesCanHave) {

@@ -120,6 +120,42 @@ const Source sources[] = {
          const double mantissa = unit(r);
          return std::ldexp(mantissa, r() % 3 == 0 ? 1000 : -int(r() % 560) - 20);
      }},
+    // Differences that are exact, the smallest beyond any common unit with the largest.
+    {"grids_far_apart",
+     [](Random &r) {
+         const double step = double(r() % 4);
+         return std::ldexp(step, r() % 3 == 0 ? -int(r() % 1074) : 700);
+     }},
+    // Squares and products of pairs come to the least double, and are multiplied by large ones.
+    {"products_underflow",
+     [](Random &r) {
+         const double mantissa = unit(r);
+         return std::ldexp(mantissa, r() % 8 == 0 ? 400 : -int(r() % 60) - 510);
+     }},
+    // What is compared comes to a few of the least double.
+    {"least_squares",
+     [](Random &r) {
+         const double mantissa = unit(r);
+         return std::ldexp(mantissa, -540 + int(r() % 8));
+     }},
+    {"least_cubes",
+     [](Random &r) {
+         const double mantissa = unit(r);
+         return std::ldexp(mantissa, -360 + int(r() % 8));
+     }},
+    {"least_fourth_powers",
+     [](Random &r) {
+         const double mantissa = unit(r);
+         return std::ldexp(mantissa, -272 + int(r() % 8));
+     }},
+    // Where the filters begin to answer, and where squares, cubes and fifth powers overflow.
+    {"ends_of_the_filters",
+     [](Random &r) {
+         constexpr int ends[] = {-482, -277, -208, -83, 102, 204, 255, 340, 511, 1023};
+         const double mantissa = unit(r);
+         const int end = ends[r() / 7 % std::size(ends)];
+         return r() % 8 ? std::ldexp(mantissa, end - int(r() % 4)) : 0;
+     }},
     {"mixed",
      [](Random &r) {
          return r() % 3 ? double(r() % 3) : std::ldexp(unit(r), int(r() % 400) - 200);
@@ -293,6 +329,23 @@ TEST(Predicates, InSphereIsMostlySureAndNeverOfThePointAtInfinity) {
         }
     }
     EXPECT_GT(sure, 990);
+}
+
+// Integers would hold the determinant if the least coordinate were 0.
+TEST(Predicates, SeeTheLeastCoordinateBesideTheLargest) {
+    for (const double tiny : {5e-324, 1e-300, 1e-200, 1e-170}) {
+        const double large = 0x1p600;
+        EXPECT_EQ(orientation({large, tiny}, {tiny, 0}, {0, 0}), -1);
+        EXPECT_EQ(orientation({large, 0, 0}, {0, tiny, 0}, {0, 0, tiny}, {0, 0, 0}), -1);
+        EXPECT_EQ(orientation({0, 0, 0}, {large, 0, 0}, {0, tiny, 0}, {0, 0, tiny}), 1);
+        // Near the fourth corner of a square, and in the plane of three corners of a cube.
+        const Point<2> a{0, 0}, b{large, 0}, c{large, large};
+        EXPECT_EQ(in_sphere({&a, &b, &c}, {tiny, large}), 1);
+        EXPECT_EQ(in_sphere({&a, &b, &c}, {-tiny, large}), -1);
+        const Point<3> e{0, 0, 0}, f{large, 0, 0}, g{0, large, 0}, h{0, 0, large};
+        EXPECT_EQ(in_sphere({&e, &f, &g, &h}, {large, large, tiny}), 1);
+        EXPECT_EQ(in_sphere({&e, &f, &g, &h}, {large, large, -tiny}), -1);
+    }
 }
 
 TEST(Predicates, PerturbationDecidesConsistently) {
