@@ -24,6 +24,7 @@ suite() {
         failed=$((failed + 1))
         printf 'FAILED  %-28s %4d s   (%s)\n' "$name" $((SECONDS - start)) "${log#"$ABACUS_ROOT"/}"
         tail -n 40 "$log"
+        return 1
     fi
 }
 
@@ -75,21 +76,40 @@ pgtap_tests() {
 }
 
 # Crashes, many sessions, dumps, replication, upgrades: in servers that the tests
-# start themselves, as the user who may. A small file system of their own is a full disk soon; where it
-# cannot be mounted, that test is skipped. ABACUS_KILLS says how often to kill.
+# start themselves, as the user who may. One that is interrupted dies, and ends its servers
+# at that. ABACUS_KILLS says how often to kill.
 tap_tests() {
-    local folder=$cluster_folder/tap sources
+    local sources
     sources=$(dirname "$("$PG_CONFIG" --pgxs)")/..
-    mkdir "$folder" "$folder/disk"
-    cp -r test/tap/*.p[lm] test/tap/meshes "$folder"
-    if as_root mount -t tmpfs -o size=14m tmpfs "$folder/disk" 2>/dev/null; then
-        trap 'as_root umount -l "$cluster_folder/tap/disk"' EXIT
-        mkdir "$folder/disk/space"
-        export ABACUS_SMALL_DISK=$folder/disk/space
+    cluster_as_server env TESTDIR="$tap_folder" PG_REGRESS="$sources/test/regress/pg_regress" \
+        PERL5OPT=-Msigtrap=die,INT,TERM prove -j "$ABACUS_JOBS" -I "$sources/test/perl" "$tap_folder"/*.pl
+}
+
+# Begins them beside the other suites, for they mostly wait: for servers to start, to crash and to
+# recover. They are a process group, which ends with this script. A small file system of their own
+# is a full disk soon; where it cannot be mounted, that test is skipped.
+tap_begin() {
+    tap_folder=$cluster_folder/tap
+    mkdir "$tap_folder" "$tap_folder/disk"
+    cp -r test/tap/*.p[lm] test/tap/meshes "$tap_folder"
+    if as_root mount -t tmpfs -o size=14m tmpfs "$tap_folder/disk" 2>/dev/null; then
+        tap_disk=$tap_folder/disk
+        mkdir "$tap_disk/space"
+        export ABACUS_SMALL_DISK=$tap_disk/space
     fi
-    if ((EUID == 0)); then chown -R postgres: "$folder"; fi
-    cluster_as_server env TESTDIR="$folder" PG_REGRESS="$sources/test/regress/pg_regress" \
-        prove -j "$ABACUS_JOBS" -I "$sources/test/perl" "$folder"/*.pl
+    if ((EUID == 0)); then chown -R postgres: "$tap_folder"; fi
+    set -m
+    suite "TAP" tap_tests 9>&- &
+    tap=$!
+    set +m
+    trap 'kill -INT -- "-$tap"; tap_end; cluster_stop' EXIT
+}
+
+# Waits for them, and counts what they say.
+tap_end() {
+    if wait "$tap"; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
+    if [[ -n ${tap_disk:-} ]]; then as_root umount -l "$tap_disk"; fi
+    trap cluster_stop EXIT
 }
 
 documentation_examples() {
@@ -107,14 +127,15 @@ suite "unit tests sanitized" unit_tests build/sanitize
 suite "fuzz" fuzz
 
 cluster_start test
+tap_begin
 suite "pg_regress" regression_tests
 suite "pgTAP" pgtap_tests
-suite "TAP" tap_tests
 suite "documentation examples" documentation_examples
 suite "acceptance quick" scripts/acceptance.sh quick
 suite "acceptance goose" scripts/acceptance.sh goose
 suite "model test" scripts/model_test.sh -t 30
 suite "benchmark reports" python3 -m unittest discover -s test/suite -p '*_test.py'
+tap_end
 suite "bench smoke" scripts/bench.sh smoke
 suite "evaluation smoke" scripts/evaluation.sh smoke
 
