@@ -29,7 +29,7 @@ POSTGIS = """
 # Among the columns, and in a join like the others: there PostgreSQL has a table made for each row,
 # which takes longer than the answer.
 ABACUS = """
-    SELECT count((t).v0), sum((t).v0 + (t).v1 + (t).v2)
+    SELECT count(t), sum((t).v0 + (t).v1 + (t).v2)
     FROM (SELECT abacus_locate('mesh', p.x, p.y) AS t FROM {places} AS p OFFSET 0) AS located"""
 ABACUS_JOINED = """
     SELECT count(t.v0), sum(t.v0 + t.v1 + t.v2) FROM {places} AS p

@@ -125,6 +125,11 @@ public:
     /// Asks for the simplices of the block around h, and for their vertices once they are there.
     void ask_for_simplices(Handle h) const { ask_for_slots(block_of<D>(h)); }
     void ask_for_their_vertices(Handle h) const { ask_for_vertices(block_of<D>(h)); }
+    /// Asks for the simplices across all facets, before it is known which of them is wanted.
+    void ask_for_neighbours(const Simplex<D> &s) const {
+        for (const Link link : s.link)
+            if (!is_absent(link)) __builtin_prefetch(&slots_[link_simplex(link)]);
+    }
     /// Lower key of the block, and of its page, that h is in.
     const Key &lower(Handle h) const { return blocks_[block_of<D>(h)].lower; }
     /// Some simplex of the block that owns the code, loaded if need be, preferably

@@ -33,20 +33,31 @@ inline void fill_error(abacus_error *error, abacus_error_kind kind, std::string_
     copy_text(error->hint, hint);
 }
 
-/// The core computes in round-to-nearest and leaves the mode as it found it. It
-/// is set back without asking whether it changed: fegetround() reads the x87
-/// control word only, CGAL changes the one of SSE.
+/// Told by two sums, in a tenth of the time of asking the processor.
+inline bool rounds_to_nearest() noexcept {
+    volatile double tiny = 0x1p-60; // for the compiler no constant
+    return 1.0 + tiny == 1.0 && 1.0 - tiny == 1.0;
+}
+
+/// The core computes in round-to-nearest and leaves the mode as it found it. Another one is kept
+/// as a whole: it may be that of SSE alone, which CGAL changes, and fegetround() reads x87's.
 class RoundingModeKept {
 public:
-    RoundingModeKept() noexcept : mode_(std::fegetround()) {
-        if (mode_ != FE_TONEAREST) std::fesetround(FE_TONEAREST);
+    RoundingModeKept() noexcept : is_nearest_(rounds_to_nearest()) {
+        if (is_nearest_) [[likely]] return;
+        std::fegetenv(&found_);
+        std::fesetround(FE_TONEAREST);
     }
     RoundingModeKept(const RoundingModeKept &) = delete;
     RoundingModeKept &operator=(const RoundingModeKept &) = delete;
-    ~RoundingModeKept() { std::fesetround(mode_); }
+    ~RoundingModeKept() {
+        if (!is_nearest_) std::fesetenv(&found_);
+        else if (!rounds_to_nearest()) std::fesetround(FE_TONEAREST);
+    }
 
 private:
-    int mode_;
+    const bool is_nearest_;
+    std::fenv_t found_;
 };
 
 /// Runs `body`, which returns an abacus_status and may throw.

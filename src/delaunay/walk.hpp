@@ -13,10 +13,12 @@ namespace abacus {
 
 template <int D> class Walk {
 public:
-    explicit Walk(Cache<D> &cache) : cache_(cache) {}
+    /// `far`: walks begin far from where they lead, among simplices that have not been used for
+    /// long.
+    explicit Walk(Cache<D> &cache, bool far = false) : cache_(cache), far_(far) {}
 
     /// Whether p is so close to a simplex, measured by the simplex's own size, that a walk
-    /// from there is short, thin simplices included.
+    /// from there is short, thin simplices included. No more than a guess, whatever overflows.
     bool is_close(Handle h, const Point<D> &p) const {
         const Simplex<D> &s = cache_.simplex(h);
         const Point<D> &a = cache_.point(s.vertex[0]), &b = cache_.point(s.vertex[1]);
@@ -48,6 +50,7 @@ public:
             if (steps > longest) return no_handle;
             const Simplex<D> &s = cache_.simplex(h);
             if (s.is_ghost()) return h;
+            if (far_) cache_.ask_for_neighbours(s);
             Corners<D> corners = cache_.corners(s);
             int separating = -1;
             ends_on_facet_ = false;
@@ -85,6 +88,7 @@ private:
     }
 
     Cache<D> &cache_;
+    const bool far_;
     std::uint32_t state_ = 2463534242u;
     bool ends_on_facet_ = false;
 };

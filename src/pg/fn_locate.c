@@ -57,7 +57,7 @@ abacus_sql_locate(PG_FUNCTION_ARGS)
 	host_release(host);
 	if (status == ABACUS_END)
 		PG_RETURN_NULL();
-	PG_RETURN_DATUM(simplex_row(cached_row_type(fcinfo), &simplex, cached->dimension));
+	PG_RETURN_DATUM(simplex_row_again(simplex_rows(fcinfo), &simplex, cached->dimension));
 }
 
 /* abacus_walk(mesh regclass, simplex abacus_simplex, facet int) -> abacus_simplex */
@@ -66,7 +66,7 @@ abacus_sql_walk(PG_FUNCTION_ARGS)
 {
 	CachedMesh *cached = mesh_cache_get(PG_GETARG_OID(0));
 	int32		facet = PG_GETARG_INT32(2);
-	TupleDesc	row_type = cached_row_type(fcinfo);
+	SimplexRows *rows = simplex_rows(fcinfo);
 	Host	   *host = cached->host;
 	int64		ids[ABACUS_MAX_DIMENSION + 1];
 	uint64		code;
@@ -79,12 +79,12 @@ abacus_sql_walk(PG_FUNCTION_ARGS)
 				 errmsg("facet %d does not exist", facet),
 				 errhint("Facets are numbered 0 to %u; facet i is the one opposite vertex i.",
 						 cached->dimension)));
-	if (!simplex_from_row(PG_GETARG_DATUM(1), row_type, cached->dimension, &code, ids))
+	if (!simplex_from_row(PG_GETARG_DATUM(1), rows->row_type, cached->dimension, &code, ids))
 		PG_RETURN_NULL();
 	status = host_run(host, abacus_mesh_walk(cached->mesh, code, ids, facet, &simplex,
 											 &host->failure));
 	host_release(host);
 	if (status == ABACUS_END)
 		PG_RETURN_NULL();
-	PG_RETURN_DATUM(simplex_row(row_type, &simplex, cached->dimension));
+	PG_RETURN_DATUM(simplex_row_again(rows, &simplex, cached->dimension));
 }

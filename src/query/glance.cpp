@@ -135,7 +135,8 @@ typename Glance<D>::Held &Glance<D>::hold(std::uint64_t code, const abacus_page 
     }
     view.open(bytes, page.size, cache_.vertices().attribute_count());
     if (!(view.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
-    if (view.upper() <= Key{code, 0}) throw_corrupted("No page owns a part of the curve.");
+    if (const Key key{code, 0}; key < view.lower() || view.upper() <= key)
+        throw_corrupted("No page owns a part of the curve.");
     const bool is_known = known != nullptr && known->location == page.location &&
                           known->bytes == page.bytes;
     held.page = is_known ? *known

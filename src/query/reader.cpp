@@ -27,7 +27,7 @@ Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOpti
       delaunay_(header.not_delaunay == 0), in_order_(in_order), budget_(options.budget),
       cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
              linked_as(header, options)),
-      glance_(cache_, options.budget / 10, in_order), walk_(cache_) {}
+      glance_(cache_, options.budget / 10, in_order), walk_(cache_, true) {}
 
 template <int D> Handle Reader<D>::start(const Point<D> &p, std::uint64_t code) {
     if (size_ == 0) return no_handle;
@@ -65,7 +65,7 @@ template <int D> Handle Reader<D>::walk_to_inside(const Point<D> &p) {
     const Handle from = start(p, cache_.domain().code(p));
     if (from == no_handle) return no_handle;
     const Handle h = walk_.within(p, from, longest);
-    if (h == no_handle || position(h, p) <= 0) return no_handle;
+    if (h == no_handle || cache_.simplex(h).is_ghost() || walk_.ends_on_facet()) return no_handle;
     return last_ = h;
 }
 

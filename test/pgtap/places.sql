@@ -12,6 +12,18 @@ CREATE TABLE places AS
     UNION ALL SELECT -id, x, y, z FROM points WHERE id % 20 = 0
     UNION ALL SELECT 10000 + a.id, (a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2 FROM points a JOIN points b ON b.id = a.id + 1 WHERE a.id % 50 = 0
     UNION ALL SELECT 50000, 1e308, -1e308, 0 UNION ALL SELECT 50001, '-0', 0, 0;
+-- single calls of one expression: meshes of both dimensions in turns, and rows that are kept
+CREATE TABLE located AS
+    SELECT id, CASE WHEN id % 3 = 0 THEN 'solid' ELSE 'field' END::regclass AS mesh,
+           CASE WHEN id % 3 = 0 THEN abacus_locate('solid', 0.1 + x / 2, 0.1 + y / 2, 0.1 + z / 2) ELSE abacus_locate('field', 0.1 + x / 2, 0.1 + y / 2) END AS simplex
+    FROM points WHERE id <= 30;
+SELECT results_eq($$ SELECT id, (abacus_walk(mesh, simplex, 1)).* FROM located ORDER BY id $$,
+                  $$ SELECT id, (abacus_walk('field', simplex, 1)).* FROM located WHERE mesh = 'field'::regclass
+                     UNION ALL SELECT id, (abacus_walk('solid', simplex, 1)).* FROM located WHERE mesh = 'solid'::regclass ORDER BY id $$,
+                  'a walk in meshes of both dimensions in turns');
+SELECT is((SELECT count(*) FROM located WHERE (simplex).v3 IS NOT NULL), 10::bigint, 'four corners in space');
+SELECT results_eq($$ SELECT (unnest(array_agg(abacus_walk(mesh, simplex, 0) ORDER BY id))).* FROM located $$,
+                  $$ SELECT (abacus_walk(mesh, simplex, 0)).* FROM located ORDER BY id $$, 'rows that are kept stay as they are');
 CREATE FUNCTION pg_temp.one_by_one() RETURNS TABLE (id bigint, code bigint, v0 bigint, v1 bigint, v2 bigint, v3 bigint) LANGUAGE sql AS
     $$ SELECT p.id, s.* FROM places p LEFT JOIN LATERAL abacus_locate('field', x, y) s ON true $$;
 CREATE FUNCTION pg_temp.one_by_one_in_space() RETURNS TABLE (id bigint, code bigint, v0 bigint, v1 bigint, v2 bigint, v3 bigint) LANGUAGE sql AS
