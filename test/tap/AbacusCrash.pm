@@ -123,6 +123,12 @@ sub run_and_strike
 	# between two statements a session does not notice that it is cancelled
 	$victim = 'terminate' if $victim eq 'cancel' && @statements > 1;
 	strike($node, $victim, $pid);
+	if ($victim eq 'cancel')
+	{
+		# nor does it when the statement is just about to end
+		$session->pump while $session->pumpable && $out !~ /done/;
+		strike($node, 'terminate', $pid) if $out =~ /done/;
+	}
 	$session->finish;
 	my $in_time = $out !~ /done/;
 	push @victims, shift @victims if $in_time;
