@@ -84,6 +84,15 @@ double lattice(Random &r, int bits) {
     return r() % 2 ? double(r() % 3) : double(end - 1 - r() % 3);
 }
 
+/// Numbers with drawn exponents. Each draw is a statement of its own, so that they are in one
+/// order, whatever the compiler.
+std::function<double(Random &)> powers(int (*exponent)(Random &)) {
+    return [exponent](Random &r) {
+        const double mantissa = unit(r);
+        return std::ldexp(mantissa, exponent(r));
+    };
+}
+
 const Source sources[] = {
     {"uniform", unit},
     {"tiny_grid", [](Random &r) { return double(r() % 4); }},
@@ -109,17 +118,10 @@ const Source sources[] = {
     {"largest", [](Random &r) { return unit(r) * std::numeric_limits<double>::max(); }},
     {"largest_grid",
      [](Random &r) { return (double(r() % 3) - 1) * std::numeric_limits<double>::max(); }},
-    {"all_exponents",
-     [](Random &r) {
-         const double mantissa = unit(r); // before the exponent, whatever the compiler
-         return std::ldexp(mantissa, int(r() % 2040) - 1020);
-     }},
+    {"all_exponents", powers([](Random &r) { return int(r() % 2040) - 1020; })},
     // Products of small ones underflow, and are multiplied by large ones.
     {"far_apart_exponents",
-     [](Random &r) {
-         const double mantissa = unit(r);
-         return std::ldexp(mantissa, r() % 3 == 0 ? 1000 : -int(r() % 560) - 20);
-     }},
+     powers([](Random &r) { return r() % 3 == 0 ? 1000 : -int(r() % 560) - 20; })},
     // Differences that are exact, the smallest beyond any common unit with the largest.
     {"grids_far_apart",
      [](Random &r) {
@@ -128,26 +130,11 @@ const Source sources[] = {
      }},
     // Squares and products of pairs come to the least double, and are multiplied by large ones.
     {"products_underflow",
-     [](Random &r) {
-         const double mantissa = unit(r);
-         return std::ldexp(mantissa, r() % 8 == 0 ? 400 : -int(r() % 60) - 510);
-     }},
+     powers([](Random &r) { return r() % 8 == 0 ? 400 : -int(r() % 60) - 510; })},
     // What is compared comes to a few of the least double.
-    {"least_squares",
-     [](Random &r) {
-         const double mantissa = unit(r);
-         return std::ldexp(mantissa, -540 + int(r() % 8));
-     }},
-    {"least_cubes",
-     [](Random &r) {
-         const double mantissa = unit(r);
-         return std::ldexp(mantissa, -360 + int(r() % 8));
-     }},
-    {"least_fourth_powers",
-     [](Random &r) {
-         const double mantissa = unit(r);
-         return std::ldexp(mantissa, -272 + int(r() % 8));
-     }},
+    {"least_squares", powers([](Random &r) { return int(r() % 8) - 540; })},
+    {"least_cubes", powers([](Random &r) { return int(r() % 8) - 360; })},
+    {"least_fourth_powers", powers([](Random &r) { return int(r() % 8) - 272; })},
     // Where the filters begin to answer, and where squares, cubes and fifth powers overflow.
     {"ends_of_the_filters",
      [](Random &r) {
@@ -158,7 +145,8 @@ const Source sources[] = {
      }},
     {"mixed",
      [](Random &r) {
-         return r() % 3 ? double(r() % 3) : std::ldexp(unit(r), int(r() % 400) - 200);
+         if (r() % 3 != 0) return double(r() % 3);
+         return powers([](Random &r) { return int(r() % 400) - 200; })(r);
      }},
 };
 
