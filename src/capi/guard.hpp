@@ -33,7 +33,7 @@ inline void fill_error(abacus_error *error, abacus_error_kind kind, std::string_
     copy_text(error->hint, hint);
 }
 
-/// Told by two sums, in a tenth of the time of asking the processor.
+/// Told by two sums, since to ask the processor takes longer, at every call of the core.
 inline bool rounds_to_nearest() noexcept {
     volatile double tiny = 0x1p-60; // for the compiler no constant
     return 1.0 + tiny == 1.0 && 1.0 - tiny == 1.0;

@@ -63,8 +63,8 @@ simplex_rows(FunctionCallInfo fcinfo)
 }
 
 /*
- * simplex_row() in a fifth of the time. Rows of one dimension differ in values
- * only, which are bigints, so each is a copy of the first with its own.
+ * simplex_row() for many: rows of one dimension differ in values only, which
+ * are bigints, so each is a copy of the first with its own.
  */
 Datum
 simplex_row_again(SimplexRows *rows, const abacus_simplex *simplex, uint32 dimension)

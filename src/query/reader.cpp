@@ -27,7 +27,7 @@ Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOpti
       delaunay_(header.not_delaunay == 0), in_order_(in_order), budget_(options.budget),
       cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
              linked_as(header, options)),
-      glance_(cache_, options.budget / 10, in_order), walk_(cache_, true) {}
+      glance_(cache_, options.budget / 10, in_order), walk_(cache_, /*far=*/true) {}
 
 template <int D> Handle Reader<D>::start(const Point<D> &p, std::uint64_t code) {
     if (size_ == 0) return no_handle;
