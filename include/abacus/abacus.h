@@ -193,10 +193,11 @@ typedef struct abacus_host
 	 * Pages of a kind. find: the one with the greatest key <= `key`. next: the
 	 * one with the least key > `key` (the first when `key` is NULL). The header
 	 * row is never returned. fetch: the one at page->location, which find or
-	 * next gave; if it has been moved since, ABACUS_HOST_NONE, or the one that
-	 * is there now: its key tells. put: stores page->bytes under page->key,
-	 * replacing the version at page->location unless that is 0, and sets
-	 * page->location. erase: removes the version at page->location.
+	 * next gave, with its bytes at page->bytes; page->size of them will be read.
+	 * If it has been moved since, ABACUS_HOST_NONE, or the one that is there now:
+	 * its key tells. put: stores page->bytes under page->key, replacing the
+	 * version at page->location unless that is 0, and sets page->location.
+	 * erase: removes the version at page->location.
 	 */
 	abacus_host_status (*find)(void *context, abacus_page_kind kind, abacus_key key,
 							   abacus_page *page);

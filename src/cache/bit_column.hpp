@@ -2,12 +2,14 @@
 // differ.
 //
 // A word is base + (delta << shift), and a delta takes `width` bits, one after the other.
-// In a page a column is
+// In a page a column has a head,
 //
 //   width    1 byte, 0 to 64
 //   shift    1 byte; with has_base added, when there is a base that is not 0
 //   base     8 bytes, if so
-//   deltas   width bits each, from the least significant bit of the first byte on
+//
+// and elsewhere its deltas, width bits each, from the least significant bit of the first byte
+// on. The heads of all columns are together: where a column lies follows from those before.
 //
 // Words are found in place, without reading those before: one unaligned load, a shift and
 // a mask. A load reads up to 7 bytes beyond the column: a page ends with 8 others.
@@ -16,6 +18,8 @@
 // near words, whatever they are; points of a page share sign, exponent and the first bits
 // of the mantissa, and those on a grid end with zeros.
 #pragma once
+
+#include "host/processor_cache.hpp"
 
 #include <bit>
 #include <cstddef>
@@ -73,6 +77,13 @@ public:
             *prefix++ = static_cast<Prefix>(word >> (bit & 7) & mask);
         }
     }
+    /// Asks for the fields from `begin` to `end`, which are not none.
+    void ask_for(std::size_t begin, std::size_t end) const {
+        const unsigned char *const last = bytes_ + (end * width_ - 1) / 8;
+        for (const unsigned char *at = bytes_ + begin * width_ / 8; at < last; at += cache_line)
+            touch(at);
+        touch(last);
+    }
     unsigned width() const { return width_; }
     const unsigned char *begin() const { return bytes_; }
 
@@ -87,21 +98,27 @@ public:
     static constexpr unsigned has_base = 128;
 
     Column() = default;
-    /// Takes a column of n words off the bytes from `at` to `end`; false if that is none.
-    bool read(const unsigned char *&at, const unsigned char *end, std::size_t n) {
+    /// Takes a column's head off the bytes from `at` to `end`; false if that is none.
+    bool read_head(const unsigned char *&at, const unsigned char *end) {
         if (end - at < 2) return false;
         const unsigned width = at[0], shift = at[1] & ~has_base;
         const bool based = (at[1] & has_base) != 0;
-        if (width + shift > 64 || shift == 64) return false;
-        const std::size_t size = 2 + 8 * based + bits_to_bytes(n * width);
-        if (static_cast<std::size_t>(end - at) < size) return false;
+        if (width + shift > 64 || shift == 64 || end - at < 2 + 8 * based) return false;
         base_ = 0;
         if (based) std::memcpy(&base_, at + 2, sizeof base_);
-        fields_ = {at + 2 + 8 * based, static_cast<int>(width)};
+        fields_ = {nullptr, static_cast<int>(width)};
         shift_ = shift;
-        at += size;
+        at += 2 + 8 * based;
         // What is always the same has one form.
         return (base_ != 0 || !based) && (width != 0 || shift == 0);
+    }
+    /// Then the deltas of n words; false if there are fewer.
+    bool read_deltas(const unsigned char *&at, const unsigned char *end, std::size_t n) {
+        const std::size_t size = bits_to_bytes(n * fields_.width());
+        if (static_cast<std::size_t>(end - at) < size) return false;
+        fields_ = {at, static_cast<int>(fields_.width())};
+        at += size;
+        return true;
     }
 
     std::uint64_t operator[](std::size_t i) const { return base_ + (fields_[i] << shift_); }
@@ -111,6 +128,14 @@ public:
     using Prefix = std::int16_t;
     void prefixes(std::size_t begin, std::size_t end, Prefix *prefix) const {
         fields_.prefixes(begin, end, prefix_bits, prefix);
+    }
+    void ask_for(std::size_t begin, std::size_t end) const {
+        if (fields_.width() != 0 && begin < end) fields_.ask_for(begin, end);
+    }
+    Prefix prefix_at(std::size_t i) const {
+        Prefix prefix = 0;
+        prefixes(i, i + 1, &prefix);
+        return prefix;
     }
     /// That of any word, also of one that the column cannot have.
     Prefix prefix(std::uint64_t word) const {
@@ -124,9 +149,9 @@ public:
     /// Whether not all words are 0.
     bool is_not_zero() const { return base_ != 0 || fields_.width() != 0; }
 
-private:
     static constexpr unsigned prefix_bits = 14;
 
+private:
     BitFields fields_;
     std::uint64_t base_ = 0;
     unsigned shift_ = 0;
@@ -187,16 +212,26 @@ public:
         if (plain.size() <= size()) *this = plain;
     }
 
+    /// Of head and deltas.
     std::size_t size() const { return 2 + (base_ != 0 ? 8 : 0) + bits_to_bytes(count_ * width_); }
+    /// What Column::prefix() will be of one of these words.
+    Column::Prefix prefix(std::uint64_t word) const {
+        const unsigned cut = width_ > Column::prefix_bits ? width_ - Column::prefix_bits : 0;
+        return static_cast<Column::Prefix>((word - base_) >> shift_ >> cut);
+    }
 
-    /// Writes the same words; returns the end.
-    unsigned char *write(const std::uint64_t *words, unsigned char *at) const {
+    /// Each returns the end of what it has written.
+    unsigned char *write_head(unsigned char *at) const {
         *at++ = static_cast<unsigned char>(width_);
         *at++ = static_cast<unsigned char>(shift_ | (base_ != 0 ? Column::has_base : 0));
         if (base_ != 0) {
             std::memcpy(at, &base_, sizeof base_);
             at += sizeof base_;
         }
+        return at;
+    }
+    /// Of the same words.
+    unsigned char *write_deltas(const std::uint64_t *words, unsigned char *at) const {
         if (width_ == 0) return at;
         const ColumnPlan plan = *this; // in registers: what is written may be anywhere
         BitWriter bits(at);

@@ -59,6 +59,20 @@ void PageView<D>::read_header(const unsigned char *bytes, std::size_t size, int 
 }
 
 template <int D>
+void PageView<D>::read_patches(const unsigned char *&at, const unsigned char *end) {
+    const auto n = static_cast<std::size_t>(patches());
+    require(static_cast<std::size_t>(end - at) >= n * sizeof patches_[0], wrong_size);
+    std::memcpy(patches_.data(), at, n * sizeof patches_[0]);
+    at += n * sizeof patches_[0];
+    PagePatch<D> before{};
+    for (std::size_t i = 0; i < n; before = patches_[i++])
+        require(before.named_end <= patches_[i].named_end &&
+                    before.fresh_end <= patches_[i].fresh_end,
+                "A simplex page has a patch that ends before it begins.");
+    require(before.fresh_end == vertices(), "A page has a vertex without simplices.");
+}
+
+template <int D>
 void PageView<D>::open(const unsigned char *bytes, std::size_t size, int attributes,
                        Checksum checksum) {
     read_header(bytes, size, attributes);
@@ -67,12 +81,14 @@ void PageView<D>::open(const unsigned char *bytes, std::size_t size, int attribu
     const unsigned char *const end = bytes + size - checksum_bytes;
     const unsigned char *at = bytes + sizeof header_;
     const std::size_t v = header_.vertices, l = header_.links, s = header_.simplices;
-    require(ids_.read(at, end, v), wrong_size);
-    for (Column &axis : axes_) require(axis.read(at, end, v), wrong_size);
-    for (int i = 0; i < attributes; ++i) require(attributes_[i].read(at, end, v), wrong_size);
-    require(codes_.read(at, end, header_.codes), wrong_size);
-    require(parts_.read(at, end, l), wrong_size);
-    has_parts_ = parts_.is_not_zero();
+    read_patches(at, end);
+    const auto each_column = [&](auto take) {
+        for (Column &axis : axes_) take(axis, v);
+        take(ids_, v);
+        for (int i = 0; i < attributes; ++i) take(attributes_[i], v);
+        take(codes_, std::size_t{header_.codes});
+        take(parts_, l);
+    };
     const auto fields = [&](std::size_t n, int width) {
         const std::size_t taken = bits_to_bytes(n * width);
         require(static_cast<std::size_t>(end - at) >= taken, wrong_size);
@@ -80,15 +96,15 @@ void PageView<D>::open(const unsigned char *bytes, std::size_t size, int attribu
         at += taken;
         return result;
     };
-    link_vertices_ = fields(l, std::bit_width(v + header_.codes));
+    each_column([&](Column &column, std::size_t) { require(column.read_head(at, end), wrong_size); });
     steps_ = fields(s, D + 1);
-    const int width = std::bit_width(v);
-    numbers_ = {at, width};
-    end_ = end;
-    // A width of 0 means no vertices, and the first simplex is refused.
-    most_named_ = width == 0 ? 0 : static_cast<std::size_t>(end - at) * 8 / width;
-    named_ = 0;
-    fresh_ = reached_ = read_ = 0;
+    numbers_ = fields(s == 0 ? 0 : patches_[patches() - 1].named_end, std::bit_width(v));
+    each_column([&](Column &column, std::size_t n) {
+        require(column.read_deltas(at, end, n), wrong_size);
+    });
+    has_parts_ = parts_.is_not_zero();
+    link_vertices_ = fields(l, std::bit_width(v + header_.codes));
+    require(at == end, wrong_size);
 }
 
 template <int D>
@@ -99,7 +115,7 @@ void PageView<D>::read(const unsigned char *bytes, std::size_t size, int attribu
         require(link_vertex(i) < vertices() + header_.codes,
                 "A simplex page has a link to no code.");
     read_points();
-    read_simplices(simplices());
+    for (int i = 0; i < patches(); ++i) read_patch(i);
 }
 
 template <int D> void PageView<D>::read_points() {
@@ -132,8 +148,9 @@ template <int D> void PageView<D>::read_point(int vertex) {
     }
 }
 
-template <int D> int PageView<D>::read_root(int s, std::size_t named, int fresh) {
-    const int infinity = vertices();
+template <int D>
+std::size_t PageView<D>::read_root(int s, std::size_t named, std::size_t fresh) {
+    const auto infinity = static_cast<std::size_t>(vertices());
     Lanes &corner = corners_[s];
     corner = Lanes{} + no_vertex;
     for (int i = 0; i <= D; ++i) {
@@ -147,26 +164,27 @@ template <int D> int PageView<D>::read_root(int s, std::size_t named, int fresh)
     return fresh;
 }
 
-template <int D> int PageView<D>::read_simplices(int until) {
-    const int n = simplices();
+template <int D> void PageView<D>::read_patch(int patch) {
     const auto infinity = static_cast<std::size_t>(vertices());
     const BitFields numbers = numbers_; // here and below: in registers
-    const std::size_t most = most_named_;
-    std::size_t named = named_, fresh = static_cast<std::size_t>(fresh_);
-    std::uint16_t *reached = parents_.data() + reached_;
-    int s = read_;
+    auto named = static_cast<std::size_t>(named_of(patch).begin);
+    auto fresh = static_cast<std::size_t>(fresh_of(patch).begin);
+    const auto named_end = static_cast<std::size_t>(named_of(patch).end);
+    int s = simplices_of(patch).begin;
+    const int patch_end = simplices_of(patch).end;
+    std::uint16_t *reached = parents_.data() + s;
     Lanes repeated{}; // where an apex is, too
     // What comes next is as hard to foresee as a coin: branches only lead to errors, and those
     // that nothing of this loop relies on are told after it.
-    while (s < std::min(until, n)) {
+    while (s < patch_end) {
         std::uint64_t steps = steps_.word(static_cast<std::size_t>(s));
-        for (const int end = std::min(s + simplices_at_once, n); s < end; ++s) {
+        for (const int end = std::min(s + simplices_at_once, patch_end); s < end; ++s) {
             auto bits = static_cast<unsigned>(steps) & ((2u << D) - 1);
             steps >>= D + 1;
             int facet = D + 1;
             if (parents_.data() + s == reached) [[unlikely]] { // a root
-                require(named + D < most, wrong_size);
-                fresh = static_cast<std::size_t>(read_root(s, named, static_cast<int>(fresh)));
+                require(named + D < named_end, wrong_size);
+                fresh = read_root(s, named, fresh);
                 named += D + 1;
                 *reached++ = no_link;
             } else {
@@ -194,20 +212,14 @@ template <int D> int PageView<D>::read_simplices(int until) {
                 children<D>.facets[facet][bits] + static_cast<std::uint16_t>(make_link(s, 0));
             std::memcpy(reached, &parents, sizeof parents);
             reached += children<D>.count[facet][bits];
-            require(named <= most, wrong_size);
+            require(named <= named_end, wrong_size);
         }
-        require(reached <= parents_.data() + n, "A simplex page has impossible counts.");
+        require(reached <= parents_.data() + patch_end,
+                "A simplex page has impossible counts.");
     }
-    require(fresh <= infinity, unknown_vertex);
     require(std::bit_cast<std::uint64_t>(repeated) == 0, repeated_vertex);
-    if (s == n) {
-        require(fresh == infinity, "A page has a vertex without simplices.");
-        require(numbers.begin() + bits_to_bytes(named * numbers.width()) == end_, wrong_size);
-    }
-    named_ = named;
-    fresh_ = static_cast<int>(fresh);
-    reached_ = static_cast<int>(reached - parents_.data());
-    return read_ = s;
+    require(named == named_end && fresh == static_cast<std::size_t>(fresh_of(patch).end),
+            "A patch of simplices ends before the next one begins.");
 }
 
 template class PageView<2>;

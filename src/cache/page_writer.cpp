@@ -1,6 +1,7 @@
 #include "cache/page_writer.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace abacus {
 
@@ -60,6 +61,7 @@ void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle fir
     order_.resize(end + 1);
     corners_.resize(end);
     named_.resize(std::size_t(end) * (D + 1) + 1);
+    cut_.resize(std::size_t(end) * (D + 1) + 1);
     reached_.resize(end + 1);
     std::fill_n(reached_.begin(), end, 0);
     reached_[end] = 1; // what is outside is never reached
@@ -69,7 +71,9 @@ void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle fir
     WideLanes *const corners = corners_.data();
     std::uint16_t *named = named_.data();
     Link *to_border = border.data();
-    std::uint32_t count = 0, root = 0;
+    std::uint32_t *cut = cut_.data(), *next_cut = cut;
+    std::uint32_t count = 0, root = 0, patch_end = 0;
+    patches_.clear();
     const auto number = [&](VertexIndex v) -> unsigned { // whether it is the next number
         if (v == infinite_vertex) [[unlikely]] {
             *named = none;
@@ -82,10 +86,19 @@ void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle fir
     };
     for (std::uint32_t at = 0;; ++at) {
         if (at == count) [[unlikely]] {
+            // Go on where trees were cut off; so patches are compact, and few remnants are left.
+            while (next_cut < cut && reached[*next_cut]) ++next_cut;
             while (root < end && (reached[root] || slots[root].is_free())) ++root;
+            if (at == patch_end || root == end) {
+                if (at > 0)
+                    patches_.push_back({static_cast<std::uint16_t>(named - named_.data()),
+                                        static_cast<std::uint16_t>(numbered.size()), {}, {}});
+                patch_end += patch_simplices;
+            }
             if (root == end) break;
-            reached[root] = 1;
-            order[count++] = {root, PageView<D>::no_link, 0, 0};
+            const std::uint32_t first = next_cut < cut ? *next_cut : root;
+            reached[first] = 1;
+            order[count++] = {first, PageView<D>::no_link, 0, 0};
         }
         const Placed placed = order[at];
         const Simplex<D> &s = slots[placed.slot];
@@ -95,8 +108,11 @@ void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle fir
             const std::uint32_t inside = link_simplex(link) - first;
             const bool is_outside = inside >= end;
             const std::uint32_t slot = is_outside ? end : inside;
-            const unsigned is_child = 1u - reached[slot];
-            reached[slot] = 1;
+            const unsigned is_open = 1u - reached[slot];
+            const unsigned is_child = is_open & (count < patch_end);
+            reached[slot] |= static_cast<std::uint8_t>(is_child);
+            *cut = slot;
+            cut += is_open ^ is_child;
             order[count] = {slot, static_cast<std::uint16_t>(make_link(at, f)),
                             static_cast<std::uint8_t>(link_facet(link)), 0};
             count += is_child;
@@ -144,6 +160,7 @@ bool PageWriter<D>::finish(const Key &lower, const Key &upper, const Vertices &v
     size_ = ABACUS_PAGE_BYTES + 1;
     if (vertices_ > page_vertices<D> || simplices_ > block_slots<D>) return false;
     gather(vertices, numbered);
+    bound_patches();
     code_links(vertices, numbered, on_border);
     size_ = planned_size();
     if (size_ > ABACUS_PAGE_BYTES) return false;
@@ -160,13 +177,38 @@ void PageWriter<D>::gather(const Vertices &vertices, const Numbering &numbered) 
     for (std::size_t n = 0; n < vertices_; ++n) {
         const VertexIndex v = numbered[n];
         std::uint64_t *word = columns_.data() + n;
+        for (const double x : vertices.point(v)) {
+            *word = ordered(x);
+            word += vertices_;
+        }
         *word = static_cast<std::uint64_t>(vertices.id(v));
-        for (const double x : vertices.point(v)) *(word += vertices_) = ordered(x);
         const double *const values = vertices.attributes(v);
         for (int i = 0; i < attributes_; ++i) *(word += vertices_) = ordered(values[i]);
     }
     for (std::size_t i = 0; i < columns; ++i)
         plans_[i] = {columns_.data() + i * vertices_, vertices_};
+}
+
+template <int D> void PageWriter<D>::bound_patches() {
+    prefixes_.resize(vertices_);
+    for (std::size_t axis = 0; axis < D; ++axis) {
+        const std::uint64_t *const words = columns_.data() + axis * vertices_;
+        const ColumnPlan plan = plans_[axis];
+        for (std::size_t v = 0; v < vertices_; ++v) prefixes_[v] = plan.prefix(words[v]);
+        std::size_t v = 0, n = 0;
+        for (PagePatch<D> &patch : patches_) {
+            Column::Prefix least = std::numeric_limits<Column::Prefix>::max(), greatest = -1;
+            const auto add = [&](std::size_t vertex) {
+                least = std::min(least, prefixes_[vertex]);
+                greatest = std::max(greatest, prefixes_[vertex]);
+            };
+            for (; v < patch.fresh_end; ++v) add(v);
+            for (; n < patch.named_end; ++n)
+                if (named_[n] != none) add(named_[n]);
+            patch.least[axis] = least;
+            patch.greatest[axis] = greatest;
+        }
+    }
 }
 
 /// A link is the number of a vertex with its code, mostly one on the border; after the
@@ -217,7 +259,8 @@ void PageWriter<D>::code_links(const Vertices &vertices, const Numbering &number
 }
 
 template <int D> std::size_t PageWriter<D>::planned_size() const {
-    std::size_t size = sizeof(PageHeader) + checksum_bytes;
+    std::size_t size =
+        sizeof(PageHeader) + patches_.size() * sizeof(PagePatch<D>) + checksum_bytes;
     for (const ColumnPlan &plan : plans_) size += plan.size();
     return size + foreign_plan_.size() + parts_plan_.size() +
            bits_to_bytes(links_.size() * std::bit_width(vertices_ + foreign_.size())) +
@@ -239,22 +282,27 @@ template <int D> void PageWriter<D>::write(const Key &lower, const Key &upper) {
     header.upper = upper;
     std::memcpy(page_, &header, sizeof header);
     unsigned char *at = page_ + sizeof header;
-    for (std::size_t i = 0; i < plans_.size(); ++i)
-        at = plans_[i].write(columns_.data() + i * vertices_, at);
-    at = foreign_plan_.write(foreign_.data(), at);
-    at = parts_plan_.write(parts_.data(), at);
+    std::memcpy(at, patches_.data(), patches_.size() * sizeof(PagePatch<D>));
+    at += patches_.size() * sizeof(PagePatch<D>);
+    for (const ColumnPlan &plan : plans_) at = plan.write_head(at);
+    at = foreign_plan_.write_head(at);
+    at = parts_plan_.write_head(at);
     const auto put = [&](const auto &values, int width) {
         BitWriter bits(at);
         for (const auto value : values) bits.put(value, static_cast<unsigned>(width));
         at = bits.close();
     };
-    put(link_vertices_, std::bit_width(vertices_ + foreign_.size()));
     BitWriter steps(at);
     for (std::size_t s = 0; s < simplices_; ++s) steps.put(order_[s].step, D + 1);
     at = steps.close();
     for (std::uint16_t &number : named_) // the point at infinity comes after the vertices
         number = std::min(number, static_cast<std::uint16_t>(vertices_));
     put(named_, std::bit_width(vertices_));
+    for (std::size_t i = 0; i < plans_.size(); ++i)
+        at = plans_[i].write_deltas(columns_.data() + i * vertices_, at);
+    at = foreign_plan_.write_deltas(foreign_.data(), at);
+    at = parts_plan_.write_deltas(parts_.data(), at);
+    put(link_vertices_, std::bit_width(vertices_ + foreign_.size()));
     seal_page(page_, size_);
 }
 

@@ -21,9 +21,10 @@ public:
     static constexpr Link untold = unset;
 
     explicit PageWriter(const Host &host)
-        : order_(host), reached_(host), corners_(host), named_(host), links_(host),
-          columns_(host), plans_(host), foreign_(host), parts_(host), link_vertices_(host),
-          codes_(host), coded_(host), index_(host) {}
+        : order_(host), patches_(host), prefixes_(host), reached_(host), cut_(host),
+          corners_(host), named_(host), links_(host), columns_(host), plans_(host),
+          foreign_(host), parts_(host), link_vertices_(host), codes_(host), coded_(host),
+          index_(host) {}
 
     /// Begins a page of the simplices in the slots [slots, end), whose handles begin with
     /// `first`. Sets `numbered` to the page's vertices and `border` to the inner sides of its
@@ -49,6 +50,7 @@ private:
     static constexpr std::uint16_t none = 0xffff;
 
     void gather(const Vertices &vertices, const Numbering &numbered);
+    void bound_patches();
     void code_links(const Vertices &vertices, const Numbering &numbered, const bool *on_border);
     std::size_t planned_size() const;
     void write(const Key &lower, const Key &upper);
@@ -64,11 +66,14 @@ private:
         std::uint8_t step;
     };
     Arena<Placed> order_;
+    Arena<PagePatch<D>> patches_;
+    Arena<Column::Prefix> prefixes_; // of the vertices on an axis
     Arena<std::uint8_t> reached_;    // of the slots
+    Arena<std::uint32_t> cut_;       // slots that a full patch had no room for
     Arena<WideLanes> corners_;
     Arena<std::uint16_t> named_;     // numbers that do not follow from the steps; none: infinity
     Arena<Key> links_;
-    Arena<std::uint64_t> columns_;   // ids, ranks of coordinates and of attributes
+    Arena<std::uint64_t> columns_;   // ranks of coordinates, ids, ranks of attributes
     Arena<ColumnPlan> plans_;
     Arena<std::uint64_t> foreign_;   // codes
     Arena<std::uint64_t> parts_;

@@ -12,7 +12,7 @@ namespace {
 
 /// A header begins with the bytes "ABACUS" and the format of the mesh: of the header and of
 /// all its pages together. It is raised when any of them changes.
-constexpr std::uint64_t name = 0x535543414241, format = 2;
+constexpr std::uint64_t name = 0x535543414241, format = 3;
 constexpr int name_bits = 48;
 /// Sequence numbers are bigint in the database.
 constexpr std::uint64_t count_limit = std::uint64_t{1} << 63;

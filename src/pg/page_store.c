@@ -118,7 +118,7 @@ page_store_fetch(PageStore *store, abacus_page_kind kind, abacus_page *page)
 	StoredPage	stored;
 
 	unpack_location(page->location, &tid);
-	if (!page_table_fetch(table_of(store, kind), &tid, &stored) ||
+	if (!page_table_fetch(table_of(store, kind), &tid, page->bytes, page->size, &stored) ||
 		stored.key[0] < least_column(kind))
 		return false;
 	hand_out(&stored, kind, page);

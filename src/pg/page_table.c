@@ -8,11 +8,6 @@
  * nbtree from copying all matches of a leaf page, gained nothing when
  * measured.)
  *
- * Fetching: the row at a place that a search gave, without the index. Rows
- * that have been moved are not there any more, and VACUUM may have cut the
- * file. That takes a lock which ours excludes: so the length of the file is
- * asked for once for each time that page_table_expect_moves() is called.
- *
  * Writing: heap_insert and index_insert, as the executor does it. No
  * BulkInsertState (its ring would evict the pages that are about to be read
  * again) and no SKIP_FSM (freed pages must be found; those that this session
@@ -107,8 +102,8 @@ page_table_close(PageTable *table)
 }
 
 /* Makes our own changes visible to the searches that follow. */
-static void
-see_own_changes(PageTable *table)
+void
+page_table_see_own_changes(PageTable *table)
 {
 	if (table->wrote)
 	{
@@ -163,7 +158,7 @@ page_table_get(PageTable *table, const int64 *key, StoredPage *page)
 	ScanKeyData keys[PAGE_TABLE_KEYS];
 
 	page_table_open(table);
-	see_own_changes(table);
+	page_table_see_own_changes(table);
 	/* used for the header row only: a scan of its own is not worth keeping */
 	close_scan(&table->forward);
 	table->at_key = false;
@@ -186,7 +181,7 @@ page_table_floor(PageTable *table, const int64 *key, StoredPage *page)
 	ScanKeyData bound;
 
 	page_table_open(table);
-	see_own_changes(table);
+	page_table_see_own_changes(table);
 	bound_key(table, &table->floor, &bound, BTLessEqualStrategyNumber, key);
 	search(table, &table->floor, &bound, 1);
 	if (!index_getnext_slot(table->floor.scan, BackwardScanDirection, table->floor.slot))
@@ -195,43 +190,12 @@ page_table_floor(PageTable *table, const int64 *key, StoredPage *page)
 	return true;
 }
 
-/* Others may have moved rows. */
-void
-page_table_expect_moves(PageTable *table)
-{
-	table->blocks = 0;
-}
-
-/* The row at *tid, whatever it is; false if there is none that we see. */
-bool
-page_table_fetch(PageTable *table, ItemPointer tid, StoredPage *page)
-{
-	page_table_open(table);
-	see_own_changes(table);
-	if (ItemPointerGetBlockNumber(tid) >= table->blocks)
-		table->blocks = RelationGetNumberOfBlocks(table->heap);
-	if (ItemPointerGetBlockNumber(tid) >= table->blocks)
-		return false;
-	if (table->fetched == NULL)
-	{
-		MemoryContext old = MemoryContextSwitchTo(table->memory);
-
-		table->fetched = MakeSingleTupleTableSlot(RelationGetDescr(table->heap),
-												  &TTSOpsBufferHeapTuple);
-		MemoryContextSwitchTo(old);
-	}
-	if (!table_tuple_fetch_row_version(table->heap, tid, GetActiveSnapshot(), table->fetched))
-		return false;
-	stored_page_read(table->heap, table->fetched, page);
-	return true;
-}
-
 /* The row with the least key > `key`. */
 bool
 page_table_next(PageTable *table, const int64 *key, StoredPage *page)
 {
 	page_table_open(table);
-	see_own_changes(table);
+	page_table_see_own_changes(table);
 	/* reading on in order, the scan already stands there */
 	if (!table->at_key || memcmp(key, table->forward_key, PAGE_TABLE_KEYS * sizeof(int64)) != 0)
 	{
@@ -330,7 +294,7 @@ page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes
 		page_table_insert(table, key, bytes, size, tid);
 		return;
 	}
-	see_own_changes(table);
+	page_table_see_own_changes(table);
 	tuple = form_row(table, key, bytes, size, values, isnull);
 	choose_heap_page(table, tuple);
 	simple_heap_update(table->heap, tid, tuple);
@@ -348,7 +312,7 @@ void
 page_table_delete(PageTable *table, ItemPointer tid)
 {
 	page_table_open(table);
-	see_own_changes(table);
+	page_table_see_own_changes(table);
 	simple_heap_delete(table->heap, tid);
 	if (table->superseded != NULL)
 		superseded_add(table->superseded, ItemPointerGetBlockNumber(tid));
@@ -363,7 +327,7 @@ page_table_scan_heap_page(PageTable *table, BlockNumber block)
 	ItemPointerData last;
 
 	page_table_open(table);
-	see_own_changes(table);
+	page_table_see_own_changes(table);
 	ItemPointerSet(&first, block, FirstOffsetNumber);
 	ItemPointerSet(&last, block, MaxOffsetNumber);
 	return table_beginscan_tidrange(table->heap, GetActiveSnapshot(), &first, &last);

@@ -54,11 +54,13 @@ typedef struct PageTable
 extern void page_table_init(PageTable *table, Oid relid, bool writable, MemoryContext memory);
 extern void page_table_open(PageTable *table);
 extern void page_table_close(PageTable *table);
+extern void page_table_see_own_changes(PageTable *table);
 
 extern bool page_table_get(PageTable *table, const int64 *key, StoredPage *page);
 extern bool page_table_floor(PageTable *table, const int64 *key, StoredPage *page);
 extern void page_table_expect_moves(PageTable *table);
-extern bool page_table_fetch(PageTable *table, ItemPointer tid, StoredPage *page);
+extern bool page_table_fetch(PageTable *table, ItemPointer tid, const unsigned char *bytes,
+							 size_t size, StoredPage *page);
 extern bool page_table_next(PageTable *table, const int64 *key, StoredPage *page);
 
 extern void page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes,

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace abacus {
 
@@ -98,6 +99,7 @@ template <int D> void Check<D>::check_pages() {
 template <int D> void Check<D>::check_page(const PageView<D> &page) {
     page_vertices_ += static_cast<std::uint64_t>(page.vertices());
     check_simplices(page);
+    for (int patch = 0; patch < page.patches(); ++patch) check_box(page, patch);
     bool has_parts = false;
     for (int i = 0; i < page.links(); ++i) has_parts = has_parts || page.link_part(i) != 0;
     if (page.has_parts() && !has_parts)
@@ -115,6 +117,22 @@ template <int D> void Check<D>::check_simplices(const PageView<D> &page) {
             fault("key", at_key_, "A simplex lies in a page that does not own its key.");
         if (!ghost && orientation<D>(corners_of(page, s)) <= 0)
             fault("orientation", at_key_, "A simplex is flat or negatively oriented.");
+    }
+}
+
+template <int D> void Check<D>::check_box(const PageView<D> &page, int patch) {
+    const auto simplices = page.simplices_of(patch);
+    for (int axis = 0; axis < D; ++axis) {
+        Column::Prefix least = std::numeric_limits<Column::Prefix>::max(), greatest = -1;
+        for (int s = simplices.begin; s < simplices.end; ++s)
+            for (int i = 0; i < D + !page.is_ghost(s); ++i) {
+                const auto vertex = static_cast<std::size_t>(page.corner(s, i));
+                const Column::Prefix prefix = page.ranks(axis).prefix_at(vertex);
+                least = std::min(least, prefix);
+                greatest = std::max(greatest, prefix);
+            }
+        if (page.patch(patch).least[axis] != least || page.patch(patch).greatest[axis] != greatest)
+            fault("page", at_key_, "The box of a patch of simplices is not that of its vertices.");
     }
 }
 

@@ -5,7 +5,7 @@
 //   header    the counts do not contradict each other; in 2D, Euler's relation holds
 //   pages     every page decodes and has the checksum of its bytes; the intervals
 //             partition the curve; each simplex is in the page that owns its key and
-//             positively oriented; the counts add up
+//             positively oriented; the boxes of patches fit; the counts add up
 //   topology  every link leads, by its stored key, to the simplex with the same facet
 //             in the opposite orientation; pages agree about the vertices they share;
 //             across every facet the empty-sphere criterion holds under the
@@ -60,6 +60,7 @@ private:
     void check_pages();
     void check_page(const PageView<D> &page);
     void check_simplices(const PageView<D> &page);
+    void check_box(const PageView<D> &page, int patch);
     void check_topology();
     void check_simplex(Cache<D> &cache, Handle h);
     void check_repeated_points();

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <functional>
 #include <limits>
-#include <utility>
 
 namespace abacus {
 
@@ -98,12 +97,14 @@ template <int D> bool Glance<D>::was_seen(const Key &page) {
     return false;
 }
 
+/// About as far as the coordinates go in a page; what comes behind is read of one simplex.
+static constexpr std::size_t searched_bytes = 4608;
+
 template <int D>
 bool Glance<D>::fetch(std::uint64_t code, const KnownPage *known, abacus_page &page) {
     const Host &host = cache_.host();
     if (known != nullptr) {
-        known->prefetch();
-        page.location = known->location;
+        page = {{}, known->bytes, searched_bytes, known->location};
         if (host.fetch(ABACUS_SIMPLEX_PAGES, page) && page.key == Key{known->lower, 0}) return true;
     }
     return host.find(ABACUS_SIMPLEX_PAGES, {code, 0}, page);
@@ -125,7 +126,7 @@ typename Glance<D>::Held &Glance<D>::hold(std::uint64_t code, const abacus_page 
     ++pages_read_;
     held.upper = {}; // no page's, until all went well
     held.asked = 0;
-    held.prefixed = 0;
+    held.patches = 0;
     held.has_boxes = false;
     PageView<D> &view = held.view;
     const unsigned char *bytes = page.bytes;
@@ -133,12 +134,13 @@ typename Glance<D>::Held &Glance<D>::hold(std::uint64_t code, const abacus_page 
         std::memcpy(held.bytes.data(), bytes, std::min(page.size, held.bytes.size()));
         bytes = held.bytes.data();
     }
-    view.open(bytes, page.size, cache_.vertices().attribute_count());
+    const bool is_known = known != nullptr && known->location == page.location &&
+                          known->bytes == page.bytes;
+    view.open(bytes, page.size, cache_.vertices().attribute_count(),
+              is_known ? PageView<D>::Checksum::ignore : PageView<D>::Checksum::verify);
     if (!(view.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
     if (const Key key{code, 0}; key < view.lower() || view.upper() <= key)
         throw_corrupted("No page owns a part of the curve.");
-    const bool is_known = known != nullptr && known->location == page.location &&
-                          known->bytes == page.bytes;
     held.page = is_known ? *known
                          : KnownPage{view.lower().code, view.upper().code, page.location,
                                      spacing(view), page.bytes};
@@ -181,42 +183,67 @@ template <int D> double Glance<D>::spacing(const PageView<D> &view) {
 
 // ---- In a page ------------------------------------------------------------------------
 
-template <int D> void Glance<D>::read_prefixes(Held &held, int end) {
-    if (held.prefixed >= end) return;
+template <int D> int Glance<D>::search(Held &held, const Point<D> &p) {
+    Prefixes own;
     for (int axis = 0; axis < D; ++axis)
-        held.view.ranks(axis).prefixes(static_cast<std::size_t>(held.prefixed),
-                                       static_cast<std::size_t>(end),
-                                       &held.prefixes[axis][held.prefixed]);
-    held.prefixed = end;
+        own[axis] = held.view.ranks(axis).prefix(ordered(p[axis]));
+    return held.asked > worth_boxes ? search_boxes(held, p, own) : search_patches(held, p, own);
 }
 
-template <int D> void Glance<D>::compare(Held &held, const Point<D> &p, int begin, int end) {
-    read_prefixes(held, end);
+template <int D> void Glance<D>::read_patch(Held &held, int patch) {
+    if ((held.patches >> patch & 1) != 0) return;
+    held.view.read_patch(patch);
+    held.patches |= std::uint64_t{1} << patch;
+}
+
+/// The side of a coordinate in the bits of its axis.
+static unsigned side_of(Column::Prefix prefix, Column::Prefix own, int axis) {
+    return (prefix < own ? 1u << 2 * axis : 0) | (prefix > own ? 2u << 2 * axis : 0);
+}
+
+template <int D>
+void Glance<D>::compare(const PageView<D> &view, int patch, const Prefixes &own) {
+    const auto fresh = view.fresh_of(patch), named = view.named_of(patch);
     for (int axis = 0; axis < D; ++axis) {
-        const auto &prefixes = held.prefixes[axis];
-        const Prefix own = held.view.ranks(axis).prefix(ordered(p[axis]));
-        const int below = 1 << 2 * axis, above = 2 << 2 * axis;
-        for (int v = begin; v < end; ++v) {
-            const int side = (prefixes[v] < own ? below : 0) | (prefixes[v] > own ? above : 0);
+        view.ranks(axis).prefixes(static_cast<std::size_t>(fresh.begin),
+                                  static_cast<std::size_t>(fresh.end), prefixes_.data());
+        for (int v = fresh.begin; v < fresh.end; ++v) {
+            const unsigned side = side_of(prefixes_[v - fresh.begin], own[axis], axis);
             sides_[v] = static_cast<Side>(axis == 0 ? side : sides_[v] | side);
         }
     }
+    for (int i = named.begin; i < named.end; ++i) {
+        const int v = view.named(i);
+        if (v >= fresh.begin) continue; // the point at infinity has its side at last
+        unsigned side = 0;
+        for (int axis = 0; axis < D; ++axis)
+            side |= side_of(view.ranks(axis).prefix_at(static_cast<std::size_t>(v)), own[axis], axis);
+        sides_[v] = static_cast<Side>(side);
+    }
+    sides_[view.vertices()] = static_cast<Side>(-1);
 }
 
 template <int D> int Glance<D>::position(PageView<D> &view, int simplex, const Point<D> &p) {
     if (view.is_ghost(simplex)) return -1;
-    for (int i = 0; i <= D; ++i) view.read_point(view.corner(simplex, i));
+    for (int i = 0; i <= D; ++i) {
+        view.ask_for_id(view.corner(simplex, i)); // most likely it is the one
+        view.read_point(view.corner(simplex, i));
+    }
     return in_simplex<D>(corners_of(view, simplex), p);
 }
 
-template <int D> int Glance<D>::search_and_read(Held &held, const Point<D> &p) {
-    constexpr int at_once = 64; // simplices
+template <int D>
+int Glance<D>::search_patches(Held &held, const Point<D> &p, const Prefixes &own) {
     PageView<D> &view = held.view;
-    sides_[view.vertices()] = static_cast<Side>(-1);
-    for (int s = 0, compared = 0; s < view.simplices();) {
-        const int end = view.read_simplices(s + at_once);
-        compare(held, p, std::exchange(compared, view.vertices_read()), view.vertices_read());
-        for (; s < end; ++s) {
+    for (int patch = 0; patch < view.patches(); ++patch) {
+        const PagePatch<D> &box = view.patch(patch);
+        bool is_within = true;
+        for (int axis = 0; axis < D; ++axis)
+            is_within = is_within && box.least[axis] <= own[axis] && own[axis] <= box.greatest[axis];
+        if (!is_within) continue;
+        read_patch(held, patch);
+        compare(view, patch, own);
+        for (int s = view.simplices_of(patch).begin; s < view.simplices_of(patch).end; ++s) {
             const Lanes &corners = view.corners(s);
             unsigned common = sides_[corners[0]];
             for (int i = 1; i <= D; ++i) common &= sides_[corners[i]];
@@ -231,17 +258,17 @@ template <int D> int Glance<D>::search_and_read(Held &held, const Point<D> &p) {
 template <int D> void Glance<D>::make_boxes(Held &held) {
     constexpr auto most = std::numeric_limits<Prefix>::max(), least = Prefix(~most);
     PageView<D> &view = held.view;
-    const int n = view.read_simplices(view.simplices());
-    read_prefixes(held, view.vertices());
+    for (int patch = 0; patch < view.patches(); ++patch) read_patch(held, patch);
+    const int n = view.simplices();
     for (int axis = 0; axis < D; ++axis) {
-        const auto &prefixes = held.prefixes[axis];
+        view.ranks(axis).prefixes(0, static_cast<std::size_t>(view.vertices()), prefixes_.data());
         auto &lower = held.boxes.lower[axis], &upper = held.boxes.upper[axis];
         for (int s = 0; s < n; ++s) {
             const Lanes &corners = view.corners(s);
             Prefix below = most, above = least;
             for (int i = 0; i <= D && !view.is_ghost(s); ++i) {
-                below = std::min(below, prefixes[corners[i]]);
-                above = std::max(above, prefixes[corners[i]]);
+                below = std::min(below, prefixes_[corners[i]]);
+                above = std::max(above, prefixes_[corners[i]]);
             }
             lower[s] = below;
             upper[s] = above;
@@ -252,11 +279,9 @@ template <int D> void Glance<D>::make_boxes(Held &held) {
     held.has_boxes = true;
 }
 
-template <int D> int Glance<D>::search_boxes(Held &held, const Point<D> &p) {
+template <int D>
+int Glance<D>::search_boxes(Held &held, const Point<D> &p, const Prefixes &own) {
     if (!held.has_boxes) make_boxes(held);
-    std::array<PrefixLanes, D> own;
-    for (int axis = 0; axis < D; ++axis)
-        own[axis] = PrefixLanes{} + held.view.ranks(axis).prefix(ordered(p[axis]));
     const auto load = [](const Prefix *from) {
         PrefixLanes lanes;
         std::memcpy(&lanes, from, sizeof lanes);

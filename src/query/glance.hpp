@@ -89,11 +89,10 @@ private:
         Key lower{}, upper{}; ///< what it owns; nothing at first
         KnownPage page;
         std::uint64_t last_use = 0;
-        unsigned asked = 0;  ///< places looked for
-        int prefixed = 0;    ///< vertices whose prefixes are there
+        unsigned asked = 0;       ///< places looked for
+        std::uint64_t patches = 0; ///< those that have been read, a bit each
         bool has_boxes = false;
         PageView<D> view;
-        std::array<std::array<Prefix, page_vertices<D>>, D> prefixes;
         Boxes boxes;
         alignas(8) std::array<unsigned char, ABACUS_PAGE_BYTES> bytes;
     };
@@ -115,15 +114,14 @@ private:
     /// What a search gives instead of a simplex's number: there is none, or p is on its border
     /// and so inside of no other.
     static constexpr int nowhere = -1, on_facet = -2;
-    int search(Held &held, const Point<D> &p) {
-        return held.asked > worth_boxes ? search_boxes(held, p) : search_and_read(held, p);
-    }
-    int search_and_read(Held &held, const Point<D> &p);
-    static int search_boxes(Held &held, const Point<D> &p);
-    static void make_boxes(Held &held);
-    static void read_prefixes(Held &held, int end);
-    /// Sets the sides of these vertices.
-    void compare(Held &held, const Point<D> &p, int begin, int end);
+    using Prefixes = std::array<Prefix, D>;
+    int search(Held &held, const Point<D> &p);
+    int search_patches(Held &held, const Point<D> &p, const Prefixes &own);
+    int search_boxes(Held &held, const Point<D> &p, const Prefixes &own);
+    static void read_patch(Held &held, int patch);
+    void make_boxes(Held &held);
+    /// Sets the sides of a patch's vertices.
+    void compare(const PageView<D> &view, int patch, const Prefixes &own);
     /// As in_simplex(); every point is outside of a ghost.
     static int position(PageView<D> &view, int simplex, const Point<D> &p);
     /// Of the page's vertices, in cells.
@@ -139,6 +137,7 @@ private:
     /// Of each vertex, and of the point at infinity behind them, two bits an axis: whether it
     /// is below p, or above. What all corners have in common dismisses a simplex.
     std::array<Side, page_vertices<D> + 1> sides_;
+    std::array<Prefix, page_vertices<D>> prefixes_; // of a page's vertices on one axis
     /// What the pages own that have been looked into for this place.
     std::array<std::pair<Key, Key>, 1 + distances.size() * most_codes> looked_;
     std::size_t looks_ = 0;

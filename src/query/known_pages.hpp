@@ -15,14 +15,7 @@ struct KnownPage {
     std::uint64_t lower, upper; // codes
     std::uint64_t location;
     double spacing; // of vertices, in cells of the curve
-    /// Where its bytes were. Most likely they still are, and on their way into the processor's
-    /// cache while the host looks whether they are; they are not read there.
-    const unsigned char *bytes;
-
-    void prefetch() const {
-        for (std::size_t at = 0; at < ABACUS_PAGE_BYTES; at += cache_line)
-            __builtin_prefetch(bytes + at);
-    }
+    const unsigned char *bytes; // where they were; they are not read there
 };
 
 class KnownPages {

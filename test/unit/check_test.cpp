@@ -94,6 +94,20 @@ TEST(Check, FindsGeometricDamageInsideAPage) {
     });
 }
 
+TEST(Check, FindsBoxesThatDoNotFit) {
+    Patient small(200, 1);
+    for (int i = 0; i < 4; ++i)
+        small.expect_fault("a box", "page", [&] {
+            MemoryHost::Page &page = small.page();
+            std::uint16_t bound; // of the first patch: least and greatest on each axis
+            unsigned char *const at = page.bytes() + sizeof(PageHeader) + 4 + 2 * i;
+            std::memcpy(&bound, at, sizeof bound);
+            bound ^= 1;
+            std::memcpy(at, &bound, sizeof bound);
+            seal_page(page.bytes(), page.size);
+        });
+}
+
 TEST(Check, FindsWhatPagesDisagreeAbout) {
     for (const std::size_t cache : {std::size_t(40) << 10, std::size_t(64) << 20}) {
         Patient big(2500, 2, cache);

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
+#include <set>
 
 namespace abacus::test {
 namespace {
@@ -138,23 +140,41 @@ TYPED_TEST(Glance, SurvivesSealedDamage) {
     EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
 }
 
-TYPED_TEST(Glance, ReadsPagesInPartsAsInOne) {
+TYPED_TEST(Glance, ReadsPatchesByThemselves) {
     constexpr int D = TypeParam::value;
     Large<D> mesh(D == 2 ? 30000 : 6000);
     PageView<D> whole, parts;
     for (auto &[key, page] : mesh.host.pages) {
         whole.read(page.bytes(), page.size, 0);
         parts.open(page.bytes(), page.size, 0);
-        for (int read = 0; read < parts.simplices();) {
-            const int until = read + 1 + static_cast<int>(mesh.random() % 100);
-            read = parts.read_simplices(until);
-            ASSERT_GE(read, std::min(until, parts.simplices()));
-            for (int s = 0; s < read; ++s)
+        std::vector<int> order(static_cast<std::size_t>(parts.patches()));
+        std::iota(order.begin(), order.end(), 0);
+        std::shuffle(order.begin(), order.end(), mesh.random);
+        for (const int patch : order) {
+            parts.read_patch(patch);
+            std::set<int> vertices;
+            for (int s = parts.simplices_of(patch).begin; s < parts.simplices_of(patch).end; ++s)
                 for (int i = 0; i <= D; ++i) {
                     ASSERT_EQ(parts.corner(s, i), whole.corner(s, i));
-                    ASSERT_TRUE(parts.corner(s, i) < parts.vertices_read() ||
-                                parts.corner(s, i) == parts.vertices());
+                    vertices.insert(parts.corner(s, i));
                 }
+            // What a patch says of its vertices is what they are.
+            std::set<int> told;
+            for (int v = parts.fresh_of(patch).begin; v < parts.fresh_of(patch).end; ++v)
+                told.insert(v);
+            for (int i = parts.named_of(patch).begin; i < parts.named_of(patch).end; ++i)
+                told.insert(parts.named(i));
+            ASSERT_EQ(told, vertices);
+            vertices.erase(parts.vertices());
+            for (int axis = 0; axis < D; ++axis) {
+                const auto prefix = [&](int v) {
+                    return parts.ranks(axis).prefix_at(static_cast<std::size_t>(v));
+                };
+                const auto before = [&](int v, int w) { return prefix(v) < prefix(w); };
+                const auto ends = std::minmax_element(vertices.begin(), vertices.end(), before);
+                ASSERT_EQ(parts.patch(patch).least[axis], prefix(*ends.first));
+                ASSERT_EQ(parts.patch(patch).greatest[axis], prefix(*ends.second));
+            }
         }
         for (int v = 0; v < parts.vertices(); ++v) {
             parts.read_point(v);

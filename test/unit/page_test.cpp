@@ -19,17 +19,23 @@ using Words = std::vector<std::uint64_t>;
 Words through_a_column(const Words &words) {
     const ColumnPlan plan(words.data(), words.size());
     std::vector<unsigned char> bytes(plan.size() + 16, 0xaa);
-    unsigned char *const end = plan.write(words.data(), bytes.data());
+    unsigned char *const deltas = plan.write_head(bytes.data());
+    unsigned char *const end = plan.write_deltas(words.data(), deltas);
     EXPECT_EQ(static_cast<std::size_t>(end - bytes.data()), plan.size());
     bytes.resize(plan.size() + 8); // what a page has behind its columns
     const unsigned char *at = bytes.data();
     Column column;
-    EXPECT_TRUE(column.read(at, end, words.size()));
+    EXPECT_TRUE(column.read_head(at, deltas));
+    EXPECT_EQ(at, deltas);
+    EXPECT_TRUE(column.read_deltas(at, end, words.size()));
     EXPECT_EQ(at, end);
-    if (!words.empty()) {
-        const unsigned char *cut = bytes.data();
-        Column none;
-        EXPECT_FALSE(none.read(cut, end - 1, words.size()));
+    const unsigned char *cut = bytes.data();
+    Column none;
+    EXPECT_FALSE(none.read_head(cut, deltas - 1));
+    if (deltas != end) {
+        cut = deltas;
+        none = column;
+        EXPECT_FALSE(none.read_deltas(cut, end - 1, words.size()));
     }
     Words result;
     for (std::size_t i = 0; i < words.size(); ++i) result.push_back(column[i]);
@@ -90,9 +96,14 @@ TEST(Column, ComparesWordsByTheirPrefixes) {
             const ColumnPlan plan(words.data(), words.size());
             std::vector<unsigned char> bytes(plan.size() + 16);
             const unsigned char *at = bytes.data();
-            plan.write(words.data(), bytes.data());
+            plan.write_deltas(words.data(), plan.write_head(bytes.data()));
             Column column;
-            ASSERT_TRUE(column.read(at, at + plan.size(), words.size()));
+            ASSERT_TRUE(column.read_head(at, bytes.data() + plan.size()));
+            ASSERT_TRUE(column.read_deltas(at, bytes.data() + plan.size(), words.size()));
+            for (std::size_t i = 0; i < words.size(); ++i) {
+                ASSERT_EQ(column.prefix_at(i), column.prefix(words[i]));
+                ASSERT_EQ(plan.prefix(words[i]), column.prefix(words[i]));
+            }
             std::vector<Column::Prefix> prefixes(80);
             column.prefixes(10, 90, prefixes.data());
             for (const std::uint64_t other : Words{words[3], words[40] + 1, base - 1, base, random(), ~0ull}) {
@@ -273,7 +284,7 @@ TEST_F(Square, OfAnotherFormatVersionIsToldApart) {
     seal_page(changed.data(), changed.size());
     std::string detail;
     EXPECT_EQ(kind_of(changed, detail), ABACUS_ERROR_CORRUPTED);
-    EXPECT_EQ(detail, "A simplex page has format version 1, not 2.");
+    EXPECT_EQ(detail, "A simplex page has format version 1, not 3.");
 }
 
 TEST(Pages, AreWellFilled) {
