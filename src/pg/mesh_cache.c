@@ -7,7 +7,8 @@
  *
  * Reading that row for every call would cost more than locating the point, so
  * an entry remembers under which snapshot it was found valid, and until then
- * also that the lock is held and the privileges were checked. Within one
+ * also that the lock is held and, in the same statement, that the privileges
+ * were checked. Within one
  * transaction an equal snapshot sees the same header; a subtransaction that
  * aborts is the exception (it takes changes and locks back without any trace
  * in the snapshot), so aborts and ends of transactions make entries forget.
@@ -22,6 +23,7 @@
 #include "access/table.h"
 #include "access/xact.h"
 #include "miscadmin.h"
+#include "utils/inval.h"
 #include "utils/memutils.h"
 #include "utils/snapmgr.h"
 
@@ -54,6 +56,7 @@ typedef struct Entry
 	size_t		bytes;			/* cache size it was opened with */
 	uint64		last_use;
 	Oid			user;			/* whose privileges were checked under `valid` */
+	TimestampTz statement;		/* ... which began then: they may be revoked between two */
 	SnapshotMark valid;
 } Entry;
 
@@ -172,10 +175,13 @@ open_mesh(Entry *entry, const abacus_header *header)
 static Entry *
 validate(Oid relid, Entry *entry)
 {
-	Relation	rel = mesh_table_open(relid, MESH_READ);
+	Relation	rel;
 	abacus_header header;
 	Host	   *host;
 
+	/* a lock that the transaction holds already does not bring the news of privileges */
+	AcceptInvalidationMessages();
+	rel = mesh_table_open(relid, MESH_READ);
 	/* the data of a mesh lies in one file; TRUNCATE and rewrites give it another */
 	if (entry != NULL &&
 		(entry->cached.host->busy || !RelFileNodeEquals(entry->node, rel->rd_node) ||
@@ -205,6 +211,7 @@ validate(Oid relid, Entry *entry)
 	}
 	mark_snapshot(&entry->valid, GetActiveSnapshot());
 	entry->user = GetUserId();
+	entry->statement = GetCurrentStatementStartTimestamp();
 	host_release(host);
 	host->busy = false;
 	table_close(rel, NoLock);
@@ -218,6 +225,7 @@ mesh_cache_get(Oid relid)
 	Entry	   *entry = find(relid);
 
 	if (unlikely(entry == NULL || entry->cached.host->busy || entry->user != GetUserId() ||
+				 entry->statement != GetCurrentStatementStartTimestamp() ||
 				 entry->bytes != setting_cache_bytes() ||
 				 !same_snapshot(&entry->valid, GetActiveSnapshot())))
 		entry = validate(relid, entry);
