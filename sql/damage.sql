@@ -106,23 +106,34 @@ CREATE FUNCTION little_endian(value bytea) RETURNS bytea LANGUAGE sql AS
     $$ SELECT string_agg(substr(value, i, 1), '' ORDER BY i DESC) FROM generate_series(1, length(value)) i $$;
 CREATE FUNCTION word(value bytea) RETURNS numeric LANGUAGE sql AS
     $$ SELECT sum(get_byte(value, i) * 256 ^ (length(value) - 1 - i)::numeric) FROM generate_series(0, length(value) - 1) i $$;
--- where a column's words begin, in bits, and how they are stored: ids, an axis each, attributes, codes, parts
+CREATE FUNCTION bit_width(number int) RETURNS int LANGUAGE sql AS
+    $$ SELECT length(ltrim(number::bit(16)::text, '0')) $$;
+-- where a column's words begin, in bits, and how they are stored: an axis each, ids, attributes, codes, parts
 CREATE FUNCTION words_of(page bytea, number int, OUT at int, OUT width int, OUT step numeric, OUT base numeric, OUT after int) LANGUAGE plpgsql AS $$
 DECLARE
+    dimension int := get_byte(page, 5);
+    simplices int := number_at(page, 8);
     vertices int := number_at(page, 10);
-    of_vertices int := 1 + get_byte(page, 5) + get_byte(page, 6);
+    columns int := 3 + dimension + get_byte(page, 6);
+    patch int := 4 + 4 * dimension;
+    head int := 48 + (simplices + 63) / 64 * patch;
+    named int := number_at(page, head - patch);
     n int;
 BEGIN
-    after := 48;
+    after := head;
+    FOR i IN 1 .. columns LOOP
+        after := after + 2 + 8 * (get_byte(page, after + 1) / 128);
+    END LOOP;
+    after := after + (simplices * (dimension + 1) + 7) / 8 + (named * bit_width(vertices) + 7) / 8;
     FOR i IN 0 .. number LOOP
-        n := CASE WHEN i < of_vertices THEN vertices WHEN i = of_vertices THEN number_at(page, 14) ELSE number_at(page, 12) END;
-        width := get_byte(page, after);
-        step := 2 ^ (get_byte(page, after + 1) % 128)::numeric;
+        n := CASE WHEN i < columns - 2 THEN vertices WHEN i = columns - 2 THEN number_at(page, 14) ELSE number_at(page, 12) END;
+        width := get_byte(page, head);
+        step := 2 ^ (get_byte(page, head + 1) % 128)::numeric;
         base := 0;
-        after := after + 2;
-        IF get_byte(page, after - 1) >= 128 THEN
-            base := word(little_endian(substr(page, after + 1, 8)));
-            after := after + 8;
+        head := head + 2;
+        IF get_byte(page, head - 1) >= 128 THEN
+            base := word(little_endian(substr(page, head + 1, 8)));
+            head := head + 8;
         END IF;
         at := 8 * after;
         after := after + (n * width + 7) / 8;
@@ -133,7 +144,7 @@ CREATE FUNCTION bits_at(page bytea, at int, width int) RETURNS numeric LANGUAGE 
 -- gives the vertex with this id another word in a column
 CREATE FUNCTION altered(page bytea, vertex bigint, number int, word numeric) RETURNS abacus_page LANGUAGE plpgsql AS $$
 DECLARE
-    ids record := words_of(page, 0);
+    ids record := words_of(page, get_byte(page, 5));
     words record := words_of(page, number);
     bits numeric := (word - words.base) / words.step;
     at int;
@@ -153,13 +164,16 @@ BEGIN
 END $$;
 -- its x, not negative
 CREATE FUNCTION moved(page bytea, vertex bigint, x float8) RETURNS abacus_page LANGUAGE sql AS
-    $$ SELECT altered(page, vertex, 1, word(float8send(x)) + 2 ^ 63::numeric) $$;
+    $$ SELECT altered(page, vertex, 0, word(float8send(x)) + 2 ^ 63::numeric) $$;
+-- the last numbers of vertices, which end where the coordinates begin
+CREATE FUNCTION renumbered(page bytea) RETURNS abacus_page LANGUAGE sql AS
+    $$ SELECT set_byte(set_byte(page, at / 8 - 1, 127), at / 8 - 2, 255)::abacus_page FROM words_of(page, 0) $$;
 -- flips the least bit of the number of a vertex that gives a neighbour its key
 CREATE FUNCTION relinked(page abacus_page, link int) RETURNS abacus_page LANGUAGE sql AS $$
     SELECT set_bit(b, place, 1 - get_bit(b, place))::abacus_page
     FROM (SELECT page::bytea) AS p (b),
          words_of(b, 2 + get_byte(b, 5) + get_byte(b, 6)) AS parts,
-         CAST(8 * parts.after + link * length(ltrim((number_at(b, 10) + number_at(b, 14))::bit(16)::text, '0')) AS int) AS place
+         CAST(8 * parts.after + link * bit_width(number_at(b, 10) + number_at(b, 14)) AS int) AS place
 $$;
 SELECT what, fault, a.mesh, a.noticed FROM (VALUES
     ('its magic number', 'header', 'UPDATE %1$s SET page = flipped(page, 0) WHERE code = -1'),
@@ -172,7 +186,7 @@ SELECT what, fault, a.mesh, a.noticed FROM (VALUES
     ('a page''s lower key', 'interval', 'UPDATE %1$s SET page = flipped(page, 16) WHERE code = last(%1$L)'),
     ('a page''s upper key', 'interval', 'UPDATE %1$s SET page = flipped(page, 32) WHERE code = 0'),
     ('a page''s dimension', 'page', 'UPDATE %1$s SET page = flipped(page, 5) WHERE code = 0'),
-    ('a vertex number', 'page', 'UPDATE %1$s SET page = set_byte(set_byte(page::bytea, length(page::bytea) - 9, 127), length(page::bytea) - 10, 255)::abacus_page WHERE code = last(%1$L)'),
+    ('a vertex number', 'page', 'UPDATE %1$s SET page = renumbered(page::bytea) WHERE code = last(%1$L)'),
     ('a link', 'link', 'UPDATE %1$s SET page = relinked(page, 3) WHERE code = last(%1$L)'),
     ('a repeated point''s serial number', 'count', 'UPDATE %1$s_vertices SET page = flipped(page, 16 + 1) WHERE first < 0'),
     ('a repeated point''s place', 'point', 'UPDATE %1$s_vertices SET page = flipped(page, 16 + 8 + 8) WHERE first < 0'),
@@ -188,7 +202,7 @@ SELECT what, fault, a.mesh, a.noticed FROM (VALUES
     ('a vertex of the hull moved in', 'hull', 'UPDATE %1$s SET page = moved(page::bytea, 7, 0.5) WHERE code >= 0'),
     ('a vertex moved to another', 'orientation', 'UPDATE %1$s SET page = moved(page::bytea, 5, 10) WHERE code >= 0'),
     ('a vertex moved', 'checksum', 'UPDATE %1$s SET page = moved(page::bytea, 6, 4) WHERE code >= 0'),
-    ('a vertex with another id', 'checksum', 'UPDATE %1$s SET page = altered(page::bytea, 6, 0, 5) WHERE code >= 0'),
+    ('a vertex with another id', 'checksum', 'UPDATE %1$s SET page = altered(page::bytea, 6, get_byte(page::bytea, 5), 5) WHERE code >= 0'),
     ('a vertex at infinity', 'page', 'UPDATE %1$s SET page = moved(page::bytea, 7, ''Infinity'') WHERE code >= 0')
 ) AS t (what, fault, damage), after(damage, fault, '{field_1,solid_1}') AS a;
 
@@ -251,6 +265,6 @@ SELECT abacus_triangulate('field');
 \echo :LAST_ERROR_SQLSTATE
 ROLLBACK;
 
-DROP FUNCTION faults, after, last, flipped, number_at, little_endian, word, words_of, bits_at, altered, moved, relinked;
+DROP FUNCTION faults, after, last, flipped, number_at, little_endian, word, bit_width, words_of, bits_at, altered, moved, renumbered, relinked;
 DROP PROCEDURE change_each_byte;
 DROP TABLE field, solid, field_1, solid_1;

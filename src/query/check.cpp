@@ -17,9 +17,9 @@ Check<D>::Check(const Host &host, const abacus_header &header, std::size_t cache
       domain_(domain_of<D>(header)), faults_(&memory_) {
     check_header();
     check_pages();
-    // A mesh with broken pages has no topology to speak of. Where only checksums are wrong,
-    // the other passes may tell what has been changed.
-    const auto is_sound = [&] { return faults_.size() == unsealed_; };
+    // A mesh with broken pages has no topology to speak of. Where only checksums and boxes are
+    // wrong, the other passes may tell what has been changed.
+    const auto is_sound = [&] { return faults_.size() == contents_; };
     if (is_sound() && pages_ > 0) run("link", [&] { check_topology(); });
     if (is_sound()) run("point", [&] { check_repeated_points(); });
     if (is_sound())
@@ -33,6 +33,12 @@ template <int D> void Check<D>::fault(const char *kind, const Key &key, const ch
     abacus_fault fault{key, kind, {}};
     std::snprintf(fault.message, sizeof fault.message, "%s", message);
     faults_.push_back(fault);
+}
+
+template <int D> void Check<D>::fault_of_content(const char *kind, const char *message) {
+    const std::size_t before = faults_.size();
+    fault(kind, at_key_, message);
+    contents_ += faults_.size() - before;
 }
 
 template <int D> template <class Pass> void Check<D>::run(const char *kind, Pass pass) {
@@ -73,11 +79,8 @@ template <int D> void Check<D>::check_pages() {
         report(++pages_);
         bool sound = false;
         run("page", [&] {
-            if (!scan.parse_unsealed()) {
-                const std::size_t before = faults_.size();
-                fault("checksum", at_key_, "A page has been changed since it was written.");
-                unsealed_ += faults_.size() - before;
-            }
+            if (!scan.parse_unsealed())
+                fault_of_content("checksum", "A page has been changed since it was written.");
             sound = true;
         });
         if (sound) {
@@ -132,7 +135,7 @@ template <int D> void Check<D>::check_box(const PageView<D> &page, int patch) {
                 greatest = std::max(greatest, prefix);
             }
         if (page.patch(patch).least[axis] != least || page.patch(patch).greatest[axis] != greatest)
-            fault("page", at_key_, "The box of a patch of simplices is not that of its vertices.");
+            fault_of_content("page", "The box of a patch of simplices is not that of its vertices.");
     }
 }
 

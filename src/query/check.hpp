@@ -70,6 +70,8 @@ private:
 
     /// Keeps a fault, if there is room for more.
     void fault(const char *kind, const Key &key, const char *message);
+    /// One of what the page at hand says of its content, which may well hold together.
+    void fault_of_content(const char *kind, const char *message);
     /// Runs a pass; a page so damaged that the pass cannot go on is a fault of its own.
     template <class Pass> void run(const char *kind, Pass pass);
     void report(std::uint64_t pages);
@@ -84,7 +86,7 @@ private:
     Key at_key_{}; // page at hand
     std::uint64_t pages_ = 0;
     std::uint64_t simplices_ = 0, ghosts_ = 0;
-    std::size_t unsealed_ = 0; // pages with a wrong checksum and no other fault so far
+    std::size_t contents_ = 0; // of the faults so far, those of fault_of_content()
     std::uint64_t page_vertices_ = 0; // of all pages
 };
 
