@@ -36,7 +36,7 @@ extern void change_add(Change *change, const uint64 *points, size_t count);
 extern void change_read(Change *change, Source *source, const abacus_header *shape);
 extern void change_open_build(Change *change);
 extern void change_insert(Change *change);
-extern uint64 change_delete(Change *change);
+extern uint64 change_delete(Change *change, bool by_id);
 extern void change_clear(Change *change);
 extern void change_abandon(Change *change);
 extern void change_end(Change *change);

@@ -228,7 +228,7 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 		change_insert(change);
 	surplus = read_points(change, psprintf("%s EXCEPT ALL %s", there, here));
 	if (synchronize && surplus > 0)
-		change_delete(change);
+		change_delete(change, true);
 	if (!synchronize && missing + surplus > 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),

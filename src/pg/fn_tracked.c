@@ -71,7 +71,8 @@ follow(const TriggerData *trigger, Transition *transition)
 		change_insert(change);
 	if (transition->old.rows != NULL && (gone = transition_stage(transition, false, change)) > 0)
 	{
-		deleted = change_delete(change);
+		/* another row's point at the place must not go for one that is missing */
+		deleted = change_delete(change, true);
 		if (deleted != gone)
 			ereport(ERROR,
 					(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
@@ -80,7 +81,9 @@ follow(const TriggerData *trigger, Transition *transition)
 							RelationGetRelationName(trigger->tg_relation)),
 					 errdetail("Points to delete: " UINT64_FORMAT "; found: " UINT64_FORMAT ".", gone,
 							   deleted),
-					 errhint("Bring it in step with abacus_track(mesh, table, synchronize => true).")));
+					 errhint("Bring it in step with abacus_track(mesh, table, synchronize => true). If "
+							 "an AFTER trigger changes the rows of its own statement again, make it a "
+							 "BEFORE trigger: such changes cannot be followed.")));
 	}
 	change_end(change);
 }

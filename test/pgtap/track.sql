@@ -1,6 +1,6 @@
 -- abacus_track: how the triggers find their mesh, odd tables, points without a place.
 BEGIN;
-SELECT plan(24);
+SELECT plan(27);
 
 CREATE FUNCTION differences(mesh regclass, source text) RETURNS bigint LANGUAGE plpgsql AS $$
 DECLARE
@@ -87,6 +87,23 @@ CREATE TRIGGER twin AFTER INSERT ON loose FOR EACH ROW EXECUTE FUNCTION twin();
 INSERT INTO loose SELECT i, i * 0.77, i * i % 13 FROM generate_series(1, 40) i;
 SELECT is(differences('loose_mesh', 'TABLE loose'), 0::bigint, 'triggers that change rows and add some');
 SELECT is(count(*), 80::bigint, '... all of them') FROM abacus_vertices('loose_mesh');
+-- ... unless they change the rows of their own statement again, afterwards: a row's point is
+-- looked for by its id, so that no other row at the place loses its own
+CREATE TABLE nudged (id int, x float8, y float8);
+SELECT abacus_create('nudged_mesh', 2);
+SELECT abacus_track('nudged_mesh', 'nudged');
+INSERT INTO nudged VALUES (1, 0, 0), (2, 3, 0), (3, 0, 3), (4, 1, 1);
+CREATE FUNCTION nudge() RETURNS trigger LANGUAGE plpgsql AS $$
+BEGIN
+    UPDATE nudged SET x = x + 1 WHERE id = NEW.id;
+    RETURN NULL;
+END $$;
+CREATE TRIGGER nudge AFTER INSERT ON nudged FOR EACH ROW EXECUTE FUNCTION nudge();
+SELECT throws_ok('INSERT INTO nudged VALUES (5, 1, 1)', '55000', 'mesh "nudged_mesh" is not in step with table "nudged"',
+    'an AFTER trigger that changes the row again');
+SELECT is(differences('nudged_mesh', 'TABLE nudged'), 0::bigint, '... leaves all in step');
+SELECT abacus_delete('nudged_mesh', 'VALUES (4, 1, 1)'), abacus_insert('nudged_mesh', 'VALUES (40, 1, 1)');
+SELECT throws_ok('DELETE FROM nudged WHERE id = 4', '55000', NULL, 'the point of another id is not taken');
 -- disabled triggers, and the way back
 ALTER TABLE loose DISABLE TRIGGER USER;
 DELETE FROM loose WHERE id < 10;
