@@ -11,7 +11,7 @@
 #include "pg/build.h"
 #include "pg/settings.h"
 
-/* Both handles go when the host does. */
+/* The handles go when the host does. */
 static void
 close_handles(void *handle)
 {
@@ -19,6 +19,7 @@ close_handles(void *handle)
 
 	abacus_build_close(change->build);
 	abacus_stage_close(change->stage);
+	abacus_stage_close(change->put_aside);
 }
 
 /* Opens a mesh for changing; `command` names the function for messages. */
@@ -67,6 +68,16 @@ change_read(Change *change, Source *source, const abacus_header *shape)
 	while ((count = source_fetch(source, &points)) > 0)
 		change_add(change, points, count);
 	source_close(source);
+}
+
+/* Puts the stage aside, and takes the one that was; the first time that is none. */
+void
+change_swap_stages(Change *change)
+{
+	abacus_stage *stage = change->stage;
+
+	change->stage = change->put_aside;
+	change->put_aside = stage;
 }
 
 /*

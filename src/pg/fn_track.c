@@ -222,13 +222,10 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 	uint64		missing;
 	uint64		surplus;
 
-	/* both queries see the mesh as it was: new pages have this command's number */
+	/* both are read before the mesh changes, for a query would see it half changed */
 	missing = read_points(change, psprintf("%s EXCEPT ALL %s", here, there));
-	if (synchronize && missing > 0)
-		change_insert(change);
+	change_swap_stages(change);
 	surplus = read_points(change, psprintf("%s EXCEPT ALL %s", there, here));
-	if (synchronize && surplus > 0)
-		change_delete(change, true);
 	if (!synchronize && missing + surplus > 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
@@ -237,6 +234,13 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 				 errdetail("Points that the mesh lacks: " UINT64_FORMAT "; points that it has too many: "
 						   UINT64_FORMAT ".", missing, surplus),
 				 errhint("With synchronize => true they are inserted and deleted.")));
+	/* inserted first, a point whose attributes alone differ takes over from the other */
+	change_swap_stages(change);
+	if (missing > 0)
+		change_insert(change);
+	change_swap_stages(change);
+	if (surplus > 0)
+		change_delete(change, true);
 	return missing + surplus > 0;
 }
 

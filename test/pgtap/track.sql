@@ -1,6 +1,6 @@
 -- abacus_track: how the triggers find their mesh, odd tables, points without a place.
 BEGIN;
-SELECT plan(27);
+SELECT plan(29);
 
 CREATE FUNCTION differences(mesh regclass, source text) RETURNS bigint LANGUAGE plpgsql AS $$
 DECLARE
@@ -111,6 +111,14 @@ ALTER TABLE loose ENABLE TRIGGER USER;
 SELECT throws_ok($$ SELECT abacus_track('loose_mesh', 'loose') $$, '55000', NULL, 'out of step');
 SELECT is(abacus_track('loose_mesh', 'loose', synchronize => true), 71::bigint, '... and in step again');
 SELECT is(differences('loose_mesh', 'TABLE loose'), 0::bigint, '... exactly');
+
+-- ... also where points wait
+SELECT abacus_create('few', 2);
+SELECT abacus_insert('few', 'VALUES (2, 1, 0), (3, 0, 1)');
+CREATE TABLE fewer (id int, x float8, y float8);
+INSERT INTO fewer VALUES (1, 0, 0), (2, 4, 0), (3, 0, 4), (4, 5, 4);
+SELECT is(abacus_track('few', 'fewer', synchronize => true), 4::bigint, 'in step, where points wait');
+SELECT is(differences('few', 'TABLE fewer'), 0::bigint, '... exactly');
 
 SELECT * FROM finish();
 ROLLBACK;
