@@ -16,7 +16,6 @@
 #include "catalog/pg_class.h"
 #include "catalog/pg_inherits.h"
 #include "miscadmin.h"
-#include "parser/parse_func.h"
 #include "utils/acl.h"
 #include "utils/array.h"
 #include "utils/builtins.h"
@@ -29,13 +28,6 @@
 
 SQL_FUNCTION(abacus_sql_track);
 SQL_FUNCTION(abacus_sql_untrack);
-
-static Oid
-trigger_function(Oid extension_namespace)
-{
-	return LookupFuncName(list_make2(makeString(get_namespace_name(extension_namespace)),
-									 makeString(TRACKING_FUNCTION)), 0, NULL, false);
-}
 
 /* What cannot be tracked is refused. */
 static void
@@ -93,7 +85,7 @@ check_mesh(Relation table, Oid mesh)
 static List *
 present_triggers(Oid function, Oid mesh, Relation table)
 {
-	List	   *triggers = tracking_triggers(function, mesh);
+	List	   *triggers = tracking_triggers(function, mesh, RelationGetRelid(table));
 	ListCell   *cell;
 
 	foreach(cell, triggers)
@@ -249,7 +241,7 @@ Datum
 abacus_sql_track(PG_FUNCTION_ARGS)
 {
 	Oid			extension_namespace = get_func_namespace(fcinfo->flinfo->fn_oid);
-	Oid			function = trigger_function(extension_namespace);
+	Oid			function = tracking_function(extension_namespace);
 	Oid			mesh;
 	Relation	table;
 	List	   *present;
@@ -314,8 +306,8 @@ abacus_sql_untrack(PG_FUNCTION_ARGS)
 {
 	Oid			mesh = PG_GETARG_OID(0);
 	Oid			table = PG_GETARG_OID(1);
-	List	   *triggers = tracking_triggers(
-		trigger_function(get_func_namespace(fcinfo->flinfo->fn_oid)), mesh);
+	Oid			function = tracking_function(get_func_namespace(fcinfo->flinfo->fn_oid));
+	List	   *triggers = tracking_triggers(function, mesh, table);
 	ListCell   *cell;
 	bool		found = false;
 

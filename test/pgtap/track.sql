@@ -22,7 +22,7 @@ FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 'field'::re
 DELETE FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 'field'::regclass;
 INSERT INTO wells SELECT i, i % 10, i / 10 FROM generate_series(0, 99) i;
 SELECT is(differences('field', 'TABLE wells'), 0::bigint, 'the mesh is found by name');
-SELECT is(count(*), 1::bigint, '... and bound again')
+SELECT is(count(*), 4::bigint, '... and all triggers are bound again')
 FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 'field'::regclass AND deptype = 'a';
 DELETE FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 'field'::regclass;
 SELECT is(abacus_track('field', 'wells'), 100::bigint, 'tracking again');
