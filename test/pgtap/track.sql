@@ -1,6 +1,6 @@
 -- abacus_track: how the triggers find their mesh, odd tables, points without a place.
 BEGIN;
-SELECT plan(29);
+SELECT plan(46);
 
 CREATE FUNCTION differences(mesh regclass, source text) RETURNS bigint LANGUAGE plpgsql AS $$
 DECLARE
@@ -119,6 +119,61 @@ CREATE TABLE fewer (id int, x float8, y float8);
 INSERT INTO fewer VALUES (1, 0, 0), (2, 4, 0), (3, 0, 4), (4, 5, 4);
 SELECT is(abacus_track('few', 'fewer', synchronize => true), 4::bigint, 'in step, where points wait');
 SELECT is(differences('few', 'TABLE fewer'), 0::bigint, '... exactly');
+
+-- table and mesh of one persistence: a crash would empty one of two
+CREATE TABLE kept (id int, x float8, y float8);
+CREATE UNLOGGED TABLE lost (LIKE kept);
+CREATE TEMP TABLE brief (LIKE kept) ON COMMIT DROP;
+SELECT abacus_create('kept_mesh', 2), abacus_create('lost_mesh', 2);
+ALTER TABLE lost_mesh SET UNLOGGED;
+ALTER TABLE lost_mesh_vertices SET UNLOGGED;
+SELECT throws_ok($$ SELECT abacus_track('lost_mesh', 'kept') $$, '42809', 'an unlogged mesh cannot follow a logged table', 'an unlogged mesh');
+SELECT throws_ok($$ SELECT abacus_track('kept_mesh', 'lost') $$, '42809', 'a logged mesh cannot follow an unlogged table', 'an unlogged table');
+SELECT lives_ok($$ SELECT abacus_track('lost_mesh', 'lost') $$, 'both unlogged');
+SELECT lives_ok($$ SELECT abacus_track('kept_mesh', 'brief') $$, 'a temporary table');
+SELECT abacus_untrack('lost_mesh', 'lost'), abacus_untrack('kept_mesh', 'brief');
+
+-- types are looked at whether the mesh has points or not
+CREATE TABLE typed (id int, "numeric id" numeric, x float8, y float8, "text" text);
+INSERT INTO typed VALUES (1, 1, 0, 0, '0');
+SELECT throws_ok($$ SELECT abacus_track('kept_mesh', 'typed', '{numeric id,x,y}') $$, '42804', NULL, 'a numeric id, empty mesh');
+SELECT throws_ok($$ SELECT abacus_track('kept_mesh', 'typed', '{id,text,y}') $$, '42804', NULL, '... and text');
+SELECT abacus_insert('kept_mesh', 'SELECT id, x, y FROM typed');
+SELECT throws_ok($$ SELECT abacus_track('kept_mesh', 'typed', '{numeric id,x,y}') $$, '42804', NULL, 'a numeric id, points');
+SELECT throws_ok($$ SELECT abacus_track('kept_mesh', 'typed', '{id,text,y}') $$, '42804', NULL, '... and text');
+SELECT is(abacus_track('kept_mesh', 'typed'), 1::bigint, 'the right ones');
+
+-- numerics that no double holds, read again as they were read: at half the least double, at the
+-- greatest with half a step more, and around them
+CREATE DOMAIN exact AS numeric;
+CREATE TABLE precise (id int, x numeric, y exact, height exact);
+SELECT abacus_create('precise_mesh', 2, '{height}');
+INSERT INTO precise SELECT i, s * v, i, s * h
+FROM (VALUES (1, 1e-400, 1e400), (2, 0.5 ^ 1, 'NaN'), (3, 1e300, 'Infinity'),
+             (4, 1 / 3.0, power(2::numeric, 1024) - power(2::numeric, 970)),
+             (5, 5e-324, power(2::numeric, 1024) - power(2::numeric, 970) - 1),
+             (6, 0, NULL), (7, 3e-310, 1e-320)) AS v (i, v, h), (VALUES (1), (-1)) AS s (s);
+UPDATE precise SET y = -y WHERE x < 0;
+-- 0.5 ^ 1075, exactly, and a little more
+INSERT INTO precise SELECT 10 + i, power(5::numeric, 1075) * 1e-1075 + i * 1e-2000, 10 + i, NULL FROM generate_series(0, 1) i;
+SELECT is(abacus_track('precise_mesh', 'precise'), 16::bigint, 'numerics beyond the range of double');
+SELECT is(abacus_track('precise_mesh', 'precise'), 16::bigint, '... are the same when compared');
+SELECT results_eq($$ SELECT id, x::text FROM abacus_vertices('precise_mesh') WHERE id > 9 ORDER BY id $$,
+    $$ VALUES (10::bigint, '0'), (11, '5e-324') $$, 'half the least double is zero, more is not');
+UPDATE precise SET x = x + 1, height = height + 1;
+SELECT is(abacus_track('precise_mesh', 'precise'), 16::bigint, '... also as the triggers have read them');
+SELECT abacus_untrack('precise_mesh', 'precise');
+UPDATE precise SET height = 5 WHERE id = 4;
+SELECT throws_ok($$ SELECT abacus_track('precise_mesh', 'precise') $$, '55000', NULL, 'a difference is seen');
+UPDATE precise SET x = 1e400 WHERE id = 4;
+SELECT throws_ok($$ SELECT abacus_track('precise_mesh', 'precise', synchronize => true) $$, '22023',
+    'x of point 4 is not finite', 'what has no place, compared');
+DELETE FROM precise WHERE id = 4;
+UPDATE precise SET x = 'NaN' WHERE id = 5;
+SELECT throws_ok($$ SELECT abacus_track('precise_mesh', 'precise', synchronize => true) $$, '22023',
+    'x of point 5 is not finite', '... nor this');
+DELETE FROM precise WHERE id = 5;
+SELECT is(abacus_track('precise_mesh', 'precise', synchronize => true), 12::bigint, 'in step without them');
 
 SELECT * FROM finish();
 ROLLBACK;
