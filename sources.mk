@@ -67,6 +67,7 @@ PG_SOURCES += src/pg/vacuum_moves.c
 PG_SOURCES += src/pg/vacuum.c
 PG_SOURCES += src/pg/fn_build.c
 PG_SOURCES += src/pg/fn_edit.c
+PG_SOURCES += src/pg/tracked_points.c
 PG_SOURCES += src/pg/tracking.c
 PG_SOURCES += src/pg/transition.c
 PG_SOURCES += src/pg/fn_tracked.c

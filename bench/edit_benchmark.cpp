@@ -57,7 +57,7 @@ private:
         require(abacus_build_open(host_.table(), &header, cache_bytes_, &build, &error), error);
         header.counters = {};
         std::uint64_t deleted;
-        require(removes ? abacus_build_delete(build, stage, &header, &deleted, &error)
+        require(removes ? abacus_build_delete(build, stage, 0, &header, &deleted, &error)
                         : abacus_build_insert(build, stage, &header, &error),
                 error);
         abacus_build_close(build);

@@ -57,10 +57,10 @@ abacus_status abacus_build_insert(abacus_build *build, abacus_stage *stage, abac
     });
 }
 
-abacus_status abacus_build_delete(abacus_build *build, abacus_stage *stage, abacus_header *header,
-                                  uint64_t *deleted, abacus_error *error) {
+abacus_status abacus_build_delete(abacus_build *build, abacus_stage *stage, int by_id,
+                                  abacus_header *header, uint64_t *deleted, abacus_error *error) {
     return run(build, header, error, [&](auto &opened, abacus_header &changed) {
-        *deleted = opened.remove(stage_for(opened, stage), changed);
+        *deleted = opened.remove(stage_for(opened, stage), by_id != 0, changed);
     });
 }
 

@@ -29,9 +29,9 @@ public:
     void run(std::uint64_t limit, abacus_header &header);
     /// Inserts what waits, then the points of a stage.
     void insert(Stage<D> &stage, abacus_header &header);
-    /// Inserts what waits, then takes away a point for each of a stage; returns how many
-    /// there were.
-    std::uint64_t remove(Stage<D> &stage, abacus_header &header);
+    /// Inserts what waits, then takes away a point for each of a stage, `by_id` only one that
+    /// has its id; returns how many there were.
+    std::uint64_t remove(Stage<D> &stage, bool by_id, abacus_header &header);
     /// Takes away all points, those that wait too; returns how many there were.
     std::uint64_t clear(abacus_header &header);
     /// Gives a mesh that has outgrown its domain another one, with `memory` bytes for sorting;
@@ -57,8 +57,9 @@ private:
     void start(const std::array<VertexIndex, D + 1> &vertices);
     void add(const std::uint64_t *records, std::size_t n);
     void insert_waiting(std::uint64_t limit);
-    /// Takes a point of the triangulation away; false if there is none.
-    bool erase(const Point<D> &p, std::int64_t id);
+    /// Takes a point of the triangulation away, `by_id` only one with this id; false if there
+    /// is none.
+    bool erase(const Point<D> &p, std::int64_t id, bool by_id);
     /// The points left, the neighbours of the vertex last found, span no simplex: they wait.
     void collapse();
     /// Erases all pages of a kind.

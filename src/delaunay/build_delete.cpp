@@ -5,19 +5,21 @@
 
 namespace abacus {
 
-template <int D> bool Build<D>::erase(const Point<D> &p, std::int64_t id) {
+template <int D> bool Build<D>::erase(const Point<D> &p, std::int64_t id, bool by_id) {
     Removal<D> &removal = core_->removal;
     if (header_->duplicates > 0 && repeated_->contains(p)) {
         const auto vertex = removal.id_at(p);
         if (!vertex) throw_corrupted("A repeated point equals no vertex of the mesh.");
-        if (*vertex == id || !repeated_->take(p, id)) { // then the next point takes over
+        if (*vertex == id || !repeated_->take(p, id)) {
+            if (*vertex != id && by_id) return false;
+            // the next point takes over
             const std::uint64_t *next = repeated_->take_first(p);
             removal.rename(p, record_id(next), record_attributes<D>(next));
         }
         --header_->duplicates;
         return true;
     }
-    switch (removal.remove(p)) {
+    switch (by_id ? removal.remove(p, id) : removal.remove(p)) {
     case Removed::no_such_vertex: return false;
     case Removed::removed: --header_->vertices; break;
     case Removed::collapses: collapse(); break;
@@ -61,8 +63,8 @@ template <int D> void Build<D>::forget_simplices() {
     core_->cache.counters = counters;
 }
 
-template bool Build<2>::erase(const Point<2> &, std::int64_t);
-template bool Build<3>::erase(const Point<3> &, std::int64_t);
+template bool Build<2>::erase(const Point<2> &, std::int64_t, bool);
+template bool Build<3>::erase(const Point<3> &, std::int64_t, bool);
 template void Build<2>::erase_pages(abacus_page_kind);
 template void Build<3>::erase_pages(abacus_page_kind);
 template void Build<2>::forget_simplices();

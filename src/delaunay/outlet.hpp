@@ -9,12 +9,13 @@ namespace abacus {
 
 template <int D> class Build<D>::Outlet final : public RecordSink {
 public:
-    explicit Outlet(Build &build) : build_(build), waiting_(build.host_, build.attributes_) {}
+    Outlet(Build &build, bool by_id)
+        : build_(build), by_id_(by_id), waiting_(build.host_, build.attributes_, by_id) {}
 
     void add(const std::uint64_t *record) override {
         const Point<D> p = record_point<D>(record);
         if (build_.has_simplices()) {
-            taken_ += build_.erase(p, record_id(record));
+            taken_ += build_.erase(p, record_id(record), by_id_);
             if (++done_ % 256 == 0) build_.host_.poll();
         } else if (build_.has_waiting()) {
             waiting_.want(p, record_id(record));
@@ -36,6 +37,7 @@ private:
     void take() { taken_ += waiting_.take(build_.header_->inserted, build_.header_->staged); }
 
     Build &build_;
+    const bool by_id_;
     WaitingPoints<D> waiting_;
     std::uint64_t taken_ = 0;
     std::uint64_t done_ = 0;

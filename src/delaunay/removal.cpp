@@ -30,9 +30,9 @@ template <int D> bool Removal<D>::collapses() const {
     return static_cast<std::int64_t>(finite) == mesh_.simplices() && star_.is_flat(independent);
 }
 
-template <int D> Removed Removal<D>::remove(const Point<D> &p) {
+template <int D> Removed Removal<D>::remove(const Point<D> &p, std::optional<std::int64_t> id) {
     const Link corner = find(p);
-    if (corner == nowhere) {
+    if (corner == nowhere || (id && id_of(corner) != *id)) {
         mesh_.finish(anywhere);
         return Removed::no_such_vertex;
     }
@@ -49,11 +49,14 @@ template <int D> Removed Removal<D>::remove(const Point<D> &p) {
     return Removed::removed;
 }
 
+template <int D> std::int64_t Removal<D>::id_of(Link corner) {
+    return cache_.vertices().id(cache_.simplex(link_simplex(corner)).vertex[link_facet(corner)]);
+}
+
 template <int D> std::optional<std::int64_t> Removal<D>::id_at(const Point<D> &p) {
     const Link corner = find(p);
     std::optional<std::int64_t> id;
-    if (corner != nowhere)
-        id = cache_.vertices().id(cache_.simplex(link_simplex(corner)).vertex[link_facet(corner)]);
+    if (corner != nowhere) id = id_of(corner);
     mesh_.finish(anywhere);
     return id;
 }

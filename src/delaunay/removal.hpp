@@ -22,8 +22,9 @@ public:
     explicit Removal(Delaunay<D> &mesh)
         : mesh_(mesh), cache_(mesh.cache()), star_(mesh), hole_(mesh) {}
 
-    /// Removes the vertex with exactly these coordinates (-0.0 equals 0.0).
-    Removed remove(const Point<D> &p);
+    /// Removes the vertex with exactly these coordinates (-0.0 equals 0.0), and this id if one
+    /// is given.
+    Removed remove(const Point<D> &p, std::optional<std::int64_t> id = {});
     /// The id of the vertex there, if there is one.
     std::optional<std::int64_t> id_at(const Point<D> &p);
     /// Gives the vertex there another id and other attributes (null if there are none).
@@ -41,6 +42,7 @@ private:
     /// A simplex with a vertex at p, and which of its corners that is, as a link; `nowhere`
     /// if there is none.
     Link find(const Point<D> &p);
+    std::int64_t id_of(Link corner);
     bool collapses() const;
 
     Delaunay<D> &mesh_;

@@ -27,6 +27,7 @@ typedef struct Change
 	abacus_stage *stage;		/* the points */
 	abacus_build *build;
 	uint64		points;			/* how many it holds */
+	abacus_stage *put_aside;	/* another one */
 } Change;
 
 extern uint64 edit_insert(Oid mesh, Source *source, const char *command, abacus_header *header);
@@ -34,9 +35,10 @@ extern Change *change_begin(Oid mesh, const char *command);
 extern void change_open_stage(Change *change, const abacus_header *shape);
 extern void change_add(Change *change, const uint64 *points, size_t count);
 extern void change_read(Change *change, Source *source, const abacus_header *shape);
+extern void change_swap_stages(Change *change);
 extern void change_open_build(Change *change);
 extern void change_insert(Change *change);
-extern uint64 change_delete(Change *change);
+extern uint64 change_delete(Change *change, bool by_id);
 extern void change_clear(Change *change);
 extern void change_abandon(Change *change);
 extern void change_end(Change *change);

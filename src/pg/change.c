@@ -11,7 +11,7 @@
 #include "pg/build.h"
 #include "pg/settings.h"
 
-/* Both handles go when the host does. */
+/* The handles go when the host does. */
 static void
 close_handles(void *handle)
 {
@@ -19,6 +19,7 @@ close_handles(void *handle)
 
 	abacus_build_close(change->build);
 	abacus_stage_close(change->stage);
+	abacus_stage_close(change->put_aside);
 }
 
 /* Opens a mesh for changing; `command` names the function for messages. */
@@ -69,6 +70,16 @@ change_read(Change *change, Source *source, const abacus_header *shape)
 	source_close(source);
 }
 
+/* Puts the stage aside, and takes the one that was; the first time that is none. */
+void
+change_swap_stages(Change *change)
+{
+	abacus_stage *stage = change->stage;
+
+	change->stage = change->put_aside;
+	change->put_aside = stage;
+}
+
 /*
  * Opens the triangulation for changes, unless it is open. The header must have
  * its domain by then, if the points to come shall give it one.
@@ -95,15 +106,15 @@ change_insert(Change *change)
 	host_run(host, abacus_build_insert(change->build, change->stage, header, &host->failure));
 }
 
-/* Takes the points of the stage away; returns how many there were. */
+/* Takes the points of the stage away, `by_id` only by their ids; returns how many there were. */
 uint64
-change_delete(Change *change)
+change_delete(Change *change, bool by_id)
 {
 	Host	   *host = change->writer.host;
 	uint64		deleted;
 
 	change_open_build(change);
-	host_run(host, abacus_build_delete(change->build, change->stage, change->writer.header,
+	host_run(host, abacus_build_delete(change->build, change->stage, by_id, change->writer.header,
 									   &deleted, &host->failure));
 	return deleted;
 }

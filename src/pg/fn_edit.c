@@ -58,7 +58,7 @@ edit_delete(Oid mesh, Source *source)
 	if (source_columns(source) == (int) (1 + shape->dimension))
 		shape->attributes = 0;
 	change_read(change, source, shape);
-	deleted = change_delete(change);
+	deleted = change_delete(change, false);
 	change_end(change);
 	return deleted;
 }

@@ -16,26 +16,18 @@
 #include "catalog/pg_class.h"
 #include "catalog/pg_inherits.h"
 #include "miscadmin.h"
-#include "parser/parse_func.h"
 #include "utils/acl.h"
-#include "utils/array.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 #include "utils/rls.h"
 
 #include "pg/build.h"
 #include "pg/sql_function.h"
+#include "pg/tracked_points.h"
 #include "pg/tracking.h"
 
 SQL_FUNCTION(abacus_sql_track);
 SQL_FUNCTION(abacus_sql_untrack);
-
-static Oid
-trigger_function(Oid extension_namespace)
-{
-	return LookupFuncName(list_make2(makeString(get_namespace_name(extension_namespace)),
-									 makeString(TRACKING_FUNCTION)), 0, NULL, false);
-}
 
 /* What cannot be tracked is refused. */
 static void
@@ -66,6 +58,24 @@ check_table(Relation table)
 				 errhint("Use ALTER TABLE ... NO FORCE ROW LEVEL SECURITY.")));
 }
 
+/* A crash empties what is unlogged, and no trigger tells the other. */
+static void
+check_persistence(Relation table, Oid mesh)
+{
+	bool		unlogged = table->rd_rel->relpersistence == RELPERSISTENCE_UNLOGGED;
+
+	/* a temporary table is gone after a crash, and its triggers with it */
+	if (table->rd_rel->relpersistence == RELPERSISTENCE_TEMP ||
+		(get_rel_persistence(mesh) == RELPERSISTENCE_UNLOGGED) == unlogged)
+		return;
+	ereport(ERROR,
+			(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+			 unlogged ? errmsg("a logged mesh cannot follow an unlogged table")
+			 : errmsg("an unlogged mesh cannot follow a logged table"),
+			 errdetail("A crash would empty one of them."),
+			 errhint("Use ALTER TABLE ... SET LOGGED or SET UNLOGGED; a mesh has two tables.")));
+}
+
 /* The mesh is written as the owner of the table later, in any session: may he? */
 static void
 check_mesh(Relation table, Oid mesh)
@@ -80,6 +90,7 @@ check_mesh(Relation table, Oid mesh)
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
 				 errmsg("a temporary mesh cannot follow a permanent table"),
 				 errdetail("Other sessions could not write the table any more.")));
+	check_persistence(table, mesh);
 
 	GetUserIdAndSecContext(&user, &security);
 	SetUserIdAndSecContext(table->rd_rel->relowner, security | SECURITY_LOCAL_USERID_CHANGE);
@@ -93,7 +104,7 @@ check_mesh(Relation table, Oid mesh)
 static List *
 present_triggers(Oid function, Oid mesh, Relation table)
 {
-	List	   *triggers = tracking_triggers(function, mesh);
+	List	   *triggers = tracking_triggers(function, mesh, RelationGetRelid(table));
 	ListCell   *cell;
 
 	foreach(cell, triggers)
@@ -109,94 +120,6 @@ present_triggers(Oid function, Oid mesh, Relation table)
 					 errhint("Call abacus_untrack() first, or make another mesh.")));
 	}
 	return triggers;
-}
-
-/* Names of the columns of a point: as given, or as the mesh names its own. */
-static List *
-column_names(ArrayType *given, const abacus_header *header, Relation table)
-{
-	int			wanted = 1 + header->dimension + header->attributes;
-	List	   *names = NIL;
-	ListCell   *cell;
-
-	if (given != NULL)
-	{
-		int			count;
-		Datum	   *elements = shape_names(given, "columns", &count);
-
-		if (count != wanted)
-			ereport(ERROR,
-					(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
-					 errmsg("columns has %d elements, but points of the mesh have %d", count,
-							wanted),
-					 errdetail("They are id, coordinates and attributes, as in a source query.")));
-		for (int i = 0; i < count; i++)
-			names = lappend(names, TextDatumGetCString(elements[i]));
-	}
-	else
-		for (int i = 0; i < wanted; i++)
-			names = lappend(names, pstrdup(row_packer_column(header, i)));
-
-	foreach(cell, names)
-		if (get_attnum(RelationGetRelid(table), lfirst(cell)) <= 0)
-			ereport(ERROR,
-					(errcode(ERRCODE_UNDEFINED_COLUMN),
-					 errmsg("column \"%s\" of table \"%s\" does not exist",
-							(char *) lfirst(cell), RelationGetRelationName(table)),
-					 errhint("Name the columns with the argument columns: id, coordinates, "
-							 "attributes.")));
-	return names;
-}
-
-/*
- * SELECT of the points of the table; `exact`: as the mesh has them, in its
- * types and without a NaN.
- */
-static char *
-points_of_table(Relation table, List *columns, int dimension, bool exact)
-{
-	StringInfoData query;
-	ListCell   *cell;
-
-	initStringInfo(&query);
-	foreach(cell, columns)
-	{
-		int			i = foreach_current_index(cell);
-		const char *name = quote_identifier(lfirst(cell));
-
-		appendStringInfoString(&query, i == 0 ? "SELECT " : ", ");
-		if (!exact)
-			appendStringInfo(&query, "t.%s", name);
-		else if (i == 0)
-			appendStringInfo(&query, "t.%s::pg_catalog.int8", name);
-		else if (i <= dimension)
-			appendStringInfo(&query, "t.%s::pg_catalog.float8", name);
-		else
-			appendStringInfo(&query, "CASE WHEN t.%s::pg_catalog.float8 OPERATOR(pg_catalog.<>) "
-							 "'NaN'::pg_catalog.float8 THEN t.%s::pg_catalog.float8 END", name, name);
-	}
-	appendStringInfo(&query, " FROM %s AS t WHERE ",
-					 quote_qualified_identifier(get_namespace_name(RelationGetNamespace(table)),
-												RelationGetRelationName(table)));
-	for (int i = 1; i <= dimension; i++)
-		appendStringInfo(&query, "%st.%s IS NOT NULL", i > 1 ? " AND " : "",
-						 quote_identifier(list_nth(columns, i)));
-	return query.data;
-}
-
-static char *
-points_of_mesh(Oid mesh, const abacus_header *header, Oid extension_namespace)
-{
-	StringInfoData query;
-
-	initStringInfo(&query);
-	appendStringInfoString(&query, header->dimension == 2 ? "SELECT v.id, v.x, v.y"
-						   : "SELECT v.id, v.x, v.y, v.z");
-	for (uint32 i = 1; i <= header->attributes; i++)
-		appendStringInfo(&query, ", v.attributes[%u]", i);
-	appendStringInfo(&query, " FROM %s.abacus_vertices(%u::pg_catalog.regclass) AS v",
-					 quote_identifier(get_namespace_name(extension_namespace)), mesh);
-	return query.data;
 }
 
 /* Reads the points of a query into the stage; returns how many. */
@@ -217,18 +140,15 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 		   Oid extension_namespace)
 {
 	abacus_header *header = change->writer.header;
-	char	   *here = points_of_table(table, columns, header->dimension, true);
-	char	   *there = points_of_mesh(mesh, header, extension_namespace);
+	char	   *here = tracked_points_of_table(table, columns, header->dimension, true);
+	char	   *there = tracked_points_of_mesh(mesh, header, extension_namespace);
 	uint64		missing;
 	uint64		surplus;
 
-	/* both queries see the mesh as it was: new pages have this command's number */
+	/* both are read before the mesh changes, for a query would see it half changed */
 	missing = read_points(change, psprintf("%s EXCEPT ALL %s", here, there));
-	if (synchronize && missing > 0)
-		change_insert(change);
+	change_swap_stages(change);
 	surplus = read_points(change, psprintf("%s EXCEPT ALL %s", there, here));
-	if (synchronize && surplus > 0)
-		change_delete(change);
 	if (!synchronize && missing + surplus > 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
@@ -237,6 +157,13 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 				 errdetail("Points that the mesh lacks: " UINT64_FORMAT "; points that it has too many: "
 						   UINT64_FORMAT ".", missing, surplus),
 				 errhint("With synchronize => true they are inserted and deleted.")));
+	/* inserted first, a point whose attributes alone differ takes over from the other */
+	change_swap_stages(change);
+	if (missing > 0)
+		change_insert(change);
+	change_swap_stages(change);
+	if (surplus > 0)
+		change_delete(change, true);
 	return missing + surplus > 0;
 }
 
@@ -245,7 +172,7 @@ Datum
 abacus_sql_track(PG_FUNCTION_ARGS)
 {
 	Oid			extension_namespace = get_func_namespace(fcinfo->flinfo->fn_oid);
-	Oid			function = trigger_function(extension_namespace);
+	Oid			function = tracking_function(extension_namespace);
 	Oid			mesh;
 	Relation	table;
 	List	   *present;
@@ -277,10 +204,10 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 	change = change_begin(mesh, "abacus_track()");
 	present = present_triggers(function, mesh, table);
 	header = *change->writer.header;
-	columns = column_names(PG_ARGISNULL(2) ? NULL : PG_GETARG_ARRAYTYPE_P(2), &header, table);
+	columns = tracked_columns(PG_ARGISNULL(2) ? NULL : PG_GETARG_ARRAYTYPE_P(2), &header, table);
 	if (header.vertices == 0 && header.inserted == header.staged)
 	{
-		read_points(change, points_of_table(table, columns, header.dimension, false));
+		read_points(change, tracked_points_of_table(table, columns, header.dimension, false));
 		change_insert(change);
 	}
 	else
@@ -310,8 +237,8 @@ abacus_sql_untrack(PG_FUNCTION_ARGS)
 {
 	Oid			mesh = PG_GETARG_OID(0);
 	Oid			table = PG_GETARG_OID(1);
-	List	   *triggers = tracking_triggers(
-		trigger_function(get_func_namespace(fcinfo->flinfo->fn_oid)), mesh);
+	Oid			function = tracking_function(get_func_namespace(fcinfo->flinfo->fn_oid));
+	List	   *triggers = tracking_triggers(function, mesh, table);
 	ListCell   *cell;
 	bool		found = false;
 

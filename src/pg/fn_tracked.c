@@ -11,6 +11,9 @@
  * The mesh is written as the owner of the table, as for foreign keys: whoever
  * may write the table need have no privileges on the mesh, and without the
  * owner's nobody reaches it. Nothing that a user has written runs meanwhile.
+ * That holds for triggers bound to their mesh (tracking.c), which the owner has
+ * made by abacus_track(). Others may name any mesh, and change it with the rights
+ * of the user only, as any function of a trigger does.
  */
 #include "postgres.h"
 
@@ -59,30 +62,52 @@ check_shape(const abacus_header *header, const Transition *transition, const cha
 
 /* What the statement has added and taken away, into the mesh. */
 static void
-follow(const TriggerData *trigger, Transition *transition)
+follow(const TriggerData *trigger, Transition *transition, Change *change)
 {
-	Oid			mesh = tracking_mesh(trigger->tg_trigger, trigger->tg_relation);
-	Change	   *change = change_begin(mesh, "abacus_track()");
 	uint64		gone;
 	uint64		deleted;
 
 	check_shape(change->writer.header, transition, trigger->tg_trigger->tgname);
 	if (transition->new.rows != NULL && transition_stage(transition, true, change) > 0)
 		change_insert(change);
-	if (transition->old.rows != NULL && (gone = transition_stage(transition, false, change)) > 0)
-	{
-		deleted = change_delete(change);
-		if (deleted != gone)
-			ereport(ERROR,
-					(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-					 errmsg("mesh \"%s\" is not in step with table \"%s\"",
-							RelationGetRelationName(change->writer.host->store.simplices.heap),
-							RelationGetRelationName(trigger->tg_relation)),
-					 errdetail("Points to delete: " UINT64_FORMAT "; found: " UINT64_FORMAT ".", gone,
-							   deleted),
-					 errhint("Bring it in step with abacus_track(mesh, table, synchronize => true).")));
-	}
+	if (transition->old.rows == NULL || (gone = transition_stage(transition, false, change)) == 0)
+		return;
+	/* another row's point at the place must not go for one that is missing */
+	deleted = change_delete(change, true);
+	if (deleted != gone)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("mesh \"%s\" is not in step with table \"%s\"",
+						RelationGetRelationName(change->writer.host->store.simplices.heap),
+						RelationGetRelationName(trigger->tg_relation)),
+				 errdetail("Points to delete: " UINT64_FORMAT "; found: " UINT64_FORMAT ".", gone,
+						   deleted),
+				 errhint("Bring it in step with abacus_track(mesh, table, synchronize => true). If "
+						 "an AFTER trigger changes the rows of its own statement again, make it a "
+						 "BEFORE trigger: such changes cannot be followed.")));
+}
+
+/* Changes the mesh as the statement has changed the table; no transition: it has emptied it. */
+static void
+change_mesh(const TriggerData *trigger, Transition *transition)
+{
+	Oid			user;
+	int			security;
+	bool		bound;
+	Oid			mesh = tracking_mesh(trigger, &bound);
+	Change	   *change;
+
+	GetUserIdAndSecContext(&user, &security);
+	if (bound)
+		SetUserIdAndSecContext(trigger->tg_relation->rd_rel->relowner,
+							   security | SECURITY_LOCAL_USERID_CHANGE);
+	change = change_begin(mesh, "abacus_track()");
+	if (transition == NULL)
+		change_clear(change);
+	else
+		follow(trigger, transition, change);
 	change_end(change);
+	SetUserIdAndSecContext(user, security);
 }
 
 /* abacus_tracked() -> trigger; arguments: mesh, dimension, columns of a point */
@@ -90,29 +115,17 @@ Datum
 abacus_sql_tracked(PG_FUNCTION_ARGS)
 {
 	TriggerData *trigger = (TriggerData *) fcinfo->context;
-	Oid			user;
-	int			security;
+	Transition *transition;
 
 	check_protocol(fcinfo);
-	GetUserIdAndSecContext(&user, &security);
-	SetUserIdAndSecContext(trigger->tg_relation->rd_rel->relowner,
-						   security | SECURITY_LOCAL_USERID_CHANGE);
 	if (TRIGGER_FIRED_BY_TRUNCATE(trigger->tg_event))
 	{
-		Change	   *change = change_begin(tracking_mesh(trigger->tg_trigger, trigger->tg_relation),
-										  "abacus_track()");
-
-		change_clear(change);
-		change_end(change);
+		change_mesh(trigger, NULL);
+		return PointerGetDatum(NULL);
 	}
-	else
-	{
-		Transition *transition = transition_open(trigger);
-
-		if (transition_changes(transition))
-			follow(trigger, transition);
-		transition_close(transition);
-	}
-	SetUserIdAndSecContext(user, security);
+	transition = transition_open(trigger);
+	if (transition_changes(transition))
+		change_mesh(trigger, transition);
+	transition_close(transition);
 	return PointerGetDatum(NULL);
 }

@@ -39,6 +39,7 @@
 #include "utils/syscache.h"
 
 #include "pg/mesh.h"
+#include "pg/tracking.h"
 
 /* Whether `type` is this extension's row type of that name; remembers the last yes. */
 static bool
@@ -342,7 +343,10 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 	check_access(rel, access, mesh);
 	if (!bound && access == MESH_WRITE && pg_class_ownercheck(relid, GetUserId()) &&
 		pg_class_ownercheck(RelationGetRelid(mesh), GetUserId()))
+	{
 		mesh_bind_vertex_table(RelationGetRelid(mesh), relid);
+		tracking_bind_restored(mesh);
+	}
 	relation_close(rel, NoLock);
 	return relid;
 }

@@ -7,10 +7,15 @@
  * but an automatic dependency of the trigger on the mesh: so the mesh may be
  * renamed and moved, and dropping it drops the triggers.
  *
+ * Only bound triggers run with the rights of the table's owner, for anybody who
+ * may make a trigger can name any mesh.
+ *
  * A dump carries the triggers and their arguments, but not the dependency. In a
- * restored database the mesh is found by its name, and bound again when its
- * owner, who also owns the table, first writes. The name has no schema if the
- * mesh lies in that of the table, so that both can be restored into another.
+ * restored database the mesh is found by its name, with the rights of the user.
+ * All its triggers are bound again when somebody with the rights of both owners
+ * first writes the table, or changes the mesh so that its vertex table is bound.
+ * The name has no schema if the mesh lies in that of the table, so that both can
+ * be restored into another.
  */
 #include "postgres.h"
 
@@ -27,49 +32,54 @@
 #include "commands/defrem.h"
 #include "executor/spi.h"
 #include "miscadmin.h"
-#include "nodes/makefuncs.h"
-#include "parser/parse_func.h"
+#include "storage/lmgr.h"
 #include "utils/acl.h"
 #include "utils/builtins.h"
 #include "utils/fmgroids.h"
 #include "utils/lsyscache.h"
-#include "utils/regproc.h"
+#include "utils/syscache.h"
 #include "utils/varlena.h"
 
 #include "pg/mesh.h"
 #include "pg/tracking.h"
 
-/* The table of this name, which without a schema is one of `namespace`. */
-static Oid
-table_by_name(const char *name, Oid namespace)
+/* The function TRACKING_FUNCTION of the extension; InvalidOid if it has none. */
+Oid
+tracking_function(Oid extension_namespace)
 {
-	RangeVar   *range = makeRangeVarFromNameList(stringToQualifiedNameList(name));
-
-	if (range->schemaname == NULL)
-		return get_relname_relid(range->relname, namespace);
-	return RangeVarGetRelid(range, NoLock, true);
+	return GetSysCacheOid3(PROCNAMEARGSNSP, Anum_pg_proc_oid,
+						   CStringGetDatum(TRACKING_FUNCTION),
+						   PointerGetDatum(buildoidvector(NULL, 0)),
+						   ObjectIdGetDatum(extension_namespace));
 }
 
-/* The mesh that a trigger, now firing, keeps in step with its table. */
-Oid
-tracking_mesh(const Trigger *trigger, Relation table)
+/*
+ * The mesh of this name, which without a schema is one of `namespace`. Names are
+ * what somebody has written who need not be the one who asks: so nothing is an
+ * error, and no privilege is asked for.
+ */
+static Oid
+mesh_by_name(const char *name, Oid namespace)
 {
-	Oid			mesh = mesh_of_trigger(trigger->tgoid);
+	List	   *names;
 
-	if (OidIsValid(mesh))
-		return mesh;
-	mesh = table_by_name(trigger->tgargs[0], RelationGetNamespace(table));
-	if (!OidIsValid(mesh))
-		ereport(ERROR,
-				(errcode(ERRCODE_UNDEFINED_TABLE),
-				 errmsg("mesh \"%s\", which follows table \"%s\", does not exist",
-						trigger->tgargs[0], RelationGetRelationName(table)),
-				 errhint("Restore the mesh under that name, or drop the trigger \"%s\" and those "
-						 "like it.", trigger->tgname)));
-	if (pg_class_ownercheck(mesh, GetUserId()) &&
-		pg_class_ownercheck(RelationGetRelid(table), GetUserId()))
-		mesh_bind_trigger(mesh, trigger->tgoid);
-	return mesh;
+	if (!SplitIdentifierString(pstrdup(name), '.', &names))
+		return InvalidOid;
+	if (list_length(names) == 2)
+		namespace = get_namespace_oid(linitial(names), true);
+	else if (list_length(names) != 1)
+		return InvalidOid;
+	return OidIsValid(namespace) ? get_relname_relid(llast(names), namespace) : InvalidOid;
+}
+
+/* The mesh that a trigger of the table is bound to; InvalidOid if none. */
+static Oid
+bound_mesh(Oid trigger, Oid table)
+{
+	Oid			mesh = mesh_of_trigger(trigger);
+
+	/* every trigger depends on its own table, which may be a mesh's */
+	return mesh == table ? InvalidOid : mesh;
 }
 
 /* The first argument of a trigger, as it stands in the catalogue. */
@@ -104,19 +114,49 @@ read_trigger(Oid oid)
 		trigger->oid = oid;
 		trigger->name = pstrdup(NameStr(form->tgname));
 		trigger->table = form->tgrelid;
-		trigger->mesh = mesh_of_trigger(oid);
-		if (!OidIsValid(trigger->mesh) && form->tgnargs > 0)
-			trigger->mesh = table_by_name(first_argument(tuple, triggers),
-										  get_rel_namespace(form->tgrelid));
+		trigger->mesh = bound_mesh(oid, form->tgrelid);
+		trigger->bound = OidIsValid(trigger->mesh);
+		if (!trigger->bound && form->tgnargs > 0)
+			trigger->mesh = mesh_by_name(first_argument(tuple, triggers),
+										 get_rel_namespace(form->tgrelid));
 	}
 	systable_endscan(scan);
 	table_close(triggers, AccessShareLock);
 	return trigger;
 }
 
-/* The triggers that call the function, TRACKING_FUNCTION, for this mesh. */
+static Oid
+owner_of_table(Oid relid)
+{
+	HeapTuple	tuple = SearchSysCache1(RELOID, ObjectIdGetDatum(relid));
+	Oid			owner = InvalidOid;
+
+	if (HeapTupleIsValid(tuple))
+	{
+		owner = ((Form_pg_class) GETSTRUCT(tuple))->relowner;
+		ReleaseSysCache(tuple);
+	}
+	return owner;
+}
+
+/* Whether the trigger counts as one of the mesh; `table` is what tracking_triggers() is asked for. */
+static bool
+belongs(const TrackingTrigger *trigger, Oid mesh, Oid table)
+{
+	if (trigger == NULL || trigger->mesh != mesh)
+		return false;
+	/* what others write into triggers of their tables must be in nobody's way */
+	return trigger->bound || trigger->table == table ||
+		owner_of_table(trigger->table) == owner_of_table(mesh);
+}
+
+/*
+ * The triggers that call the function, TRACKING_FUNCTION, for this mesh: those
+ * bound to it, and of those that only name it the ones of `table` (which may be
+ * InvalidOid) and of tables that the mesh's owner has.
+ */
 List *
-tracking_triggers(Oid function, Oid mesh)
+tracking_triggers(Oid function, Oid mesh, Oid table)
 {
 	Relation	depend = table_open(DependRelationId, AccessShareLock);
 	List	   *found = NIL;
@@ -135,12 +175,120 @@ tracking_triggers(Oid function, Oid mesh)
 		TrackingTrigger *trigger = entry->classid == TriggerRelationId
 			? read_trigger(entry->objid) : NULL;
 
-		if (trigger != NULL && trigger->mesh == mesh)
+		if (belongs(trigger, mesh, table))
 			found = lappend(found, trigger);
 	}
 	systable_endscan(scan);
 	table_close(depend, AccessShareLock);
 	return found;
+}
+
+/* The table of all these triggers; InvalidOid if there is none, or several. */
+static Oid
+only_table(List *triggers)
+{
+	Oid			table = InvalidOid;
+	ListCell   *cell;
+
+	foreach(cell, triggers)
+	{
+		TrackingTrigger *trigger = lfirst(cell);
+
+		if (OidIsValid(table) && trigger->table != table)
+			return InvalidOid;
+		table = trigger->table;
+	}
+	return table;
+}
+
+/* Binds all triggers of the table that name the mesh, if the user may; returns whether he may. */
+static bool
+bind_triggers(Oid function, Oid mesh, Oid table)
+{
+	List	   *triggers;
+	ListCell   *cell;
+
+	if (mesh_of_table(mesh) != mesh || !pg_class_ownercheck(mesh, GetUserId()) ||
+		!pg_class_ownercheck(table, GetUserId()))
+		return false;
+	triggers = tracking_triggers(function, mesh, table);
+	foreach(cell, triggers)
+	{
+		TrackingTrigger *trigger = lfirst(cell);
+
+		if (trigger->bound && trigger->table != table)
+			return false;		/* a mesh follows one table */
+	}
+	foreach(cell, triggers)
+	{
+		TrackingTrigger *trigger = lfirst(cell);
+
+		if (!trigger->bound && trigger->table == table)
+			mesh_bind_trigger(mesh, trigger->oid);
+	}
+	CommandCounterIncrement();	/* who looks again in this command must see it */
+	return true;
+}
+
+/*
+ * After a restore: binds the triggers of the mesh, if there is no doubt which
+ * table it follows. Waits for nobody; what is not bound here the first write of
+ * the table binds.
+ */
+void
+tracking_bind_restored(Relation mesh)
+{
+	Oid			relid = RelationGetRelid(mesh);
+	Oid			pages = get_typ_typrelid(mesh->rd_rel->reloftype);
+	Oid			function = tracking_function(get_rel_namespace(pages));
+	Oid			table = only_table(tracking_triggers(function, relid, InvalidOid));
+
+	/* the lock keeps the triggers from being dropped meanwhile */
+	if (OidIsValid(table) && ConditionalLockRelationOid(table, AccessShareLock) &&
+		OidIsValid(owner_of_table(table)))
+		bind_triggers(function, relid, table);
+}
+
+/* Who may not use the schema of a mesh does not reach it through a trigger that is not bound. */
+static void
+check_schema(Oid mesh, Oid table)
+{
+	Oid			namespace = get_rel_namespace(mesh);
+	AclResult	result;
+
+	if (namespace == get_rel_namespace(table))
+		return;
+	result = pg_namespace_aclcheck(namespace, GetUserId(), ACL_USAGE);
+	if (result != ACLCHECK_OK)
+		aclcheck_error(result, OBJECT_SCHEMA, get_namespace_name(namespace));
+}
+
+/*
+ * The mesh that a trigger, now firing, keeps in step with its table. *bound: it
+ * is the one of abacus_track(), to be changed with the rights of the table's
+ * owner; otherwise a user has named it, and has no rights but his own.
+ */
+Oid
+tracking_mesh(const TriggerData *data, bool *bound)
+{
+	const Trigger *trigger = data->tg_trigger;
+	Oid			table = RelationGetRelid(data->tg_relation);
+	Oid			mesh = bound_mesh(trigger->tgoid, table);
+
+	*bound = OidIsValid(mesh);
+	if (*bound)
+		return mesh;
+	mesh = mesh_by_name(trigger->tgargs[0], get_rel_namespace(table));
+	if (!OidIsValid(mesh))
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_TABLE),
+				 errmsg("mesh \"%s\", which follows table \"%s\", does not exist",
+						trigger->tgargs[0], RelationGetRelationName(data->tg_relation)),
+				 errhint("Restore the mesh under that name, or drop the trigger \"%s\" and those "
+						 "like it.", trigger->tgname)));
+	check_schema(mesh, table);
+	*bound = bind_triggers(trigger->tgfoid, mesh, table);
+	return mesh;
 }
 
 /* A name for a trigger of the table that none of its triggers has. */

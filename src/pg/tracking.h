@@ -17,10 +17,13 @@ typedef struct TrackingTrigger
 	char	   *name;
 	Oid			table;
 	Oid			mesh;			/* InvalidOid: not found */
+	bool		bound;			/* to the mesh, which otherwise is known by name alone */
 } TrackingTrigger;
 
-extern Oid	tracking_mesh(const Trigger *trigger, Relation table);
-extern List *tracking_triggers(Oid function, Oid mesh);
+extern Oid	tracking_function(Oid extension_namespace);
+extern Oid	tracking_mesh(const TriggerData *data, bool *bound);
+extern void tracking_bind_restored(Relation mesh);
+extern List *tracking_triggers(Oid function, Oid mesh, Oid table);
 extern void tracking_create(Oid function, Oid mesh, int dimension, Relation table,
 							List *columns);
 extern void tracking_drop(const TrackingTrigger *trigger);

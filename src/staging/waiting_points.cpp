@@ -26,12 +26,12 @@ template <int D> void WaitingPoints<D>::find(std::uint64_t from, std::uint64_t t
 }
 
 /// Whether the point at hand goes: because it is one that find() found, or because it is
-/// the first left for a want that found none.
+/// the first left for a want that found none, where any point will do.
 template <int D> bool WaitingPoints<D>::is_wanted(const VertexReader<D> &reader) {
     const auto [begin, end] = at(reader.point());
     auto want = std::find_if(begin, end,
                              [&](const Wanted &w) { return w.sequence == reader.sequence(); });
-    if (want == end)
+    if (want == end && !by_id_)
         want = std::find_if(begin, end,
                             [](const Wanted &w) { return w.sequence == none && !w.taken; });
     if (want == end) return false;

@@ -13,11 +13,12 @@ namespace abacus {
 
 template <int D> class WaitingPoints {
 public:
-    WaitingPoints(const Host &host, unsigned attributes)
-        : host_(host), attributes_(attributes), wanted_(host) {}
+    /// `by_id`: takes only points that have the id wanted.
+    WaitingPoints(const Host &host, unsigned attributes, bool by_id)
+        : host_(host), attributes_(attributes), by_id_(by_id), wanted_(host) {}
 
     /// Wants a point taken away: one with these coordinates, and of several the one with
-    /// this id, or else the first.
+    /// this id, or else (unless by id) the first.
     void want(const Point<D> &p, std::int64_t id) {
         wanted_.push_back({p, id, none, wanted_.size(), false});
     }
@@ -45,6 +46,7 @@ private:
 
     const Host &host_;
     const unsigned attributes_;
+    const bool by_id_;
     Arena<Wanted> wanted_;
 };
 

@@ -1,6 +1,6 @@
 -- abacus_track: how the triggers find their mesh, odd tables, points without a place.
 BEGIN;
-SELECT plan(24);
+SELECT plan(46);
 
 CREATE FUNCTION differences(mesh regclass, source text) RETURNS bigint LANGUAGE plpgsql AS $$
 DECLARE
@@ -22,7 +22,7 @@ FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 'field'::re
 DELETE FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 'field'::regclass;
 INSERT INTO wells SELECT i, i % 10, i / 10 FROM generate_series(0, 99) i;
 SELECT is(differences('field', 'TABLE wells'), 0::bigint, 'the mesh is found by name');
-SELECT is(count(*), 1::bigint, '... and bound again')
+SELECT is(count(*), 4::bigint, '... and all triggers are bound again')
 FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 'field'::regclass AND deptype = 'a';
 DELETE FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 'field'::regclass;
 SELECT is(abacus_track('field', 'wells'), 100::bigint, 'tracking again');
@@ -87,6 +87,23 @@ CREATE TRIGGER twin AFTER INSERT ON loose FOR EACH ROW EXECUTE FUNCTION twin();
 INSERT INTO loose SELECT i, i * 0.77, i * i % 13 FROM generate_series(1, 40) i;
 SELECT is(differences('loose_mesh', 'TABLE loose'), 0::bigint, 'triggers that change rows and add some');
 SELECT is(count(*), 80::bigint, '... all of them') FROM abacus_vertices('loose_mesh');
+-- ... unless they change the rows of their own statement again, afterwards: a row's point is
+-- looked for by its id, so that no other row at the place loses its own
+CREATE TABLE nudged (id int, x float8, y float8);
+SELECT abacus_create('nudged_mesh', 2);
+SELECT abacus_track('nudged_mesh', 'nudged');
+INSERT INTO nudged VALUES (1, 0, 0), (2, 3, 0), (3, 0, 3), (4, 1, 1);
+CREATE FUNCTION nudge() RETURNS trigger LANGUAGE plpgsql AS $$
+BEGIN
+    UPDATE nudged SET x = x + 1 WHERE id = NEW.id;
+    RETURN NULL;
+END $$;
+CREATE TRIGGER nudge AFTER INSERT ON nudged FOR EACH ROW EXECUTE FUNCTION nudge();
+SELECT throws_ok('INSERT INTO nudged VALUES (5, 1, 1)', '55000', 'mesh "nudged_mesh" is not in step with table "nudged"',
+    'an AFTER trigger that changes the row again');
+SELECT is(differences('nudged_mesh', 'TABLE nudged'), 0::bigint, '... leaves all in step');
+SELECT abacus_delete('nudged_mesh', 'VALUES (4, 1, 1)'), abacus_insert('nudged_mesh', 'VALUES (40, 1, 1)');
+SELECT throws_ok('DELETE FROM nudged WHERE id = 4', '55000', NULL, 'the point of another id is not taken');
 -- disabled triggers, and the way back
 ALTER TABLE loose DISABLE TRIGGER USER;
 DELETE FROM loose WHERE id < 10;
@@ -94,6 +111,69 @@ ALTER TABLE loose ENABLE TRIGGER USER;
 SELECT throws_ok($$ SELECT abacus_track('loose_mesh', 'loose') $$, '55000', NULL, 'out of step');
 SELECT is(abacus_track('loose_mesh', 'loose', synchronize => true), 71::bigint, '... and in step again');
 SELECT is(differences('loose_mesh', 'TABLE loose'), 0::bigint, '... exactly');
+
+-- ... also where points wait
+SELECT abacus_create('few', 2);
+SELECT abacus_insert('few', 'VALUES (2, 1, 0), (3, 0, 1)');
+CREATE TABLE fewer (id int, x float8, y float8);
+INSERT INTO fewer VALUES (1, 0, 0), (2, 4, 0), (3, 0, 4), (4, 5, 4);
+SELECT is(abacus_track('few', 'fewer', synchronize => true), 4::bigint, 'in step, where points wait');
+SELECT is(differences('few', 'TABLE fewer'), 0::bigint, '... exactly');
+
+-- table and mesh of one persistence: a crash would empty one of two
+CREATE TABLE kept (id int, x float8, y float8);
+CREATE UNLOGGED TABLE lost (LIKE kept);
+CREATE TEMP TABLE brief (LIKE kept) ON COMMIT DROP;
+SELECT abacus_create('kept_mesh', 2), abacus_create('lost_mesh', 2);
+ALTER TABLE lost_mesh SET UNLOGGED;
+ALTER TABLE lost_mesh_vertices SET UNLOGGED;
+SELECT throws_ok($$ SELECT abacus_track('lost_mesh', 'kept') $$, '42809', 'an unlogged mesh cannot follow a logged table', 'an unlogged mesh');
+SELECT throws_ok($$ SELECT abacus_track('kept_mesh', 'lost') $$, '42809', 'a logged mesh cannot follow an unlogged table', 'an unlogged table');
+SELECT lives_ok($$ SELECT abacus_track('lost_mesh', 'lost') $$, 'both unlogged');
+SELECT lives_ok($$ SELECT abacus_track('kept_mesh', 'brief') $$, 'a temporary table');
+SELECT abacus_untrack('lost_mesh', 'lost'), abacus_untrack('kept_mesh', 'brief');
+
+-- types are looked at whether the mesh has points or not
+CREATE TABLE typed (id int, "numeric id" numeric, x float8, y float8, "text" text);
+INSERT INTO typed VALUES (1, 1, 0, 0, '0');
+SELECT throws_ok($$ SELECT abacus_track('kept_mesh', 'typed', '{numeric id,x,y}') $$, '42804', NULL, 'a numeric id, empty mesh');
+SELECT throws_ok($$ SELECT abacus_track('kept_mesh', 'typed', '{id,text,y}') $$, '42804', NULL, '... and text');
+SELECT abacus_insert('kept_mesh', 'SELECT id, x, y FROM typed');
+SELECT throws_ok($$ SELECT abacus_track('kept_mesh', 'typed', '{numeric id,x,y}') $$, '42804', NULL, 'a numeric id, points');
+SELECT throws_ok($$ SELECT abacus_track('kept_mesh', 'typed', '{id,text,y}') $$, '42804', NULL, '... and text');
+SELECT is(abacus_track('kept_mesh', 'typed'), 1::bigint, 'the right ones');
+
+-- numerics that no double holds, read again as they were read: at half the least double, at the
+-- greatest with half a step more, and around them
+CREATE DOMAIN exact AS numeric;
+CREATE TABLE precise (id int, x numeric, y exact, height exact);
+SELECT abacus_create('precise_mesh', 2, '{height}');
+INSERT INTO precise SELECT i, s * v, i, s * h
+FROM (VALUES (1, 1e-400, 1e400), (2, 0.5 ^ 1, 'NaN'), (3, 1e300, 'Infinity'),
+             (4, 1 / 3.0, power(2::numeric, 1024) - power(2::numeric, 970)),
+             (5, 5e-324, power(2::numeric, 1024) - power(2::numeric, 970) - 1),
+             (6, 0, NULL), (7, 3e-310, 1e-320)) AS v (i, v, h), (VALUES (1), (-1)) AS s (s);
+UPDATE precise SET y = -y WHERE x < 0;
+-- 0.5 ^ 1075, exactly, and a little more
+INSERT INTO precise SELECT 10 + i, power(5::numeric, 1075) * 1e-1075 + i * 1e-2000, 10 + i, NULL FROM generate_series(0, 1) i;
+SELECT is(abacus_track('precise_mesh', 'precise'), 16::bigint, 'numerics beyond the range of double');
+SELECT is(abacus_track('precise_mesh', 'precise'), 16::bigint, '... are the same when compared');
+SELECT results_eq($$ SELECT id, x::text FROM abacus_vertices('precise_mesh') WHERE id > 9 ORDER BY id $$,
+    $$ VALUES (10::bigint, '0'), (11, '5e-324') $$, 'half the least double is zero, more is not');
+UPDATE precise SET x = x + 1, height = height + 1;
+SELECT is(abacus_track('precise_mesh', 'precise'), 16::bigint, '... also as the triggers have read them');
+SELECT abacus_untrack('precise_mesh', 'precise');
+UPDATE precise SET height = 5 WHERE id = 4;
+SELECT throws_ok($$ SELECT abacus_track('precise_mesh', 'precise') $$, '55000', NULL, 'a difference is seen');
+UPDATE precise SET x = 1e400 WHERE id = 4;
+SELECT throws_ok($$ SELECT abacus_track('precise_mesh', 'precise', synchronize => true) $$, '22023',
+    'x of point 4 is not finite', 'what has no place, compared');
+DELETE FROM precise WHERE id = 4;
+UPDATE precise SET x = 'NaN' WHERE id = 5;
+SELECT throws_ok($$ SELECT abacus_track('precise_mesh', 'precise', synchronize => true) $$, '22023',
+    'x of point 5 is not finite', '... nor this');
+DELETE FROM precise WHERE id = 5;
+SELECT is(abacus_track('precise_mesh', 'precise', synchronize => true), 12::bigint, 'in step without them');
 
 SELECT * FROM finish();
 ROLLBACK;

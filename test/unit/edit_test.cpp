@@ -131,6 +131,37 @@ TYPED_TEST(Edit, CollapsesAndGrowsAgain) {
     }
 }
 
+TYPED_TEST(Edit, ByIdTakesNoOtherPointOfThePlace) {
+    constexpr int D = TypeParam::value;
+    MeshOf<D> mesh(1);
+    std::uint64_t deleted;
+    const auto taken = [&](std::int64_t id, const Point<D> &p) {
+        EXPECT_EQ(mesh.remove({{id, p, {0}}}, deleted, 16 << 20, true), ABACUS_OK);
+        return deleted;
+    };
+    // while it waits
+    auto points = this->fresh(1, 0);
+    ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+    EXPECT_EQ(taken(-1, points[0].point), 0u);
+    EXPECT_EQ(taken(points[0].id, points[0].point), 1u);
+    // as a vertex, alone or with others at its place
+    points = this->fresh(50, 0);
+    points.push_back({1000, points[0].point, {0}});
+    points.push_back({1001, points[0].point, {0}});
+    ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+    EXPECT_EQ(taken(-1, points[1].point), 0u);
+    EXPECT_EQ(taken(-1, points[0].point), 0u);
+    EXPECT_EQ(mesh.header.vertices, 50u);
+    EXPECT_EQ(mesh.header.duplicates, 2u);
+    EXPECT_EQ(taken(points[1].id, points[1].point), 1u);
+    EXPECT_EQ(taken(1001, points[0].point), 1u);
+    EXPECT_EQ(taken(points[0].id, points[0].point), 1u);
+    EXPECT_EQ(taken(points[0].id, points[0].point), 0u);
+    EXPECT_EQ(taken(1000, points[0].point), 1u);
+    EXPECT_EQ(mesh.header.vertices, 48u);
+    EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+}
+
 TYPED_TEST(Edit, ClearsAllPages) {
     // Vertices, repeated points and points that wait; then only the last.
     constexpr int D = TypeParam::value;

@@ -1,0 +1,18 @@
+/*
+ * tracked_points.h: the points of a table that a mesh follows, and those of the mesh.
+ */
+#ifndef ABACUS_TRACKED_POINTS_H
+#define ABACUS_TRACKED_POINTS_H
+
+#include "nodes/pg_list.h"
+#include "utils/array.h"
+#include "utils/rel.h"
+
+#include "abacus/abacus.h"
+
+extern List *tracked_columns(ArrayType *given, const abacus_header *header, Relation table);
+extern char *tracked_points_of_table(Relation table, List *columns, int dimension, bool packed);
+extern char *tracked_points_of_mesh(Oid mesh, const abacus_header *header,
+									Oid extension_namespace);
+
+#endif

@@ -1,0 +1,176 @@
+-- abacus_track: whose rights its triggers have, and which triggers are a mesh's, when they are
+-- bound to it (pg_depend) and when they only name it: made by hand, or restored from a dump.
+BEGIN;
+SELECT plan(36);
+
+CREATE ROLE pgtap_owner;
+CREATE ROLE pgtap_guest;
+CREATE SCHEMA own AUTHORIZATION pgtap_owner;
+CREATE SCHEMA guests AUTHORIZATION pgtap_guest;
+GRANT USAGE ON SCHEMA own TO pgtap_guest;
+
+-- what a restore leaves: triggers (but for `keep` of them) and, if wanted, vertex tables unbound
+CREATE FUNCTION public.forget(mesh regclass, vertices boolean DEFAULT false, keep int DEFAULT 0) RETURNS void
+LANGUAGE sql SECURITY DEFINER AS $$
+    DELETE FROM pg_depend WHERE ctid IN (
+        SELECT ctid FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = mesh AND deptype = 'a'
+        ORDER BY objid OFFSET keep);
+    DELETE FROM pg_depend WHERE vertices AND classid = 'pg_class'::regclass AND refobjid = mesh AND deptype = 'a'
+        AND objid IN (SELECT oid FROM pg_class WHERE reloftype = 'abacus_vertex_page'::regtype) $$;
+CREATE FUNCTION public.bound(mesh regclass) RETURNS bigint LANGUAGE sql AS $$
+    SELECT count(*) FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = mesh AND deptype = 'a' $$;
+CREATE FUNCTION public.triggers(tracked regclass) RETURNS bigint LANGUAGE sql AS $$
+    SELECT count(*) FROM pg_trigger WHERE tgrelid = tracked AND NOT tgisinternal $$;
+CREATE FUNCTION public.apart(mesh regclass, tracked regclass) RETURNS bigint LANGUAGE plpgsql AS $$
+DECLARE
+    n bigint;
+BEGIN
+    EXECUTE format('WITH here AS (SELECT id::bigint, x, y FROM %s), there AS (SELECT id, x, y FROM abacus_vertices(%L))
+        SELECT (SELECT count(*) FROM (TABLE here EXCEPT ALL TABLE there) a)
+             + (SELECT count(*) FROM (TABLE there EXCEPT ALL TABLE here) b)', tracked, mesh) INTO n;
+    RETURN n;
+END $$;
+
+SET ROLE pgtap_owner;
+CREATE TABLE own.wells (id int, x float8, y float8);
+INSERT INTO own.wells VALUES (1, 0, 0), (2, 4, 0), (3, 0, 4);
+SELECT abacus_create('own.field', 2);
+SELECT abacus_track('own.field', 'own.wells');
+CREATE TABLE own.notes (id int, x float8, y float8);
+GRANT ALL ON own.notes, own.wells TO pgtap_guest;
+
+-- a trigger made by hand has the rights of who fires it, and reaches nothing by those of the owner
+SET ROLE pgtap_guest;
+CREATE TRIGGER a AFTER INSERT ON own.notes REFERENCING NEW TABLE AS n FOR EACH STATEMENT
+    EXECUTE FUNCTION abacus_tracked('field', '2', 'id', 'x', 'y');
+CREATE TRIGGER b AFTER TRUNCATE ON own.notes FOR EACH STATEMENT
+    EXECUTE FUNCTION abacus_tracked('own.field', '2', 'id', 'x', 'y');
+SELECT throws_ok('INSERT INTO own.notes VALUES (9, 9, 9)', '42501', 'permission denied for table field',
+    'made by hand: does not write with the rights of the owner');
+SELECT throws_ok('TRUNCATE own.notes', '42501', 'permission denied for table field', '... nor empty');
+INSERT INTO own.wells VALUES (4, 4, 4);
+SELECT throws_ok('SELECT count(*) FROM own.field', '42501', NULL, 'the triggers of abacus_track do write');
+RESET ROLE;
+SELECT is(apart('own.field', 'own.wells'), 0::bigint, '... so the mesh is in step');
+SET ROLE pgtap_owner;
+INSERT INTO own.notes VALUES (9, 9, 9);
+SELECT is(bound('own.field'), 4::bigint, 'a mesh that follows a table is not bound to another');
+DROP TABLE own.notes;
+SELECT is(abacus_track('own.field', 'own.wells', synchronize => true), 4::bigint, 'in step again');
+-- what a bound trigger is replaced by is not bound
+SET ROLE pgtap_guest;
+CREATE OR REPLACE TRIGGER abacus_track_field_insert AFTER INSERT ON own.wells REFERENCING NEW TABLE AS n
+    FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('field', '2', 'id', 'y', 'x');
+SELECT is(bound('own.field'), 3::bigint, 'a trigger that replaces a bound one');
+SELECT throws_ok('INSERT INTO own.wells VALUES (9, 9, 8)', '42501', NULL, '... has no rights but the writer''s');
+-- a trigger depends on its own table; a mesh's own is no reason to change it
+RESET ROLE;
+SELECT abacus_create('own.other', 2);
+GRANT ALL ON own.other TO pgtap_guest;
+SET ROLE pgtap_guest;
+CREATE TRIGGER c AFTER TRUNCATE ON own.other FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('nothing', '2', 'id', 'x', 'y');
+SELECT throws_ok('TRUNCATE own.other', '42P01', NULL, 'a trigger of the mesh''s table is not bound to it');
+RESET ROLE;
+DROP TABLE own.other;
+
+-- after a restore: the first who may binds all of them
+SET ROLE pgtap_owner;
+SELECT abacus_track('own.field', 'own.wells');
+SELECT forget('own.field');
+SET ROLE pgtap_guest;
+SELECT throws_ok('INSERT INTO own.wells VALUES (5, 1, 1)', '42501', NULL, 'restored: a guest has his rights alone');
+SET ROLE pgtap_owner;
+UPDATE own.wells SET x = 5 WHERE id = 4;
+SELECT is(bound('own.field'), 4::bigint, '... the owner binds all triggers');
+SET ROLE pgtap_guest;
+SELECT lives_ok('INSERT INTO own.wells VALUES (5, 1, 1)', '... and guests write');
+SET ROLE pgtap_owner;
+ALTER TABLE own.field RENAME TO meadow;
+SET ROLE pgtap_guest;
+SELECT lives_ok('DELETE FROM own.wells WHERE id = 5', '... also after the mesh is renamed');
+SET ROLE pgtap_owner;
+SELECT is(apart('own.meadow', 'own.wells'), 0::bigint, '... in step');
+ALTER TABLE own.meadow RENAME TO field;
+-- with the vertex table, by any change of the mesh
+SELECT forget('own.field', true);
+SELECT is(bound('own.field'), 0::bigint, 'restored again');
+SELECT abacus_insert('own.field', 'SELECT 1, 0, 0 WHERE false');
+SELECT is(bound('own.field'), 4::bigint, '... a change of the mesh binds them');
+SELECT is(count(*), 1::bigint, '... and the vertex table')
+FROM pg_depend WHERE objid = 'own.field_vertices'::regclass AND refobjid = 'own.field'::regclass AND deptype = 'a';
+SELECT forget('own.field', true);
+RESET ROLE;
+SELECT abacus_insert('own.field', 'SELECT 1, 0, 0 WHERE false');
+SELECT is(bound('own.field'), 4::bigint, '... also one by a superuser');
+SET ROLE pgtap_owner;
+SELECT forget('own.field', true);
+CREATE TABLE own.twin (id int, x float8, y float8);
+CREATE TRIGGER a AFTER INSERT ON own.twin REFERENCING NEW TABLE AS n FOR EACH STATEMENT
+    EXECUTE FUNCTION abacus_tracked('field', '2', 'id', 'x', 'y');
+SELECT abacus_insert('own.field', 'SELECT 1, 0, 0 WHERE false');
+SELECT is(bound('own.field'), 0::bigint, '... not where two tables name it');
+DROP TABLE own.twin;
+-- all go: with the mesh, or with abacus_untrack
+SELECT lives_ok($$ SELECT abacus_untrack('own.field', 'own.wells') $$, 'untracked though no trigger is bound');
+SELECT is(triggers('own.wells'), 0::bigint, '... all have gone');
+SELECT abacus_track('own.field', 'own.wells');
+SELECT forget('own.field', keep => 1);
+SELECT is(bound('own.field'), 1::bigint, 'one bound, three not');
+SELECT abacus_untrack('own.field', 'own.wells');
+SELECT is(triggers('own.wells'), 0::bigint, '... all have gone, too');
+SELECT abacus_track('own.field', 'own.wells');
+SELECT forget('own.field', keep => 1);
+UPDATE own.wells SET x = 3 WHERE id = 4;
+SELECT is(bound('own.field'), 4::bigint, '... or the first write binds those that are left');
+DROP TABLE own.field;
+SELECT is(triggers('own.wells'), 0::bigint, 'the mesh takes them all with it');
+
+-- a restored mesh of somebody else: the writer's rights are enough, and bind nothing
+SELECT abacus_create('own.field', 2);
+GRANT ALL ON own.field, own.field_vertices TO pgtap_guest;
+SET ROLE pgtap_guest;
+CREATE TABLE guests.wells (id int, x float8, y float8);
+SELECT is(abacus_track('own.field', 'guests.wells'), 0::bigint, 'a mesh of somebody else');
+SELECT forget('own.field');
+INSERT INTO guests.wells VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1);
+SELECT is(apart('own.field', 'guests.wells'), 0::bigint, '... restored, with the writer''s rights');
+SELECT is(bound('own.field'), 0::bigint, '... which are not those of both owners');
+RESET ROLE;
+DELETE FROM guests.wells WHERE id = 1;
+SELECT is(bound('own.field'), 4::bigint, '... those of a superuser are');
+SET ROLE pgtap_guest;
+SELECT abacus_untrack('own.field', 'guests.wells');
+SET ROLE pgtap_owner;
+REVOKE USAGE ON SCHEMA own FROM pgtap_guest;
+SET ROLE pgtap_guest;
+CREATE TRIGGER a AFTER TRUNCATE ON guests.wells FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('own.field', '2', 'id', 'x', 'y');
+SELECT throws_ok('TRUNCATE guests.wells', '42501', 'permission denied for schema own', 'a schema that the writer may not use');
+
+-- names in triggers of others: no error, and in nobody's way
+CREATE TABLE guests.notes (id int, x float8, y float8);
+CREATE TRIGGER a AFTER TRUNCATE ON guests.notes FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('guests.secret', '2', 'id', 'x', 'y');
+CREATE TRIGGER b AFTER TRUNCATE ON guests.notes FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('a.b.c', '2', 'id', 'x', 'y');
+CREATE TRIGGER c AFTER TRUNCATE ON guests.notes FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('"open', '2', 'id', 'x', 'y');
+CREATE TRIGGER d AFTER TRUNCATE ON guests.notes FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('', '2', 'id', 'x', 'y');
+CREATE TRIGGER e AFTER TRUNCATE ON guests.notes FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('nowhere.field', '2', 'id', 'x', 'y');
+CREATE TRIGGER f AFTER TRUNCATE ON guests.notes FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked();
+SET ROLE pgtap_owner;
+SELECT throws_ok('SELECT count(*) FROM guests.notes', '42501', NULL, 'a schema that the owner may not use');
+SELECT lives_ok($$ SELECT abacus_track('own.field', 'own.wells', synchronize => true) $$,
+    'names that lead nowhere, and a trigger of somebody else that names the mesh');
+SELECT is(triggers('own.wells'), 4::bigint, '... tracked');
+SELECT lives_ok($$ SELECT abacus_untrack('own.field', 'own.wells') $$, '... and untracked');
+RESET ROLE;
+SELECT is(triggers('guests.wells') + triggers('guests.notes'), 7::bigint, '... and theirs are left alone');
+-- the owner's own count
+RESET ROLE;
+CREATE TRIGGER g AFTER TRUNCATE ON own.wells FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('field', '2', 'id', 'x', 'y');
+CREATE TABLE own.notes (id int, x float8, y float8);
+ALTER TABLE own.notes OWNER TO pgtap_owner;
+SET ROLE pgtap_owner;
+SELECT throws_ok($$ SELECT abacus_track('own.field', 'own.notes') $$, '55006',
+    'mesh "field" follows table "wells" already', 'a restored trigger of the owner''s table counts');
+RESET ROLE;
+
+SELECT * FROM finish();
+ROLLBACK;
