@@ -18,6 +18,7 @@ CORE_SOURCES += src/staging/distributor.cpp
 CORE_SOURCES += src/staging/external_sort.cpp
 CORE_SOURCES += src/staging/density.cpp
 CORE_SOURCES += src/staging/stage.cpp
+CORE_SOURCES += src/staging/leaving.cpp
 CORE_SOURCES += src/staging/repeated_points.cpp
 CORE_SOURCES += src/staging/waiting_points.cpp
 CORE_SOURCES += src/capi/header.cpp

@@ -57,9 +57,15 @@ private:
     void start(const std::array<VertexIndex, D + 1> &vertices);
     void add(const std::uint64_t *records, std::size_t n);
     void insert_waiting(std::uint64_t limit);
-    /// Takes a point of the triangulation away, `by_id` only one with this id; false if there
-    /// is none.
-    bool erase(const Point<D> &p, std::int64_t id, bool by_id);
+    /// Takes points of the triangulation away, all at one place: those that leave. Returns
+    /// how many there were.
+    std::uint64_t erase(const Point<D> &p, Leaving &leaving);
+    /// Takes the first point away: the next one gives the vertex id and attributes, or else
+    /// the vertex goes. Returns 1.
+    std::uint64_t pass_on(const Point<D> &p);
+    /// Takes the vertex away, if an id is given only one that has it; returns whether there was
+    /// one.
+    std::uint64_t erase_vertex(const Point<D> &p, std::optional<std::int64_t> id = {});
     /// The points left, the neighbours of the vertex last found, span no simplex: they wait.
     void collapse();
     /// Erases all pages of a kind.

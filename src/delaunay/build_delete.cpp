@@ -5,26 +5,36 @@
 
 namespace abacus {
 
-template <int D> bool Build<D>::erase(const Point<D> &p, std::int64_t id, bool by_id) {
-    Removal<D> &removal = core_->removal;
-    if (header_->duplicates > 0 && repeated_->contains(p)) {
-        const auto vertex = removal.id_at(p);
-        if (!vertex) throw_corrupted("A repeated point equals no vertex of the mesh.");
-        if (*vertex == id || !repeated_->take(p, id)) {
-            if (*vertex != id && by_id) return false;
-            // the next point takes over
-            const std::uint64_t *next = repeated_->take_first(p);
-            removal.rename(p, record_id(next), record_attributes<D>(next));
-        }
-        --header_->duplicates;
-        return true;
-    }
-    switch (by_id ? removal.remove(p, id) : removal.remove(p)) {
-    case Removed::no_such_vertex: return false;
+template <int D> std::uint64_t Build<D>::erase(const Point<D> &p, Leaving &leaving) {
+    const bool is_repeated = header_->duplicates > 0 && repeated_->contains(p);
+    if (!is_repeated && leaving.is_one()) return erase_vertex(p, leaving.id_demanded());
+    const auto vertex = core_->removal.id_at(p);
+    if (!vertex && is_repeated) throw_corrupted("A repeated point equals no vertex of the mesh.");
+    if (!vertex) return 0;
+    leaving.begin();
+    if (leaving.offer(*vertex, 0) && is_repeated) repeated_->offer(p, leaving);
+    leaving.decide();
+    const std::uint64_t taken = repeated_->take(p, leaving);
+    header_->duplicates -= taken;
+    return taken + (leaving.has_first() ? pass_on(p) : 0);
+}
+
+template <int D> std::uint64_t Build<D>::pass_on(const Point<D> &p) {
+    const std::uint64_t *next = header_->duplicates > 0 ? repeated_->take_first(p) : nullptr;
+    if (next == nullptr) return erase_vertex(p);
+    core_->removal.rename(p, record_id(next), record_attributes<D>(next));
+    --header_->duplicates;
+    return 1;
+}
+
+template <int D>
+std::uint64_t Build<D>::erase_vertex(const Point<D> &p, std::optional<std::int64_t> id) {
+    switch (core_->removal.remove(p, id)) {
+    case Removed::no_such_vertex: return 0;
     case Removed::removed: --header_->vertices; break;
     case Removed::collapses: collapse(); break;
     }
-    return true;
+    return 1;
 }
 
 template <int D> void Build<D>::collapse() {
@@ -63,8 +73,8 @@ template <int D> void Build<D>::forget_simplices() {
     core_->cache.counters = counters;
 }
 
-template bool Build<2>::erase(const Point<2> &, std::int64_t, bool);
-template bool Build<3>::erase(const Point<3> &, std::int64_t, bool);
+template std::uint64_t Build<2>::erase(const Point<2> &, Leaving &);
+template std::uint64_t Build<3>::erase(const Point<3> &, Leaving &);
 template void Build<2>::erase_pages(abacus_page_kind);
 template void Build<3>::erase_pages(abacus_page_kind);
 template void Build<2>::forget_simplices();

@@ -1,5 +1,9 @@
-// Where a stage hands on the points to be taken away: each out of the triangulation, and
-// once there is none, many at a time out of those that wait.
+// Where a stage hands on the points to be taken away: out of the triangulation, and once there
+// is none, many at a time out of those that wait.
+//
+// Equal points come one after the other, in the order of the rows, and are taken out of the
+// triangulation together: one after the other each would have the pages of its place searched
+// and written anew.
 #pragma once
 
 #include "delaunay/build.hpp"
@@ -10,12 +14,15 @@ namespace abacus {
 template <int D> class Build<D>::Outlet final : public RecordSink {
 public:
     Outlet(Build &build, bool by_id)
-        : build_(build), by_id_(by_id), waiting_(build.host_, build.attributes_, by_id) {}
+        : build_(build), leaving_(build.host_, build.cache_bytes_ / 16, by_id),
+          waiting_(build.host_, build.attributes_, by_id) {}
 
     void add(const std::uint64_t *record) override {
         const Point<D> p = record_point<D>(record);
+        if (!leaving_.empty() && (leaving_.is_full() || !(p == place_))) leave();
         if (build_.has_simplices()) {
-            taken_ += build_.erase(p, record_id(record), by_id_);
+            place_ = p;
+            leaving_.want(record_id(record));
             if (++done_ % 256 == 0) build_.host_.poll();
         } else if (build_.has_waiting()) {
             waiting_.want(p, record_id(record));
@@ -23,6 +30,7 @@ public:
         }
     }
     void finish() override {
+        if (!leaving_.empty()) leave();
         if (build_.has_waiting()) take();
     }
     /// Points taken away.
@@ -34,10 +42,15 @@ public:
     }
 
 private:
+    void leave() {
+        taken_ += build_.erase(place_, leaving_);
+        leaving_.clear();
+    }
     void take() { taken_ += waiting_.take(build_.header_->inserted, build_.header_->staged); }
 
     Build &build_;
-    const bool by_id_;
+    Leaving leaving_; // those of one place
+    Point<D> place_{};
     WaitingPoints<D> waiting_;
     std::uint64_t taken_ = 0;
     std::uint64_t done_ = 0;

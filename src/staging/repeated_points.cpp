@@ -135,8 +135,6 @@ template <int D> void RepeatedPoints<D>::split() {
 }
 
 template <int D> void RepeatedPoints<D>::remove(std::size_t i) {
-    taken_.resize(stride_ - 1);
-    std::copy_n(record_of(entry(i)), stride_ - 1, taken_.data());
     std::copy(entry(i + 1), records_.end(), entry(i));
     records_.resize(records_.size() - stride_);
     dirty_ = true;
@@ -149,9 +147,11 @@ std::size_t RepeatedPoints<D>::find(const Point<D> &p, Matches matches) {
     if (!go_to(from)) return none;
     do {
         for (std::size_t i = lower_bound(from); i < count(); ++i) {
-            if (key_of(entry(i)).code != from.code) return none;
-            const std::uint64_t *record = record_of(entry(i));
-            if (record_point<D>(record) == p && matches(record)) return i;
+            if (record_point<D>(record_of(entry(i))) == p) {
+                if (matches(entry(i))) return i;
+            } else if (key_of(entry(i)).code != from.code) {
+                return none;
+            }
         }
         host_.poll();
     } while (go_on(from.code));
@@ -162,16 +162,30 @@ template <int D> bool RepeatedPoints<D>::contains(const Point<D> &p) {
     return find(p, [](const std::uint64_t *) { return true; }) != none;
 }
 
-template <int D> bool RepeatedPoints<D>::take(const Point<D> &p, std::int64_t id) {
-    const std::size_t i =
-        find(p, [&](const std::uint64_t *record) { return record_id(record) == id; });
-    if (i != none) remove(i);
-    return i != none;
+template <int D> void RepeatedPoints<D>::offer(const Point<D> &p, Leaving &leaving) {
+    find(p, [&](const std::uint64_t *entry) {
+        return !leaving.offer(record_id(record_of(entry)), entry[0]);
+    });
+}
+
+template <int D>
+std::uint64_t RepeatedPoints<D>::take(const Point<D> &p, const Leaving &leaving) {
+    const std::uint64_t code = domain_.code(p);
+    std::uint64_t taken = 0;
+    leaving.each_other([&](std::uint64_t serial) {
+        host_.poll();
+        go_to({code, serial});
+        remove(lower_bound({code, serial}));
+        ++taken;
+    });
+    return taken;
 }
 
 template <int D> const std::uint64_t *RepeatedPoints<D>::take_first(const Point<D> &p) {
     const std::size_t i = find(p, [](const std::uint64_t *) { return true; });
     if (i == none) return nullptr;
+    taken_.resize(stride_ - 1);
+    std::copy_n(record_of(entry(i)), stride_ - 1, taken_.data());
     remove(i);
     return taken_.data();
 }

@@ -17,6 +17,7 @@
 #include "cache/key.hpp"
 #include "geometry/locational_code.hpp"
 #include "host/arena.hpp"
+#include "staging/leaving.hpp"
 #include "staging/record.hpp"
 
 namespace abacus {
@@ -29,8 +30,11 @@ public:
     void add(std::uint64_t serial, const std::uint64_t *record);
     /// Whether there is a point equal to p.
     bool contains(const Point<D> &p);
-    /// Takes away a point equal to p, the one with this id, and returns whether there was one.
-    bool take(const Point<D> &p, std::int64_t id);
+    /// Offers the points equal to p, until the others make no difference.
+    void offer(const Point<D> &p, Leaving &leaving);
+    /// Takes away those that leave: in the order of their pages, each of which is read and
+    /// written once. Returns how many they were.
+    std::uint64_t take(const Point<D> &p, const Leaving &leaving);
     /// Takes away the first point equal to p; its record, valid until the next call, or
     /// nullptr if there is none.
     const std::uint64_t *take_first(const Point<D> &p);
@@ -47,8 +51,8 @@ private:
     void create_first_page();
     void split();
     void remove(std::size_t i);
-    /// The first point equal to p that matches is on the page at hand then: its number, or
-    /// none.
+    /// The first entry of a point equal to p that matches is on the page at hand then: its
+    /// number, or none.
     static constexpr std::size_t none = ~std::size_t{0};
     template <class Matches> std::size_t find(const Point<D> &p, Matches matches);
 

@@ -1,0 +1,86 @@
+// Which of the equal points at one place leave, when some are taken away one after the other.
+//
+// Each time the first point with the id wanted leaves, or if none has it (unless by id) the
+// first of all.
+// So what an id takes depends on what went before, but not on what a search after each of
+// them would have to read: all are found in one run over the points of the place.
+//
+// A point that leaves for want of its id is the first one left: all before it have gone. Of n
+// wants at most n - 1 have been met by then, so it is one of the first n points of the place.
+// Of those behind them only points with an id that is wanted count, of each id as many as
+// are wanted. That is all that is kept of a place, however many points it has.
+#pragma once
+
+#include "host/arena.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace abacus {
+
+class Leaving {
+public:
+    /// For as many wants as take about so many bytes. `by_id`: points leave by their ids only.
+    Leaving(const Host &host, std::size_t bytes, bool by_id);
+
+    /// Wants the next point taken away.
+    void want(std::int64_t id) { wants_.push_back(id); }
+    bool is_full() const { return wants_.size() >= most_; }
+    bool empty() const { return wants_.empty(); }
+    bool is_one() const { return wants_.size() == 1; }
+    /// That of the one want, if by it.
+    std::optional<std::int64_t> id_demanded() const {
+        return by_id_ ? std::optional(wants_[0]) : std::nullopt;
+    }
+    /// Forgets all wants.
+    void clear() { wants_.clear(); }
+
+    /// No more wants come; the points of the place do.
+    void begin();
+    /// The next point, in the order of input. False if the others make no difference.
+    bool offer(std::int64_t id, std::uint64_t serial);
+    /// After the last point that makes a difference.
+    void decide();
+
+    /// Whether the point that was offered first leaves.
+    bool has_first() const { return candidates_[0].leaves; }
+    /// Calls visit(serial) for the others that leave, in the order of input.
+    template <class Visit> void each_other(Visit visit) const {
+        for (std::size_t i = 1; i < candidates_.size(); ++i)
+            if (candidates_[i].leaves) visit(candidates_[i].serial);
+    }
+
+private:
+    static constexpr std::uint32_t none = 0xffffffffu;
+
+    /// A point that may leave.
+    struct Candidate {
+        std::uint64_t serial;
+        std::uint32_t next; ///< with the same id, if that is wanted
+        bool leaves;
+    };
+    /// An id that is wanted, in the order of ids.
+    struct Wanted {
+        std::int64_t id;
+        std::uint32_t times;
+        std::uint32_t offered;     ///< candidates that have it
+        std::uint32_t behind;      ///< of them, those behind the first points of the place
+        std::uint32_t first, last; ///< of them
+    };
+    static constexpr std::size_t bytes_a_want =
+        sizeof(std::int64_t) + sizeof(Wanted) + 2 * sizeof(Candidate);
+
+    Wanted *find(std::int64_t id);
+    /// The candidate that leaves for a want, or none.
+    std::uint32_t choose(Wanted &wanted);
+
+    const std::size_t most_;
+    const bool by_id_;
+    Arena<std::int64_t> wants_; // in their order
+    Arena<Wanted> wanted_;
+    Arena<Candidate> candidates_; // in the order of input
+    std::size_t unmet_ = 0;       // ids wanted more often than they have been offered
+    std::uint32_t front_ = 0;     // all candidates before have left
+};
+
+} // namespace abacus

@@ -1,0 +1,197 @@
+// Many points of one place taken away in one call: as one after the other, without searching
+// the pages of the place for each.
+#include "staging/leaving.hpp"
+
+#include "support/oracle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <random>
+
+namespace abacus::test {
+namespace {
+
+using Random = std::mt19937_64;
+using Points = std::vector<std::int64_t>; // ids, in the order of input
+using Wants = std::vector<std::int64_t>;
+
+/// The serial numbers that are left: each want takes the first with its id, or else, unless by
+/// id, the first.
+std::vector<std::size_t> left_one_by_one(const Points &points, const Wants &wants, bool by_id) {
+    std::vector<std::size_t> left(points.size());
+    std::iota(left.begin(), left.end(), 0);
+    for (const std::int64_t id : wants) {
+        if (left.empty()) break;
+        const auto at = std::find_if(left.begin(), left.end(),
+                                     [&](std::size_t i) { return points[i] == id; });
+        if (at != left.end()) left.erase(at);
+        else if (!by_id) left.erase(left.begin());
+    }
+    return left;
+}
+
+/// The same by one run.
+std::vector<std::size_t> left_together(Leaving &leaving, const Points &points,
+                                       const Wants &wants) {
+    for (const std::int64_t id : wants) leaving.want(id);
+    leaving.begin();
+    for (std::size_t i = 0; i < points.size() && leaving.offer(points[i], i); ++i) {}
+    leaving.decide();
+    std::vector<std::size_t> left(points.size());
+    std::iota(left.begin(), left.end(), 0);
+    const auto take = [&](std::size_t i) { left.erase(std::find(left.begin(), left.end(), i)); };
+    if (leaving.has_first()) take(0);
+    leaving.each_other(take);
+    leaving.clear();
+    return left;
+}
+
+TEST(Leaving, IsAsOneAfterTheOther) {
+    Random random(3);
+    MemoryHost memory;
+    const Host host = memory.host();
+    std::array<Leaving, 2> leaving{Leaving(host, 1 << 20, false), Leaving(host, 1 << 20, true)};
+    for (int round = 0; round < 20000; ++round) {
+        // From ids that are all the same to ids that hardly repeat, some of them not there.
+        const std::int64_t ids = 1 + static_cast<std::int64_t>(random() % 24);
+        Points points(1 + random() % 24);
+        for (std::int64_t &id : points) id = static_cast<std::int64_t>(random() % ids);
+        Wants wants(1 + random() % 24);
+        for (std::int64_t &id : wants) id = static_cast<std::int64_t>(random() % (ids + 2));
+        for (const bool by_id : {false, true})
+            ASSERT_EQ(left_together(leaving[by_id], points, wants),
+                      left_one_by_one(points, wants, by_id))
+                << testing::PrintToString(points) << testing::PrintToString(wants) << by_id;
+    }
+}
+
+TEST(Leaving, KeepsAFewPointsOfManyForAFewWants) {
+    MemoryHost memory;
+    const Host host = memory.host();
+    Leaving leaving(host, 1 << 20, false);
+    leaving.want(7);
+    leaving.want(-1);
+    leaving.begin();
+    for (std::uint64_t i = 0; i < 1000000; ++i) ASSERT_TRUE(leaving.offer(7, i));
+    leaving.decide();
+    EXPECT_LT(memory.peak_bytes, 64u << 10);
+    std::vector<std::uint64_t> others;
+    EXPECT_TRUE(leaving.has_first());
+    leaving.each_other([&](std::uint64_t serial) { others.push_back(serial); });
+    EXPECT_EQ(others, std::vector<std::uint64_t>{1});
+}
+
+/// A mesh, of which some points are at one place, and what should be there.
+class Place {
+public:
+    explicit Place(std::size_t cache_bytes = std::size_t(64) << 20) : mesh(1, cache_bytes) {
+        insert({Input{-1, {1, 0}, {0.}}, Input{-2, {0, 1}, {0.}}, Input{-3, {-1, -1}, {0.}}});
+    }
+
+    void add(const std::vector<std::int64_t> &ids) {
+        std::vector<Input> points;
+        for (const std::int64_t id : ids) {
+            points.push_back({id, {0, 0}, {static_cast<double>(next_++)}});
+            here.push_back(points.back());
+        }
+        insert(points);
+    }
+    void remove(const std::vector<std::int64_t> &ids) {
+        std::vector<Input> gone;
+        std::uint64_t expected = 0, deleted = 0;
+        for (const std::int64_t id : ids) {
+            gone.push_back({id, {0, 0}, {0.}});
+            if (here.empty()) continue;
+            const auto at = std::find_if(here.begin(), here.end(),
+                                         [&](const Input &p) { return p.id == id; });
+            here.erase(at == here.end() ? here.begin() : at);
+            ++expected;
+        }
+        ASSERT_EQ(mesh.remove(gone, deleted), ABACUS_OK) << mesh.error.detail;
+        ASSERT_EQ(deleted, expected);
+        ASSERT_EQ(mesh.host.violations, std::vector<std::string>{});
+        ASSERT_EQ(mesh.host.bytes, 0u);
+    }
+    /// Compares the points, and which of them is the vertex.
+    void expect() {
+        ASSERT_EQ(mesh.check(), std::vector<std::string>{});
+        ASSERT_EQ(mesh.header.vertices, here.empty() ? 3u : 4u);
+        ASSERT_EQ(mesh.header.duplicates, here.empty() ? 0u : here.size() - 1);
+        abacus_vertex_scan *scan = nullptr;
+        ASSERT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header, mesh.cache_bytes,
+                                          &scan, &mesh.error),
+                  ABACUS_OK);
+        std::vector<std::pair<std::int64_t, double>> found, expected;
+        for (const Input &p : here) expected.push_back({p.id, p.attributes[0]});
+        abacus_vertex v;
+        while (abacus_vertex_scan_next(scan, &v, &mesh.error) == ABACUS_OK) {
+            if (v.point[0] != 0 || v.point[1] != 0) continue;
+            found.push_back({v.id, v.attributes[0]});
+            EXPECT_EQ(v.vertex, here.front().id);
+        }
+        abacus_vertex_scan_close(scan);
+        std::sort(found.begin(), found.end());
+        std::sort(expected.begin(), expected.end());
+        ASSERT_EQ(found, expected);
+    }
+
+    Mesh mesh;
+    std::vector<Input> here;
+
+private:
+    void insert(const std::vector<Input> &points) {
+        ASSERT_EQ(mesh.insert(points), ABACUS_OK) << mesh.error.detail;
+    }
+
+    int next_ = 0;
+};
+
+TEST(Leaving, TakesPointsOfOnePlaceAsOneAfterTheOther) {
+    Random random(5);
+    // The small cache takes some dozens together, the large one all of them.
+    for (const std::size_t cache_bytes : {std::size_t(40) << 10, std::size_t(16) << 20}) {
+        Place place(cache_bytes);
+        for (int step = 0; step < 150; ++step) {
+            const std::int64_t ids = 1 + static_cast<std::int64_t>(random() % 2000);
+            std::vector<std::int64_t> some(1 + random() % 900);
+            for (std::int64_t &id : some) id = static_cast<std::int64_t>(random() % ids);
+            if (random() % 2 == 0) place.add(some);
+            else place.remove(some);
+            place.expect();
+            if (testing::Test::HasFatalFailure()) return;
+        }
+    }
+}
+
+/// Calls for pages while half of n points of a place are taken away.
+std::uint64_t calls_to_take_half(std::size_t n, Random *random, std::int64_t id_offset) {
+    std::vector<std::int64_t> ids(n);
+    std::iota(ids.begin(), ids.end(), 0);
+    Place place;
+    place.add(ids);
+    if (random != nullptr) std::shuffle(ids.begin(), ids.end(), *random);
+    ids.resize(n / 2);
+    for (std::int64_t &id : ids) id += id_offset;
+    const MemoryHost::Calls before = place.mesh.host.calls;
+    place.remove(ids);
+    const MemoryHost::Calls &after = place.mesh.host.calls;
+    const std::uint64_t calls = after.find + after.next + after.put + after.erase -
+                                (before.find + before.next + before.put + before.erase);
+    place.expect();
+    return calls;
+}
+
+TEST(Leaving, ReadsAndWritesThePagesOfAPlaceAFewTimes) {
+    // In the order of input, in any order, and by ids that are not there.
+    Random random(7);
+    const std::size_t n = 20000, points_a_page = 100; // at least
+    EXPECT_LT(calls_to_take_half(n, nullptr, 0), 8 * n / points_a_page);
+    EXPECT_LT(calls_to_take_half(n, &random, 0), 8 * n / points_a_page);
+    EXPECT_LT(calls_to_take_half(n, nullptr, 1 << 20), 8 * n / points_a_page);
+}
+
+} // namespace
+} // namespace abacus::test
