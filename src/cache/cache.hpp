@@ -132,6 +132,8 @@ public:
     }
     /// Lower key of the block, and of its page, that h is in.
     const Key &lower(Handle h) const { return blocks_[block_of<D>(h)].lower; }
+    /// The block around h is in use, as those are that change: for who only reads.
+    void use(Handle h) { blocks_[block_of<D>(h)].used_at = clock_; }
     /// Some simplex of the block that owns the code, loaded if need be, preferably
     /// close to p; no_handle if the mesh has none there.
     Handle start(std::uint64_t code, const Point<D> &p);
@@ -481,6 +483,7 @@ template <class Visit>
 Key Cache<D>::visit(const Key &key, Visit visit) {
     const BlockIndex b = owner(key);
     if (b == no_block) throw_corrupted("No page owns a part of the curve.");
+    blocks_[b].used_at = ++clock_; // page by page is an order of use, too
     // What visit() loads goes to other blocks: this one keeps its simplices.
     for_each_simplex(b, visit);
     return blocks_[b].upper;

@@ -1,5 +1,8 @@
 // Every vertex once. A vertex is in all pages with a simplex around it; it belongs to
 // the first of them.
+//
+// All that is loaded around a vertex may be wanted again for the next one, which has a good
+// part of its star in the same pages where both are corners of many simplices.
 #pragma once
 
 #include "cache/cache.hpp"
@@ -50,6 +53,7 @@ private:
                 if (seen_.get(neighbour) == Marks::inside) continue;
                 seen_.set(neighbour, Marks::inside);
                 open_.push_back(neighbour);
+                cache_.use(neighbour);
                 own = page <= cache_.lower(neighbour);
             }
         }

@@ -1,8 +1,11 @@
 // abacus_check on meshes of tetrahedra: nothing wrong with a sound one, and a fault for
 // every flipped bit.
+#include "support/oracle.hpp"
 #include "support/staged_points.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace abacus {
 namespace {
@@ -39,6 +42,26 @@ TEST(CheckInSpace, FindsNothingInSoundMeshes) {
         EXPECT_EQ(solid.host.bytes, 0u);
         EXPECT_TRUE(solid.host.violations.empty());
     }
+}
+
+TEST(CheckInSpace, LoadsPagesAFewTimesWhereVerticesHaveMostOfThem) {
+    // An arc and its axis: every edge of the one with every edge of the other is a tetrahedron,
+    // so each vertex of the arc is in as many pages as the axis has vertices.
+    constexpr int n = 400;
+    std::vector<Point<3>> points;
+    for (int i = 0; i < n; ++i) {
+        const double angle = 0.3 + 2.0 * i / n;
+        points.push_back({std::cos(angle), std::sin(angle), 0});
+        points.push_back({0, 0, (2.0 * i + 1) / n - 1});
+    }
+    test::MeshOf<3> mesh;
+    ASSERT_EQ(mesh.insert(test::number<3>(points)), ABACUS_OK) << mesh.error.detail;
+    ASSERT_EQ(mesh.header.simplices, std::uint64_t(n - 1) * (n - 1));
+    mesh.cache_bytes = 8 << 20; // some two thirds of the pages
+    const std::uint64_t before = mesh.host.calls.find;
+    EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+    EXPECT_GT(mesh.host.calls.find - before, mesh.host.pages.size());
+    EXPECT_LT(mesh.host.calls.find - before, 8 * mesh.host.pages.size());
 }
 
 TEST(CheckInSpace, FindsEveryFlippedBitOfASinglePage) {
