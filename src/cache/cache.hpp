@@ -137,8 +137,8 @@ public:
     /// Some simplex of the block that owns the code, loaded if need be, preferably
     /// close to p; no_handle if the mesh has none there.
     Handle start(std::uint64_t code, const Point<D> &p);
-    /// The simplex with this code for which match(handle) holds, or no_handle.
-    template <class Match> Handle find(std::uint64_t code, Match match);
+    /// Calls visit(handle) for the simplices with this code, in all blocks that have some.
+    template <class Visit> void visit_code(std::uint64_t code, Visit visit);
     /// Calls visit(handle) for the simplices of the block that owns the key, loaded if
     /// need be; returns the lower key of the next block, end_key after the last.
     template <class Visit> Key visit(const Key &key, Visit visit);
@@ -463,17 +463,16 @@ private:
 };
 
 template <int D>
-template <class Match>
-Handle Cache<D>::find(std::uint64_t code, Match match) {
+template <class Visit>
+void Cache<D>::visit_code(std::uint64_t code, Visit visit) {
     // Several blocks share the code when it has parts: from the last one back.
     for (Key key{code, key_word_end - 1};;) {
         const BlockIndex b = owner(key);
-        if (b == no_block) return no_handle;
-        Handle found = no_handle;
+        if (b == no_block) return;
         for_each_simplex(b, [&](Handle h) {
-            if (match(h) && this->code(slots_[h]) == code) found = h;
+            if (this->code(slots_[h]) == code) visit(h);
         });
-        if (found != no_handle || blocks_[b].lower <= Key{code, 0}) return found;
+        if (blocks_[b].lower <= Key{code, 0}) return;
         key = predecessor(blocks_[b].lower);
     }
 }

@@ -200,33 +200,46 @@ void Reader<D>::first_around(const Point<D> &p, Handle h, abacus_simplex &simple
 }
 
 template <int D>
+int Reader<D>::named_corner(Handle h, const std::int64_t *ids, int facet) const {
+    const Simplex<D> &s = cache_.simplex(h);
+    if (s.is_ghost()) return -1;
+    std::array<bool, D + 1> used{};
+    int named = -1;
+    for (int i = 0; i <= D; ++i) {
+        int j = 0;
+        while (j <= D && (used[j] || cache_.vertices().id(s.vertex[j]) != ids[i])) ++j;
+        if (j > D) return -1;
+        used[j] = true;
+        if (i == facet) named = j;
+    }
+    return named;
+}
+
+template <int D>
 bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
                      abacus_simplex &simplex) {
     Handle h = no_handle;
     int crossed = 0;
+    bool is_unique = true;
     if (size_ != 0 && facet >= 0 && facet <= D && code < key_word_end) {
         cache_.trim();
-        h = cache_.find(code, [&](Handle candidate) {
-            const Simplex<D> &s = cache_.simplex(candidate);
-            if (s.is_ghost()) return false;
-            // The ids in any order: the facet is named by the corner opposite it.
-            std::array<bool, D + 1> used{};
-            int opposite = -1;
-            for (int i = 0; i <= D; ++i) {
-                int j = 0;
-                while (j <= D && (used[j] || cache_.vertices().id(s.vertex[j]) != ids[i])) ++j;
-                if (j > D) return false;
-                used[j] = true;
-                if (i == facet) opposite = j;
-            }
-            crossed = opposite;
-            return true;
+        cache_.visit_code(code, [&](Handle candidate) {
+            const int corner = named_corner(candidate, ids, facet);
+            if (corner < 0) return;
+            is_unique = h == no_handle;
+            h = candidate;
+            crossed = corner;
         });
     }
     if (h == no_handle)
         throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such simplex", {},
                     "Take a simplex that abacus_locate, abacus_walk or abacus_simplices returned "
                     "for this mesh, and a facet from 0 to " + std::to_string(D) + ".");
+    if (!is_unique)
+        throw Error(ABACUS_ERROR_ARGUMENT,
+                    "several simplices of the mesh have this code and these ids",
+                    "Points with equal ids are vertices of them.",
+                    "Give the points unique ids to walk from one simplex to another.");
     const Handle neighbour = link_simplex(cache_.cross(h, crossed));
     if (cache_.simplex(neighbour).is_ghost()) return false;
     last_ = neighbour;

@@ -28,7 +28,8 @@ public:
     /// outside the hull.
     bool locate(const Point<D> &p, abacus_simplex &simplex);
     /// The neighbour across facet `facet` of the simplex with this code and these ids.
-    /// False at the hull; throws an Error (argument) if there is no such simplex.
+    /// False at the hull; throws an Error (argument) if there is no such simplex, or several,
+    /// as there may be where points have equal ids.
     bool walk(std::uint64_t code, const std::int64_t *ids, int facet, abacus_simplex &simplex);
     /// Id and attributes of the vertex at p, if there is one; the attributes stay valid
     /// until the next call.
@@ -73,6 +74,9 @@ private:
     int position(Handle h, const Point<D> &p) const;
     bool search_first(const Point<D> &p, abacus_simplex &simplex);
     void describe(Handle h, abacus_simplex &simplex) const;
+    /// Which of the simplex's corners has the id of corner `facet` of the ids, which are those of
+    /// the corners in any order; negative if they are not.
+    int named_corner(Handle h, const std::int64_t *ids, int facet) const;
     /// The first of all simplices around a point on a facet of h, which `simplex` describes.
     void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex);
 

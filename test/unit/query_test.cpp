@@ -5,9 +5,10 @@
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 #include <tuple>
@@ -184,6 +185,43 @@ TEST(Walk, RefusesWhatTheMeshDoesNotHave) {
     EXPECT_TRUE(refused(mesh, s, 0));
     s.id[0] = -1;
     EXPECT_TRUE(refused(mesh, s, 0));
+}
+
+TEST(Walk, RefusesWhatIdsDoNotTellApart) {
+    // All around one vertex have its code, which is the greatest; for a large mesh on many pages.
+    for (const int n : {8, 3000}) {
+        std::vector<Input> points = {{1, {0, 0}}};
+        for (int i = 0; i < n; ++i) {
+            const double angle = 6.283 * i / n;
+            points.push_back({2, {-1 - std::cos(angle), -1 - std::sin(angle)}});
+        }
+        Mesh mesh(0, ample);
+        build(mesh, points);
+        std::map<std::pair<std::uint64_t, Ids>, int> named;
+        const auto all = mesh.simplices(false);
+        const auto name = [](const abacus_simplex &s) {
+            Ids ids{s.id[0], s.id[1], s.id[2]};
+            std::sort(ids.begin(), ids.end());
+            return std::pair(s.code, ids);
+        };
+        for (const abacus_simplex &s : all) ++named[name(s)];
+        ASSERT_LT(named.size(), all.size());
+        int refused = 0;
+        for (const abacus_simplex &s : all) {
+            OpenMesh open(mesh, little);
+            abacus_simplex neighbour;
+            const bool is_unique = named[name(s)] == 1;
+            const abacus_status status = open.walk(s, 0, neighbour);
+            ASSERT_EQ(status == ABACUS_ERROR, !is_unique);
+            refused += !is_unique;
+            if (!is_unique) {
+                ASSERT_EQ(open.error.kind, ABACUS_ERROR_ARGUMENT);
+                ASSERT_THAT(open.error.message, testing::HasSubstr("several simplices"));
+            }
+            if (refused > 100) break;
+        }
+        EXPECT_GT(refused, 0);
+    }
 }
 
 TEST(Scan, IsTheSameForEveryOrderOfTheInput) {
