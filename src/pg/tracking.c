@@ -139,7 +139,7 @@ owner_of_table(Oid relid)
 	return owner;
 }
 
-/* Whether the trigger counts as one of the mesh; `table` is what tracking_triggers() is asked for. */
+/* Whether the trigger counts as one of the mesh; `table` is that of tracking_triggers(). */
 static bool
 belongs(const TrackingTrigger *trigger, Oid mesh, Oid table)
 {
