@@ -48,7 +48,7 @@ for my $m (
 	sql(<<"SQL");
 DO \$\$
 BEGIN
-	FOR n IN 0 .. $m->{parts} / 2 - 1 LOOP
+	FOR n IN 0 .. $m->{parts} * 3 / 4 - 1 LOOP
 		PERFORM abacus_delete('$mesh', '$points AND floor(turn * $m->{parts}) = ' || n);
 		COMMIT;
 		PERFORM abacus_insert('$mesh', '$points AND floor(turn * $m->{parts}) = ' || n);
