@@ -122,9 +122,10 @@ public:
     bool near(Handle h, std::uint64_t code) const {
         return blocks_[block_of<D>(h)].surely_owns(code);
     }
-    /// Asks for the simplices of the block around h, and for their vertices once they are there.
+    /// Asks for the simplices of the block around h, and for most of their vertices once they are
+    /// there: for the few that are left it would take as long again.
     void ask_for_simplices(Handle h) const { ask_for_slots(block_of<D>(h)); }
-    void ask_for_their_vertices(Handle h) const { ask_for_vertices(block_of<D>(h)); }
+    void ask_for_their_vertices(Handle h) const { ask_for_vertices(block_of<D>(h), 2); }
     /// Asks for the simplices across all facets, before it is known which of them is wanted.
     void ask_for_neighbours(const Simplex<D> &s) const {
         for (const Link link : s.link)
@@ -405,7 +406,7 @@ private:
     /// the next, and the slots of the one after it, which tell its vertices.
     void ask_ahead(const Arena<BlockIndex> &blocks, std::size_t at) const;
     void ask_for_slots(BlockIndex b) const;
-    void ask_for_vertices(BlockIndex b) const;
+    void ask_for_vertices(BlockIndex b, std::uint32_t step = 1) const;
     /// Lists the block's facets on its border, and numbers its vertices.
     void survey(BlockIndex b);
     void mark_border();

@@ -192,11 +192,11 @@ template <int D> Key Cache<D>::key_beyond(Handle h, int facet) const {
     return {code(s), blocks_[block_of<D>(neighbour)].has_parts() ? part(s) : 0};
 }
 
-template <int D> void Cache<D>::ask_for_vertices(BlockIndex b) const {
+template <int D> void Cache<D>::ask_for_vertices(BlockIndex b, std::uint32_t step) const {
     // Nearly every vertex is the first of some simplex.
-    const Simplex<D> *const begin = &slots_[b * block_slots<D>];
-    for (const Simplex<D> *s = begin; s != begin + blocks_[b].high_water; ++s)
-        if (!s->is_free()) touch(&vertices_[s->vertex[0]]);
+    const Simplex<D> *const slots = &slots_[b * block_slots<D>];
+    for (std::uint32_t i = 0; i < blocks_[b].high_water; i += step)
+        if (!slots[i].is_free()) touch(&vertices_[slots[i].vertex[0]]);
 }
 
 template <int D> void Cache<D>::ask_for_slots(BlockIndex b) const {

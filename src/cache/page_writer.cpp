@@ -36,12 +36,6 @@ public:
 
 private:
     static constexpr int asked_for(int entry) { return entry == 0; }
-    static constexpr bool is_even(const Places &places) {
-        int inversions = 0;
-        for (int i = 0; i <= D; ++i)
-            for (int j = 0; j < i; ++j) inversions += places[j] > places[i];
-        return inversions % 2 == 0;
-    }
 
     Places even_[D + 1][D + 1][D == 2 ? 1 : D + 1]{};
 };

@@ -150,10 +150,12 @@ template <int D> void Goose<D>::fill_cavity(const Vertex &v) {
 
 template <int D> void Goose<D>::insert_row(const Row &row) {
     abacus_boxed_simplex boxed{};
-    SimplexWriter<D> writer(boxed.simplex, 0, row.ghost);
-    for (int i = 0; i < D + !row.ghost; ++i)
-        writer.corner(i, row.vertex[i].id, row.vertex[i].point);
-    writer.finish();
+    DescribedCorners<D> corners;
+    for (int i = 0; i < D + !row.ghost; ++i) {
+        corners.id[i] = row.vertex[i].id;
+        corners.point[i] = &row.vertex[i].point;
+    }
+    describe(corners, 0, row.ghost, boxed.simplex);
     boxes_.enclose(boxed);
     const Stopwatch watch(figures_.insert_ns);
     found(rtree_.insert(rtree_.context, &boxed));

@@ -53,6 +53,13 @@ template <int D> struct Simplex {
     }
 };
 
+constexpr bool is_even(const auto &permutation) {
+    int inversions = 0;
+    for (std::size_t i = 0; i < permutation.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) inversions += permutation[j] > permutation[i];
+    return inversions % 2 == 0;
+}
+
 /// Corners of the ghost on a facet of a positively oriented simplex. The point at infinity is
 /// on the other side of the facet than the corner opposite: one exchange turns the orientation
 /// back. It brings infinity to its place, or, if it is there already, exchanges two others.

@@ -4,71 +4,71 @@
 #pragma once
 
 #include "geometry/point.hpp"
+#include "mesh/simplex.hpp"
 
 #include <abacus/abacus.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace abacus {
 
-template <int D> class SimplexWriter {
+/// Even permutations of the corners, so that the orientation stays, found by which corners come
+/// first: in the plane one tells all, in space two.
+template <int D> class EvenOrders {
 public:
-    SimplexWriter(abacus_simplex &simplex, std::uint64_t code, bool ghost) : out_(simplex) {
-        out_.code = code;
-        out_.ghost = ghost;
+    using Order = std::array<std::uint8_t, D + 1>;
+
+    constexpr EvenOrders() {
+        Order order{};
+        for (std::uint8_t i = 0; i <= D; ++i) order[i] = i;
+        do {
+            if (is_even(order)) orders_[order[0]][D == 2 ? 0 : order[1]] = order;
+        } while (std::next_permutation(order.begin(), order.end()));
     }
 
-    void corner(int i, std::int64_t id, const Point<D> &p) {
-        out_.id[i] = id;
-        std::copy(p.begin(), p.end(), out_.corner[i]);
-    }
-
-    /// Even permutations only, so that the orientation stays; the point at infinity
-    /// stays last.
-    void finish() {
-        if (out_.ghost) {
-            if constexpr (D == 3) rotate(0, least(0, 3));
-            return;
-        }
-        const int first = least(0, D + 1);
-        if constexpr (D == 2) {
-            rotate(0, first);
-        } else {
-            if (first != 0) { // two transpositions
-                swap(0, first);
-                swap(first == 1 ? 2 : 1, first == 3 ? 2 : 3);
-            }
-            rotate(1, least(1, 4));
-        }
-    }
+    const Order &find(int first, int second) const { return orders_[first][D == 2 ? 0 : second]; }
 
 private:
-    bool less(int i, int j) const {
-        if (out_.id[i] != out_.id[j]) return out_.id[i] < out_.id[j];
-        return std::lexicographical_compare(out_.corner[i], out_.corner[i] + D, out_.corner[j],
-                                            out_.corner[j] + D);
-    }
-    int least(int from, int to) const {
-        int best = from;
-        for (int i = from + 1; i < to; ++i)
-            if (less(i, best)) best = i;
-        return best;
-    }
-    void swap(int i, int j) {
-        std::swap(out_.id[i], out_.id[j]);
-        std::swap(out_.corner[i], out_.corner[j]);
-    }
-    /// Rotates the three corners from `from` on until `first` leads them.
-    void rotate(int from, int first) {
-        for (; first > from; --first) {
-            swap(from, from + 1);
-            swap(from + 1, from + 2);
+    std::array<std::array<Order, D == 2 ? 1 : D + 1>, D + 1> orders_{};
+};
+template <int D> inline constexpr EvenOrders<D> even_orders;
+
+/// The corners in the order in which they are in memory; of a ghost the last one is not read.
+template <int D> struct DescribedCorners {
+    std::array<std::int64_t, D + 1> id;
+    std::array<const Point<D> *, D + 1> point;
+};
+
+/// Which corner is the least is as hard to foresee as a die: it is found without branches, and
+/// corners are written where they belong at once.
+template <int D>
+void describe(const DescribedCorners<D> &corners, std::uint64_t code, bool ghost,
+              abacus_simplex &out) {
+    const auto lesser = [&](int i, int j) {
+        bool is_less = corners.id[j] < corners.id[i];
+        if (corners.id[i] == corners.id[j]) [[unlikely]]
+            is_less = *corners.point[j] < *corners.point[i];
+        return is_less ? j : i;
+    };
+    int first = 0, second = 0;
+    if (ghost) { // the point at infinity stays last
+        if constexpr (D == 3) first = lesser(lesser(0, 1), 2);
+        second = (first + 1) % D;
+    } else {
+        first = lesser(lesser(0, 1), 2);
+        if constexpr (D == 3) {
+            first = lesser(first, 3);
+            second = lesser(lesser((first + 1) % 4, (first + 2) % 4), (first + 3) % 4);
         }
     }
-
-    abacus_simplex &out_;
-};
+    out.code = code;
+    out.ghost = ghost;
+    const auto &order = even_orders<D>.find(first, second);
+    for (int i = 0; i < D + !ghost; ++i) {
+        out.id[i] = corners.id[order[i]];
+        std::copy_n(corners.point[order[i]]->begin(), D, out.corner[i]);
+    }
+}
 
 /// Order among the simplices that contain one point: by code, then ids, then corners.
 template <int D> bool comes_before(const abacus_simplex &a, const abacus_simplex &b) {

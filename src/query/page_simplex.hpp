@@ -28,12 +28,13 @@ template <int D>
 void describe(const PageView<D> &page, int simplex, const Domain<D> &domain,
               abacus_simplex &description) {
     const bool ghost = page.is_ghost(simplex);
-    SimplexWriter<D> writer(description, code_of(page, simplex, domain), ghost);
+    DescribedCorners<D> corners;
     for (int i = 0; i < D + !ghost; ++i) {
         const int vertex = page.corner(simplex, i);
-        writer.corner(i, page.id(vertex), page.point(vertex));
+        corners.id[i] = page.id(vertex);
+        corners.point[i] = &page.point(vertex);
     }
-    writer.finish();
+    describe(corners, code_of(page, simplex, domain), ghost, description);
 }
 
 } // namespace abacus

@@ -137,10 +137,12 @@ template <int D> bool Reader<D>::search_first(const Point<D> &p, abacus_simplex 
 
 template <int D> void Reader<D>::describe(Handle h, abacus_simplex &simplex) const {
     const Simplex<D> &s = cache_.simplex(h);
-    SimplexWriter<D> writer(simplex, cache_.code(s), s.is_ghost());
-    for (int i = 0; i < s.finite_vertices(); ++i)
-        writer.corner(i, cache_.vertices().id(s.vertex[i]), cache_.point(s.vertex[i]));
-    writer.finish();
+    DescribedCorners<D> corners;
+    for (int i = 0; i < s.finite_vertices(); ++i) {
+        corners.id[i] = cache_.vertices().id(s.vertex[i]);
+        corners.point[i] = &cache_.point(s.vertex[i]);
+    }
+    abacus::describe(corners, cache_.code(s), s.is_ghost(), simplex);
 }
 
 template <int D> bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex) {
