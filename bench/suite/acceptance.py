@@ -123,6 +123,7 @@ WANTED = [
            cold_pages("first")),
     Wanted("`abacus_locate`, 10 M, cold, mesh found before: heap and index leaf pages", 2, True,
            cold_pages("next")),
+    Wanted("… each of 100 at random in a session, the first included", 2, True, cold_pages("each")),
     Wanted("`abacus_locate`, warm, along the curve ÷ rows of triangles with the exact test, by CPU time",
            30, False, habits.times_rows("exact_rows")),
     Wanted("… ÷ rows of triangles with a test in double precision", 30, False, habits.times_rows("rows")),

@@ -81,9 +81,13 @@ def pages_read(points, places):
     return [int(count) for count in read.split("|")]
 
 
+PLACES_ON_END = 100
+
+
 def measure_cold(suite, points, labels):
-    """What is read for the first place of a session after a fresh start of the server, and for a
-    second place, far away, when the mesh is open. Averages over samples make the figures."""
+    """What is read for the first place of a session after a fresh start of the server, for a second
+    place, far away, when the mesh is open, and for each of a hundred. Averages over samples make
+    the figures."""
     server.drop("index_pages")
     server.create_extension("pg_buffercache")
     server.create_extension("pageinspect")
@@ -91,17 +95,17 @@ def measure_cold(suite, points, labels):
                  " SELECT block, (bt_page_stats('mesh_pkey', block)).btpo_level AS level"
                  " FROM generate_series(1, pg_relation_size('mesh_pkey') / 8192 - 1) AS block")
     chance = random.Random(1)
-    first = {"what": "cold", "question": "first", **labels, "samples": []}
-    next_one = {"what": "cold", "question": "next", **labels, "samples": []}
+    kinds = ("heap", "leaf", "inner")
+    questions = [{"what": "cold", "question": question, **labels, "samples": []}
+                 for question in ("first", "next", "each")]
     for _ in range({"full": 20, "quick": 20, "smoke": 1}[suite.mode]):
-        places = [[chance.random() for _ in range(points.dimension)] for _ in range(2)]
-        one = pages_read(points, places[:1])
-        two = pages_read(points, places)
-        kinds = ("heap", "leaf", "inner")
-        first["samples"].append(dict(zip(kinds, one)))
-        next_one["samples"].append(dict(zip(kinds, (b - a for a, b in zip(one, two)))))
-    suite.measurements += [first, next_one]
-    for measurement in first, next_one:
+        places = [[chance.random() for _ in range(points.dimension)] for _ in range(PLACES_ON_END)]
+        one, two, all_of_them = (pages_read(points, places[:count]) for count in (1, 2, PLACES_ON_END))
+        for question, read in zip(questions, (one, [b - a for a, b in zip(one, two)],
+                                              [pages / PLACES_ON_END for pages in all_of_them])):
+            question["samples"].append(dict(zip(kinds, read)))
+    suite.measurements += questions
+    for measurement in questions:
         mean = sum(s["heap"] + s["leaf"] for s in measurement["samples"]) / len(measurement["samples"])
         suite.say(f"  cold, {measurement['question']:5} {mean:.2f} heap and leaf pages")
 

@@ -27,7 +27,8 @@ def location(results):
                   "places a CPU second", "memory", "runs"), rows)
 
 
-QUESTIONS = {"first": "the first of a session: finds the mesh, too", "next": "one far away, after that"}
+QUESTIONS = {"first": "the first of a session: finds the mesh, too", "next": "one far away, after that",
+             "each": "each of 100 at random in a session, the first included"}
 
 
 def mean(measurement, figure):
