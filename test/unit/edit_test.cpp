@@ -162,6 +162,35 @@ TYPED_TEST(Edit, ByIdTakesNoOtherPointOfThePlace) {
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
 }
 
+TYPED_TEST(Edit, RefusesDamagedRepeatedPoints) {
+    constexpr int D = TypeParam::value;
+    MeshOf<D> sound(1);
+    const auto points = this->fresh(20, 0);
+    ASSERT_EQ(sound.insert(points), ABACUS_OK);
+    std::vector<InputOf<D>> repeated;
+    for (int i = 0; i < 1000; ++i) repeated.push_back({1000 + i, points[0].point, {0.5}});
+    ASSERT_EQ(sound.insert(repeated), ABACUS_OK);
+    ASSERT_GT(sound.host.repeated_pages.size(), 2u);
+    const auto expect_refused = [&](const auto &damage) {
+        MeshOf<D> mesh(1);
+        mesh.host.restore(sound.host);
+        mesh.header = sound.header;
+        damage(mesh);
+        std::uint64_t deleted;
+        EXPECT_EQ(mesh.remove(repeated, deleted), ABACUS_ERROR);
+        EXPECT_EQ(mesh.error.kind, ABACUS_ERROR_CORRUPTED);
+        EXPECT_EQ(mesh.host.bytes, 0u);
+    };
+    // A page begins before the last points of the one before it.
+    expect_refused([](MeshOf<D> &mesh) {
+        auto second = mesh.host.repeated_pages.extract(std::next(mesh.host.repeated_pages.begin()));
+        second.key().part -= 5;
+        mesh.host.repeated_pages.insert(std::move(second));
+    });
+    // There are more than there should be.
+    expect_refused([](MeshOf<D> &mesh) { mesh.header.duplicates = 7; });
+}
+
 TYPED_TEST(Edit, ClearsAllPages) {
     // Vertices, repeated points and points that wait; then only the last.
     constexpr int D = TypeParam::value;
