@@ -204,6 +204,10 @@ ROLLBACK;
 CREATE TRIGGER by_hand AFTER INSERT ON others FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('solid', '3', 'id', 'x', 'y', 'z');
 INSERT INTO others VALUES (40, 1, 1, 1);
 \echo :LAST_ERROR_SQLSTATE
+DROP TRIGGER by_hand ON others;
+CREATE TRIGGER by_hand AFTER INSERT ON others REFERENCING NEW TABLE AS added FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('solid', '2147483647', 'id', 'x', 'y', 'z');
+INSERT INTO others VALUES (40, 1, 1, 1);
+\echo :LAST_ERROR_SQLSTATE
 SELECT count(*) FROM pg_trigger WHERE tgrelid = 'parted'::regclass;
 
 -- privileges: whoever may write the table; the mesh is written as the table's owner
