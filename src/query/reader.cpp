@@ -219,16 +219,19 @@ template <int D>
 bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
                      abacus_simplex &simplex) {
     Handle h = no_handle;
-    int crossed = 0;
+    Key page{}; // that has it
     bool is_unique = true;
+    const auto is_it = [&](Handle candidate) {
+        return cache_.is_live(candidate) && cache_.code(cache_.simplex(candidate)) == code &&
+               named_corner(candidate, ids, facet) >= 0;
+    };
     if (size_ != 0 && facet >= 0 && facet <= D && code < key_word_end) {
         cache_.trim();
         cache_.visit_code(code, [&](Handle candidate) {
-            const int corner = named_corner(candidate, ids, facet);
-            if (corner < 0) return;
+            if (named_corner(candidate, ids, facet) < 0) return;
             is_unique = h == no_handle;
             h = candidate;
-            crossed = corner;
+            page = cache_.lower(h);
         });
     }
     if (h == no_handle)
@@ -240,7 +243,11 @@ bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
                     "several simplices of the mesh have this code and these ids",
                     "Points with equal ids are vertices of them.",
                     "Give the points unique ids to walk from one simplex to another.");
-    const Handle neighbour = link_simplex(cache_.cross(h, crossed));
+    if (!is_it(h)) // evicted, for other pages with the code
+        cache_.visit(page, [&](Handle candidate) {
+            if (is_it(candidate)) h = candidate;
+        });
+    const Handle neighbour = link_simplex(cache_.cross(h, named_corner(h, ids, facet)));
     if (cache_.simplex(neighbour).is_ghost()) return false;
     last_ = neighbour;
     describe(neighbour, simplex);

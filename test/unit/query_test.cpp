@@ -224,6 +224,36 @@ TEST(Walk, RefusesWhatIdsDoNotTellApart) {
     }
 }
 
+TEST(Walk, KeepsToItsMemoryWhereManyPagesShareACode) {
+    // All but the corners of the domain lie far below the resolution of the codes.
+    std::vector<Input> points = number(unit_square_points(40000, 3));
+    for (Input &p : points)
+        for (double &x : p.point) x = 0.3 + x * 1e-11;
+    for (const double corner : {0., 1.})
+        points.push_back({std::int64_t(points.size()), {corner, corner}});
+    Mesh mesh(0, ample);
+    build(mesh, points);
+    const auto all = mesh.simplices(false);
+    const auto peak = [&](std::size_t cache_bytes) {
+        mesh.host.peak_bytes = 0;
+        OpenMesh open(mesh, cache_bytes);
+        for (std::size_t i = 0; i < all.size(); i += all.size() / 10) {
+            abacus_simplex neighbour;
+            EXPECT_EQ(open.walk(all[i], 0, neighbour), ABACUS_OK) << open.error.message;
+            // and back
+            bool is_back = false;
+            for (int facet = 0; facet < 3; ++facet) {
+                abacus_simplex found;
+                is_back |= open.walk(neighbour, facet, found) == ABACUS_OK &&
+                           std::equal(found.id, found.id + 3, all[i].id);
+            }
+            EXPECT_TRUE(is_back);
+        }
+        return mesh.host.peak_bytes;
+    };
+    EXPECT_LT(peak(little), peak(ample) / 2);
+}
+
 TEST(Scan, IsTheSameForEveryOrderOfTheInput) {
     for (const auto &points : {grid(30), unit_square_points(3000, 9)}) {
         Mesh first(0, ample), second(0, little);
