@@ -162,6 +162,25 @@ TYPED_TEST(Edit, ByIdTakesNoOtherPointOfThePlace) {
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
 }
 
+TYPED_TEST(Edit, TakesWaitingPointsOfOnePlaceInLinearTime) {
+    // With the square of their number it would take a minute.
+    constexpr int D = TypeParam::value;
+    constexpr int n = 200000;
+    MeshOf<D> mesh;
+    std::vector<InputOf<D>> points(n), others;
+    for (int i = 0; i < n; ++i) points[i].id = i;
+    ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+    ASSERT_EQ(mesh.header.staged - mesh.header.inserted, std::uint64_t(n));
+    for (int i = 0; i < n / 2; ++i) others.push_back({i % 2 ? i : -i, {}});
+    std::uint64_t deleted;
+    ASSERT_EQ(mesh.remove(others, deleted, 16 << 20, true), ABACUS_OK);
+    EXPECT_EQ(deleted, n / 4 + 1); // 0 as well
+    ASSERT_EQ(mesh.remove(others, deleted), ABACUS_OK);
+    EXPECT_EQ(deleted, n / 2);
+    EXPECT_EQ(mesh.header.staged - mesh.header.inserted, n - deleted - n / 4 - 1);
+    EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+}
+
 TYPED_TEST(Edit, RefusesDamagedRepeatedPoints) {
     constexpr int D = TypeParam::value;
     MeshOf<D> sound(1);
