@@ -196,6 +196,8 @@ DELETE FROM moments WHERE id = 2;
 SELECT count(*) FROM abacus_vertices('passing');
 DROP TABLE moments, passing;
 SELECT abacus_track(NULL, 'others');
+SELECT abacus_track(0, 'others');
+\echo :LAST_ERROR_SQLSTATE
 SELECT abacus_untrack('flat', NULL) IS NULL AS strict;
 BEGIN ISOLATION LEVEL REPEATABLE READ;
 SELECT abacus_track('flat', 'others');
