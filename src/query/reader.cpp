@@ -5,6 +5,7 @@
 #include "query/describe.hpp"
 #include "staging/record.hpp"
 
+#include <algorithm>
 #include <memory_resource>
 #include <string>
 #include <unordered_set>
@@ -203,16 +204,21 @@ template <int D>
 int Reader<D>::named_corner(Handle h, const std::int64_t *ids, int facet) const {
     const Simplex<D> &s = cache_.simplex(h);
     if (s.is_ghost()) return -1;
-    std::array<bool, D + 1> used{};
-    int named = -1;
-    for (int i = 0; i <= D; ++i) {
-        int j = 0;
-        while (j <= D && (used[j] || cache_.vertices().id(s.vertex[j]) != ids[i])) ++j;
-        if (j > D) return -1;
-        used[j] = true;
-        if (i == facet) named = j;
-    }
-    return named;
+    std::array<std::int64_t, D + 1> here;
+    for (int i = 0; i <= D; ++i) here[i] = cache_.vertices().id(s.vertex[i]);
+    if (!std::is_permutation(here.begin(), here.end(), ids)) return -1;
+    // Which of several corners with this id is meant, their order tells where the simplex is
+    // handed out.
+    abacus_simplex given;
+    describe(h, given);
+    auto before = std::count(ids, ids + facet, ids[facet]);
+    int named = 0;
+    while (given.id[named] != ids[facet] || before-- > 0) ++named;
+    int corner = 0;
+    while (!std::equal(given.corner[named], given.corner[named] + D,
+                       cache_.point(s.vertex[corner]).begin()))
+        ++corner;
+    return corner;
 }
 
 template <int D>

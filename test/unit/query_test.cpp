@@ -224,6 +224,31 @@ TEST(Walk, RefusesWhatIdsDoNotTellApart) {
     }
 }
 
+TEST(Walk, LeavesOutTheCornerAskedForWhereIdsAreEqual) {
+    std::vector<Input> points = number(unit_square_points(3000, 5));
+    for (Input &p : points) p.id %= 40;
+    Mesh mesh(0, ample);
+    build(mesh, points);
+    OpenMesh open(mesh, little);
+    int walked = 0;
+    for (const abacus_simplex &s : mesh.simplices(false)) {
+        if (s.id[0] != s.id[1] && s.id[1] != s.id[2] && s.id[2] != s.id[0]) continue;
+        for (int facet = 0; facet < 3; ++facet) {
+            abacus_simplex found;
+            if (open.walk(s, facet, found) != ABACUS_OK) continue; // the hull, or not the only one
+            ++walked;
+            for (int i = 0; i < 3; ++i) {
+                const auto is_it = [&](const double *corner) {
+                    return std::equal(corner, corner + 2, s.corner[i]);
+                };
+                const bool is_shared = std::any_of(found.corner, found.corner + 3, is_it);
+                ASSERT_EQ(is_shared, i != facet);
+            }
+        }
+    }
+    EXPECT_GT(walked, 1000);
+}
+
 TEST(Walk, KeepsToItsMemoryWhereManyPagesShareACode) {
     // All but the corners of the domain lie far below the resolution of the codes.
     std::vector<Input> points = number(unit_square_points(40000, 3));
