@@ -196,12 +196,18 @@ DELETE FROM moments WHERE id = 2;
 SELECT count(*) FROM abacus_vertices('passing');
 DROP TABLE moments, passing;
 SELECT abacus_track(NULL, 'others');
+SELECT abacus_track(0, 'others');
+\echo :LAST_ERROR_SQLSTATE
 SELECT abacus_untrack('flat', NULL) IS NULL AS strict;
 BEGIN ISOLATION LEVEL REPEATABLE READ;
 SELECT abacus_track('flat', 'others');
 \echo :LAST_ERROR_SQLSTATE
 ROLLBACK;
 CREATE TRIGGER by_hand AFTER INSERT ON others FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('solid', '3', 'id', 'x', 'y', 'z');
+INSERT INTO others VALUES (40, 1, 1, 1);
+\echo :LAST_ERROR_SQLSTATE
+DROP TRIGGER by_hand ON others;
+CREATE TRIGGER by_hand AFTER INSERT ON others REFERENCING NEW TABLE AS added FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('solid', '2147483647', 'id', 'x', 'y', 'z');
 INSERT INTO others VALUES (40, 1, 1, 1);
 \echo :LAST_ERROR_SQLSTATE
 SELECT count(*) FROM pg_trigger WHERE tgrelid = 'parted'::regclass;

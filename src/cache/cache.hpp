@@ -138,7 +138,8 @@ public:
     /// Some simplex of the block that owns the code, loaded if need be, preferably
     /// close to p; no_handle if the mesh has none there.
     Handle start(std::uint64_t code, const Point<D> &p);
-    /// Calls visit(handle) for the simplices with this code, in all blocks that have some.
+    /// Calls visit(handle) for the simplices with this code, in all blocks that have some. These
+    /// may be more than there is room for: a block may be evicted before the next one is loaded.
     template <class Visit> void visit_code(std::uint64_t code, Visit visit);
     /// Calls visit(handle) for the simplices of the block that owns the key, loaded if
     /// need be; returns the lower key of the next block, end_key after the last.
@@ -475,6 +476,8 @@ void Cache<D>::visit_code(std::uint64_t code, Visit visit) {
         });
         if (blocks_[b].lower <= Key{code, 0}) return;
         key = predecessor(blocks_[b].lower);
+        trim();
+        poll();
     }
 }
 

@@ -15,6 +15,8 @@ template <int D> std::uint64_t Build<D>::erase(const Point<D> &p, Leaving &leavi
     if (leaving.offer(*vertex, 0) && is_repeated) repeated_->offer(p, leaving);
     leaving.decide();
     const std::uint64_t taken = repeated_->take(p, leaving);
+    if (taken > header_->duplicates)
+        throw_corrupted("There are more repeated points than the header counts.");
     header_->duplicates -= taken;
     return taken + (leaving.has_first() ? pass_on(p) : 0);
 }

@@ -58,22 +58,29 @@ check_table(Relation table)
 				 errhint("Use ALTER TABLE ... NO FORCE ROW LEVEL SECURITY.")));
 }
 
-/* A crash empties what is unlogged, and no trigger tells the other. */
+/* What is emptied or gone at some time that no trigger tells the other of. */
 static void
-check_persistence(Relation table, Oid mesh)
+check_persistence(Relation table, Relation mesh)
 {
-	bool		unlogged = table->rd_rel->relpersistence == RELPERSISTENCE_UNLOGGED;
+	char		of_table = table->rd_rel->relpersistence;
+	char		of_mesh = mesh->rd_rel->relpersistence;
 
 	/* a temporary table is gone after a crash, and its triggers with it */
-	if (table->rd_rel->relpersistence == RELPERSISTENCE_TEMP ||
-		(get_rel_persistence(mesh) == RELPERSISTENCE_UNLOGGED) == unlogged)
+	if (of_table == RELPERSISTENCE_TEMP)
 		return;
-	ereport(ERROR,
-			(errcode(ERRCODE_WRONG_OBJECT_TYPE),
-			 unlogged ? errmsg("a logged mesh cannot follow an unlogged table")
-			 : errmsg("an unlogged mesh cannot follow a logged table"),
-			 errdetail("A crash would empty one of them."),
-			 errhint("Use ALTER TABLE ... SET LOGGED or SET UNLOGGED; a mesh has two tables.")));
+	if (of_mesh == RELPERSISTENCE_TEMP)
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 errmsg("a temporary mesh cannot follow a permanent table"),
+				 errdetail("Other sessions could not write the table any more.")));
+	if (of_mesh != of_table)
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 of_table == RELPERSISTENCE_UNLOGGED
+				 ? errmsg("a logged mesh cannot follow an unlogged table")
+				 : errmsg("an unlogged mesh cannot follow a logged table"),
+				 errdetail("A crash would empty one of them."),
+				 errhint("Use ALTER TABLE ... SET LOGGED or SET UNLOGGED; a mesh has two tables.")));
 }
 
 /* The mesh is written as the owner of the table later, in any session: may he? */
@@ -84,20 +91,13 @@ check_mesh(Relation table, Oid mesh)
 	int			security;
 	Relation	simplices;
 
-	if (get_rel_persistence(mesh) == RELPERSISTENCE_TEMP &&
-		table->rd_rel->relpersistence != RELPERSISTENCE_TEMP)
-		ereport(ERROR,
-				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
-				 errmsg("a temporary mesh cannot follow a permanent table"),
-				 errdetail("Other sessions could not write the table any more.")));
-	check_persistence(table, mesh);
-
 	GetUserIdAndSecContext(&user, &security);
 	SetUserIdAndSecContext(table->rd_rel->relowner, security | SECURITY_LOCAL_USERID_CHANGE);
 	simplices = mesh_table_open(mesh, MESH_WRITE);
 	mesh_vertex_table(simplices, MESH_WRITE);
-	table_close(simplices, NoLock);
 	SetUserIdAndSecContext(user, security);
+	check_persistence(table, simplices);
+	table_close(simplices, NoLock);
 }
 
 /* A mesh follows one table; returns its triggers if it is this one. */

@@ -367,11 +367,14 @@ tracking_create(Oid function, Oid mesh, int dimension, Relation table, List *col
 	}
 }
 
+/* Who has not locked the table may find it gone, and the trigger with it. */
 void
 tracking_drop(const TrackingTrigger *trigger)
 {
 	char	   *schema = get_namespace_name(get_rel_namespace(trigger->table));
+	char	   *table = get_rel_name(trigger->table);
 
-	run(psprintf("DROP TRIGGER %s ON %s", quote_identifier(trigger->name),
-				 quote_qualified_identifier(schema, get_rel_name(trigger->table))));
+	if (schema != NULL && table != NULL)
+		run(psprintf("DROP TRIGGER %s ON %s", quote_identifier(trigger->name),
+					 quote_qualified_identifier(schema, table)));
 }

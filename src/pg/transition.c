@@ -71,10 +71,12 @@ transition_open(const TriggerData *trigger)
 	transition->columns = trigger->tg_trigger->tgnargs - TRACKING_ARGUMENT_COLUMNS;
 	transition->dimension =
 		pg_strtoint32(trigger->tg_trigger->tgargs[TRACKING_ARGUMENT_DIMENSION]);
-	if (transition->columns < 1 + transition->dimension)
+	/* arguments are what whoever made the trigger has written */
+	if (transition->dimension < 2 || transition->dimension > 3 ||
+		transition->columns < 1 + transition->dimension)
 		ereport(ERROR,
 				(errcode(ERRCODE_E_R_I_E_TRIGGER_PROTOCOL_VIOLATED),
-				 errmsg("trigger \"%s\" lacks arguments", trigger->tg_trigger->tgname),
+				 errmsg("trigger \"%s\" has wrong arguments", trigger->tg_trigger->tgname),
 				 errhint("Make it with abacus_track().")));
 	transition->numbers = palloc(transition->columns * sizeof(AttrNumber));
 	transition->points = CreateTemplateTupleDesc(transition->columns);

@@ -5,6 +5,7 @@
 #include "query/describe.hpp"
 #include "staging/record.hpp"
 
+#include <algorithm>
 #include <memory_resource>
 #include <string>
 #include <unordered_set>
@@ -205,32 +206,40 @@ template <int D>
 int Reader<D>::named_corner(Handle h, const std::int64_t *ids, int facet) const {
     const Simplex<D> &s = cache_.simplex(h);
     if (s.is_ghost()) return -1;
-    std::array<bool, D + 1> used{};
-    int named = -1;
-    for (int i = 0; i <= D; ++i) {
-        int j = 0;
-        while (j <= D && (used[j] || cache_.vertices().id(s.vertex[j]) != ids[i])) ++j;
-        if (j > D) return -1;
-        used[j] = true;
-        if (i == facet) named = j;
-    }
-    return named;
+    std::array<std::int64_t, D + 1> here;
+    for (int i = 0; i <= D; ++i) here[i] = cache_.vertices().id(s.vertex[i]);
+    if (!std::is_permutation(here.begin(), here.end(), ids)) return -1;
+    // Which of several corners with this id is meant, their order tells where the simplex is
+    // handed out.
+    abacus_simplex given;
+    describe(h, given);
+    auto before = std::count(ids, ids + facet, ids[facet]);
+    int named = 0;
+    while (given.id[named] != ids[facet] || before-- > 0) ++named;
+    int corner = 0;
+    while (!std::equal(given.corner[named], given.corner[named] + D,
+                       cache_.point(s.vertex[corner]).begin()))
+        ++corner;
+    return corner;
 }
 
 template <int D>
 bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
                      abacus_simplex &simplex) {
     Handle h = no_handle;
-    int crossed = 0;
+    Key page{}; // that has it
     bool is_unique = true;
+    const auto is_it = [&](Handle candidate) {
+        return cache_.is_live(candidate) && cache_.code(cache_.simplex(candidate)) == code &&
+               named_corner(candidate, ids, facet) >= 0;
+    };
     if (size_ != 0 && facet >= 0 && facet <= D && code < key_word_end) {
         cache_.trim();
         cache_.visit_code(code, [&](Handle candidate) {
-            const int corner = named_corner(candidate, ids, facet);
-            if (corner < 0) return;
+            if (named_corner(candidate, ids, facet) < 0) return;
             is_unique = h == no_handle;
             h = candidate;
-            crossed = corner;
+            page = cache_.lower(h);
         });
     }
     if (h == no_handle)
@@ -242,7 +251,11 @@ bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
                     "several simplices of the mesh have this code and these ids",
                     "Points with equal ids are vertices of them.",
                     "Give the points unique ids to walk from one simplex to another.");
-    const Handle neighbour = link_simplex(cache_.cross(h, crossed));
+    if (!is_it(h)) // evicted, for other pages with the code
+        cache_.visit(page, [&](Handle candidate) {
+            if (is_it(candidate)) h = candidate;
+        });
+    const Handle neighbour = link_simplex(cache_.cross(h, named_corner(h, ids, facet)));
     if (cache_.simplex(neighbour).is_ghost()) return false;
     last_ = neighbour;
     describe(neighbour, simplex);

@@ -75,6 +75,9 @@ template <int D> bool RepeatedPoints<D>::go_to(Key key) {
     lower_ = page.key;
     location_ = page.location;
     upper_ = host_.next(ABACUS_REPEATED_PAGES, &lower_, page) ? page.key : end_key;
+    // Who looks for a point of the page would look in the next one.
+    if (count() > 0 && upper_ <= key_of(entry(count() - 1)))
+        throw_bad_page("has points that the next page owns");
     return true;
 }
 

@@ -2,7 +2,8 @@
 //
 // They are in no order in which one could be found, so many are looked for at once, in
 // two runs over all of them: the first finds the points meant, the second writes the
-// others anew behind the last page and erases the pages it has read.
+// others anew behind the last page and erases the pages it has read. All may be at one place,
+// so no point is compared with all wants for its place.
 #pragma once
 
 #include "host/arena.hpp"
@@ -15,12 +16,12 @@ template <int D> class WaitingPoints {
 public:
     /// `by_id`: takes only points that have the id wanted.
     WaitingPoints(const Host &host, unsigned attributes, bool by_id)
-        : host_(host), attributes_(attributes), by_id_(by_id), wanted_(host) {}
+        : host_(host), attributes_(attributes), by_id_(by_id), wanted_(host), found_(host) {}
 
     /// Wants a point taken away: one with these coordinates, and of several the one with
     /// this id, or else (unless by id) the first.
     void want(const Point<D> &p, std::int64_t id) {
-        wanted_.push_back({p, id, none, wanted_.size(), false});
+        wanted_.push_back({p, id, false, 0});
     }
     bool is_full() const { return wanted_.size() >= most; }
 
@@ -30,17 +31,13 @@ public:
 
 private:
     static constexpr std::size_t most = 1 << 15;
-    static constexpr std::uint64_t none = ~std::uint64_t{0};
 
     struct Wanted {
         Point<D> point;
         std::int64_t id;
-        std::uint64_t sequence; ///< of the point with the same id, or none
-        std::size_t order;
-        bool taken;
+        bool is_met;         ///< by a point with this id
+        std::uint32_t unmet; ///< of the first want for a place: how many take any point there
     };
-    /// The wants for a place.
-    std::pair<Wanted *, Wanted *> at(const Point<D> &p);
     void find(std::uint64_t from, std::uint64_t to);
     bool is_wanted(const VertexReader<D> &reader);
 
@@ -48,6 +45,8 @@ private:
     const unsigned attributes_;
     const bool by_id_;
     Arena<Wanted> wanted_;
+    Arena<std::uint64_t> found_; // sequence numbers of the points that meet a want by their ids
+    std::size_t found_again_ = 0; // of them, in the second run
 };
 
 extern template class WaitingPoints<2>;

@@ -53,7 +53,8 @@ public:
         return status;
     }
 
-    void stage(int points, unsigned seed) {
+    /// Calls use(stage, error) with a stage that has the points drawn from the seed.
+    template <class Use> void with_stage(int points, unsigned seed, Use use) {
         std::mt19937_64 random(seed);
         std::uniform_real_distribution<double> unit(0, 1);
         run([&](abacus_error &error) {
@@ -66,8 +67,27 @@ public:
                     record.push_back(std::bit_cast<std::uint64_t>(unit(random)));
                 status = abacus_stage_add(stage, record.data(), 1, &error);
             }
-            if (status == ABACUS_OK) status = abacus_stage_finish(stage, &header, &error);
+            if (status == ABACUS_OK) status = use(stage, error);
             abacus_stage_close(stage);
+            return status;
+        });
+    }
+
+    void stage(int points, unsigned seed) {
+        with_stage(points, seed, [&](abacus_stage *stage, abacus_error &error) {
+            return abacus_stage_finish(stage, &header, &error);
+        });
+    }
+
+    void remove(int points, unsigned seed) {
+        with_stage(points, seed, [&](abacus_stage *stage, abacus_error &error) {
+            abacus_build *build = nullptr;
+            abacus_status status =
+                abacus_build_open(host.table(), &header, cache_bytes, &build, &error);
+            if (status != ABACUS_OK) return status;
+            std::uint64_t deleted;
+            status = abacus_build_delete(build, stage, 0, &header, &deleted, &error);
+            abacus_build_close(build);
             return status;
         });
     }
@@ -186,7 +206,7 @@ public:
         });
     }
 
-    /// All of it; the build, which changes pages, last.
+    /// All of it; what changes pages last.
     void do_everything() {
         locate_and_walk();
         locate_places();
@@ -195,6 +215,8 @@ public:
         check();
         draw();
         build();
+        check();
+        remove(100, 1);
         check();
         require(host.bytes == 0, "memory is not given back");
     }

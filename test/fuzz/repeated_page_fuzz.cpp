@@ -19,6 +19,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
         mesh.check();
         mesh.build(); // repeats points again
         mesh.check();
+        mesh.remove(80, 1); // the repeated ones
+        mesh.check();
         require(mesh.host.bytes == 0, "memory is not given back");
     });
     return 0;

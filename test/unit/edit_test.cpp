@@ -162,6 +162,54 @@ TYPED_TEST(Edit, ByIdTakesNoOtherPointOfThePlace) {
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
 }
 
+TYPED_TEST(Edit, TakesWaitingPointsOfOnePlaceInLinearTime) {
+    // With the square of their number it would take a minute.
+    constexpr int D = TypeParam::value;
+    constexpr int n = 200000;
+    MeshOf<D> mesh;
+    std::vector<InputOf<D>> points(n), others;
+    for (int i = 0; i < n; ++i) points[i].id = i;
+    ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+    ASSERT_EQ(mesh.header.staged - mesh.header.inserted, std::uint64_t(n));
+    for (int i = 0; i < n / 2; ++i) others.push_back({i % 2 ? i : -i, {}});
+    std::uint64_t deleted;
+    ASSERT_EQ(mesh.remove(others, deleted, 16 << 20, true), ABACUS_OK);
+    EXPECT_EQ(deleted, n / 4 + 1); // 0 as well
+    ASSERT_EQ(mesh.remove(others, deleted), ABACUS_OK);
+    EXPECT_EQ(deleted, n / 2);
+    EXPECT_EQ(mesh.header.staged - mesh.header.inserted, n - deleted - n / 4 - 1);
+    EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+}
+
+TYPED_TEST(Edit, RefusesDamagedRepeatedPoints) {
+    constexpr int D = TypeParam::value;
+    MeshOf<D> sound(1);
+    const auto points = this->fresh(20, 0);
+    ASSERT_EQ(sound.insert(points), ABACUS_OK);
+    std::vector<InputOf<D>> repeated;
+    for (int i = 0; i < 1000; ++i) repeated.push_back({1000 + i, points[0].point, {0.5}});
+    ASSERT_EQ(sound.insert(repeated), ABACUS_OK);
+    ASSERT_GT(sound.host.repeated_pages.size(), 2u);
+    const auto expect_refused = [&](const auto &damage) {
+        MeshOf<D> mesh(1);
+        mesh.host.restore(sound.host);
+        mesh.header = sound.header;
+        damage(mesh);
+        std::uint64_t deleted;
+        EXPECT_EQ(mesh.remove(repeated, deleted), ABACUS_ERROR);
+        EXPECT_EQ(mesh.error.kind, ABACUS_ERROR_CORRUPTED);
+        EXPECT_EQ(mesh.host.bytes, 0u);
+    };
+    // A page begins before the last points of the one before it.
+    expect_refused([](MeshOf<D> &mesh) {
+        auto second = mesh.host.repeated_pages.extract(std::next(mesh.host.repeated_pages.begin()));
+        second.key().part -= 5;
+        mesh.host.repeated_pages.insert(std::move(second));
+    });
+    // There are more than there should be.
+    expect_refused([](MeshOf<D> &mesh) { mesh.header.duplicates = 7; });
+}
+
 TYPED_TEST(Edit, ClearsAllPages) {
     // Vertices, repeated points and points that wait; then only the last.
     constexpr int D = TypeParam::value;

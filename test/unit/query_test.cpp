@@ -224,6 +224,61 @@ TEST(Walk, RefusesWhatIdsDoNotTellApart) {
     }
 }
 
+TEST(Walk, LeavesOutTheCornerAskedForWhereIdsAreEqual) {
+    std::vector<Input> points = number(unit_square_points(3000, 5));
+    for (Input &p : points) p.id %= 40;
+    Mesh mesh(0, ample);
+    build(mesh, points);
+    OpenMesh open(mesh, little);
+    int walked = 0;
+    for (const abacus_simplex &s : mesh.simplices(false)) {
+        if (s.id[0] != s.id[1] && s.id[1] != s.id[2] && s.id[2] != s.id[0]) continue;
+        for (int facet = 0; facet < 3; ++facet) {
+            abacus_simplex found;
+            if (open.walk(s, facet, found) != ABACUS_OK) continue; // the hull, or not the only one
+            ++walked;
+            for (int i = 0; i < 3; ++i) {
+                const auto is_it = [&](const double *corner) {
+                    return std::equal(corner, corner + 2, s.corner[i]);
+                };
+                const bool is_shared = std::any_of(found.corner, found.corner + 3, is_it);
+                ASSERT_EQ(is_shared, i != facet);
+            }
+        }
+    }
+    EXPECT_GT(walked, 1000);
+}
+
+TEST(Walk, KeepsToItsMemoryWhereManyPagesShareACode) {
+    // All but the corners of the domain lie far below the resolution of the codes.
+    std::vector<Input> points = number(unit_square_points(40000, 3));
+    for (Input &p : points)
+        for (double &x : p.point) x = 0.3 + x * 1e-11;
+    for (const double corner : {0., 1.})
+        points.push_back({std::int64_t(points.size()), {corner, corner}});
+    Mesh mesh(0, ample);
+    build(mesh, points);
+    const auto all = mesh.simplices(false);
+    const auto peak = [&](std::size_t cache_bytes) {
+        mesh.host.peak_bytes = 0;
+        OpenMesh open(mesh, cache_bytes);
+        for (std::size_t i = 0; i < all.size(); i += all.size() / 10) {
+            abacus_simplex neighbour;
+            EXPECT_EQ(open.walk(all[i], 0, neighbour), ABACUS_OK) << open.error.message;
+            // and back
+            bool is_back = false;
+            for (int facet = 0; facet < 3; ++facet) {
+                abacus_simplex found;
+                is_back |= open.walk(neighbour, facet, found) == ABACUS_OK &&
+                           std::equal(found.id, found.id + 3, all[i].id);
+            }
+            EXPECT_TRUE(is_back);
+        }
+        return mesh.host.peak_bytes;
+    };
+    EXPECT_LT(peak(little), peak(ample) / 2);
+}
+
 TEST(Scan, IsTheSameForEveryOrderOfTheInput) {
     for (const auto &points : {grid(30), unit_square_points(3000, 9)}) {
         Mesh first(0, ample), second(0, little);
