@@ -136,5 +136,29 @@ SELECT all_seen();
 ROLLBACK;
 SELECT all_seen();
 
-DROP TABLE field, field1, field2, field3, field4, field5, sites;
-DROP FUNCTION greatest_at, seen_stable, seen_volatile, add, follow, all_seen;
+-- a mesh that is rewritten under a query which reads it: an error, and not what is left in a new file
+CREATE FUNCTION rewrite(query text, command text) RETURNS text LANGUAGE plpgsql AS $$
+DECLARE
+    row record;
+    rows int := 0;
+BEGIN
+    FOR row IN EXECUTE query LOOP
+        rows := rows + 1;
+        IF rows = 10 THEN
+            EXECUTE command;
+        END IF;
+    END LOOP;
+    RAISE SQLSTATE 'UNDO1' USING MESSAGE = rows || ' rows';
+EXCEPTION WHEN object_in_use OR SQLSTATE 'UNDO1' THEN
+    RETURN SQLERRM;
+END $$;
+SELECT abacus_triangulate('large', 'SELECT i, i % 50, i / 50 FROM generate_series(0, 2499) i');
+SELECT abacus_insert('large', 'SELECT 5000 + i, i % 50, i / 50 FROM generate_series(0, 2499) i');
+SELECT query, command, rewrite(query, command)
+FROM (VALUES ('SELECT abacus_simplices(''large'')'), ('SELECT abacus_vertices(''large'')'),
+             ('SELECT abacus_locate(''large'', i % 50, i / 50) FROM generate_series(0, 2499) i')) AS q (query),
+     (VALUES ('ALTER TABLE large SET UNLOGGED'), ('TRUNCATE large'), ('ALTER TABLE large_vertices SET UNLOGGED')) AS c (command);
+SELECT * FROM abacus_check('large');
+
+DROP TABLE field, field1, field2, field3, field4, field5, sites, large;
+DROP FUNCTION greatest_at, seen_stable, seen_volatile, add, follow, all_seen, rewrite;

@@ -29,7 +29,10 @@ template <int D>
 bool Insertion<D>::insert(const Point<D> &p, std::uint64_t code, std::int64_t id,
                           const double *attributes) {
     const Handle first = find_conflict(p, code);
-    if (first == no_handle) return false;
+    if (first == no_handle) {
+        mesh_.finish(code); // what was loaded on the way there counts, too
+        return false;
+    }
     cavity_.find(p, first);
     cavity_.fill(cache_.create_vertex(p, code, id, attributes));
     ++cache_.counters.insertions;

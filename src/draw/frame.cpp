@@ -79,8 +79,9 @@ abacus_drawing Extent::drawing() const {
                              (result.upper[0] * 0.5 - result.lower[0] * 0.5);
         const auto most =
             static_cast<double>(std::min<std::int64_t>(max_side, max_pixels / result.width));
-        result.height = static_cast<std::int32_t>(
-            std::clamp(std::floor(result.width * shape + 0.5), 1.0, most));
+        const double height = std::floor(result.width * shape + 0.5);
+        // A window of the least double is nothing when halved, and has no shape.
+        result.height = static_cast<std::int32_t>(height >= 1 ? std::min(height, most) : 1);
     }
     return result;
 }

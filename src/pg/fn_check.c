@@ -60,7 +60,7 @@ begin_check(Oid mesh, int32 limit, MemoryContext memory)
 	{
 		abacus_check *check = NULL;
 
-		page_store_vertex_table(&host->store);
+		header_open_vertices(host, &header);
 		progress_begin(&host->progress, mesh);
 		host_run(host, abacus_check_open(&host->table, &header, setting_cache_bytes(), limit, &check,
 										 &host->failure));

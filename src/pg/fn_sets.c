@@ -133,7 +133,7 @@ abacus_sql_vertices(PG_FUNCTION_ARGS)
 		set = SRF_FIRSTCALL_INIT();
 		reader = begin_set(fcinfo, set);
 		host = reader->host;
-		page_store_vertex_table(&host->store);
+		header_open_vertices(host, &reader->header);
 		host_run(host, abacus_vertex_scan_open(&host->table, &reader->header,
 											   setting_cache_bytes(), &scan, &host->failure));
 		host_own(host, scan, (void (*) (void *)) abacus_vertex_scan_close);

@@ -38,7 +38,31 @@ header_insert(Host *host, abacus_header *header)
 bool
 header_find(Host *host, StoredPage *row)
 {
-	return page_table_get(&host->store.simplices, header_key, row);
+	if (page_table_get(&host->store.simplices, header_key, row))
+		return true;
+	page_table_refuse_newer(&host->store.simplices);
+	return false;
+}
+
+/*
+ * Locks and checks the vertex table. If the header tells of rows there, the snapshot
+ * must see them.
+ */
+void
+header_open_vertices(Host *host, const abacus_header *header)
+{
+	PageStore  *store = &host->store;
+	abacus_key	last = {UINT64_MAX, UINT64_MAX};
+	abacus_page page;
+	bool		found = true;
+
+	page_store_vertex_table(store);
+	if (header->duplicates > 0)
+		found = page_store_find(store, ABACUS_REPEATED_PAGES, last, &page);
+	else if (header->inserted < header->staged || header->not_delaunay)
+		found = page_store_find(store, ABACUS_STAGED_PAGES, last, &page);
+	if (!found)
+		page_table_refuse_newer(&store->vertices);
 }
 
 void

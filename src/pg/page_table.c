@@ -49,6 +49,26 @@ lock_mode(const PageTable *table)
 	return table->writable ? RowExclusiveLock : AccessShareLock;
 }
 
+/*
+ * Others cannot rewrite a table that we have locked, but our own transaction can,
+ * between two rows of a cursor. Readers have places of the old file in memory, and
+ * a snapshot that need not see the new one. Where relations stay open between two
+ * rows, PostgreSQL refuses the rewriting itself.
+ */
+static void
+check_node(PageTable *table)
+{
+	if (!OidIsValid(table->node.relNode))
+		table->node = table->heap->rd_node;
+	else if (!table->writable && !RelFileNodeEquals(table->node, table->heap->rd_node))
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_IN_USE),
+				 errmsg("table \"%s\" was rewritten while this query reads it",
+						RelationGetRelationName(table->heap)),
+				 errhint("CLUSTER, TRUNCATE, or alter a mesh after queries and loops over it "
+						 "have ended.")));
+}
+
 void
 page_table_open(PageTable *table)
 {
@@ -58,6 +78,7 @@ page_table_open(PageTable *table)
 		return;
 	old = MemoryContextSwitchTo(table->memory);
 	table->heap = table_open(table->relid, lock_mode(table));
+	check_node(table);
 	table->room = 0;
 	if (table->writable)
 	{
@@ -215,6 +236,35 @@ page_table_next(PageTable *table, const int64 *key, StoredPage *page)
 	memcpy(table->forward_key, page->key, sizeof(table->forward_key));
 	table->at_key = true;
 	return true;
+}
+
+/*
+ * Called when rows are missed: an error if our snapshot sees none and newer ones
+ * would. Then the table has been made since, or an ALTER TABLE has written all of its
+ * rows anew, for which it takes no account of older snapshots.
+ */
+void
+page_table_refuse_newer(PageTable *table)
+{
+	static const int64 least[PAGE_TABLE_KEYS] = {PG_INT64_MIN, PG_INT64_MIN};
+	StoredPage	page;
+	TupleTableSlot *slot;
+	TableScanDesc scan;
+	bool		is_newer;
+
+	if (page_table_next(table, least, &page))
+		return;
+	slot = table_slot_create(table->heap, NULL);
+	scan = table_beginscan(table->heap, SnapshotSelf, 0, NULL);
+	is_newer = table_scan_getnextslot(scan, ForwardScanDirection, slot);
+	table_endscan(scan);
+	ExecDropSingleTupleTableSlot(slot);
+	if (is_newer)
+		ereport(ERROR,
+				(errcode(ERRCODE_T_R_SERIALIZATION_FAILURE),
+				 errmsg("table \"%s\" was made or rewritten after this snapshot was taken",
+						RelationGetRelationName(table->heap)),
+				 errhint("The transaction might succeed if retried.")));
 }
 
 /* Forms the tuple of a row in the current memory context. */

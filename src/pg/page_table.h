@@ -34,6 +34,7 @@ typedef struct PageTable
 	bool		writable;
 
 	Relation	heap;			/* NULL while closed */
+	RelFileNode node;			/* of the heap when it was opened first */
 	Relation	index;			/* NULL until searched */
 	List	   *indexes;		/* writers: all that they keep */
 
@@ -55,6 +56,7 @@ extern void page_table_init(PageTable *table, Oid relid, bool writable, MemoryCo
 extern void page_table_open(PageTable *table);
 extern void page_table_close(PageTable *table);
 extern void page_table_see_own_changes(PageTable *table);
+extern void page_table_refuse_newer(PageTable *table);
 
 extern bool page_table_get(PageTable *table, const int64 *key, StoredPage *page);
 extern bool page_table_floor(PageTable *table, const int64 *key, StoredPage *page);

@@ -84,6 +84,9 @@ open_and_lock(Writer *writer)
 		PopActiveSnapshot();
 		page_table_open(&host->store.simplices);
 	}
+	/* otherwise the snapshot is newer than our lock on the vertex table */
+	if (IsolationUsesXactSnapshot())
+		header_open_vertices(host, writer->header);
 	if (host->store.simplices.superseded == NULL)
 		host->store.simplices.superseded = superseded_of_session(host->store.simplices.heap);
 	superseded_reclaim_earlier(host->store.simplices.superseded, host->store.simplices.heap);

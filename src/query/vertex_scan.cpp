@@ -20,7 +20,7 @@ VertexScan<D>::VertexScan(const Host &host, const abacus_header &header, std::si
     : attributes_(header.attributes), listed_(header.not_delaunay != 0),
       mesh_(host, header, cache_bytes), own_(mesh_.cache()),
       page_(header.vertices > 0 ? first_key : end_key), records_(host),
-      repeated_(host, domain_of<D>(header), header.attributes),
+      repeated_(host, domain_of<D>(header), header.attributes), repeated_left_(header.duplicates),
       waiting_(host, header.attributes, listed_ ? 0 : header.inserted, header.staged) {}
 
 template <int D> void VertexScan<D>::collect() {
@@ -47,7 +47,13 @@ template <int D> bool VertexScan<D>::next_vertex(abacus_vertex &vertex) {
 
 template <int D> bool VertexScan<D>::next_repeated(abacus_vertex &vertex) {
     // Asked once more after its end it would search the table again, for each point that waits.
-    if (!more_repeated_ || !(more_repeated_ = repeated_.advance())) return false;
+    if (!more_repeated_) return false;
+    more_repeated_ = repeated_.advance();
+    // Nothing else tells that pages of them are lost.
+    if (more_repeated_ != (repeated_left_ > 0))
+        throw_corrupted("The header counts other repeated points than there are.");
+    if (!more_repeated_) return false;
+    --repeated_left_;
     fill<D>(vertex, repeated_.record());
     const auto found = mesh_.vertex_at(record_point<D>(repeated_.record()));
     if (!found) throw_corrupted("A repeated point is no vertex of the mesh.");

@@ -32,6 +32,7 @@ private:
     std::size_t at_ = 0;
     RepeatedReader<D> repeated_;
     bool more_repeated_ = true;
+    std::uint64_t repeated_left_; // as the header counts them
     VertexReader<D> waiting_;
 };
 

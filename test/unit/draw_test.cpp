@@ -215,6 +215,8 @@ TEST_F(Draw, SurvivesTheRangeOfDoubles) {
             drawing.lower[0] = drawing.upper[0]; // whole mesh
             draw(drawing, triangles);
             draw(drawing, {triangles[1]});
+            drawing.height = 0; // as its shape tells
+            draw(drawing, {triangles[1]});
         }
 }
 
