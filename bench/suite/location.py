@@ -100,9 +100,10 @@ def measure_cold(suite, points, labels):
                  for question in ("first", "next", "each")]
     for _ in range({"full": 20, "quick": 20, "smoke": 1}[suite.mode]):
         places = [[chance.random() for _ in range(points.dimension)] for _ in range(PLACES_ON_END)]
-        one, two, all_of_them = (pages_read(points, places[:count]) for count in (1, 2, PLACES_ON_END))
-        for question, read in zip(questions, (one, [b - a for a, b in zip(one, two)],
-                                              [pages / PLACES_ON_END for pages in all_of_them])):
+        one, two, many = (pages_read(points, places[:count]) for count in (1, 2, PLACES_ON_END))
+        second = [after - before for before, after in zip(one, two)]
+        each = [pages / PLACES_ON_END for pages in many]
+        for question, read in zip(questions, (one, second, each)):
             question["samples"].append(dict(zip(kinds, read)))
     suite.measurements += questions
     for measurement in questions:

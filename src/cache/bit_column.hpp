@@ -77,13 +77,8 @@ public:
             *prefix++ = static_cast<Prefix>(word >> (bit & 7) & mask);
         }
     }
-    /// Asks for the fields from `begin` to `end`, which are not none.
-    void ask_for(std::size_t begin, std::size_t end) const {
-        const unsigned char *const last = bytes_ + (end * width_ - 1) / 8;
-        for (const unsigned char *at = bytes_ + begin * width_ / 8; at < last; at += cache_line)
-            touch(at);
-        touch(last);
-    }
+    /// Asks for a field, which will be read soon.
+    void ask_for(std::size_t i) const { touch(bytes_ + (i * width_ >> 3)); }
     unsigned width() const { return width_; }
     const unsigned char *begin() const { return bytes_; }
 
@@ -129,9 +124,7 @@ public:
     void prefixes(std::size_t begin, std::size_t end, Prefix *prefix) const {
         fields_.prefixes(begin, end, prefix_bits, prefix);
     }
-    void ask_for(std::size_t begin, std::size_t end) const {
-        if (fields_.width() != 0 && begin < end) fields_.ask_for(begin, end);
-    }
+    void ask_for(std::size_t i) const { fields_.ask_for(i); }
     Prefix prefix_at(std::size_t i) const {
         Prefix prefix = 0;
         prefixes(i, i + 1, &prefix);

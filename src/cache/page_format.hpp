@@ -22,7 +22,7 @@
 //
 // Simplices by the dozen make a patch. No tree goes on from one to the next, so each can be read
 // by itself; and trees that end early are compact. Who looks for the simplex at a place reads
-// the one or two patches whose boxes contain it, a sixth of a page in the plane.
+// the patches whose boxes contain it: on average one and a half of twelve in the plane.
 //
 // Everything is little-endian; the fields after the header start at whole bytes. Pages are
 // ordinary column values that any writer of the table can change, so nothing in them is
@@ -141,7 +141,7 @@ public:
     /// The box's lower bounds, then its upper ones.
     double box(int i) const { return box_[i]; }
     void ask_for_id(int vertex) const {
-        ids_.ask_for(static_cast<std::size_t>(vertex), static_cast<std::size_t>(vertex) + 1);
+        ids_.ask_for(static_cast<std::size_t>(vertex));
     }
     std::int64_t id(int vertex) const { return static_cast<std::int64_t>(ids_[vertex]); }
     const Point<D> &point(int vertex) const { return points_[vertex]; }

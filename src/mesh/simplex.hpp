@@ -53,6 +53,7 @@ template <int D> struct Simplex {
     }
 };
 
+/// Whether a permutation, of numbers that are all different, keeps orientations.
 constexpr bool is_even(const auto &permutation) {
     int inversions = 0;
     for (std::size_t i = 0; i < permutation.size(); ++i)

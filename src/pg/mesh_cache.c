@@ -8,10 +8,10 @@
  * Reading that row for every call would cost more than locating the point, so
  * an entry remembers under which snapshot it was found valid, and until then
  * also that the lock is held and, in the same statement, that the privileges
- * were checked. Within one
- * transaction an equal snapshot sees the same header; a subtransaction that
- * aborts is the exception (it takes changes and locks back without any trace
- * in the snapshot), so aborts and ends of transactions make entries forget.
+ * were checked. Within one transaction an equal snapshot sees the same header;
+ * a subtransaction that aborts is the exception (it takes changes and locks
+ * back without any trace in the snapshot), so aborts and ends of transactions
+ * make entries forget.
  * The callbacks touch memory only.
  *
  * An entry is busy while the core runs on it. One found busy by an abort or

@@ -202,15 +202,19 @@ void Reader<D>::first_around(const Point<D> &p, Handle h, abacus_simplex &simple
     }
 }
 
-template <int D>
-int Reader<D>::named_corner(Handle h, const std::int64_t *ids, int facet) const {
+template <int D> bool Reader<D>::has_ids(Handle h, const std::int64_t *ids) const {
     const Simplex<D> &s = cache_.simplex(h);
-    if (s.is_ghost()) return -1;
+    if (s.is_ghost()) return false;
     std::array<std::int64_t, D + 1> here;
     for (int i = 0; i <= D; ++i) here[i] = cache_.vertices().id(s.vertex[i]);
-    if (!std::is_permutation(here.begin(), here.end(), ids)) return -1;
+    return std::is_permutation(here.begin(), here.end(), ids);
+}
+
+template <int D>
+int Reader<D>::named_corner(Handle h, const std::int64_t *ids, int facet) const {
     // Which of several corners with this id is meant, their order tells where the simplex is
     // handed out.
+    const Simplex<D> &s = cache_.simplex(h);
     abacus_simplex given;
     describe(h, given);
     auto before = std::count(ids, ids + facet, ids[facet]);
@@ -231,12 +235,12 @@ bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
     bool is_unique = true;
     const auto is_it = [&](Handle candidate) {
         return cache_.is_live(candidate) && cache_.code(cache_.simplex(candidate)) == code &&
-               named_corner(candidate, ids, facet) >= 0;
+               has_ids(candidate, ids);
     };
     if (size_ != 0 && facet >= 0 && facet <= D && code < key_word_end) {
         cache_.trim();
         cache_.visit_code(code, [&](Handle candidate) {
-            if (named_corner(candidate, ids, facet) < 0) return;
+            if (!has_ids(candidate, ids)) return;
             is_unique = h == no_handle;
             h = candidate;
             page = cache_.lower(h);

@@ -74,8 +74,9 @@ private:
     int position(Handle h, const Point<D> &p) const;
     bool search_first(const Point<D> &p, abacus_simplex &simplex);
     void describe(Handle h, abacus_simplex &simplex) const;
-    /// Which of the simplex's corners has the id of corner `facet` of the ids, which are those of
-    /// the corners in any order; negative if they are not.
+    /// Whether these are the ids of the simplex's corners, in any order.
+    bool has_ids(Handle h, const std::int64_t *ids) const;
+    /// Which of its corners is then meant by corner `facet` of the ids.
     int named_corner(Handle h, const std::int64_t *ids, int facet) const;
     /// The first of all simplices around a point on a facet of h, which `simplex` describes.
     void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex);

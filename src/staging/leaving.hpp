@@ -1,9 +1,8 @@
 // Which of the equal points at one place leave, when some are taken away one after the other.
 //
 // Each time the first point with the id wanted leaves, or if none has it (unless by id) the
-// first of all.
-// So what an id takes depends on what went before, but not on what a search after each of
-// them would have to read: all are found in one run over the points of the place.
+// first of all. So what an id takes depends on what went before, but not on what a search after
+// each of them would have to read: all are found in one run over the points of the place.
 //
 // A point that leaves for want of its id is the first one left: all before it have gone. Of n
 // wants at most n - 1 have been met by then, so it is one of the first n points of the place.
