@@ -31,9 +31,9 @@ public:
     /// `done` records of the phase are done.
     void reached(std::uint64_t done, const PagesMoved &pages = {}) {
         set(done, pages);
-        host_.poll();
         const auto now = Clock::now();
         if (now - last_ >= std::chrono::milliseconds(10)) report(now);
+        host_.poll();
     }
     /// The phase ends with `done` records.
     void end(std::uint64_t done, const PagesMoved &pages) {

@@ -226,8 +226,9 @@ TEST_P(Failure, OfACancelInAnyPhase) {
                 if (++at == report) host.cancel();
             };
         });
-        // How often a long phase reports depends on the time; after the last report all is done.
-        if (succeeded(status)) EXPECT_EQ(calls_.progress, report);
+        // How often a long phase reports depends on the time: the cancel may come with the last
+        // report, when all is done, or not at all. No report follows one that is noticed.
+        if (succeeded(status)) EXPECT_LE(calls_.progress, report);
         else EXPECT_EQ(status, ABACUS_HOST_ERROR) << "report " << report;
     }
 }
