@@ -46,22 +46,30 @@ build_fuzz() {
 }
 
 unit_tests() {
-    ctest --test-dir "$1" -j "$ABACUS_JOBS" --output-on-failure --no-tests=error
+    ctest --test-dir "$1" -j "$ABACUS_JOBS" --output-on-failure --no-tests=error &&
+        awk '/PASSED/ { n += $4 } END { print "All " n " tests passed" }' \
+            "$1/Testing/Temporary/LastTest.log"
 }
 
-# Every fuzz target in turn, FUZZ_SECONDS in all. What it finds stays in
-# build/fuzz/corpus for the next run; test/fuzz/corpus/<target> are its seeds.
+# All fuzz targets beside one another, FUZZ_SECONDS of processor time in all. What a target finds
+# stays in build/fuzz/corpus for the next run; test/fuzz/corpus/<target> are its seeds.
 fuzz() {
-    local targets=() target corpus
-    for target in test/fuzz/*.cpp; do targets+=("$(basename "$target" .cpp)"); done
+    local targets=(test/fuzz/*.cpp) target runs=() run status=0
+    local seconds=$((FUZZ_SECONDS / ABACUS_JOBS))
     for target in "${targets[@]}"; do
-        corpus=build/fuzz/corpus/$target
-        mkdir -p "$corpus"
-        local folders=("$corpus")
-        if [[ -d test/fuzz/corpus/$target ]]; then folders+=("test/fuzz/corpus/$target"); fi
-        "build/fuzz/test/$target" -max_total_time=$((FUZZ_SECONDS / ${#targets[@]})) \
-            -artifact_prefix=build/fuzz/ -print_final_stats=1 -verbosity=1 "${folders[@]}" || return
+        fuzz_target "$(basename "$target" .cpp)" "$seconds" &
+        runs+=($!)
     done
+    for run in "${runs[@]}"; do wait "$run" || status=1; done
+    return "$status"
+}
+
+fuzz_target() {
+    local folders=("build/fuzz/corpus/$1")
+    mkdir -p "${folders[0]}"
+    if [[ -d test/fuzz/corpus/$1 ]]; then folders+=("test/fuzz/corpus/$1"); fi
+    "build/fuzz/test/$1" -max_total_time="$2" -artifact_prefix=build/fuzz/ -print_final_stats=1 \
+        -verbosity=1 "${folders[@]}"
 }
 
 regression_tests() {

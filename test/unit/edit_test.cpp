@@ -246,15 +246,16 @@ TYPED_TEST(Edit, FewPointsAtATimeLeavePagesFilled) {
     for (const int some : {1, 40}) {
         MeshOf<D> mesh(1, 1 << 20);
         PointModel<D> model;
-        const auto points = this->fresh(D == 2 ? 12000 : 3000, 0);
+        auto points = this->fresh(D == 2 ? 12000 : 3000, 0);
         model.insert(points);
         ASSERT_EQ(mesh.insert(points), ABACUS_OK);
         const std::size_t pages = mesh.host.pages.size();
         for (int changed = 0; changed < int(points.size()) / 10; changed += some) {
-            auto gone = model.points();
-            std::shuffle(gone.begin(), gone.end(), this->random);
-            gone.resize(some);
+            for (int i = 0; i < some; ++i)
+                std::swap(points[i], points[this->random() % points.size()]);
+            const std::vector<InputOf<D>> gone(points.begin(), points.begin() + some);
             const auto come = this->fresh(some, 0);
+            std::copy(come.begin(), come.end(), points.begin());
             model.remove(gone);
             model.insert(come);
             std::uint64_t deleted = 0;
