@@ -64,8 +64,7 @@ template <int D> std::uint64_t Cache<D>::part(const Simplex<D> &s) const {
 
 template <int D> Key Cache<D>::key(const Simplex<D> &s) const { return {code(s), part(s)}; }
 
-template <int D>
-typename Cache<D>::BlockIndex Cache<D>::new_block(typename Block::State state) {
+template <int D> BlockIndex Cache<D>::new_block(Block::State state) {
     BlockIndex b;
     if (!unused_blocks_.empty()) {
         b = unused_blocks_.back();
@@ -103,14 +102,12 @@ template <int D> void Cache<D>::create_first_block() {
     directory_.insert(first_key, b);
 }
 
-template <int D>
-typename Cache<D>::BlockIndex Cache<D>::cached_owner(const Key &key) const {
+template <int D> BlockIndex Cache<D>::cached_owner(const Key &key) const {
     const BlockIndex b = directory_.floor(key);
     return b != no_block && blocks_[b].owns(key) ? b : no_block;
 }
 
-template <int D>
-typename Cache<D>::BlockIndex Cache<D>::place_elsewhere(std::uint64_t code) {
+template <int D> BlockIndex Cache<D>::place_elsewhere(std::uint64_t code) {
     // A star at the border of two blocks has simplices now in one, now in the other.
     std::swap(at_hand_[0], at_hand_[1]);
     if (at_hand_[0] == no_block || !blocks_[at_hand_[0]].surely_owns(code)) {

@@ -26,6 +26,7 @@
 // that a simplex left forwards to its new place until it is used again.
 #pragma once
 
+#include "cache/block.hpp"
 #include "cache/directory.hpp"
 #include "cache/key.hpp"
 #include "cache/page_writer.hpp"
@@ -246,39 +247,10 @@ public:
     abacus_counters counters{};
 
 private:
-    struct Block {
-        enum State : std::uint8_t { unused, cached, limbo };
-        Key lower, upper;
-        std::uint64_t sure_lower, sure_upper; // codes that it owns whatever their part
-        std::uint64_t location;               // of the stored page; 0 = none
-        std::uint64_t used_at;
-        std::uint32_t count;      // simplices
-        std::uint16_t high_water; // slots ever used
-        std::uint16_t settled;    // as many of them as were loaded, wherever they lie now
-        std::uint32_t free;       // chain of slots given back, by link[0]
-        State state;
-        bool dirty;
-        bool leaving; // being evicted
-
-        void own(const Key &from, const Key &to) {
-            lower = from;
-            upper = to;
-            sure_lower = from.code + (from.part != 0);
-            sure_upper = to.code;
-        }
-        bool surely_owns(std::uint64_t code) const {
-            return sure_lower <= code && code < sure_upper;
-        }
-        bool owns(const Key &key) const { return lower <= key && key < upper; }
-        bool has_parts() const { return lower.part != 0 || upper.part != 0; }
-    };
-    using BlockIndex = std::uint32_t;
-    static constexpr BlockIndex no_block = Directory::none;
-    static constexpr std::uint32_t no_slot = 0xffffffffu;
     static constexpr std::size_t block_bytes = sizeof(Block) + block_slots<D> * sizeof(Simplex<D>);
 
     // cache.cpp
-    BlockIndex new_block(typename Block::State state);
+    BlockIndex new_block(Block::State state);
     void free_block(BlockIndex b);
     BlockIndex cached_owner(const Key &key) const;
     BlockIndex place_elsewhere(std::uint64_t code);

@@ -43,7 +43,7 @@ bool Cache<D>::follow_stored_link(Handle h, int facet, const Key &beyond) {
     }
 }
 
-template <int D> typename Cache<D>::BlockIndex Cache<D>::owner(const Key &key) {
+template <int D> BlockIndex Cache<D>::owner(const Key &key) {
     const BlockIndex cached = cached_owner(key);
     if (cached != no_block) return cached;
     const Stopwatch stopwatch(counters.translation_ns);
@@ -54,7 +54,7 @@ template <int D> typename Cache<D>::BlockIndex Cache<D>::owner(const Key &key) {
     return b;
 }
 
-template <int D> typename Cache<D>::BlockIndex Cache<D>::load(const abacus_page &page) {
+template <int D> BlockIndex Cache<D>::load(const abacus_page &page) {
     ++counters.loads;
     counters.bytes_read += page.size;
     view_.read(page.bytes, page.size, vertices_.attribute_count(),

@@ -274,7 +274,7 @@ template <int D> void Cache<D>::erase_page(BlockIndex b) {
 }
 
 template <int D>
-typename Cache<D>::BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t cut, const Key &border) {
+BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t cut, const Key &border) {
     ++counters.splits;
     const BlockIndex right = new_block(Block::cached);
     Block &left = blocks_[b];
@@ -290,7 +290,7 @@ typename Cache<D>::BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t cut, 
     return right;
 }
 
-template <int D> typename Cache<D>::BlockIndex Cache<D>::split_at_median(BlockIndex b) {
+template <int D> BlockIndex Cache<D>::split_at_median(BlockIndex b) {
     const std::size_t cut = cut_near(places_.size() / 2);
     if (cut == 0 || cut >= places_.size())
         throw Error(ABACUS_ERROR_LIMIT, "too many simplices share one key",
@@ -298,7 +298,7 @@ template <int D> typename Cache<D>::BlockIndex Cache<D>::split_at_median(BlockIn
     return split_at(b, cut, places_[cut].key);
 }
 
-template <int D> typename Cache<D>::BlockIndex Cache<D>::halve(BlockIndex b) {
+template <int D> BlockIndex Cache<D>::halve(BlockIndex b) {
     collect_places(b);
     return split_at_median(b);
 }

@@ -1,0 +1,41 @@
+// A page in the cache: the interval of keys that it owns, and the slots for its simplices.
+//
+// Slots are taken from a chain of those given back, or else from behind all that were ever used.
+#pragma once
+
+#include "cache/directory.hpp"
+#include "cache/key.hpp"
+
+namespace abacus {
+
+using BlockIndex = std::uint32_t;
+inline constexpr BlockIndex no_block = Directory::none;
+/// Ends the chain of free slots.
+inline constexpr std::uint32_t no_slot = 0xffffffffu;
+
+struct Block {
+    enum State : std::uint8_t { unused, cached, limbo };
+    Key lower, upper;
+    std::uint64_t sure_lower, sure_upper; // codes that it owns whatever their part
+    std::uint64_t location;               // of the stored page; 0 = none
+    std::uint64_t used_at;
+    std::uint32_t count;      // simplices
+    std::uint16_t high_water; // slots ever used
+    std::uint16_t settled;    // as many of them as were loaded, wherever they lie now
+    std::uint32_t free;       // chain of slots given back, by link[0]
+    State state;
+    bool dirty;
+    bool leaving; // being evicted
+
+    void own(const Key &from, const Key &to) {
+        lower = from;
+        upper = to;
+        sure_lower = from.code + (from.part != 0);
+        sure_upper = to.code;
+    }
+    bool surely_owns(std::uint64_t code) const { return sure_lower <= code && code < sure_upper; }
+    bool owns(const Key &key) const { return lower <= key && key < upper; }
+    bool has_parts() const { return lower.part != 0 || upper.part != 0; }
+};
+
+} // namespace abacus
