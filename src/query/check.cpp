@@ -225,18 +225,16 @@ template <int D> void Check<D>::check_waiting_points() {
 template <int D> void Check<D>::check_listed_vertices() {
     Reader<D> mesh(host_, header_, {.budget = cache_bytes_, .verify_checksums = false});
     VertexReader<D> list(host_, header_.attributes, 0, header_.staged);
-    std::uint64_t in_pages = 0, previous_code = 0;
-    Point<D> previous{};
+    std::uint64_t in_pages = 0;
+    // Along the curve, and those of one code by their coordinates as words: so abacus_load sorts.
+    std::array<std::uint64_t, 1 + D> place{}, previous{};
     while (list.advance()) {
         at_key_ = {list.sequence(), 0};
-        const Point<D> p = list.point();
-        const std::uint64_t code = domain_.code(p);
-        if (list.sequence() > 0 &&
-            (code < previous_code ||
-             (code == previous_code && !lexicographically_less<D>(previous, p))))
+        place[0] = domain_.code(list.point());
+        std::copy_n(list.record() + 1, D, place.begin() + 1);
+        if (list.sequence() > 0 && place <= previous)
             fault("vertex", at_key_, "The list of vertices is not in order.");
-        previous_code = code;
-        previous = p;
+        previous = place;
         const std::uint64_t pages = mesh.pages_with(list.record());
         if (pages == 0)
             fault("vertex", at_key_, "A vertex of the list is none of the mesh, or another one.");

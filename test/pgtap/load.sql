@@ -58,6 +58,11 @@ UPDATE holes_vertices SET page = overlay(page::bytea PLACING '\xff' FROM 25)::ab
 SELECT isnt_empty($$ SELECT * FROM abacus_check('holes') WHERE fault = 'vertex' $$, 'an id of the list is another');
 ROLLBACK TO damage;
 
+-- The list is in order also where vertices share a code and have negative coordinates.
+SELECT is(abacus_load('outskirts', 'VALUES (1, -2, -2), (2, -1, -2), (3, -2, -1), (4, -1, 5)', 'VALUES (1, 2, 4), (1, 4, 3)',
+                      lower => '{0, 0}', upper => '{9, 9}'), 2::bigint, 'three vertices at one corner of the domain');
+SELECT is_empty($$ SELECT * FROM abacus_check('outskirts') $$, 'sound outside of the domain');
+
 -- Who may not read the source may not load it.
 CREATE ROLE abacus_reader;
 GRANT CREATE ON SCHEMA public TO abacus_reader;
