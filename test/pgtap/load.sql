@@ -57,6 +57,9 @@ ROLLBACK TO damage;
 UPDATE holes_vertices SET page = overlay(page::bytea PLACING '\xff' FROM 25)::abacus_page WHERE first = 0;
 SELECT isnt_empty($$ SELECT * FROM abacus_check('holes') WHERE fault = 'vertex' $$, 'an id of the list is another');
 ROLLBACK TO damage;
+INSERT INTO holes_vertices SELECT first + 1, part, page FROM holes_vertices WHERE first = 0;
+SELECT is((SELECT array_agg(ROW(fault, code, part)::text) FROM abacus_check('holes')), ARRAY['(point,1,0)'], 'a page of the list is there twice');
+ROLLBACK TO damage;
 
 -- The list is in order also where vertices share a code and have negative coordinates.
 SELECT is(abacus_load('outskirts', 'VALUES (1, -2, -2), (2, -1, -2), (3, -2, -1), (4, -1, 5)', 'VALUES (1, 2, 4), (1, 4, 3)',
