@@ -63,8 +63,14 @@ ROLLBACK TO damage;
 
 -- The list is in order also where vertices share a code and have negative coordinates.
 SELECT is(abacus_load('outskirts', 'VALUES (1, -2, -2), (2, -1, -2), (3, -2, -1), (4, -1, 5)', 'VALUES (1, 2, 4), (1, 4, 3)',
-                      lower => '{0, 0}', upper => '{9, 9}'), 2::bigint, 'three vertices at one corner of the domain');
+                      lower => '{0, 0}', upper => '{9, 9}'), 2::bigint, 'all vertices outside of the domain');
 SELECT is_empty($$ SELECT * FROM abacus_check('outskirts') $$, 'sound outside of the domain');
+
+-- A given domain that many vertices do not keep to is widened, one that few do not keep to is not.
+SELECT abacus_load('elsewhere', 'TABLE flat', 'SELECT v0, v1, v2 FROM abacus_simplices(''flat_mesh'') WHERE v0 > 9', '{height}', '{5000, 5000}', '{6000, 6000}');
+SELECT cmp_ok((SELECT count(DISTINCT code) FROM abacus_simplices('elsewhere')), '>', 1000::bigint, 'places on the curve, not one');
+SELECT is_empty($$ SELECT * FROM abacus_check('elsewhere') $$, 'sound elsewhere');
+SELECT is((SELECT value FROM abacus_stats('outskirts') WHERE name = 'outside'), 4::float8, 'a few outside are counted');
 
 -- Who may not read the source may not load it.
 CREATE ROLE abacus_reader;
