@@ -40,6 +40,12 @@ template <int D> Domain<D> domain_of(const abacus_header &header) {
     return domain_around<D>(lower, upper);
 }
 
+/// Whether so many of a mesh's points came from outside its domain that it needs another one.
+inline bool has_outgrown_domain(std::uint64_t outside, std::uint64_t points) {
+    constexpr std::uint64_t harmless = 64;
+    return outside > harmless + points / 8;
+}
+
 /// Gives a mesh a domain with room for all points of a box.
 template <int D> void set_domain(abacus_header &header, const Box<D> &box) {
     header.has_domain = 1;

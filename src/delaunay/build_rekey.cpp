@@ -23,7 +23,6 @@ namespace abacus {
 
 namespace {
 
-constexpr std::uint64_t harmless = 64; // points outside
 constexpr double room = 1.5; // on either side of the box, of its greatest extent
 
 template <int D> void widen(Box<D> &box) {
@@ -41,7 +40,7 @@ template <int D> void widen(Box<D> &box) {
 template <int D> bool Build<D>::has_outgrown_domain(std::uint64_t coming) const {
     const std::uint64_t waiting = header_->staged - header_->inserted;
     const std::uint64_t points = header_->vertices + header_->duplicates + waiting + coming;
-    return header_->outside > harmless + points / 8;
+    return abacus::has_outgrown_domain(header_->outside, points);
 }
 
 template <int D> void Build<D>::change_domain(Box<D> box, std::size_t memory) {

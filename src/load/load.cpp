@@ -91,6 +91,8 @@ template <int D> void Load<D>::use_vertex(const Word *vertex) {
     if (first || lexicographically_less<D>(p, least_)) least_ = p;
     if (first || lexicographically_less<D>(greatest_, p)) greatest_ = p;
     box_.extend(p);
+    ++vertex_count_;
+    outside_ += domain_ && !Box<D>(domain_->lower(), domain_->upper()).contains(p);
     std::copy_n(vertex, layout_.vertex, used_.add());
 }
 
@@ -105,8 +107,19 @@ template <int D> void Load<D>::refuse_unknown(Word simplex, Word id) {
            {}, "The vertices query must return all vertices of the simplices.");
 }
 
+/// A given domain that the vertices do not keep to is widened at once: a mesh that is not Delaunay
+/// is never keyed anew.
+template <int D> void Load<D>::choose_domain() {
+    keeps_domain_ = domain_ && !has_outgrown_domain(outside_, vertex_count_);
+    if (keeps_domain_) return;
+    if (domain_) {
+        box_.extend(domain_->lower());
+        box_.extend(domain_->upper());
+    }
+    domain_ = domain_around<D>(box_.lower, box_.upper);
+}
+
 template <int D> void Load<D>::order_vertices() {
-    if (!domain_) domain_ = domain_around<D>(box_.lower, box_.upper);
     // Code, coordinates, then the rest of the record.
     RecordSort places(host_, 1 + layout_.vertex, 1 + D, share_);
     used_.rewind();
@@ -120,11 +133,11 @@ template <int D> void Load<D>::order_vertices() {
     used_.close();
     places.finish();
     Word previous = 0;
-    Point<D> previous_point{};
+    std::optional<Point<D>> previous_point;
     while (const Word *place = places.next()) {
         const Point<D> &p = point_in<D>(place);
         const Word id = place[1 + D];
-        if (vertex_count_++ > 0 && p == previous_point)
+        if (previous_point == p)
             refuse("vertices " + number(std::min(previous, id)) + " and " +
                        number(std::max(previous, id)) + " have the same coordinates",
                    {}, "Give the simplices one vertex for each place.");
@@ -354,6 +367,7 @@ template <int D> void Load<D>::finish(abacus_header &header) {
     corners_->finish();
     find_corners();
     if (simplex_count_ == 0) return;
+    choose_domain();
     order_vertices();
     assemble();
     link();
@@ -379,11 +393,8 @@ template <int D> void Load<D>::finish(abacus_header &header) {
     if (delaunay_) ordered_.close();
     else write_vertices();
 
-    if (header.has_domain == 0) {
-        header.has_domain = 1;
-        std::copy_n(box_.lower.begin(), D, header.lower);
-        std::copy_n(box_.upper.begin(), D, header.upper);
-    }
+    if (keeps_domain_) header.outside = outside_;
+    else set_domain(header, box_);
     header.vertices = vertex_count_;
     header.simplices = simplex_count_;
     header.not_delaunay = !delaunay_;

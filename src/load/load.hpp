@@ -52,6 +52,7 @@ public:
 private:
     void find_corners();
     void use_vertex(const Word *vertex);
+    void choose_domain();
     void order_vertices();
     [[noreturn]] void refuse_unknown(Word number, Word id);
     void assemble();
@@ -82,6 +83,8 @@ private:
     Box<D> box_;
     bool delaunay_ = true;
     Word vertex_count_ = 0, simplex_count_ = 0;
+    Word outside_ = 0;          // vertices, of a given domain
+    bool keeps_domain_ = false; // the given one
     Point<D> least_{}, greatest_{}; // of the vertices, lexicographically
 
     std::optional<RecordSort> vertices_, corners_, placed_, flanks_, links_, boundary_, elements_;

@@ -207,36 +207,50 @@ template <int D> void Check<D>::check_repeated_points() {
         fault("count", first_key, "The header counts other repeated points than there are.");
 }
 
+/// A reader goes from a page to the one with the next point; who begins with a point further on
+/// might come to another one that lies between them.
+template <int D> void Check<D>::check_follows(const Key &last, const Key &at) {
+    abacus_page page;
+    if (at == last || !host_.next(ABACUS_STAGED_PAGES, &last, page) || page.key == at) return;
+    fault("point", page.key, "A page of points lies where another one has its points.");
+}
+
 template <int D> void Check<D>::check_waiting_points() {
     at_key_ = {header_.inserted, 0};
     VertexReader<D> points(host_, header_.attributes, header_.inserted, header_.staged);
-    while (points.advance()) at_key_ = {points.sequence(), 0};
-    const Key begin{header_.inserted, 0}, end{header_.staged - 1, 0};
+    Key last = at_key_;
+    while (points.advance()) {
+        at_key_ = {points.sequence(), 0};
+        if (points.sequence() > header_.inserted) check_follows(last, points.page_key());
+        last = points.page_key();
+    }
+    const Key begin{header_.inserted, 0};
     abacus_page first, page;
     if (!host_.next(ABACUS_STAGED_PAGES, nullptr, first)) return;
     if (header_.inserted == header_.staged)
         fault("count", first.key, "There are points that wait, and the header counts none.");
     else if (!host_.find(ABACUS_STAGED_PAGES, begin, page) || !(page.key == first.key))
         fault("count", first.key, "There are points before the first that waits.");
-    else if (host_.next(ABACUS_STAGED_PAGES, &end, page))
+    else if (host_.next(ABACUS_STAGED_PAGES, &last, page))
         fault("count", page.key, "There are points behind the last that waits.");
 }
 
 template <int D> void Check<D>::check_listed_vertices() {
     Reader<D> mesh(host_, header_, {.budget = cache_bytes_, .verify_checksums = false});
     VertexReader<D> list(host_, header_.attributes, 0, header_.staged);
-    std::uint64_t in_pages = 0, previous_code = 0;
-    Point<D> previous{};
+    std::uint64_t in_pages = 0;
+    // Along the curve, and those of one code by their coordinates as words: so abacus_load sorts.
+    std::array<std::uint64_t, 1 + D> place{}, previous{};
+    Key last = first_key;
     while (list.advance()) {
         at_key_ = {list.sequence(), 0};
-        const Point<D> p = list.point();
-        const std::uint64_t code = domain_.code(p);
-        if (list.sequence() > 0 &&
-            (code < previous_code ||
-             (code == previous_code && !lexicographically_less<D>(previous, p))))
+        check_follows(last, list.page_key());
+        last = list.page_key();
+        place[0] = domain_.code(list.point());
+        std::copy_n(list.record() + 1, D, place.begin() + 1);
+        if (list.sequence() > 0 && place <= previous)
             fault("vertex", at_key_, "The list of vertices is not in order.");
-        previous_code = code;
-        previous = p;
+        previous = place;
         const std::uint64_t pages = mesh.pages_with(list.record());
         if (pages == 0)
             fault("vertex", at_key_, "A vertex of the list is none of the mesh, or another one.");
@@ -244,9 +258,8 @@ template <int D> void Check<D>::check_listed_vertices() {
     }
     if (in_pages != page_vertices_)
         fault("vertex", first_key, "The mesh has vertices that are not in the list.");
-    const Key end{header_.staged - 1, 0};
     abacus_page page;
-    if (host_.next(ABACUS_STAGED_PAGES, &end, page))
+    if (host_.next(ABACUS_STAGED_PAGES, &last, page))
         fault("count", page.key, "There are pages behind the list of vertices.");
 }
 

@@ -64,6 +64,7 @@ private:
     void check_topology();
     void check_simplex(Cache<D> &cache, Handle h);
     void check_repeated_points();
+    void check_follows(const Key &last, const Key &at);
     void check_waiting_points();
     void check_listed_vertices();
     void check_empty_sphere(const Cache<D> &cache, const Simplex<D> &s, const Point<D> &opposite);

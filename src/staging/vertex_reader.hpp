@@ -26,6 +26,8 @@ public:
     }
 
     std::uint64_t sequence() const { return next_ - 1; }
+    /// Of the page with the point at hand.
+    const abacus_key &page_key() const { return key_; }
     /// Of the point at hand; valid until the next advance(). No coordinate is -0.0.
     const std::uint64_t *record() const { return page_->record(at_); }
     std::int64_t id() const { return record_id(record()); }
@@ -40,6 +42,7 @@ private:
             throw_corrupted("A vertex page is missing or too large.");
         std::memcpy(copy_, stored.bytes, stored.size); // not valid beyond the next call
         page_.emplace(copy_, stored.size, attributes_, stored.key);
+        key_ = stored.key;
         location_ = stored.location;
         if (next_ < page_->first() || next_ >= page_->first() + page_->size())
             throw_corrupted("A vertex page is missing.");
@@ -54,6 +57,7 @@ private:
     std::uint64_t next_, to_;
     bool erase_;
     std::size_t at_ = 0;
+    abacus_key key_{};           // of the page
     std::uint64_t location_ = 0; // of the page
     std::optional<VertexPage<D>> page_;
     std::uint64_t copy_[ABACUS_PAGE_BYTES / 8];

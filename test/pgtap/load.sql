@@ -57,6 +57,20 @@ ROLLBACK TO damage;
 UPDATE holes_vertices SET page = overlay(page::bytea PLACING '\xff' FROM 25)::abacus_page WHERE first = 0;
 SELECT isnt_empty($$ SELECT * FROM abacus_check('holes') WHERE fault = 'vertex' $$, 'an id of the list is another');
 ROLLBACK TO damage;
+INSERT INTO holes_vertices SELECT first + 1, part, page FROM holes_vertices WHERE first = 0;
+SELECT is((SELECT array_agg(ROW(fault, code, part)::text) FROM abacus_check('holes')), ARRAY['(point,1,0)'], 'a page of the list is there twice');
+ROLLBACK TO damage;
+
+-- The list is in order also where vertices share a code and have negative coordinates.
+SELECT is(abacus_load('outskirts', 'VALUES (1, -2, -2), (2, -1, -2), (3, -2, -1), (4, -1, 5)', 'VALUES (1, 2, 4), (1, 4, 3)',
+                      lower => '{0, 0}', upper => '{9, 9}'), 2::bigint, 'all vertices outside of the domain');
+SELECT is_empty($$ SELECT * FROM abacus_check('outskirts') $$, 'sound outside of the domain');
+
+-- A given domain that many vertices do not keep to is widened, one that few do not keep to is not.
+SELECT abacus_load('elsewhere', 'TABLE flat', 'SELECT v0, v1, v2 FROM abacus_simplices(''flat_mesh'') WHERE v0 > 9', '{height}', '{5000, 5000}', '{6000, 6000}');
+SELECT cmp_ok((SELECT count(DISTINCT code) FROM abacus_simplices('elsewhere')), '>', 1000::bigint, 'places on the curve, not one');
+SELECT is_empty($$ SELECT * FROM abacus_check('elsewhere') $$, 'sound elsewhere');
+SELECT is((SELECT value FROM abacus_stats('outskirts') WHERE name = 'outside'), 4::float8, 'a few outside are counted');
 
 -- Who may not read the source may not load it.
 CREATE ROLE abacus_reader;

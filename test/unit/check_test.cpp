@@ -254,6 +254,10 @@ TEST(Check, FindsDamageOfThePointsThatWait) {
     for (std::size_t i = 0; i < pages.size(); ++i)
         big.expect_fault("a missing vertex page", "point",
                          [&] { pages.erase(std::next(pages.begin(), std::ptrdiff_t(i))); });
+    big.expect_fault("a page among others", "point", [&] {
+        const auto [key, page] = *std::next(pages.begin());
+        pages[{key.code + 1, 0}] = page;
+    });
     big.expect_fault("an x that is no number", "point", [&] {
         auto &page = std::next(pages.begin())->second;
         page.words[VertexPageHeader::words + 1] = ~std::uint64_t(0);
