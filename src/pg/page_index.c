@@ -24,33 +24,18 @@ typedef struct PageIndex
 } PageIndex;
 
 /*
- * The valid primary key. The table's list of indexes may be older than the lock
- * on the index: REINDEX CONCURRENTLY puts another one in its place meanwhile.
- * Then whoever gets the lock hears of both, and the list is a new one.
+ * The primary key, which must be what we search by. The table's list of indexes
+ * names it only while it is valid; what the index says of itself may be newer or
+ * older than the list, since a transaction is seen to have committed before
+ * others hear what it has changed. Then REINDEX CONCURRENTLY has just put one
+ * index in the other's place. Both are whole, and stay so while we keep our lock
+ * on the table, which it waits for.
  */
-static Relation
-open_valid_primary(Relation heap, LOCKMODE lock)
-{
-	Oid			looked_at = InvalidOid;
-	Oid			index_oid;
-
-	while ((index_oid = RelationGetPrimaryKeyIndex(heap)) != looked_at)
-	{
-		Relation	index = index_open(index_oid, lock);
-
-		if (index->rd_index->indisvalid)
-			return index;
-		index_close(index, lock);
-		looked_at = index_oid;
-	}
-	return NULL;
-}
-
-/* The primary key, which must be what we search by. */
 Relation
 page_index_open_primary(Relation heap, LOCKMODE lock)
 {
-	Relation	index = open_valid_primary(heap, lock);
+	Oid			index_oid = RelationGetPrimaryKeyIndex(heap);
+	Relation	index = OidIsValid(index_oid) ? index_open(index_oid, lock) : NULL;
 	bool		usable = index != NULL && index->rd_rel->relam == BTREE_AM_OID &&
 		index->rd_index->indimmediate && index->rd_index->indnkeyatts == PAGE_TABLE_KEYS;
 
