@@ -93,10 +93,11 @@ tap_tests() {
         PERL5OPT=-Msigtrap=die,INT,TERM prove -j "$ABACUS_JOBS" -I "$sources/test/perl" "$tap_folder"/*.pl
 }
 
-# Begins them beside the other suites, for they mostly wait: for servers to start, to crash and to
-# recover. They are a process group, which ends with this script. A small file system of their own
-# is a full disk soon; where it cannot be mounted, that test is skipped.
-tap_begin() {
+# A second line of suites beside the others: TAP tests mostly wait, for servers to start, to crash
+# and to recover, and few suites use more than one processor. It is a process group, which ends with
+# this script. A small file system of its own is a full disk soon; where it cannot be mounted, that
+# test is skipped.
+second_line_begin() {
     tap_folder=$cluster_folder/tap
     mkdir "$tap_folder" "$tap_folder/disk"
     cp -r test/tap/*.p[lm] test/tap/meshes "$tap_folder"
@@ -107,15 +108,28 @@ tap_begin() {
     fi
     if ((EUID == 0)); then chown -R postgres: "$tap_folder"; fi
     set -m
-    suite "TAP" tap_tests 9>&- &
-    tap=$!
+    second_line 9>&- &
+    second=$!
     set +m
-    trap 'kill -INT -- "-$tap"; tap_end; cluster_stop' EXIT
+    trap 'kill -INT -- "-$second"; second_line_end; cluster_stop' EXIT
 }
 
-# Waits for them, and counts what they say.
-tap_end() {
-    if wait "$tap"; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
+second_line() {
+    trap 'exit 3' INT # with none of what is left
+    passed=0 failed=0
+    suite "TAP" tap_tests
+    suite "bench smoke" scripts/bench.sh smoke
+    suite "evaluation smoke" scripts/evaluation.sh smoke
+    exit "$failed"
+}
+
+# Waits for them, and counts them: it ends with the number of those that failed, broken off with
+# that of all.
+second_line_end() {
+    local suites=3 lost=0
+    wait "$second" || lost=$?
+    if ((lost > suites)); then lost=$suites; fi
+    passed=$((passed + suites - lost)) failed=$((failed + lost))
     if [[ -n ${tap_disk:-} ]]; then as_root umount -l "$tap_disk"; fi
     trap cluster_stop EXIT
 }
@@ -135,7 +149,7 @@ suite "unit tests sanitized" unit_tests build/sanitize
 suite "fuzz" fuzz
 
 cluster_start test
-tap_begin
+second_line_begin
 suite "pg_regress" regression_tests
 suite "pgTAP" pgtap_tests
 suite "documentation examples" documentation_examples
@@ -143,9 +157,7 @@ suite "acceptance quick" scripts/acceptance.sh quick
 suite "acceptance goose" scripts/acceptance.sh goose
 suite "model test" scripts/model_test.sh -t 30
 suite "benchmark reports" python3 -m unittest discover -s test/suite -p '*_test.py'
-tap_end
-suite "bench smoke" scripts/bench.sh smoke
-suite "evaluation smoke" scripts/evaluation.sh smoke
+second_line_end
 
 echo "$passed passed, $failed failed"
 ((failed == 0))
