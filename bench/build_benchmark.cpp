@@ -3,6 +3,8 @@
 // scripts/bench.sh.
 #include "support/memory_host.hpp"
 
+#include <abacus/change.h>
+#include <abacus/read.h>
 #include <benchmark/benchmark.h>
 
 #include <array>

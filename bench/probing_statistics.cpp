@@ -19,6 +19,7 @@
 #include "staging/vertex_reader.hpp"
 #include "support/memory_host.hpp"
 
+#include <abacus/header.h>
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>

@@ -2,7 +2,7 @@
 // server begin.
 #pragma once
 
-#include "abacus/abacus.h"
+#include <abacus/change.h>
 
 #include <cstdint>
 #include <cstdio>

@@ -37,6 +37,8 @@
 #include "host/host.hpp"
 #include "mesh/simplex.hpp"
 
+#include <abacus/header.h>
+
 namespace abacus {
 
 struct CacheOptions {

@@ -3,7 +3,7 @@
 #include "geometry/box.hpp"
 #include "geometry/locational_code.hpp"
 
-#include <abacus/abacus.h>
+#include <abacus/header.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Keys: order, and the ends of the curve.
 #pragma once
 
-#include <abacus/abacus.h>
+#include <abacus/host.h>
 
 #include <cstdint>
 

@@ -7,6 +7,8 @@
 #include "capi/handle.hpp"
 #include "capi/stage.hpp"
 
+#include <abacus/change.h>
+
 struct abacus_build {
     abacus_build(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
         : host(*table), build(host, header, cache_bytes) {}

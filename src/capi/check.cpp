@@ -5,6 +5,8 @@
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
 
+#include <abacus/read.h>
+
 struct abacus_check {
     abacus_check(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes,
                  std::size_t limit)

@@ -3,6 +3,7 @@
 
 #include "host/host.hpp"
 
+#include <abacus/header.h>
 #include <optional>
 #include <utility>
 

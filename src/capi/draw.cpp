@@ -3,6 +3,8 @@
 
 #include "capi/guard.hpp"
 
+#include <abacus/draw.h>
+
 namespace {
 
 void require_dimension(const abacus_header &header, unsigned dimension) {

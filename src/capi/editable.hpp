@@ -3,6 +3,8 @@
 
 #include "host/host.hpp"
 
+#include <abacus/header.h>
+
 namespace abacus {
 
 /// Throws an Error (state) for a mesh that is not Delaunay: insertion and deletion rely on

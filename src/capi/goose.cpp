@@ -4,6 +4,8 @@
 #include "capi/guard.hpp"
 #include "capi/stage.hpp"
 
+#include <abacus/goose.h>
+
 namespace {
 
 template <int D>

@@ -3,6 +3,7 @@
 // checks every field; it accepts exactly what encoding can produce.
 #include "capi/guard.hpp"
 
+#include <abacus/header.h>
 #include <bit>
 #include <cmath>
 #include <cstring>

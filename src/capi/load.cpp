@@ -4,6 +4,8 @@
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
 
+#include <abacus/change.h>
+
 struct abacus_load {
     abacus_load(const abacus_host *table, const abacus_header &header, std::size_t memory,
                 bool reorient)

@@ -5,6 +5,7 @@
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
 
+#include <abacus/read.h>
 #include <cmath>
 
 struct abacus_mesh {

@@ -4,6 +4,8 @@
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
 
+#include <abacus/read.h>
+
 struct abacus_places {
     abacus_places(const abacus_host *table, const abacus_header &header, std::size_t memory,
                   std::size_t cache_bytes)

@@ -4,6 +4,8 @@
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
 
+#include <abacus/quake.h>
+
 struct abacus_quake {
     abacus_quake(const abacus_host *table, double frequency, double points_per_wavelength)
         : host(*table), points(frequency, points_per_wavelength) {}

@@ -6,6 +6,8 @@
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
 
+#include <abacus/read.h>
+
 struct abacus_scan {
     abacus_scan(const abacus_host *table, const abacus_header &header, bool ghosts)
         : host(*table), simplices(host, header, ghosts) {}

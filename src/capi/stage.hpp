@@ -4,6 +4,8 @@
 #include "capi/dimension.hpp"
 #include "staging/stage.hpp"
 
+#include <abacus/change.h>
+
 struct abacus_stage {
     abacus_stage(const abacus_host *table, const abacus_header &header, std::size_t memory)
         : host(*table), stage(host, header, memory) {}

@@ -17,6 +17,7 @@
 #include "staging/stage.hpp"
 #include "staging/vertex_reader.hpp"
 
+#include <abacus/header.h>
 #include <optional>
 
 namespace abacus {

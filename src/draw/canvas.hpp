@@ -23,6 +23,8 @@
 #include "draw/raster.hpp"
 #include "host/arena.hpp"
 
+#include <abacus/draw.h>
+
 namespace abacus {
 
 class Relief;

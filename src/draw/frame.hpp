@@ -8,6 +8,7 @@
 
 #include "host/host.hpp"
 
+#include <abacus/draw.h>
 #include <cmath>
 #include <cstdint>
 

@@ -12,6 +12,8 @@
 #include "geometry/point.hpp"
 #include "host/host.hpp"
 
+#include <abacus/draw.h>
+
 namespace abacus {
 
 /// A point as the plane sees it.
@@ -33,7 +35,7 @@ public:
     static constexpr double scale = 0.125;
 
     /// Throws an Error (argument) if the section names no plane. Directions on the
-    /// sheet are as abacus.h says.
+    /// sheet are as abacus/draw.h says.
     explicit Plane(const abacus_section &section);
 
     Place place(const Point<3> &p) const;

@@ -16,7 +16,7 @@
 
 #include "geometry/predicates.hpp"
 
-#include <abacus/abacus.h>
+#include <abacus/goose.h>
 
 namespace abacus {
 

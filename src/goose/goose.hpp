@@ -19,6 +19,8 @@
 #include "staging/record_sink.hpp"
 #include "staging/spool.hpp"
 
+#include <abacus/goose.h>
+
 namespace abacus {
 
 template <int D> class Goose final : public RecordSink {

@@ -10,6 +10,7 @@
 #include "host/arena.hpp"
 #include "mesh/simplex.hpp"
 
+#include <abacus/read.h>
 #include <algorithm>
 #include <span>
 

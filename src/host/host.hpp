@@ -2,7 +2,7 @@
 // exceptions. Every floor above takes a Host&, none calls the C table itself.
 #pragma once
 
-#include <abacus/abacus.h>
+#include <abacus/host.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -11,6 +11,8 @@
 #include "load/record_sort.hpp"
 #include "load/records.hpp"
 
+#include <abacus/header.h>
+
 namespace abacus {
 
 template <int D> class ElementWriter {

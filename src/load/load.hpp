@@ -33,6 +33,7 @@
 #include "load/records.hpp"
 #include "mesh/box_tree.hpp"
 
+#include <abacus/header.h>
 #include <optional>
 
 namespace abacus {

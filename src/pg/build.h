@@ -6,6 +6,7 @@
 
 #include "utils/array.h"
 
+#include "abacus/change.h"
 #include "pg/header.h"
 #include "pg/source.h"
 #include "pg/writer.h"

@@ -22,6 +22,7 @@
 #include "nodes/parsenodes.h"
 #include "storage/lmgr.h"
 
+#include "abacus/change.h"
 #include "pg/compact.h"
 #include "pg/settings.h"
 #include "pg/sql_function.h"

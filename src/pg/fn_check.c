@@ -12,6 +12,7 @@
 #include "funcapi.h"
 #include "utils/builtins.h"
 
+#include "abacus/read.h"
 #include "pg/header.h"
 #include "pg/settings.h"
 #include "pg/simplex_row.h"

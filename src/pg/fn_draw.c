@@ -8,6 +8,7 @@
 #include "utils/builtins.h"
 #include "utils/memutils.h"
 
+#include "abacus/draw.h"
 #include "pg/build.h"
 #include "pg/reader.h"
 #include "pg/sql_function.h"

@@ -10,6 +10,7 @@
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
+#include "abacus/change.h"
 #include "pg/build.h"
 #include "pg/settings.h"
 #include "pg/sql_function.h"

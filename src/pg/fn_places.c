@@ -11,6 +11,7 @@
 #include "funcapi.h"
 #include "utils/builtins.h"
 
+#include "abacus/read.h"
 #include "pg/guard.h"
 #include "pg/reader.h"
 #include "pg/settings.h"

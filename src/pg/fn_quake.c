@@ -10,6 +10,7 @@
 #include "access/htup_details.h"
 #include "funcapi.h"
 
+#include "abacus/quake.h"
 #include "pg/host.h"
 #include "pg/simplex_row.h"
 #include "pg/sql_function.h"

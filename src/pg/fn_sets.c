@@ -15,6 +15,7 @@
 #include "funcapi.h"
 #include "utils/array.h"
 
+#include "abacus/read.h"
 #include "pg/reader.h"
 #include "pg/settings.h"
 #include "pg/simplex_row.h"

@@ -5,7 +5,7 @@
 #ifndef ABACUS_GOOSE_ROW_H
 #define ABACUS_GOOSE_ROW_H
 
-#include "abacus/abacus.h"
+#include "abacus/goose.h"
 
 #include "executor/tuptable.h"
 #include "extension/cube/cubedata.h"

@@ -10,6 +10,7 @@
 #include "nodes/execnodes.h"
 #include "utils/rel.h"
 
+#include "abacus/goose.h"
 #include "pg/host.h"
 
 typedef struct GooseTable

@@ -4,6 +4,7 @@
 #ifndef ABACUS_HEADER_H
 #define ABACUS_HEADER_H
 
+#include "abacus/header.h"
 #include "pg/host.h"
 
 extern void header_insert(Host *host, abacus_header *header);

@@ -13,7 +13,7 @@
 #ifndef ABACUS_HOST_H
 #define ABACUS_HOST_H
 
-#include "abacus/abacus.h"
+#include "abacus/host.h"
 
 #include "pg/mesh.h"
 #include "pg/page_store.h"

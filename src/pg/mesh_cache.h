@@ -4,6 +4,7 @@
 #ifndef ABACUS_MESH_CACHE_H
 #define ABACUS_MESH_CACHE_H
 
+#include "abacus/read.h"
 #include "pg/header.h"
 
 typedef struct CachedMesh

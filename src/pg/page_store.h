@@ -4,7 +4,7 @@
 #ifndef ABACUS_PAGE_STORE_H
 #define ABACUS_PAGE_STORE_H
 
-#include "abacus/abacus.h"
+#include "abacus/host.h"
 
 #include "pg/mesh.h"
 #include "pg/page_table.h"

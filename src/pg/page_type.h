@@ -8,7 +8,7 @@
 #ifndef ABACUS_PAGE_TYPE_H
 #define ABACUS_PAGE_TYPE_H
 
-#include "abacus/abacus.h"
+#include "abacus/host.h"
 
 #define PAGE_TYPE_OVERHEAD 8
 

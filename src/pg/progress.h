@@ -4,7 +4,7 @@
 #ifndef ABACUS_PROGRESS_H
 #define ABACUS_PROGRESS_H
 
-#include "abacus/abacus.h"
+#include "abacus/host.h"
 
 typedef struct Progress
 {

@@ -5,7 +5,7 @@
 #ifndef ABACUS_ROW_PACKER_H
 #define ABACUS_ROW_PACKER_H
 
-#include "abacus/abacus.h"
+#include "abacus/header.h"
 
 #include "tcop/dest.h"
 

@@ -4,7 +4,7 @@
 #ifndef ABACUS_SIMPLEX_ROW_H
 #define ABACUS_SIMPLEX_ROW_H
 
-#include "abacus/abacus.h"
+#include "abacus/read.h"
 
 #include "access/htup.h"
 #include "access/tupdesc.h"

@@ -8,7 +8,7 @@
 #include "utils/array.h"
 #include "utils/rel.h"
 
-#include "abacus/abacus.h"
+#include "abacus/header.h"
 
 extern List *tracked_columns(ArrayType *given, const abacus_header *header, Relation table);
 extern char *tracked_points_of_table(Relation table, List *columns, int dimension, bool packed);

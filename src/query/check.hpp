@@ -37,6 +37,7 @@
 
 #include "host/memory.hpp"
 
+#include <abacus/read.h>
 #include <memory_resource>
 #include <vector>
 

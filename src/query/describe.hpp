@@ -6,7 +6,7 @@
 #include "geometry/point.hpp"
 #include "mesh/simplex.hpp"
 
-#include <abacus/abacus.h>
+#include <abacus/read.h>
 
 #include <algorithm>
 

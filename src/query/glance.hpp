@@ -24,6 +24,7 @@
 #include "host/memory.hpp"
 #include "query/known_pages.hpp"
 
+#include <abacus/read.h>
 #include <algorithm>
 #include <array>
 #include <memory_resource>

@@ -6,6 +6,8 @@
 #include "geometry/predicates.hpp"
 #include "query/describe.hpp"
 
+#include <abacus/read.h>
+
 namespace abacus {
 
 /// Corners of a finite simplex.

@@ -9,6 +9,8 @@
 #include "query/reader.hpp"
 #include "staging/stage.hpp"
 
+#include <abacus/read.h>
+
 namespace abacus {
 
 template <int D> class Places {

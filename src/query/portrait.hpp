@@ -6,6 +6,8 @@
 #include "cache/page_format.hpp"
 #include "draw/canvas.hpp"
 
+#include <abacus/draw.h>
+
 namespace abacus {
 
 /// The picture of a mesh of dimension 2 as a PNG. Throws an Error (argument) if the

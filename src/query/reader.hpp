@@ -11,6 +11,7 @@
 #include "query/glance.hpp"
 #include "query/page_boxes.hpp"
 
+#include <abacus/read.h>
 #include <optional>
 
 namespace abacus {

@@ -4,6 +4,8 @@
 #include "query/page_scan.hpp"
 #include "geometry/locational_code.hpp"
 
+#include <abacus/read.h>
+
 namespace abacus {
 
 template <int D> class SimplexScan {

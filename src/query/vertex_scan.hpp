@@ -6,6 +6,8 @@
 #include "staging/repeated_points.hpp"
 #include "staging/vertex_reader.hpp"
 
+#include <abacus/read.h>
+
 namespace abacus {
 
 template <int D> class VertexScan {

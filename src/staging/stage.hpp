@@ -15,6 +15,7 @@
 
 #include "staging/external_sort.hpp"
 
+#include <abacus/header.h>
 #include <optional>
 
 namespace abacus {

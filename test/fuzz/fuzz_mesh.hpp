@@ -6,6 +6,7 @@
 #include "cache/page_format.hpp"
 #include "support/memory_host.hpp"
 
+#include <abacus/abacus.h>
 #include <bit>
 #include <cstdio>
 #include <cstdlib>

@@ -2,6 +2,8 @@
 // need not fit.
 #include "fuzz/fuzz_mesh.hpp"
 
+#include <abacus/header.h>
+
 using namespace abacus::fuzz;
 
 namespace {

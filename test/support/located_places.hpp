@@ -3,6 +3,7 @@
 
 #include "support/oracle.hpp"
 
+#include <abacus/read.h>
 #include <cstring>
 #include <optional>
 

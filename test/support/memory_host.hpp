@@ -1,7 +1,7 @@
 // A database for tests and benchmarks: an abacus_host that keeps everything in
 // the memory of the process. Its content is public, so that tests can look at
 // pages and damage them. It also watches that the core keeps the contract of
-// abacus.h and lists every breach in `violations`.
+// abacus/host.h and lists every breach in `violations`.
 #pragma once
 
 #include "cache/key.hpp"

@@ -3,6 +3,7 @@
 
 #include "host/host.hpp"
 
+#include <abacus/goose.h>
 #include <algorithm>
 #include <cstdint>
 #include <map>

@@ -7,6 +7,7 @@
 #include "delaunay/removal.hpp"
 #include "support/oracle.hpp"
 
+#include <abacus/header.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include "support/oracle.hpp"
 #include "support/page_editor.hpp"
 
+#include <abacus/header.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

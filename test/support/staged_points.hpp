@@ -5,6 +5,7 @@
 #include "staging/vertex_page.hpp"
 #include "support/memory_host.hpp"
 
+#include <abacus/change.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // The header row of a mesh, as bytes.
-#include <abacus/abacus.h>
+#include <abacus/header.h>
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,8 @@
 #include "support/image.hpp"
 #include "support/staged_points.hpp"
 
+#include <abacus/read.h>
+
 #include <functional>
 
 namespace abacus {

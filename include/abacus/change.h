@@ -1,0 +1,119 @@
+/*
+ * change.h: points and foreign triangulations into a mesh, and points out of
+ * it.
+ */
+#ifndef ABACUS_ABACUS_CHANGE_H
+#define ABACUS_ABACUS_CHANGE_H
+
+#include "abacus/header.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Staging --------------------------------------------------------------- */
+
+typedef struct abacus_stage abacus_stage;
+
+/*
+ * Opens a stage for points of the header's dimension and attributes. `memory`
+ * bounds what it uses for sorting, in bytes (maintenance_work_mem); beyond it
+ * points go to spools.
+ */
+ABACUS_API abacus_status abacus_stage_open(const abacus_host *host, const abacus_header *header,
+										   size_t memory, abacus_stage **stage,
+										   abacus_error *error);
+/*
+ * Adds `count` points: each (1 + dimension + attributes) words of 8 bytes: id
+ * (int64_t), coordinates (double, finite), attributes (double; NaN = NULL).
+ */
+ABACUS_API abacus_status abacus_stage_add(abacus_stage *stage, const uint64_t *points,
+										  size_t count, abacus_error *error);
+/* No more points come: a header without a domain gets theirs. */
+ABACUS_API abacus_status abacus_stage_end(abacus_stage *stage, abacus_header *header,
+										  abacus_error *error);
+/* Ends, orders the points, writes the vertex pages, brings the header up to date. */
+ABACUS_API abacus_status abacus_stage_finish(abacus_stage *stage, abacus_header *header,
+											 abacus_error *error);
+ABACUS_API void abacus_stage_close(abacus_stage *stage);
+
+/* ---- Building --------------------------------------------------------------- */
+
+typedef struct abacus_build abacus_build;
+
+/* Opens a mesh for inserting, with a computational cache of `cache_bytes`. */
+ABACUS_API abacus_status abacus_build_open(const abacus_host *host, const abacus_header *header,
+										   size_t cache_bytes, abacus_build **build,
+										   abacus_error *error);
+/*
+ * The changes below write every changed page and bring the header up to date.
+ * One may follow another as long as nobody else changes the mesh or moves its
+ * pages.
+ *
+ * run: inserts staged points that wait, at most `limit` of them (0 = all), and
+ * erases their pages. While the points span no simplex they go on waiting.
+ */
+ABACUS_API abacus_status abacus_build_run(abacus_build *build, uint64_t limit,
+										  abacus_header *header, abacus_error *error);
+/*
+ * insert: inserts what waits, then the points of a stage that has ended, without
+ * vertex pages between; they are staged after all if they span no simplex.
+ */
+ABACUS_API abacus_status abacus_build_insert(abacus_build *build, abacus_stage *stage,
+											 abacus_header *header, abacus_error *error);
+/*
+ * delete: inserts what waits, then takes away a point for each point of a stage
+ * that has ended: one with the same coordinates, and of several the one with the
+ * same id, or else the first; `by_id`: only one with the same id. *deleted says
+ * how many there were. What is left is the triangulation of the other points; if
+ * they span no simplex they wait again.
+ */
+ABACUS_API abacus_status abacus_build_delete(abacus_build *build, abacus_stage *stage, int by_id,
+											 abacus_header *header, uint64_t *deleted,
+											 abacus_error *error);
+/* clear: takes away all points, those that wait too, at the cost of erasing their pages. */
+ABACUS_API abacus_status abacus_build_clear(abacus_build *build, abacus_header *header,
+											uint64_t *deleted, abacus_error *error);
+/*
+ * rekey: gives a mesh many of whose points came from outside its domain one around all of them,
+ * and all its pages other keys, with `memory` bytes for sorting; *done is 0 if it had no need
+ * to. The simplices are the same. The insertion of many points does so by itself.
+ */
+ABACUS_API abacus_status abacus_build_rekey(abacus_build *build, size_t memory,
+											abacus_header *header, int *done,
+											abacus_error *error);
+ABACUS_API void abacus_build_close(abacus_build *build);
+
+/* ---- Loading ---------------------------------------------------------------- */
+
+typedef struct abacus_load abacus_load;
+
+/*
+ * Opens the loading of a triangulation made elsewhere into a mesh without points.
+ * `memory` bounds what it uses, in bytes (maintenance_work_mem); beyond it everything
+ * goes to spools. With `reorient` simplices of negative orientation are turned; without,
+ * they are refused.
+ */
+ABACUS_API abacus_status abacus_load_open(const abacus_host *host, const abacus_header *header,
+										  size_t memory, int reorient, abacus_load **load,
+										  abacus_error *error);
+/* Adds vertices, as abacus_stage_add does points; each id once. */
+ABACUS_API abacus_status abacus_load_vertices(abacus_load *load, const uint64_t *points,
+											  size_t count, abacus_error *error);
+/* After all vertices: adds simplices, dimension + 1 ids of vertices each. */
+ABACUS_API abacus_status abacus_load_simplices(abacus_load *load, const int64_t *ids,
+											   size_t count, abacus_error *error);
+/*
+ * Checks that the simplices form a complex, exactly, writes the pages and brings the
+ * header up to date. ABACUS_ERROR (argument) names the first fault found: an unknown,
+ * repeated or unused vertex, a flat simplex, a facet used too often, an overlap.
+ */
+ABACUS_API abacus_status abacus_load_finish(abacus_load *load, abacus_header *header,
+											abacus_error *error);
+ABACUS_API void abacus_load_close(abacus_load *load);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

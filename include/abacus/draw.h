@@ -1,0 +1,57 @@
+/*
+ * draw.h: pictures of a mesh.
+ */
+#ifndef ABACUS_ABACUS_DRAW_H
+#define ABACUS_ABACUS_DRAW_H
+
+#include "abacus/header.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct abacus_drawing
+{
+	/* Window in mesh coordinates; empty (lower >= upper on an axis) = all there is. In
+	   dimension 3 a box: the picture shows the rectangle that just holds the part of the
+	   plane within it. */
+	double lower[ABACUS_MAX_DIMENSION], upper[ABACUS_MAX_DIMENSION];
+	int32_t width, height;     /* pixels, 1 to 16384; height 0 = from the window's shape */
+	int32_t attribute;         /* vertex attribute that gives colour and relief; -1 = none */
+	int32_t edges;             /* 1: draw the edges of the triangles, or of the section */
+	double exaggeration;       /* values are multiplied by this for the hill shading; 0 = no shading */
+	double max_edge;           /* leave out simplices with a longer edge; 0 = none */
+} abacus_drawing;
+
+/*
+ * Draws a mesh of dimension 2 as a PNG. *png comes from host->resize(), which also
+ * frees it.
+ */
+ABACUS_API abacus_status abacus_draw(const abacus_host *host, const abacus_header *header,
+									 const abacus_drawing *drawing, unsigned char **png,
+									 size_t *size, abacus_error *error);
+
+/*
+ * A plane through a mesh of dimension 3. A picture of it has up upwards: z on planes
+ * of 45 degrees or steeper, y on flatter ones, which are maps; x, or y where the plane
+ * is perpendicular to x, grows to the right. So the sign of the normal does not matter.
+ */
+typedef struct abacus_section
+{
+	double through[3];   /* a point of the plane, finite */
+	double normal[3];    /* finite, not zero, of any length */
+	double exaggeration; /* lengths upwards are multiplied by this, finite, not 0; negative:
+							the picture is upside down, for a z that is a depth */
+} abacus_section;
+
+/* Draws the section of a mesh of dimension 3 by a plane, as abacus_draw does. */
+ABACUS_API abacus_status abacus_draw_section(const abacus_host *host, const abacus_header *header,
+											 const abacus_section *section,
+											 const abacus_drawing *drawing, unsigned char **png,
+											 size_t *size, abacus_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

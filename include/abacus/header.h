@@ -1,0 +1,83 @@
+/*
+ * header.h: what is known of a mesh as a whole, and the counters of all its
+ * builds; a row of its own among its pages.
+ */
+#ifndef ABACUS_ABACUS_HEADER_H
+#define ABACUS_ABACUS_HEADER_H
+
+#include "abacus/host.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Counters (chapter 5 of the dissertation) --------------------------- */
+
+typedef struct abacus_counters
+{
+	uint64_t insertions;       /* vertices added */
+	uint64_t removals;         /* vertices removed */
+	uint64_t steps;            /* links followed: walk, cavity, rim */
+	uint64_t misses;           /* links that led out of the cache (§4.10) */
+	uint64_t link_probes;      /* page look-ups by a stored neighbour key */
+	uint64_t quick_probes;     /* §4.10.1 */
+	uint64_t ray_probes;       /* §4.10.2 */
+	uint64_t concentric_probes;/* §4.10.3 */
+	uint64_t incircle_tests;   /* insertions that asked the application cache (§4.12.4) */
+	uint64_t incircle_hits;    /* ... and were answered */
+	uint64_t walks;            /* point locations by walking */
+	uint64_t created;          /* simplices created */
+	uint64_t deleted;          /* simplices deleted */
+	uint64_t loads;            /* pages read into the cache */
+	uint64_t stores;           /* pages written from the cache */
+	uint64_t rewrites;         /* ... of them in place of an older version */
+	uint64_t splits;           /* blocks split */
+	uint64_t merges;           /* blocks dissolved into their neighbours on the curve */
+	uint64_t evictions;        /* blocks dropped from the cache */
+	uint64_t eviction_batches;
+	uint64_t bytes_read;
+	uint64_t bytes_written;
+	uint64_t translation_ns;   /* time between the two representations, host calls included */
+	uint64_t total_ns;         /* time in the core, host calls included */
+	uint64_t peak_bytes;       /* largest amount of memory the cache held */
+} abacus_counters;
+
+/* ---- Header of a mesh ----------------------------------------------------- */
+
+typedef struct abacus_header
+{
+	uint32_t dimension;    /* 2 or 3 */
+	uint32_t attributes;   /* number of attributes, 0 to ABACUS_MAX_ATTRIBUTES */
+	uint32_t has_domain;   /* 0 until given or taken from the first points */
+	double lower[ABACUS_MAX_DIMENSION]; /* domain; used for clustering only */
+	double upper[ABACUS_MAX_DIMENSION];
+	uint64_t outside;      /* points that have come from outside the domain since it was set */
+	uint64_t stamp;        /* never repeats; set by the host at each change */
+	uint64_t staged;       /* sequence number of the next staged point */
+	uint64_t inserted;     /* ... of the first that waits; those before it are in the mesh */
+	uint64_t vertices;     /* of the mesh; 0 while the points span no simplex: then all wait */
+	uint64_t duplicates;   /* further points of the mesh, each equal to a vertex */
+	uint64_t serials;      /* serial number of the next such point */
+	uint64_t simplices;
+	uint64_t ghosts;       /* hull facets; facets of the boundary if not_delaunay */
+	uint32_t not_delaunay; /* 1: loaded from elsewhere (abacus_load_open), and not the Delaunay
+							  triangulation of its vertices: it is read, never changed. Its
+							  vertices are listed in staged pages; staged = inserted = vertices */
+	abacus_counters counters; /* summed over all builds; peak_bytes: the largest */
+	char names[ABACUS_MAX_ATTRIBUTES][ABACUS_NAME_BYTES];
+} abacus_header;
+
+/* Bytes of the header row; `bytes` has room for ABACUS_PAGE_BYTES. Returns the size. */
+ABACUS_API size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes);
+/*
+ * Checks and reads a header row; ABACUS_ERROR (corrupted) if it is none, (state) if it is one
+ * of another format.
+ */
+ABACUS_API abacus_status abacus_header_decode(const unsigned char *bytes, size_t size,
+											  abacus_header *header, abacus_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
