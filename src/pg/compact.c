@@ -142,6 +142,8 @@ compact_table(Writer *writer, PageTable *table)
 		SPI_commit();
 		writer_continue(writer);
 		page_table_open(table);
+		/* of the vertex table others may have cut the file, or made another one */
+		end = Min(end, RelationGetNumberOfBlocks(table->heap));
 	}
 	return moved;
 }
