@@ -105,6 +105,7 @@ void Build<D>::change(abacus_header &header, Change change) {
         report(ABACUS_PHASE_FLUSHING, done, done);
         core_->cache.flush();
         repeated_->flush();
+        repeated_->forget(); // before the next change others may write the table of its pages anew
     }
     header.simplices = static_cast<std::uint64_t>(core_->mesh.simplices());
     header.ghosts = static_cast<std::uint64_t>(core_->mesh.ghosts());

@@ -12,7 +12,8 @@
  *
  * From one batch to the next the core keeps its cache. What it holds of the
  * mesh, the places of stored pages included, stays true because a lock of the
- * session keeps other writers, VACUUM FULL and the like away until the end.
+ * session keeps other writers, VACUUM FULL and the like away until the end. Of
+ * the vertex table, which that lock is not on, nothing is kept.
  */
 #include "postgres.h"
 

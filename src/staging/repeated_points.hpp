@@ -40,7 +40,7 @@ public:
     const std::uint64_t *take_first(const Point<D> &p);
     /// Writes the page at hand.
     void flush();
-    /// All pages have gone.
+    /// All pages have gone, or may lie elsewhere.
     void forget() { at_page_ = dirty_ = false; }
 
 private:
