@@ -69,6 +69,20 @@ check_node(PageTable *table)
 						 "have ended.")));
 }
 
+/* Opens the table, which our own transaction may have dropped between two rows of a cursor. */
+static Relation
+open_heap(PageTable *table)
+{
+	Relation	heap = try_table_open(table->relid, lock_mode(table));
+
+	if (heap == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_IN_USE),
+				 errmsg("table of a mesh was dropped while this query reads it"),
+				 errhint("Drop a mesh after queries and loops over it have ended.")));
+	return heap;
+}
+
 void
 page_table_open(PageTable *table)
 {
@@ -77,7 +91,7 @@ page_table_open(PageTable *table)
 	if (table->heap != NULL)
 		return;
 	old = MemoryContextSwitchTo(table->memory);
-	table->heap = table_open(table->relid, lock_mode(table));
+	table->heap = open_heap(table);
 	check_node(table);
 	table->room = 0;
 	if (table->writable)
