@@ -187,6 +187,7 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
 				 errmsg("mesh, table and synchronize must not be NULL")));
+	PreventCommandIfReadOnly("abacus_track()");	/* before the lock, which a standby has not */
 	if (IsolationUsesXactSnapshot())
 		ereport(ERROR,
 				(errcode(ERRCODE_ACTIVE_SQL_TRANSACTION),

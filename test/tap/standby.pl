@@ -99,6 +99,8 @@ my ($status, $out, $err) = $standby->psql('postgres', "CALL abacus_build('field'
 like($err, qr/cannot execute abacus_build\(\) in a read-only transaction/, 'no building');
 ($status, $out, $err) = $standby->psql('postgres', "SELECT abacus_stage('field', 'TABLE points')");
 like($err, qr/cannot execute abacus_stage\(\) in a read-only transaction/, 'no staging');
+($status, $out, $err) = $standby->psql('postgres', "SELECT abacus_track('field', 'points')");
+like($err, qr/cannot execute abacus_track\(\) in a read-only transaction/, 'no tracking');
 is($standby->safe_psql('postgres', 'SELECT count(*) FROM abacus_progress'), 0, 'no progress there');
 
 # without feedback the primary prunes what a reader there still needs: the
