@@ -20,6 +20,7 @@
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 #include "utils/rls.h"
+#include "utils/syscache.h"
 
 #include "pg/build.h"
 #include "pg/sql_function.h"
@@ -28,6 +29,15 @@
 
 SQL_FUNCTION(abacus_sql_track);
 SQL_FUNCTION(abacus_sql_untrack);
+
+/* Who may not track the table must not keep others from writing it, so this comes before the lock. */
+static void
+check_owner(Oid relid)
+{
+	if (SearchSysCacheExists1(RELOID, ObjectIdGetDatum(relid)) &&
+		!pg_class_ownercheck(relid, GetUserId()))
+		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, get_rel_name(relid));
+}
 
 /* What cannot be tracked is refused. */
 static void
@@ -47,7 +57,7 @@ check_table(Relation table)
 						   "its parent, nor the reverse."
 						   : "Statement triggers with transition tables are for tables."),
 				 errhint("Track an ordinary table without partitions, parents and children.")));
-	if (!pg_class_ownercheck(relid, GetUserId()))
+	if (!pg_class_ownercheck(relid, GetUserId()))	/* another one since */
 		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, name);
 	if (check_enable_rls(relid, InvalidOid, true) == RLS_ENABLED)
 		ereport(ERROR,
@@ -194,6 +204,7 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 				 errmsg("abacus_track() needs the isolation level READ COMMITTED"),
 				 errdetail("The snapshot of this transaction may be older than rows of the table.")));
 	mesh = PG_GETARG_OID(0);
+	check_owner(PG_GETARG_OID(1));
 	table = try_relation_open(PG_GETARG_OID(1), ShareRowExclusiveLock);
 	if (table == NULL)
 		ereport(ERROR,
