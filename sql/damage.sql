@@ -265,6 +265,26 @@ SELECT abacus_triangulate('field');
 \echo :LAST_ERROR_SQLSTATE
 ROLLBACK;
 
+-- columns that lie elsewhere than those of the type, since one was dropped before the table got it
+CREATE TABLE shifted (code bigint, part bigint, other bigint, page abacus_page, PRIMARY KEY (code, part));
+INSERT INTO shifted SELECT code, part, 4611686018427387904, page FROM field;
+ALTER TABLE shifted DROP COLUMN other;
+ALTER TABLE shifted OF abacus_simplex_page;
+CREATE TABLE shifted_vertices OF abacus_vertex_page (PRIMARY KEY (first, part));
+SELECT count(*) FROM abacus_simplices('shifted');
+\echo :LAST_ERROR_SQLSTATE
+SELECT abacus_insert('shifted', 'SELECT 1, 2, 3');
+VACUUM shifted;
+CREATE TABLE copied OF abacus_simplex_page (PRIMARY KEY (code, part));
+INSERT INTO copied TABLE shifted;
+SELECT count(*) = (SELECT count(*) FROM abacus_simplices('field')) AS all_there FROM abacus_simplices('copied');
+CREATE TABLE bare_vertices (other bigint, first bigint, part bigint, page abacus_page, PRIMARY KEY (first, part));
+ALTER TABLE bare_vertices DROP COLUMN other;
+ALTER TABLE bare_vertices OF abacus_vertex_page;
+ALTER TABLE copied RENAME TO bare;
+SELECT count(*) FROM abacus_vertices('bare');
+DROP TABLE bare, bare_vertices, shifted, shifted_vertices;
+
 DROP FUNCTION faults, after, last, flipped, number_at, little_endian, word, bit_width, words_of, bits_at, altered, moved, renumbered, relinked;
 DROP PROCEDURE change_each_byte;
 DROP TABLE field, solid, field_1, solid_1;

@@ -39,6 +39,7 @@
 #include "utils/syscache.h"
 
 #include "pg/mesh.h"
+#include "pg/page_index.h"
 #include "pg/tracking.h"
 
 /* Whether `type` is this extension's row type of that name; remembers the last yes. */
@@ -119,6 +120,27 @@ check_privileges(Relation rel, MeshAccess access, Relation mesh)
 				 errhint("Disable row-level security on the table and use GRANT.")));
 }
 
+/*
+ * That the table is of a row type tells what its columns are, but not where they lie: a
+ * table made with another column, which was dropped before ALTER TABLE ... OF, keeps its
+ * place. Rows are read and written without names, so all columns must be the type's.
+ */
+static void
+check_columns(Relation rel)
+{
+	TupleDesc	row = RelationGetDescr(rel);
+	bool		are = row->natts == PAGE_TABLE_KEYS + 1;
+
+	for (int i = 0; are && i < PAGE_TABLE_KEYS; i++)
+		are = TupleDescAttr(row, i)->atttypid == INT8OID;
+	if (!are || TupleDescAttr(row, PAGE_TABLE_KEYS)->attlen != -1)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("mesh table \"%s\" has had other columns than those of its type",
+						RelationGetRelationName(rel)),
+				 errhint("Copy its rows into a table made with CREATE TABLE ... OF.")));
+}
+
 static void
 check_access(Relation rel, MeshAccess access, Relation mesh)
 {
@@ -130,6 +152,7 @@ check_access(Relation rel, MeshAccess access, Relation mesh)
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
 				 errmsg("mesh table \"%s\" is not stored as heap", RelationGetRelationName(rel)),
 				 errhint("Use ALTER TABLE ... SET ACCESS METHOD heap.")));
+	check_columns(rel);
 	if (RELATION_IS_OTHER_TEMP(rel))
 		ereport(ERROR,
 				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
