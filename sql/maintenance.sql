@@ -136,6 +136,25 @@ SELECT count(*) FROM abacus_simplices('field');
 ALTER TABLE field OF abacus_simplex_page;
 SELECT kept(), grow(19);
 
+-- published: subscribers must hear of every change
+SET client_min_messages = error;	-- this server's wal_level is too low for them
+CREATE PUBLICATION regress_abacus FOR TABLE field, field_vertices;
+RESET client_min_messages;
+SELECT kept(), grow(21);
+ALTER TABLE field REPLICA IDENTITY NOTHING;
+SELECT kept();
+SELECT abacus_insert('field', 'SELECT 1, 2, 3');
+\echo :LAST_ERROR_SQLSTATE
+ALTER TABLE field REPLICA IDENTITY FULL;
+SELECT kept(), grow(22);
+ALTER TABLE field REPLICA IDENTITY DEFAULT;
+ALTER PUBLICATION regress_abacus SET TABLE field, field_vertices (page);
+SELECT abacus_insert('field', 'SELECT 1, 2, 3');
+\echo :LAST_ERROR_SQLSTATE
+ALTER PUBLICATION regress_abacus SET (publish = 'insert');
+SELECT kept(), grow(23);
+DROP PUBLICATION regress_abacus;
+
 -- copies of both tables, out and back; TRUNCATE of one or both
 CREATE TABLE copy AS TABLE field;
 CREATE TABLE copy_vertices AS TABLE field_vertices;
@@ -149,11 +168,11 @@ SELECT abacus_stage('field', 'TABLE points');
 INSERT INTO field SELECT * FROM copy ORDER BY part, code DESC;
 SELECT here() = (TABLE place) AS same;
 INSERT INTO field_vertices SELECT * FROM copy_vertices;
-SELECT kept(), grow(20);
+SELECT kept(), grow(24);
 TRUNCATE field, field_vertices;
 INSERT INTO field SELECT * FROM copy;
 INSERT INTO field_vertices SELECT * FROM copy_vertices;
-DELETE FROM states WHERE number = 20;
+DELETE FROM states WHERE number = 24;
 SELECT kept(), here() = (TABLE place) AS same;
 DROP TABLE copy, copy_vertices;
 

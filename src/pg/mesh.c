@@ -11,7 +11,7 @@
  *
  * The store reads and writes pages without the executor. What the executor
  * would have checked is checked here: privileges, row-level security,
- * temporary tables of other sessions.
+ * temporary tables of other sessions, what is published.
  */
 #include "postgres.h"
 
@@ -28,6 +28,7 @@
 #include "catalog/pg_trigger.h"
 #include "catalog/pg_type.h"
 #include "commands/extension.h"
+#include "executor/executor.h"
 #include "miscadmin.h"
 #include "storage/lmgr.h"
 #include "utils/acl.h"
@@ -121,6 +122,17 @@ check_privileges(Relation rel, MeshAccess access, Relation mesh)
 }
 
 /*
+ * That a publication can tell its subscribers which rows are updated and deleted, whoever
+ * writes them; else the changes would not arrive there, or not as a whole.
+ */
+static void
+check_publications(Relation rel)
+{
+	CheckCmdReplicaIdentity(rel, CMD_UPDATE);
+	CheckCmdReplicaIdentity(rel, CMD_DELETE);
+}
+
+/*
  * That the table is of a row type tells what its columns are, but not where they lie: a
  * table made with another column, which was dropped before ALTER TABLE ... OF, keeps its
  * place. Rows are read and written without names, so all columns must be the type's.
@@ -162,6 +174,8 @@ check_access(Relation rel, MeshAccess access, Relation mesh)
 				(errcode(ERRCODE_INVALID_TRANSACTION_STATE),
 				 errmsg("cannot access a temporary mesh in a parallel worker"),
 				 errhint("SET max_parallel_workers_per_gather = 0 for this query.")));
+	if (access != MESH_READ)
+		check_publications(rel);
 }
 
 /* Opens the table of a mesh under the given lock, or says why it cannot be used. */
