@@ -70,10 +70,9 @@ check_table(Relation table)
 
 /* What is emptied or gone at some time that no trigger tells the other of. */
 static void
-check_persistence(Relation table, Relation mesh)
+check_persistence(Relation table, char of_mesh)
 {
 	char		of_table = table->rd_rel->relpersistence;
-	char		of_mesh = mesh->rd_rel->relpersistence;
 
 	/* a temporary table is gone after a crash, and its triggers with it */
 	if (of_table == RELPERSISTENCE_TEMP)
@@ -100,13 +99,15 @@ check_mesh(Relation table, Oid mesh)
 	Oid			user;
 	int			security;
 	Relation	simplices;
+	Oid			vertices;
 
 	GetUserIdAndSecContext(&user, &security);
 	SetUserIdAndSecContext(table->rd_rel->relowner, security | SECURITY_LOCAL_USERID_CHANGE);
 	simplices = mesh_table_open(mesh, MESH_WRITE);
-	mesh_vertex_table(simplices, MESH_WRITE);
+	vertices = mesh_vertex_table(simplices, MESH_WRITE);
 	SetUserIdAndSecContext(user, security);
-	check_persistence(table, simplices);
+	check_persistence(table, simplices->rd_rel->relpersistence);
+	check_persistence(table, get_rel_persistence(vertices));
 	table_close(simplices, NoLock);
 }
 

@@ -1,6 +1,6 @@
 -- abacus_track: how the triggers find their mesh, odd tables, points without a place.
 BEGIN;
-SELECT plan(46);
+SELECT plan(48);
 
 CREATE FUNCTION differences(mesh regclass, source text) RETURNS bigint LANGUAGE plpgsql AS $$
 DECLARE
@@ -126,6 +126,7 @@ CREATE UNLOGGED TABLE lost (LIKE kept);
 CREATE TEMP TABLE brief (LIKE kept) ON COMMIT DROP;
 SELECT abacus_create('kept_mesh', 2), abacus_create('lost_mesh', 2);
 ALTER TABLE lost_mesh SET UNLOGGED;
+SELECT throws_ok(format('SELECT abacus_track(%L, %L)', 'lost_mesh', name), '42809', NULL, 'a mesh of which half is unlogged: ' || name) FROM unnest('{kept,lost}'::text[]) AS name;
 ALTER TABLE lost_mesh_vertices SET UNLOGGED;
 SELECT throws_ok($$ SELECT abacus_track('lost_mesh', 'kept') $$, '42809', 'an unlogged mesh cannot follow a logged table', 'an unlogged mesh');
 SELECT throws_ok($$ SELECT abacus_track('kept_mesh', 'lost') $$, '42809', 'a logged mesh cannot follow an unlogged table', 'an unlogged table');
