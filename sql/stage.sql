@@ -50,6 +50,9 @@ SELECT abacus_stage('staged', 'DELETE FROM points RETURNING id, x, y, 0, 0');
 SELECT abacus_stage('staged', 'WITH gone AS (DELETE FROM points RETURNING *) SELECT id, x, y, 0, 0 FROM gone');
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_stage('staged', 'SELECT id, x, y, 0, 0 FROM points FOR UPDATE');
+SELECT abacus_stage('staged', 'SELECT * FROM (SELECT id, x, y, 0, 0 FROM points FOR UPDATE) AS locked');
+\echo :LAST_ERROR_SQLSTATE
+SELECT abacus_stage('staged', 'WITH locked AS (SELECT id FROM points FOR KEY SHARE) SELECT id, (SELECT max(id) FROM locked), 0, 0, 0 FROM points');
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_stage('staged', 'EXPLAIN SELECT 1');
 \echo :LAST_ERROR_SQLSTATE

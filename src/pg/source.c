@@ -9,6 +9,7 @@
  */
 #include "postgres.h"
 
+#include "nodes/nodeFuncs.h"
 #include "nodes/parsenodes.h"
 #include "tcop/pquery.h"
 #include "utils/memutils.h"
@@ -23,6 +24,18 @@ static CachedPlanSource *
 plan_source(const Source *source)
 {
 	return linitial(SPI_plan_get_plan_sources(source->plan));
+}
+
+/* Whether a query, or one within it, locks rows. */
+static bool
+locks_rows(Node *node, void *context)
+{
+	if (node == NULL)
+		return false;
+	if (!IsA(node, Query))
+		return expression_tree_walker(node, locks_rows, context);
+	return ((Query *) node)->rowMarks != NIL ||
+		query_tree_walker((Query *) node, locks_rows, context, 0);
 }
 
 /* Parses the query; anything but one plain SELECT is refused. */
@@ -47,7 +60,7 @@ source_prepare(Source *source, const char *query)
 		Query	   *parsed = list_length(queries) == 1 ? linitial_node(Query, queries) : NULL;
 
 		selects = parsed != NULL && parsed->commandType == CMD_SELECT &&
-			!parsed->hasModifyingCTE && parsed->rowMarks == NIL;
+			!parsed->hasModifyingCTE && !locks_rows((Node *) parsed, NULL);
 	}
 	if (!selects)
 		ereport(ERROR,
