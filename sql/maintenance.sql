@@ -244,6 +244,34 @@ DROP EXTENSION abacus CASCADE;
 \set VERBOSITY default
 SELECT relname FROM pg_class WHERE relname ~ '^(field|abacus)';
 SELECT count(*) AS entries FROM pg_depend WHERE classid = 'pg_class'::regclass AND NOT EXISTS (SELECT FROM pg_class WHERE oid = objid);
+-- ... into a schema where somebody has operators for all types that have none together
+CREATE SCHEMA regress_elsewhere;
+DO $$
+DECLARE
+    name text;
+    a text;
+    b text;
+BEGIN
+    FOREACH a IN ARRAY '{smallint,integer,bigint,numeric,real,double precision}'::text[] LOOP
+        FOREACH b IN ARRAY '{smallint,integer,bigint,numeric,real,double precision}'::text[] LOOP
+            FOREACH name IN ARRAY '{+,-,*,/,=}'::text[] LOOP
+                EXECUTE format('CREATE FUNCTION regress_elsewhere.%I(%s, %s) RETURNS %4$s LANGUAGE sql RETURN NULL::%4$s',
+                               name, a, b, CASE name WHEN '=' THEN 'boolean' ELSE 'numeric' END);
+                EXECUTE format('CREATE OPERATOR regress_elsewhere.%s (LEFTARG = %s, RIGHTARG = %s, FUNCTION = regress_elsewhere.%I)', name, a, b, name);
+            END LOOP;
+        END LOOP;
+    END LOOP;
+END $$;
+CREATE EXTENSION abacus SCHEMA regress_elsewhere;
+SELECT pg_describe_object(classid, objid, objsubid), pg_describe_object(refclassid, refobjid, refobjsubid)
+FROM pg_depend
+WHERE refclassid = 'pg_operator'::regclass AND refobjid >= 16384 AND classid <> 'pg_operator'::regclass;
+SELECT count(*) FROM regress_elsewhere.abacus_progress;
+\set VERBOSITY terse
+SET client_min_messages = warning;
+DROP SCHEMA regress_elsewhere CASCADE;
+RESET client_min_messages;
+\set VERBOSITY default
 CREATE EXTENSION abacus;
 SELECT abacus_triangulate('field', 'SELECT id, x, y FROM points');
 SELECT here();

@@ -3,6 +3,10 @@
 -- The slots are those that src/pg/progress.c fills. Like the progress views
 -- of PostgreSQL it shows figures of other users' sessions only to members of
 -- pg_read_all_stats.
+--
+-- Operands have the types of a built-in operator, not such as are converted for
+-- one: else one that somebody has made for just these types, in the schema of the
+-- extension, would be taken, and be run by everybody who looks.
 
 CREATE VIEW abacus_progress AS
 WITH build AS (
@@ -11,8 +15,8 @@ WITH build AS (
            s.param11 AS phase,
            s.param13 AS done,
            nullif(s.param12, 0) AS total,
-           extract(epoch FROM clock_timestamp()) - 946684800 - s.param18 / 1e6 AS phase_seconds,
-           extract(epoch FROM clock_timestamp()) - 946684800 - s.param19 / 1e6 AS seconds,
+           extract(epoch FROM clock_timestamp()) - 946684800.0 - s.param18::numeric / 1e6 AS phase_seconds,
+           extract(epoch FROM clock_timestamp()) - 946684800.0 - s.param19::numeric / 1e6 AS seconds,
            s.param2 AS pages_read,
            s.param3 AS pages_written
     FROM pg_catalog.pg_stat_get_progress_info('CREATE INDEX') AS s,
@@ -35,8 +39,8 @@ SELECT pid,
        END AS phase,
        done,
        total,
-       (done / nullif(phase_seconds, 0))::double precision AS per_second,
-       make_interval(secs => ((total - done) * phase_seconds / nullif(done, 0))::double precision)
+       (done::numeric / nullif(phase_seconds, 0.0))::double precision AS per_second,
+       make_interval(secs => ((total - done)::numeric * phase_seconds / nullif(done, 0)::numeric)::double precision)
            AS time_left,
        make_interval(secs => seconds::double precision) AS elapsed,
        pages_read,

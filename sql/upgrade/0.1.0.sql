@@ -4,7 +4,7 @@
 DO $$
 DECLARE
     meshes text := (SELECT string_agg(oid::regclass::text, ', ' ORDER BY oid::regclass::text) FROM pg_class
-                    WHERE reloftype IN ('abacus_simplex_page'::regtype, 'abacus_vertex_page'::regtype));
+                    WHERE reloftype IN ('abacus_simplex_page'::regtype::oid, 'abacus_vertex_page'::regtype::oid));
 BEGIN
     IF meshes IS NOT NULL THEN
         RAISE EXCEPTION 'cannot update meshes of Abacus 0.1.0'
