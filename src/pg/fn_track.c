@@ -255,6 +255,7 @@ abacus_sql_untrack(PG_FUNCTION_ARGS)
 	ListCell   *cell;
 	bool		found = false;
 
+	PreventCommandIfReadOnly("abacus_untrack()");
 	foreach(cell, triggers)
 	{
 		TrackingTrigger *trigger = lfirst(cell);

@@ -11,7 +11,7 @@
  *
  * The store reads and writes pages without the executor. What the executor
  * would have checked is checked here: privileges, row-level security,
- * temporary tables of other sessions, what is published.
+ * temporary tables of other sessions, unlogged ones on a standby, what is published.
  */
 #include "postgres.h"
 
@@ -19,6 +19,7 @@
 #include "access/parallel.h"
 #include "access/relation.h"
 #include "access/table.h"
+#include "access/xlog.h"
 #include "catalog/dependency.h"
 #include "catalog/indexing.h"
 #include "catalog/objectaddress.h"
@@ -169,6 +170,12 @@ check_access(Relation rel, MeshAccess access, Relation mesh)
 		ereport(ERROR,
 				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
 				 errmsg("cannot access temporary meshes of other sessions")));
+	if (RecoveryInProgress() && !RelationIsPermanent(rel))
+		ereport(ERROR,
+				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				 errmsg("cannot access unlogged mesh table \"%s\" during recovery",
+						RelationGetRelationName(rel)),
+				 errdetail("What is unlogged does not reach standbys.")));
 	if (IsParallelWorker() && RelationUsesLocalBuffers(rel))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_TRANSACTION_STATE),

@@ -99,9 +99,26 @@ my ($status, $out, $err) = $standby->psql('postgres', "CALL abacus_build('field'
 like($err, qr/cannot execute abacus_build\(\) in a read-only transaction/, 'no building');
 ($status, $out, $err) = $standby->psql('postgres', "SELECT abacus_stage('field', 'TABLE points')");
 like($err, qr/cannot execute abacus_stage\(\) in a read-only transaction/, 'no staging');
-($status, $out, $err) = $standby->psql('postgres', "SELECT abacus_track('field', 'points')");
-like($err, qr/cannot execute abacus_track\(\) in a read-only transaction/, 'no tracking');
+for my $function (qw(abacus_track abacus_untrack))
+{
+	($status, $out, $err) = $standby->psql('postgres', "SELECT $function('field', 'points')");
+	like($err, qr/cannot execute $function\(\) in a read-only transaction/, "no $function");
+}
 is($standby->safe_psql('postgres', 'SELECT count(*) FROM abacus_progress'), 0, 'no progress there');
+
+# what is unlogged has no file there
+$primary->safe_psql('postgres', <<'SQL');
+SELECT abacus_triangulate('fleeting', 'VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1), (4, 0, 1)');
+ALTER TABLE fleeting_vertices SET UNLOGGED;
+SQL
+$primary->wait_for_catchup($standby);
+is($standby->safe_psql('postgres', "SELECT count(*) FROM abacus_simplices('fleeting')"), 1, 'a mesh whose vertex table is unlogged');
+($status, $out, $err) = $standby->psql('postgres', "SELECT count(*) FROM abacus_vertices('fleeting')");
+like($err, qr/cannot access unlogged mesh table "fleeting_vertices" during recovery/, '... has no vertices there');
+$primary->safe_psql('postgres', 'ALTER TABLE fleeting SET UNLOGGED');
+$primary->wait_for_catchup($standby);
+($status, $out, $err) = $standby->psql('postgres', "SELECT abacus_locate('fleeting', 0.1, 0.1)");
+like($err, qr/cannot access unlogged mesh table "fleeting" during recovery/, 'an unlogged mesh has nothing there');
 
 # without feedback the primary prunes what a reader there still needs: the
 # reader gives way to recovery, with an error that asks to try again
