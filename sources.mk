@@ -52,6 +52,7 @@ PG_SOURCES += src/pg/page_store.c
 PG_SOURCES += src/pg/spool.c
 PG_SOURCES += src/pg/progress.c
 PG_SOURCES += src/pg/host.c
+PG_SOURCES += src/pg/names.c
 PG_SOURCES += src/pg/header.c
 PG_SOURCES += src/pg/writer.c
 PG_SOURCES += src/pg/reader.c

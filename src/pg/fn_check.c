@@ -38,7 +38,7 @@ read_header(Checking *checking, abacus_header *header)
 	if (!header_find(host, &row))
 		strlcpy(checking->fault.message, "the header row (-1, 0) is missing",
 				sizeof(checking->fault.message));
-	else if (abacus_header_decode(row.bytes, row.size, header, &host->failure) != ABACUS_OK)
+	else if (header_try_decode(host, &row, header) != ABACUS_OK)
 		strlcpy(checking->fault.message,
 				host->failure.detail[0] != '\0' ? host->failure.detail : host->failure.message,
 				sizeof(checking->fault.message));

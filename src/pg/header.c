@@ -10,6 +10,7 @@
 #include "postgres.h"
 
 #include "pg/header.h"
+#include "pg/names.h"
 
 static const int64 header_key[PAGE_TABLE_KEYS] = {-1, 0};
 
@@ -21,6 +22,15 @@ new_stamp(abacus_header *header)
 				(errcode(ERRCODE_INTERNAL_ERROR), errmsg("could not generate a random number")));
 }
 
+static size_t
+encode(const abacus_header *header, unsigned char *bytes)
+{
+	abacus_header stored = *header;
+
+	names_to_storage(&stored);
+	return abacus_header_encode(&stored, bytes);
+}
+
 /* Writes the header of a new mesh. */
 void
 header_insert(Host *host, abacus_header *header)
@@ -30,7 +40,7 @@ header_insert(Host *host, abacus_header *header)
 	size_t		size;
 
 	new_stamp(header);
-	size = abacus_header_encode(header, bytes);
+	size = encode(header, bytes);
 	page_table_insert(&host->store.simplices, header_key, bytes, size, &tid);
 }
 
@@ -65,10 +75,33 @@ header_open_vertices(Host *host, const abacus_header *header)
 		page_table_refuse_newer(&store->vertices);
 }
 
+/* Decodes the header; what is wrong with it goes to host->failure. */
+abacus_status
+header_try_decode(Host *host, const StoredPage *row, abacus_header *header)
+{
+	abacus_status status = abacus_header_decode(row->bytes, row->size, header, &host->failure);
+	int			invalid = status == ABACUS_OK ? names_find_invalid(header) : -1;
+
+	if (invalid >= 0)
+	{
+		MemSet(&host->failure, 0, sizeof(host->failure));
+		host->failure.kind = ABACUS_ERROR_CORRUPTED;
+		strlcpy(host->failure.message, "mesh is corrupted", sizeof(host->failure.message));
+		snprintf(host->failure.detail, sizeof(host->failure.detail),
+				 "The name of attribute %d is not valid in UTF-8.", invalid + 1);
+		strlcpy(host->failure.hint, "Restore the mesh from a backup or build it anew.",
+				sizeof(host->failure.hint));
+		return ABACUS_ERROR;
+	}
+	if (status == ABACUS_OK)
+		names_to_database(header);
+	return status;
+}
+
 void
 header_decode(Host *host, const StoredPage *row, abacus_header *header)
 {
-	host_run(host, abacus_header_decode(row->bytes, row->size, header, &host->failure));
+	host_run(host, header_try_decode(host, row, header));
 }
 
 /* Finds and decodes the header, which must be there; its place goes to *tid unless NULL. */
@@ -99,7 +132,7 @@ void
 header_rewrite(Host *host, const abacus_header *header, ItemPointer tid)
 {
 	unsigned char bytes[ABACUS_PAGE_BYTES];
-	size_t		size = abacus_header_encode(header, bytes);
+	size_t		size = encode(header, bytes);
 
 	page_table_update(&host->store.simplices, header_key, bytes, size, tid);
 }

@@ -10,6 +10,7 @@
 extern void header_insert(Host *host, abacus_header *header);
 extern bool header_find(Host *host, StoredPage *row);
 extern void header_open_vertices(Host *host, const abacus_header *header);
+extern abacus_status header_try_decode(Host *host, const StoredPage *row, abacus_header *header);
 extern void header_decode(Host *host, const StoredPage *row, abacus_header *header);
 extern void header_read(Host *host, abacus_header *header, ItemPointer tid);
 extern void header_rewrite(Host *host, const abacus_header *header, ItemPointer tid);

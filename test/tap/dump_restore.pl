@@ -167,5 +167,41 @@ $node->command_ok([ 'psql', '-Xq', '-v', 'ON_ERROR_STOP=1', '-d', $node->connstr
 $node->command_ok([ 'pg_restore', '-e', '-j', '2', '-d', $node->connstr('data'), "$folder/data" ], 'data restored');
 examine('data', 'schema, then data');
 
+# names of attributes are in the pages, which nobody converts: there and back between encodings
+sub attribute_works
+{
+	my ($database) = @_;
+	is($node->safe_psql($database, q{SELECT substr(abacus_draw('heights', attribute => U&'h\00f6he'), 2, 3) = 'PNG'}), 't', "an attribute is found by its name, $database");
+	my ($status, $out, $err) = $node->psql($database, q{SELECT abacus_stage('heights', 'SELECT 1')});
+	return like($err, qr/id, x, y, h\xc3\xb6he\./, '... and shown by it');
+}
+$ENV{PGCLIENTENCODING} = 'UTF8';
+$node->safe_psql('postgres', "CREATE DATABASE in_$_ TEMPLATE template0 ENCODING $_ LOCALE 'C'") for qw(utf8 latin1 sql_ascii);
+$node->safe_psql('in_latin1', <<'SQL');
+CREATE EXTENSION abacus;
+CREATE TABLE peaks AS SELECT i AS id, i % 10 AS x, i / 10 AS y, i AS hoehe FROM generate_series(0, 99) AS i;
+SELECT abacus_create('heights', 2, ARRAY[U&'h\00f6he']);
+SELECT abacus_track('heights', 'peaks', '{id,x,y,hoehe}');
+SQL
+attribute_works('in_latin1');
+$node->safe_psql('in_latin1', q{DELETE FROM peaks WHERE id < 10});
+attribute_works('in_latin1');
+($status, $out, $err) = $node->psql('in_latin1', q{SELECT abacus_create('long', 2, ARRAY[repeat(U&'\00f6', 32)])});
+like($err, qr/the name of an attribute is too long/, 'a name that is too long in UTF-8');
+is($node->safe_psql('in_latin1', q{SELECT abacus_create('fits', 2, ARRAY[repeat(U&'\00f6', 31)])}), 'fits', 'one that is not');
+$node->command_ok([ 'pg_dump', '-Fc', '-d', $node->connstr('in_latin1'), '-f', "$folder/latin1" ], 'dumped in LATIN1');
+$node->command_ok([ 'pg_restore', '-e', '-d', $node->connstr('in_utf8'), "$folder/latin1" ], 'restored in UTF8');
+attribute_works('in_utf8');
+is($node->safe_psql('in_utf8', q{SELECT count(*) FROM abacus_check('heights')}), 0, 'sound there');
+
+# what is no text is no name, except where nobody knows
+$node->safe_psql('in_utf8', q{UPDATE heights SET page = replace(page::text, 'c3b6', '66f6')::abacus_page WHERE code = -1});
+($status, $out, $err) = $node->psql('in_utf8', q{SELECT abacus_locate('heights', 1, 1)});
+like($err, qr/mesh is corrupted.*The name of attribute 1 is not valid in UTF-8/s, 'bytes that are no text');
+is($node->safe_psql('in_utf8', q{SELECT fault, message FROM abacus_check('heights')}), 'header|The name of attribute 1 is not valid in UTF-8.', '... and their fault');
+$node->safe_psql('in_sql_ascii', q{CREATE EXTENSION abacus; SELECT abacus_create('heights', 2, ARRAY[E'h\xf6he'])});
+is($node->safe_psql('in_sql_ascii', q{SELECT abacus_insert('heights', 'VALUES (1, 0, 0, 1), (2, 1, 0, 2), (3, 0, 1, 3)')}), 3, 'any bytes in SQL_ASCII');
+is($node->safe_psql('in_sql_ascii', q{SELECT substr(abacus_draw('heights', attribute => E'h\xf6he'), 2, 3) = 'PNG'}), 't', '... name an attribute');
+
 $node->stop;
 done_testing();
