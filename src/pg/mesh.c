@@ -8,28 +8,20 @@
  * to another schema and DROP TABLE of the mesh drops both. A dump does not
  * carry that entry; a restored mesh is found by name (<mesh>_vertices) until
  * its owner changes it, which writes the entry again.
- *
- * The store reads and writes pages without the executor. What the executor
- * would have checked is checked here: privileges, row-level security,
- * temporary tables of other sessions, unlogged ones on a standby, what is published.
  */
 #include "postgres.h"
 
 #include "access/genam.h"
-#include "access/parallel.h"
 #include "access/relation.h"
 #include "access/table.h"
-#include "access/xlog.h"
 #include "catalog/dependency.h"
 #include "catalog/indexing.h"
 #include "catalog/objectaddress.h"
-#include "catalog/pg_am.h"
 #include "catalog/pg_class.h"
 #include "catalog/pg_depend.h"
 #include "catalog/pg_trigger.h"
 #include "catalog/pg_type.h"
 #include "commands/extension.h"
-#include "executor/executor.h"
 #include "miscadmin.h"
 #include "storage/lmgr.h"
 #include "utils/acl.h"
@@ -37,11 +29,10 @@
 #include "utils/fmgroids.h"
 #include "utils/inval.h"
 #include "utils/lsyscache.h"
-#include "utils/rls.h"
 #include "utils/syscache.h"
 
 #include "pg/mesh.h"
-#include "pg/page_index.h"
+#include "pg/mesh_access.h"
 #include "pg/tracking.h"
 
 /* Whether `type` is this extension's row type of that name; remembers the last yes. */
@@ -96,95 +87,6 @@ is_vertex_table(Oid relid)
 	return is_table_of(relid, VERTEX_PAGE_TYPE, &vertex_row_type);
 }
 
-/* What the executor would refuse; `mesh` is the one whose vertex table this is, or NULL. */
-static void
-check_privileges(Relation rel, MeshAccess access, Relation mesh)
-{
-	Oid			relid = RelationGetRelid(rel);
-	AclMode		needed = access == MESH_READ ? ACL_SELECT
-		: ACL_SELECT | ACL_INSERT | ACL_UPDATE | ACL_DELETE;
-
-	if (pg_class_aclmask(relid, GetUserId(), needed, ACLMASK_ALL) != needed)
-		ereport(ERROR,
-				(errcode(ERRCODE_INSUFFICIENT_PRIVILEGE),
-				 errmsg("permission denied for table %s", RelationGetRelationName(rel)),
-				 mesh == NULL ? 0 :
-				 errdetail("It is the vertex table of mesh \"%s\".",
-						   RelationGetRelationName(mesh)),
-				 mesh == NULL ? 0 :
-				 errhint("Privileges, and the owner, are given to both tables of a mesh.")));
-	if (check_enable_rls(relid, InvalidOid, false) == RLS_ENABLED)
-		ereport(ERROR,
-				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
-				 errmsg("row-level security on mesh table \"%s\" applies to user \"%s\"",
-						RelationGetRelationName(rel), GetUserNameFromId(GetUserId(), false)),
-				 errdetail("A page holds many simplices; policies on its rows have no meaning."),
-				 errhint("Disable row-level security on the table and use GRANT.")));
-}
-
-/*
- * That a publication can tell its subscribers which rows are updated and deleted, whoever
- * writes them; else the changes would not arrive there, or not as a whole.
- */
-static void
-check_publications(Relation rel)
-{
-	CheckCmdReplicaIdentity(rel, CMD_UPDATE);
-	CheckCmdReplicaIdentity(rel, CMD_DELETE);
-}
-
-/*
- * That the table is of a row type tells what its columns are, but not where they lie: a
- * table made with another column, which was dropped before ALTER TABLE ... OF, keeps its
- * place. Rows are read and written without names, so all columns must be the type's.
- */
-static void
-check_columns(Relation rel)
-{
-	TupleDesc	row = RelationGetDescr(rel);
-	bool		are = row->natts == PAGE_TABLE_KEYS + 1;
-
-	for (int i = 0; are && i < PAGE_TABLE_KEYS; i++)
-		are = TupleDescAttr(row, i)->atttypid == INT8OID;
-	if (!are || TupleDescAttr(row, PAGE_TABLE_KEYS)->attlen != -1)
-		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("mesh table \"%s\" has had other columns than those of its type",
-						RelationGetRelationName(rel)),
-				 errhint("Copy its rows into a table made with CREATE TABLE ... OF.")));
-}
-
-static void
-check_access(Relation rel, MeshAccess access, Relation mesh)
-{
-	/* who moves rows sees nothing of them: as with VACUUM FULL, the owner's rights are enough */
-	if (access != MESH_MOVE)
-		check_privileges(rel, access, mesh);
-	if (rel->rd_rel->relam != HEAP_TABLE_AM_OID)
-		ereport(ERROR,
-				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
-				 errmsg("mesh table \"%s\" is not stored as heap", RelationGetRelationName(rel)),
-				 errhint("Use ALTER TABLE ... SET ACCESS METHOD heap.")));
-	check_columns(rel);
-	if (RELATION_IS_OTHER_TEMP(rel))
-		ereport(ERROR,
-				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
-				 errmsg("cannot access temporary meshes of other sessions")));
-	if (RecoveryInProgress() && !RelationIsPermanent(rel))
-		ereport(ERROR,
-				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
-				 errmsg("cannot access unlogged mesh table \"%s\" during recovery",
-						RelationGetRelationName(rel)),
-				 errdetail("What is unlogged does not reach standbys.")));
-	if (IsParallelWorker() && RelationUsesLocalBuffers(rel))
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_TRANSACTION_STATE),
-				 errmsg("cannot access a temporary mesh in a parallel worker"),
-				 errhint("SET max_parallel_workers_per_gather = 0 for this query.")));
-	if (access != MESH_READ)
-		check_publications(rel);
-}
-
 /* Opens the table of a mesh under the given lock, or says why it cannot be used. */
 static Relation
 open_mesh_table(Oid relid, MeshAccess access, LOCKMODE lock)
@@ -201,7 +103,7 @@ open_mesh_table(Oid relid, MeshAccess access, LOCKMODE lock)
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
 				 errmsg("\"%s\" is not a mesh", RelationGetRelationName(rel)),
 				 errhint("Meshes are made with abacus_create() or abacus_triangulate().")));
-	check_access(rel, access, NULL);
+	mesh_check_access(rel, access, NULL);
 	return rel;
 }
 
@@ -384,7 +286,7 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 						   RelationGetRelationName(mesh), VERTEX_PAGE_TYPE),
 				 errhint("After a restore, give the vertex table that name; if it is lost, "
 						 "restore it from a backup.")));
-	check_access(rel, access, mesh);
+	mesh_check_access(rel, access, mesh);
 	if (!bound && access == MESH_WRITE && pg_class_ownercheck(relid, GetUserId()) &&
 		pg_class_ownercheck(RelationGetRelid(mesh), GetUserId()))
 	{

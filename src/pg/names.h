@@ -4,7 +4,7 @@
 #ifndef ABACUS_NAMES_H
 #define ABACUS_NAMES_H
 
-#include "abacus/abacus.h"
+#include "abacus/header.h"
 
 extern int	names_find_invalid(const abacus_header *header);
 extern void names_to_database(abacus_header *header);
