@@ -58,6 +58,19 @@ lock_header(Host *host, ItemPointer tid)
 }
 
 /*
+ * Opens both tables, the second with all checks. While they are open PostgreSQL refuses
+ * to alter or drop them in this session: so they stay what was checked, whatever the
+ * query does that gives the points.
+ */
+static void
+open_tables(PageStore *store)
+{
+	page_table_open(&store->simplices);
+	page_store_vertex_table(store);
+	page_table_open(&store->vertices);
+}
+
+/*
  * Opens the tables, with all checks, locks the header and pushes an active
  * snapshot that sees it.
  */
@@ -69,9 +82,8 @@ open_and_lock(Writer *writer)
 
 	/* also refuses a second writer inside the first one's source query */
 	CheckTableNotInUse(table, "change mesh");
-	page_table_open(&host->store.simplices);
+	open_tables(&host->store);
 	table_close(table, NoLock);
-	page_store_vertex_table(&host->store);
 
 	for (;;)
 	{
@@ -82,7 +94,7 @@ open_and_lock(Writer *writer)
 			break;
 		host_release(host);
 		PopActiveSnapshot();
-		page_table_open(&host->store.simplices);
+		open_tables(&host->store);
 	}
 	/* otherwise the snapshot is newer than our lock on the vertex table */
 	if (IsolationUsesXactSnapshot())

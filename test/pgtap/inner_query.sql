@@ -63,6 +63,11 @@ CREATE FUNCTION pg_temp.restage() RETURNS bigint LANGUAGE sql AS $$ SELECT abacu
 SELECT is(pg_temp.try('SELECT 1, 2, 3, pg_temp.restage()'), '55006', 'staging while staging the same mesh');
 CREATE FUNCTION pg_temp.drop() RETURNS bigint LANGUAGE plpgsql AS $$ BEGIN DROP TABLE field; RETURN 1; END $$;
 SELECT is(pg_temp.try('SELECT 1, 2, 3, pg_temp.drop()'), '55006', 'dropping the mesh while staging it');
+-- ... nor the definition of its tables, which the pages are written by
+CREATE FUNCTION pg_temp.run(command text) RETURNS bigint LANGUAGE plpgsql AS $$ BEGIN EXECUTE command; RETURN 1; END $$;
+SELECT is(pg_temp.try(format('SELECT 1, 2, 3, pg_temp.run(%L)', format(command, name))), '55006', format(command, name))
+FROM unnest('{field,field_vertices}'::text[]) AS name,
+     unnest('{DROP TABLE %I,TRUNCATE %I,ALTER TABLE %I NOT OF,ALTER TABLE %I NOT OF; ALTER TABLE %1$I ADD COLUMN other text,CREATE INDEX ON %I (part),ALTER TABLE %I SET UNLOGGED}'::text[]) AS command;
 
 -- what was accepted is all there, and nothing else
 SELECT is((SELECT count(*) FROM abacus_vertices('field')),
