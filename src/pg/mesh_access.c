@@ -65,6 +65,13 @@ check_columns(Relation rel)
 	TupleDesc	row = RelationGetDescr(rel);
 	bool		are = row->natts == PAGE_TABLE_KEYS + 1;
 
+	if (row->natts < PAGE_TABLE_KEYS + 1)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("mesh table \"%s\" is of a type of another version of Abacus",
+						RelationGetRelationName(rel)),
+				 errhint("Read the mesh's points with the version that wrote it "
+						 "(abacus_vertices), and build it anew.")));
 	for (int i = 0; are && i < PAGE_TABLE_KEYS; i++)
 		are = TupleDescAttr(row, i)->atttypid == INT8OID;
 	if (!are || TupleDescAttr(row, PAGE_TABLE_KEYS)->attlen != -1)

@@ -73,6 +73,8 @@ for my $old (@released)
 		my ($status, $out, $err) = $node->psql($database, "SELECT abacus_locate('field', 1, 1)");
 		like($err, qr/mesh is stored in format \d+, but this version of Abacus reads format \d+\n.*HINT:  Read its points with the version that wrote it/,
 			"$old: what became of the format is said");
+		($status, $out, $err) = $node->psql($database, "SELECT abacus_triangulate('field')");
+		like($err, qr/stored in format \d+|of a type of another version of Abacus/, "$old: and that it cannot be changed");
 		is($node->safe_psql($database, "SELECT fault FROM abacus_check('field')"), 'header', "$old: abacus_check says so too");
 		($status, $out, $err) = $node->psql($database, 'ALTER EXTENSION abacus UPDATE');
 		like($err, qr/cannot update meshes of Abacus \Q$old\E.*There are the tables field, field_vertices\..*HINT/s,
