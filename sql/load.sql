@@ -36,7 +36,18 @@ SELECT id, attributes FROM abacus_vertices('other') ORDER BY id;
 SELECT length(abacus_draw('other', attribute => 'h', width => 40)) > 100 AS drawn;
 SELECT abacus_stage('other', 'SELECT 5, 2, 9, 1');
 SELECT abacus_triangulate('other');
+-- nothing waits to be inserted, and a restored mesh is bound by it
 CALL abacus_build('other');
+CREATE TABLE restored OF abacus_simplex_page (PRIMARY KEY (code, part));
+CREATE TABLE restored_vertices OF abacus_vertex_page (PRIMARY KEY (first, part));
+INSERT INTO restored TABLE other;
+INSERT INTO restored_vertices TABLE other_vertices;
+CALL abacus_build('restored');
+ALTER TABLE restored RENAME TO bound;
+SELECT * FROM abacus_check('bound') UNION ALL SELECT * FROM abacus_check('other');
+SELECT count(*) = (SELECT count(*) FROM abacus_vertices('other')) AS all_there FROM abacus_vertices('bound');
+DROP TABLE bound;
+SELECT to_regclass('restored_vertices') IS NULL AS gone;
 SELECT abacus_insert('other', 'SELECT 5, 2, 9, 1');
 SELECT abacus_delete('other', 'SELECT 1, 0, 0');
 

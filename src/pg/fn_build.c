@@ -90,6 +90,24 @@ commit(Writer *writer)
 	superseded_reclaim(simplices->superseded, simplices->heap);
 }
 
+/* Inserts all points that wait. */
+static void
+insert_all(Writer *writer, uint64 batch)
+{
+	Host	   *host = writer->host;
+	abacus_header *header = writer->header;
+	abacus_build *build = NULL;
+
+	host_run(host, abacus_build_open(&host->table, header, setting_cache_bytes(), &build,
+									 &host->failure));
+	host_own(host, build, (void (*) (void *)) abacus_build_close);
+	if (rekey(writer, build))
+		commit(writer);
+	while (header->inserted < header->staged && insert_batch(writer, build, batch))
+		commit(writer);
+	host_own(host, NULL, NULL);	/* the core would look for pages where they were */
+}
+
 /* abacus_build(mesh regclass, batch bigint), a procedure */
 Datum
 abacus_sql_build(PG_FUNCTION_ARGS)
@@ -102,7 +120,6 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 	abacus_header *header;
 	Host	   *host;
 	PageTable  *simplices;
-	abacus_build *build = NULL;
 
 	check_commits(fcinfo);
 	if (PG_ARGISNULL(0) || PG_ARGISNULL(1))
@@ -125,15 +142,9 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 	simplices = &host->store.simplices;
 	simplices->superseded = superseded_create(host->home);
 	progress_in_batches(&host->progress, header->staged - header->inserted);
-	host_run(host, abacus_build_open(&host->table, header, setting_cache_bytes(), &build,
-									 &host->failure));
-	host_own(host, build, (void (*) (void *)) abacus_build_close);
-
-	if (rekey(&writer, build))
-		commit(&writer);
-	while (header->inserted < header->staged && insert_batch(&writer, build, (uint64) batch))
-		commit(&writer);
-	host_own(host, NULL, NULL);	/* the core would look for pages where they were */
+	/* what is no Delaunay triangulation has no points that wait, and may yet have to be bound */
+	if (!header->not_delaunay)
+		insert_all(&writer, (uint64) batch);
 	compact(&writer, true, true);
 	vertices = page_store_vertex_table(&host->store);
 	writer_close(&writer);
