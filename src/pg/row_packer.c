@@ -23,6 +23,19 @@
 static const char *const coordinate_names[ABACUS_MAX_DIMENSION] = {"x", "y", "z"};
 static const char *const corner_names[ABACUS_MAX_DIMENSION + 1] = {"v0", "v1", "v2", "v3"};
 
+static const RowOrigin query_of_points = {
+	"the source query", "the source query", "Cast the column in the query.",
+	"Leave such points out with a WHERE clause."
+};
+static const RowOrigin query_of_simplices = {
+	"the source query", "the source query", "Cast the column in the query.",
+	"Leave such simplices out with a WHERE clause."
+};
+static const RowOrigin tracked_table = {
+	"the tracked table", "the statement", "Track other columns, generated ones for instance.",
+	"A row without a point has NULL for a coordinate."
+};
+
 /* What a column is called in messages, and in tables by default. */
 const char *
 row_packer_column(const abacus_header *header, int column)
@@ -80,11 +93,11 @@ pack_kind(const RowPacker *packer, int column, Oid type)
 	}
 	ereport(ERROR,
 			(errcode(ERRCODE_DATATYPE_MISMATCH),
-			 errmsg("column %d (%s) of the source query has type %s", column + 1,
-					column_name(packer, column), format_type_be(type)),
+			 errmsg("column %d (%s) of %s has type %s", column + 1, column_name(packer, column),
+					packer->origin->columns_of, format_type_be(type)),
 			 is_id ? errdetail("An id is smallint, integer or bigint.")
 			 : errdetail("Coordinates and attributes are double precision, real, numeric or integers."),
-			 errhint("Cast the column in the query.")));
+			 errhint("%s", packer->origin->type_hint)));
 	return PACK_INT8;			/* not reached */
 }
 
@@ -93,13 +106,13 @@ static void
 refuse_value(const RowPacker *packer, const uint64 *point, int column, bool isnull)
 {
 	const char *name = column_name(packer, column);
-	const char *hint = packer->hint;
+	const char *hint = packer->origin->value_hint;
 
 	if (isnull && column < packer->ids)
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
 				 errmsg("%s is NULL in row " UINT64_FORMAT " of %s", name, packer->row,
-						packer->origin),
+						packer->origin->rows_of),
 				 errhint("%s", hint)));
 	ereport(ERROR,
 			(errcode(isnull ? ERRCODE_NULL_VALUE_NOT_ALLOWED : ERRCODE_INVALID_PARAMETER_VALUE),
@@ -190,10 +203,12 @@ shut_down(DestReceiver *self)
 }
 
 static RowPacker *
-create(TupleDesc desc, const abacus_header *header, int ids, int columns, size_t batch)
+create(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int ids, int columns,
+	   size_t batch)
 {
 	RowPacker  *packer = palloc0(sizeof(RowPacker));
 
+	packer->origin = origin;
 	packer->header = header;
 	packer->ids = ids;
 	packer->columns = columns;
@@ -208,9 +223,6 @@ create(TupleDesc desc, const abacus_header *header, int ids, int columns, size_t
 	packer->receiver.rShutdown = shut_down;
 	packer->receiver.rDestroy = shut_down;
 	packer->receiver.mydest = DestNone;
-	packer->origin = "the source query";
-	packer->hint = ids > 1 ? "Leave such simplices out with a WHERE clause."
-		: "Leave such points out with a WHERE clause.";
 	packer->kinds = palloc(columns * sizeof(PackKind));
 	for (int i = 0; i < columns; i++)
 	{
@@ -223,18 +235,28 @@ create(TupleDesc desc, const abacus_header *header, int ids, int columns, size_t
 	return packer;
 }
 
-/* A packer for rows that are points of the mesh, in the current memory context. */
+/* A packer for rows of a query that are points of the mesh, in the current memory context. */
 RowPacker *
 row_packer_create(TupleDesc desc, const abacus_header *header, size_t batch)
 {
-	return create(desc, header, 1, 1 + header->dimension + header->attributes, batch);
+	return create(desc, header, &query_of_points, 1, 1 + header->dimension + header->attributes,
+				  batch);
 }
 
-/* The same for simplices: ids of their vertices. */
+/* The same for rows of a table that the mesh follows. */
+RowPacker *
+row_packer_create_tracked(TupleDesc desc, const abacus_header *header, size_t batch)
+{
+	return create(desc, header, &tracked_table, 1, 1 + header->dimension + header->attributes,
+				  batch);
+}
+
+/* The same for rows of a query that are simplices: ids of their vertices. */
 RowPacker *
 row_packer_create_simplices(TupleDesc desc, const abacus_header *header, size_t batch)
 {
-	return create(desc, header, header->dimension + 1, header->dimension + 1, batch);
+	return create(desc, header, &query_of_simplices, header->dimension + 1, header->dimension + 1,
+				  batch);
 }
 
 void

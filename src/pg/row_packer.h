@@ -20,11 +20,19 @@ typedef enum PackKind
 	PACK_NUMERIC
 } PackKind;
 
+/* Where rows come from, for messages. */
+typedef struct RowOrigin
+{
+	const char *columns_of;
+	const char *rows_of;
+	const char *type_hint;		/* what to do about a type that cannot be read */
+	const char *value_hint;		/* ... and a row that cannot be placed */
+} RowOrigin;
+
 typedef struct RowPacker
 {
 	DestReceiver receiver;
-	const char *origin;			/* where the rows come from, for messages */
-	const char *hint;			/* what to do about one that cannot be placed */
+	const RowOrigin *origin;
 	const abacus_header *header;
 	int			columns;		/* id, coordinates, attributes; or ids */
 	int			ids;			/* columns of ids: 1, or all */
@@ -38,6 +46,8 @@ typedef struct RowPacker
 
 extern const char *row_packer_column(const abacus_header *header, int column);
 extern RowPacker *row_packer_create(TupleDesc desc, const abacus_header *header, size_t batch);
+extern RowPacker *row_packer_create_tracked(TupleDesc desc, const abacus_header *header,
+											size_t batch);
 extern RowPacker *row_packer_create_simplices(TupleDesc desc, const abacus_header *header,
 											  size_t batch);
 extern void row_packer_reset(RowPacker *packer);

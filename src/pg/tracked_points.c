@@ -59,7 +59,7 @@ check_types(List *columns, const abacus_header *header, Relation table)
 	foreach(cell, columns)
 		TupleDescCopyEntry(point, foreach_current_index(cell) + 1, RelationGetDescr(table),
 						   get_attnum(RelationGetRelid(table), lfirst(cell)));
-	row_packer_create(point, header, 1);
+	row_packer_create_tracked(point, header, 1);
 }
 
 /* Names of the columns of a point, which the table has, of types that can be read. */

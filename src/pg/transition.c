@@ -182,10 +182,8 @@ transition_stage(Transition *transition, bool new, Change *change)
 {
 	const abacus_header *header = change->writer.header;
 	TransitionRows *rows = new ? &transition->new : &transition->old;
-	RowPacker  *packer = row_packer_create(transition->points, header, POINTS_A_BATCH);
+	RowPacker  *packer = row_packer_create_tracked(transition->points, header, POINTS_A_BATCH);
 
-	packer->origin = "the statement";
-	packer->hint = "A row without a point has NULL for a coordinate.";
 	change_open_stage(change, header);
 	rewind_all(transition);
 	while (advance(transition))
