@@ -238,6 +238,19 @@ ALTER TABLE spots ENABLE ROW LEVEL SECURITY, FORCE ROW LEVEL SECURITY;
 SELECT abacus_track('spotted', 'spots');
 \echo :LAST_ERROR_SQLSTATE
 RESET ROLE;
+-- it is the table's owner who needs the privileges, whoever asks
+CREATE TABLE owned (id int, x float8, y float8);
+ALTER TABLE owned OWNER TO regress_track_owner;
+SELECT abacus_create('unowned', 2);
+SELECT abacus_track('unowned', 'owned');
+\echo :LAST_ERROR_SQLSTATE
+GRANT ALL ON unowned TO regress_track_owner;
+SELECT abacus_track('unowned', 'owned');
+GRANT ALL ON unowned_vertices TO regress_track_owner;
+SELECT abacus_track('unowned', 'owned');
+REVOKE UPDATE ON unowned FROM regress_track_owner;
+INSERT INTO owned VALUES (1, 2, 3);
+DROP TABLE owned, unowned;
 RESET search_path;
 DROP SCHEMA regress_track CASCADE;
 DROP ROLE regress_track_owner, regress_track_writer;

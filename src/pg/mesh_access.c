@@ -11,6 +11,7 @@
 #include "access/xlog.h"
 #include "catalog/pg_am.h"
 #include "executor/executor.h"
+#include "lib/stringinfo.h"
 #include "miscadmin.h"
 #include "utils/acl.h"
 #include "utils/rls.h"
@@ -18,6 +19,27 @@
 #include "pg/mesh_access.h"
 #include "pg/page_index.h"
 
+/*
+ * What more is to be said where a privilege is missing: of which mesh this is the vertex
+ * table, and whose privilege it is, if not that of the user who has asked, as where a
+ * table is followed.
+ */
+static const char *
+describe_denied(Relation mesh)
+{
+	StringInfoData detail;
+
+	initStringInfo(&detail);
+	if (mesh != NULL)
+		appendStringInfo(&detail, "It is the vertex table of mesh \"%s\".",
+						 RelationGetRelationName(mesh));
+	if (GetUserId() != GetOuterUserId())
+		appendStringInfo(&detail, "%sIt is accessed as user \"%s\".", mesh != NULL ? " " : "",
+						 GetUserNameFromId(GetUserId(), false));
+	return detail.data;
+}
+
+/* What the executor would refuse; `mesh` is the one whose vertex table this is, or NULL. */
 static void
 check_privileges(Relation rel, MeshAccess access, Relation mesh)
 {
@@ -26,14 +48,16 @@ check_privileges(Relation rel, MeshAccess access, Relation mesh)
 		: ACL_SELECT | ACL_INSERT | ACL_UPDATE | ACL_DELETE;
 
 	if (pg_class_aclmask(relid, GetUserId(), needed, ACLMASK_ALL) != needed)
+	{
+		const char *detail = describe_denied(mesh);
+
 		ereport(ERROR,
 				(errcode(ERRCODE_INSUFFICIENT_PRIVILEGE),
 				 errmsg("permission denied for table %s", RelationGetRelationName(rel)),
-				 mesh == NULL ? 0 :
-				 errdetail("It is the vertex table of mesh \"%s\".",
-						   RelationGetRelationName(mesh)),
+				 detail[0] == '\0' ? 0 : errdetail_internal("%s", detail),
 				 mesh == NULL ? 0 :
 				 errhint("Privileges, and the owner, are given to both tables of a mesh.")));
+	}
 	if (check_enable_rls(relid, InvalidOid, false) == RLS_ENABLED)
 		ereport(ERROR,
 				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
