@@ -45,6 +45,8 @@ SELECT abacus_walk('field', ROW(1, 2, 3, 4, NULL)::abacus_simplex, 0);
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_walk('field', ROW(1, 2, NULL, 4, NULL)::abacus_simplex, 0);
 \echo :LAST_ERROR_SQLSTATE
+SELECT abacus_walk('field', ROW(NULL, NULL, NULL, NULL, 5)::abacus_simplex, 0);
+\echo :LAST_ERROR_SQLSTATE
 SELECT abacus_walk('field', NULL, 0) IS NULL AS strict;
 -- after an error the session reads on
 SELECT (abacus_locate('field', 2, 0.5)).v0 IS NOT NULL AS found;

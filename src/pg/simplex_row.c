@@ -114,10 +114,11 @@ simplex_from_row(Datum row, TupleDesc row_type, uint32 dimension, uint64 *code, 
 
 	complete = !isnull[0];
 	empty = isnull[0];
+	for (uint32 i = 0; i <= ABACUS_MAX_DIMENSION; i++)
+		empty &= isnull[1 + i];
 	for (uint32 i = 0; i <= dimension; i++)
 	{
 		complete &= !isnull[1 + i];
-		empty &= isnull[1 + i];
 		ids[i] = DatumGetInt64(values[1 + i]);
 	}
 	if (empty)
