@@ -78,12 +78,9 @@ is($after, $publisher->safe_psql('postgres', $locate), '... as the publisher doe
 
 # batches of a build, and readers there: always at one of them
 $publisher->safe_psql('postgres', "SELECT abacus_stage('field', 'SELECT * FROM points WHERE id > 5000')");
-my $builder = IPC::Run::start(
-	[ 'psql', '-XAtq', '-v', 'ON_ERROR_STOP=1', '-d', $connection, '-c', "CALL abacus_build('field', $batch)" ],
-	IPC::Run::timeout($PostgreSQL::Test::Utils::timeout_default));
 my ($inserted, $looks, %seen, %wrong) = (0, 0);
 my $changed = 2 - 714; # points inserted and deleted above
-while ($inserted < $points + $changed)
+sub look
 {
 	my $row = $session->query(<<'SQL');
 BEGIN ISOLATION LEVEL REPEATABLE READ;
@@ -95,8 +92,13 @@ SQL
 	($inserted, my @wrong) = split /\|/, $row;
 	$wrong{$row} = 1 if "@wrong" ne 't 0' || ($inserted - $changed) % $batch;
 	$seen{$inserted} = 1;
-	$looks++;
+	return $looks++;
 }
+look();
+my $builder = IPC::Run::start(
+	[ 'psql', '-XAtq', '-v', 'ON_ERROR_STOP=1', '-d', $connection, '-c', "CALL abacus_build('field', $batch)" ],
+	IPC::Run::timeout($PostgreSQL::Test::Utils::timeout_default));
+look() while $inserted < $points + $changed;
 $builder->finish;
 is(join("\n", keys %wrong), '', "$looks looks during the build, each at one whole state");
 cmp_ok(scalar(keys %seen), '>=', 2, scalar(keys %seen) . ' states seen');
