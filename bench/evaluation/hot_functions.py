@@ -1,10 +1,10 @@
 """Where the CPU time goes, by function (Figure 5.21): perf looks at the backend while it works."""
 import collections
 import dataclasses
+import os
 import re
 import shutil
 import subprocess
-import time
 
 import paths
 import point_sets
@@ -31,14 +31,11 @@ class HotFunctions:
         paths.DATA.mkdir(parents=True, exist_ok=True)
         record = paths.DATA / "perf.data"
         with server.Session(abacus__cache_size=f"{self.cache}MB") as session:
-            perf = subprocess.Popen(["perf", "record", "-q", "-e", "cpu-clock", "-F",
-                                     str(SAMPLES_A_SECOND), "-o", record, "-p", str(session.backend)],
-                                    stderr=subprocess.PIPE, text=True)
-            time.sleep(0.5)  # perf takes a moment to begin
+            recording = Recording(record, session.backend)
             session.run("SELECT abacus_triangulate('mesh')")
-        complaint = perf.communicate()[1]
+        complaint = recording.end()
         if not record.exists():
-            suite.say(f"perf has failed: {complaint.strip()}")
+            suite.say(f"perf has failed: {complaint}")
             return
         functions, modules = shares(record)
         record.unlink()
@@ -48,6 +45,33 @@ class HotFunctions:
             "what": "functions", **point_sets.labels(self.points), "cache": self.cache,
             "functions": functions[:MOST], "modules": modules})
         server.drop("mesh", "mesh_vertices", "points")
+
+
+class Recording:
+    """perf, which looks at a process from when this has been made to the end of the process: perf
+    says itself when it has begun, for on a busy machine that takes longer than a short build."""
+
+    def __init__(self, record, process):
+        told, self.command = os.pipe()  # open until perf ends: it fails if they are closed before
+        self.answer, says = os.pipe()
+        self.perf = subprocess.Popen(
+            ["perf", "record", "-q", "-e", "cpu-clock", "-F", str(SAMPLES_A_SECOND), "-o", record, "--delay=-1",
+             f"--control=fd:{told},{says}", "-p", str(process)],
+            stderr=subprocess.PIPE, text=True, pass_fds=(told, says))
+        os.close(told)
+        os.close(says)
+        try:
+            os.write(self.command, b"enable\n")
+            os.read(self.answer, 16)  # nothing, if perf has ended
+        except BrokenPipeError:
+            pass  # end() tells why
+
+    def end(self):
+        """What perf complained of."""
+        complaint = self.perf.communicate()[1].strip()
+        os.close(self.command)
+        os.close(self.answer)
+        return complaint
 
 
 def shares(record):
