@@ -95,6 +95,40 @@ def cold_pages(question):
     return measured
 
 
+def inserted(dimension):
+    """Points inserted into a mesh of as many, to a first build of them."""
+    def measured(results, figure="wall"):
+        return ratio(*(results.median(figure, what="edit", change=change, dimension=dimension)
+                       for change in ("insert many", "build many")))
+    return measured
+
+
+def deleted(dimension, points, order):
+    """A point of many that a statement deletes, to one that CGAL's remove() takes from a mesh of so many,
+    in the order of the curve (0) or at random (1)."""
+    def measured(results, figure="wall"):
+        ours = results.one(what="edit", change="delete many", dimension=dimension)
+        cgal = results.median(figure, what="core", benchmark=f"CgalRemove<{dimension}>/{points}/{order}")
+        return ratio(ours and median(ours, figure) / ours["changed"], cgal)
+    return measured
+
+
+def milliseconds(change, dimension):
+    """Of one point in a transaction of its own."""
+    def measured(results):
+        seconds = results.median("wall", what="edit", change=f"{change} one", dimension=dimension)
+        return seconds and 1000 * seconds
+    return measured
+
+
+def space(dimension):
+    """Size after VACUUM to that before, where statements of many points have replaced half of the points."""
+    def measured(results):
+        found = results.all(what="edit", change="space", dimension=dimension)
+        return max((m["samples"][0]["moved"] / m["samples"][0]["fresh"] for m in found), default=None)
+    return measured
+
+
 WANTED = [
     Timed("2D, 1 M uniform: table to committed mesh ÷ CGAL in core", 1.0, True,
           times("abacus", "cgal", 2, "uniform", 10**6)),
@@ -132,4 +166,19 @@ WANTED = [
            habits.times_abacus),
     Wanted("Goose ÷ Abacus, 1 M points, extrapolated by the growth of both", None, True,
            habits.times_abacus_extrapolated),
+    Timed("2D, 1 M points into a mesh of 1 M, one statement ÷ first build of the same points", 1.3, True,
+          inserted(2)),
+    Timed("3D, 500,000 points into a mesh of as many … ÷ first build of the same points", 1.3, True, inserted(3)),
+    Timed("2D, half of 1 M points deleted, one statement ÷ CGAL's `remove` in core, in random order", 2, True,
+          deleted(2, 1000000, 1)),
+    Timed("… ÷ CGAL's `remove`, in the order of the curve, its vertices known", None, True, deleted(2, 1000000, 0)),
+    Timed("3D, half of 500,000 points deleted … ÷ CGAL's `remove`, mesh of 200,000, in random order", 2, True,
+          deleted(3, 200000, 1)),
+    Timed("… ÷ CGAL's `remove`, in the order of the curve, its vertices known", None, True, deleted(3, 200000, 0)),
+    Wanted("2D, 1 M points: one point inserted, a transaction, ms", 1, True, milliseconds("insert", 2)),
+    Wanted("… one deleted, ms", 1, True, milliseconds("delete", 2)),
+    Wanted("3D, 500,000 points: one point inserted, a transaction, ms", 3, True, milliseconds("insert", 3)),
+    Wanted("… one deleted, ms", 3, True, milliseconds("delete", 3)),
+    Wanted("2D, 1 M points: size after half of them were replaced and VACUUM ÷ fresh", 1.5, True, space(2)),
+    Wanted("3D, 500,000 points: … ÷ fresh", 1.5, True, space(3)),
 ]

@@ -27,8 +27,8 @@ class Edits:
         self.select = f"SELECT id, {self.points.columns} FROM points WHERE"
         self.make = self.points.triangulate(f" WHERE id <= {self.size}")
         runs = {"full": 3, "quick": 1, "smoke": 1}[suite.mode]
-        self.many("insert", f"id > {self.size}", self.size, runs)
-        self.many("delete", f"id <= {self.size} AND id % 2 = 0", self.size // 2, runs)
+        self.insert_many(runs)
+        self.delete_many(runs)
         self.grow(runs)
         self.queue()
         self.space(self.size // 20)
@@ -52,18 +52,38 @@ class Edits:
         self.suite.measurements.append({"what": "edit", "change": change, **self.labels, **figures,
                                         "samples": samples})
 
-    def many(self, change, condition, count, runs):
-        """One statement that changes many points."""
-        samples = []
+    def changed(self, change, condition, count):
+        """A sample of one statement that changes many points of a fresh mesh."""
+        self.fresh_mesh()
+        with server.Session() as session:
+            sample = session.timed(f"SELECT abacus_{change}('mesh', '{self.select} {condition}')")
+        if int(sample.pop("printed")) != count:
+            raise server.Failure(f"abacus_{change} did not change {count} points")
+        self.suite.say(f"  {change} {count:,} points: {sample['wall']:.3f} s")
+        return sample
+
+    def insert_many(self, runs):
+        """As many points as there are, in turns with a first build of the points that are inserted."""
+        built, inserted = [], []
         for _ in range(runs):
-            self.fresh_mesh()
-            with server.Session() as session:
-                sample = session.timed(f"SELECT abacus_{change}('mesh', '{self.select} {condition}')")
-            if int(sample.pop("printed")) != count:
-                raise server.Failure(f"abacus_{change} did not change {count} points")
-            samples.append(sample)
-            self.suite.say(f"  {change} {count:,} points: {sample['wall']:.3f} s")
-        self.record(f"{change} many", samples, changed=count)
+            built.append(self.built(f" WHERE id > {self.size}"))
+            inserted.append(self.changed("insert", f"id > {self.size}", self.size))
+        self.record("build many", built, changed=self.size)
+        self.record("insert many", inserted, changed=self.size)
+
+    def built(self, condition):
+        server.drop("mesh", "mesh_vertices")
+        server.settle()
+        with server.Session() as session:
+            sample = session.timed(self.points.triangulate(condition))
+        del sample["printed"]
+        self.suite.say(f"  build of {self.size:,} points: {sample['wall']:.3f} s")
+        return sample
+
+    def delete_many(self, runs):
+        count = self.size // 2
+        samples = [self.changed("delete", f"id <= {self.size} AND id % 2 = 0", count) for _ in range(runs)]
+        self.record("delete many", samples, changed=count)
 
     def grow(self, runs):
         """A mesh that begins with the points of one tile, a corner, and gets the others tile by tile."""

@@ -86,6 +86,34 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(acceptance.WANTED[number + 1].measured(found), 10)
         self.assertEqual(verdict(number, found), "**missed**")
 
+    def test_insertions_are_compared_with_a_build_of_the_same_points(self):
+        def run(change, dimension, seconds):
+            return {"what": "edit", "change": change, "dimension": dimension, "changed": 10**6,
+                    "samples": [{"wall": seconds, "cpu": seconds}]}
+        number = next(i for i, wanted in enumerate(acceptance.WANTED) if "into a mesh" in wanted.what)
+        insert, build_ = run("insert many", 2, 1.2), run("build many", 2, 1.0)
+        self.assertEqual(verdict(number, of(insert, build_)), "held")
+        self.assertEqual(verdict(number, of(run("insert many", 2, 1.4), build_)), "**missed**")
+        self.assertEqual(verdict(number, of(insert)), "not measured")
+        self.assertEqual(verdict(number + 1, of(insert, build_)), "not measured")
+
+    def test_the_largest_size_after_replacing_decides(self):
+        def run(sizes, at_once):
+            return {"what": "edit", "change": "space", "dimension": 3, "at_once": at_once, "samples": [sizes]}
+        found = of(run({"fresh": 10, "moved": 14}, 1000), run({"fresh": 10, "moved": 16}, 25000))
+        self.assertEqual(acceptance.WANTED[-1].measured(found), 1.6)
+        self.assertEqual(verdict(-1, found), "**missed**")
+        self.assertEqual(verdict(-1, of()), "not measured")
+
+    def test_deletions_are_compared_by_the_point(self):
+        core = {"what": "core", "benchmark": "CgalRemove<2>/1000000/1", "samples": [{"wall": 2e-6, "cpu": 1e-6}]}
+        edit = {"what": "edit", "change": "delete many", "dimension": 2, "changed": 500000,
+                "samples": [{"wall": 3.0, "cpu": 2.0}]}
+        number = next(i for i, wanted in enumerate(acceptance.WANTED) if "deleted" in wanted.what)
+        self.assertAlmostEqual(acceptance.WANTED[number].measured(of(core, edit)), 3)
+        self.assertAlmostEqual(acceptance.WANTED[number].by_cpu(of(core, edit)), 4)
+        self.assertEqual(verdict(number, of(edit)), "not measured")
+
 
 class Storage(unittest.TestCase):
     def test_json_comes_back(self):
