@@ -19,6 +19,7 @@ class Contest:
     engines: tuple
     runs: dict = dataclasses.field(default_factory=lambda: {"full": 5, "quick": 3, "smoke": 1})
     disk: int = 0  # bytes that must be free, if there are very many points
+    what: str = "build"  # another word keeps it out of the tables of builds
 
     def measure(self, suite):
         if suite.mode not in self.sizes:
@@ -31,7 +32,7 @@ class Contest:
         with points.in_file() if in_core else contextlib.nullcontext():
             count = points.create_table()
             suite.say(f"{count:,} points in {self.dimension}D, {self.set}")
-            measurements = [{"what": "build", **contestant.labels, "dimension": self.dimension,
+            measurements = [{"what": self.what, **contestant.labels, "dimension": self.dimension,
                              "set": self.set, "points": count, "samples": []}
                             for contestant in contestants]
             for run in range(self.runs[suite.mode]):

@@ -17,6 +17,9 @@ def contests(*contests):
 
 FEWER = {"full": 3, "quick": 1, "smoke": 1}
 
+# What the cost of a point of very many is compared with: few, just before them and just after
+BESIDE = Contest(2, "uniform", {"full": 1000000}, ("abacus:64",), what="beside")
+
 PARTS = [
     Part("2d", "uniform points in the plane, all engines", 2.5, contests(
         Contest(2, "uniform", {"full": 1000000, "quick": 200000, "smoke": 20000},
@@ -39,9 +42,8 @@ PARTS = [
     Part("3d-quake", "points of an earthquake model", 4.5, contests(
         Contest(3, "quake", {"full": 1000000, "quick": 130000, "smoke": 5000},
                 ("cgal", "abacus:default", "abacus:largest", "tetgen")))),
-    Part("2d-100m", "a hundred times as many uniform points, 64 MB of cache", 5, contests(
-        Contest(2, "uniform", {"full": 100000000}, ("abacus:64",), {"full": 1},
-                disk=16 << 30))),
+    Part("2d-100m", "a hundred times as many uniform points, 64 MB of cache", 9, contests(
+        BESIDE, Contest(2, "uniform", {"full": 100000000}, ("abacus:64",), FEWER, disk=16 << 30), BESIDE)),
     Part("locate-2d", "places in a mesh in the plane, warm and cold", 3, location(
         2, {"full": (10000000, 1000000), "quick": (500000, 200000), "smoke": (20000, 5000)})),
     Part("locate-3d", "places in a mesh in space, warm and cold", 1.5, location(

@@ -86,6 +86,14 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(acceptance.WANTED[number + 1].measured(found), 10)
         self.assertEqual(verdict(number, found), "**missed**")
 
+    def test_growth_is_that_of_a_point_beside_builds_before_and_after(self):
+        large = build("abacus", 10**8, 120.0, cache="64")
+        before, after = ({**build("abacus", 10**6, *seconds, cache="64"), "what": "beside"}
+                         for seconds in ((0.5, 1.0), (1.5,)))
+        number = next(i for i, wanted in enumerate(acceptance.WANTED) if wanted.measured is acceptance.growth)
+        self.assertAlmostEqual(acceptance.WANTED[number].measured(of(large, before, after)), 1.2)
+        self.assertEqual(verdict(number, of(large)), "not measured")
+
     def test_insertions_are_compared_with_a_build_of_the_same_points(self):
         def run(change, dimension, seconds):
             return {"what": "edit", "change": change, "dimension": dimension, "changed": 10**6,
