@@ -7,6 +7,7 @@
 // an insertion and surrounded by cached simplices is never hashed.
 #pragma once
 
+#include "cache/free_numbers.hpp"
 #include "cache/hash_slots.hpp"
 #include "geometry/locational_code.hpp"
 #include "host/arena.hpp"
@@ -58,8 +59,7 @@ public:
                        const double *attributes) {
         VertexIndex v;
         if (!free_.empty()) {
-            v = free_.back();
-            free_.pop_back();
+            v = free_.take();
         } else {
             v = static_cast<VertexIndex>(vertices_.size());
             vertices_.resize(v + 1);
@@ -137,7 +137,7 @@ public:
     void destroy(VertexIndex v) {
         if (vertices_[v].references & shared) slots_.remove(hash(point(v)), v);
         vertices_[v].references = 0;
-        free_.push_back(v);
+        free_.add(v);
     }
 
     /// Makes the vertex known to find_shared().
@@ -180,7 +180,7 @@ private:
     Arena<Vertex<D>> vertices_;
     Arena<std::int64_t> ids_;
     Arena<double> values_;
-    Arena<VertexIndex> free_;
+    FreeNumbers free_;
     Slots slots_; // of the shared vertices, by their points
 };
 

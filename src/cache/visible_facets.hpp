@@ -5,6 +5,7 @@
 // that comes in looks for its neighbours).
 #pragma once
 
+#include "cache/free_numbers.hpp"
 #include "cache/hash_slots.hpp"
 #include "cache/key.hpp"
 #include "host/arena.hpp"
@@ -42,8 +43,7 @@ public:
     std::uint32_t add(std::uint32_t hash, const Key &beyond, Link owner) {
         std::uint32_t number;
         if (!free_.empty()) {
-            number = free_.back();
-            free_.pop_back();
+            number = free_.take();
         } else {
             number = static_cast<std::uint32_t>(entries_.size());
             entries_.resize(number + 1);
@@ -58,7 +58,7 @@ public:
         Entry &entry = entries_[number];
         slots_.remove(entry.hash, number);
         entry.owner = unset;
-        free_.push_back(number);
+        free_.add(number);
         --count_;
     }
 
@@ -80,8 +80,8 @@ private:
     using Slots = HashSlots<none>;
 
     Arena<Entry> entries_;
-    Arena<std::uint32_t> free_; // apart, so that an entry is taken without reading it
-    Slots slots_; // of the entries
+    FreeNumbers free_; // apart, so that an entry is taken without reading it
+    Slots slots_;      // of the entries
     std::size_t count_ = 0;
 };
 
