@@ -92,7 +92,8 @@ SQL
 	($inserted, my @wrong) = split /\|/, $row;
 	$wrong{$row} = 1 if "@wrong" ne 't 0' || ($inserted - $changed) % $batch;
 	$seen{$inserted} = 1;
-	return $looks++;
+	$looks++;
+	return;
 }
 look();
 my $builder = IPC::Run::start(
