@@ -66,16 +66,17 @@ class Edits:
         """As many points as there are, in turns with a first build of the points that are inserted."""
         built, inserted = [], []
         for _ in range(runs):
-            built.append(self.built(f" WHERE id > {self.size}"))
+            built.append(self.built_of_others())
             inserted.append(self.changed("insert", f"id > {self.size}", self.size))
         self.record("build many", built, changed=self.size)
         self.record("insert many", inserted, changed=self.size)
 
-    def built(self, condition):
+    def built_of_others(self):
+        """A sample of a first build of the points that are inserted."""
         server.drop("mesh", "mesh_vertices")
         server.settle()
         with server.Session() as session:
-            sample = session.timed(self.points.triangulate(condition))
+            sample = session.timed(self.points.triangulate(f" WHERE id > {self.size}"))
         del sample["printed"]
         self.suite.say(f"  build of {self.size:,} points: {sample['wall']:.3f} s")
         return sample
