@@ -10,6 +10,7 @@
 
 #include "host/arena.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 

@@ -10,7 +10,6 @@
 
 #include "access/heapam.h"
 #include "access/xact.h"
-#include "storage/bufmgr.h"
 
 #include "pg/page_table.h"
 #include "pg/page_type.h"
