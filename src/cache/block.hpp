@@ -19,7 +19,8 @@ struct Block {
     std::uint64_t sure_lower, sure_upper; // codes that it owns whatever their part
     std::uint64_t location;               // of the stored page; 0 = none
     std::uint64_t used_at;
-    std::uint32_t count;      // simplices
+    std::uint16_t count;      // simplices
+    std::uint16_t capacity;   // simplices that it takes before it is split
     std::uint16_t high_water; // slots ever used
     std::uint16_t settled;    // as many of them as were loaded, wherever they lie now
     std::uint32_t free;       // chain of slots given back, by link[0]
@@ -34,6 +35,7 @@ struct Block {
         sure_upper = to.code;
     }
     bool surely_owns(std::uint64_t code) const { return sure_lower <= code && code < sure_upper; }
+    bool is_full() const { return count >= capacity; }
     bool owns(const Key &key) const { return lower <= key && key < upper; }
     bool has_parts() const { return lower.part != 0 || upper.part != 0; }
 };

@@ -3,41 +3,15 @@
 
 namespace abacus {
 
-namespace {
-
-// Bytes of a page that are not those of its simplices.
-constexpr double page_overhead = sizeof(PageHeader) + checksum_bytes + 40;
-// Of the room in a page: pages differ, and one that turns out too large has to be split.
-constexpr double capacity_margin = 0.97;
-
-// What a simplex takes when words are stored whole. In a mesh of good shape there are 0.58
-// vertices a triangle, 0.36 a tetrahedron.
-template <int D> double most_bytes(int attributes) {
-    const double vertex = 8.0 * (1 + D + attributes);
-    return D == 2 ? 0.58 * vertex + 0.19 * 8 + 3 : 0.36 * vertex + 0.9 * 8 + 4;
-}
-
-} // namespace
-
 template <int D>
 Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
                 const CacheOptions &options)
-    : host_(host), domain_(domain), options_(options), blocks_(host), slots_(host),
+    : host_(host), domain_(domain), options_(options), capacity_(attributes), blocks_(host), slots_(host),
       vertices_(host, attributes), visible_(host), directory_(host), unused_blocks_(host),
       limbo_(host), places_(host), writer_(host), numbered_(host), on_border_(host), uses_(host),
       left_(host), border_(host), values_(host), codes_(host), open_(host), facets_(host),
       chains_(host), hashes_(host), guesses_(host) {
     values_.resize(static_cast<std::size_t>(attributes));
-    learn_size(1, page_overhead + most_bytes<D>(attributes));
-}
-
-template <int D> void Cache<D>::learn_size(std::uint32_t simplices, double page_bytes) {
-    if (simplices == 0) return;
-    const double bytes = (page_bytes - page_overhead) / simplices;
-    // Quickly from the first pages, then slowly.
-    simplex_bytes_ += (bytes - simplex_bytes_) / std::min(++learned_, 8u);
-    const double fit = capacity_margin * (ABACUS_PAGE_BYTES - page_overhead) / simplex_bytes_;
-    capacity_ = static_cast<std::uint32_t>(std::clamp<double>(fit, 8, block_slots<D>));
 }
 
 template <int D> Handle Cache<D>::follow(Handle h) const {
@@ -80,6 +54,7 @@ template <int D> BlockIndex Cache<D>::new_block(Block::State state) {
     }
     Block &block = blocks_[b];
     block = Block{};
+    block.capacity = capacity_.usual();
     block.free = no_slot;
     block.state = state;
     block.used_at = clock_;
@@ -114,7 +89,7 @@ template <int D> BlockIndex Cache<D>::place_elsewhere(std::uint64_t code) {
         const BlockIndex b = cached_owner({code, 0});
         at_hand_[0] = b != no_block && blocks_[b].surely_owns(code) ? b : no_block;
     }
-    if (at_hand_[0] != no_block && blocks_[at_hand_[0]].count < capacity_) return at_hand_[0];
+    if (at_hand_[0] != no_block && !blocks_[at_hand_[0]].is_full()) return at_hand_[0];
     if (limbo_.empty() || blocks_[limbo_.back()].count >= block_slots<D>)
         limbo_.push_back(new_block(Block::limbo));
     return limbo_.back();

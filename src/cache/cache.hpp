@@ -29,6 +29,7 @@
 #include "cache/block.hpp"
 #include "cache/directory.hpp"
 #include "cache/key.hpp"
+#include "cache/page_capacity.hpp"
 #include "cache/page_writer.hpp"
 #include "cache/vertex_heap.hpp"
 #include "cache/visible_facets.hpp"
@@ -182,7 +183,7 @@ public:
     /// whose content is then to be set and its vertices to be acquired.
     Handle allot(std::uint64_t code) {
         BlockIndex b = at_hand_[0];
-        if (b == no_block || blocks_[b].count >= capacity_ || !blocks_[b].surely_owns(code))
+        if (b == no_block || blocks_[b].is_full() || !blocks_[b].surely_owns(code))
             [[unlikely]]
             b = place_elsewhere(code);
         ++counters.created;
@@ -233,8 +234,8 @@ public:
     /// False, and nothing is written, if it would have too many bytes.
     bool append(const Key &lower, const Key &upper, const LooseSimplex<D> *simplices,
                 std::size_t n);
-    /// Simplices that a block takes.
-    std::uint32_t capacity() const { return capacity_; }
+    /// Simplices that a block takes, if nothing else is known of it.
+    std::uint32_t capacity() const { return capacity_.usual(); }
 
     const Host &host() const { return host_; }
     void poll() const { host_.poll(); }
@@ -256,8 +257,6 @@ private:
     void free_block(BlockIndex b);
     BlockIndex cached_owner(const Key &key) const;
     BlockIndex place_elsewhere(std::uint64_t code);
-    /// What a page took; one not yet stored tells as much.
-    void learn_size(std::uint32_t simplices, double page_bytes);
     Handle closest_of_some(BlockIndex b, const Point<D> &p) const;
     Handle take_slot(BlockIndex b) {
         Block &block = blocks_[b];
@@ -325,7 +324,7 @@ private:
     /// How many simplices the block may take from its neighbours.
     std::size_t room_to_pack(BlockIndex b) const;
     /// Whether the block is new, or has won or lost more simplices since it was loaded than a
-    /// point or two bring with them.
+    /// few points bring with them.
     bool has_changed_much(BlockIndex b) const;
     /// Before so many simplices move from one block to another.
     void share_settled(BlockIndex from, BlockIndex to, std::size_t moving);
@@ -395,10 +394,7 @@ private:
     const Host &host_;
     Domain<D> domain_;
     CacheOptions options_;
-    std::uint32_t capacity_; // simplices a block takes before it is split
-    double simplex_bytes_ = 0; // in the pages made lately: capacity_ follows from it
-    unsigned learned_ = 0;
-    bool guesses_size_ = true; // no page that tells it has been loaded
+    PageCapacity<D> capacity_;
     unsigned full_blocks_ = 0; // so far
 
     Arena<Block> blocks_;

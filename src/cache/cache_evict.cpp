@@ -263,8 +263,7 @@ template <int D> bool Cache<D>::encode(BlockIndex b) {
     }
     const bool fits = writer_.finish(blocks_[b].lower, blocks_[b].upper, vertices_, numbered_,
                                      on_border_.data());
-    learn_size(static_cast<std::uint32_t>(writer_.simplices()),
-               static_cast<double>(writer_.size()));
+    blocks_[b].capacity = capacity_.learn(blocks_[b].count, writer_.size());
     return fits;
 }
 

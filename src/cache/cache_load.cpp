@@ -72,12 +72,7 @@ template <int D> BlockIndex Cache<D>::load(const abacus_page &page) {
     block.own(view_.lower(), view_.upper());
     block.location = page.location;
     block.count = block.high_water = block.settled = static_cast<std::uint16_t>(view_.simplices());
-    // Small ones are mostly border, and say little of full ones. The first of the others says
-    // more than what was guessed.
-    if (page.size > ABACUS_PAGE_BYTES / 2) {
-        if (std::exchange(guesses_size_, false)) learned_ = 0;
-        learn_size(block.count, static_cast<double>(page.size));
-    }
+    block.capacity = capacity_.learn(block.count, page.size);
     directory_.insert(block.lower, b);
 
     const Handle first = b * block_slots<D>;

@@ -4,6 +4,7 @@
 
 #include "host/processor_cache.hpp"
 
+#include <bit>
 #include <utility>
 
 namespace abacus {
@@ -18,18 +19,18 @@ namespace abacus {
 //
 //   Otherwise the block is cut at the median key.
 //
-// That is for points that come close together. Where only one or two of them meet a block
-// that was stored, others will come another time, anywhere in it: it is cut at the median,
-// and its halves are left as they are, room for more. For the same reason neighbours take
-// no more from one another than leaves a little room: else the first change of a page
-// would always cut it.
+// That is for points that come close together. Where few of them meet a block that was
+// stored, others will come another time, anywhere in it: it is cut at the median, and its
+// halves are left as they are, room for more. For the same reason neighbours take no more
+// from one another than leaves a little room: else the first change of a page would always
+// cut it. What such changes leave hardly filled is merged when it is sparse.
 namespace {
 constexpr double sequential_from = 0.5;
 constexpr unsigned measured_each = 32; // full blocks
-constexpr double sparse = 0.5;
 // Of a full block:
 constexpr double packed = 0.95;
-constexpr double much = 1.0 / 64;
+constexpr double sparse = 0.6;
+constexpr double much = 1.0 / 12;
 constexpr double least_move = 1.0 / 16;
 // Where a block is cut.
 constexpr int histogram_bits = 8;
@@ -46,7 +47,7 @@ template <int D> void Cache<D>::settle_limbo(std::uint64_t code) {
             const Key key = this->key(slots_[h]);
             BlockIndex home = owner(key);
             if (home == no_block) throw_corrupted("No page owns a part of the curve.");
-            while (blocks_[home].count >= capacity_) {
+            while (blocks_[home].is_full()) {
                 make_room(home, code);
                 home = cached_owner(key);
             }
@@ -129,10 +130,10 @@ template <int D> std::size_t Cache<D>::cut_near(std::size_t wanted) {
 
 template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
     // A page is made now and then only to see how large it is, so that much is known before
-    // the first is written.
-    if (full_blocks_++ % measured_each == 0) {
+    // the first is written; more often while little is known.
+    if (std::has_single_bit(++full_blocks_) || full_blocks_ % measured_each == 0) {
         encode(b);
-        if (blocks_[b].count < capacity_) return;
+        if (!blocks_[b].is_full()) return;
     }
     collect_places(b);
     const auto is_behind = [&](const Place &p) { return p.key.code < code; };
@@ -150,12 +151,12 @@ template <int D> bool Cache<D>::lend(BlockIndex b, std::size_t most) {
     const BlockIndex before = directory_.before(blocks_[b].lower);
     if (before == no_block || !blocks_[before].dirty || !is_followed_by(before, b)) return false;
     const std::size_t room = room_to_pack(before);
-    return room >= least_move * capacity_ && draw(before, b, std::min(room, most));
+    return room >= least_move * blocks_[b].capacity && draw(before, b, std::min(room, most));
 }
 
 template <int D> bool Cache<D>::dissolve(BlockIndex b) {
     // What is stored is only touched where it is written anyway and has lost much.
-    const bool is_sparse = blocks_[b].count < sparse * capacity_;
+    const bool is_sparse = blocks_[b].count < sparse * blocks_[b].capacity;
     if (blocks_[b].has_parts() || !blocks_[b].dirty || (blocks_[b].location != 0 && !is_sparse))
         return false;
     const Key lower = blocks_[b].lower, upper = blocks_[b].upper;
@@ -212,19 +213,19 @@ template <int D> void Cache<D>::fill_up(BlockIndex b, bool only_leaving) {
         !is_followed_by(b, next) || (only_leaving && !blocks_[next].leaving))
         return;
     const std::size_t room = room_to_pack(b);
-    if (room < least_move * capacity_ && room < blocks_[next].count) return; // not worth it
+    if (room < least_move * blocks_[b].capacity && room < blocks_[next].count) return; // not worth it
     collect_places(next);
     draw(b, next, room);
 }
 
 template <int D> std::size_t Cache<D>::room_to_pack(BlockIndex b) const {
-    const auto full = static_cast<std::uint32_t>(packed * capacity_);
-    return full - std::min(full, blocks_[b].count);
+    const auto full = static_cast<std::uint32_t>(packed * blocks_[b].capacity);
+    return full - std::min<std::uint32_t>(full, blocks_[b].count);
 }
 
 template <int D> bool Cache<D>::has_changed_much(BlockIndex b) const {
     const int settled = blocks_[b].settled, change = static_cast<int>(blocks_[b].count) - settled;
-    return settled == 0 || std::abs(change) >= much * capacity_;
+    return settled == 0 || std::abs(change) >= much * blocks_[b].capacity;
 }
 
 template <int D>
@@ -281,6 +282,7 @@ BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t cut, const Key &border) 
     blocks_[right].own(border, left.upper);
     blocks_[right].dirty = true;
     blocks_[right].leaving = left.leaving;
+    if (left.settled != 0) blocks_[right].capacity = left.capacity;
     blocks_[right].used_at = left.used_at;
     left.own(left.lower, border);
     left.dirty = true;

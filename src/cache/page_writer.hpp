@@ -42,7 +42,6 @@ public:
                 const Numbering &numbered, const bool *on_border);
 
     const unsigned char *bytes() const { return page_; }
-    std::size_t simplices() const { return simplices_; }
     /// Bytes of the page; also of one that has too many.
     std::size_t size() const { return size_; }
 

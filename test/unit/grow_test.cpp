@@ -120,6 +120,26 @@ TYPED_TEST(Grow, ExchangedPointsLeaveThePagesFull) {
     }
 }
 
+// A page that is filled up from the next one, and cut at the next change, is written twice for
+// nothing.
+TYPED_TEST(Grow, ExchangedPointsCutFewPages) {
+    constexpr auto many = TestFixture::many;
+    constexpr std::size_t some = many / 20, rounds = 24;
+    const auto points = this->uniform(many + rounds * some, 2);
+    MeshOf<TestFixture::D> mesh(0, TestFixture::ample);
+    ASSERT_EQ(mesh.insert(this->part(points, 0, many)), ABACUS_OK);
+    const auto pages = mesh.host.pages.size();
+    mesh.header.counters = {};
+    for (std::size_t i = 0; i < rounds; ++i) {
+        std::uint64_t deleted = 0;
+        ASSERT_EQ(mesh.remove(this->part(points, i * some, (i + 1) * some), deleted), ABACUS_OK);
+        ASSERT_EQ(mesh.insert(this->part(points, many + i * some, many + (i + 1) * some)),
+                  ABACUS_OK);
+    }
+    // Each round deletes a twentieth of the points all over, and inserts as many.
+    EXPECT_LE(mesh.header.counters.splits, rounds / 8 * pages);
+}
+
 TYPED_TEST(Grow, OnlyAMeshWhereThePointsAreStandsIn) {
     constexpr int D = TypeParam::value;
     MeshOf<D> mesh;
