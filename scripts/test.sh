@@ -93,8 +93,8 @@ tap_tests() {
         PERL5OPT=-Msigtrap=die,INT,TERM prove -j "$ABACUS_JOBS" -I "$sources/test/perl" "$tap_folder"/*.pl
 }
 
-# A second line of suites beside the others: TAP tests mostly wait, for servers to start, to crash
-# and to recover, and few suites use more than one processor. It is a process group, which ends with
+# A second line of suites, those that need a server, beside all that is sanitized: servers mostly wait,
+# and few of the suites use more than one processor. It is a process group, which ends with
 # this script. A small file system of its own is a full disk soon; where it cannot be mounted, that
 # test is skipped.
 second_line_begin() {
@@ -114,10 +114,18 @@ second_line_begin() {
     trap 'kill -INT -- "-$second"; second_line_end; cluster_stop' EXIT
 }
 
+second_suites=10
 second_line() {
-    trap 'exit 3' INT # with none of what is left
+    trap 'exit "$second_suites"' INT # with none of what is left
     passed=0 failed=0
+    suite "pg_regress" regression_tests
+    suite "pgTAP" pgtap_tests
+    suite "documentation examples" documentation_examples
     suite "TAP" tap_tests
+    suite "acceptance quick" scripts/acceptance.sh quick
+    suite "acceptance goose" scripts/acceptance.sh goose
+    suite "model test" scripts/model_test.sh -t 30
+    suite "benchmark reports" python3 -m unittest discover -s test/suite -p '*_test.py'
     suite "bench smoke" scripts/bench.sh smoke
     suite "evaluation smoke" scripts/evaluation.sh smoke
     exit "$failed"
@@ -126,10 +134,10 @@ second_line() {
 # Waits for them, and counts them: it ends with the number of those that failed, broken off with
 # that of all.
 second_line_end() {
-    local suites=3 lost=0
+    local lost=0
     wait "$second" || lost=$?
-    if ((lost > suites)); then lost=$suites; fi
-    passed=$((passed + suites - lost)) failed=$((failed + lost))
+    if ((lost > second_suites)); then lost=$second_suites; fi
+    passed=$((passed + second_suites - lost)) failed=$((failed + lost))
     if [[ -n ${tap_disk:-} ]]; then as_root umount -l "$tap_disk"; fi
     trap cluster_stop EXIT
 }
@@ -141,22 +149,15 @@ documentation_examples() {
 scripts/install-dependencies.sh test || fail "packages are missing"
 export ABACUS_BUILT=1 # tells the scripts below that all is built and installed
 suite "build" build_release
-suite "build sanitized" build_sanitized
-suite "build fuzz targets" build_fuzz
 suite "build extension" install_extension
-suite "unit tests" unit_tests build/release
-suite "unit tests sanitized" unit_tests build/sanitize
-suite "fuzz" fuzz
 
 cluster_start test
 second_line_begin
-suite "pg_regress" regression_tests
-suite "pgTAP" pgtap_tests
-suite "documentation examples" documentation_examples
-suite "acceptance quick" scripts/acceptance.sh quick
-suite "acceptance goose" scripts/acceptance.sh goose
-suite "model test" scripts/model_test.sh -t 30
-suite "benchmark reports" python3 -m unittest discover -s test/suite -p '*_test.py'
+suite "build sanitized" build_sanitized
+suite "build fuzz targets" build_fuzz
+suite "unit tests" unit_tests build/release
+suite "unit tests sanitized" unit_tests build/sanitize
+suite "fuzz" fuzz
 second_line_end
 
 echo "$passed passed, $failed failed"
