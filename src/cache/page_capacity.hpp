@@ -42,8 +42,9 @@ private:
     static constexpr double room = ABACUS_PAGE_BYTES - overhead;
     /// Of what would fit: pages differ, and one that turns out too large has to be split.
     static constexpr double margin = 0.97;
-    /// The fewer simplices, the more of them lie on the border, where they take more bytes: those
-    /// of pages grow with this power of the simplices **(m)**.
+    /// The fewer simplices, the more of them lie on the border, where they take more bytes. So a
+    /// page's bytes grow with this power of its simplices: of pages with 100 to 770 of them, in
+    /// meshes of uniform points that came and went.
     static constexpr double growth = D == 2 ? 0.93 : 0.78;
     static constexpr double most_known = 8; // pages
 
