@@ -41,7 +41,8 @@ ABACUS_API void abacus_stage_close(abacus_stage *stage);
 
 typedef struct abacus_build abacus_build;
 
-/* Opens a mesh for inserting, with a computational cache of `cache_bytes`. */
+/* Opens a mesh for inserting, with a computational cache of `cache_bytes`. Its domain is that of the
+ * header now: for the first points abacus_stage_end() comes before. */
 ABACUS_API abacus_status abacus_build_open(const abacus_host *host, const abacus_header *header,
 										   size_t cache_bytes, abacus_build **build,
 										   abacus_error *error);

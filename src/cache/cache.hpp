@@ -326,8 +326,8 @@ private:
     /// Whether the block is new, or has won or lost more simplices since it was loaded than a
     /// few points bring with them.
     bool has_changed_much(BlockIndex b) const;
-    /// Before so many simplices move from one block to another.
-    void share_settled(BlockIndex from, BlockIndex to, std::size_t moving);
+    /// Before so many simplices, of all that are left there, move from one block to another.
+    void share_settled(BlockIndex from, BlockIndex to, std::size_t moving, std::size_t all);
     /// Whether the second block continues the first one, and is to be written as well.
     bool is_followed_by(BlockIndex b, BlockIndex next) const;
     /// Moves at most so many simplices, those with the least keys, from the next block, whose

@@ -46,11 +46,11 @@ template <int D> void Cache<D>::settle_limbo(std::uint64_t code) {
             if (slots_[h].is_free()) continue;
             const Key key = this->key(slots_[h]);
             BlockIndex home = owner(key);
-            if (home == no_block) throw_corrupted("No page owns a part of the curve.");
-            while (blocks_[home].is_full()) {
+            while (home != no_block && blocks_[home].is_full()) {
                 make_room(home, code);
                 home = cached_owner(key);
             }
+            if (home == no_block) throw_corrupted("No page owns a part of the curve.");
             move(h, home);
         }
     }
@@ -89,6 +89,11 @@ template <int D> void Cache<D>::collect_places(BlockIndex b) {
     // Parts are dear to compute and rarely matter: only inside one code.
     if (least == greatest || blocks_[b].has_parts())
         for (Place &place : places_) place.key.part = part(slots_[place.handle]);
+    // A page may have been forged, and it is borders between these keys that blocks are cut at.
+    if (blocks_[b].surely_owns(least) && blocks_[b].surely_owns(greatest)) return;
+    for (const Place &place : places_)
+        if (!blocks_[b].owns(place.key))
+            throw_corrupted("A simplex lies in a page that does not own its key.");
 }
 
 template <int D> std::size_t Cache<D>::cut_below(std::size_t wanted) {
@@ -184,8 +189,8 @@ template <int D> bool Cache<D>::dissolve(BlockIndex b) {
     // Their age stays: they are no more in use than before.
     const std::uint64_t left_used = to_left ? blocks_[left].used_at : 0;
     const std::uint64_t right_used = to_right ? blocks_[right].used_at : 0;
-    if (to_left) share_settled(b, left, cut);
-    if (to_right) share_settled(b, right, n - cut);
+    if (to_left) share_settled(b, left, cut, n);
+    if (to_right) share_settled(b, right, n - cut, n - cut);
     for (std::size_t i = 0; i < n; ++i) move(places_[i].handle, i < cut ? left : right);
     directory_.erase(lower);
     if (to_left) {
@@ -229,12 +234,14 @@ template <int D> bool Cache<D>::has_changed_much(BlockIndex b) const {
 }
 
 template <int D>
-void Cache<D>::share_settled(BlockIndex from, BlockIndex to, std::size_t moving) {
+void Cache<D>::share_settled(BlockIndex from, BlockIndex to, std::size_t moving,
+                             std::size_t all) {
     if (moving == 0) return;
-    const auto share =
-        static_cast<std::uint16_t>(blocks_[from].settled * moving / blocks_[from].count);
-    blocks_[from].settled -= share;
-    blocks_[to].settled += share;
+    const std::size_t share = blocks_[from].settled * moving / all;
+    blocks_[from].settled = static_cast<std::uint16_t>(blocks_[from].settled - share);
+    // Of many blocks that became one there may be more than it has room to tell.
+    blocks_[to].settled =
+        static_cast<std::uint16_t>(std::min<std::size_t>(blocks_[to].settled + share, 0xffff));
 }
 
 template <int D> bool Cache<D>::is_followed_by(BlockIndex b, BlockIndex next) const {
@@ -250,7 +257,7 @@ template <int D> bool Cache<D>::draw(BlockIndex b, BlockIndex next, std::size_t 
     const std::uint64_t used = blocks_[b].used_at, next_used = blocks_[next].used_at;
     const bool is_whole = cut == places_.size();
     const Key moved = is_whole ? upper : places_[cut].key;
-    share_settled(next, b, cut);
+    share_settled(next, b, cut, places_.size());
     for (std::size_t i = 0; i < cut; ++i) move(places_[i].handle, b);
     directory_.erase(border);
     erase_page(next); // it has another key now
@@ -287,7 +294,7 @@ BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t cut, const Key &border) 
     left.own(left.lower, border);
     left.dirty = true;
     directory_.insert(border, right);
-    share_settled(b, right, places_.size() - cut);
+    share_settled(b, right, places_.size() - cut, places_.size());
     for (std::size_t i = cut; i < places_.size(); ++i) move(places_[i].handle, right);
     return right;
 }

@@ -276,8 +276,9 @@ template <int D> void PageWriter<D>::write(const Key &lower, const Key &upper) {
     header.upper = upper;
     std::memcpy(page_, &header, sizeof header);
     unsigned char *at = page_ + sizeof header;
-    std::memcpy(at, patches_.data(), patches_.size() * sizeof(PagePatch<D>));
-    at += patches_.size() * sizeof(PagePatch<D>);
+    const std::size_t patches = patches_.size() * sizeof(PagePatch<D>);
+    if (patches != 0) std::memcpy(at, patches_.data(), patches); // else there may be no data()
+    at += patches;
     for (const ColumnPlan &plan : plans_) at = plan.write_head(at);
     at = foreign_plan_.write_head(at);
     at = parts_plan_.write_head(at);

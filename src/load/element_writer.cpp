@@ -10,16 +10,16 @@ ElementWriter<D>::ElementWriter(const Host &host, const LoadLayout<D> &layout, c
     : host_(host), layout_(layout), linked_ghosts_(linked_ghosts),
       cache_(host_, domain, static_cast<int>(attributes),
              CacheOptions{.linked_ghosts = linked_ghosts}),
-      capacity_(cache_.capacity()), crowded_(host), waiting_(host), loose_(host) {}
+      least_capacity_(cache_.capacity()), crowded_(host), waiting_(host), loose_(host) {}
 
 template <int D> void ElementWriter<D>::write(RecordSort &elements, Pacer &pacer) {
     find_crowded(elements);
     elements.rewind();
-    waiting_.resize((capacity_ + 1) * layout_.element);
+    waiting_.resize((block_slots<D> + 1) * layout_.element);
     std::uint64_t done = 0;
     while (const Word *record = elements.next()) {
         std::copy_n(record, layout_.element, waiting_.data() + count_++ * layout_.element);
-        if (count_ > capacity_) {
+        if (count_ > capacity()) {
             write_page(false);
             pacer.reached(done, {0, cache_.counters.stores});
         }
@@ -34,7 +34,7 @@ template <int D> void ElementWriter<D>::find_crowded(RecordSort &elements) {
     while (const Word *record = elements.next()) {
         n = record[0] == code ? n + 1 : 1;
         code = record[0];
-        if (n == capacity_ / 2) crowded_.push_back(code);
+        if (n == least_capacity_ / 2) crowded_.push_back(code);
     }
 }
 
@@ -54,7 +54,7 @@ template <int D> std::size_t ElementWriter<D>::cut(std::size_t most) const {
 }
 
 template <int D> void ElementWriter<D>::write_page(bool last) {
-    for (std::size_t most = last ? count_ : capacity_;; most = most * 3 / 4) {
+    for (std::size_t most = last ? count_ : capacity();; most = most * 3 / 4) {
         const bool all = last && most == count_;
         const std::size_t n = all ? count_ : cut(std::max<std::size_t>(most, 1));
         Key upper = end_key;

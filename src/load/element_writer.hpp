@@ -13,6 +13,8 @@
 
 #include <abacus/header.h>
 
+#include <algorithm>
+
 namespace abacus {
 
 template <int D> class ElementWriter {
@@ -27,6 +29,11 @@ public:
 private:
     void find_crowded(RecordSort &elements);
     bool is_crowded(std::uint64_t code) const;
+    /// Elements of a page. Only more than at first: a code that is not crowded must leave a
+    /// change of code where a page is cut.
+    std::size_t capacity() const {
+        return std::max<std::size_t>(least_capacity_, cache_.capacity());
+    }
     const Word *element(std::size_t i) const { return waiting_.data() + i * layout_.element; }
     Key key(std::size_t i) const { return {element(i)[0], element(i)[1]}; }
     std::size_t cut(std::size_t most) const;
@@ -36,11 +43,11 @@ private:
     const LoadLayout<D> layout_;
     const bool linked_ghosts_;
     Cache<D> cache_;
-    std::size_t capacity_;          // elements of a page
-    Arena<std::uint64_t> crowded_;  // codes of many elements, ascending
-    Arena<Word> waiting_;           // elements not written yet
+    const std::size_t least_capacity_; // elements of a page, before any is made
+    Arena<std::uint64_t> crowded_;     // codes of many elements, ascending
+    Arena<Word> waiting_;              // elements not written yet
     std::size_t count_ = 0;
-    Arena<LooseSimplex<D>> loose_;  // those of the page at hand
+    Arena<LooseSimplex<D>> loose_; // those of the page at hand
     Key lower_ = first_key;
 };
 

@@ -138,6 +138,67 @@ TEST(Cache, TellsALinkToTheWrongPlaceFromAMissingOne) {
     EXPECT_EQ(open.error.kind, ABACUS_ERROR_CORRUPTED);
 }
 
+/// Moves the border between two pages that follow one another up among the keys of the second, whose
+/// simplices stay where they are; and returns a point for each of them that its page still owns.
+std::vector<Input> forge_border(Mesh &mesh, const abacus_key &first, const abacus_key &second) {
+    MemoryHost::Pages &pages = mesh.host.pages;
+    PageEditor before(pages.at(first), mesh.header), page(pages.at(second), mesh.header);
+    std::vector<std::uint64_t> codes;
+    for (const auto &simplex : page.simplices) {
+        codes.push_back(0);
+        for (const int v : simplex)
+            if (v != PageEditor::infinity)
+                codes.back() = std::max(codes.back(), page.domain.code(page.points[v]));
+    }
+    std::vector<std::uint64_t> sorted = codes;
+    std::sort(sorted.begin(), sorted.end());
+    before.upper = page.lower = {sorted[sorted.size() * 7 / 10], 0};
+    MemoryHost::Page forged[2];
+    before.write(forged[0]);
+    page.write(forged[1]);
+    const abacus_host *const host = mesh.host.table();
+    const auto put = [&](const Key &key, MemoryHost::Page &forgery, std::uint64_t location) {
+        abacus_page stored{key, forgery.bytes(), forgery.size, location};
+        EXPECT_EQ(host->put(host->context, ABACUS_SIMPLEX_PAGES, &stored), 0);
+    };
+    const abacus_page old{second, nullptr, 0, pages.at(second).location};
+    EXPECT_EQ(host->erase(host->context, ABACUS_SIMPLEX_PAGES, &old), 0);
+    put(first, forged[0], pages.at(first).location);
+    put(page.lower, forged[1], 0);
+
+    std::vector<Input> inside;
+    for (std::size_t s = 0; s < codes.size(); ++s) {
+        if (page.is_ghost(static_cast<int>(s)) || codes[s] < page.lower.code) continue;
+        Point<2> middle{};
+        for (const int v : page.simplices[s])
+            for (int i = 0; i < 2; ++i) middle[i] += page.points[v][i] / 3;
+        const Key key{page.domain.code(middle), 0};
+        if (page.lower <= key && key < page.upper)
+            inside.push_back({100000 + static_cast<std::int64_t>(s), middle});
+    }
+    return inside;
+}
+
+TEST(Cache, CutsNoPageWhoseSimplicesLieOutsideOfIt) {
+    Mesh mesh(0, ample);
+    ASSERT_EQ(mesh.insert(number(unit_square_points(6000, 1))), ABACUS_OK);
+    std::vector<abacus_key> keys;
+    for (const auto &[key, page] : mesh.host.pages) keys.push_back(key);
+    int forged = 0;
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+        if (mesh.host.pages.at(keys[i]).size < 0.85 * ABACUS_PAGE_BYTES) continue;
+        Mesh other(0, ample);
+        other.header = mesh.header;
+        other.host.restore(mesh.host);
+        const auto more = forge_border(other, keys[i - 1], keys[i]);
+        EXPECT_EQ(other.insert(more), ABACUS_ERROR);
+        EXPECT_EQ(other.error.kind, ABACUS_ERROR_CORRUPTED);
+        EXPECT_EQ(other.host.bytes, 0u);
+        ++forged;
+    }
+    EXPECT_GT(forged, 3);
+}
+
 TEST(Cache, SplitsACodeIntoParts) {
     // Clusters far below the resolution of the codes, more than a page at each.
     Random random(6);

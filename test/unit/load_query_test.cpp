@@ -140,7 +140,8 @@ TYPED_TEST(LoadQuery, WalksAcrossEveryFacet) {
 
 TYPED_TEST(LoadQuery, BoxesOfPagesMayStandForSeveral) {
     constexpr int D = TestFixture::D;
-    const auto full = delaunay<D>(grid<D>(D == 2 ? 90 : 16));
+    constexpr int side = D == 2 ? 110 : 18;
+    const auto full = delaunay<D>(grid<D>(side));
     const auto t = keeping<D>(full, [](const auto &c) { return static_cast<int>(c[0]) % 2 == 0; });
     MeshOf<D> mesh(0);
     ASSERT_EQ(mesh.load(t.vertices, t.simplices), ABACUS_OK) << mesh.error.message;
@@ -149,7 +150,7 @@ TYPED_TEST(LoadQuery, BoxesOfPagesMayStandForSeveral) {
     std::mt19937_64 random(41);
     for (int i = 0; i < 200; ++i) {
         Point<D> p;
-        for (double &x : p) x = static_cast<double>(random() % (D == 2 ? 8900 : 1500)) / 100;
+        for (double &x : p) x = static_cast<double>(random() % (100 * (side - 1))) / 100;
         abacus_simplex found;
         const bool filled = static_cast<int>(p[0]) % 2 == 0 || p[0] == std::floor(p[0]);
         ASSERT_EQ(open.locate(p, found), filled ? ABACUS_OK : ABACUS_END);

@@ -90,6 +90,15 @@ TYPED_TEST(Load, DelaunayTriangulationsBecomeFullMeshes) {
         }
 }
 
+TYPED_TEST(Load, PagesAreWellFilled) {
+    constexpr int D = TestFixture::D;
+    MeshOf<D> mesh;
+    expect_loads<D>(mesh, delaunay<D>(random_points<D>(D == 2 ? 15000 : 3000, 5)), true);
+    std::size_t bytes = 0;
+    for (const auto &[key, page] : mesh.host.pages) bytes += page.size;
+    EXPECT_GT(bytes, mesh.host.pages.size() * ABACUS_PAGE_BYTES * 75 / 100);
+}
+
 TYPED_TEST(Load, OtherTriangulationsAreMarked) {
     constexpr int D = TestFixture::D;
     auto t = delaunay<D>(random_points<D>(1500, 4));

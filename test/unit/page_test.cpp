@@ -287,6 +287,21 @@ TEST_F(Square, OfAnotherFormatVersionIsToldApart) {
     EXPECT_EQ(detail, "A simplex page has format version 1, not 3.");
 }
 
+TEST(Pages, WithoutSimplicesAreWrittenToo) {
+    MemoryHost memory;
+    const Host host = memory.host();
+    VertexHeap<2> vertices(host, 0);
+    VertexHeap<2>::Numbering numbered(host);
+    Arena<Link> border(host);
+    PageWriter<2> writer(host); // that has not made any page before
+    writer.order(nullptr, 0, 0, vertices, numbered, border);
+    ASSERT_TRUE(writer.finish({5, 6}, {7, 8}, vertices, numbered, nullptr));
+    PageView<2> view;
+    view.read(writer.bytes(), writer.size(), 0);
+    EXPECT_EQ(view.simplices(), 0);
+    EXPECT_TRUE((view.lower() == Key{5, 6}));
+}
+
 TEST(Pages, AreWellFilled) {
     // Enough for the core to learn how much fits into a page.
     Mesh mesh(0, std::size_t(64) << 20);
