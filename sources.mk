@@ -79,6 +79,7 @@ PG_SOURCES += src/pg/fn_track.c
 PG_SOURCES += src/pg/fn_locate.c
 PG_SOURCES += src/pg/fn_places.c
 PG_SOURCES += src/pg/fn_sets.c
+PG_SOURCES += src/pg/fn_estimate.c
 PG_SOURCES += src/pg/fn_check.c
 PG_SOURCES += src/pg/fn_stats.c
 PG_SOURCES += src/pg/fn_draw.c

@@ -40,12 +40,22 @@ LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_walk(regclass, abacus_simplex, integer) IS
     'the neighbour of a simplex across its facet opposite vertex i; NULL at the boundary of the mesh';
 
+CREATE FUNCTION abacus_simplices_rows(internal) RETURNS internal
+AS 'MODULE_PATHNAME', 'abacus_sql_simplices_rows'
+LANGUAGE C STRICT;
+COMMENT ON FUNCTION abacus_simplices_rows(internal) IS 'planner support of abacus_simplices';
+
 CREATE FUNCTION abacus_simplices(mesh regclass)
 RETURNS SETOF abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_simplices'
-LANGUAGE C STABLE STRICT PARALLEL SAFE ROWS 100000;
+LANGUAGE C STABLE STRICT PARALLEL SAFE ROWS 100000 SUPPORT abacus_simplices_rows;
 COMMENT ON FUNCTION abacus_simplices(regclass) IS
     'all simplices, page by page along the curve';
+
+CREATE FUNCTION abacus_vertices_rows(internal) RETURNS internal
+AS 'MODULE_PATHNAME', 'abacus_sql_vertices_rows'
+LANGUAGE C STRICT;
+COMMENT ON FUNCTION abacus_vertices_rows(internal) IS 'planner support of abacus_vertices';
 
 CREATE FUNCTION abacus_vertices(
     mesh regclass,
@@ -58,6 +68,6 @@ CREATE FUNCTION abacus_vertices(
     OUT vertex bigint)
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_vertices'
-LANGUAGE C STABLE STRICT PARALLEL SAFE ROWS 100000;
+LANGUAGE C STABLE STRICT PARALLEL SAFE ROWS 100000 SUPPORT abacus_vertices_rows;
 COMMENT ON FUNCTION abacus_vertices(regclass) IS
     'all points; vertex is the id of the vertex that stands for the point, its own unless an equal point came first; of points that wait to be inserted it is NULL, and sequence says when they will be';

@@ -41,6 +41,8 @@ INSERT INTO wanted VALUES
     ('abacus_draw', 'mesh regclass, width integer DEFAULT 1024, height integer DEFAULT NULL::integer, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], attribute text DEFAULT NULL::text, edges boolean DEFAULT true, exaggeration double precision DEFAULT 0, max_edge double precision DEFAULT NULL::double precision', 'bytea', 's', false, 's'),
     ('abacus_draw_section', 'mesh regclass, through double precision[], normal double precision[], width integer DEFAULT 1024, height integer DEFAULT NULL::integer, attribute text DEFAULT NULL::text, edges boolean DEFAULT true, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], exaggeration double precision DEFAULT 1, max_edge double precision DEFAULT NULL::double precision', 'bytea', 's', false, 's'),
     ('abacus_goose', 'mesh text, query text, dimension integer DEFAULT 2, OUT name text, OUT value double precision, OUT description text', 'SETOF record', 'v', false, 'u'),
+    ('abacus_simplices_rows', 'internal', 'internal', 'v', true, 'u'),
+    ('abacus_vertices_rows', 'internal', 'internal', 'v', true, 'u'),
     ('abacus_version', '', 'text', 'i', false, 's');
 
 SELECT set_eq(
