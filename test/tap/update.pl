@@ -29,7 +29,7 @@ SELECT classid, objid, pg_describe_object(classid, objid, 0) AS name FROM pg_dep
 WHERE deptype = 'e' AND refobjid = (SELECT oid FROM pg_extension WHERE extname = 'abacus');
 SELECT m.name, obj_description(objid, classid::regclass::name) FROM member m ORDER BY 1;
 SELECT m.name, pg_get_function_arguments(objid), pg_get_function_result(objid), prokind, proisstrict, provolatile,
-	proparallel, procost, prorows, prosecdef, proleakproof, prosrc, probin, proacl, proconfig, prolang
+	proparallel, procost, prorows, prosupport, prosecdef, proleakproof, prosrc, probin, proacl, proconfig, prolang
 FROM member m JOIN pg_proc p ON p.oid = objid AND classid = 'pg_proc'::regclass ORDER BY 1;
 SELECT m.name, typlen, typbyval, typtype, typcategory, typalign, typstorage, typdelim, typacl,
 	typinput, typoutput, typreceive, typsend, typelem::regtype, typbasetype::regtype
