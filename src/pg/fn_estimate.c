@@ -32,7 +32,10 @@ SQL_FUNCTION(abacus_sql_vertices_rows);
 /* Of one that waits to be inserted, without attributes. */
 #define BYTES_PER_WAITING_POINT 32.0
 
-/* Bytes of a table's live pages; negative if there is no such table any more. */
+/*
+ * Bytes of a table's live pages; negative if there is no such table any more. It is not kept
+ * locked, as pg_relation_size() does not: who may not read it should not hold up others.
+ */
 static double
 live_bytes(Oid relid)
 {
@@ -44,7 +47,7 @@ live_bytes(Oid relid)
 	bytes = (double) RelationGetNumberOfBlocks(rel) * BLCKSZ;
 	if (rel->rd_rel->relpages > 0 && rel->rd_rel->reltuples >= 0)
 		bytes *= Min(1.0, (double) rel->rd_rel->reltuples / rel->rd_rel->relpages);
-	relation_close(rel, NoLock);
+	relation_close(rel, AccessShareLock);
 	return bytes;
 }
 
