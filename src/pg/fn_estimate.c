@@ -14,6 +14,7 @@
 #include "postgres.h"
 
 #include "access/relation.h"
+#include "access/xlog.h"
 #include "nodes/nodeFuncs.h"
 #include "nodes/supportnodes.h"
 #include "optimizer/optimizer.h"
@@ -33,20 +34,36 @@ SQL_FUNCTION(abacus_sql_vertices_rows);
 #define BYTES_PER_WAITING_POINT 32.0
 
 /*
- * Bytes of a table's live pages; negative if there is no such table any more. It is not kept
- * locked, as pg_relation_size() does not: who may not read it should not hold up others.
+ * Whether a table has a file here: an unlogged one has none on a standby, and of a temporary
+ * one of another session some pages may never have reached it.
+ */
+static bool
+has_readable_file(Relation rel)
+{
+	if (RELATION_IS_OTHER_TEMP(rel))
+		return false;
+	return RelationIsPermanent(rel) || !RecoveryInProgress();
+}
+
+/*
+ * Bytes of a table's live pages; negative if there is no such table any more or nothing of it
+ * can be read. It is not kept locked, as pg_relation_size() does not: who may not read it
+ * should not hold up others.
  */
 static double
 live_bytes(Oid relid)
 {
 	Relation	rel = OidIsValid(relid) ? try_relation_open(relid, AccessShareLock) : NULL;
-	double		bytes;
+	double		bytes = -1;
 
 	if (rel == NULL)
 		return -1;
-	bytes = (double) RelationGetNumberOfBlocks(rel) * BLCKSZ;
-	if (rel->rd_rel->relpages > 0 && rel->rd_rel->reltuples >= 0)
-		bytes *= Min(1.0, (double) rel->rd_rel->reltuples / rel->rd_rel->relpages);
+	if (has_readable_file(rel))
+	{
+		bytes = (double) RelationGetNumberOfBlocks(rel) * BLCKSZ;
+		if (rel->rd_rel->relpages > 0 && rel->rd_rel->reltuples >= 0)
+			bytes *= Min(1.0, (double) rel->rd_rel->reltuples / rel->rd_rel->relpages);
+	}
 	relation_close(rel, AccessShareLock);
 	return bytes;
 }
