@@ -61,7 +61,12 @@ SELECT fault, damage, a.mesh, a.noticed FROM (VALUES
     ('page', 'UPDATE %1$s SET page = ''''::bytea::abacus_page WHERE code = last(%1$L)'),
     ('page', 'UPDATE %1$s SET page = substr(page::bytea, 1, length(page::bytea) - 8)::abacus_page WHERE code >= 0'),
     ('interval', 'UPDATE %1$s SET code = code + 1 WHERE code = last(%1$L)'),
-    ('interval', 'UPDATE %1$s SET page = (SELECT page FROM %1$s WHERE code = last(%1$L)) WHERE code = 0')
+    ('interval', 'UPDATE %1$s SET page = (SELECT page FROM %1$s WHERE code = last(%1$L)) WHERE code = 0'),
+    ('page', 'UPDATE %1$s SET part = -1 WHERE code = last(%1$L)'),
+    ('interval', 'INSERT INTO %1$s SELECT -1, 1, page FROM %1$s WHERE code = 0'),
+    ('interval', 'INSERT INTO %1$s SELECT -9223372036854775808, 0, page FROM %1$s WHERE code = 0'),
+    ('page', 'ALTER TABLE %1$s ALTER page DROP NOT NULL; UPDATE %1$s SET page = NULL WHERE code = last(%1$L)'),
+    ('header', 'ALTER TABLE %1$s ALTER page DROP NOT NULL; UPDATE %1$s SET page = NULL WHERE code = -1')
 ) AS t (fault, damage), after(damage, fault) AS a;
 BEGIN;
 UPDATE solid SET page = ''::bytea::abacus_page WHERE code = last('solid');

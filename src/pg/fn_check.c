@@ -3,7 +3,8 @@
  *
  * The core verifies everything in the first call and keeps the faults. What
  * keeps it from being asked at all (a header that is missing or cannot be
- * read) is a fault as well, not an error.
+ * read) is a fault as well, not an error; so is a row where the core has no
+ * keys.
  */
 #include "postgres.h"
 
@@ -23,9 +24,20 @@ SQL_FUNCTION(abacus_sql_check);
 typedef struct Checking
 {
 	Host	   *host;
-	bool		header_fault;	/* `fault` is the only one */
+	bool		has_fault;		/* one that the core does not see, and comes first */
 	abacus_fault fault;
+	int64		code;			/* of its row */
 } Checking;
+
+static void
+note_fault(Checking *checking, const char *kind, const int64 *key, const char *message)
+{
+	checking->has_fault = true;
+	checking->code = key[0];
+	checking->fault.kind = kind;
+	checking->fault.key.part = (uint64) key[1];
+	strlcpy(checking->fault.message, message, sizeof(checking->fault.message));
+}
 
 /* Notes a header that is missing or damaged; true if it is sound. */
 static bool
@@ -34,18 +46,42 @@ read_header(Checking *checking, abacus_header *header)
 	Host	   *host = checking->host;
 	StoredPage	row;
 
-	checking->fault.kind = "header";
 	if (!header_find(host, &row))
-		strlcpy(checking->fault.message, "the header row (-1, 0) is missing",
-				sizeof(checking->fault.message));
+		note_fault(checking, "header", header_key, "the header row (-1, 0) is missing");
 	else if (header_try_decode(host, &row, header) != ABACUS_OK)
-		strlcpy(checking->fault.message,
-				host->failure.detail[0] != '\0' ? host->failure.detail : host->failure.message,
-				sizeof(checking->fault.message));
-	else
-		return true;
-	checking->header_fault = true;
-	return false;
+		note_fault(checking, "header", header_key,
+				   host->failure.detail[0] != '\0' ? host->failure.detail : host->failure.message);
+	return !checking->has_fault;
+}
+
+/* Notes the first row besides the header where no page can be. */
+static void
+look_before_pages(Checking *checking)
+{
+	static const int64 least[PAGE_TABLE_KEYS] = {PG_INT64_MIN, PG_INT64_MIN};
+	PageTable  *table = &checking->host->store.simplices;
+	StoredPage	row;
+	bool		found = page_table_next(table, least, &row);
+
+	if (found && memcmp(row.key, header_key, sizeof(header_key)) == 0)
+		found = page_table_next(table, header_key, &row);
+	if (found && row.key[0] < 0)
+		note_fault(checking, "interval", row.key, "A row lies before the beginning of the curve.");
+}
+
+/* Has the core verify everything; it keeps at most so many faults. */
+static void
+check_pages(Checking *checking, Oid mesh, const abacus_header *header, int32 limit)
+{
+	Host	   *host = checking->host;
+	abacus_check *check = NULL;
+
+	header_open_vertices(host, header);
+	progress_begin(&host->progress, mesh);
+	host_run(host, abacus_check_open(&host->table, header, setting_cache_bytes(), limit, &check,
+									 &host->failure));
+	progress_end(&host->progress);
+	host_own(host, check, (void (*) (void *)) abacus_check_close);
 }
 
 static Checking *
@@ -54,21 +90,16 @@ begin_check(Oid mesh, int32 limit, MemoryContext memory)
 	Relation	table = mesh_table_open(mesh, MESH_READ);
 	Checking   *checking = MemoryContextAllocZero(memory, sizeof(Checking));
 	abacus_header header;
-	Host	   *host;
 
-	host = checking->host = host_create(memory, mesh, MESH_READ);
+	checking->host = host_create(memory, mesh, MESH_READ);
 	if (read_header(checking, &header))
 	{
-		abacus_check *check = NULL;
-
-		header_open_vertices(host, &header);
-		progress_begin(&host->progress, mesh);
-		host_run(host, abacus_check_open(&host->table, &header, setting_cache_bytes(), limit, &check,
-										 &host->failure));
-		progress_end(&host->progress);
-		host_own(host, check, (void (*) (void *)) abacus_check_close);
+		look_before_pages(checking);
+		limit -= checking->has_fault;
+		if (limit > 0)
+			check_pages(checking, mesh, &header, limit);
 	}
-	host_release(host);
+	host_release(checking->host);
 	table_close(table, NoLock);
 	return checking;
 }
@@ -77,11 +108,11 @@ begin_check(Oid mesh, int32 limit, MemoryContext memory)
 static bool
 next_fault(Checking *checking, abacus_fault *fault, int64 *code)
 {
-	if (checking->header_fault)
+	if (checking->has_fault)
 	{
 		*fault = checking->fault;
-		*code = -1;
-		checking->header_fault = false;
+		*code = checking->code;
+		checking->has_fault = false;
 		return true;
 	}
 	if (checking->host->handle == NULL ||

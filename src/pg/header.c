@@ -12,7 +12,7 @@
 #include "pg/header.h"
 #include "pg/names.h"
 
-static const int64 header_key[PAGE_TABLE_KEYS] = {-1, 0};
+const int64 header_key[PAGE_TABLE_KEYS] = {-1, 0};
 
 static void
 new_stamp(abacus_header *header)

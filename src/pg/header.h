@@ -7,6 +7,9 @@
 #include "abacus/header.h"
 #include "pg/host.h"
 
+/* Of its row. */
+extern const int64 header_key[PAGE_TABLE_KEYS];
+
 extern void header_insert(Host *host, abacus_header *header);
 extern bool header_find(Host *host, StoredPage *row);
 extern void header_open_vertices(Host *host, const abacus_header *header);

@@ -96,6 +96,6 @@ page_table_fetch(PageTable *table, ItemPointer tid, const unsigned char *bytes, 
 	if (!fetch_where_it_was(table, tid, bytes, size) &&
 		!table_tuple_fetch_row_version(table->heap, tid, GetActiveSnapshot(), table->fetched))
 		return false;
-	stored_page_read(table->heap, table->fetched, page);
+	stored_page_read(table->fetched, page);
 	return true;
 }

@@ -201,7 +201,7 @@ page_table_get(PageTable *table, const int64 *key, StoredPage *page)
 		close_scan(&table->forward);
 		return false;
 	}
-	stored_page_read(table->heap, table->forward.slot, page);
+	stored_page_read(table->forward.slot, page);
 	return true;
 }
 
@@ -217,7 +217,7 @@ page_table_floor(PageTable *table, const int64 *key, StoredPage *page)
 	search(table, &table->floor, &bound, 1);
 	if (!index_getnext_slot(table->floor.scan, BackwardScanDirection, table->floor.slot))
 		return false;
-	stored_page_read(table->heap, table->floor.slot, page);
+	stored_page_read(table->floor.slot, page);
 	return true;
 }
 
@@ -242,7 +242,7 @@ page_table_next(PageTable *table, const int64 *key, StoredPage *page)
 		table->at_key = false;
 		return false;
 	}
-	stored_page_read(table->heap, table->forward.slot, page);
+	stored_page_read(table->forward.slot, page);
 	memcpy(table->forward_key, page->key, sizeof(table->forward_key));
 	table->at_key = true;
 	return true;

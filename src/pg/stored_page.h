@@ -5,7 +5,6 @@
 #define ABACUS_STORED_PAGE_H
 
 #include "executor/tuptable.h"
-#include "utils/rel.h"
 
 #include "pg/page_index.h"
 
@@ -18,6 +17,6 @@ typedef struct StoredPage
 	ItemPointerData tid;
 } StoredPage;
 
-extern void stored_page_read(Relation heap, TupleTableSlot *slot, StoredPage *page);
+extern void stored_page_read(TupleTableSlot *slot, StoredPage *page);
 
 #endif
