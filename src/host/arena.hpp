@@ -2,12 +2,17 @@
 // so that growth is one resize(): for large arrays the C library moves pages,
 // not bytes, and nothing is ever held twice.
 //
+// Memory is asked for as the array fills, some pages at a time (populate.h): neither page by
+// page, by a fault each, nor for all there is room for.
+//
 // It begins with a line of the processor's cache, wherever the host's memory
 // does: so an element of a size that divides a line's is never in two of them.
 #pragma once
 
 #include "host/host.hpp"
 #include "host/processor_cache.hpp"
+
+#include <abacus/populate.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -27,7 +32,8 @@ public:
     Arena(Arena &&other) noexcept
         : host_(other.host_), block_(std::exchange(other.block_, nullptr)),
           data_(std::exchange(other.data_, nullptr)),
-          size_(std::exchange(other.size_, 0)), capacity_(std::exchange(other.capacity_, 0)) {}
+          size_(std::exchange(other.size_, 0)), capacity_(std::exchange(other.capacity_, 0)),
+          ready_(std::exchange(other.ready_, 0)) {}
     ~Arena() { host_->release(block_); }
 
     T &operator[](std::size_t i) { return data_[i]; }
@@ -55,14 +61,14 @@ public:
     }
     /// New elements are uninitialized.
     void resize(std::size_t n) {
-        if (n > capacity_) reserve(std::max(n, capacity_ + capacity_ / 4 + 64));
+        if (n > ready_) [[unlikely]] make_ready(n);
         size_ = n;
     }
     void push_back(T value) { *extend(1) = value; } // by value: it may be an element
     /// Adds n uninitialized elements; returns the first.
     T *extend(std::size_t n) {
-        if (size_ + n > capacity_) [[unlikely]] resize(size_ + n);
-        else size_ += n;
+        if (size_ + n > ready_) [[unlikely]] make_ready(size_ + n);
+        size_ += n;
         return data_ + (size_ - n);
     }
     void pop_back() { --size_; }
@@ -72,10 +78,25 @@ public:
         host_->release(block_);
         block_ = nullptr;
         data_ = nullptr;
-        size_ = capacity_ = 0;
+        size_ = capacity_ = ready_ = 0;
     }
 
 private:
+    /// Elements that get memory at once, in arrays of more; 16 pages of 4 KB.
+    static constexpr std::size_t populated_at_once = (std::size_t{64} << 10) / sizeof(T) + 1;
+
+    /// Room and memory for n elements and some more.
+    void make_ready(std::size_t n) {
+        if (n > capacity_) reserve(std::max(n, capacity_ + capacity_ / 4 + 64));
+        if (capacity_ <= populated_at_once) {
+            ready_ = capacity_;
+            return;
+        }
+        const std::size_t ready = std::min(capacity_, std::max(n, ready_ + populated_at_once));
+        abacus_populate(data_ + ready_, (ready - ready_) * sizeof(T));
+        ready_ = ready;
+    }
+
     /// Bytes from a block's begin to that of a line.
     static std::size_t gap(const char *block) {
         return -reinterpret_cast<std::uintptr_t>(block) % cache_line;
@@ -86,6 +107,7 @@ private:
     T *data_ = nullptr;
     std::size_t size_ = 0;
     std::size_t capacity_ = 0;
+    std::size_t ready_ = 0; // elements that have memory, not only addresses
 };
 
 } // namespace abacus

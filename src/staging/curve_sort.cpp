@@ -9,7 +9,7 @@ template <int D>
 const std::uint64_t *CurveSort<D>::sort(const std::uint64_t *records, std::size_t n,
                                         const Slice<D> &slice, Pacer &pacer) {
     records_ = records;
-    memory_.reserve(2 * n);
+    memory_.resize(2 * n);
     words_ = memory_.data();
     scratch_ = words_ + n;
     pacer.each_piece(n, [&](std::size_t begin, std::size_t end) {

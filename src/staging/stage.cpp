@@ -43,6 +43,7 @@ template <int D> void Stage<D>::copy(const std::uint64_t *points, std::size_t co
     if (needed > buffer_.capacity())
         buffer_.reserve(std::min(room_ * stride_,
                                  std::max({needed, 2 * buffer_.capacity(), std::size_t{16384}})));
+    buffer_.resize(needed);
     std::uint64_t *to = buffer_.data() + buffered_ * stride_;
     for (std::size_t i = 0; i < count; ++i, points += stride_, to += stride_) {
         for (std::size_t word = 0; word < stride_; ++word) to[word] = points[word];

@@ -1,0 +1,37 @@
+/*
+ * populate.h: memory for addresses that are about to be used, many pages at a time.
+ *
+ * Memory comes when an address is first touched: 4 KB, one page fault. On a
+ * virtual machine whose hypervisor takes part in each, a fault was measured to
+ * cost 12 microseconds, of a range asked for at once 0.8 a page; then faults had
+ * been a third of the time of a build of a million points. Linux takes ranges since 5.14
+ * (MADV_POPULATE_WRITE). Where it does not, or has no memory, nothing happens
+ * here, and pages come one by one as ever.
+ */
+#ifndef ABACUS_POPULATE_H
+#define ABACUS_POPULATE_H
+
+#include <errno.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+/* The pages in which these bytes lie; what they hold stays. errno is kept. */
+static inline void
+abacus_populate(const void *begin, size_t size)
+{
+#ifdef MADV_POPULATE_WRITE
+	const uintptr_t page = (uintptr_t) sysconf(_SC_PAGESIZE);
+	const uintptr_t first = (uintptr_t) begin & ~(page - 1);
+	const int kept = errno;
+
+	(void) madvise((void *) first, (uintptr_t) begin + size - first, MADV_POPULATE_WRITE);
+	errno = kept;
+#else
+	(void) begin;
+	(void) size;
+#endif
+}
+
+#endif
