@@ -46,6 +46,7 @@ typedef struct PageTable
 	BlockNumber blocks;			/* of the heap, at least; 0: not known */
 
 	bool		wrote;			/* changes that our snapshot does not see yet */
+	uint64		stored;			/* rows so far */
 	MemoryContext memory;		/* of what is open */
 	struct varlena *datum;		/* writers: room for one page */
 	Superseded *superseded;		/* where replaced rows lie; NULL if nobody asks */

@@ -11,8 +11,12 @@
 #include "access/heapam.h"
 #include "access/xact.h"
 
+#include "pg/buffer_map.h"
 #include "pg/page_table.h"
 #include "pg/page_type.h"
+
+/* Rows from which on a writer is one of very many. */
+#define MANY_ROWS 16
 
 /* Forms the tuple of a row in the current memory context. */
 static HeapTuple
@@ -54,6 +58,15 @@ choose_heap_page(PageTable *table, HeapTuple tuple)
 	return RelationGetTargetBlock(table->heap);
 }
 
+/* After a row has been stored. */
+static void
+note_stored(PageTable *table, const ItemPointerData *tid)
+{
+	table->wrote = true;
+	if (++table->stored > MANY_ROWS)
+		buffer_map_around(table->heap, ItemPointerGetBlockNumber(tid));
+}
+
 /* Adds a row; *tid becomes its place. */
 void
 page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes, size_t size,
@@ -70,7 +83,7 @@ page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes
 	page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self, false);
 	*tid = tuple->t_self;
 	heap_freetuple(tuple);
-	table->wrote = true;
+	note_stored(table, tid);
 }
 
 /* Replaces the row at *tid, which must have this key; *tid becomes its new place. */
@@ -101,7 +114,7 @@ page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes
 		page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self, true);
 	*tid = tuple->t_self;
 	heap_freetuple(tuple);
-	table->wrote = true;
+	note_stored(table, tid);
 }
 
 /* Removes the row at *tid. */

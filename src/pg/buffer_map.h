@@ -1,0 +1,12 @@
+/*
+ * buffer_map.h: shared buffers that come into this process's address space.
+ */
+#ifndef ABACUS_BUFFER_MAP_H
+#define ABACUS_BUFFER_MAP_H
+
+#include "storage/block.h"
+#include "utils/rel.h"
+
+extern void buffer_map_around(Relation heap, BlockNumber block);
+
+#endif
