@@ -217,16 +217,26 @@ public:
     /// follow().
     bool settle(std::uint64_t code) {
         ++clock_;
+        if (code < front_) [[unlikely]] begin_pass();
         front_ = code;
         if (limbo_.empty()) [[likely]] return false;
         settle_limbo(code);
         return true;
     }
     /// Others need some of the memory.
-    void set_budget(std::size_t bytes) { options_.budget = bytes; }
-    /// Evicts while the budget is exceeded. Handles may die: see is_live().
+    void set_budget(std::size_t bytes) {
+        options_.budget = bytes;
+        set_limit();
+    }
+    /// Whether this pass along the curve is the last: what it leaves behind is finished.
+    void expect_last_pass(bool last) {
+        last_pass_ = last;
+        set_limit();
+    }
+    /// Evicts what is beyond the budget, or in the last pass beyond what that needs. Handles may
+    /// die: see is_live().
     void trim() {
-        if (bytes() > options_.budget) [[unlikely]] shrink();
+        if (bytes() > limit_) [[unlikely]] shrink();
     }
     /// Writes every changed block; they stay cached.
     void flush();
@@ -373,6 +383,8 @@ private:
     int octant_level(const Cell<D> &cell) const;
 
     // cache_evict.cpp
+    void begin_pass();
+    void set_limit();
     void shrink();
     void choose_victims(Arena<BlockIndex> &victims);
     void evict(Arena<BlockIndex> &victims);
@@ -410,6 +422,9 @@ private:
     std::array<BlockIndex, 2> at_hand_{no_block, no_block}; // took the last simplices
     std::uint64_t clock_ = 0;       // operations so far, for the replacement
     std::uint64_t front_ = 0;       // code of the last one
+    std::size_t bytes_before_pass_ = 0; // in use when the front began at the curve's beginning
+    bool last_pass_ = false;
+    std::size_t limit_;             // bytes beyond which blocks leave
 
     // Page translation: reused from page to page.
     struct LocalFacet {

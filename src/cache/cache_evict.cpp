@@ -24,13 +24,29 @@ constexpr std::size_t largest_batch = 64; // blocks
 // The window of blocks behind: at least so many, and this share of all, in percent.
 constexpr std::size_t least_window = 512, window_share = 15;
 constexpr std::uint64_t in_use = 1024; // operations since the last use
+// What the last pass is given for itself, in bytes.
+template <int D> constexpr std::size_t last_pass_room = std::size_t{D == 2 ? 16 : 48} << 20;
 } // namespace
+
+template <int D> void Cache<D>::begin_pass() {
+    bytes_before_pass_ = bytes();
+    set_limit();
+}
+
+// Behind the front of the last pass blocks are finished, but for those where the curve comes by
+// again, mostly soon. To keep the others until the end would take new memory all the time,
+// which is slower than that of blocks that have left; and a page is made sooner while its block is
+// still in the processor's cache. What there was before the pass lies ahead, and is all needed.
+template <int D> void Cache<D>::set_limit() {
+    limit_ = options_.budget;
+    if (last_pass_) limit_ = std::min(limit_, bytes_before_pass_ + last_pass_room<D>);
+}
 
 template <int D> void Cache<D>::shrink() {
     counters.peak_bytes = std::max<std::uint64_t>(counters.peak_bytes, bytes());
     Arena<BlockIndex> victims(host_);
     // The last two stay: the next operation starts in one of them.
-    while (bytes() > options_.budget && cached_blocks_ > 2) {
+    while (bytes() > limit_ && cached_blocks_ > 2) {
         choose_victims(victims);
         evict(victims);
         // All may have gone up in their neighbours.

@@ -4,6 +4,7 @@
 #include "cache/stopwatch.hpp"
 #include "delaunay/intake.hpp"
 #include "delaunay/outlet.hpp"
+#include "staging/rounds.hpp"
 
 #include <algorithm>
 
@@ -48,6 +49,8 @@ template <int D> void Build<D>::add(const std::uint64_t *records, std::size_t n)
     std::array<std::uint64_t, 64> codes;
     while (n > 0) {
         const std::size_t some = std::min(n, codes.size());
+        core_->cache.expect_last_pass(
+            !Rounds<D>::is_promoted(record_point<D>(records + (some - 1) * stride)));
         for (std::size_t i = 0; i < some; ++i)
             codes[i] = domain_.code(record_point<D>(records + i * stride));
         for (std::size_t i = 0; i < some; ++i, records += stride) {
@@ -97,6 +100,7 @@ template <int D>
 template <class Change>
 void Build<D>::change(abacus_header &header, Change change) {
     core_->cache.counters = {};
+    core_->cache.expect_last_pass(false);
     header_ = &header;
     std::uint64_t time = 0;
     {

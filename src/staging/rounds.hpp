@@ -39,6 +39,11 @@ public:
     /// Number of rounds.
     unsigned size() const { return size_; }
 
+    /// Whether a point is in any but the last round, if there are several.
+    static bool is_promoted(const Point<D> &p) {
+        return static_cast<double>(hash(p)) < std::ldexp(promotion<D>, 64);
+    }
+
     /// Round of a point with canonical coordinates (no -0.0), 0 to size() - 1.
     unsigned round(const Point<D> &p) const {
         const std::uint64_t draw = hash(p);
