@@ -137,6 +137,8 @@ WANTED = [
           times("abacus", "cgal", 2, "shorelines", SHORELINES)),
     Timed("2D, 1 M uniform: … ÷ PostGIS", 0.05, True,
           times("abacus", "postgis", 2, "uniform", 10**6)),
+    Timed("… ÷ PostGIS to committed and indexed rows", 0.05, True,
+          times("abacus", "postgis_kept", 2, "uniform", 10**6)),
     Timed("3D, 1 M uniform: … ÷ CGAL in core", 0.9, True,
           times("abacus", "cgal", 3, "uniform", 10**6)),
     Timed("3D, quake set of 1 M: … ÷ CGAL in core", 0.9, True,

@@ -1,7 +1,7 @@
 """What is compared: each engine makes the triangulation of a point set once, as a sample.
 
-Abacus is timed from the table of points to the committed mesh, PostGIS from the same table to the
-geometry, which is kept nowhere; the others read a file of the same points and build in core
+Abacus is timed from the table of points to the committed mesh; PostGIS from the same table to the
+geometry, which is kept nowhere, and to committed and indexed rows; the others read a file of the same points and build in core
 (bench/comparators).
 """
 import json
@@ -51,6 +51,8 @@ class Abacus:
 class PostGIS:
     """ST_DelaunayTriangles. Its answer is counted, which takes next to no time."""
 
+    triangles = "ST_DelaunayTriangles(ST_Collect(ST_MakePoint(x, y)))"
+
     def __init__(self):
         self.labels = {"engine": "postgis"}
 
@@ -58,8 +60,7 @@ class PostGIS:
         server.create_extension("postgis")
         server.settle()
         with server.Session() as session:
-            sample = session.timed("SELECT ST_NumGeometries(ST_DelaunayTriangles(ST_Collect("
-                                   "ST_MakePoint(x, y)))) FROM points")
+            sample = session.timed(f"SELECT ST_NumGeometries({self.triangles}) FROM points")
         sample["simplices"] = int(sample.pop("printed"))
         return sample
 
@@ -67,13 +68,39 @@ class PostGIS:
         return {}
 
 
+class KeptPostGIS(PostGIS):
+    """The same, and its triangles are kept, as a mesh is: a row each, with an index to find them by."""
+
+    def __init__(self):
+        self.labels = {"engine": "postgis_kept"}
+
+    def sample(self, points: PointSet):
+        server.create_extension("postgis")
+        server.drop("triangles")
+        server.settle()
+        with server.Session() as session:
+            sample = session.timed("DO $$ BEGIN CREATE TABLE triangles AS"
+                                   f" SELECT (ST_Dump({self.triangles})).geom FROM points;"
+                                   " CREATE INDEX ON triangles USING gist (geom); END $$")
+        del sample["printed"]
+        sample["simplices"] = int(server.query("SELECT count(*) FROM triangles"))
+        self.disk = {"simplices": int(server.query("SELECT pg_table_size('triangles')")),
+                     "index": int(server.query("SELECT pg_indexes_size('triangles')"))}
+        server.drop("triangles")
+        return sample
+
+    def details(self):
+        return {"disk": self.disk}
+
+
 def engine(name, say):
-    """Of a name: cgal, tetgen, qhull, postgis, or abacus:CACHE; None if it is not installed."""
+    """Of a name: cgal, tetgen, qhull, postgis, postgis:kept, or abacus:CACHE; None if it is not
+    installed."""
     if name.startswith("abacus:"):
         return Abacus(name.removeprefix("abacus:"))
-    if name != "postgis":
+    if not name.startswith("postgis"):
         return Program(name)
     if server.has_extension("postgis"):
-        return PostGIS()
+        return KeptPostGIS() if name == "postgis:kept" else PostGIS()
     say("PostGIS is not installed and left out")
     return None

@@ -24,7 +24,7 @@ PARTS = [
     Part("2d", "uniform points in the plane, all engines", 2.5, contests(
         Contest(2, "uniform", {"full": 1000000, "quick": 200000, "smoke": 20000},
                 ("cgal", "abacus:default", "abacus:8", "abacus:64", "abacus:largest", "postgis",
-                 "qhull")))),
+                 "postgis:kept", "qhull")))),
     Part("2d-sets", "clusters and curves, and a grid", 3, contests(
         Contest(2, "curves", {"full": 1000000, "quick": 200000, "smoke": 20000},
                 ("cgal", "abacus:default", "abacus:8", "postgis")),

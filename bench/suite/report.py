@@ -7,7 +7,8 @@ from document import Document, number, points, size, spread, table
 from results import median, ratio
 from results import spread as spread_of
 
-ENGINES = {"cgal": "CGAL", "tetgen": "TetGen", "qhull": "Qhull", "postgis": "PostGIS"}
+ENGINES = {"cgal": "CGAL", "tetgen": "TetGen", "qhull": "Qhull", "postgis": "PostGIS",
+           "postgis_kept": "PostGIS, triangles kept"}
 SETS = {"uniform": "uniform", "curves": "clusters and curves", "grid": "grid",
         "shorelines": "shorelines of the world", "quake": "earthquake model"}
 
