@@ -280,6 +280,17 @@ TEST(Cache, KeepsToItsBudget) {
     }
 }
 
+TEST(Cache, InTheLastRoundFinishedBlocksLeave) {
+    // All would take some 45 MB, the rounds before the last one less than 2.
+    Mesh mesh(0, std::size_t{1} << 30);
+    ASSERT_EQ(mesh.insert(number(unit_square_points(400000, 12))), ABACUS_OK);
+    const abacus_counters &c = mesh.header.counters;
+    EXPECT_LE(c.peak_bytes, 20u << 20);
+    EXPECT_GE(c.peak_bytes, 16u << 20);
+    EXPECT_LE(c.loads, c.stores / 4); // hardly any is needed again
+    EXPECT_EQ(mesh.header.simplices + mesh.header.ghosts, 2 * mesh.header.vertices - 2);
+}
+
 TEST(Cache, CountsWhatItDoes) {
     Mesh mesh(0, 100 << 10);
     // Without vertex pages between: all calls are for simplex pages.

@@ -104,7 +104,10 @@ TYPED_TEST(Staging, RoundsGrowByTheInverseOfThePromotion) {
     const Rounds<D> rounds(n);
     ASSERT_GE(rounds.size(), 2u);
     std::vector<double> size(rounds.size());
-    for (const auto &p : sample) ++size[rounds.round(p)];
+    for (const auto &p : sample) {
+        ++size[rounds.round(p)];
+        ASSERT_EQ(Rounds<D>::is_promoted(p), rounds.round(p) + 1 < rounds.size());
+    }
     double expected = n * (1 - promotion<D>);
     for (std::size_t round = rounds.size(); round-- > 1; expected *= promotion<D>)
         EXPECT_NEAR(size[round], expected, 5 * std::sqrt(expected));
