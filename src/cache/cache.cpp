@@ -8,9 +8,9 @@ Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
                 const CacheOptions &options)
     : host_(host), domain_(domain), options_(options), capacity_(attributes), blocks_(host), slots_(host),
       vertices_(host, attributes), visible_(host), directory_(host), unused_blocks_(host),
-      limbo_(host), places_(host), limit_(options.budget), writer_(host), numbered_(host), on_border_(host), uses_(host),
-      left_(host), border_(host), values_(host), codes_(host), open_(host), facets_(host),
-      chains_(host), hashes_(host), guesses_(host) {
+      limbo_(host), places_(host), limit_(options.budget), writer_(host), numbered_(host),
+      on_border_(host), uses_(host), left_(host), border_(host), values_(host), codes_(host),
+      open_(host), facets_(host), chains_(host), hashes_(host), guesses_(host) {
     values_.resize(static_cast<std::size_t>(attributes));
 }
 
