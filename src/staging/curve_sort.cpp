@@ -9,7 +9,9 @@ template <int D>
 const std::uint64_t *CurveSort<D>::sort(const std::uint64_t *records, std::size_t n,
                                         const Slice<D> &slice, Pacer &pacer) {
     records_ = records;
-    memory_.resize(2 * n);
+    // It may be much: what asks for it all at once cannot be interrupted.
+    memory_.reserve(2 * n);
+    pacer.each_piece(2 * n, [&](std::size_t, std::size_t end) { memory_.resize(end); });
     words_ = memory_.data();
     scratch_ = words_ + n;
     pacer.each_piece(n, [&](std::size_t begin, std::size_t end) {
