@@ -48,7 +48,7 @@ for my $m (@meshes)
 		sql("CALL abacus_build('timed', $m->{batch})");
 		$m->{seconds} = time - $start;
 		sql('DROP TABLE timed');
-		last if $m->{seconds} > 10 * $look || $m->{batch} <= 100;
+		last if $m->{seconds} > 20 * $look || $m->{batch} <= 100;
 		$m->{batch} /= 2;
 	}
 }
