@@ -1,8 +1,8 @@
 """What is compared: each engine makes the triangulation of a point set once, as a sample.
 
 Abacus is timed from the table of points to the committed mesh; PostGIS from the same table to the
-geometry, which is kept nowhere, and to committed and indexed rows; the others read a file of the same points and build in core
-(bench/comparators).
+geometry, which is kept nowhere, and to committed and indexed rows; the others read a file of the
+same points and build in core (bench/comparators).
 """
 import json
 import subprocess

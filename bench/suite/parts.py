@@ -21,7 +21,7 @@ FEWER = {"full": 3, "quick": 1, "smoke": 1}
 BESIDE = Contest(2, "uniform", {"full": 1000000}, ("abacus:64",), what="beside")
 
 PARTS = [
-    Part("2d", "uniform points in the plane, all engines", 2.5, contests(
+    Part("2d", "uniform points in the plane, all engines", 5, contests(
         Contest(2, "uniform", {"full": 1000000, "quick": 200000, "smoke": 20000},
                 ("cgal", "abacus:default", "abacus:8", "abacus:64", "abacus:largest", "postgis",
                  "postgis:kept", "qhull")))),
