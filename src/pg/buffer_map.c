@@ -28,7 +28,7 @@ buffer_map_around(Relation heap, BlockNumber block)
 	Buffer		buffer = PrefetchBuffer(heap, MAIN_FORKNUM, block).recent_buffer;
 	int			first;
 
-	if (buffer <= 0)			/* read again already; or of a temporary table */
+	if (buffer <= 0)			/* written and gone already; or of a temporary table */
 		return;
 	if (mapped == NULL)
 		mapped = MemoryContextAllocZero(TopMemoryContext, NBuffers / STRETCH + 1);
