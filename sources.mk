@@ -49,6 +49,7 @@ PG_SOURCES += src/pg/page_index.c
 PG_SOURCES += src/pg/stored_page.c
 PG_SOURCES += src/pg/page_table.c
 PG_SOURCES += src/pg/buffer_map.c
+PG_SOURCES += src/pg/heap_growth.c
 PG_SOURCES += src/pg/page_write.c
 PG_SOURCES += src/pg/page_fetch.c
 PG_SOURCES += src/pg/page_store.c

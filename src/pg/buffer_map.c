@@ -21,14 +21,13 @@
 /* By stretches of this process: whether they were asked for. */
 static bool *mapped = NULL;
 
-/* Asks for the buffers around the one that has this block, if any has. */
+/* Asks for the buffers around this one, unless it is a temporary table's or none. */
 void
-buffer_map_around(Relation heap, BlockNumber block)
+buffer_map_around(Buffer buffer)
 {
-	Buffer		buffer = PrefetchBuffer(heap, MAIN_FORKNUM, block).recent_buffer;
 	int			first;
 
-	if (buffer <= 0)			/* written and gone already; or of a temporary table */
+	if (buffer <= 0)
 		return;
 	if (mapped == NULL)
 		mapped = MemoryContextAllocZero(TopMemoryContext, NBuffers / STRETCH + 1);

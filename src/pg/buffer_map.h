@@ -4,9 +4,8 @@
 #ifndef ABACUS_BUFFER_MAP_H
 #define ABACUS_BUFFER_MAP_H
 
-#include "storage/block.h"
-#include "utils/rel.h"
+#include "storage/buf.h"
 
-extern void buffer_map_around(Relation heap, BlockNumber block);
+extern void buffer_map_around(Buffer buffer);
 
 #endif

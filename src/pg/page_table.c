@@ -89,6 +89,8 @@ page_table_open(PageTable *table)
 	old = MemoryContextSwitchTo(table->memory);
 	table->heap = open_heap(table);
 	check_node(table);
+	MemSet(&table->growth, 0, sizeof(table->growth));
+	table->target = InvalidBlockNumber;
 	table->room = 0;
 	if (table->writable)
 	{
@@ -125,6 +127,7 @@ page_table_close(PageTable *table)
 	table->at_key = false;
 	page_index_close_all(table->indexes);
 	table->indexes = NIL;
+	heap_growth_end(&table->growth, table->heap);
 	if (table->index != NULL)
 		index_close(table->index, NoLock);
 	table_close(table->heap, NoLock);

@@ -15,6 +15,7 @@
 #include "executor/tuptable.h"
 #include "utils/rel.h"
 
+#include "pg/heap_growth.h"
 #include "pg/page_index.h"
 #include "pg/stored_page.h"
 #include "pg/superseded.h"
@@ -50,7 +51,9 @@ typedef struct PageTable
 	MemoryContext memory;		/* of what is open */
 	struct varlena *datum;		/* writers: room for one page */
 	Superseded *superseded;		/* where replaced rows lie; NULL if nobody asks */
-	Size		room;			/* on the empty heap page that is being written */
+	HeapGrowth	growth;			/* new heap pages, not written yet */
+	BlockNumber target;			/* heap page that is being filled, if known */
+	Size		room;			/* on it */
 } PageTable;
 
 extern void page_table_init(PageTable *table, Oid relid, bool writable, MemoryContext memory);

@@ -4,12 +4,15 @@
  * By heap_insert and index_insert, as the executor does it. No
  * BulkInsertState (its ring would evict the pages that are about to be read
  * again) and no SKIP_FSM (freed pages must be found; those that this session
- * has freed are taken from the beginning of the table on).
+ * has freed are taken from the beginning of the table on). Where none is free,
+ * the table grows by many heap pages at a time.
  */
 #include "postgres.h"
 
 #include "access/heapam.h"
 #include "access/xact.h"
+#include "storage/bufmgr.h"
+#include "storage/freespace.h"
 
 #include "pg/buffer_map.h"
 #include "pg/page_table.h"
@@ -34,37 +37,63 @@ form_row(PageTable *table, const int64 *key, const unsigned char *bytes, size_t 
 	return heap_form_tuple(RelationGetDescr(table->heap), values, isnull);
 }
 
+/* A heap page that is empty, if there is one that we know of; *room becomes the room on it. */
+static BlockNumber
+take_empty(PageTable *table, Size size, Size *room)
+{
+	BlockNumber block = InvalidBlockNumber;
+
+	if (table->superseded != NULL)
+		block = superseded_take_empty(table->superseded, table->heap, size, room);
+	if (block != InvalidBlockNumber)
+		return block;
+	block = heap_growth_take(&table->growth, table->heap, size, table->stored);
+	if (block != InvalidBlockNumber)
+		*room = BLCKSZ - SizeOfPageHeaderData;
+	return block;
+}
+
 /*
  * Has the next row go to a heap page that has become empty, the first one in the
- * table, if there is one that we know of, and returns it; else the heap looks
- * for a page by itself, and InvalidBlockNumber is returned.
+ * table, or else to a new one of many, and returns it; if there is none the heap looks
+ * for a page by itself.
  */
 static BlockNumber
 choose_heap_page(PageTable *table, HeapTuple tuple)
 {
 	Size		size = MAXALIGN(tuple->t_len);
-	BlockNumber block;
 
-	if (table->superseded == NULL)
-		return InvalidBlockNumber;
 	if (table->room < size)
 	{
-		block = superseded_take_empty(table->superseded, table->heap, size, &table->room);
-		if (block == InvalidBlockNumber)
-			return block;
-		RelationSetTargetBlock(table->heap, block);
+		if (table->room > 0)
+			RecordPageWithFreeSpace(table->heap, table->target, table->room);
+		table->room = 0;
+		table->target = take_empty(table, size, &table->room);
 	}
-	table->room -= Min(size + sizeof(ItemIdData), table->room);
-	return RelationGetTargetBlock(table->heap);
+	if (table->target != InvalidBlockNumber)
+		RelationSetTargetBlock(table->heap, table->target);
+	return table->target;
+}
+
+/* After a row has come to *tid, which need not be on the page that was chosen for it. */
+static void
+note_written(PageTable *table, HeapTuple tuple)
+{
+	table->wrote = true;
+	if (ItemPointerGetBlockNumber(&tuple->t_self) == table->target)
+		table->room -= Min(MAXALIGN(tuple->t_len) + sizeof(ItemIdData), table->room);
 }
 
 /* After a row has been stored. */
 static void
-note_stored(PageTable *table, const ItemPointerData *tid)
+note_stored(PageTable *table, HeapTuple tuple, ItemPointer tid)
 {
-	table->wrote = true;
+	note_written(table, tuple);
+	*tid = tuple->t_self;
 	if (++table->stored > MANY_ROWS)
-		buffer_map_around(table->heap, ItemPointerGetBlockNumber(tid));
+		buffer_map_around(PrefetchBuffer(table->heap, MAIN_FORKNUM,
+										 ItemPointerGetBlockNumber(tid)).recent_buffer);
+	heap_freetuple(tuple);
 }
 
 /* Adds a row; *tid becomes its place. */
@@ -81,9 +110,7 @@ page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes
 	choose_heap_page(table, tuple);
 	heap_insert(table->heap, tuple, GetCurrentCommandId(true), 0, NULL);
 	page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self, false);
-	*tid = tuple->t_self;
-	heap_freetuple(tuple);
-	note_stored(table, tid);
+	note_stored(table, tuple, tid);
 }
 
 /* Replaces the row at *tid, which must have this key; *tid becomes its new place. */
@@ -112,9 +139,7 @@ page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes
 		superseded_add(table->superseded, ItemPointerGetBlockNumber(tid));
 	if (!HeapTupleIsHeapOnly(tuple))
 		page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self, true);
-	*tid = tuple->t_self;
-	heap_freetuple(tuple);
-	note_stored(table, tid);
+	note_stored(table, tuple, tid);
 }
 
 /* Removes the row at *tid. */
@@ -146,7 +171,7 @@ page_table_move(PageTable *table, TupleTableSlot *slot)
 		heap_insert(table->heap, tuple, GetCurrentCommandId(true), 0, NULL);
 		page_index_insert(table->indexes, table->heap, slot->tts_values, slot->tts_isnull,
 						  &tuple->t_self, true);
-		table->wrote = true;
+		note_written(table, tuple);
 	}
 	heap_freetuple(tuple);
 	return moves;

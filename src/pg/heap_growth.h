@@ -1,0 +1,21 @@
+/*
+ * heap_growth.h: a table of pages grows by many heap pages at a time.
+ */
+#ifndef ABACUS_HEAP_GROWTH_H
+#define ABACUS_HEAP_GROWTH_H
+
+#include "storage/block.h"
+#include "utils/rel.h"
+
+/* All zero while the table has not grown. */
+typedef struct HeapGrowth
+{
+	BlockNumber first;			/* heap page that was added in this way */
+	BlockNumber next;			/* added, not handed out yet: [next, end) */
+	BlockNumber end;
+} HeapGrowth;
+
+extern BlockNumber heap_growth_take(HeapGrowth *growth, Relation heap, Size size, uint64 stored);
+extern void heap_growth_end(HeapGrowth *growth, Relation heap);
+
+#endif
