@@ -5,7 +5,8 @@
  * microseconds before the page itself is written (docs/design.md). Who stores
  * rows by the hundred has the file system give room to many at once instead, as
  * PostgreSQL does from 16 on: a full disk is noticed now and not when buffers are
- * written, and nothing is written twice.
+ * written, and nothing is written twice. Where a file system cannot, pages are
+ * added one by one as ever.
  *
  * Buffers get the pages, as zeros, before the file has them: nothing has to be
  * read then, and as nobody can ask for a page behind the end of the file, nobody
@@ -31,17 +32,21 @@
 #define ROWS_A_PAGE 16
 #define MOST_PAGES 32
 
-/* Room in the file for pages from `first` on, all of one segment. Returns false if there is none. */
+/*
+ * Room in the file for pages from `first` on, all of one segment; false if that cannot be had.
+ * Not posix_fallocate(): where the file system has no such thing, that writes zeros,
+ * perhaps over what others have written in the meantime.
+ */
 static bool
 reserve(Relation heap, BlockNumber first, int pages)
 {
-#ifdef HAVE_POSIX_FALLOCATE
+#ifdef __linux__
 	char	   *name = relpath(RelationGetSmgr(heap)->smgr_rnode, MAIN_FORKNUM);
 	BlockNumber segment = first / RELSEG_SIZE;
 	char	   *path = segment == 0 ? pstrdup(name) : psprintf("%s.%u", name, segment);
 	int			file = OpenTransientFile(path, O_RDWR | PG_BINARY);
 	bool		done = file >= 0 &&
-		posix_fallocate(file, (off_t) (first % RELSEG_SIZE) * BLCKSZ, (off_t) pages * BLCKSZ) == 0;
+		fallocate(file, 0, (off_t) (first % RELSEG_SIZE) * BLCKSZ, (off_t) pages * BLCKSZ) == 0;
 
 	if (file >= 0)
 		CloseTransientFile(file);
@@ -53,7 +58,7 @@ reserve(Relation heap, BlockNumber first, int pages)
 #endif
 }
 
-/* Adds so many pages; none where that cannot be done, which whoever adds one will tell. */
+/* Adds so many pages; none if that cannot be done, and whoever adds a single one will tell why. */
 static void
 grow(HeapGrowth *growth, Relation heap, int pages)
 {
@@ -75,7 +80,8 @@ grow(HeapGrowth *growth, Relation heap, int pages)
 		UnlockReleaseBuffer(buffer);
 		buffer_map_around(buffer);
 	}
-	if (pages > 0 && reserve(heap, first, pages))
+	growth->is_refused = pages > 0 && !reserve(heap, first, pages);
+	if (pages > 0 && !growth->is_refused)
 	{
 		growth->next = first;
 		growth->end = first + pages;
@@ -97,7 +103,7 @@ heap_growth_take(HeapGrowth *growth, Relation heap, Size size, uint64 stored)
 	{
 		int			pages = (int) Min(stored / ROWS_A_PAGE, MOST_PAGES);
 
-		if (pages < 2 || RelationUsesLocalBuffers(heap) ||
+		if (pages < 2 || growth->is_refused || RelationUsesLocalBuffers(heap) ||
 			GetPageWithFreeSpace(heap, size) != InvalidBlockNumber)
 			return InvalidBlockNumber;
 		grow(growth, heap, pages);

@@ -13,6 +13,7 @@ typedef struct HeapGrowth
 	BlockNumber first;			/* heap page that was added in this way */
 	BlockNumber next;			/* added, not handed out yet: [next, end) */
 	BlockNumber end;
+	bool		is_refused;		/* by the file system: not asked again */
 } HeapGrowth;
 
 extern BlockNumber heap_growth_take(HeapGrowth *growth, Relation heap, Size size, uint64 stored);
