@@ -39,6 +39,8 @@
 #define SAMPLE 1024
 /* Rows moved in one transaction, which a cancel or a crash undoes. */
 #define ROWS_AT_ONCE 1024
+/* Empty heap pages; fewer are not worth the moves. */
+#define FEW_PAGES 8
 
 /* Whether much of a table is empty, judged by some of its heap pages. */
 static bool
@@ -49,7 +51,7 @@ is_worthwhile(Superseded *superseded, Relation heap)
 	uint64		block = 0;
 	uint64		empty = superseded_survey(superseded, heap, &block, blocks, one_of, blocks);
 
-	return empty * one_of > blocks / 8 + SUPERSEDED_FAR_PAGES;
+	return empty * one_of > blocks / 8 + FEW_PAGES;
 }
 
 /*

@@ -48,6 +48,8 @@
  * pointer; full pages of a mesh fit for long, since most leave some room.
  */
 #define EMPTY_BYTES (BLCKSZ - BLCKSZ / 8)
+/* Heap pages; a row that is nearer than these to the beginning is left where it lies. */
+#define NEAR_PAGES 4
 
 struct Superseded
 {
@@ -202,8 +204,7 @@ superseded_is_far(Superseded *superseded, BlockNumber block)
 {
 	BlockNumber empty = first_empty(superseded);
 
-	return empty != InvalidBlockNumber && block > SUPERSEDED_FAR_PAGES &&
-		(block - SUPERSEDED_FAR_PAGES) / 2 > empty;
+	return empty != InvalidBlockNumber && block > NEAR_PAGES && (block - NEAR_PAGES) / 2 > empty;
 }
 
 /* Whether there is an empty heap page before this one. */

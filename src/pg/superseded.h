@@ -8,9 +8,6 @@
 #include "storage/block.h"
 #include "utils/rel.h"
 
-/* Heap pages; fewer are not worth a row's move. */
-#define SUPERSEDED_FAR_PAGES 64
-
 typedef struct Superseded Superseded;
 
 extern Superseded *superseded_create(MemoryContext memory);
