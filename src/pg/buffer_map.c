@@ -21,7 +21,7 @@
 /* By stretches of this process: whether they were asked for. */
 static bool *mapped = NULL;
 
-/* Asks for the buffers around this one, unless it is a temporary table's or none. */
+/* Asks for the buffers around this one, unless it is InvalidBuffer or a temporary table's. */
 void
 buffer_map_around(Buffer buffer)
 {

@@ -39,7 +39,7 @@
 #define SAMPLE 1024
 /* Rows moved in one transaction, which a cancel or a crash undoes. */
 #define ROWS_AT_ONCE 1024
-/* Empty heap pages; fewer are not worth the moves. */
+/* Empty heap pages, besides an eighth of the table, that are not worth the moves. */
 #define FEW_PAGES 8
 
 /* Whether much of a table is empty, judged by some of its heap pages. */

@@ -1,15 +1,15 @@
 /*
  * heap_growth.c: a table of pages grows by many heap pages at a time.
  *
- * PostgreSQL 15 adds a heap page by writing zeros to the end of the file, 15
- * microseconds before the page itself is written (docs/design.md). Who stores
- * rows by the hundred has the file system give room to many at once instead, as
+ * PostgreSQL 15 adds a heap page by writing zeros to the end of the file, which takes
+ * 15 microseconds (docs/design.md), and writes the page itself later. Who stores more
+ * than a few rows has the file system give room to many at once instead, much as
  * PostgreSQL does from 16 on: a full disk is noticed now and not when buffers are
  * written, and nothing is written twice. Where a file system cannot, pages are
  * added one by one as ever.
  *
  * Buffers get the pages, as zeros, before the file has them: nothing has to be
- * read then, and as nobody can ask for a page behind the end of the file, nobody
+ * read then, and as nobody can ask for a page beyond the end of the file, nobody
  * can have written them yet. From the moment when the file has grown they are what
  * a crash may leave too: pages that scans skip, that whoever inserts a row
  * initializes, and that VACUUM enters into the free space map. What is not
@@ -19,6 +19,7 @@
 
 #include <fcntl.h>
 
+#include "miscadmin.h"
 #include "storage/bufmgr.h"
 #include "storage/fd.h"
 #include "storage/freespace.h"
@@ -28,14 +29,39 @@
 #include "pg/buffer_map.h"
 #include "pg/heap_growth.h"
 
-/* Rows after which a table may grow by more than a page: by a sixteenth of them. */
+/* A table grows by a page for so many rows that have been stored, */
 #define ROWS_A_PAGE 16
+/* ... and by no more than these, */
 #define MOST_PAGES 32
+/* ... nor by more than this share of the shared buffers, from which some would be driven out again. */
+#define BUFFERS_A_PAGE 8
+
+/* For how large a row a locked heap page has room; also one that nobody has initialized yet. */
+Size
+heap_page_room(Buffer buffer)
+{
+	Page		page = BufferGetPage(buffer);
+
+	return PageIsNew(page) ? NEW_HEAP_PAGE_ROOM : PageGetHeapFreeSpace(page);
+}
+
+/* The same of one that is not locked: as it was. */
+Size
+heap_page_look(Relation heap, BlockNumber block)
+{
+	Buffer		buffer = ReadBuffer(heap, block);
+	Size		room;
+
+	LockBuffer(buffer, BUFFER_LOCK_SHARE);
+	room = heap_page_room(buffer);
+	UnlockReleaseBuffer(buffer);
+	return room;
+}
 
 /*
  * Room in the file for pages from `first` on, all of one segment; false if that cannot be had.
- * Not posix_fallocate(): where the file system has no such thing, that writes zeros,
- * perhaps over what others have written in the meantime.
+ * Not posix_fallocate(): where the file system has no such thing, that takes longer than
+ * PostgreSQL, by two small writes a page.
  */
 static bool
 reserve(Relation heap, BlockNumber first, int pages)
@@ -45,20 +71,24 @@ reserve(Relation heap, BlockNumber first, int pages)
 	BlockNumber segment = first / RELSEG_SIZE;
 	char	   *path = segment == 0 ? pstrdup(name) : psprintf("%s.%u", name, segment);
 	int			file = OpenTransientFile(path, O_RDWR | PG_BINARY);
-	bool		done = file >= 0 &&
-		fallocate(file, 0, (off_t) (first % RELSEG_SIZE) * BLCKSZ, (off_t) pages * BLCKSZ) == 0;
+	int			failed = -1;
 
 	if (file >= 0)
+	{
+		do
+			failed = fallocate(file, 0, (off_t) (first % RELSEG_SIZE) * BLCKSZ, (off_t) pages * BLCKSZ);
+		while (failed != 0 && errno == EINTR);
 		CloseTransientFile(file);
+	}
 	pfree(path);
 	pfree(name);
-	return done;
+	return failed == 0;
 #else
 	return false;
 #endif
 }
 
-/* Adds so many pages; none if that cannot be done, and whoever adds a single one will tell why. */
+/* Adds so many pages, or none to be taken; then whoever adds a single one will tell why. */
 static void
 grow(HeapGrowth *growth, Relation heap, int pages)
 {
@@ -70,6 +100,7 @@ grow(HeapGrowth *growth, Relation heap, int pages)
 	if (first > 0 && first % RELSEG_SIZE == 0)
 		pages = 0;
 	pages = Min(pages, RELSEG_SIZE - first % RELSEG_SIZE);
+	pages = Min(pages, MaxBlockNumber - first);
 	for (int i = 0; i < pages; i++)
 	{
 		Buffer		buffer = ReadBufferExtended(heap, MAIN_FORKNUM, first + i, RBM_ZERO_AND_LOCK, NULL);
@@ -93,7 +124,7 @@ grow(HeapGrowth *growth, Relation heap, int pages)
 
 /*
  * A new heap page for a row of `size` bytes, if so many rows have been stored that the
- * table had better grow by several, and no page in use has room. Else
+ * table had better grow by several, and the free space map knows of none that has room. Else
  * InvalidBlockNumber: then the heap finds one by itself.
  */
 BlockNumber
@@ -101,7 +132,7 @@ heap_growth_take(HeapGrowth *growth, Relation heap, Size size, uint64 stored)
 {
 	if (growth->next == growth->end)
 	{
-		int			pages = (int) Min(stored / ROWS_A_PAGE, MOST_PAGES);
+		int			pages = (int) Min(stored / ROWS_A_PAGE, Min(MOST_PAGES, NBuffers / BUFFERS_A_PAGE));
 
 		if (pages < 2 || growth->is_refused || RelationUsesLocalBuffers(heap) ||
 			GetPageWithFreeSpace(heap, size) != InvalidBlockNumber)

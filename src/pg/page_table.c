@@ -91,7 +91,6 @@ page_table_open(PageTable *table)
 	check_node(table);
 	MemSet(&table->growth, 0, sizeof(table->growth));
 	table->target = InvalidBlockNumber;
-	table->room = 0;
 	if (table->writable)
 	{
 		table->indexes = page_index_open_all(table->heap);
@@ -127,6 +126,9 @@ page_table_close(PageTable *table)
 	table->at_key = false;
 	page_index_close_all(table->indexes);
 	table->indexes = NIL;
+	if (table->target != InvalidBlockNumber && table->superseded != NULL)
+		superseded_give_back(table->superseded, table->target, table->room);
+	page_table_leave_target(table);
 	heap_growth_end(&table->growth, table->heap);
 	if (table->index != NULL)
 		index_close(table->index, NoLock);

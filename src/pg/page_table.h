@@ -52,7 +52,7 @@ typedef struct PageTable
 	struct varlena *datum;		/* writers: room for one page */
 	Superseded *superseded;		/* where replaced rows lie; NULL if nobody asks */
 	HeapGrowth	growth;			/* new heap pages, not written yet */
-	BlockNumber target;			/* heap page that is being filled, if known */
+	BlockNumber target;			/* heap page that is being filled, or InvalidBlockNumber */
 	Size		room;			/* on it */
 } PageTable;
 
@@ -75,6 +75,7 @@ extern void page_table_update(PageTable *table, const int64 *key, const unsigned
 							  size_t size, ItemPointer tid);
 extern void page_table_delete(PageTable *table, ItemPointer tid);
 
+extern void page_table_leave_target(PageTable *table);
 extern TableScanDesc page_table_scan_heap_page(PageTable *table, BlockNumber block);
 extern bool page_table_move(PageTable *table, TupleTableSlot *slot);
 

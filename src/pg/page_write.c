@@ -37,58 +37,59 @@ form_row(PageTable *table, const int64 *key, const unsigned char *bytes, size_t 
 	return heap_form_tuple(RelationGetDescr(table->heap), values, isnull);
 }
 
-/* A heap page that is empty, if there is one that we know of; *room becomes the room on it. */
-static BlockNumber
-take_empty(PageTable *table, Size size, Size *room)
-{
-	BlockNumber block = InvalidBlockNumber;
-
-	if (table->superseded != NULL)
-		block = superseded_take_empty(table->superseded, table->heap, size, room);
-	if (block != InvalidBlockNumber)
-		return block;
-	block = heap_growth_take(&table->growth, table->heap, size, table->stored);
-	if (block != InvalidBlockNumber)
-		*room = BLCKSZ - SizeOfPageHeaderData;
-	return block;
-}
-
 /*
- * Has the next row go to a heap page that has become empty, the first one in the
- * table, or else to a new one of many, and returns it; if there is none the heap looks
- * for a page by itself.
+ * Has the next row go to the heap page that is being filled; or to one that has become
+ * empty, the first one in the table; or else to a new one of many, if the table may
+ * grow. Returns it, or InvalidBlockNumber: then the heap looks for a page by itself.
  */
 static BlockNumber
-choose_heap_page(PageTable *table, HeapTuple tuple)
+choose_heap_page(PageTable *table, HeapTuple tuple, bool may_grow)
 {
 	Size		size = MAXALIGN(tuple->t_len);
 
-	if (table->room < size)
+	if (table->target == InvalidBlockNumber || table->room < size)
 	{
-		if (table->room > 0)
-			RecordPageWithFreeSpace(table->heap, table->target, table->room);
-		table->room = 0;
-		table->target = take_empty(table, size, &table->room);
+		page_table_leave_target(table);
+		if (table->superseded != NULL)
+			table->target = superseded_take_empty(table->superseded, table->heap, size, &table->room);
+		if (table->target == InvalidBlockNumber && may_grow)
+		{
+			table->target = heap_growth_take(&table->growth, table->heap, size, table->stored);
+			table->room = NEW_HEAP_PAGE_ROOM;
+		}
 	}
 	if (table->target != InvalidBlockNumber)
 		RelationSetTargetBlock(table->heap, table->target);
 	return table->target;
 }
 
-/* After a row has come to *tid, which need not be on the page that was chosen for it. */
-static void
-note_written(PageTable *table, HeapTuple tuple)
+/* Turns away from the heap page that is being filled, if one is. */
+void
+page_table_leave_target(PageTable *table)
 {
+	if (table->target != InvalidBlockNumber)
+		RecordPageWithFreeSpace(table->heap, table->target, table->room);
+	table->target = InvalidBlockNumber;
+}
+
+/* After a row has been written that was on the heap page `from`, or on none. */
+static void
+note_written(PageTable *table, HeapTuple tuple, BlockNumber from)
+{
+	BlockNumber block = ItemPointerGetBlockNumber(&tuple->t_self);
+
 	table->wrote = true;
-	if (ItemPointerGetBlockNumber(&tuple->t_self) == table->target)
+	if (block == table->target)
 		table->room -= Min(MAXALIGN(tuple->t_len) + sizeof(ItemIdData), table->room);
+	else if (block != from)
+		table->target = InvalidBlockNumber; /* the heap has found no room there, and told the map */
 }
 
 /* After a row has been stored. */
 static void
-note_stored(PageTable *table, HeapTuple tuple, ItemPointer tid)
+note_stored(PageTable *table, HeapTuple tuple, BlockNumber from, ItemPointer tid)
 {
-	note_written(table, tuple);
+	note_written(table, tuple, from);
 	*tid = tuple->t_self;
 	if (++table->stored > MANY_ROWS)
 		buffer_map_around(PrefetchBuffer(table->heap, MAIN_FORKNUM,
@@ -107,10 +108,10 @@ page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes
 
 	page_table_open(table);
 	tuple = form_row(table, key, bytes, size, values, isnull);
-	choose_heap_page(table, tuple);
+	choose_heap_page(table, tuple, true);
 	heap_insert(table->heap, tuple, GetCurrentCommandId(true), 0, NULL);
 	page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self, false);
-	note_stored(table, tuple, tid);
+	note_stored(table, tuple, InvalidBlockNumber, tid);
 }
 
 /* Replaces the row at *tid, which must have this key; *tid becomes its new place. */
@@ -133,13 +134,13 @@ page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes
 	}
 	page_table_see_own_changes(table);
 	tuple = form_row(table, key, bytes, size, values, isnull);
-	choose_heap_page(table, tuple);
+	choose_heap_page(table, tuple, true);
 	simple_heap_update(table->heap, tid, tuple);
 	if (table->superseded != NULL)
 		superseded_add(table->superseded, ItemPointerGetBlockNumber(tid));
 	if (!HeapTupleIsHeapOnly(tuple))
 		page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self, true);
-	note_stored(table, tuple, tid);
+	note_stored(table, tuple, ItemPointerGetBlockNumber(tid), tid);
 }
 
 /* Removes the row at *tid. */
@@ -162,7 +163,7 @@ bool
 page_table_move(PageTable *table, TupleTableSlot *slot)
 {
 	HeapTuple	tuple = ExecCopySlotHeapTuple(slot);
-	bool		moves = choose_heap_page(table, tuple) < ItemPointerGetBlockNumber(&slot->tts_tid);
+	bool		moves = choose_heap_page(table, tuple, false) < ItemPointerGetBlockNumber(&slot->tts_tid);
 
 	if (moves)
 	{
@@ -171,7 +172,7 @@ page_table_move(PageTable *table, TupleTableSlot *slot)
 		heap_insert(table->heap, tuple, GetCurrentCommandId(true), 0, NULL);
 		page_index_insert(table->indexes, table->heap, slot->tts_values, slot->tts_isnull,
 						  &tuple->t_self, true);
-		note_written(table, tuple);
+		note_written(table, tuple, InvalidBlockNumber);
 	}
 	heap_freetuple(tuple);
 	return moves;

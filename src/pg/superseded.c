@@ -36,11 +36,10 @@
 #include "utils/memutils.h"
 #include "utils/rel.h"
 
+#include "pg/heap_growth.h"
 #include "pg/superseded.h"
 
 #define FIRST_BYTES 1024
-/* Meshes of which a session remembers what it left. */
-#define MESHES_KEPT 4
 /* Heap pages that one page of the free space map is about, and fewer. */
 #define MAP_STRIDE 4000
 /*
@@ -62,14 +61,6 @@ struct Superseded
 	TransactionId horizon;		/* what somebody still saw when not all could be pruned */
 };
 
-/* What this session has left in the meshes that it changed lately. */
-static struct
-{
-	RelFileNode node;
-	Superseded *superseded;
-}			kept[MESHES_KEPT];
-static int	next_kept = 0;
-
 /* Lives in `memory`. */
 Superseded *
 superseded_create(MemoryContext memory)
@@ -80,6 +71,14 @@ superseded_create(MemoryContext memory)
 	superseded->bits = MemoryContextAllocZero(memory, FIRST_BYTES);
 	superseded->free = MemoryContextAllocZero(memory, FIRST_BYTES);
 	return superseded;
+}
+
+void
+superseded_forget(Superseded *superseded)
+{
+	pfree(superseded->bits);
+	pfree(superseded->free);
+	pfree(superseded);
 }
 
 /* Room in the bitmaps for this heap page. */
@@ -111,31 +110,6 @@ superseded_add(Superseded *superseded, BlockNumber block)
 	superseded->last = MyProc->lxid;
 }
 
-/* What this session has left in a table; lives as long as the session, or is forgotten. */
-Superseded *
-superseded_of_session(Relation heap)
-{
-	int			i;
-
-	for (i = 0; i < MESHES_KEPT; i++)
-		if (kept[i].superseded != NULL && RelFileNodeEquals(kept[i].node, heap->rd_node))
-			return kept[i].superseded;
-	i = next_kept;
-	if (kept[i].superseded != NULL)
-	{
-		Superseded *old = kept[i].superseded;
-
-		kept[i].superseded = NULL;
-		pfree(old->bits);
-		pfree(old->free);
-		pfree(old);
-	}
-	kept[i].node = heap->rd_node;
-	kept[i].superseded = superseded_create(TopMemoryContext);
-	next_kept = (i + 1) % MESHES_KEPT;
-	return kept[i].superseded;
-}
-
 /* An empty heap page is the next to be written, if none before it is. */
 static void
 hand_out(Superseded *superseded, BlockNumber block)
@@ -161,23 +135,10 @@ first_empty(Superseded *superseded)
 	return InvalidBlockNumber;
 }
 
-/* For how large a row a heap page has room. */
-static Size
-room_on(Relation heap, BlockNumber block)
-{
-	Buffer		buffer = ReadBuffer(heap, block);
-	Size		room;
-
-	LockBuffer(buffer, BUFFER_LOCK_SHARE);
-	room = PageGetHeapFreeSpace(BufferGetPage(buffer));
-	UnlockReleaseBuffer(buffer);
-	return room;
-}
-
 /*
  * Takes the first heap page that has become empty and has room for `size`
  * bytes, now: another session may have written it meanwhile. Its room goes to
- * *room. InvalidBlockNumber if there is none.
+ * *room. InvalidBlockNumber if there is none, and *room is left as it was.
  */
 BlockNumber
 superseded_take_empty(Superseded *superseded, Relation heap, Size size, Size *room)
@@ -186,12 +147,27 @@ superseded_take_empty(Superseded *superseded, Relation heap, Size size, Size *ro
 
 	while ((block = first_empty(superseded)) != InvalidBlockNumber)
 	{
+		Size		here = 0;
+
 		superseded->free[block / BITS_PER_BYTE] &= ~(1 << (block % BITS_PER_BYTE));
 		/* VACUUM may have cut the table; it does not while we hold a lock on it */
-		if (block < RelationGetNumberOfBlocks(heap) && (*room = room_on(heap, block)) >= size)
-			break;
+		if (block < RelationGetNumberOfBlocks(heap))
+			here = heap_page_look(heap, block);
+		if (here >= size)
+		{
+			*room = here;
+			return block;
+		}
 	}
-	return block;
+	return InvalidBlockNumber;
+}
+
+/* Takes back a heap page on which so much room is left, if it still is as good as empty. */
+void
+superseded_give_back(Superseded *superseded, BlockNumber block, Size room)
+{
+	if (room >= EMPTY_BYTES)
+		hand_out(superseded, block);
 }
 
 /*
@@ -261,7 +237,7 @@ reclaim(Superseded *superseded, Relation heap, BlockNumber block, bool *is_empty
 	LockBuffer(buffer, BUFFER_LOCK_UNLOCK);
 	heap_page_prune_opt(heap, buffer);
 	LockBuffer(buffer, BUFFER_LOCK_SHARE);
-	room = PageGetHeapFreeSpace(page);
+	room = heap_page_room(buffer);
 	done = !TransactionIdIsValid(((PageHeader) page)->pd_prune_xid);
 	UnlockReleaseBuffer(buffer);
 	RecordPageWithFreeSpace(heap, block, room);

@@ -11,9 +11,11 @@
 typedef struct Superseded Superseded;
 
 extern Superseded *superseded_create(MemoryContext memory);
+extern void superseded_forget(Superseded *superseded);
 extern void superseded_add(Superseded *superseded, BlockNumber block);
 extern BlockNumber superseded_take_empty(Superseded *superseded, Relation heap, Size size,
 										 Size *room);
+extern void superseded_give_back(Superseded *superseded, BlockNumber block, Size room);
 extern bool superseded_is_far(Superseded *superseded, BlockNumber block);
 extern bool superseded_has_empty_before(Superseded *superseded, BlockNumber block);
 extern uint64 superseded_survey(Superseded *superseded, Relation heap, uint64 *block, uint64 end,

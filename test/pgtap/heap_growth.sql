@@ -1,4 +1,5 @@
--- A table of pages grows by many heap pages at a time; what is left of them is used next.
+-- A table of pages grows by many heap pages at a time, where the file system can do that, as all do that
+-- PostgreSQL is mostly used with; what is left of them is used next.
 BEGIN;
 SELECT plan(7);
 

@@ -69,6 +69,16 @@ SELECT is(pg_temp.try(format('SELECT 1, 2, 3, pg_temp.run(%L)', format(command, 
 FROM unnest('{field,field_vertices}'::text[]) AS name,
      unnest('{DROP TABLE %I,TRUNCATE %I,ALTER TABLE %I NOT OF,ALTER TABLE %I NOT OF; ALTER TABLE %1$I ADD COLUMN other text,CREATE INDEX ON %I (part),ALTER TABLE %I SET UNLOGGED}'::text[]) AS command;
 
+-- ... and any number of other meshes: each has more of its rows replaced than fit where the first one's are remembered
+CREATE FUNCTION pg_temp.points(first int, last int) RETURNS text LANGUAGE sql AS
+    $$ SELECT format('SELECT i, i::bigint * 7919 %% 1000003, i::bigint * 104729 %% 1000033 FROM generate_series(%s, %s) AS i', first, last) $$;
+SELECT abacus_triangulate('other_' || n, pg_temp.points(1, 3000)) FROM generate_series(0, 6) AS n;
+CREATE FUNCTION pg_temp.change_others() RETURNS bigint LANGUAGE sql AS
+    $$ SELECT sum(abacus_insert(format('other_%s', n)::regclass, pg_temp.points(3001, 6000))) FROM generate_series(1, 6) AS n $$;
+SELECT is(abacus_insert('other_0', 'SELECT pg_temp.change_others(), 0.5, 0.5 UNION ALL ' || pg_temp.points(3001, 6000)), 3001::bigint,
+          'changing six meshes while changing another');
+SELECT is_empty(format('SELECT * FROM abacus_check(%L)', mesh), mesh || ' is sound') FROM (SELECT 'other_' || n AS mesh FROM generate_series(0, 6) AS n) AS others;
+
 -- what was accepted is all there, and nothing else
 SELECT is((SELECT count(*) FROM abacus_vertices('field')),
           (SELECT value::bigint FROM abacus_stats('field') WHERE name = 'points'), 'as many vertices as points');
