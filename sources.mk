@@ -43,6 +43,7 @@ PG_SOURCES += src/pg/page_type.c
 PG_SOURCES += src/pg/simplex_row.c
 PG_SOURCES += src/pg/mesh.c
 PG_SOURCES += src/pg/mesh_access.c
+PG_SOURCES += src/pg/heap_room.c
 PG_SOURCES += src/pg/superseded.c
 PG_SOURCES += src/pg/superseded_session.c
 PG_SOURCES += src/pg/truncate.c

@@ -36,28 +36,6 @@
 /* ... nor by more than this share of the shared buffers, from which some would be driven out again. */
 #define BUFFERS_A_PAGE 8
 
-/* For how large a row a locked heap page has room; also one that nobody has initialized yet. */
-Size
-heap_page_room(Buffer buffer)
-{
-	Page		page = BufferGetPage(buffer);
-
-	return PageIsNew(page) ? NEW_HEAP_PAGE_ROOM : PageGetHeapFreeSpace(page);
-}
-
-/* The same of one that is not locked: as it was. */
-Size
-heap_page_look(Relation heap, BlockNumber block)
-{
-	Buffer		buffer = ReadBuffer(heap, block);
-	Size		room;
-
-	LockBuffer(buffer, BUFFER_LOCK_SHARE);
-	room = heap_page_room(buffer);
-	UnlockReleaseBuffer(buffer);
-	return room;
-}
-
 /*
  * Room in the file for pages from `first` on, all of one segment; false if that cannot be had.
  * Not posix_fallocate(): where the file system has no such thing, that takes longer than
@@ -88,7 +66,30 @@ reserve(Relation heap, BlockNumber first, int pages)
 #endif
 }
 
-/* Adds so many pages, or none to be taken; then whoever adds a single one will tell why. */
+/*
+ * Buffers of zeros for pages that the file does not have. They may be there, if somebody
+ * failed to add them before; false if one is not zeros, which whoever adds it will report.
+ */
+static bool
+take_buffers(Relation heap, BlockNumber first, int pages)
+{
+	for (int i = 0; i < pages; i++)
+	{
+		Buffer		buffer = ReadBufferExtended(heap, MAIN_FORKNUM, first + i, RBM_ZERO_AND_LOCK, NULL);
+		bool		is_new = PageIsNew(BufferGetPage(buffer));
+
+		UnlockReleaseBuffer(buffer);
+		if (!is_new)
+			return false;
+		buffer_map_around(buffer);
+	}
+	return true;
+}
+
+/*
+ * Adds so many pages, or as many as the segment of the file has room for; none to an empty
+ * one, whose first page makes the file.
+ */
 static void
 grow(HeapGrowth *growth, Relation heap, int pages)
 {
@@ -96,23 +97,10 @@ grow(HeapGrowth *growth, Relation heap, int pages)
 
 	LockRelationForExtension(heap, ExclusiveLock);
 	first = RelationGetNumberOfBlocks(heap);
-	/* a segment's first page makes its file */
-	if (first > 0 && first % RELSEG_SIZE == 0)
-		pages = 0;
-	pages = Min(pages, RELSEG_SIZE - first % RELSEG_SIZE);
+	pages = Min(pages, (RELSEG_SIZE - first % RELSEG_SIZE) % RELSEG_SIZE);
 	pages = Min(pages, MaxBlockNumber - first);
-	for (int i = 0; i < pages; i++)
-	{
-		Buffer		buffer = ReadBufferExtended(heap, MAIN_FORKNUM, first + i, RBM_ZERO_AND_LOCK, NULL);
-
-		/* somebody failed to add this page before: then it is zeros still */
-		if (!PageIsNew(BufferGetPage(buffer)))
-			pages = 0;
-		UnlockReleaseBuffer(buffer);
-		buffer_map_around(buffer);
-	}
-	growth->is_refused = pages > 0 && !reserve(heap, first, pages);
-	if (pages > 0 && !growth->is_refused)
+	growth->is_refused = pages > 0 && !(take_buffers(heap, first, pages) && reserve(heap, first, pages));
+	if (!growth->is_refused)
 	{
 		growth->next = first;
 		growth->end = first + pages;

@@ -5,12 +5,7 @@
 #define ABACUS_HEAP_GROWTH_H
 
 #include "storage/block.h"
-#include "storage/buf.h"
-#include "storage/bufpage.h"
 #include "utils/rel.h"
-
-/* For a row on a heap page that has none yet. */
-#define NEW_HEAP_PAGE_ROOM (BLCKSZ - SizeOfPageHeaderData - sizeof(ItemIdData))
 
 /* All zero while the table has not grown. */
 typedef struct HeapGrowth
@@ -21,8 +16,6 @@ typedef struct HeapGrowth
 	bool		is_refused;		/* by the file system: not asked again */
 } HeapGrowth;
 
-extern Size heap_page_room(Buffer buffer);
-extern Size heap_page_look(Relation heap, BlockNumber block);
 extern BlockNumber heap_growth_take(HeapGrowth *growth, Relation heap, Size size, uint64 stored);
 extern void heap_growth_end(HeapGrowth *growth, Relation heap);
 

@@ -126,8 +126,6 @@ page_table_close(PageTable *table)
 	table->at_key = false;
 	page_index_close_all(table->indexes);
 	table->indexes = NIL;
-	if (table->target != InvalidBlockNumber && table->superseded != NULL)
-		superseded_give_back(table->superseded, table->target, table->room);
 	page_table_leave_target(table);
 	heap_growth_end(&table->growth, table->heap);
 	if (table->index != NULL)

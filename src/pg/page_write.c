@@ -15,6 +15,7 @@
 #include "storage/freespace.h"
 
 #include "pg/buffer_map.h"
+#include "pg/heap_room.h"
 #include "pg/page_table.h"
 #include "pg/page_type.h"
 
@@ -63,12 +64,15 @@ choose_heap_page(PageTable *table, HeapTuple tuple, bool may_grow)
 	return table->target;
 }
 
-/* Turns away from the heap page that is being filled, if one is. */
+/* Turns away from the heap page that is being filled, if one is; what is left on it can be had. */
 void
 page_table_leave_target(PageTable *table)
 {
-	if (table->target != InvalidBlockNumber)
-		RecordPageWithFreeSpace(table->heap, table->target, table->room);
+	if (table->target == InvalidBlockNumber)
+		return;
+	RecordPageWithFreeSpace(table->heap, table->target, table->room);
+	if (table->superseded != NULL)
+		superseded_give_back(table->superseded, table->target, table->room);
 	table->target = InvalidBlockNumber;
 }
 

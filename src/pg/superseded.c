@@ -36,7 +36,7 @@
 #include "utils/memutils.h"
 #include "utils/rel.h"
 
-#include "pg/heap_growth.h"
+#include "pg/heap_room.h"
 #include "pg/superseded.h"
 
 #define FIRST_BYTES 1024
@@ -152,7 +152,7 @@ superseded_take_empty(Superseded *superseded, Relation heap, Size size, Size *ro
 		superseded->free[block / BITS_PER_BYTE] &= ~(1 << (block % BITS_PER_BYTE));
 		/* VACUUM may have cut the table; it does not while we hold a lock on it */
 		if (block < RelationGetNumberOfBlocks(heap))
-			here = heap_page_look(heap, block);
+			here = heap_room_at(heap, block);
 		if (here >= size)
 		{
 			*room = here;
@@ -237,7 +237,7 @@ reclaim(Superseded *superseded, Relation heap, BlockNumber block, bool *is_empty
 	LockBuffer(buffer, BUFFER_LOCK_UNLOCK);
 	heap_page_prune_opt(heap, buffer);
 	LockBuffer(buffer, BUFFER_LOCK_SHARE);
-	room = heap_page_room(buffer);
+	room = heap_room_on(buffer);
 	done = !TransactionIdIsValid(((PageHeader) page)->pd_prune_xid);
 	UnlockReleaseBuffer(buffer);
 	RecordPageWithFreeSpace(heap, block, room);
