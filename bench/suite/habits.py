@@ -95,23 +95,25 @@ def shares(pairs):
 
 def times_rows(habit):
     """Places that Abacus locates in the CPU time that a table takes for one, along the curve, in the
-    largest mesh."""
+    largest mesh, of the most places."""
     def measured(results):
         tables = results.all(what="rows", engine=habit, order="ordered")
         if not tables:
             return None
-        slow = max(tables, key=lambda m: m["points"])
-        abacus = results.one(what="rows", engine="abacus", order="ordered", points=slow["points"])
+        slow = max(tables, key=lambda m: (m["points"], m["places"]))
+        abacus = results.one(what="rows", engine="abacus", order="ordered", points=slow["points"],
+                             places=slow["places"])
         return ratio(median(slow, "cpu"), median(abacus, "cpu"))
     return measured
 
 
 def rows(results):
     found = []
-    for abacus in sorted(results.all(what="rows", engine="abacus"), key=lambda m: (m["points"], m["order"])):
-        for m in results.all(what="rows", order=abacus["order"], points=abacus["points"]):
-            places = m["places"]
-            found.append((ROWS_NAMES[m["engine"]], ORDERS[m["order"]], points(m["points"]),
+    for abacus in sorted(results.all(what="rows", engine="abacus"),
+                         key=lambda m: (m["points"], m["places"], m["order"])):
+        places = abacus["places"]
+        for m in results.all(what="rows", order=abacus["order"], points=abacus["points"], places=places):
+            found.append((ROWS_NAMES[m["engine"]], f"{places:,} {ORDERS[m['order']]}", points(m["points"]),
                           number(places / median(m, "cpu")), number(places / median(m, "wall")),
                           number(ratio(median(m, "cpu"), median(abacus, "cpu"))), size(m["bytes"])))
     return table(("", "places", "points", "places a CPU second", "places a second",

@@ -66,7 +66,7 @@ TABLE_OF = {"abacus": "mesh", "abacus_joined": "mesh", "rows": "triangles", "exa
 
 
 class Rows:
-    """(points, places) by mode: places at random, and the same along the curve, warm."""
+    """(points, places, …) by mode: so many places at random, and the same along the curve, warm."""
 
     def __init__(self, sizes, runs, habits=("rows", "exact_rows", "postgis"), disk=0):
         self.sizes, self.runs, self.habits, self.disk = sizes, runs, habits, disk
@@ -75,20 +75,23 @@ class Rows:
         if suite.mode not in self.sizes:
             return
         server.require_disk(self.disk)
-        size, places = self.sizes[suite.mode]
+        size, *counts = self.sizes[suite.mode]
+        points = PointSet(2, "uniform", size)
         server.restart(shared_buffers="2GB")
         try:
-            self.compare(suite, PointSet(2, "uniform", size), places)
+            size = points.create_table()
+            server.query(points.triangulate())
+            engines = ["abacus", "abacus_joined", *make_tables(self.habits)]
+            for places in counts:
+                create_places(points, places)
+                add_exact_places()
+                self.compare(suite, engines,
+                             {"dimension": 2, "set": points.name, "points": size, "places": places})
         finally:
             server.restart()
         server.drop("mesh_vertices", "points", *dict.fromkeys(TABLE_OF.values()), "places", "ordered")
 
-    def compare(self, suite, points, places):
-        labels = {"dimension": 2, "set": points.name, "points": points.create_table(), "places": places}
-        server.query(points.triangulate())
-        engines = ["abacus", "abacus_joined", *make_tables(self.habits)]
-        create_places(points, places)
-        add_exact_places()
+    def compare(self, suite, engines, labels):
         for order in "ordered", "places":
             measurements = [{"what": "rows", "engine": engine, "order": order, **labels,
                              "bytes": table_bytes(engine), "samples": []} for engine in engines]
@@ -106,7 +109,7 @@ class Rows:
             suite.measurements += measurements
             for measurement in measurements:
                 cpu = measurement["samples"][-1]["cpu"]
-                suite.say(f"  {order:8} {measurement['engine']:13} {places / cpu:12,.0f} places a CPU second")
+                suite.say(f"  {order:8} {measurement['engine']:13} {labels['places'] / cpu:12,.0f} places a CPU second")
 
 
 def make_tables(habits):

@@ -74,12 +74,13 @@ class Verdicts(unittest.TestCase):
         self.assertAlmostEqual(acceptance.WANTED[number].measured(found), 4)
         self.assertEqual(verdict(number, found), "–")
 
-    def test_rows_are_compared_in_the_largest_mesh(self):
-        def run(engine, points, seconds, order="ordered"):
-            return {"what": "rows", "engine": engine, "points": points, "order": order,
+    def test_rows_are_compared_in_the_largest_mesh_at_the_most_places(self):
+        def run(engine, points, seconds, places=10**6, order="ordered"):
+            return {"what": "rows", "engine": engine, "points": points, "places": places, "order": order,
                     "samples": [{"cpu": seconds}]}
         found = of(run("abacus", 10**6, 1.0), run("exact_rows", 10**6, 50.0), run("abacus", 10**7, 2.0),
-                   run("exact_rows", 10**7, 40.0), run("exact_rows", 10**7, 99.0, "places"),
+                   run("exact_rows", 10**7, 40.0), run("exact_rows", 10**7, 99.0, order="places"),
+                   run("abacus", 10**7, 1.0, 10**5), run("exact_rows", 10**7, 7.0, 10**5),
                    run("rows", 10**6, 10.0))
         number = next(i for i, wanted in enumerate(acceptance.WANTED) if "the exact test" in wanted.what)
         self.assertEqual(acceptance.WANTED[number].measured(found), 20)
