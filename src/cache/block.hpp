@@ -24,6 +24,8 @@ struct Block {
     std::uint16_t high_water; // slots ever used
     std::uint16_t settled;    // as many of them as were loaded, wherever they lie now
     std::uint32_t free;       // chain of slots given back, by link[0]
+    std::uint32_t first_vertex; // of those that came with the page ...
+    std::uint16_t vertex_run;   // ... and whose numbers are mostly in a row, so long
     State state;
     bool dirty;
     bool leaving; // being evicted

@@ -97,7 +97,7 @@ template <int D> BlockIndex Cache<D>::place_elsewhere(std::uint64_t code) {
 
 template <int D> Handle Cache<D>::closest_of_some(BlockIndex b, const Point<D> &p) const {
     // A few samples: the walk is shorter by more than they cost.
-    constexpr std::uint32_t samples = 8;
+    constexpr std::uint32_t samples = 16;
     Handle best = no_handle;
     double best_distance = 0;
     const std::uint32_t end = blocks_[b].high_water, stride = std::max(1u, end / samples);
@@ -115,6 +115,16 @@ template <int D> Handle Cache<D>::closest_of_some(BlockIndex b, const Point<D> &
         }
     }
     return best;
+}
+
+// Both are stretches of memory, where prefetch instructions do.
+
+template <int D> void Cache<D>::ask_for_slots(BlockIndex b) const {
+    prefetch(&slots_[b * block_slots<D>], blocks_[b].high_water);
+}
+
+template <int D> void Cache<D>::ask_for_loaded_vertices(BlockIndex b) const {
+    prefetch(&vertices_[blocks_[b].first_vertex], blocks_[b].vertex_run);
 }
 
 template <int D> Handle Cache<D>::start(std::uint64_t code, const Point<D> &p) {

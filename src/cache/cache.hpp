@@ -126,14 +126,17 @@ public:
     bool near(Handle h, std::uint64_t code) const {
         return blocks_[block_of<D>(h)].surely_owns(code);
     }
-    /// Asks for the simplices of the block around h, and for most of their vertices once they are
-    /// there: for the few that are left it would take as long again.
-    void ask_for_simplices(Handle h) const { ask_for_slots(block_of<D>(h)); }
-    void ask_for_their_vertices(Handle h) const { ask_for_vertices(block_of<D>(h), 2); }
+    /// Asks for the slots of a block, and for the vertices that came with its page.
+    void ask_for_slots(BlockIndex b) const;
+    void ask_for_loaded_vertices(BlockIndex b) const;
     /// Asks for the simplices across all facets, before it is known which of them is wanted.
     void ask_for_neighbours(const Simplex<D> &s) const {
         for (const Link link : s.link)
             if (!is_absent(link)) __builtin_prefetch(&slots_[link_simplex(link)]);
+    }
+    /// The block that owns what comes on the curve behind a block; no_block if it is not cached.
+    BlockIndex next_on_curve(BlockIndex b) const {
+        return blocks_[b].upper == end_key ? no_block : cached_owner(blocks_[b].upper);
     }
     /// Lower key of the block, and of its page, that h is in.
     const Key &lower(Handle h) const { return blocks_[block_of<D>(h)].lower; }
@@ -360,6 +363,7 @@ private:
     /// border and marks the vertices there.
     void link_inside(Handle first);
     void load_vertices();
+    void note_vertices(Block &block) const;
     void load_simplices(Handle first);
     void link_outside();
     /// Whether a facet is a ghost's ridge, in a mesh that does not link them.
@@ -391,8 +395,7 @@ private:
     /// Asks for what the blocks after this one of a list need to be made pages: the vertices of
     /// the next, and the slots of the one after it, which tell its vertices.
     void ask_ahead(const Arena<BlockIndex> &blocks, std::size_t at) const;
-    void ask_for_slots(BlockIndex b) const;
-    void ask_for_vertices(BlockIndex b, std::uint32_t step = 1) const;
+    void ask_for_vertices(BlockIndex b) const;
     /// Lists the block's facets on its border, and numbers its vertices.
     void survey(BlockIndex b);
     void mark_border();

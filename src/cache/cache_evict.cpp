@@ -208,18 +208,11 @@ template <int D> Key Cache<D>::key_beyond(Handle h, int facet) const {
     return {code(s), blocks_[block_of<D>(neighbour)].has_parts() ? part(s) : 0};
 }
 
-template <int D> void Cache<D>::ask_for_vertices(BlockIndex b, std::uint32_t step) const {
+template <int D> void Cache<D>::ask_for_vertices(BlockIndex b) const {
     // Nearly every vertex is the first of some simplex.
     const Simplex<D> *const slots = &slots_[b * block_slots<D>];
-    for (std::uint32_t i = 0; i < blocks_[b].high_water; i += step)
+    for (std::uint32_t i = 0; i < blocks_[b].high_water; ++i)
         if (!slots[i].is_free()) touch(&vertices_[slots[i].vertex[0]]);
-}
-
-template <int D> void Cache<D>::ask_for_slots(BlockIndex b) const {
-    // One stretch of memory, where prefetch instructions do.
-    const auto *const slots = reinterpret_cast<const char *>(&slots_[b * block_slots<D>]);
-    const std::size_t size = blocks_[b].high_water * sizeof(Simplex<D>);
-    for (std::size_t i = 0; i < size; i += cache_line) __builtin_prefetch(slots + i);
 }
 
 template <int D>

@@ -78,6 +78,7 @@ template <int D> BlockIndex Cache<D>::load(const abacus_page &page) {
     const Handle first = b * block_slots<D>;
     link_inside(first);
     load_vertices();
+    note_vertices(block);
     load_simplices(first);
     link_outside();
     return b;
@@ -179,6 +180,20 @@ template <int D> void Cache<D>::load_vertices() {
         }
         numbered_.number(vertices_, v);
     }
+}
+
+/// Where the vertices lie that were made for the page at hand, so that they can be asked for.
+template <int D> void Cache<D>::note_vertices(Block &block) const {
+    VertexIndex least = free_mark, greatest = 0;
+    for (std::size_t n = 0; n < numbered_.size(); ++n) {
+        if (on_border_[n]) continue; // it may be of another page
+        least = std::min(least, numbered_[n]);
+        greatest = std::max(greatest, numbered_[n]);
+    }
+    if (least > greatest) return;
+    block.first_vertex = least;
+    block.vertex_run = static_cast<std::uint16_t>(
+        std::min<std::size_t>(greatest - least + 1, 2 * numbered_.size()));
 }
 
 template <int D> void Cache<D>::load_simplices(Handle first) {

@@ -7,7 +7,7 @@
 // for a while, and end at a boundary that is not the hull: within() says so.
 #pragma once
 
-#include "cache/cache.hpp"
+#include "delaunay/separator.hpp"
 
 namespace abacus {
 
@@ -42,7 +42,8 @@ public:
     Handle within(const Point<D> &p, Handle from, std::uint64_t longest) {
         ++cache_.counters.walks;
         Handle h = from;
-        int entered = -1;
+        Separator<D> separator(cache_, p);
+        int entered = separator.none;
         // From a ghost inside through its hull facet, beyond which p may well lie.
         if (cache_.simplex(h).is_ghost()) h = link_simplex(cache_.cross(h, D));
         for (std::uint64_t steps = 0;; ++steps) {
@@ -51,23 +52,11 @@ public:
             const Simplex<D> &s = cache_.simplex(h);
             if (s.is_ghost()) return h;
             if (far_) cache_.ask_for_neighbours(s);
-            Corners<D> corners = cache_.corners(s);
-            int separating = -1;
-            ends_on_facet_ = false;
-            int facet = static_cast<int>(random() % (D + 1));
-            for (int i = 0; i <= D; ++i, facet = facet == D ? 0 : facet + 1) {
-                if (facet == entered) continue;
-                const Point<D> *const corner = corners[facet];
-                corners[facet] = &p;
-                const int side = orientation<D>(corners);
-                corners[facet] = corner;
-                if (side < 0) {
-                    separating = facet;
-                    break;
-                }
-                ends_on_facet_ = ends_on_facet_ || side == 0;
+            const int separating = separator.find(s, entered, random());
+            if (separating == separator.none) {
+                ends_on_facet_ = separator.is_on_facet();
+                return h;
             }
-            if (separating < 0) return h;
             const Link link = cache_.cross(h, separating);
             h = link_simplex(link);
             entered = link_facet(link);

@@ -30,6 +30,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace abacus {
 
@@ -45,17 +46,30 @@ template <int D> int in_sphere(const Corners<D> &corners, const Point<D> &p);
 int in_hull_facet(const Corners<3> &corners, const Point<3> &p);
 } // namespace exact
 
+/// Twice the signed area of a triangle, and what its rounding error is less than; the latter is
+/// infinite where that is not known.
+struct SignedArea {
+    double value, error;
+
+    bool is_positive() const { return value > error; }
+    bool is_negative() const { return value < -error; }
+    bool is_sure() const { return is_positive() | is_negative(); }
+};
+
+/// Of two points as seen from a third, by rounded differences: positive if these are
+/// counterclockwise.
+inline SignedArea signed_area(const Point<2> &a, const Point<2> &b) {
+    const double left = a[0] * b[1], right = a[1] * b[0];
+    const double sum = std::fabs(left) + std::fabs(right);
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    return {left - right, sum > 1e-290 ? 3.3307e-16 * sum : unknown};
+}
+
 /// +1 if a, b, c are counterclockwise, -1 if clockwise, 0 if collinear.
 inline int orientation(const Point<2> &a, const Point<2> &b, const Point<2> &c) {
-    const double left = (a[0] - c[0]) * (b[1] - c[1]);
-    const double right = (a[1] - c[1]) * (b[0] - c[0]);
-    const double det = left - right;
-    const double sum = std::fabs(left) + std::fabs(right);
-    const double bound = 3.3307e-16 * sum;
-    if (sum > 1e-290) [[likely]] {
-        if (det > bound) return 1;
-        if (det < -bound) return -1;
-    }
+    const SignedArea area = signed_area({a[0] - c[0], a[1] - c[1]}, {b[0] - c[0], b[1] - c[1]});
+    if (area.is_positive()) return 1;
+    if (area.is_negative()) return -1;
     return exact::orientation(a, b, c);
 }
 

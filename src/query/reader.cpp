@@ -28,20 +28,17 @@ Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOpti
       delaunay_(header.not_delaunay == 0), in_order_(in_order), budget_(options.budget),
       cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
              linked_as(header, options)),
-      glance_(cache_, options.budget / 10, in_order), walk_(cache_, /*far=*/true) {}
+      glance_(cache_, options.budget / 10, in_order), read_ahead_(cache_),
+      walk_(cache_, /*far=*/true) {}
 
 template <int D> Handle Reader<D>::start(const Point<D> &p, std::uint64_t code) {
     if (size_ == 0) return no_handle;
     cache_.trim();
     if (is_at_hand(code)) {
-        // One after the other in one block: places along the curve. More will come, so the block
-        // is asked for as a whole, and not line by line as walks get there.
-        ++in_row_;
-        if (in_row_ == 2) cache_.ask_for_simplices(last_);
-        if (in_row_ == 4) cache_.ask_for_their_vertices(last_);
+        read_ahead_.follow(last_);
         return last_;
     }
-    in_row_ = 0;
+    read_ahead_.leave();
     if (cache_.is_live(last_) && walk_.is_close(last_, p)) return last_;
     const Handle from = cache_.start(code, p);
     if (from == no_handle) throw_corrupted("The mesh has no simplices.");

@@ -10,6 +10,7 @@
 #include "delaunay/walk.hpp"
 #include "query/glance.hpp"
 #include "query/page_boxes.hpp"
+#include "query/read_ahead.hpp"
 
 #include <abacus/read.h>
 #include <optional>
@@ -91,9 +92,9 @@ private:
     std::optional<PageBoxes<D>> boxes_; // once needed
     Cache<D> cache_;
     Glance<D> glance_;
+    ReadAhead<D> read_ahead_;
     Walk<D> walk_;
     Handle last_ = no_handle;
-    unsigned in_row_ = 0; // places at hand
 };
 
 } // namespace abacus

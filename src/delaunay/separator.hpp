@@ -1,0 +1,112 @@
+// Which facet of a simplex separates it from a point: asked along a walk, of one simplex after
+// the other.
+//
+// What a walk in the plane waits for is which of two edges no processor can foresee. So both are
+// tested, and one is chosen, without a branch; and of each triangle only the vertex is read that
+// the one before it did not have: the others go along, as they are seen from the point. In space
+// the facets are tested in turns, beginning with any, until one separates.
+#pragma once
+
+#include "cache/cache.hpp"
+
+#include <utility>
+
+namespace abacus {
+
+template <int D> class Separator {
+public:
+    /// Both are to outlive it.
+    Separator(const Cache<D> &cache, const Point<D> &p) : cache_(cache), p_(p) {}
+
+    static constexpr int none = -1;
+    /// A facet of a finite simplex that has p strictly beyond it, or `none`. `entered` is the facet
+    /// across which the walk came from the simplex asked for before, which has p on this side;
+    /// `none` of the first. `random` decides which, if there are several.
+    int find(const Simplex<D> &s, int entered, std::uint32_t random);
+    /// Whether p is on a facet of the last simplex, which none separated.
+    bool is_on_facet() const { return is_on_facet_; }
+
+private:
+    const Cache<D> &cache_;
+    const Point<D> &p_;
+    bool is_on_facet_ = false;
+};
+
+template <int D> int Separator<D>::find(const Simplex<D> &s, int entered, std::uint32_t random) {
+    is_on_facet_ = false;
+    Corners<D> corners = cache_.corners(s);
+    // All of the first simplex, else those behind the one entered by, in a circle.
+    const int facets = entered == none ? D + 1 : D;
+    int turn = static_cast<int>(random % D);
+    for (int i = 0; i < facets; ++i, turn = turn == facets - 1 ? 0 : turn + 1) {
+        const int next = entered + 1 + turn, facet = next > D ? next - D - 1 : next;
+        const Point<D> *const corner = std::exchange(corners[facet], &p_);
+        const int side = orientation<D>(corners);
+        corners[facet] = corner;
+        if (side < 0) return facet;
+        is_on_facet_ = is_on_facet_ || side == 0;
+    }
+    return none;
+}
+
+template <> class Separator<2> {
+public:
+    Separator(const Cache<2> &cache, const Point<2> &p) : cache_(cache), p_(p) {}
+
+    static constexpr int none = -1;
+    int find(const Simplex<2> &s, int entered, std::uint32_t random) {
+        is_on_facet_ = false;
+        if (entered == none) {
+            // As if by edge 0, if that does not separate.
+            after_ = seen_from_p(s.vertex[1]);
+            before_ = seen_from_p(s.vertex[2]);
+            const int side = side_of_edge(cache_, s, 0, p_);
+            if (side < 0) {
+                std::swap(after_, before_);
+                return 0;
+            }
+            is_on_facet_ = side == 0;
+            entered = 0;
+        }
+        const Point<2> apex = seen_from_p(s.vertex[entered]);
+        const SignedArea one = signed_area(before_, apex), other = signed_area(apex, after_);
+        bool beyond_one = one.is_negative(), beyond_other = other.is_negative();
+        if (!(one.is_sure() & other.is_sure())) [[unlikely]] {
+            const int side = side_of_edge(cache_, s, edge_after(entered), p_);
+            const int other_side = side_of_edge(cache_, s, edge_before(entered), p_);
+            beyond_one = side < 0;
+            beyond_other = other_side < 0;
+            is_on_facet_ |= (side == 0) | (other_side == 0);
+        }
+        if (!(beyond_one | beyond_other)) return none;
+        const bool is_one = beyond_one & (!beyond_other | ((random & 1) != 0));
+        // The next triangle has the vertices of the edge in the opposite order.
+        after_ = is_one ? apex : after_;
+        before_ = is_one ? before_ : apex;
+        return is_one ? edge_after(entered) : edge_before(entered);
+    }
+    bool is_on_facet() const { return is_on_facet_; }
+
+private:
+    // Counterclockwise; by shifts, for each step waits for them.
+    static constexpr int edge_after(int edge) { return 0b00'10'01 >> 2 * edge & 3; }
+    static constexpr int edge_before(int edge) { return 0b01'00'10 >> 2 * edge & 3; }
+
+    Point<2> seen_from_p(VertexIndex v) const {
+        const Point<2> &point = cache_.point(v);
+        return {point[0] - p_[0], point[1] - p_[1]};
+    }
+    /// Static, so that the members can be in registers.
+    static int side_of_edge(const Cache<2> &cache, const Simplex<2> &s, int edge,
+                            const Point<2> &p) {
+        return orientation(cache.point(s.vertex[edge_after(edge)]),
+                           cache.point(s.vertex[edge_before(edge)]), p);
+    }
+
+    const Cache<2> &cache_;
+    const Point<2> &p_;
+    bool is_on_facet_ = false;
+    Point<2> after_, before_; ///< the vertices after and before the apex, as seen from p
+};
+
+} // namespace abacus
