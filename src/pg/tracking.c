@@ -116,6 +116,7 @@ read_trigger(Oid oid)
 		trigger->table = form->tgrelid;
 		trigger->mesh = bound_mesh(oid, form->tgrelid);
 		trigger->bound = OidIsValid(trigger->mesh);
+		trigger->fires = form->tgenabled;
 		if (!trigger->bound && form->tgnargs > 0)
 			trigger->mesh = mesh_by_name(first_argument(tuple, triggers),
 										 get_rel_namespace(form->tgrelid));
@@ -335,9 +336,22 @@ run(const char *command)
 	CommandCounterIncrement();
 }
 
-/* Makes the triggers, as the caller, through CREATE TRIGGER with all its checks. */
+/* Makes a trigger fire where its table is written as a replica: always, or there only. */
+static void
+fire_in_replica(Relation table, const char *trigger, char fires)
+{
+	if (fires != TRIGGER_FIRES_ALWAYS && fires != TRIGGER_FIRES_ON_REPLICA)
+		return;
+	EnableDisableTrigger(table, trigger, fires, false, ShareRowExclusiveLock);
+	CommandCounterIncrement();
+}
+
+/*
+ * Makes the triggers, as the caller, through CREATE TRIGGER with all its checks.
+ * They fire as others did before; those that had been disabled do so again.
+ */
 void
-tracking_create(Oid function, Oid mesh, int dimension, Relation table, List *columns)
+tracking_create(Oid function, Oid mesh, int dimension, Relation table, List *columns, char fires)
 {
 	static const struct
 	{
@@ -364,6 +378,7 @@ tracking_create(Oid function, Oid mesh, int dimension, Relation table, List *col
 					 quote_identifier(name), events[i].name, table_name, events[i].referencing,
 					 function_name, arguments(mesh, dimension, table, columns)));
 		mesh_bind_trigger(mesh, get_trigger_oid(RelationGetRelid(table), name, false));
+		fire_in_replica(table, name, fires);
 	}
 }
 

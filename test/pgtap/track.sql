@@ -1,6 +1,6 @@
 -- abacus_track: how the triggers find their mesh, odd tables, points without a place.
 BEGIN;
-SELECT plan(48);
+SELECT plan(52);
 
 CREATE FUNCTION differences(mesh regclass, source text) RETURNS bigint LANGUAGE plpgsql AS $$
 DECLARE
@@ -111,6 +111,20 @@ ALTER TABLE loose ENABLE TRIGGER USER;
 SELECT throws_ok($$ SELECT abacus_track('loose_mesh', 'loose') $$, '55000', NULL, 'out of step');
 SELECT is(abacus_track('loose_mesh', 'loose', synchronize => true), 71::bigint, '... and in step again');
 SELECT is(differences('loose_mesh', 'TABLE loose'), 0::bigint, '... exactly');
+
+-- ... as they fired before, but for those that were disabled
+CREATE FUNCTION firing() RETURNS text LANGUAGE sql AS $$
+    SELECT string_agg(tgenabled::text, '' ORDER BY tgtype) FROM pg_trigger WHERE tgrelid = 'loose'::regclass AND tgname LIKE 'abacus%'
+$$;
+DO $$ DECLARE name text; BEGIN
+    FOR name IN SELECT tgname FROM pg_trigger WHERE tgrelid = 'loose'::regclass AND tgname LIKE 'abacus%' LOOP
+        EXECUTE format('ALTER TABLE loose ENABLE ALWAYS TRIGGER %I', name);
+    END LOOP; END $$;
+SELECT is(abacus_track('loose_mesh', 'loose'), 71::bigint, 'tracked again');
+SELECT is(firing(), 'AAAA', '... triggers fire always, as before');
+ALTER TABLE loose DISABLE TRIGGER USER;
+SELECT is(abacus_track('loose_mesh', 'loose'), 71::bigint, '... and once more, disabled');
+SELECT is(firing(), 'OOOO', '... which they are no longer');
 
 -- ... also where points wait
 SELECT abacus_create('few', 2);
