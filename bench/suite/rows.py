@@ -109,7 +109,8 @@ class Rows:
             suite.measurements += measurements
             for measurement in measurements:
                 cpu = measurement["samples"][-1]["cpu"]
-                suite.say(f"  {order:8} {measurement['engine']:13} {labels['places'] / cpu:12,.0f} places a CPU second")
+                suite.say(f"  {order:8} {measurement['engine']:13} {labels['places'] / cpu:12,.0f}"
+                          " places a CPU second")
 
 
 def make_tables(habits):

@@ -19,11 +19,11 @@ struct Block {
     std::uint64_t sure_lower, sure_upper; // codes that it owns whatever their part
     std::uint64_t location;               // of the stored page; 0 = none
     std::uint64_t used_at;
-    std::uint16_t count;      // simplices
-    std::uint16_t capacity;   // simplices that it takes before it is split
-    std::uint16_t high_water; // slots ever used
-    std::uint16_t settled;    // as many of them as were loaded, wherever they lie now
-    std::uint32_t free;       // chain of slots given back, by link[0]
+    std::uint16_t count;        // simplices
+    std::uint16_t capacity;     // simplices that it takes before it is split
+    std::uint16_t high_water;   // slots ever used
+    std::uint16_t settled;      // as many of them as were loaded, wherever they lie now
+    std::uint32_t free;         // chain of slots given back, by link[0]
     std::uint32_t first_vertex; // of those that came with the page ...
     std::uint16_t vertex_run;   // ... and whose numbers are mostly in a row, so long
     State state;
