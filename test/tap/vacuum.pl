@@ -61,7 +61,7 @@ SQL
 	vacuum("VACUUM $mesh", 'SET abacus.vacuum_moves_rows = off');
 	cmp_ok(pages($mesh), '>', 1.6 * $fresh, "$mesh: so it does with the setting off");
 	my $told = vacuum("VACUUM (VERBOSE) $mesh");
-	like($told, qr/INFO:  moved \d+ pages of mesh "public.$mesh" to the beginning of its table\n/,
+	like($told, qr/INFO:  moved \d+ pages? of mesh "public.$mesh" to the beginning of its table\n/,
 		"$mesh: VACUUM (VERBOSE) says what it moves");
 	cmp_ok(pages($mesh), '<=', 1.2 * $fresh, "$mesh: then it is hardly larger than a fresh one");
 	is(content($mesh), $content, "$mesh: the mesh is the same");
@@ -123,7 +123,7 @@ for my $level ('repeatable read', 'serializable')
 spread('plane');
 my $told = cuts('whole database', 'VACUUM (VERBOSE, ANALYZE, FREEZE)');
 like($told, qr/ moved \d+ pages of mesh "public.$_"/, "whole database: $_") for qw(plane solid);
-unlike($told, qr/ moved \d+ pages of mesh "public.pieces"/, 'whole database: but no mesh without need');
+unlike($told, qr/ moved \d+ pages? of mesh "public.pieces"/, 'whole database: but no mesh without need');
 is_intact($node, 'postgres', $_, "whole database: $_") for qw(plane solid);
 spread('plane');
 cuts('FULL', 'VACUUM FULL plane, plane_vertices');
