@@ -61,6 +61,6 @@ PARTS = [
     Part("cancel", "how long a cancel takes", 0.5, cancelled_builds(
         2, {"full": 1000000, "quick": 500000, "smoke": 50000})),
     Part("core", "parts of the core by themselves", 3.5, core),
-    Part("rows-10m", "location in rows, ten times as many", 18, Rows(
+    Part("rows-10m", "location in rows, ten times as many", 20, Rows(
         {"full": (10000000, 1000000, 200000)}, FEWER, ("rows", "exact_rows"), disk=12 << 30).measure),
 ]

@@ -75,8 +75,8 @@ class Rows:
         if suite.mode not in self.sizes:
             return
         server.require_disk(self.disk)
-        size, *counts = self.sizes[suite.mode]
-        points = PointSet(2, "uniform", size)
+        wanted, *counts = self.sizes[suite.mode]
+        points = PointSet(2, "uniform", wanted)
         server.restart(shared_buffers="2GB")
         try:
             size = points.create_table()

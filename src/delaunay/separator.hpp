@@ -34,15 +34,13 @@ private:
 
 template <int D> int Separator<D>::find(const Simplex<D> &s, int entered, std::uint32_t random) {
     is_on_facet_ = false;
-    Corners<D> corners = cache_.corners(s);
+    const Corners<D> corners = cache_.corners(s);
     // All of the first simplex, else those behind the one entered by, in a circle.
     const int facets = entered == none ? D + 1 : D;
     int turn = static_cast<int>(random % D);
     for (int i = 0; i < facets; ++i, turn = turn == facets - 1 ? 0 : turn + 1) {
         const int next = entered + 1 + turn, facet = next > D ? next - D - 1 : next;
-        const Point<D> *const corner = std::exchange(corners[facet], &p_);
-        const int side = orientation<D>(corners);
-        corners[facet] = corner;
+        const int side = facet_side<D>(corners, facet, p_);
         if (side < 0) return facet;
         is_on_facet_ = is_on_facet_ || side == 0;
     }
@@ -60,7 +58,7 @@ public:
             // As if by edge 0, if that does not separate.
             after_ = seen_from_p(s.vertex[1]);
             before_ = seen_from_p(s.vertex[2]);
-            const int side = side_of_edge(cache_, s, 0, p_);
+            const int side = facet_side<2>(cache_.corners(s), 0, p_);
             if (side < 0) {
                 std::swap(after_, before_);
                 return 0;
@@ -72,8 +70,9 @@ public:
         const SignedArea one = signed_area(before_, apex), other = signed_area(apex, after_);
         bool beyond_one = one.is_negative(), beyond_other = other.is_negative();
         if (!(one.is_sure() & other.is_sure())) [[unlikely]] {
-            const int side = side_of_edge(cache_, s, edge_after(entered), p_);
-            const int other_side = side_of_edge(cache_, s, edge_before(entered), p_);
+            const Corners<2> corners = cache_.corners(s);
+            const int side = facet_side<2>(corners, edge_after(entered), p_);
+            const int other_side = facet_side<2>(corners, edge_before(entered), p_);
             beyond_one = side < 0;
             beyond_other = other_side < 0;
             is_on_facet_ |= (side == 0) | (other_side == 0);
@@ -95,12 +94,6 @@ private:
     Point<2> seen_from_p(VertexIndex v) const {
         const Point<2> &point = cache_.point(v);
         return {point[0] - p_[0], point[1] - p_[1]};
-    }
-    /// Static, so that the members can be in registers.
-    static int side_of_edge(const Cache<2> &cache, const Simplex<2> &s, int edge,
-                            const Point<2> &p) {
-        return orientation(cache.point(s.vertex[edge_after(edge)]),
-                           cache.point(s.vertex[edge_before(edge)]), p);
     }
 
     const Cache<2> &cache_;

@@ -16,9 +16,8 @@ template <int D> inline Side side_of_simplex(const Corners<D> &corners, const Po
 
 /// Of a ghost, whose last corner is not read: `vertex` if and only if p lies on the hyperplane
 /// of its facet and equals one of its corners.
-template <int D> inline Side side_of_ghost(Corners<D> corners, const Point<D> &p) {
-    corners[D] = &p;
-    const int sign = orientation<D>(corners);
+template <int D> inline Side side_of_ghost(const Corners<D> &corners, const Point<D> &p) {
+    const int sign = facet_side<D>(corners, D, p);
     if (sign != 0) return sign > 0 ? Side::inside : Side::outside;
     const int place = in_hull_facet(corners, p);
     return place > 0 ? Side::inside : place < 0 ? Side::outside : Side::vertex;

@@ -98,16 +98,19 @@ template <int D> inline int orientation(const Corners<D> &c) {
     else return orientation(*c[0], *c[1], *c[2], *c[3]);
 }
 
+/// Position of p to a facet of positively oriented corners: +1 on the side of the corner opposite,
+/// which is not read, 0 on the facet's line or plane, -1 beyond.
+template <int D> inline int facet_side(Corners<D> corners, int facet, const Point<D> &p) {
+    corners[facet] = &p;
+    return orientation<D>(corners);
+}
+
 /// Position of p to the simplex of positively oriented corners: +1 inside, 0 on a facet,
 /// -1 outside.
-template <int D> inline int in_simplex(Corners<D> corners, const Point<D> &p) {
+template <int D> inline int in_simplex(const Corners<D> &corners, const Point<D> &p) {
     int position = 1;
-    for (int i = 0; i <= D && position >= 0; ++i) {
-        const Point<D> *const corner = corners[i];
-        corners[i] = &p;
-        position = std::min(position, orientation<D>(corners));
-        corners[i] = corner;
-    }
+    for (int i = 0; i <= D && position >= 0; ++i)
+        position = std::min(position, facet_side<D>(corners, i, p));
     return position;
 }
 

@@ -193,7 +193,6 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 	abacus_header header;
 	uint64		points;
 	bool		changed = true;
-	char		fires = TRIGGER_FIRES_ON_ORIGIN;
 
 	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(3))
 		ereport(ERROR,
@@ -235,13 +234,12 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 
 	if (present != NIL)
 	{
-		fires = ((TrackingTrigger *) linitial(present))->fires;
 		table_close(table, NoLock); /* DROP TRIGGER refuses a table in use */
 		foreach(cell, present)
 			tracking_drop(lfirst(cell));
 		table = table_open(PG_GETARG_OID(1), NoLock);
 	}
-	tracking_create(function, mesh, header.dimension, table, columns, fires);
+	tracking_create(function, mesh, header.dimension, table, columns, present);
 	table_close(table, NoLock);
 	PG_RETURN_INT64((int64) points);
 }

@@ -116,6 +116,7 @@ read_trigger(Oid oid)
 		trigger->table = form->tgrelid;
 		trigger->mesh = bound_mesh(oid, form->tgrelid);
 		trigger->bound = OidIsValid(trigger->mesh);
+		trigger->event = form->tgtype & TRIGGER_TYPE_EVENT_MASK;
 		trigger->fires = form->tgenabled;
 		if (!trigger->bound && form->tgnargs > 0)
 			trigger->mesh = mesh_by_name(first_argument(tuple, triggers),
@@ -336,32 +337,44 @@ run(const char *command)
 	CommandCounterIncrement();
 }
 
-/* Makes a trigger fire where its table is written as a replica: always, or there only. */
+/*
+ * Makes a trigger fire where its table is written as a replica, always or there only, if the
+ * former one of its event did.
+ */
 static void
-fire_in_replica(Relation table, const char *trigger, char fires)
+fire_as_before(Relation table, const char *name, int16 event, List *former)
 {
-	if (fires != TRIGGER_FIRES_ALWAYS && fires != TRIGGER_FIRES_ON_REPLICA)
-		return;
-	EnableDisableTrigger(table, trigger, fires, false, ShareRowExclusiveLock);
-	CommandCounterIncrement();
+	ListCell   *cell;
+
+	foreach(cell, former)
+	{
+		TrackingTrigger *trigger = lfirst(cell);
+
+		if (trigger->event != event || (trigger->fires != TRIGGER_FIRES_ALWAYS &&
+										trigger->fires != TRIGGER_FIRES_ON_REPLICA))
+			continue;
+		EnableDisableTrigger(table, name, trigger->fires, false, ShareRowExclusiveLock);
+		CommandCounterIncrement();
+	}
 }
 
 /*
  * Makes the triggers, as the caller, through CREATE TRIGGER with all its checks.
- * They fire as others did before; those that had been disabled do so again.
+ * They fire as the former ones did; where those were disabled, these are not.
  */
 void
-tracking_create(Oid function, Oid mesh, int dimension, Relation table, List *columns, char fires)
+tracking_create(Oid function, Oid mesh, int dimension, Relation table, List *columns, List *former)
 {
 	static const struct
 	{
 		const char *name;
+		int16		type;
 		const char *referencing;
 	}			events[] = {
-		{"insert", "REFERENCING NEW TABLE AS abacus_new"},
-		{"update", "REFERENCING OLD TABLE AS abacus_old NEW TABLE AS abacus_new"},
-		{"delete", "REFERENCING OLD TABLE AS abacus_old"},
-		{"truncate", ""}
+		{"insert", TRIGGER_TYPE_INSERT, "REFERENCING NEW TABLE AS abacus_new"},
+		{"update", TRIGGER_TYPE_UPDATE, "REFERENCING OLD TABLE AS abacus_old NEW TABLE AS abacus_new"},
+		{"delete", TRIGGER_TYPE_DELETE, "REFERENCING OLD TABLE AS abacus_old"},
+		{"truncate", TRIGGER_TYPE_TRUNCATE, ""}
 	};
 	char	   *table_schema = get_namespace_name(RelationGetNamespace(table));
 	char	   *table_name = quote_qualified_identifier(table_schema,
@@ -378,7 +391,7 @@ tracking_create(Oid function, Oid mesh, int dimension, Relation table, List *col
 					 quote_identifier(name), events[i].name, table_name, events[i].referencing,
 					 function_name, arguments(mesh, dimension, table, columns)));
 		mesh_bind_trigger(mesh, get_trigger_oid(RelationGetRelid(table), name, false));
-		fire_in_replica(table, name, fires);
+		fire_as_before(table, name, events[i].type, former);
 	}
 }
 

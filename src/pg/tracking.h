@@ -18,6 +18,7 @@ typedef struct TrackingTrigger
 	Oid			table;
 	Oid			mesh;			/* InvalidOid: not found */
 	bool		bound;			/* to the mesh, which otherwise is known by name alone */
+	int16		event;			/* TRIGGER_TYPE_... */
 	char		fires;			/* as pg_trigger.tgenabled says */
 } TrackingTrigger;
 
@@ -26,7 +27,7 @@ extern Oid	tracking_mesh(const TriggerData *data, bool *bound);
 extern void tracking_bind_restored(Relation mesh);
 extern List *tracking_triggers(Oid function, Oid mesh, Oid table);
 extern void tracking_create(Oid function, Oid mesh, int dimension, Relation table,
-							List *columns, char fires);
+							List *columns, List *former);
 extern void tracking_drop(const TrackingTrigger *trigger);
 
 #endif

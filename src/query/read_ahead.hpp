@@ -17,26 +17,29 @@ public:
 
     /// Another place in the block of the simplex found last.
     void follow(Handle found) {
-        ++in_row_;
-        if (in_row_ == 2) {
-            const BlockIndex here = block_of<D>(found);
+        const BlockIndex here = block_of<D>(found);
+        if (here != here_) {
             is_new_ = here != next_;
+            here_ = here;
+            places_ = 1;
+        }
+        ++places_;
+        if (places_ == 2) {
             next_ = cache_.next_on_curve(here);
             if (is_new_) cache_.ask_for_slots(here);
             if (next_ != no_block) cache_.ask_for_slots(next_);
-        } else if (in_row_ == 4) {
-            if (is_new_) cache_.ask_for_loaded_vertices(block_of<D>(found));
+        } else if (places_ == 4) {
+            if (is_new_) cache_.ask_for_loaded_vertices(here);
             if (next_ != no_block) cache_.ask_for_loaded_vertices(next_);
         }
     }
-    /// A place elsewhere.
-    void leave() { in_row_ = 0; }
 
 private:
     const Cache<D> &cache_;
-    unsigned in_row_ = 0;        // places in one block
+    BlockIndex here_ = no_block; // where the places are
     BlockIndex next_ = no_block; // that was asked for
     bool is_new_ = false;        // nobody has asked for the block at hand
+    unsigned places_ = 0;        // in it
 };
 
 } // namespace abacus

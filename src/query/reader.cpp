@@ -38,7 +38,6 @@ template <int D> Handle Reader<D>::start(const Point<D> &p, std::uint64_t code) 
         read_ahead_.follow(last_);
         return last_;
     }
-    read_ahead_.leave();
     if (cache_.is_live(last_) && walk_.is_close(last_, p)) return last_;
     const Handle from = cache_.start(code, p);
     if (from == no_handle) throw_corrupted("The mesh has no simplices.");
@@ -181,9 +180,7 @@ void Reader<D>::first_around(const Point<D> &p, Handle h, abacus_simplex &simple
     Arena<Handle> open(cache_.host());
     for (Handle at = h;;) {
         for (int i = 0; i <= D; ++i) {
-            Corners<D> corners = cache_.corners(cache_.simplex(at));
-            corners[i] = &p;
-            if (orientation<D>(corners) != 0) continue;
+            if (facet_side<D>(cache_.corners(cache_.simplex(at)), i, p) != 0) continue;
             if (seen.empty()) seen.insert(h);
             const Handle next = link_simplex(cache_.cross(at, i));
             if (cache_.simplex(next).is_ghost() || !seen.insert(next).second) continue;

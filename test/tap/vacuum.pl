@@ -61,7 +61,7 @@ SQL
 	vacuum("VACUUM $mesh", 'SET abacus.vacuum_moves_rows = off');
 	cmp_ok(pages($mesh), '>', 1.6 * $fresh, "$mesh: so it does with the setting off");
 	my $told = vacuum("VACUUM (VERBOSE) $mesh");
-	like($told, qr/INFO:  moved \d+ pages? of mesh "public.$mesh" to the beginning of its table\n/,
+	like($told, qr/INFO:  moved [1-9]\d* pages? of mesh "public.$mesh" to the beginning of its table\n/,
 		"$mesh: VACUUM (VERBOSE) says what it moves");
 	cmp_ok(pages($mesh), '<=', 1.2 * $fresh, "$mesh: then it is hardly larger than a fresh one");
 	is(content($mesh), $content, "$mesh: the mesh is the same");

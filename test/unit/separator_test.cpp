@@ -30,11 +30,7 @@ std::vector<Point<D>> targets(const std::vector<Point<D>> &points, Random &rando
 template <int D>
 std::array<int, D + 1> sides(const Cache<D> &cache, const Simplex<D> &s, const Point<D> &p) {
     std::array<int, D + 1> sides;
-    for (int i = 0; i <= D; ++i) {
-        Corners<D> corners = cache.corners(s);
-        corners[i] = &p;
-        sides[i] = orientation<D>(corners);
-    }
+    for (int i = 0; i <= D; ++i) sides[i] = facet_side<D>(cache.corners(s), i, p);
     return sides;
 }
 
