@@ -3,6 +3,7 @@
 #include "delaunay/insertion.hpp"
 #include "support/oracle.hpp"
 #include "support/page_editor.hpp"
+#include "support/sanitized.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,11 +21,7 @@ using Random = std::mt19937_64;
 constexpr std::size_t little = 40 << 10, ample = 64 << 20;
 
 // Inputs that take long under a sanitizer are smaller there.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int scale = 10;
-#else
-constexpr int scale = 1;
-#endif
+constexpr int scale = sanitized ? 10 : 1;
 
 double unit(Random &random) { return std::uniform_real_distribution<double>(0, 1)(random); }
 

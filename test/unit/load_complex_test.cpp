@@ -5,6 +5,7 @@
 // other that does not have it, and in space no edge of one meets an edge or a triangle of the
 // other that has no vertex in common with it (circuits: De Loera, Rambau and Santos,
 // "Triangulations", 2010, §4.1).
+#include "support/sanitized.hpp"
 #include "support/triangulations.hpp"
 
 #include <CGAL/Exact_rational.h>
@@ -18,11 +19,7 @@ namespace abacus::test {
 namespace {
 
 // Fewer sets under a sanitizer.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int scale = 8;
-#else
-constexpr int scale = 1;
-#endif
+constexpr int scale = sanitized ? 8 : 1;
 
 using Kernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
 

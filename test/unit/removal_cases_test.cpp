@@ -2,6 +2,7 @@
 // to the collapse, with attributes; and what it does to pages, counters and failures.
 #include "support/mesh_in_change.hpp"
 #include "support/point_sets.hpp"
+#include "support/sanitized.hpp"
 
 #include <cmath>
 #include <set>
@@ -12,11 +13,7 @@ namespace {
 constexpr std::size_t little = 60 << 10, ample = std::size_t(1) << 30;
 
 // Inputs that take long under a sanitizer are smaller there.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int scale = 10;
-#else
-constexpr int scale = 1;
-#endif
+constexpr int scale = sanitized ? 10 : 1;
 
 template <int D> Domain<D> cube(double lower, double upper) {
     Point<D> from, to;

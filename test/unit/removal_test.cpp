@@ -2,6 +2,7 @@
 // left, whatever the input, the order and the size of the cache.
 #include "support/mesh_in_change.hpp"
 #include "support/point_sets.hpp"
+#include "support/sanitized.hpp"
 
 namespace abacus::test {
 namespace {
@@ -10,11 +11,7 @@ namespace {
 constexpr std::size_t little = 60 << 10;
 
 // Inputs that take long under a sanitizer are smaller there.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr std::size_t scale = 10;
-#else
-constexpr std::size_t scale = 1;
-#endif
+constexpr std::size_t scale = sanitized ? 10 : 1;
 
 template <int D> void remove_all(std::vector<Point<D>> points, std::size_t cache_bytes) {
     MeshInChange<D> mesh(box_around<D>(points), cache_bytes);
