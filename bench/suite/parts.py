@@ -52,7 +52,7 @@ PARTS = [
         2, {"full": (25000, 50000, 100000, 200000), "quick": (10000, 20000), "smoke": (1000,)}, FEWER).measure),
     Part("goose-3d", "insertion by an R-tree (chapter 2), in space", 4, Goose(
         3, {"full": (5000, 10000, 20000), "quick": (2000, 4000), "smoke": (200,)}, FEWER).measure),
-    Part("rows", "location in a table of one row a triangle", 3, Rows(
+    Part("rows", "location in a table of one row a triangle", 4.5, Rows(
         {"full": (1000000, 200000), "quick": (100000, 50000), "smoke": (2000, 1000)}, FEWER).measure),
     Part("edit-2d", "points in and out of a finished mesh in the plane", 5, Edits(
         2, {"full": 1000000, "quick": 100000, "smoke": 5000}).measure),
@@ -61,6 +61,6 @@ PARTS = [
     Part("cancel", "how long a cancel takes", 0.5, cancelled_builds(
         2, {"full": 1000000, "quick": 500000, "smoke": 50000})),
     Part("core", "parts of the core by themselves", 3.5, core),
-    Part("rows-10m", "location in rows, ten times as many", 20, Rows(
+    Part("rows-10m", "location in rows, ten times as many", 26, Rows(
         {"full": (10000000, 1000000, 200000)}, FEWER, ("rows", "exact_rows"), disk=12 << 30).measure),
 ]
