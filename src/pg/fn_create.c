@@ -13,12 +13,13 @@
 #include "utils/varlena.h"
 
 #include "pg/build.h"
+#include "pg/new_table.h"
 #include "pg/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_create);
 
 /* CREATE TABLE of one of the extension's row types, through the usual utility path. */
-static Oid
+static void
 create_table(Oid namespace, const char *name, Oid type_namespace, const char *type,
 			 const char *primary_key)
 {
@@ -33,7 +34,6 @@ create_table(Oid namespace, const char *name, Oid type_namespace, const char *ty
 
 	if (result != SPI_OK_UTILITY)
 		elog(ERROR, "could not create table \"%s\": %s", name, SPI_result_code_string(result));
-	return get_relname_relid(name, namespace);
 }
 
 /*
@@ -47,7 +47,6 @@ build_create(text *name, Oid extension_namespace, abacus_header *header)
 	char	   *vertices_name = psprintf("%s" VERTEX_TABLE_SUFFIX, range->relname);
 	Oid			namespace;
 	Oid			mesh;
-	Oid			vertices;
 	Host	   *host;
 
 	PreventCommandIfReadOnly("abacus_create()");
@@ -58,15 +57,14 @@ build_create(text *name, Oid extension_namespace, abacus_header *header)
 				 errmsg("mesh name \"%s\" is too long", range->relname),
 				 errdetail("The table \"%s\" stands beside it; names have at most %d bytes.",
 						   vertices_name, NAMEDATALEN - 1)));
-	namespace = RangeVarGetCreationNamespace(range);
+	namespace = new_table_schema(range);
 
 	SPI_connect();
-	mesh = create_table(namespace, range->relname, extension_namespace, SIMPLEX_PAGE_TYPE,
-						"code, part");
-	vertices = create_table(namespace, vertices_name, extension_namespace, VERTEX_PAGE_TYPE,
-							"first, part");
+	create_table(namespace, range->relname, extension_namespace, SIMPLEX_PAGE_TYPE, "code, part");
+	create_table(namespace, vertices_name, extension_namespace, VERTEX_PAGE_TYPE, "first, part");
 	SPI_finish();
-	mesh_bind_vertex_table(mesh, vertices);
+	mesh = new_table_id(namespace, range->relname);
+	mesh_bind_vertex_table(mesh, new_table_id(namespace, vertices_name));
 	CommandCounterIncrement();
 
 	host = host_create(CurrentMemoryContext, mesh, MESH_WRITE);

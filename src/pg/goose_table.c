@@ -48,6 +48,7 @@
 #include "pg/goose_row.h"
 #include "pg/goose_table.h"
 #include "pg/guard.h"
+#include "pg/new_table.h"
 
 /* ---- The table -------------------------------------------------------------- */
 
@@ -82,7 +83,7 @@ create_table(const char *name, Oid namespace, int dimension)
 	run_utility(psprintf("CREATE INDEX ON %s USING gist (box)", qualified));
 	SPI_finish();
 	CommandCounterIncrement();
-	return get_relname_relid(name, namespace);
+	return new_table_id(namespace, name);
 }
 
 /* An event trigger may have changed what was made: it must be what the code below relies on. */
@@ -126,7 +127,7 @@ goose_table_create(text *name, int dimension)
 	table->dimension = dimension;
 	table->memory = CurrentMemoryContext;
 	table->scratch = AllocSetContextCreate(table->memory, "Goose row", ALLOCSET_DEFAULT_SIZES);
-	table->relid = create_table(range->relname, RangeVarGetCreationNamespace(range), dimension);
+	table->relid = create_table(range->relname, new_table_schema(range), dimension);
 	table->heap = table_open(table->relid, RowExclusiveLock);
 	indexes = RelationGetIndexList(table->heap);
 	check_shape(table, indexes);

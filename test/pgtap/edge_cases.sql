@@ -101,5 +101,17 @@ ALTER TABLE by_hand ALTER page DROP NOT NULL;
 UPDATE by_hand SET page = NULL WHERE code >= 0;
 SELECT is(pg_temp.state('SELECT count(*) FROM abacus_simplices(''by_hand'')'), 'XX001', 'a NULL page');
 
+-- an event trigger that drops what is made
+CREATE FUNCTION drop_what_is_made() RETURNS event_trigger LANGUAGE plpgsql AS
+    $$ BEGIN EXECUTE 'DROP TABLE IF EXISTS ' || current_setting('edge.dropped'); END $$;
+CREATE EVENT TRIGGER drops ON ddl_command_end WHEN TAG IN ('CREATE TABLE') EXECUTE FUNCTION drop_what_is_made();
+SET LOCAL client_min_messages = warning; -- nothing of the other CREATE TABLE
+SET LOCAL edge.dropped = 'doomed';
+SELECT is(pg_temp.state('SELECT abacus_create(''doomed'', 2)'), '42P01', 'a mesh dropped at once');
+SET LOCAL edge.dropped = 'doomed_vertices';
+SELECT is(pg_temp.state('SELECT abacus_create(''doomed'', 2)'), '42P01', 'its vertex table dropped at once');
+DROP EVENT TRIGGER drops;
+SELECT lives_ok('SELECT abacus_create(''doomed'', 2)', 'and without that trigger');
+
 SELECT * FROM finish();
 ROLLBACK;

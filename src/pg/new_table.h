@@ -1,0 +1,10 @@
+/* new_table.h: where a table is about to be made, and which one it has become. */
+#ifndef ABACUS_NEW_TABLE_H
+#define ABACUS_NEW_TABLE_H
+
+#include "nodes/primnodes.h"
+
+extern Oid	new_table_schema(RangeVar *name);
+extern Oid	new_table_id(Oid schema, const char *name);
+
+#endif
