@@ -38,7 +38,7 @@ summary() {
 # sanitized and what is fuzzed are compiled apart, for what the fuzzer needs makes all tests take
 # twice their time.
 build_with_clang() {
-    cmake -S . -B "$1" -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ "$2" >/dev/null &&
+    CC=clang CXX=clang++ cmake -S . -B "$1" "$2" >/dev/null &&
         cmake --build "$1" -j "$ABACUS_JOBS"
 }
 
