@@ -60,6 +60,7 @@ PG_SOURCES += src/pg/progress.c
 PG_SOURCES += src/pg/host.c
 PG_SOURCES += src/pg/names.c
 PG_SOURCES += src/pg/new_table.c
+PG_SOURCES += src/pg/utility.c
 PG_SOURCES += src/pg/header.c
 PG_SOURCES += src/pg/writer.c
 PG_SOURCES += src/pg/reader.c

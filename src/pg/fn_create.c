@@ -6,7 +6,6 @@
 #include "access/table.h"
 #include "access/xact.h"
 #include "catalog/namespace.h"
-#include "executor/spi.h"
 #include "miscadmin.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
@@ -15,6 +14,7 @@
 #include "pg/build.h"
 #include "pg/new_table.h"
 #include "pg/sql_function.h"
+#include "pg/utility.h"
 
 SQL_FUNCTION(abacus_sql_create);
 
@@ -24,16 +24,12 @@ create_table(Oid namespace, const char *name, Oid type_namespace, const char *ty
 			 const char *primary_key)
 {
 	char	   *schema = get_namespace_name(namespace);
-	char	   *command = psprintf("CREATE TABLE %s OF %s (page WITH OPTIONS NOT NULL, "
-								   "PRIMARY KEY (%s)) USING heap",
-								   quote_qualified_identifier(schema, name),
-								   quote_qualified_identifier(get_namespace_name(type_namespace),
-															  type),
-								   primary_key);
-	int			result = SPI_execute(command, false, 0);
+	char	   *type_schema = get_namespace_name(type_namespace);
 
-	if (result != SPI_OK_UTILITY)
-		elog(ERROR, "could not create table \"%s\": %s", name, SPI_result_code_string(result));
+	utility_run(psprintf("CREATE TABLE %s OF %s (page WITH OPTIONS NOT NULL, PRIMARY KEY (%s)) "
+						 "USING heap",
+						 quote_qualified_identifier(schema, name),
+						 quote_qualified_identifier(type_schema, type), primary_key));
 }
 
 /*
@@ -59,10 +55,8 @@ build_create(text *name, Oid extension_namespace, abacus_header *header)
 						   vertices_name, NAMEDATALEN - 1)));
 	namespace = new_table_schema(range);
 
-	SPI_connect();
 	create_table(namespace, range->relname, extension_namespace, SIMPLEX_PAGE_TYPE, "code, part");
 	create_table(namespace, vertices_name, extension_namespace, VERTEX_PAGE_TYPE, "first, part");
-	SPI_finish();
 	mesh = new_table_id(namespace, range->relname);
 	mesh_bind_vertex_table(mesh, new_table_id(namespace, vertices_name));
 	CommandCounterIncrement();

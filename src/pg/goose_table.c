@@ -37,7 +37,6 @@
 #include "catalog/namespace.h"
 #include "catalog/pg_am.h"
 #include "catalog/pg_type.h"
-#include "executor/spi.h"
 #include "lib/stringinfo.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
@@ -49,17 +48,9 @@
 #include "pg/goose_table.h"
 #include "pg/guard.h"
 #include "pg/new_table.h"
+#include "pg/utility.h"
 
 /* ---- The table -------------------------------------------------------------- */
-
-static void
-run_utility(const char *command)
-{
-	int			result = SPI_execute(command, false, 0);
-
-	if (result != SPI_OK_UTILITY)
-		elog(ERROR, "could not run \"%s\": %s", command, SPI_result_code_string(result));
-}
 
 /* Makes table and index through the usual utility path, as the caller; returns the table. */
 static Oid
@@ -78,11 +69,8 @@ create_table(const char *name, Oid namespace, int dimension)
 			appendStringInfo(&command, "%c%d pg_catalog.float8, ", axes[k], i);
 	appendStringInfo(&command, "box %s) USING heap",
 					 format_type_be_qualified(goose_box_type(dimension)));
-	SPI_connect();
-	run_utility(command.data);
-	run_utility(psprintf("CREATE INDEX ON %s USING gist (box)", qualified));
-	SPI_finish();
-	CommandCounterIncrement();
+	utility_run(command.data);
+	utility_run(psprintf("CREATE INDEX ON %s USING gist (box)", qualified));
 	return new_table_id(namespace, name);
 }
 

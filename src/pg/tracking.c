@@ -30,7 +30,6 @@
 #include "catalog/pg_proc.h"
 #include "catalog/pg_trigger.h"
 #include "commands/defrem.h"
-#include "executor/spi.h"
 #include "miscadmin.h"
 #include "storage/lmgr.h"
 #include "utils/acl.h"
@@ -42,6 +41,7 @@
 
 #include "pg/mesh.h"
 #include "pg/tracking.h"
+#include "pg/utility.h"
 
 /* The function TRACKING_FUNCTION of the extension; InvalidOid if it has none. */
 Oid
@@ -324,19 +324,6 @@ arguments(Oid mesh, int dimension, Relation table, List *columns)
 	return list.data;
 }
 
-static void
-run(const char *command)
-{
-	int			result;
-
-	SPI_connect();
-	result = SPI_execute(command, false, 0);
-	if (result != SPI_OK_UTILITY)
-		elog(ERROR, "could not run \"%s\": %s", command, SPI_result_code_string(result));
-	SPI_finish();
-	CommandCounterIncrement();
-}
-
 /*
  * Makes a trigger fire where its table is written as a replica, always or there only, if the
  * former one of its event did.
@@ -387,9 +374,11 @@ tracking_create(Oid function, Oid mesh, int dimension, Relation table, List *col
 	{
 		char	   *name = choose_name(mesh, RelationGetRelid(table), events[i].name);
 
-		run(psprintf("CREATE TRIGGER %s AFTER %s ON %s %s FOR EACH STATEMENT EXECUTE FUNCTION %s(%s)",
-					 quote_identifier(name), events[i].name, table_name, events[i].referencing,
-					 function_name, arguments(mesh, dimension, table, columns)));
+		utility_run(psprintf("CREATE TRIGGER %s AFTER %s ON %s %s FOR EACH STATEMENT "
+							 "EXECUTE FUNCTION %s(%s)",
+							 quote_identifier(name), events[i].name, table_name,
+							 events[i].referencing, function_name,
+							 arguments(mesh, dimension, table, columns)));
 		mesh_bind_trigger(mesh, get_trigger_oid(RelationGetRelid(table), name, false));
 		fire_as_before(table, name, events[i].type, former);
 	}
@@ -403,6 +392,6 @@ tracking_drop(const TrackingTrigger *trigger)
 	char	   *table = get_rel_name(trigger->table);
 
 	if (schema != NULL && table != NULL)
-		run(psprintf("DROP TRIGGER %s ON %s", quote_identifier(trigger->name),
-					 quote_qualified_identifier(schema, table)));
+		utility_run(psprintf("DROP TRIGGER %s ON %s", quote_identifier(trigger->name),
+							 quote_qualified_identifier(schema, table)));
 }

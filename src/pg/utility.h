@@ -1,0 +1,7 @@
+/* utility.h: a utility statement that we make, run as if the caller had sent it. */
+#ifndef ABACUS_UTILITY_H
+#define ABACUS_UTILITY_H
+
+extern void utility_run(const char *command);
+
+#endif
