@@ -1,6 +1,7 @@
 // Points come and go, in any number at a time: the mesh is always that of the points
 // there are.
 #include "support/point_model.hpp"
+#include "support/sanitized.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +61,7 @@ TYPED_TEST(Edit, KeepsTheMeshOfThePointsThereAre) {
             SCOPED_TRACE(kind);
             MeshOf<D> mesh(1, cache_bytes);
             PointModel<D> model;
-            for (int step = 0; step < 60; ++step) {
+            for (int step = 0; step < (sanitized ? 20 : 60); ++step) {
                 const std::size_t n = sizes[this->random() % std::size(sizes)];
                 const int now = this->random() % 8 == 0 ? 0 : kind;
                 switch (this->random() % 5) {

@@ -3,6 +3,7 @@
 #include "staging/leaving.hpp"
 
 #include "support/oracle.hpp"
+#include "support/sanitized.hpp"
 
 #include <gtest/gtest.h>
 
@@ -154,7 +155,7 @@ TEST(Leaving, TakesPointsOfOnePlaceAsOneAfterTheOther) {
     // The small cache takes some dozens together, the large one all of them.
     for (const std::size_t cache_bytes : {std::size_t(40) << 10, std::size_t(16) << 20}) {
         Place place(cache_bytes);
-        for (int step = 0; step < 150; ++step) {
+        for (int step = 0; step < (sanitized ? 50 : 150); ++step) {
             const std::int64_t ids = 1 + static_cast<std::int64_t>(random() % 2000);
             std::vector<std::int64_t> some(1 + random() % 900);
             for (std::int64_t &id : some) id = static_cast<std::int64_t>(random() % ids);
@@ -187,7 +188,7 @@ std::uint64_t calls_to_take_half(std::size_t n, Random *random, std::int64_t id_
 TEST(Leaving, ReadsAndWritesThePagesOfAPlaceAFewTimes) {
     // In the order of input, in any order, and by ids that are not there.
     Random random(7);
-    const std::size_t n = 20000, points_a_page = 100; // at least
+    const std::size_t n = sanitized ? 5000 : 20000, points_a_page = 100; // at least
     EXPECT_LT(calls_to_take_half(n, nullptr, 0), 8 * n / points_a_page);
     EXPECT_LT(calls_to_take_half(n, &random, 0), 8 * n / points_a_page);
     EXPECT_LT(calls_to_take_half(n, nullptr, 1 << 20), 8 * n / points_a_page);

@@ -50,7 +50,7 @@ protected:
         Random random(7);
         auto points = this->GetParam().points(random);
         std::shuffle(points.begin(), points.end(), random);
-        if (points.size() / scale >= 100) points.resize(points.size() / scale);
+        points.resize(std::max(points.size() / scale, std::min<std::size_t>(points.size(), 100)));
         return distinct(points);
     }
     void in_random_order() {
