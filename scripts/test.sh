@@ -145,8 +145,8 @@ documentation_examples() {
 
 scripts/install-dependencies.sh test || fail "packages are missing"
 export ABACUS_BUILT=1 # tells the scripts below that all is built and installed
-suite "build" build_release
 suite "build extension" install_extension
+ABACUS_CORE_OBJECTS=$ABACUS_BUILD/extension suite "build" build_release
 
 cluster_start test
 second_line_begin
