@@ -3,7 +3,6 @@
 #include "support/containment.hpp"
 #include "support/large_mesh.hpp"
 #include "support/located_places.hpp"
-#include "support/sanitized.hpp"
 #include "support/triangulations.hpp"
 
 #include <gtest/gtest.h>
@@ -58,7 +57,7 @@ void expect_answers_of_each(MeshOf<D> &mesh, const std::vector<InputOf<D>> &plac
 TYPED_TEST(Places, HaveTheAnswersOfEach) {
     constexpr int D = TypeParam::value;
     Large<D> mesh(D == 2 ? 60000 : 12000, 1);
-    const auto places = places_in(mesh, sanitized ? 2000 : 10000);
+    const auto places = places_in(mesh, 10000);
     const std::size_t bytes = mesh.host.bytes;
     std::vector<std::int64_t> order;
     for (const std::size_t cache : {std::size_t{40} << 10, mesh.tenth(), ample})
