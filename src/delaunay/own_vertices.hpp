@@ -19,6 +19,10 @@ public:
     /// Lists the vertices that belong to the page that owns the key; returns the lower key
     /// of the next page, end_key after the last.
     Key collect(const Key &key) {
+        return collect(key, [](VertexIndex, const Arena<Handle> &) {});
+    }
+    /// The same; calls visit(vertex, star) for each, with all simplices around it.
+    template <class Visit> Key collect(const Key &key, Visit visit) {
         // First all vertices of the page: loading others numbers vertices in its own way.
         numbered_.clear();
         corners_.clear();
@@ -29,9 +33,11 @@ public:
                 if (cache_.number(numbered_, s.vertex[i]) == corners_.size())
                     corners_.push_back(make_link(h, i));
         });
-        for (const Link corner : corners_)
-            if (is_own(link_simplex(corner), link_facet(corner)))
-                own_.push_back(cache_.simplex(link_simplex(corner)).vertex[link_facet(corner)]);
+        for (const Link corner : corners_) {
+            if (!is_own(link_simplex(corner), link_facet(corner))) continue;
+            own_.push_back(cache_.simplex(link_simplex(corner)).vertex[link_facet(corner)]);
+            visit(own_.back(), open_);
+        }
         return next;
     }
     const Arena<VertexIndex> &list() const { return own_; }

@@ -144,7 +144,8 @@ template <int D> void Check<D>::check_topology() {
                      {.budget = cache_bytes_, .verify_links = true, .verify_checksums = false});
     Cache<D> &cache = reader.cache();
     OwnVertices<D> own(cache);
-    std::uint64_t pages = 0, vertices = 0;
+    Stars<D> stars(cache);
+    std::uint64_t pages = 0;
     for (Key key = first_key; key < end_key;) {
         at_key_ = key;
         const Key next = cache.visit(key, [&](Handle h) {
@@ -152,17 +153,26 @@ template <int D> void Check<D>::check_topology() {
                 fault("key", at_key_, "A simplex lies in a page that does not own its key.");
             check_simplex(cache, h);
         });
-        if (header_.not_delaunay == 0) {
-            own.collect(key);
-            vertices += own.list().size();
-        }
+        if (header_.not_delaunay == 0)
+            own.collect(key, [&](VertexIndex v, const Arena<Handle> &star) {
+                if (!stars.add(v, star))
+                    fault("overlap", at_key_, "Simplices wind around a vertex or an edge twice.");
+            });
         key = next;
         cache.trim();
         host_.poll();
         report(++pages);
     }
-    if (header_.not_delaunay == 0 && vertices != header_.vertices)
+    if (header_.not_delaunay == 0) check_whole(stars);
+}
+
+template <int D> void Check<D>::check_whole(const Stars<D> &stars) {
+    if (stars.count() != header_.vertices)
         fault("count", first_key, "The header counts other vertices than the pages hold.");
+    if (stars.corners() != (D + 1) * simplices_ + D * ghosts_)
+        fault("overlap", first_key, "A vertex has two separate stars.");
+    else if (stars.are_wound_once() && stars.least() != 1)
+        fault("overlap", first_key, "The mesh is in more than one piece.");
 }
 
 template <int D> void Check<D>::check_simplex(Cache<D> &cache, Handle h) {

@@ -9,14 +9,16 @@
 //   topology  every link leads, by its stored key, to the simplex with the same facet
 //             in the opposite orientation; pages agree about the vertices they share;
 //             across every facet the empty-sphere criterion holds under the
-//             perturbation, and the hull is convex
+//             perturbation, and the hull is convex; simplices wind once around vertices
+//             and edges, and are one piece
 //   points    every repeated point equals a vertex; the sequence of those that wait is
 //             whole; the counts add up
 //
 // A mesh that is not Delaunay need not fulfil the empty-sphere criterion, Euler's relation
-// nor have a convex hull. What is verified instead across facets is that the two simplices
-// lie on their two sides, which follows from their orientations. That simplices that are no
-// neighbours do not overlap was verified when the mesh was loaded, and is not again.
+// nor have a convex hull, which is what its stars are judged by. What is verified instead
+// across facets is that the two simplices lie on their two sides, which follows from their
+// orientations. That simplices that are no neighbours do not overlap was verified when the
+// mesh was loaded, and is not again.
 //
 // Its vertices are listed beside it, and the list is compared with the pages.
 //
@@ -24,14 +26,13 @@
 // database repeats: that it is changed in a simplex page only the checksum tells. The other
 // passes don't depend on that, and tell what else has changed.
 //
-// Locally Delaunay across every facet, with a convex hull and in one piece, is globally
-// Delaunay (Delaunay 1934), and under the perturbation unique. That it is in one piece
-// follows from Euler's relation in 2D; in 3D nothing proves it.
+// Locally Delaunay across every facet is globally Delaunay (Delaunay 1934), and under the
+// perturbation unique, where no place is covered twice: see query/stars.hpp.
 #pragma once
 
-#include "delaunay/own_vertices.hpp"
 #include "query/page_scan.hpp"
 #include "query/reader.hpp"
+#include "query/stars.hpp"
 #include "staging/repeated_points.hpp"
 #include "staging/vertex_reader.hpp"
 
@@ -64,6 +65,7 @@ private:
     void check_box(const PageView<D> &page, int patch);
     void check_topology();
     void check_simplex(Cache<D> &cache, Handle h);
+    void check_whole(const Stars<D> &stars);
     void check_repeated_points();
     void check_follows(const Key &last, const Key &at);
     void check_waiting_points();

@@ -60,17 +60,19 @@ public:
         return true;
     }
 
-    /// Compares what is stored with CGAL's triangulation of these points, and checks it.
-    void verify(const std::vector<Point<D>> &points) {
-        const auto expected = cgal_simplices<D>(points);
+    /// Stores a mesh of so many vertices; what is wrong with it.
+    std::vector<std::string> check(std::size_t vertices) {
         cache.flush();
-        abacus_header &header = mesh_.header;
-        header.vertices = points.size();
-        header.simplices = static_cast<std::uint64_t>(delaunay.simplices());
-        header.ghosts = static_cast<std::uint64_t>(delaunay.ghosts());
-        ASSERT_EQ(header.simplices, expected.size());
-        ASSERT_TRUE(mesh_.positions() == expected);
-        ASSERT_EQ(mesh_.check(), std::vector<std::string>{});
+        mesh_.header.vertices = vertices;
+        mesh_.header.simplices = static_cast<std::uint64_t>(delaunay.simplices());
+        mesh_.header.ghosts = static_cast<std::uint64_t>(delaunay.ghosts());
+        return mesh_.check();
+    }
+
+    /// Checks what is stored, and compares it with CGAL's triangulation of these points.
+    void verify(const std::vector<Point<D>> &points) {
+        ASSERT_EQ(check(points.size()), std::vector<std::string>{});
+        ASSERT_TRUE(mesh_.positions() == cgal_simplices<D>(points));
         ASSERT_EQ(mesh_.host.violations, std::vector<std::string>{});
     }
 

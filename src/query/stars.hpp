@@ -1,0 +1,134 @@
+// What the stars of all vertices say of the whole mesh: that it is in one piece and nowhere
+// covers a place twice.
+//
+// A mesh can be sound across every facet and overlap itself all the same. Two meshes may be
+// stored as one. Or five triangles around a vertex join the corners of a pentagon to the next
+// but one, and wind around the vertex twice: each is positively oriented, no circumcircle is
+// touched, the hull turns left at every corner, and Euler's relation holds.
+//
+// One piece. The lexicographically least vertex of a piece has no lesser neighbour. In a
+// triangulation of a convex region there is one such vertex only: the segment from any other to
+// the least one begins in a simplex of its star, which so has a lesser corner. Hence there are
+// at least as many such vertices as pieces, and a sound mesh has one.
+//
+// Wound once. Around a ridge, which is a vertex in the plane and an edge in space, simplices
+// follow one another as wedges of less than half a turn. In a direction and the opposite one the
+// sides of the line, or plane, along which these lie change: twice in a full turn, at most once in
+// half a turn or less, which is what the wedges make up on the hull, where two ghosts close the
+// circle. The direction is one that no vertex lies in: towards greater lexicographic order.
+//
+// Every star. Those looked at have as many corners as the mesh: so no vertex has a second star
+// that no page calls its own.
+//
+// What is in one piece, wound once everywhere and locally convex on its hull is convex and
+// covers no place twice (Tietze 1928; Nakajima 1928, for what is only immersed).
+#pragma once
+
+#include "delaunay/own_vertices.hpp"
+#include "geometry/predicates.hpp"
+
+namespace abacus {
+
+template <int D> class Stars {
+public:
+    explicit Stars(Cache<D> &cache)
+        : cache_(cache), neighbours_(cache.host()), turns_(cache.host()) {}
+
+    /// Looks at all simplices around a vertex, none of which has been evicted. False if they wind
+    /// around it, or around an edge from there to a greater vertex, more than once.
+    bool add(VertexIndex v, const Arena<Handle> &star) {
+        ++count_;
+        corners_ += star.size();
+        neighbours_.clear();
+        turns_.resize(D == 2);
+        std::fill(turns_.begin(), turns_.end(), Turn{});
+        bool has_lesser = false;
+        for (const Handle h : star) has_lesser |= turn(cache_.simplex(h), v);
+        least_ += !has_lesser;
+        const bool once = std::all_of(turns_.begin(), turns_.end(), [](const Turn &t) {
+            return t.ghosts == 0 ? t.changes == 2 : t.ghosts == 2 && t.changes <= 1;
+        });
+        are_wound_once_ &= once;
+        return once;
+    }
+
+    /// Whether add() has always been true.
+    bool are_wound_once() const { return are_wound_once_; }
+    /// Stars so far, the corners of simplices that they are, and how many of their vertices have
+    /// no lesser neighbour.
+    std::uint64_t count() const { return count_; }
+    std::uint64_t corners() const { return corners_; }
+    std::uint64_t least() const { return least_; }
+
+private:
+    /// Around a ridge: wedges whose sides lie on different sides of the line or plane, and ghosts.
+    struct Turn {
+        std::uint32_t changes = 0, ghosts = 0;
+    };
+
+    /// Adds a simplex to the turns around its vertex v, in space around the edges from there to
+    /// greater vertices, so that each is looked at once. Returns whether it has a lesser vertex.
+    bool turn(const Simplex<2> &s, VertexIndex v) {
+        const int corner = s.index_of(v);
+        const VertexIndex a = s.vertex[(corner + 1) % 3], b = s.vertex[(corner + 2) % 3];
+        if (s.is_ghost()) {
+            ++turns_[0].ghosts;
+            return is_less(a == infinite_vertex ? b : a, v);
+        }
+        const bool a_is_less = is_less(a, v), b_is_less = is_less(b, v);
+        turns_[0].changes += a_is_less != b_is_less;
+        return a_is_less || b_is_less;
+    }
+    bool turn(const Simplex<3> &s, VertexIndex v) {
+        const int corner = s.index_of(v), others = s.finite_vertices() - 1;
+        std::array<VertexIndex, 3> other;
+        std::array<bool, 3> is_lesser;
+        bool has_lesser = false;
+        for (int i = 0; i < others; ++i) {
+            other[i] = s.vertex[i + (i >= corner)];
+            has_lesser |= is_lesser[i] = is_less(other[i], v);
+        }
+        // Of each pair of the others, as seen from v, is the second one to the left of the first?
+        // So it is for the edge to the first; for that to the second, the first is to the right.
+        std::array<bool, 3> is_left{};
+        if (!s.is_ghost())
+            for (int i = 0; i < 3; ++i) is_left[i] = turns_left(v, other[i], other[(i + 1) % 3]);
+        for (int i = 0; i < others; ++i) {
+            if (is_lesser[i]) continue;
+            Turn &turn = turn_around(other[i]);
+            if (s.is_ghost()) ++turn.ghosts;
+            else turn.changes += is_left[i] == is_left[(i + 2) % 3];
+        }
+        return has_lesser;
+    }
+    /// Of the edge to that neighbour.
+    Turn &turn_around(VertexIndex neighbour) {
+        const std::uint32_t n = cache_.number(neighbours_, neighbour);
+        if (n == turns_.size()) turns_.push_back({});
+        return turns_[n];
+    }
+    bool is_less(VertexIndex a, VertexIndex b) const {
+        return lexicographically_less<D>(cache_.point(a), cache_.point(b));
+    }
+    /// Whether b is to the left of a, seen from v against the direction of lexicographic order:
+    /// in projection along the first axis; where that shows them in line, the next.
+    bool turns_left(VertexIndex v, VertexIndex a, VertexIndex b) const {
+        const Point<3> &p = cache_.point(v), &q = cache_.point(a), &r = cache_.point(b);
+        const SignedArea area = signed_area({q[1] - p[1], q[2] - p[2]}, {r[1] - p[1], r[2] - p[2]});
+        if (area.is_sure()) [[likely]] return area.value > 0; // a coin's toss: no branch
+        for (int axis = 0; axis < 3; ++axis) {
+            const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+            const int side = orientation({p[i], p[j]}, {q[i], q[j]}, {r[i], r[j]});
+            if (side != 0) return side > 0;
+        }
+        throw_corrupted("A simplex is flat.");
+    }
+
+    Cache<D> &cache_;
+    std::uint64_t count_ = 0, corners_ = 0, least_ = 0;
+    bool are_wound_once_ = true;
+    typename VertexHeap<D>::Numbering neighbours_; // of the vertex at hand, in space
+    Arena<Turn> turns_;                            // around it, or around the edges to those
+};
+
+} // namespace abacus
