@@ -65,6 +65,7 @@ PG_SOURCES += src/pg/header.c
 PG_SOURCES += src/pg/writer.c
 PG_SOURCES += src/pg/reader.c
 PG_SOURCES += src/pg/mesh_cache.c
+PG_SOURCES += src/pg/result.c
 PG_SOURCES += src/pg/row_packer.c
 PG_SOURCES += src/pg/source.c
 PG_SOURCES += src/pg/shape.c

@@ -38,6 +38,22 @@ SELECT abacus_triangulate('other', 'VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1)');
 SELECT abacus_stage('other', 'SELECT id, 2, look() FROM abacus_locate(''field'', ''SELECT 1, 50, 50'')');
 SELECT count(*) FROM abacus_progress;
 DROP TABLE other;
+-- and that of COPY, of our rows or into a table that a mesh follows
+CREATE FUNCTION copies() RETURNS bigint LANGUAGE sql AS $$ SELECT pg_stat_clear_snapshot(); SELECT count(*) FROM pg_stat_progress_copy WHERE pid = pg_backend_pid() $$;
+CREATE FUNCTION check_and_look() RETURNS bigint LANGUAGE plpgsql AS $$ BEGIN PERFORM abacus_check('field'); RETURN copies(); END $$;
+COPY (SELECT check_and_look()) TO STDOUT;
+CREATE TABLE spots (id bigint PRIMARY KEY, x float8, y float8);
+SELECT abacus_create('followed', 2);
+SELECT abacus_track('followed', 'spots');
+CREATE FUNCTION see_copy() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN RAISE NOTICE 'copies that tell: %', copies(); RETURN NULL; END $$;
+CREATE TRIGGER zz_last AFTER INSERT ON spots EXECUTE FUNCTION see_copy();
+COPY spots FROM STDIN;
+1	0	0
+2	1	0
+3	0	1
+\.
+SELECT count(*) FROM abacus_simplices('followed');
+DROP TABLE spots, followed;
 
 -- pictures
 SELECT substr(abacus_draw('field', 64), 1, 8) = '\x89504e470d0a1a0a' AS png;

@@ -76,6 +76,12 @@ BEGIN READ ONLY;
 SELECT abacus_create('other', 2);
 \echo :LAST_ERROR_SQLSTATE
 ROLLBACK;
+BEGIN READ ONLY;
+SELECT abacus_triangulate('other', 'VALUES (1, 2, 3)');
+ROLLBACK;
+BEGIN READ ONLY;
+SELECT abacus_load('other', 'VALUES (1, 2, 3)', 'VALUES (1, 2, 3)');
+ROLLBACK;
 
 -- repeatable read
 BEGIN ISOLATION LEVEL REPEATABLE READ;

@@ -58,7 +58,7 @@ COMMENT ON COLUMN abacus_simplex_page.page IS 'the page';
 
 CREATE TYPE abacus_vertex_page AS (first bigint, part bigint, page abacus_page);
 COMMENT ON TYPE abacus_vertex_page IS
-    'row of the vertex table of a mesh: a page of points that wait to be inserted, or, where first is negative, of points equal to a vertex';
+    'row of the vertex table of a mesh: a page of points that wait to be inserted (of a mesh that is not Delaunay, of its vertices), or, where first is negative, of points equal to a vertex';
 COMMENT ON COLUMN abacus_vertex_page.first IS
     'sequence number of the page''s first point; of points equal to a vertex the locational code, less 2^63';
 COMMENT ON COLUMN abacus_vertex_page.part IS 'continues the code: serial number of a point; 0 where points wait';

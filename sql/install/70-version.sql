@@ -1,5 +1,5 @@
 CREATE FUNCTION abacus_version()
 RETURNS text
 AS 'MODULE_PATHNAME', 'abacus_sql_version'
-LANGUAGE C IMMUTABLE PARALLEL SAFE;
+LANGUAGE C STABLE PARALLEL SAFE;
 COMMENT ON FUNCTION abacus_version() IS 'version of the loaded module';

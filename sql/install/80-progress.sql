@@ -46,7 +46,7 @@ SELECT pid,
        pages_read,
        pages_written
 FROM build;
-COMMENT ON VIEW abacus_progress IS 'live figures of the builds, checks and locations of many places that run in any session';
+COMMENT ON VIEW abacus_progress IS 'live figures of the builds, changes, loads, checks and locations of many places that run in any session';
 COMMENT ON COLUMN abacus_progress.pid IS 'process id of the session';
 COMMENT ON COLUMN abacus_progress.mesh IS 'the mesh; a number while its creation is not committed, NULL in another database';
 COMMENT ON COLUMN abacus_progress.phase IS 'starting, reading, sorting, staging, inserting, deleting, flushing, checking or locating';

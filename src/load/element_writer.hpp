@@ -20,7 +20,7 @@ namespace abacus {
 template <int D> class ElementWriter {
 public:
     ElementWriter(const Host &host, const LoadLayout<D> &layout, const Domain<D> &domain,
-               unsigned attributes, bool linked_ghosts);
+                  unsigned attributes, bool linked_ghosts);
 
     /// Writes the pages of all elements, which are sorted; reads them twice.
     void write(RecordSort &elements, Pacer &pacer);
@@ -41,7 +41,6 @@ private:
 
     const Host &host_;
     const LoadLayout<D> layout_;
-    const bool linked_ghosts_;
     Cache<D> cache_;
     const std::size_t least_capacity_; // elements of a page, before any is made
     Arena<std::uint64_t> crowded_;     // codes of many elements, ascending

@@ -1,9 +1,9 @@
 #include "load/load.hpp"
 
 #include "cache/domain_of.hpp"
+#include "load/element_writer.hpp"
 #include "load/flanks.hpp"
 #include "load/overlap.hpp"
-#include "load/element_writer.hpp"
 #include "staging/canonical.hpp"
 #include "staging/vertex_page.hpp"
 
@@ -137,10 +137,13 @@ template <int D> void Load<D>::order_vertices() {
     while (const Word *place = places.next()) {
         const Point<D> &p = point_in<D>(place);
         const Word id = place[1 + D];
-        if (previous_point == p)
-            refuse("vertices " + number(std::min(previous, id)) + " and " +
-                       number(std::max(previous, id)) + " have the same coordinates",
+        if (previous_point == p) {
+            const auto [lesser, greater] = std::minmax(
+                {static_cast<std::int64_t>(previous), static_cast<std::int64_t>(id)});
+            refuse("vertices " + std::to_string(lesser) + " and " + std::to_string(greater) +
+                       " have the same coordinates",
                    {}, "Give the simplices one vertex for each place.");
+        }
         previous = id;
         previous_point = p;
         Word *vertex = ordered_.add();

@@ -19,7 +19,8 @@ extern void shape_point(const abacus_header *header, ArrayType *point, const cha
 						double *values);
 extern void shape_domain(abacus_header *header, ArrayType *lower, ArrayType *upper);
 
-extern Oid	build_create(text *name, Oid extension_namespace, abacus_header *header);
+extern Oid	build_create(text *name, Oid extension_namespace, abacus_header *header,
+						 const char *command);
 
 /* A change of a mesh with the points of a query. */
 typedef struct Change

@@ -6,8 +6,8 @@
  * new header under one transaction. So whatever stops the build, the mesh is
  * that of the last batch, and the header says where to go on.
  *
- * At the end rows are moved to the beginning of their tables, if these are
- * half empty, so that VACUUM can cut them. The vertex table has only dead rows,
+ * At the end rows are moved to the beginning of their tables, if more than a
+ * little of these is empty (compact.c), so that VACUUM can cut them. The vertex table has only dead rows,
  * as a rule, and is truncated.
  *
  * From one batch to the next the core keeps its cache. What it holds of the

@@ -15,8 +15,8 @@
 
 #include "abacus/read.h"
 #include "pg/header.h"
+#include "pg/result.h"
 #include "pg/settings.h"
-#include "pg/simplex_row.h"
 #include "pg/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_check);

@@ -35,9 +35,10 @@ create_table(Oid namespace, const char *name, Oid type_namespace, const char *ty
 /*
  * Makes the two tables of a mesh and writes its header. CREATE TABLE runs as
  * the caller and checks what it always checks: privileges, names taken.
+ * `command` names the function for messages.
  */
 Oid
-build_create(text *name, Oid extension_namespace, abacus_header *header)
+build_create(text *name, Oid extension_namespace, abacus_header *header, const char *command)
 {
 	RangeVar   *range = makeRangeVarFromNameList(textToQualifiedNameList(name));
 	char	   *vertices_name = psprintf("%s" VERTEX_TABLE_SUFFIX, range->relname);
@@ -45,8 +46,8 @@ build_create(text *name, Oid extension_namespace, abacus_header *header)
 	Oid			mesh;
 	Host	   *host;
 
-	PreventCommandIfReadOnly("abacus_create()");
-	PreventCommandIfParallelMode("abacus_create()");
+	PreventCommandIfReadOnly(command);
+	PreventCommandIfParallelMode(command);
 	if (strlen(vertices_name) >= NAMEDATALEN)
 		ereport(ERROR,
 				(errcode(ERRCODE_NAME_TOO_LONG),
@@ -88,5 +89,5 @@ abacus_sql_create(PG_FUNCTION_ARGS)
 	shape_domain(header, PG_ARGISNULL(3) ? NULL : PG_GETARG_ARRAYTYPE_P(3),
 				 PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4));
 	PG_RETURN_OID(build_create(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid),
-							   header));
+							   header, "abacus_create()"));
 }

@@ -10,22 +10,11 @@
 
 #include "pg/build.h"
 #include "pg/goose_table.h"
+#include "pg/result.h"
 #include "pg/settings.h"
 #include "pg/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_goose);
-
-static void
-put_figure(ReturnSetInfo *set, const char *name, double value, const char *description)
-{
-	Datum		values[3];
-	bool		isnull[3] = {false};
-
-	values[0] = CStringGetTextDatum(name);
-	values[1] = Float8GetDatum(value);
-	values[2] = CStringGetTextDatum(description);
-	tuplestore_putvalues(set->setResult, set->setDesc, values, isnull);
-}
 
 static double
 share(uint64 part, uint64 whole)
@@ -35,74 +24,68 @@ share(uint64 part, uint64 whole)
 
 /* Counts of the mesh, and of what was made for it. */
 static void
-put_counts(ReturnSetInfo *set, const abacus_goose_figures *figures)
+put_counts(const Figures *figures, const abacus_goose_figures *goose)
 {
-	put_figure(set, "vertices", (double) figures->vertices,
+	put_figure(figures, "vertices", (double) goose->vertices,
 			   "distinct points; 0 while they span no simplex");
-	put_figure(set, "duplicates", (double) figures->duplicates, "points that equal an earlier one");
-	put_figure(set, "simplices", (double) figures->simplices, "simplices, a row each");
-	put_figure(set, "hull_facets", (double) figures->ghosts,
+	put_figure(figures, "duplicates", (double) goose->duplicates, "points that equal an earlier one");
+	put_figure(figures, "simplices", (double) goose->simplices, "simplices, a row each");
+	put_figure(figures, "hull_facets", (double) goose->ghosts,
 			   "facets of the convex hull, rows until the end");
-	put_figure(set, "created", (double) figures->created, "rows inserted, hull facets included");
-	put_figure(set, "deleted", (double) figures->deleted, "rows deleted again");
-	put_figure(set, "deleted_percent", 100 * share(figures->deleted, figures->created),
+	put_figure(figures, "created", (double) goose->created, "rows inserted, hull facets included");
+	put_figure(figures, "deleted", (double) goose->deleted, "rows deleted again");
+	put_figure(figures, "deleted_percent", 100 * share(goose->deleted, goose->created),
 			   "share of the rows that were deleted again");
 }
 
 /* Section 2.3.2: how many boxes a search looks at for what it finds. */
 static void
-put_searches(ReturnSetInfo *set, const abacus_goose_figures *figures)
+put_searches(const Figures *figures, const abacus_goose_figures *goose)
 {
-	put_figure(set, "boxes_per_search", share(figures->search_boxes, figures->searches),
+	put_figure(figures, "boxes_per_search", share(goose->search_boxes, goose->searches),
 			   "boxes of the index that the search for a point looks at");
-	put_figure(set, "found_per_search", share(figures->found, figures->searches),
+	put_figure(figures, "found_per_search", share(goose->found, goose->searches),
 			   "simplices whose box contains the point");
-	put_figure(set, "hits_per_search", share(figures->deleted, figures->searches),
+	put_figure(figures, "hits_per_search", share(goose->deleted, goose->searches),
 			   "simplices in conflict with the point");
-	put_figure(set, "search_efficiency_percent",
-			   100 * share(figures->found, figures->search_boxes),
+	put_figure(figures, "search_efficiency_percent",
+			   100 * share(goose->found, goose->search_boxes),
 			   "simplices found, of the boxes looked at");
-	put_figure(set, "boxes_per_deletion", share(figures->unlink_boxes, figures->deleted),
+	put_figure(figures, "boxes_per_deletion", share(goose->unlink_boxes, goose->deleted),
 			   "boxes that the search for a row to be deleted looks at");
-	put_figure(set, "box_unit", figures->unit, "coordinates are multiplied by this in boxes");
+	put_figure(figures, "box_unit", goose->unit, "coordinates are multiplied by this in boxes");
 }
 
 /* Figure 2.9: where the time of an insertion goes. */
 static void
-put_times(ReturnSetInfo *set, const abacus_goose_figures *figures)
+put_times(const Figures *figures, const abacus_goose_figures *goose)
 {
-	uint64		delete_ns = figures->unlink_ns + figures->erase_ns;
-	uint64		other_ns = figures->total_ns - figures->search_ns - figures->test_ns - delete_ns -
-		figures->insert_ns;
+	uint64		delete_ns = goose->unlink_ns + goose->erase_ns;
+	uint64		other_ns = goose->total_ns - goose->search_ns - goose->test_ns - delete_ns -
+		goose->insert_ns;
 
-	put_figure(set, "insertion_seconds", 1e-9 * (double) figures->total_ns,
+	put_figure(figures, "insertion_seconds", 1e-9 * (double) goose->total_ns,
 			   "time of all insertions, without reading and sorting the points");
-	put_figure(set, "search_percent", 100 * share(figures->search_ns, figures->total_ns),
+	put_figure(figures, "search_percent", 100 * share(goose->search_ns, goose->total_ns),
 			   "searching the R-tree, rows included");
-	put_figure(set, "incircle_percent", 100 * share(figures->test_ns, figures->total_ns),
+	put_figure(figures, "incircle_percent", 100 * share(goose->test_ns, goose->total_ns),
 			   "in-circle or in-sphere tests");
-	put_figure(set, "delete_percent", 100 * share(delete_ns, figures->total_ns),
+	put_figure(figures, "delete_percent", 100 * share(delete_ns, goose->total_ns),
 			   "deleting from the R-tree");
-	put_figure(set, "insert_percent", 100 * share(figures->insert_ns, figures->total_ns),
+	put_figure(figures, "insert_percent", 100 * share(goose->insert_ns, goose->total_ns),
 			   "inserting into the R-tree");
-	put_figure(set, "other_percent", 100 * share(other_ns, figures->total_ns),
+	put_figure(figures, "other_percent", 100 * share(other_ns, goose->total_ns),
 			   "other operations: cavities, boxes");
-	put_figure(set, "delete_search_percent", 100 * share(figures->unlink_ns, delete_ns),
+	put_figure(figures, "delete_search_percent", 100 * share(goose->unlink_ns, delete_ns),
 			   "share of searching in the time of deleting");
 }
 
-static double
-bytes_of(PGFunction function, Oid relid)
-{
-	return (double) DatumGetInt64(DirectFunctionCall1(function, ObjectIdGetDatum(relid)));
-}
-
 static void
-put_sizes(ReturnSetInfo *set, Oid relid)
+put_sizes(const Figures *figures, Oid relid)
 {
-	put_figure(set, "table_bytes", bytes_of(pg_table_size, relid),
+	put_figure(figures, "table_bytes", bytes_of(pg_table_size, relid),
 			   "size of the table, with deleted rows until VACUUM");
-	put_figure(set, "index_bytes", bytes_of(pg_indexes_size, relid), "size of its index");
+	put_figure(figures, "index_bytes", bytes_of(pg_indexes_size, relid), "size of its index");
 }
 
 /* Reads the points of the query into a stage and triangulates them into the table. */
@@ -136,8 +119,8 @@ Datum
 abacus_sql_goose(PG_FUNCTION_ARGS)
 {
 	abacus_header *header = palloc0(sizeof(abacus_header));
-	abacus_goose_figures *figures = palloc0(sizeof(abacus_goose_figures));
-	ReturnSetInfo *set = (ReturnSetInfo *) fcinfo->resultinfo;
+	abacus_goose_figures *goose = palloc0(sizeof(abacus_goose_figures));
+	Figures		figures = {(ReturnSetInfo *) fcinfo->resultinfo, ""};
 	Source		source;
 	GooseTable *table;
 
@@ -152,13 +135,13 @@ abacus_sql_goose(PG_FUNCTION_ARGS)
 
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	table = goose_table_create(PG_GETARG_TEXT_PP(0), header->dimension);
-	triangulate(table, &source, header, figures);
+	triangulate(table, &source, header, goose);
 	goose_table_remove_ghosts(table);
 	goose_table_close(table);
-	put_counts(set, figures);
-	put_times(set, figures);
-	put_searches(set, figures);
-	put_sizes(set, table->relid);
+	put_counts(&figures, goose);
+	put_times(&figures, goose);
+	put_searches(&figures, goose);
+	put_sizes(&figures, table->relid);
 	source_finish(&source);
 	PG_RETURN_NULL();
 }

@@ -92,7 +92,8 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 	shape_domain(header, PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4),
 				 PG_ARGISNULL(5) ? NULL : PG_GETARG_ARRAYTYPE_P(5));
 
-	mesh = build_create(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid), header);
+	mesh = build_create(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid), header,
+						"abacus_load()");
 	loaded = load(mesh, &vertices, &simplices, PG_GETARG_BOOL(6));
 	source_finish(&simplices);
 	source_finish(&vertices);

@@ -92,7 +92,7 @@ abacus_sql_locate_places(PG_FUNCTION_ARGS)
 	*shape = reader->header;
 	shape->attributes = 0;
 
-	progress_begin_reading(&host->progress, mesh);
+	progress_begin(&host->progress, mesh);
 	host_run(host, abacus_places_open(&host->table, &reader->header, setting_query_sort_bytes(),
 									  setting_cache_bytes(), &places, &host->failure));
 	host_own(host, places, (void (*) (void *)) abacus_places_close);

@@ -12,7 +12,7 @@
 
 #include "abacus/quake.h"
 #include "pg/host.h"
-#include "pg/simplex_row.h"
+#include "pg/result.h"
 #include "pg/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_quake);

@@ -17,6 +17,7 @@
 
 #include "abacus/read.h"
 #include "pg/reader.h"
+#include "pg/result.h"
 #include "pg/settings.h"
 #include "pg/simplex_row.h"
 #include "pg/sql_function.h"
@@ -26,12 +27,13 @@ SQL_FUNCTION(abacus_sql_vertices);
 
 /* First call of a set: opens the mesh for the calls that follow. */
 static Reader *
-begin_set(FunctionCallInfo fcinfo, FuncCallContext *set)
+begin_set(FunctionCallInfo fcinfo, FuncCallContext *set,
+		  TupleDesc (*row_type) (FunctionCallInfo fcinfo))
 {
 	MemoryContext old = MemoryContextSwitchTo(set->multi_call_memory_ctx);
 	Reader	   *reader = reader_open(PG_GETARG_OID(0), set->multi_call_memory_ctx);
 
-	set->tuple_desc = result_row_type(fcinfo);
+	set->tuple_desc = row_type(fcinfo);
 	set->user_fctx = reader;
 	MemoryContextSwitchTo(old);
 	return reader;
@@ -52,7 +54,7 @@ abacus_sql_simplices(PG_FUNCTION_ARGS)
 		abacus_scan *scan = NULL;
 
 		set = SRF_FIRSTCALL_INIT();
-		reader = begin_set(fcinfo, set);
+		reader = begin_set(fcinfo, set, simplex_row_type);
 		host = reader->host;
 		host_run(host, abacus_scan_open(&host->table, &reader->header, 0, &scan, &host->failure));
 		host_own(host, scan, (void (*) (void *)) abacus_scan_close);
@@ -132,7 +134,7 @@ abacus_sql_vertices(PG_FUNCTION_ARGS)
 		abacus_vertex_scan *scan = NULL;
 
 		set = SRF_FIRSTCALL_INIT();
-		reader = begin_set(fcinfo, set);
+		reader = begin_set(fcinfo, set, result_row_type);
 		host = reader->host;
 		header_open_vertices(host, &reader->header);
 		host_run(host, abacus_vertex_scan_open(&host->table, &reader->header,

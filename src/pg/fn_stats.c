@@ -8,32 +8,14 @@
 
 #include "access/table.h"
 #include "funcapi.h"
-#include "utils/builtins.h"
+#include "utils/fmgrprotos.h"
 
 #include "pg/mesh_cache.h"
 #include "pg/reader.h"
+#include "pg/result.h"
 #include "pg/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_stats);
-
-/* Where the rows go. */
-typedef struct Figures
-{
-	ReturnSetInfo *set;
-	const char *prefix;
-} Figures;
-
-static void
-put_figure(Figures *figures, const char *name, double value, const char *description)
-{
-	Datum		values[3];
-	bool		isnull[3] = {false};
-
-	values[0] = CStringGetTextDatum(psprintf("%s%s", figures->prefix, name));
-	values[1] = Float8GetDatum(value);
-	values[2] = CStringGetTextDatum(description);
-	tuplestore_putvalues(figures->set->setResult, figures->set->setDesc, values, isnull);
-}
 
 /* One row for each counter of chapter 5; for a session's reading only those that move. */
 static void
@@ -82,12 +64,6 @@ put_counters(Figures *figures, const abacus_counters *counters, bool reading)
 	if (counters->steps > 0)
 		put_figure(figures, "hit_ratio", 1.0 - (double) counters->misses / counters->steps,
 				   "share of the followed links that stayed in the cache");
-}
-
-static double
-bytes_of(PGFunction function, Oid relid)
-{
-	return (double) DatumGetInt64(DirectFunctionCall1(function, ObjectIdGetDatum(relid)));
 }
 
 static void

@@ -13,6 +13,7 @@
 #include "commands/extension.h"
 
 #include "pg/goose_row.h"
+#include "pg/location.h"
 
 /* The type of boxes: PostgreSQL's own in the plane, that of an extension in space. */
 Oid
@@ -138,8 +139,7 @@ goose_row_decode(int dimension, TupleTableSlot *slot, abacus_boxed_simplex *row)
 				return false;
 		}
 	}
-	row->location = ((uint64) ItemPointerGetBlockNumber(&slot->tts_tid) << 16) |
-		ItemPointerGetOffsetNumber(&slot->tts_tid);
+	row->location = pack_location(&slot->tts_tid);
 	return !slot->tts_isnull[box] &&
 		read_box(dimension, slot->tts_values[box], row->lower, row->upper);
 }

@@ -47,6 +47,7 @@
 #include "pg/goose_row.h"
 #include "pg/goose_table.h"
 #include "pg/guard.h"
+#include "pg/location.h"
 #include "pg/new_table.h"
 #include "pg/utility.h"
 
@@ -153,13 +154,6 @@ read_row(const GooseTable *table, abacus_boxed_simplex *row)
 }
 
 static void
-location_of(const abacus_boxed_simplex *row, ItemPointer tid)
-{
-	ItemPointerSet(tid, (BlockNumber) (row->location >> 16),
-				   (OffsetNumber) (row->location & 0xFFFF));
-}
-
-static void
 insert_row(GooseTable *table, const abacus_boxed_simplex *row)
 {
 	int			box = GOOSE_BOX_COLUMN(table->dimension);
@@ -237,7 +231,7 @@ kill_entry(GooseTable *table, const abacus_boxed_simplex *row)
 	ItemPointer tid;
 	GooseBox		room;
 
-	location_of(row, &wanted);
+	unpack_location(row->location, &wanted);
 	search(table, &table->equals, row->lower, row->upper, &room);
 	/* to the end, since the mark is made when the scan goes on */
 	while ((tid = index_getnext_tid(table->scan, ForwardScanDirection)) != NULL)
@@ -300,7 +294,7 @@ rtree_erase(void *context, const abacus_boxed_simplex *row)
 	ItemPointerData tid;
 
 	GUARD_BEGIN();
-	location_of(row, &tid);
+	unpack_location(row->location, &tid);
 	simple_heap_delete(table->heap, &tid);
 	GUARD_END(table->host);
 	return ABACUS_HOST_OK;

@@ -209,12 +209,13 @@ validate(Oid relid, Entry *entry)
 		open_mesh(entry, &header);
 		entry->stamp = header.stamp;
 	}
-	mark_snapshot(&entry->valid, GetActiveSnapshot());
 	entry->user = GetUserId();
 	entry->statement = GetCurrentStatementStartTimestamp();
 	host_release(host);
 	host->busy = false;
 	table_close(rel, NoLock);
+	/* there may be no memory for it: last, when nothing is open any more */
+	mark_snapshot(&entry->valid, GetActiveSnapshot());
 	return entry;
 }
 

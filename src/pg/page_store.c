@@ -11,6 +11,7 @@
 
 #include "access/table.h"
 
+#include "pg/location.h"
 #include "pg/page_store.h"
 
 #define KEY_LIMIT UINT64CONST(0x7FFFFFFFFFFFFFFF)
@@ -41,18 +42,6 @@ page_store_vertex_table(PageStore *store)
 		store->vertices.relid = mesh_vertex_table(store->simplices.heap, store->access);
 	}
 	return store->vertices.relid;
-}
-
-static uint64
-pack_location(const ItemPointerData *tid)
-{
-	return ((uint64) ItemPointerGetBlockNumber(tid) << 16) | ItemPointerGetOffsetNumber(tid);
-}
-
-static void
-unpack_location(uint64 location, ItemPointer tid)
-{
-	ItemPointerSet(tid, (BlockNumber) (location >> 16), (OffsetNumber) (location & 0xFFFF));
 }
 
 /* The table of a kind of pages. */

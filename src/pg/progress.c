@@ -27,6 +27,11 @@
 
 #define PROGRESS_MAGIC INT64CONST(0x616261637573)	/* "abacus" */
 
+/*
+ * Nothing, where this is part of a command that reports progress of its own: COPY of
+ * our rows or into a table that a mesh follows, or a function of ours whose source
+ * query this is.
+ */
 void
 progress_begin(Progress *state, Oid mesh)
 {
@@ -37,21 +42,12 @@ progress_begin(Progress *state, Oid mesh)
 	int64		now = GetCurrentTimestamp();
 	int64		values[] = {PROGRESS_CREATEIDX_PHASE_BUILD, now, now, PROGRESS_MAGIC};
 
+	MemSet(state, 0, sizeof(*state));
+	if (MyBEEntry == NULL || MyBEEntry->st_progress_command != PROGRESS_COMMAND_INVALID)
+		return;
 	pgstat_progress_start_command(PROGRESS_COMMAND_CREATE_INDEX, mesh);
 	pgstat_progress_update_multi_param(lengthof(slots), slots, values);
-	MemSet(state, 0, sizeof(*state));
 	state->active = true;
-}
-
-/*
- * The same for a query, which may be part of a command that reports progress
- * of its own: COPY, or a function of ours whose source query this is.
- */
-void
-progress_begin_reading(Progress *state, Oid mesh)
-{
-	if (MyBEEntry != NULL && MyBEEntry->st_progress_command == PROGRESS_COMMAND_INVALID)
-		progress_begin(state, mesh);
 }
 
 /* The figures shall be those of all batches together, of `total` points. */

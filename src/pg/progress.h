@@ -17,7 +17,6 @@ typedef struct Progress
 } Progress;
 
 extern void progress_begin(Progress *state, Oid mesh);
-extern void progress_begin_reading(Progress *state, Oid mesh);
 extern void progress_report(Progress *state, const abacus_progress *progress);
 extern void progress_in_batches(Progress *state, uint64 total);
 extern void progress_batch_done(Progress *state, uint64 done, uint64 pages_read,

@@ -4,20 +4,33 @@
 #include "postgres.h"
 
 #include "access/htup_details.h"
+#include "catalog/pg_type.h"
 #include "funcapi.h"
 #include "utils/memutils.h"
 
+#include "pg/result.h"
 #include "pg/simplex_row.h"
 
-/* Row type of the function's result, blessed, in the current memory context. */
+/*
+ * Row type of a function that returns simplices, blessed, in the current memory context. Its
+ * columns are those of the type: whoever owns it may have added some.
+ */
 TupleDesc
-result_row_type(FunctionCallInfo fcinfo)
+simplex_row_type(FunctionCallInfo fcinfo)
 {
-	TupleDesc	row_type;
+	TupleDesc	row_type = result_row_type(fcinfo);
+	bool		is_ours = row_type->natts == SIMPLEX_COLUMNS;
 
-	if (get_call_result_type(fcinfo, NULL, &row_type) != TYPEFUNC_COMPOSITE)
-		elog(ERROR, "function must return a row");
-	return BlessTupleDesc(row_type);
+	for (int i = 0; is_ours && i < SIMPLEX_COLUMNS; i++)
+		is_ours = TupleDescAttr(row_type, i)->atttypid == INT8OID;
+	if (!is_ours)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("type abacus_simplex has been altered"),
+				 errdetail("Its attributes are code, v0, v1, v2 and v3, all of type bigint."),
+				 errhint("abacus_vertices() still returns the points: save them, and make the "
+						 "extension and its meshes anew.")));
+	return row_type;
 }
 
 /* Code and corner ids as columns. */
@@ -55,7 +68,7 @@ simplex_rows(FunctionCallInfo fcinfo)
 		SimplexRows *rows = palloc0(sizeof(SimplexRows));
 
 		rows->memory = function->fn_mcxt;
-		rows->row_type = result_row_type(fcinfo);
+		rows->row_type = simplex_row_type(fcinfo);
 		function->fn_extra = rows;
 		MemoryContextSwitchTo(old);
 	}

@@ -21,7 +21,7 @@ typedef struct SimplexRows
 /* (code, v0, v1, v2, v3) */
 #define SIMPLEX_COLUMNS (2 + ABACUS_MAX_DIMENSION)
 
-extern TupleDesc result_row_type(FunctionCallInfo fcinfo);
+extern TupleDesc simplex_row_type(FunctionCallInfo fcinfo);
 extern SimplexRows *simplex_rows(FunctionCallInfo fcinfo);
 extern void simplex_columns(const abacus_simplex *simplex, uint32 dimension, Datum *values,
 							bool *isnull);

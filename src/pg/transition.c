@@ -72,7 +72,7 @@ transition_open(const TriggerData *trigger)
 	transition->dimension =
 		pg_strtoint32(trigger->tg_trigger->tgargs[TRACKING_ARGUMENT_DIMENSION]);
 	/* arguments are what whoever made the trigger has written */
-	if (transition->dimension < 2 || transition->dimension > 3 ||
+	if (transition->dimension < 2 || transition->dimension > ABACUS_MAX_DIMENSION ||
 		transition->columns < 1 + transition->dimension)
 		ereport(ERROR,
 				(errcode(ERRCODE_E_R_I_E_TRIGGER_PROTOCOL_VIOLATED),

@@ -4,7 +4,6 @@
 #include "delaunay/conflict.hpp"
 #include "query/page_simplex.hpp"
 
-#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -54,20 +53,12 @@ template <int D> void Check<D>::report(std::uint64_t pages) {
     if (pages % 64 == 0) host_.progress({ABACUS_PHASE_CHECKING, pages, pages_, pages, 0});
 }
 
+/// What does not hold of any header that can be read (capi/header.cpp).
 template <int D> void Check<D>::check_header() {
     const abacus_header &h = header_;
-    if (h.inserted > h.staged || ((h.staged > 0 || h.vertices > 0) && h.has_domain == 0) ||
-        h.duplicates > h.serials || (h.duplicates > 0 && h.vertices == 0))
-        fault("count", first_key, "The header's counts of points contradict each other.");
-    if ((h.simplices > 0) != (h.vertices > 0) || (h.ghosts > 0) != (h.vertices > 0))
-        fault("count", first_key,
-              "The header has vertices without simplices or the other way round.");
     if (D == 2 && h.simplices > 0 && h.not_delaunay == 0 &&
         h.simplices + h.ghosts + 2 != 2 * h.vertices)
         fault("euler", first_key, "Vertices, triangles and hull edges do not add up.");
-    for (int i = 0; i < D; ++i)
-        if (!(std::isfinite(h.lower[i]) && std::isfinite(h.upper[i]) && h.lower[i] <= h.upper[i]))
-            fault("domain", first_key, "The mesh's domain is not a finite box.");
 }
 
 template <int D> void Check<D>::check_pages() {

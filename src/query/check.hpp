@@ -2,7 +2,7 @@
 //
 // A look at the header and three passes, each independent of how the mesh was made:
 //
-//   header    the counts do not contradict each other; in 2D, Euler's relation holds
+//   header    in 2D, Euler's relation holds
 //   pages     every page decodes and has the checksum of its bytes; the intervals
 //             partition the curve; each simplex is in the page that owns its key and
 //             positively oriented; the boxes of patches fit; the counts add up

@@ -43,7 +43,7 @@ INSERT INTO wanted VALUES
     ('abacus_goose', 'mesh text, query text, dimension integer DEFAULT 2, OUT name text, OUT value double precision, OUT description text', 'SETOF record', 'v', false, 'u'),
     ('abacus_simplices_rows', 'internal', 'internal', 'v', true, 'u'),
     ('abacus_vertices_rows', 'internal', 'internal', 'v', true, 'u'),
-    ('abacus_version', '', 'text', 'i', false, 's');
+    ('abacus_version', '', 'text', 's', false, 's');
 
 SELECT set_eq(
     $$ SELECT p.proname::text COLLATE "default", pg_get_function_arguments(p.oid), pg_get_function_result(p.oid), p.provolatile, p.proisstrict, p.proparallel
@@ -66,6 +66,18 @@ SELECT is((SELECT context FROM pg_settings WHERE name = 'abacus.cache_size'), 'u
 SELECT is(current_setting('abacus.vacuum_moves_rows'), 'on', 'VACUUM moves pages');
 SELECT is((SELECT context FROM pg_settings WHERE name = 'abacus.vacuum_moves_rows'), 'user', 'anyone may say whether');
 SELECT is((SELECT context FROM pg_settings WHERE name = 'abacus.fail_host_call'), 'superuser', 'failing is for superusers');
+
+-- whoever owns it may alter the type of simplices; what returns them then says so
+SELECT abacus_triangulate('altered', 'VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1)');
+SELECT isnt(abacus_locate('altered', 0.2, 0.2), NULL, 'a simplex as it should be');
+ALTER TYPE abacus_simplex ADD ATTRIBUTE extra bigint;
+SELECT throws_ok($$ SELECT abacus_locate('altered', 0.2, 0.2) $$, '55000', 'type abacus_simplex has been altered', 'one attribute more: locate');
+SELECT throws_ok($$ SELECT abacus_walk('altered', ROW(0, 1, 2, 3, NULL, NULL)::abacus_simplex, 0) $$, '55000', 'type abacus_simplex has been altered', 'walk');
+SELECT throws_ok($$ SELECT abacus_simplices('altered') $$, '55000', 'type abacus_simplex has been altered', 'simplices');
+SELECT is((SELECT count(*) FROM abacus_vertices('altered')), 3::bigint, 'the points can be read');
+SELECT is((SELECT count(*) FROM abacus_locate('altered', 'SELECT 1, 0.2, 0.2') WHERE v0 IS NOT NULL), 1::bigint, 'and places located');
+ALTER TYPE abacus_simplex DROP ATTRIBUTE extra;
+SELECT throws_ok($$ SELECT abacus_locate('altered', 0.2, 0.2) $$, '55000', 'type abacus_simplex has been altered', 'and dropped again');
 
 SELECT * FROM finish();
 ROLLBACK;

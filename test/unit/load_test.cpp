@@ -237,6 +237,11 @@ TEST(LoadFaults, InThePlane) {
                   t.simplices.push_back({5, 2, 4});
               }),
               "vertices 3 and 5 have the same coordinates");
+    EXPECT_EQ(with([](auto &t) {
+                  t.vertices.push_back({-5, {4, 4}});
+                  t.simplices.push_back({-5, 2, 4});
+              }),
+              "vertices -5 and 3 have the same coordinates");
     EXPECT_EQ(with([](auto &t) { // in no simplex: left out, wherever it is
                   t.vertices.insert(t.vertices.end(), {{5, {9, 9}}, {6, {4, 4}}, {-3, {1, 2}}});
               }),

@@ -1,0 +1,23 @@
+/*
+ * result.h: the results of SQL functions: rows, and rows of figures.
+ */
+#ifndef ABACUS_RESULT_H
+#define ABACUS_RESULT_H
+
+#include "access/tupdesc.h"
+#include "fmgr.h"
+#include "nodes/execnodes.h"
+
+/* A result with a row for each figure: name, value, description. */
+typedef struct Figures
+{
+	ReturnSetInfo *set;
+	const char *prefix;			/* of the names that follow */
+} Figures;
+
+extern TupleDesc result_row_type(FunctionCallInfo fcinfo);
+extern void put_figure(const Figures *figures, const char *name, double value,
+					   const char *description);
+extern double bytes_of(PGFunction size, Oid relid);
+
+#endif
