@@ -194,6 +194,12 @@ CREATE TEMP TABLE moments AS SELECT id, x, y FROM others;
 SELECT abacus_track('passing', 'moments');
 DELETE FROM moments WHERE id = 2;
 SELECT count(*) FROM abacus_vertices('passing');
+-- temporary tables may be written in a transaction that only reads, and so may their mesh
+BEGIN READ ONLY;
+INSERT INTO moments VALUES (50, 7, 8);
+SELECT abacus_insert('passing', 'VALUES (51, 8, 7)');
+SELECT count(*) FROM abacus_vertices('passing') WHERE id >= 50;
+COMMIT;
 DROP TABLE moments, passing;
 SELECT abacus_track(NULL, 'others');
 SELECT abacus_track(0, 'others');

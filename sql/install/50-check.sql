@@ -9,7 +9,7 @@ CREATE FUNCTION abacus_check(
     OUT message text)
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_check'
-LANGUAGE C STABLE STRICT PARALLEL SAFE ROWS 1;
+LANGUAGE C STABLE PARALLEL SAFE ROWS 1;
 COMMENT ON FUNCTION abacus_check(regclass, integer) IS
     'verifies the mesh exactly and returns its faults: no row if it is sound';
 

@@ -59,10 +59,10 @@ abacus_status abacus_build_insert(abacus_build *build, abacus_stage *stage, abac
     });
 }
 
-abacus_status abacus_build_delete(abacus_build *build, abacus_stage *stage, int by_id,
+abacus_status abacus_build_delete(abacus_build *build, abacus_stage *stage, int exactly,
                                   abacus_header *header, uint64_t *deleted, abacus_error *error) {
     return run(build, header, error, [&](auto &opened, abacus_header &changed) {
-        *deleted = opened.remove(stage_for(opened, stage), by_id != 0, changed);
+        *deleted = opened.remove(stage_for(opened, stage), exactly != 0, changed);
     });
 }
 

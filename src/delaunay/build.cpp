@@ -141,12 +141,12 @@ template <int D> void Build<D>::insert(Stage<D> &stage, abacus_header &header) {
     });
 }
 
-template <int D> std::uint64_t Build<D>::remove(Stage<D> &stage, bool by_id, abacus_header &header) {
+template <int D> std::uint64_t Build<D>::remove(Stage<D> &stage, bool exactly, abacus_header &header) {
     std::uint64_t taken = 0;
     change(header, [&] {
         const std::uint64_t points = stage.points();
         insert_waiting(0);
-        Outlet outlet(*this, by_id);
+        Outlet outlet(*this, exactly);
         if (has_simplices() || has_waiting()) stage.emit(outlet, header, true);
         taken = outlet.taken();
         return points;

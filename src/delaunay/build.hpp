@@ -30,9 +30,9 @@ public:
     void run(std::uint64_t limit, abacus_header &header);
     /// Inserts what waits, then the points of a stage.
     void insert(Stage<D> &stage, abacus_header &header);
-    /// Inserts what waits, then takes away a point for each of a stage, `by_id` only one that
-    /// has its id; returns how many there were.
-    std::uint64_t remove(Stage<D> &stage, bool by_id, abacus_header &header);
+    /// Inserts what waits, then takes away a point for each of a stage, `exactly` only one
+    /// that has its id and attributes; returns how many there were.
+    std::uint64_t remove(Stage<D> &stage, bool exactly, abacus_header &header);
     /// Takes away all points, those that wait too; returns how many there were.
     std::uint64_t clear(abacus_header &header);
     /// Gives a mesh that has outgrown its domain another one, with `memory` bytes for sorting;
@@ -64,9 +64,9 @@ private:
     /// Takes the first point away: the next one gives the vertex id and attributes, or else
     /// the vertex goes. Returns 1.
     std::uint64_t pass_on(const Point<D> &p);
-    /// Takes the vertex away, if an id is given only one that has it; returns whether there was
-    /// one.
-    std::uint64_t erase_vertex(const Point<D> &p, std::optional<std::int64_t> id = {});
+    /// Takes the vertex away, if a want is given only one that it takes; returns whether there
+    /// was one.
+    std::uint64_t erase_vertex(const Point<D> &p, Leaving *want = nullptr);
     /// The points left, the neighbours of the vertex last found, span no simplex: they wait.
     void collapse();
     /// Erases all pages of a kind.

@@ -7,12 +7,12 @@ namespace abacus {
 
 template <int D> std::uint64_t Build<D>::erase(const Point<D> &p, Leaving &leaving) {
     const bool is_repeated = header_->duplicates > 0 && repeated_->contains(p);
-    if (!is_repeated && leaving.is_one()) return erase_vertex(p, leaving.id_demanded());
-    const auto vertex = core_->removal.id_at(p);
-    if (!vertex && is_repeated) throw_corrupted("A repeated point equals no vertex of the mesh.");
-    if (!vertex) return 0;
+    if (!is_repeated && leaving.is_one()) return erase_vertex(p, &leaving);
     leaving.begin();
-    if (leaving.offer(*vertex, 0) && is_repeated) repeated_->offer(p, leaving);
+    const auto more = core_->removal.offer(p, leaving);
+    if (!more && is_repeated) throw_corrupted("A repeated point equals no vertex of the mesh.");
+    if (!more) return 0;
+    if (*more && is_repeated) repeated_->offer(p, leaving);
     leaving.decide();
     const std::uint64_t taken = repeated_->take(p, leaving);
     if (taken > header_->duplicates)
@@ -30,8 +30,8 @@ template <int D> std::uint64_t Build<D>::pass_on(const Point<D> &p) {
 }
 
 template <int D>
-std::uint64_t Build<D>::erase_vertex(const Point<D> &p, std::optional<std::int64_t> id) {
-    switch (core_->removal.remove(p, id)) {
+std::uint64_t Build<D>::erase_vertex(const Point<D> &p, Leaving *want) {
+    switch (core_->removal.remove(p, want)) {
     case Removed::no_such_vertex: return 0;
     case Removed::removed: --header_->vertices; break;
     case Removed::collapses: collapse(); break;

@@ -13,19 +13,20 @@ namespace abacus {
 
 template <int D> class Build<D>::Outlet final : public RecordSink {
 public:
-    Outlet(Build &build, bool by_id)
-        : build_(build), leaving_(build.host_, build.cache_bytes_ / 16, by_id),
-          waiting_(build.host_, build.attributes_, by_id) {}
+    Outlet(Build &build, bool exactly)
+        : build_(build),
+          leaving_(build.host_, build.cache_bytes_ / 16, exactly, build.attributes_),
+          waiting_(build.host_, build.attributes_, exactly) {}
 
     void add(const std::uint64_t *record) override {
         const Point<D> p = record_point<D>(record);
         if (!leaving_.empty() && (leaving_.is_full() || !(p == place_))) leave();
         if (build_.has_simplices()) {
             place_ = p;
-            leaving_.want(record_id(record));
+            leaving_.want(record_id(record), record_attributes<D>(record));
             if (++done_ % 256 == 0) build_.host_.poll();
         } else if (build_.has_waiting()) {
-            waiting_.want(p, record_id(record));
+            waiting_.want(p, record_id(record), record_attributes<D>(record));
             if (waiting_.is_full()) take();
         }
     }

@@ -30,9 +30,12 @@ template <int D> bool Removal<D>::collapses() const {
     return static_cast<std::int64_t>(finite) == mesh_.simplices() && star_.is_flat(independent);
 }
 
-template <int D> Removed Removal<D>::remove(const Point<D> &p, std::optional<std::int64_t> id) {
+template <int D> Removed Removal<D>::remove(const Point<D> &p, Leaving *want) {
     const Link corner = find(p);
-    if (corner == nowhere || (id && id_of(corner) != *id)) {
+    const auto suits = [&](VertexIndex v) {
+        return want->takes(cache_.vertices().id(v), cache_.vertices().attributes(v));
+    };
+    if (corner == nowhere || (want != nullptr && !suits(vertex_of(corner)))) {
         mesh_.finish(anywhere);
         return Removed::no_such_vertex;
     }
@@ -49,16 +52,16 @@ template <int D> Removed Removal<D>::remove(const Point<D> &p, std::optional<std
     return Removed::removed;
 }
 
-template <int D> std::int64_t Removal<D>::id_of(Link corner) {
-    return cache_.vertices().id(cache_.simplex(link_simplex(corner)).vertex[link_facet(corner)]);
-}
-
-template <int D> std::optional<std::int64_t> Removal<D>::id_at(const Point<D> &p) {
+template <int D>
+std::optional<bool> Removal<D>::offer(const Point<D> &p, Leaving &leaving) {
     const Link corner = find(p);
-    std::optional<std::int64_t> id;
-    if (corner != nowhere) id = id_of(corner);
+    std::optional<bool> more;
+    if (corner != nowhere) {
+        const VertexIndex v = vertex_of(corner);
+        more = leaving.offer(cache_.vertices().id(v), cache_.vertices().attributes(v), 0);
+    }
     mesh_.finish(anywhere);
-    return id;
+    return more;
 }
 
 template <int D>

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "delaunay/hole.hpp"
+#include "staging/leaving.hpp"
 
 #include <optional>
 
@@ -22,11 +23,12 @@ public:
     explicit Removal(Delaunay<D> &mesh)
         : mesh_(mesh), cache_(mesh.cache()), star_(mesh), hole_(mesh) {}
 
-    /// Removes the vertex with exactly these coordinates (-0.0 equals 0.0), and this id if one
-    /// is given.
-    Removed remove(const Point<D> &p, std::optional<std::int64_t> id = {});
-    /// The id of the vertex there, if there is one.
-    std::optional<std::int64_t> id_at(const Point<D> &p);
+    /// Removes the vertex with exactly these coordinates (-0.0 equals 0.0); if a want is given,
+    /// only one that it takes.
+    Removed remove(const Point<D> &p, Leaving *want = nullptr);
+    /// Offers the vertex there as the first point that may leave; whether the others make a
+    /// difference, nothing if there is none.
+    std::optional<bool> offer(const Point<D> &p, Leaving &leaving);
     /// Gives the vertex there another id and other attributes (null if there are none).
     /// Returns false if there is no vertex.
     bool rename(const Point<D> &p, std::int64_t id, const double *attributes);
@@ -42,7 +44,9 @@ private:
     /// A simplex with a vertex at p, and which of its corners that is, as a link; `nowhere`
     /// if there is none.
     Link find(const Point<D> &p);
-    std::int64_t id_of(Link corner);
+    VertexIndex vertex_of(Link corner) const {
+        return cache_.simplex(link_simplex(corner)).vertex[link_facet(corner)];
+    }
     bool collapses() const;
 
     Delaunay<D> &mesh_;

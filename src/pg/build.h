@@ -40,7 +40,7 @@ extern void change_read(Change *change, Source *source, const abacus_header *sha
 extern void change_swap_stages(Change *change);
 extern void change_open_build(Change *change);
 extern void change_insert(Change *change);
-extern uint64 change_delete(Change *change, bool by_id);
+extern uint64 change_delete(Change *change, bool exactly);
 extern void change_clear(Change *change);
 extern void change_abandon(Change *change);
 extern void change_end(Change *change);

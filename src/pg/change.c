@@ -106,15 +106,18 @@ change_insert(Change *change)
 	host_run(host, abacus_build_insert(change->build, change->stage, header, &host->failure));
 }
 
-/* Takes the points of the stage away, `by_id` only by their ids; returns how many there were. */
+/*
+ * Takes the points of the stage away, `exactly` only those with the same id and attributes;
+ * returns how many there were.
+ */
 uint64
-change_delete(Change *change, bool by_id)
+change_delete(Change *change, bool exactly)
 {
 	Host	   *host = change->writer.host;
 	uint64		deleted;
 
 	change_open_build(change);
-	host_run(host, abacus_build_delete(change->build, change->stage, by_id, change->writer.header,
+	host_run(host, abacus_build_delete(change->build, change->stage, exactly, change->writer.header,
 									   &deleted, &host->failure));
 	return deleted;
 }

@@ -58,10 +58,9 @@ read_header(Checking *checking, abacus_header *header)
 static void
 look_before_pages(Checking *checking)
 {
-	static const int64 least[PAGE_TABLE_KEYS] = {PG_INT64_MIN, PG_INT64_MIN};
 	PageTable  *table = &checking->host->store.simplices;
 	StoredPage	row;
-	bool		found = page_table_next(table, least, &row);
+	bool		found = page_table_next(table, NULL, &row);
 
 	if (found && memcmp(row.key, header_key, sizeof(header_key)) == 0)
 		found = page_table_next(table, header_key, &row);
@@ -134,9 +133,15 @@ abacus_sql_check(PG_FUNCTION_ARGS)
 
 	if (SRF_IS_FIRSTCALL())
 	{
-		int32		limit = PG_GETARG_INT32(1);
+		int32		limit;
 		MemoryContext old;
 
+		/* no row would say that all is well */
+		if (PG_ARGISNULL(0) || PG_ARGISNULL(1))
+			ereport(ERROR,
+					(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+					 errmsg("mesh and max_faults must not be NULL")));
+		limit = PG_GETARG_INT32(1);
 		if (limit < 1)
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),

@@ -39,6 +39,19 @@ check_owner(Oid relid)
 		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, get_rel_name(relid));
 }
 
+/* The table to be tracked, locked; while it is open nobody drops it, an event trigger neither. */
+static Relation
+open_table(Oid relid, LOCKMODE mode)
+{
+	Relation	table = try_relation_open(relid, mode);
+
+	if (table == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_TABLE),
+				 errmsg("table with OID %u does not exist", relid)));
+	return table;
+}
+
 /* What cannot be tracked is refused. */
 static void
 check_table(Relation table)
@@ -185,6 +198,7 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 	Oid			extension_namespace = get_func_namespace(fcinfo->flinfo->fn_oid);
 	Oid			function = tracking_function(extension_namespace);
 	Oid			mesh;
+	Relation	simplices;
 	Relation	table;
 	List	   *present;
 	List	   *columns;
@@ -206,11 +220,7 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 				 errdetail("The snapshot of this transaction may be older than rows of the table.")));
 	mesh = PG_GETARG_OID(0);
 	check_owner(PG_GETARG_OID(1));
-	table = try_relation_open(PG_GETARG_OID(1), ShareRowExclusiveLock);
-	if (table == NULL)
-		ereport(ERROR,
-				(errcode(ERRCODE_UNDEFINED_TABLE),
-				 errmsg("table with OID %u does not exist", PG_GETARG_OID(1))));
+	table = open_table(PG_GETARG_OID(1), ShareRowExclusiveLock);
 	check_table(table);
 	check_mesh(table, mesh);
 
@@ -232,15 +242,18 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 	else
 		change_abandon(change);
 
+	/* it has been locked by the change, and must not be dropped before its triggers are bound */
+	simplices = table_open(mesh, NoLock);
 	if (present != NIL)
 	{
 		table_close(table, NoLock); /* DROP TRIGGER refuses a table in use */
 		foreach(cell, present)
 			tracking_drop(lfirst(cell));
-		table = table_open(PG_GETARG_OID(1), NoLock);
+		table = open_table(PG_GETARG_OID(1), NoLock);
 	}
 	tracking_create(function, mesh, header.dimension, table, columns, present);
 	table_close(table, NoLock);
+	table_close(simplices, NoLock);
 	PG_RETURN_INT64((int64) points);
 }
 

@@ -224,20 +224,26 @@ page_table_floor(PageTable *table, const int64 *key, StoredPage *page)
 	return true;
 }
 
-/* The row with the least key > `key`. */
+/* The row with the least key > `key`; NULL: with the least of all. */
 bool
 page_table_next(PageTable *table, const int64 *key, StoredPage *page)
 {
+	static const int64 least[PAGE_TABLE_KEYS] = {PG_INT64_MIN, PG_INT64_MIN};
+
 	page_table_open(table);
 	page_table_see_own_changes(table);
 	/* reading on in order, the scan already stands there */
-	if (!table->at_key || memcmp(key, table->forward_key, PAGE_TABLE_KEYS * sizeof(int64)) != 0)
+	if (key == NULL || !table->at_key ||
+		memcmp(key, table->forward_key, PAGE_TABLE_KEYS * sizeof(int64)) != 0)
 	{
 		ScanKeyData bound;
 
 		if (table->forward.scan != NULL && table->forward.scan->numberOfKeys != 1)
 			close_scan(&table->forward);
-		bound_key(table, &table->forward, &bound, BTGreaterStrategyNumber, key);
+		if (key == NULL)
+			bound_key(table, &table->forward, &bound, BTGreaterEqualStrategyNumber, least);
+		else
+			bound_key(table, &table->forward, &bound, BTGreaterStrategyNumber, key);
 		search(table, &table->forward, &bound, 1);
 	}
 	if (!index_getnext_slot(table->forward.scan, ForwardScanDirection, table->forward.slot))
@@ -259,13 +265,12 @@ page_table_next(PageTable *table, const int64 *key, StoredPage *page)
 void
 page_table_refuse_newer(PageTable *table)
 {
-	static const int64 least[PAGE_TABLE_KEYS] = {PG_INT64_MIN, PG_INT64_MIN};
 	StoredPage	page;
 	TupleTableSlot *slot;
 	TableScanDesc scan;
 	bool		is_newer;
 
-	if (page_table_next(table, least, &page))
+	if (page_table_next(table, NULL, &page))
 		return;
 	slot = table_slot_create(table->heap, NULL);
 	scan = table_beginscan(table->heap, SnapshotSelf, 0, NULL);

@@ -293,15 +293,19 @@ tracking_mesh(const TriggerData *data, bool *bound)
 	return mesh;
 }
 
-/* A name for a trigger of the table that none of its triggers has. */
+/*
+ * A name for a trigger of the table that none of its triggers has. Triggers fire in the
+ * order of their names: that of the meshes which follow a table must be the same for all
+ * events, or an INSERT could wait for a DELETE that waits for it. So the mesh comes last.
+ */
 static char *
 choose_name(Oid mesh, Oid table, const char *event)
 {
-	char	   *stem = psprintf("abacus_track_%s", get_rel_name(mesh));
-	char	   *name = makeObjectName(stem, event, NULL);
+	char	   *stem = psprintf("abacus_track_%s", event);
+	char	   *name = makeObjectName(stem, get_rel_name(mesh), NULL);
 
 	for (int i = 1; OidIsValid(get_trigger_oid(table, name, true)); i++)
-		name = makeObjectName(stem, event, psprintf("%d", i));
+		name = makeObjectName(stem, get_rel_name(mesh), psprintf("%d", i));
 	return name;
 }
 

@@ -18,8 +18,10 @@
 #include "access/table.h"
 #include "access/tableam.h"
 #include "access/xact.h"
+#include "catalog/namespace.h"
 #include "commands/tablecmds.h"
 #include "miscadmin.h"
+#include "utils/lsyscache.h"
 #include "utils/snapmgr.h"
 
 #include "pg/writer.h"
@@ -112,7 +114,9 @@ open_and_lock(Writer *writer)
 void
 writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command)
 {
-	PreventCommandIfReadOnly(command);
+	/* what is temporary may be changed in a read-only transaction, as by INSERT */
+	if (!isTempNamespace(get_rel_namespace(mesh)))
+		PreventCommandIfReadOnly(command);
 	PreventCommandIfParallelMode(command);
 
 	writer->host = host_create(CurrentMemoryContext, mesh, access);

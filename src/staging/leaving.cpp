@@ -8,8 +8,9 @@ namespace {
 constexpr std::size_t fewest_wants = 16, most_wants = 1 << 20;
 } // namespace
 
-Leaving::Leaving(const Host &host, std::size_t bytes, bool by_id)
-    : most_(std::clamp(bytes / bytes_a_want, fewest_wants, most_wants)), by_id_(by_id),
+Leaving::Leaving(const Host &host, std::size_t bytes, bool exactly, unsigned attributes)
+    : exactly_(exactly), identities_(host, exactly ? attributes : 0),
+      most_(std::clamp(bytes / (bytes_a_want + identities_.bytes_each()), fewest_wants, most_wants)),
       wants_(host), wanted_(host), candidates_(host) {}
 
 void Leaving::begin() {
@@ -33,8 +34,8 @@ Leaving::Wanted *Leaving::find(std::int64_t id) {
     return wanted != wanted_.end() && wanted->id == id ? wanted : nullptr;
 }
 
-bool Leaving::offer(std::int64_t id, std::uint64_t serial) {
-    Wanted *wanted = find(id);
+bool Leaving::offer(std::int64_t id, const double *attributes, std::uint64_t serial) {
+    Wanted *wanted = find(identities_.find(id, attributes));
     const bool is_behind = candidates_.size() >= wants_.size();
     if (is_behind && (wanted == nullptr || wanted->behind == wanted->times)) return true;
     const auto number = static_cast<std::uint32_t>(candidates_.size());
@@ -52,7 +53,7 @@ bool Leaving::offer(std::int64_t id, std::uint64_t serial) {
 std::uint32_t Leaving::choose(Wanted &wanted) {
     while (wanted.first != none && candidates_[wanted.first].leaves)
         wanted.first = candidates_[wanted.first].next;
-    if (wanted.first != none || by_id_) return wanted.first;
+    if (wanted.first != none || exactly_) return wanted.first;
     while (front_ < candidates_.size() && candidates_[front_].leaves) ++front_;
     return front_ < candidates_.size() ? front_ : none;
 }

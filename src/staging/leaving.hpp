@@ -1,8 +1,10 @@
 // Which of the equal points at one place leave, when some are taken away one after the other.
 //
-// Each time the first point with the id wanted leaves, or if none has it (unless by id) the
-// first of all. So what an id takes depends on what went before, but not on what a search after
-// each of them would have to read: all are found in one run over the points of the place.
+// Each time the first point with the id wanted leaves, or if none has it the first of all;
+// `exactly`, only one that has the id and the attributes wanted (staging/identities.hpp, which
+// makes numbers of both; what is said of ids here holds for these). So what an id takes depends
+// on what went before, but not on what a search after each of them would have to read: all are
+// found in one run over the points of the place.
 //
 // A point that leaves for want of its id is the first one left: all before it have gone. Of n
 // wants at most n - 1 have been met by then, so it is one of the first n points of the place.
@@ -11,33 +13,39 @@
 #pragma once
 
 #include "host/arena.hpp"
+#include "staging/identities.hpp"
 
 #include <cstdint>
-#include <optional>
 
 namespace abacus {
 
 class Leaving {
 public:
-    /// For as many wants as take about so many bytes. `by_id`: points leave by their ids only.
-    Leaving(const Host &host, std::size_t bytes, bool by_id);
+    /// For as many wants as take about so many bytes. `exactly`: a point leaves only if it has
+    /// the id and the attributes, of which there are so many, of one that is wanted.
+    Leaving(const Host &host, std::size_t bytes, bool exactly, unsigned attributes);
 
     /// Wants the next point taken away.
-    void want(std::int64_t id) { wants_.push_back(id); }
+    void want(std::int64_t id, const double *attributes) {
+        wants_.push_back(identities_.enter(id, attributes));
+    }
     bool is_full() const { return wants_.size() >= most_; }
     bool empty() const { return wants_.empty(); }
     bool is_one() const { return wants_.size() == 1; }
-    /// That of the one want, if by it.
-    std::optional<std::int64_t> id_demanded() const {
-        return by_id_ ? std::optional(wants_[0]) : std::nullopt;
+    /// Whether the one want takes this point, if there is no other at the place.
+    bool takes(std::int64_t id, const double *attributes) {
+        return !exactly_ || identities_.find(id, attributes) == wants_[0];
     }
     /// Forgets all wants.
-    void clear() { wants_.clear(); }
+    void clear() {
+        wants_.clear();
+        identities_.clear();
+    }
 
     /// No more wants come; the points of the place do.
     void begin();
     /// The next point, in the order of input. False if the others make no difference.
-    bool offer(std::int64_t id, std::uint64_t serial);
+    bool offer(std::int64_t id, const double *attributes, std::uint64_t serial);
     /// After the last point that makes a difference.
     void decide();
 
@@ -73,8 +81,9 @@ private:
     /// The candidate that leaves for a want, or none.
     std::uint32_t choose(Wanted &wanted);
 
+    const bool exactly_;
+    Identities identities_;
     const std::size_t most_;
-    const bool by_id_;
     Arena<std::int64_t> wants_; // in their order
     Arena<Wanted> wanted_;
     Arena<Candidate> candidates_; // in the order of input

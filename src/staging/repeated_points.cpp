@@ -167,7 +167,8 @@ template <int D> bool RepeatedPoints<D>::contains(const Point<D> &p) {
 
 template <int D> void RepeatedPoints<D>::offer(const Point<D> &p, Leaving &leaving) {
     find(p, [&](const std::uint64_t *entry) {
-        return !leaving.offer(record_id(record_of(entry)), entry[0]);
+        const std::uint64_t *record = record_of(entry);
+        return !leaving.offer(record_id(record), record_attributes<D>(record), entry[0]);
     });
 }
 

@@ -4,17 +4,17 @@
 
 namespace abacus {
 
-/// Gives each want the first point with its coordinates and id that no other has.
+/// Gives each want the first point with its coordinates and identity that no other has.
 template <int D> void WaitingPoints<D>::find(std::uint64_t from, std::uint64_t to) {
     const auto below = [](const Wanted &a, const Wanted &b) {
-        return a.point < b.point || (a.point == b.point && a.id < b.id);
+        return a.point < b.point || (a.point == b.point && a.identity < b.identity);
     };
     std::sort(wanted_.begin(), wanted_.end(), below);
     found_.clear();
     found_again_ = 0;
     VertexReader<D> reader(host_, attributes_, from, to);
     while (reader.advance()) {
-        const Wanted given{reader.point(), reader.id(), false, 0};
+        const Wanted given{reader.point(), identities_.find(reader.id(), reader.attributes()), false, 0};
         const auto [begin, end] = std::equal_range(wanted_.begin(), wanted_.end(), given, below);
         // Of equal wants the first ones have got theirs.
         const auto want = std::partition_point(begin, end, [](const Wanted &w) { return w.is_met; });
@@ -22,7 +22,7 @@ template <int D> void WaitingPoints<D>::find(std::uint64_t from, std::uint64_t t
         want->is_met = true;
         found_.push_back(reader.sequence());
     }
-    if (by_id_) return;
+    if (exactly_) return;
     Wanted *first = wanted_.begin();
     for (Wanted &w : wanted_) {
         if (!(w.point == first->point)) first = &w;
@@ -59,6 +59,7 @@ template <int D> std::uint64_t WaitingPoints<D>::take(std::uint64_t &from, std::
     from = to;
     to = left.next();
     wanted_.clear();
+    identities_.clear();
     return taken;
 }
 

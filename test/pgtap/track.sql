@@ -1,6 +1,6 @@
 -- abacus_track: how the triggers find their mesh, odd tables, points without a place.
 BEGIN;
-SELECT plan(53);
+SELECT plan(64);
 
 CREATE FUNCTION differences(mesh regclass, source text) RETURNS bigint LANGUAGE plpgsql AS $$
 DECLARE
@@ -190,6 +190,54 @@ SELECT throws_ok($$ SELECT abacus_track('precise_mesh', 'precise', synchronize =
     'x of point 5 is not finite', '... nor this');
 DELETE FROM precise WHERE id = 5;
 SELECT is(abacus_track('precise_mesh', 'precise', synchronize => true), 12::bigint, 'in step without them');
+
+-- the meshes of a table are changed in one order by all statements, whatever their names
+CREATE TABLE shared (id bigint, x float8, y float8, h float8);
+SELECT abacus_create(m, 2) FROM unnest('{terrain,terrain_fine,terrain_a}'::text[]) m;
+SELECT abacus_track(m::regclass, 'shared') FROM unnest('{terrain_fine,terrain,terrain_a}'::text[]) m;
+SELECT is(count(DISTINCT meshes), 1::bigint, 'one order of meshes for all events')
+FROM (SELECT tgtype, array_agg(split_part(encode(tgargs, 'escape'), '\000', 1) ORDER BY tgname) FROM pg_trigger
+      WHERE tgrelid = 'shared'::regclass GROUP BY tgtype) AS events (event, meshes);
+DROP TABLE terrain, terrain_fine, terrain_a;
+
+-- a point is told by its attributes as well: what the mesh has missed does not go unnoticed
+SELECT abacus_create('tellers', 2, '{h}');
+SELECT abacus_track('tellers', 'shared');
+INSERT INTO shared VALUES (1, 0, 0, 1), (1, 0, 0, 2), (1, 0, 0, NULL), (2, 4, 0, '-0'), (3, 0, 4, 'NaN'), (4, 0, 0, 3);
+DELETE FROM shared WHERE id = 1 AND h = 2;
+UPDATE shared SET h = 5 WHERE h IS NULL;
+UPDATE shared SET h = 0 WHERE id = 2;
+UPDATE shared SET h = NULL WHERE id = 3;
+SELECT results_eq($$ SELECT id, attributes[1] FROM abacus_vertices('tellers') ORDER BY 1, 2 $$,
+                  $$ SELECT id, h FROM shared ORDER BY 1, 2 $$, 'rows that agree in id and place');
+UPDATE shared SET id = 1 WHERE id = 4;
+DELETE FROM shared WHERE h = 3;
+SELECT results_eq($$ SELECT id, attributes[1] FROM abacus_vertices('tellers') ORDER BY 1, 2 $$,
+                  $$ SELECT id, h FROM shared ORDER BY 1, 2 $$, '... each goes by its own attributes');
+CREATE FUNCTION bump() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN UPDATE shared SET h = h + 1000 WHERE h = 77; RETURN NULL; END $$;
+CREATE TRIGGER bump AFTER INSERT OR UPDATE ON shared FOR EACH ROW EXECUTE FUNCTION bump();
+SELECT throws_ok($$ INSERT INTO shared VALUES (9, 1, 1, 77) $$, '55000', NULL, 'a row changed again before the mesh has heard of it');
+SELECT throws_ok($$ UPDATE shared SET h = 77 WHERE id = 2 $$, '55000', NULL, '... an attribute alone');
+DROP TRIGGER bump ON shared;
+CREATE TRIGGER zz_bump AFTER INSERT ON shared EXECUTE FUNCTION bump();
+SELECT lives_ok($$ INSERT INTO shared VALUES (9, 1, 1, 77) $$, 'and after it has');
+DROP TRIGGER zz_bump ON shared;
+SELECT results_eq($$ SELECT id, attributes[1] FROM abacus_vertices('tellers') ORDER BY 1, 2 $$,
+                  $$ SELECT id, h FROM shared ORDER BY 1, 2 $$, '... it follows');
+ALTER TABLE shared DROP COLUMN h;
+ALTER TABLE shared ADD COLUMN h float8 DEFAULT 99;
+SELECT throws_ok($$ DELETE FROM shared WHERE id = 2 $$, '55000', NULL, 'a column that was replaced');
+SELECT abacus_track('tellers', 'shared', synchronize => true);
+SELECT lives_ok($$ DELETE FROM shared WHERE id = 2 $$, '... in step again');
+
+-- who makes triggers may be answered by event triggers
+CREATE FUNCTION drop_it() RETURNS event_trigger LANGUAGE plpgsql AS $$ BEGIN EXECUTE 'DROP TABLE IF EXISTS ' || current_setting('test.drop'); END $$;
+CREATE EVENT TRIGGER drops ON ddl_command_end WHEN TAG IN ('CREATE TRIGGER', 'DROP TRIGGER') EXECUTE FUNCTION drop_it();
+SET LOCAL test.drop = 'tellers';
+SELECT throws_ok($$ SELECT abacus_track('tellers', 'shared') $$, '55006', NULL, 'the mesh is in use while it gets its triggers');
+SET LOCAL test.drop = 'shared';
+SELECT throws_ok($$ SELECT abacus_track('tellers', 'shared') $$, '42P01', NULL, 'the table has gone with its triggers');
+DROP EVENT TRIGGER drops;
 
 SELECT * FROM finish();
 ROLLBACK;

@@ -59,7 +59,7 @@ DROP TABLE own.notes;
 SELECT is(abacus_track('own.field', 'own.wells', synchronize => true), 4::bigint, 'in step again');
 -- what a bound trigger is replaced by is not bound
 SET ROLE pgtap_guest;
-CREATE OR REPLACE TRIGGER abacus_track_field_insert AFTER INSERT ON own.wells REFERENCING NEW TABLE AS n
+CREATE OR REPLACE TRIGGER abacus_track_insert_field AFTER INSERT ON own.wells REFERENCING NEW TABLE AS n
     FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('field', '2', 'id', 'y', 'x');
 SELECT is(bound('own.field'), 3::bigint, 'a trigger that replaces a bound one');
 SELECT throws_ok('INSERT INTO own.wells VALUES (9, 9, 8)', '42501', NULL, '... has no rights but the writer''s');

@@ -136,10 +136,10 @@ abacus_status MeshOf<D>::insert(const std::vector<InputOf<D>> &points, std::size
 
 template <int D>
 abacus_status MeshOf<D>::remove(const std::vector<InputOf<D>> &points, std::uint64_t &deleted,
-                                std::size_t memory, bool by_id) {
+                                std::size_t memory, bool exactly) {
     return with_stage(points, memory, [&](abacus_stage *stage) {
         return with_build([&](abacus_build *build) {
-            return abacus_build_delete(build, stage, by_id, &header, &deleted, &error);
+            return abacus_build_delete(build, stage, exactly, &header, &deleted, &error);
         });
     });
 }

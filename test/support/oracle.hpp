@@ -41,7 +41,7 @@ template <int D> struct MeshOf {
     abacus_status insert(const std::vector<InputOf<D>> &points, std::size_t memory = 16 << 20);
     /// `deleted` becomes the number of points that there were.
     abacus_status remove(const std::vector<InputOf<D>> &points, std::uint64_t &deleted,
-                         std::size_t memory = 16 << 20, bool by_id = false);
+                         std::size_t memory = 16 << 20, bool exactly = false);
     /// Loads a triangulation; simplices are named by the ids of their vertices.
     abacus_status load(const std::vector<InputOf<D>> &vertices,
                        const std::vector<std::array<std::int64_t, D + 1>> &simplices,

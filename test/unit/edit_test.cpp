@@ -132,33 +132,42 @@ TYPED_TEST(Edit, CollapsesAndGrowsAgain) {
     }
 }
 
-TYPED_TEST(Edit, ByIdTakesNoOtherPointOfThePlace) {
+TYPED_TEST(Edit, ExactlyTakesNoOtherPointOfThePlace) {
     constexpr int D = TypeParam::value;
     MeshOf<D> mesh(1);
     std::uint64_t deleted;
-    const auto taken = [&](std::int64_t id, const Point<D> &p) {
-        EXPECT_EQ(mesh.remove({{id, p, {0}}}, deleted, 16 << 20, true), ABACUS_OK);
+    const auto taken = [&](const InputOf<D> &point) {
+        EXPECT_EQ(mesh.remove({point}, deleted, 16 << 20, true), ABACUS_OK);
         return deleted;
+    };
+    const auto like = [](const InputOf<D> &point, std::int64_t id, double attribute) {
+        return InputOf<D>{id, point.point, {attribute}};
     };
     // while it waits
     auto points = this->fresh(1, 0);
     ASSERT_EQ(mesh.insert(points), ABACUS_OK);
-    EXPECT_EQ(taken(-1, points[0].point), 0u);
-    EXPECT_EQ(taken(points[0].id, points[0].point), 1u);
+    EXPECT_EQ(taken(like(points[0], -1, points[0].attributes[0])), 0u);
+    EXPECT_EQ(taken(like(points[0], points[0].id, -7)), 0u);
+    EXPECT_EQ(taken(points[0]), 1u);
     // as a vertex, alone or with others at its place
     points = this->fresh(50, 0);
-    points.push_back({1000, points[0].point, {0}});
-    points.push_back({1001, points[0].point, {0}});
+    const InputOf<D> first = points[0], alone = points[1], zero = like(first, 1000, -0.0),
+                     none = like(first, 1001, NAN), twin = like(first, 1001, 5);
+    points.insert(points.end(), {zero, none, twin});
     ASSERT_EQ(mesh.insert(points), ABACUS_OK);
-    EXPECT_EQ(taken(-1, points[1].point), 0u);
-    EXPECT_EQ(taken(-1, points[0].point), 0u);
+    EXPECT_EQ(taken(like(alone, -1, alone.attributes[0])), 0u);
+    EXPECT_EQ(taken(like(alone, alone.id, 0)), 0u);
+    EXPECT_EQ(taken(like(first, -1, first.attributes[0])), 0u);
+    EXPECT_EQ(taken(like(first, 1001, 0)), 0u);
     EXPECT_EQ(mesh.header.vertices, 50u);
-    EXPECT_EQ(mesh.header.duplicates, 2u);
-    EXPECT_EQ(taken(points[1].id, points[1].point), 1u);
-    EXPECT_EQ(taken(1001, points[0].point), 1u);
-    EXPECT_EQ(taken(points[0].id, points[0].point), 1u);
-    EXPECT_EQ(taken(points[0].id, points[0].point), 0u);
-    EXPECT_EQ(taken(1000, points[0].point), 1u);
+    EXPECT_EQ(mesh.header.duplicates, 3u);
+    EXPECT_EQ(taken(alone), 1u);
+    EXPECT_EQ(taken(twin), 1u);
+    EXPECT_EQ(taken(twin), 0u);
+    EXPECT_EQ(taken(first), 1u);
+    EXPECT_EQ(taken(first), 0u);
+    EXPECT_EQ(taken(like(none, 1001, -NAN)), 1u);
+    EXPECT_EQ(taken(like(zero, 1000, 0.0)), 1u);
     EXPECT_EQ(mesh.header.vertices, 48u);
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
 }

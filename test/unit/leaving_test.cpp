@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -19,9 +20,9 @@ using Random = std::mt19937_64;
 using Points = std::vector<std::int64_t>; // ids, in the order of input
 using Wants = std::vector<std::int64_t>;
 
-/// The serial numbers that are left: each want takes the first with its id, or else, unless by
-/// id, the first.
-std::vector<std::size_t> left_one_by_one(const Points &points, const Wants &wants, bool by_id) {
+/// The serial numbers that are left: each want takes the first with its id, or else, unless
+/// exactly, the first.
+std::vector<std::size_t> left_one_by_one(const Points &points, const Wants &wants, bool exactly) {
     std::vector<std::size_t> left(points.size());
     std::iota(left.begin(), left.end(), 0);
     for (const std::int64_t id : wants) {
@@ -29,17 +30,24 @@ std::vector<std::size_t> left_one_by_one(const Points &points, const Wants &want
         const auto at = std::find_if(left.begin(), left.end(),
                                      [&](std::size_t i) { return points[i] == id; });
         if (at != left.end()) left.erase(at);
-        else if (!by_id) left.erase(left.begin());
+        else if (!exactly) left.erase(left.begin());
     }
     return left;
 }
 
-/// The same by one run.
-std::vector<std::size_t> left_together(Leaving &leaving, const Points &points,
-                                       const Wants &wants) {
-    for (const std::int64_t id : wants) leaving.want(id);
+/// The same by one run. `parted`: what tells points apart is not an id, but one and two attributes.
+std::vector<std::size_t> left_together(Leaving &leaving, const Points &points, const Wants &wants,
+                                       bool parted = false) {
+    const auto id = [&](std::int64_t which) { return parted ? which / 9 : which; };
+    std::array<double, 2> values;
+    const auto attributes = [&](std::int64_t which) {
+        values = {which % 3 - 1.0, which / 3 % 3 == 0 ? NAN : which / 3 % 3 / 4.0};
+        return values.data();
+    };
+    for (const std::int64_t which : wants) leaving.want(id(which), attributes(which));
     leaving.begin();
-    for (std::size_t i = 0; i < points.size() && leaving.offer(points[i], i); ++i) {}
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (!leaving.offer(id(points[i]), attributes(points[i]), i)) break;
     leaving.decide();
     std::vector<std::size_t> left(points.size());
     std::iota(left.begin(), left.end(), 0);
@@ -54,7 +62,9 @@ TEST(Leaving, IsAsOneAfterTheOther) {
     Random random(3);
     MemoryHost memory;
     const Host host = memory.host();
-    std::array<Leaving, 2> leaving{Leaving(host, 1 << 20, false), Leaving(host, 1 << 20, true)};
+    std::array<Leaving, 2> leaving{Leaving(host, 1 << 20, false, 2),
+                                   Leaving(host, 1 << 20, true, 0)};
+    Leaving by_attributes(host, 1 << 20, true, 2);
     for (int round = 0; round < 20000; ++round) {
         // From ids that are all the same to ids that hardly repeat, some of them not there.
         const std::int64_t ids = 1 + static_cast<std::int64_t>(random() % 24);
@@ -62,21 +72,24 @@ TEST(Leaving, IsAsOneAfterTheOther) {
         for (std::int64_t &id : points) id = static_cast<std::int64_t>(random() % ids);
         Wants wants(1 + random() % 24);
         for (std::int64_t &id : wants) id = static_cast<std::int64_t>(random() % (ids + 2));
-        for (const bool by_id : {false, true})
-            ASSERT_EQ(left_together(leaving[by_id], points, wants),
-                      left_one_by_one(points, wants, by_id))
-                << testing::PrintToString(points) << testing::PrintToString(wants) << by_id;
+        for (const bool exactly : {false, true})
+            ASSERT_EQ(left_together(leaving[exactly], points, wants),
+                      left_one_by_one(points, wants, exactly))
+                << testing::PrintToString(points) << testing::PrintToString(wants) << exactly;
+        ASSERT_EQ(left_together(by_attributes, points, wants, true),
+                  left_one_by_one(points, wants, true))
+            << testing::PrintToString(points) << testing::PrintToString(wants);
     }
 }
 
 TEST(Leaving, KeepsAFewPointsOfManyForAFewWants) {
     MemoryHost memory;
     const Host host = memory.host();
-    Leaving leaving(host, 1 << 20, false);
-    leaving.want(7);
-    leaving.want(-1);
+    Leaving leaving(host, 1 << 20, false, 0);
+    leaving.want(7, nullptr);
+    leaving.want(-1, nullptr);
     leaving.begin();
-    for (std::uint64_t i = 0; i < 1000000; ++i) ASSERT_TRUE(leaving.offer(7, i));
+    for (std::uint64_t i = 0; i < 1000000; ++i) ASSERT_TRUE(leaving.offer(7, nullptr, i));
     leaving.decide();
     EXPECT_LT(memory.peak_bytes, 64u << 10);
     std::vector<std::uint64_t> others;

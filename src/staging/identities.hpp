@@ -1,0 +1,100 @@
+// By what points at one place are told apart: the id, or id and attributes.
+//
+// The latter is what a mesh that follows a table needs. There may be rows that agree in id
+// and place, and an attribute that the mesh has missed must not go unnoticed: as long as one
+// only that agrees in both is taken for what is wanted, it is missing.
+//
+// Whoever compares points compares numbers: without attributes the ids themselves, else those
+// under which the identities that are wanted have been entered here. Attributes agree as SQL
+// has it: 0 equals -0, and a NaN every other one.
+#pragma once
+
+#include "cache/hash_slots.hpp"
+#include "host/arena.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace abacus {
+
+class Identities {
+public:
+    static constexpr std::int64_t unknown = -1;
+
+    /// `attributes`: how many of them count.
+    Identities(const Host &host, unsigned attributes)
+        : attributes_(attributes), stride_(1 + std::size_t(attributes)), words_(host),
+          hashes_(host), slots_(host) {}
+
+    /// The number of a point that is wanted.
+    std::int64_t enter(std::int64_t id, const double *attributes) {
+        if (attributes_ == 0) return id;
+        const std::uint32_t hash = append(id, attributes);
+        const std::uint32_t last = count();
+        const std::uint32_t known = find_words(last, hash);
+        if (known != none) {
+            words_.resize(last * stride_);
+            return known;
+        }
+        hashes_.push_back(hash);
+        slots_.add(hash, last);
+        return last;
+    }
+    /// The number of a point; `unknown` if none like it has been entered.
+    std::int64_t find(std::int64_t id, const double *attributes) {
+        if (attributes_ == 0) return id;
+        const std::uint32_t hash = append(id, attributes);
+        const std::uint32_t last = count();
+        const std::uint32_t known = find_words(last, hash);
+        words_.resize(last * stride_);
+        return known == none ? unknown : known;
+    }
+    /// Forgets all that has been entered.
+    void clear() {
+        for (std::uint32_t n = 0; n < hashes_.size(); ++n) slots_.remove(hashes_[n], n);
+        hashes_.clear();
+        words_.clear();
+    }
+    /// What an entry takes.
+    std::size_t bytes_each() const {
+        return attributes_ == 0 ? 0
+                                : stride_ * sizeof(std::uint64_t) + sizeof(std::uint32_t) +
+                                      2 * HashSlots<none>::slot_bytes;
+    }
+
+private:
+    static constexpr std::uint32_t none = 0xffffffffu;
+
+    std::uint32_t count() const { return static_cast<std::uint32_t>(hashes_.size()); }
+    static std::uint64_t canonical(double x) {
+        if (x == 0) return 0;
+        return std::isnan(x) ? ~std::uint64_t(0) : std::bit_cast<std::uint64_t>(x);
+    }
+    /// Puts the words of an identity behind those entered; their hash.
+    std::uint32_t append(std::int64_t id, const double *attributes) {
+        words_.push_back(std::bit_cast<std::uint64_t>(id));
+        for (unsigned i = 0; i < attributes_; ++i) words_.push_back(canonical(attributes[i]));
+        std::uint64_t hash = 0;
+        for (std::size_t i = words_.size() - stride_; i < words_.size(); ++i) {
+            hash = (hash ^ words_[i]) * 0x9e3779b97f4a7c15ull;
+            hash ^= hash >> 32;
+        }
+        return static_cast<std::uint32_t>(hash);
+    }
+    /// The entry with the same words as those at number `at`, or none.
+    std::uint32_t find_words(std::uint32_t at, std::uint32_t hash) const {
+        const std::uint64_t *words = words_.data() + at * stride_;
+        return slots_.find(hash, [&](std::uint32_t n) {
+            return std::equal(words, words + stride_, words_.data() + n * stride_);
+        });
+    }
+
+    const unsigned attributes_;
+    const std::size_t stride_;
+    Arena<std::uint64_t> words_; // id and attributes of each entry
+    Arena<std::uint32_t> hashes_;
+    HashSlots<none> slots_;
+};
+
+} // namespace abacus
