@@ -5,10 +5,10 @@
 
 #include "utils/builtins.h"
 
-#include "pg/mesh_cache.h"
+#include "pg/mesh/mesh_cache.h"
 #include "pg/settings.h"
-#include "pg/sql_function.h"
-#include "pg/vacuum.h"
+#include "pg/space/vacuum.h"
+#include "pg/sql/sql_function.h"
 
 PG_MODULE_MAGIC;
 

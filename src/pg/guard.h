@@ -14,21 +14,25 @@
 
 #include "pg/host.h"
 
-extern void host_inject_failure(void);
-extern void host_keep_error(Host *host);
+/* Counts down to the failure that abacus.fail_host_call asks for. */
+extern int	guard_calls_to_failure;
+
+extern bool guard_failure_is_due(void);
+extern void guard_inject_failure(void);
+extern void guard_keep_error(Host *host);
 
 #define GUARD_BEGIN() \
 	do { \
 		MemoryContext guard_context = CurrentMemoryContext; \
 		PG_TRY(); \
 		{ \
-			host_inject_failure();
+			guard_inject_failure();
 
 #define GUARD_END(host) \
 		} \
 		PG_CATCH(); \
 		{ \
-			host_keep_error(host); \
+			guard_keep_error(host); \
 			MemoryContextSwitchTo(guard_context); \
 			return ABACUS_HOST_FAILED; \
 		} \

@@ -23,43 +23,7 @@
 #include "utils/memutils.h"
 
 #include "pg/guard.h"
-#include "pg/spool.h"
-
-int			host_calls_to_failure = 0;
-
-static bool
-failure_is_due(void)
-{
-	return host_calls_to_failure > 0 && --host_calls_to_failure == 0;
-}
-
-void
-host_inject_failure(void)
-{
-	if (unlikely(failure_is_due()))
-		ereport(ERROR,
-				(errcode(ERRCODE_IO_ERROR),
-				 errmsg("injected failure"),
-				 errdetail("The setting abacus.fail_host_call asks for it.")));
-}
-
-/* Keeps the error being handled until the core has returned. */
-void
-host_keep_error(Host *host)
-{
-	PG_TRY();
-	{
-		MemoryContextReset(host->errors);
-		MemoryContextSwitchTo(host->errors);
-		host->error = CopyErrorData();
-	}
-	PG_CATCH();
-	{
-		host->error = NULL;		/* no memory for the copy: see host_leave() */
-	}
-	PG_END_TRY();
-	FlushErrorState();
-}
+#include "pg/store/spool.h"
 
 /* ---- Memory ------------------------------------------------------------- */
 
@@ -76,7 +40,7 @@ host_resize(void *context, void *block, size_t size)
 			pfree(block);
 		return NULL;
 	}
-	if (size > MaxAllocHugeSize || unlikely(failure_is_due()))
+	if (size > MaxAllocHugeSize || unlikely(guard_failure_is_due()))
 		return NULL;
 	if (block == NULL)
 		return MemoryContextAllocExtended(host->core, size,

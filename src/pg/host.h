@@ -15,9 +15,9 @@
 
 #include "abacus/host.h"
 
-#include "pg/mesh.h"
-#include "pg/page_store.h"
+#include "pg/mesh/mesh.h"
 #include "pg/progress.h"
+#include "pg/store/page_store.h"
 
 typedef struct Host
 {
@@ -43,8 +43,5 @@ extern void host_enter(Host *host);
 extern abacus_status host_leave(Host *host, abacus_status status);
 
 #define host_run(host, call) (host_enter(host), host_leave((host), (call)))
-
-/* Counts down to the failure that abacus.fail_host_call asks for. */
-extern int	host_calls_to_failure;
 
 #endif

@@ -6,7 +6,7 @@
 #include "miscadmin.h"
 #include "utils/guc.h"
 
-#include "pg/host.h"
+#include "pg/guard.h"
 #include "pg/settings.h"
 
 static int	cache_size_mb = 128;
@@ -16,7 +16,7 @@ static bool vacuum_moves_rows = true;
 static void
 assign_fail_host_call(int value, void *extra)
 {
-	host_calls_to_failure = value;
+	guard_calls_to_failure = value;
 }
 
 void

@@ -1,0 +1,166 @@
+/*
+ * change.c: a change of a mesh with the points of a query.
+ *
+ * Rows go from the executor in batches of a thousand into the core's stage,
+ * which brings them into order within maintenance_work_mem (beyond it in
+ * temporary files). From there they go to vertex pages, or into the
+ * triangulation, or are taken out of it.
+ */
+#include "postgres.h"
+
+#include "pg/mesh/change.h"
+#include "pg/settings.h"
+
+/* The handles go when the host does. */
+static void
+close_handles(void *handle)
+{
+	Change	   *change = handle;
+
+	abacus_build_close(change->build);
+	abacus_stage_close(change->stage);
+	abacus_stage_close(change->put_aside);
+}
+
+/* Opens a mesh for changing; `command` names the function for messages. */
+Change *
+change_begin(Oid mesh, const char *command)
+{
+	Change	   *change = palloc0(sizeof(Change));
+
+	writer_begin(&change->writer, mesh, MESH_WRITE, command);
+	host_own(change->writer.host, change, close_handles);
+	return change;
+}
+
+/* Opens an empty stage for points of the shape that a header describes. */
+void
+change_open_stage(Change *change, const abacus_header *shape)
+{
+	Host	   *host = change->writer.host;
+
+	abacus_stage_close(change->stage);
+	change->stage = NULL;
+	change->points = 0;
+	host_run(host, abacus_stage_open(&host->table, shape, setting_sort_bytes(), &change->stage,
+									 &host->failure));
+}
+
+/* Adds points to the stage. */
+void
+change_add(Change *change, const uint64 *points, size_t count)
+{
+	Host	   *host = change->writer.host;
+
+	host_run(host, abacus_stage_add(change->stage, points, count, &host->failure));
+	change->points += count;
+}
+
+/* Reads the points of a query, of the shape that a header describes, into a stage. */
+void
+change_read(Change *change, Source *source, const abacus_header *shape)
+{
+	const uint64 *points;
+	size_t		count;
+
+	source_open(source, shape);
+	change_open_stage(change, shape);
+	while ((count = source_fetch(source, &points)) > 0)
+		change_add(change, points, count);
+	source_close(source);
+}
+
+/* Puts the stage aside, and takes the one that was; the first time that is none. */
+void
+change_swap_stages(Change *change)
+{
+	abacus_stage *stage = change->stage;
+
+	change->stage = change->put_aside;
+	change->put_aside = stage;
+}
+
+/*
+ * Opens the triangulation for changes, unless it is open. The header must have
+ * its domain by then, if the points to come shall give it one.
+ */
+void
+change_open_build(Change *change)
+{
+	Host	   *host = change->writer.host;
+
+	if (change->build == NULL)
+		host_run(host, abacus_build_open(&host->table, change->writer.header,
+										 setting_cache_bytes(), &change->build, &host->failure));
+}
+
+/* Inserts the points of the stage. */
+void
+change_insert(Change *change)
+{
+	Host	   *host = change->writer.host;
+	abacus_header *header = change->writer.header;
+
+	host_run(host, abacus_stage_end(change->stage, header, &host->failure));
+	change_open_build(change);
+	host_run(host, abacus_build_insert(change->build, change->stage, header, &host->failure));
+}
+
+/*
+ * Takes the points of the stage away, `exactly` only those with the same id and attributes;
+ * returns how many there were.
+ */
+uint64
+change_delete(Change *change, bool exactly)
+{
+	Host	   *host = change->writer.host;
+	uint64		deleted;
+
+	change_open_build(change);
+	host_run(host, abacus_build_delete(change->build, change->stage, exactly, change->writer.header,
+									   &deleted, &host->failure));
+	return deleted;
+}
+
+/* Takes all points away. */
+void
+change_clear(Change *change)
+{
+	Host	   *host = change->writer.host;
+	uint64		deleted;
+
+	change_open_build(change);
+	host_run(host, abacus_build_clear(change->build, change->writer.header, &deleted,
+									  &host->failure));
+}
+
+/* Closes the mesh, which has not been changed. */
+void
+change_abandon(Change *change)
+{
+	writer_close(&change->writer);
+	pfree(change);
+}
+
+/* Writes the header and closes the mesh. */
+void
+change_end(Change *change)
+{
+	writer_end(&change->writer);
+	pfree(change);
+}
+
+/* Inserts the points of a prepared query; *header is the new one. Returns their number. */
+uint64
+change_insert_query(Oid mesh, Source *source, const char *command, abacus_header *header)
+{
+	Change	   *change = change_begin(mesh, command);
+	uint64		points;
+
+	change_read(change, source, change->writer.header);
+	change_insert(change);
+	points = change->points;
+	*header = *change->writer.header;
+	change_end(change);
+	return points;
+}

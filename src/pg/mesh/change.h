@@ -1,0 +1,34 @@
+/*
+ * change.h: a change of a mesh with the points of a query.
+ */
+#ifndef ABACUS_CHANGE_OF_MESH_H
+#define ABACUS_CHANGE_OF_MESH_H
+
+#include "abacus/change.h"
+#include "pg/mesh/writer.h"
+#include "pg/sql/source.h"
+
+typedef struct Change
+{
+	Writer		writer;
+	abacus_stage *stage;		/* the points */
+	abacus_build *build;
+	uint64		points;			/* how many it holds */
+	abacus_stage *put_aside;	/* another one */
+} Change;
+
+extern Change *change_begin(Oid mesh, const char *command);
+extern void change_open_stage(Change *change, const abacus_header *shape);
+extern void change_add(Change *change, const uint64 *points, size_t count);
+extern void change_read(Change *change, Source *source, const abacus_header *shape);
+extern void change_swap_stages(Change *change);
+extern void change_open_build(Change *change);
+extern void change_insert(Change *change);
+extern uint64 change_delete(Change *change, bool exactly);
+extern void change_clear(Change *change);
+extern void change_abandon(Change *change);
+extern void change_end(Change *change);
+extern uint64 change_insert_query(Oid mesh, Source *source, const char *command,
+								  abacus_header *header);
+
+#endif

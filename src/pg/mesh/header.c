@@ -1,0 +1,156 @@
+/*
+ * header.c: the header of a mesh, a row of its simplex table.
+ *
+ * It stands under the key (-1, 0), below every page. Each change of a mesh
+ * rewrites it with a new random stamp; so a stamp names one state of the mesh
+ * for ever, also when the transaction that made it is rolled back, and a
+ * session's cache is good exactly as long as the header it sees has the stamp
+ * it was filled under.
+ */
+#include "postgres.h"
+
+#include "pg/mesh/header.h"
+#include "pg/mesh/names.h"
+
+const int64 header_key[PAGE_TABLE_KEYS] = {-1, 0};
+
+static void
+new_stamp(abacus_header *header)
+{
+	if (!pg_strong_random(&header->stamp, sizeof(header->stamp)))
+		ereport(ERROR,
+				(errcode(ERRCODE_INTERNAL_ERROR), errmsg("could not generate a random number")));
+}
+
+static size_t
+encode(const abacus_header *header, unsigned char *bytes)
+{
+	abacus_header stored = *header;
+
+	names_to_storage(&stored);
+	return abacus_header_encode(&stored, bytes);
+}
+
+/* Writes the header of a new mesh. */
+void
+header_insert(Host *host, abacus_header *header)
+{
+	unsigned char bytes[ABACUS_PAGE_BYTES];
+	ItemPointerData tid;
+	size_t		size;
+
+	new_stamp(header);
+	size = encode(header, bytes);
+	page_table_insert(&host->store.simplices, header_key, bytes, size, &tid);
+}
+
+/* The header row as the active snapshot sees it. */
+bool
+header_find(Host *host, StoredPage *row)
+{
+	if (page_table_get(&host->store.simplices, header_key, row))
+		return true;
+	page_table_refuse_newer(&host->store.simplices);
+	return false;
+}
+
+/*
+ * Locks and checks the vertex table. If the header tells of rows there, the snapshot
+ * must see them.
+ */
+void
+header_open_vertices(Host *host, const abacus_header *header)
+{
+	PageStore  *store = &host->store;
+	abacus_key	last = {UINT64_MAX, UINT64_MAX};
+	abacus_page page;
+	bool		found = true;
+
+	page_store_vertex_table(store);
+	if (header->duplicates > 0)
+		found = page_store_find(store, ABACUS_REPEATED_PAGES, last, &page);
+	else if (header->inserted < header->staged || header->not_delaunay)
+		found = page_store_find(store, ABACUS_STAGED_PAGES, last, &page);
+	if (!found)
+		page_table_refuse_newer(&store->vertices);
+}
+
+/* Decodes the header; what is wrong with it goes to host->failure. */
+abacus_status
+header_try_decode(Host *host, const StoredPage *row, abacus_header *header)
+{
+	abacus_status status = abacus_header_decode(row->bytes, row->size, header, &host->failure);
+	int			invalid = status == ABACUS_OK ? names_find_invalid(header) : -1;
+
+	if (invalid >= 0)
+	{
+		MemSet(&host->failure, 0, sizeof(host->failure));
+		host->failure.kind = ABACUS_ERROR_CORRUPTED;
+		strlcpy(host->failure.message, "mesh is corrupted", sizeof(host->failure.message));
+		snprintf(host->failure.detail, sizeof(host->failure.detail),
+				 "The name of attribute %d is not valid in UTF-8.", invalid + 1);
+		strlcpy(host->failure.hint, "Restore the mesh from a backup or build it anew.",
+				sizeof(host->failure.hint));
+		return ABACUS_ERROR;
+	}
+	if (status == ABACUS_OK)
+		names_to_database(header);
+	return status;
+}
+
+void
+header_decode(Host *host, const StoredPage *row, abacus_header *header)
+{
+	host_run(host, header_try_decode(host, row, header));
+}
+
+/* Finds and decodes the header, which must be there; its place goes to *tid unless NULL. */
+void
+header_read(Host *host, abacus_header *header, ItemPointer tid)
+{
+	StoredPage	row;
+
+	if (!header_find(host, &row))
+		ereport(ERROR,
+				(errcode(ERRCODE_DATA_CORRUPTED),
+				 errmsg("mesh \"%s\" has no header",
+						RelationGetRelationName(host->store.simplices.heap)),
+				 errdetail("The row (%d, %d) of the table is missing.", (int) header_key[0],
+						   (int) header_key[1]),
+				 errhint("Restore the mesh from a backup, or drop it and make it anew.")));
+	if (tid != NULL)
+		*tid = row.tid;
+	header_decode(host, &row, header);
+}
+
+/*
+ * Writes the header at *tid anew, which the caller has locked: the mesh is the
+ * same, its rows lie elsewhere. Sessions may keep what they have of it; a writer
+ * whose snapshot is older cannot go by that.
+ */
+void
+header_rewrite(Host *host, const abacus_header *header, ItemPointer tid)
+{
+	unsigned char bytes[ABACUS_PAGE_BYTES];
+	size_t		size = encode(header, bytes);
+
+	page_table_update(&host->store.simplices, header_key, bytes, size, tid);
+}
+
+/* Replaces the header at *tid, which the caller has locked. */
+void
+header_update(Host *host, abacus_header *header, ItemPointer tid)
+{
+	new_stamp(header);
+	header_rewrite(host, header, tid);
+}
+
+/* Number of the attribute with this name, -1 if there is none. */
+int
+header_attribute(const abacus_header *header, const char *name)
+{
+	for (uint32 i = 0; i < header->attributes; i++)
+		if (strcmp(header->names[i], name) == 0)
+			return (int) i;
+	return -1;
+}

@@ -1,0 +1,329 @@
+/*
+ * mesh.c: what a mesh is in the database.
+ *
+ * A mesh is an ordinary table of the type abacus_simplex_page together with
+ * one of the type abacus_vertex_page. No catalogue lists them: the row type
+ * in pg_class says what a table is, and an automatic dependency in pg_depend
+ * ties the vertex table to its mesh, so that either may be renamed or moved
+ * to another schema and DROP TABLE of the mesh drops both. A dump does not
+ * carry that entry; a restored mesh is found by name (<mesh>_vertices) until
+ * its owner changes it, which writes the entry again.
+ */
+#include "postgres.h"
+
+#include "access/genam.h"
+#include "access/relation.h"
+#include "access/table.h"
+#include "catalog/dependency.h"
+#include "catalog/indexing.h"
+#include "catalog/objectaddress.h"
+#include "catalog/pg_class.h"
+#include "catalog/pg_depend.h"
+#include "catalog/pg_trigger.h"
+#include "catalog/pg_type.h"
+#include "commands/extension.h"
+#include "miscadmin.h"
+#include "storage/lmgr.h"
+#include "utils/acl.h"
+#include "utils/builtins.h"
+#include "utils/fmgroids.h"
+#include "utils/inval.h"
+#include "utils/lsyscache.h"
+#include "utils/syscache.h"
+
+#include "pg/mesh/mesh.h"
+#include "pg/mesh/mesh_access.h"
+#include "pg/track/tracking.h"
+
+/* Whether `type` is this extension's row type of that name; remembers the last yes. */
+static bool
+is_row_type(Oid type, const char *name, Oid *known)
+{
+	HeapTuple	tuple;
+	bool		same;
+
+	if (!OidIsValid(type))
+		return false;
+	if (type == *known)
+		return true;
+	tuple = SearchSysCache1(TYPEOID, ObjectIdGetDatum(type));
+	if (!HeapTupleIsValid(tuple))
+		return false;
+	same = strcmp(NameStr(((Form_pg_type) GETSTRUCT(tuple))->typname), name) == 0;
+	ReleaseSysCache(tuple);
+	if (!same || getExtensionOfObject(TypeRelationId, type) != get_extension_oid("abacus", true))
+		return false;
+	*known = type;
+	return true;
+}
+
+static Oid	simplex_row_type = InvalidOid;
+static Oid	vertex_row_type = InvalidOid;
+
+static bool
+is_table_of(Oid relid, const char *name, Oid *known)
+{
+	HeapTuple	tuple = SearchSysCache1(RELOID, ObjectIdGetDatum(relid));
+	Form_pg_class form;
+	bool		is;
+
+	if (!HeapTupleIsValid(tuple))
+		return false;
+	form = (Form_pg_class) GETSTRUCT(tuple);
+	is = form->relkind == RELKIND_RELATION && is_row_type(form->reloftype, name, known);
+	ReleaseSysCache(tuple);
+	return is;
+}
+
+static bool
+is_simplex_table(Oid relid)
+{
+	return is_table_of(relid, SIMPLEX_PAGE_TYPE, &simplex_row_type);
+}
+
+static bool
+is_vertex_table(Oid relid)
+{
+	return is_table_of(relid, VERTEX_PAGE_TYPE, &vertex_row_type);
+}
+
+/* Opens the table of a mesh under the given lock, or says why it cannot be used. */
+static Relation
+open_mesh_table(Oid relid, MeshAccess access, LOCKMODE lock)
+{
+	Relation	rel = try_relation_open(relid, lock);
+
+	if (rel == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_TABLE),
+				 errmsg("mesh with OID %u does not exist", relid)));
+	if (rel->rd_rel->relkind != RELKIND_RELATION ||
+		!is_row_type(rel->rd_rel->reloftype, SIMPLEX_PAGE_TYPE, &simplex_row_type))
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 errmsg("\"%s\" is not a mesh", RelationGetRelationName(rel)),
+				 errhint("Meshes are made with abacus_create() or abacus_triangulate().")));
+	mesh_check_access(rel, access, NULL);
+	return rel;
+}
+
+/* Opens and locks the table of a mesh, or says why it cannot be used. */
+Relation
+mesh_table_open(Oid relid, MeshAccess access)
+{
+	return open_mesh_table(relid, access,
+						   access == MESH_READ ? AccessShareLock : RowExclusiveLock);
+}
+
+/*
+ * Keeps everybody else from changing the mesh, its definition included, over
+ * several transactions: readers alone go on, and VACUUM stays away. The caller
+ * unlocks; an error unlocks by itself.
+ *
+ * What is locked first and only for the checks, ACCESS SHARE, is in nobody's
+ * way: two that got there with a writer's lock would wait for each other.
+ */
+LockRelId
+mesh_lock_for_session(Oid relid)
+{
+	Relation	rel = open_mesh_table(relid, MESH_WRITE, AccessShareLock);
+	LockRelId	id = rel->rd_lockInfo.lockRelId;
+
+	LockRelationIdForSession(&id, ShareRowExclusiveLock);
+	relation_close(rel, NoLock);
+	return id;
+}
+
+/*
+ * The first table of the wanted kind that the object automatically depends on
+ * (`dependent`), or that depends on it.
+ */
+static Oid
+find_bound_table(Oid class, Oid object, bool dependent, bool (*wanted) (Oid))
+{
+	Relation	depend = table_open(DependRelationId, AccessShareLock);
+	ScanKeyData keys[2];
+	SysScanDesc scan;
+	HeapTuple	tuple;
+	Oid			found = InvalidOid;
+
+	ScanKeyInit(&keys[0], dependent ? Anum_pg_depend_classid : Anum_pg_depend_refclassid,
+				BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(class));
+	ScanKeyInit(&keys[1], dependent ? Anum_pg_depend_objid : Anum_pg_depend_refobjid,
+				BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(object));
+	scan = systable_beginscan(depend, dependent ? DependDependerIndexId : DependReferenceIndexId,
+							  true, NULL, 2, keys);
+	while (!OidIsValid(found) && HeapTupleIsValid(tuple = systable_getnext(scan)))
+	{
+		Form_pg_depend entry = (Form_pg_depend) GETSTRUCT(tuple);
+		Oid			other = dependent ? entry->refobjid : entry->objid;
+
+		if (entry->deptype == DEPENDENCY_AUTO &&
+			(dependent || entry->classid == RelationRelationId) &&
+			entry->refclassid == RelationRelationId && entry->objsubid == 0 &&
+			entry->refobjsubid == 0 && wanted(other))
+			found = other;
+	}
+	systable_endscan(scan);
+	table_close(depend, AccessShareLock);
+	return found;
+}
+
+/* The vertex table of a mesh, which its name alone tells of; InvalidOid if there is none. */
+static Oid
+find_named_vertex_table(Oid mesh)
+{
+	char	   *name = get_rel_name(mesh);
+	Oid			relid;
+
+	if (name == NULL)
+		return InvalidOid;
+	relid = get_relname_relid(psprintf("%s" VERTEX_TABLE_SUFFIX, name), get_rel_namespace(mesh));
+	if (OidIsValid(relid) &&
+		(!is_vertex_table(relid) ||
+		 OidIsValid(find_bound_table(RelationRelationId, relid, true, is_simplex_table))))
+		relid = InvalidOid;
+	return relid;
+}
+
+/* The vertex table of a mesh, unlocked and unchecked; InvalidOid if there is none. */
+Oid
+mesh_find_vertex_table(Oid mesh)
+{
+	Oid			relid = find_bound_table(RelationRelationId, mesh, false, is_vertex_table);
+
+	return OidIsValid(relid) ? relid : find_named_vertex_table(mesh);
+}
+
+/* The mesh of which this is the simplex table or the vertex table; InvalidOid if of none. */
+Oid
+mesh_of_table(Oid relid)
+{
+	const size_t suffix = strlen(VERTEX_TABLE_SUFFIX);
+	Oid			mesh;
+	char	   *name;
+
+	if (is_simplex_table(relid))
+		return relid;
+	if (!is_vertex_table(relid))
+		return InvalidOid;
+	mesh = find_bound_table(RelationRelationId, relid, true, is_simplex_table);
+	if (OidIsValid(mesh))
+		return mesh;
+	name = get_rel_name(relid);
+	if (name == NULL || strlen(name) <= suffix)
+		return InvalidOid;
+	name[strlen(name) - suffix] = '\0';
+	mesh = get_relname_relid(name, get_rel_namespace(relid));
+	return is_simplex_table(mesh) && mesh_find_vertex_table(mesh) == relid ? mesh : InvalidOid;
+}
+
+static bool
+try_lock_for_session(Oid relid, LOCKMODE mode, LockRelId *lock)
+{
+	LOCKTAG		tag;
+
+	lock->relId = relid;
+	lock->dbId = MyDatabaseId;
+	SET_LOCKTAG_RELATION(tag, lock->dbId, lock->relId);
+	return LockAcquire(&tag, mode, true, true) != LOCKACQUIRE_NOT_AVAIL;
+}
+
+/*
+ * Does what mesh_lock_for_session() does if nobody has the mesh locked for more than reading;
+ * else returns false. EXCLUSIVE, so that nobody holds a row lock either for which a writer would
+ * wait. The vertex table is locked as a writer does, or, if its rows will be written, likewise.
+ * The caller unlocks; an error unlocks by itself.
+ */
+bool
+mesh_try_lock_for_session(Oid relid, bool vertices, MeshLocks *locks)
+{
+	Oid			vertex_table = mesh_find_vertex_table(relid);
+
+	locks->vertices_mode = vertices ? ExclusiveLock : RowExclusiveLock;
+	if (!OidIsValid(vertex_table) ||
+		!try_lock_for_session(relid, ExclusiveLock, &locks->simplices))
+		return false;
+	if (!try_lock_for_session(vertex_table, locks->vertices_mode, &locks->vertices))
+	{
+		UnlockRelationIdForSession(&locks->simplices, ExclusiveLock);
+		return false;
+	}
+	/* the tables may have been dropped or renamed meanwhile */
+	AcceptInvalidationMessages();
+	if (mesh_of_table(relid) == relid && mesh_find_vertex_table(relid) == vertex_table)
+		return true;
+	mesh_unlock_for_session(locks);
+	return false;
+}
+
+void
+mesh_unlock_for_session(MeshLocks *locks)
+{
+	UnlockRelationIdForSession(&locks->vertices, locks->vertices_mode);
+	UnlockRelationIdForSession(&locks->simplices, ExclusiveLock);
+}
+
+/* The table of the mesh's vertex pages, locked and checked; writers bind it when it is not. */
+Oid
+mesh_vertex_table(Relation mesh, MeshAccess access)
+{
+	Oid			relid = find_bound_table(RelationRelationId, RelationGetRelid(mesh), false,
+										 is_vertex_table);
+	bool		bound = OidIsValid(relid);
+	Relation	rel = NULL;
+
+	if (!bound)
+		relid = find_named_vertex_table(RelationGetRelid(mesh));
+	/* it may be dropped while we wait for the lock */
+	if (OidIsValid(relid))
+		rel = try_relation_open(relid, access == MESH_READ ? AccessShareLock : RowExclusiveLock);
+	if (rel == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_TABLE),
+				 errmsg("mesh \"%s\" has no vertex table", RelationGetRelationName(mesh)),
+				 errdetail("There is no table \"%s" VERTEX_TABLE_SUFFIX "\" of type %s beside it.",
+						   RelationGetRelationName(mesh), VERTEX_PAGE_TYPE),
+				 errhint("After a restore, give the vertex table that name; if it is lost, "
+						 "restore it from a backup.")));
+	mesh_check_access(rel, access, mesh);
+	if (!bound && access == MESH_WRITE && pg_class_ownercheck(relid, GetUserId()) &&
+		pg_class_ownercheck(RelationGetRelid(mesh), GetUserId()))
+	{
+		mesh_bind_vertex_table(RelationGetRelid(mesh), relid);
+		tracking_bind_restored(mesh);
+	}
+	relation_close(rel, NoLock);
+	return relid;
+}
+
+/* From now on the object goes where the mesh goes. */
+static void
+bind(Oid class, Oid object, Oid mesh)
+{
+	ObjectAddress dependent;
+	ObjectAddress referenced;
+
+	ObjectAddressSet(dependent, class, object);
+	ObjectAddressSet(referenced, RelationRelationId, mesh);
+	recordDependencyOn(&dependent, &referenced, DEPENDENCY_AUTO);
+}
+
+void
+mesh_bind_vertex_table(Oid mesh, Oid vertices)
+{
+	bind(RelationRelationId, vertices, mesh);
+}
+
+/* The mesh that a trigger is bound to; InvalidOid if none. */
+Oid
+mesh_of_trigger(Oid trigger)
+{
+	return find_bound_table(TriggerRelationId, trigger, true, is_simplex_table);
+}
+
+void
+mesh_bind_trigger(Oid mesh, Oid trigger)
+{
+	bind(TriggerRelationId, trigger, mesh);
+}

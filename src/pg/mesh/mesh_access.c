@@ -1,0 +1,142 @@
+/*
+ * mesh_access.c: who may use a table of a mesh, and where it can be used.
+ *
+ * The store reads and writes pages without planner and executor. What these would
+ * have checked is checked here: privileges, row-level security, temporary
+ * tables of other sessions, unlogged ones on a standby, what is published.
+ */
+#include "postgres.h"
+
+#include "access/parallel.h"
+#include "access/xlog.h"
+#include "catalog/pg_am.h"
+#include "executor/executor.h"
+#include "lib/stringinfo.h"
+#include "miscadmin.h"
+#include "utils/acl.h"
+#include "utils/rls.h"
+
+#include "pg/mesh/mesh_access.h"
+#include "pg/store/page_index.h"
+
+/*
+ * What more is to be said where a privilege is missing: of which mesh this is the vertex
+ * table, and whose privilege it is, if not that of the user who has asked, as where a
+ * table is followed.
+ */
+static const char *
+describe_denied(Relation mesh)
+{
+	StringInfoData detail;
+
+	initStringInfo(&detail);
+	if (mesh != NULL)
+		appendStringInfo(&detail, "It is the vertex table of mesh \"%s\".",
+						 RelationGetRelationName(mesh));
+	if (GetUserId() != GetOuterUserId())
+		appendStringInfo(&detail, "%sIt is accessed as user \"%s\".", mesh != NULL ? " " : "",
+						 GetUserNameFromId(GetUserId(), false));
+	return detail.data;
+}
+
+/* What the executor would refuse; `mesh` is the one whose vertex table this is, or NULL. */
+static void
+check_privileges(Relation rel, MeshAccess access, Relation mesh)
+{
+	Oid			relid = RelationGetRelid(rel);
+	AclMode		needed = access == MESH_READ ? ACL_SELECT
+		: ACL_SELECT | ACL_INSERT | ACL_UPDATE | ACL_DELETE;
+
+	if (pg_class_aclmask(relid, GetUserId(), needed, ACLMASK_ALL) != needed)
+	{
+		const char *detail = describe_denied(mesh);
+
+		ereport(ERROR,
+				(errcode(ERRCODE_INSUFFICIENT_PRIVILEGE),
+				 errmsg("permission denied for table %s", RelationGetRelationName(rel)),
+				 detail[0] == '\0' ? 0 : errdetail_internal("%s", detail),
+				 mesh == NULL ? 0 :
+				 errhint("Privileges, and the owner, are given to both tables of a mesh.")));
+	}
+	if (check_enable_rls(relid, InvalidOid, false) == RLS_ENABLED)
+		ereport(ERROR,
+				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				 errmsg("row-level security on mesh table \"%s\" applies to user \"%s\"",
+						RelationGetRelationName(rel), GetUserNameFromId(GetUserId(), false)),
+				 errdetail("A page holds many simplices; policies on its rows have no meaning."),
+				 errhint("Disable row-level security on the table and use GRANT.")));
+}
+
+/*
+ * That a publication can tell its subscribers which rows are updated and deleted, whoever
+ * writes them; else the changes would not arrive there, or not as a whole.
+ */
+static void
+check_publications(Relation rel)
+{
+	CheckCmdReplicaIdentity(rel, CMD_UPDATE);
+	CheckCmdReplicaIdentity(rel, CMD_DELETE);
+}
+
+/*
+ * That the table is of a row type tells what its columns are, but not where they lie: a
+ * table made with another column, which was dropped before ALTER TABLE ... OF, keeps its
+ * place. Rows are read and written without names, so all columns must be the type's.
+ */
+static void
+check_columns(Relation rel)
+{
+	TupleDesc	row = RelationGetDescr(rel);
+	bool		are = row->natts == PAGE_TABLE_KEYS + 1;
+
+	if (row->natts < PAGE_TABLE_KEYS + 1)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("mesh table \"%s\" is of a type of another version of Abacus",
+						RelationGetRelationName(rel)),
+				 errhint("Read the mesh's points with the version that wrote it "
+						 "(abacus_vertices), and build it anew.")));
+	for (int i = 0; are && i < PAGE_TABLE_KEYS; i++)
+		are = TupleDescAttr(row, i)->atttypid == INT8OID;
+	if (!are || TupleDescAttr(row, PAGE_TABLE_KEYS)->attlen != -1)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("mesh table \"%s\" has had other columns than those of its type",
+						RelationGetRelationName(rel)),
+				 errhint("Copy its rows into a table made with CREATE TABLE ... OF.")));
+}
+
+/*
+ * Whether the user may do that to a table of a mesh, and we can: else an error.
+ * `mesh` is the one whose vertex table this is, or NULL.
+ */
+void
+mesh_check_access(Relation rel, MeshAccess access, Relation mesh)
+{
+	/* who moves rows sees nothing of them: as with VACUUM FULL, the owner's rights are enough */
+	if (access != MESH_MOVE)
+		check_privileges(rel, access, mesh);
+	if (rel->rd_rel->relam != HEAP_TABLE_AM_OID)
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 errmsg("mesh table \"%s\" is not stored as heap", RelationGetRelationName(rel)),
+				 errhint("Use ALTER TABLE ... SET ACCESS METHOD heap.")));
+	check_columns(rel);
+	if (RELATION_IS_OTHER_TEMP(rel))
+		ereport(ERROR,
+				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				 errmsg("cannot access temporary meshes of other sessions")));
+	if (RecoveryInProgress() && !RelationIsPermanent(rel))
+		ereport(ERROR,
+				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				 errmsg("cannot access unlogged mesh table \"%s\" during recovery",
+						RelationGetRelationName(rel)),
+				 errdetail("What is unlogged does not reach standbys.")));
+	if (IsParallelWorker() && RelationUsesLocalBuffers(rel))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_TRANSACTION_STATE),
+				 errmsg("cannot access a temporary mesh in a parallel worker"),
+				 errhint("SET max_parallel_workers_per_gather = 0 for this query.")));
+	if (access != MESH_READ)
+		check_publications(rel);
+}

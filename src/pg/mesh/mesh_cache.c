@@ -1,0 +1,279 @@
+/*
+ * mesh_cache.c: what a session keeps of the meshes it reads.
+ *
+ * A core handle for locating and walking holds simplices in memory; it is
+ * worth keeping between calls and between statements. It is valid for one
+ * (relfilenode, stamp): the header row that the active snapshot sees decides.
+ *
+ * Reading that row for every call would cost more than locating the point, so
+ * an entry remembers under which snapshot it was found valid, and until then
+ * also that the lock is held and, in the same statement, that the privileges
+ * were checked. Within one transaction an equal snapshot sees the same header;
+ * a subtransaction that aborts is the exception (it takes changes and locks
+ * back without any trace in the snapshot), so aborts and ends of transactions
+ * make entries forget.
+ * The callbacks touch memory only.
+ *
+ * An entry is busy while the core runs on it. One found busy by an abort or
+ * by the next call was left by an error and is dropped: a failed handle may
+ * only be closed.
+ */
+#include "postgres.h"
+
+#include "access/table.h"
+#include "access/xact.h"
+#include "miscadmin.h"
+#include "utils/inval.h"
+#include "utils/memutils.h"
+#include "utils/snapmgr.h"
+
+#include "pg/mesh/mesh_cache.h"
+#include "pg/settings.h"
+
+#define MESHES_KEPT 4
+
+/* What decides which changes of others, and of our own commands, a snapshot sees. */
+typedef struct SnapshotMark
+{
+	bool		set;
+	TransactionId xmin;
+	TransactionId xmax;
+	CommandId	curcid;
+	bool		suboverflowed;
+	bool		taken_during_recovery;
+	uint32		xcnt;
+	int32		subxcnt;
+	uint32		room;			/* of xids, which holds xip and then subxip */
+	TransactionId *xids;
+} SnapshotMark;
+
+typedef struct Entry
+{
+	CachedMesh	cached;			/* host NULL: the entry is free */
+	Oid			relid;
+	RelFileNode node;
+	uint64		stamp;
+	size_t		bytes;			/* cache size it was opened with */
+	uint64		last_use;
+	Oid			user;			/* whose privileges were checked under `valid` */
+	TimestampTz statement;		/* ... which began then: they may be revoked between two */
+	SnapshotMark valid;
+} Entry;
+
+static Entry entries[MESHES_KEPT];
+static uint64 uses = 0;
+
+/*
+ * memcmp() of nothing is not for nothing: a snapshot without transactions has
+ * no array, and the vector instructions that read none of what is at NULL take
+ * as long as some hundred others.
+ */
+static inline bool
+same_xids(const TransactionId *a, const TransactionId *b, uint32 count)
+{
+	return count == 0 || memcmp(a, b, count * sizeof(TransactionId)) == 0;
+}
+
+static bool
+same_snapshot(const SnapshotMark *mark, const SnapshotData *snapshot)
+{
+	return mark->set && mark->curcid == snapshot->curcid && mark->xmin == snapshot->xmin &&
+		mark->xmax == snapshot->xmax && mark->xcnt == snapshot->xcnt &&
+		mark->subxcnt == snapshot->subxcnt && mark->suboverflowed == snapshot->suboverflowed &&
+		mark->taken_during_recovery == snapshot->takenDuringRecovery &&
+		same_xids(mark->xids, snapshot->xip, mark->xcnt) &&
+		same_xids(mark->xids + mark->xcnt, snapshot->subxip, mark->subxcnt);
+}
+
+static void
+mark_snapshot(SnapshotMark *mark, const SnapshotData *snapshot)
+{
+	uint32		needed = snapshot->xcnt + snapshot->subxcnt;
+
+	mark->set = false;
+	if (needed > mark->room || mark->xids == NULL)
+	{
+		if (mark->xids != NULL)
+			pfree(mark->xids);
+		mark->xids = NULL;
+		mark->room = 0;
+		mark->xids = MemoryContextAlloc(TopMemoryContext, (needed + 16) * sizeof(TransactionId));
+		mark->room = needed + 16;
+	}
+	mark->xmin = snapshot->xmin;
+	mark->xmax = snapshot->xmax;
+	mark->curcid = snapshot->curcid;
+	mark->suboverflowed = snapshot->suboverflowed;
+	mark->taken_during_recovery = snapshot->takenDuringRecovery;
+	mark->xcnt = snapshot->xcnt;
+	mark->subxcnt = snapshot->subxcnt;
+	if (snapshot->xcnt > 0)
+		memcpy(mark->xids, snapshot->xip, snapshot->xcnt * sizeof(TransactionId));
+	if (snapshot->subxcnt > 0)
+		memcpy(mark->xids + snapshot->xcnt, snapshot->subxip,
+			   snapshot->subxcnt * sizeof(TransactionId));
+	mark->set = true;
+}
+
+static void
+drop(Entry *entry)
+{
+	Host	   *host = entry->cached.host;
+
+	entry->cached.host = NULL;
+	entry->cached.mesh = NULL;
+	entry->valid.set = false;
+	if (host != NULL)
+		host_destroy(host);
+}
+
+static Entry *
+find(Oid relid)
+{
+	for (int i = 0; i < MESHES_KEPT; i++)
+		if (entries[i].relid == relid && entries[i].cached.host != NULL)
+			return &entries[i];
+	return NULL;
+}
+
+/* A free entry, if need be the one used longest ago. */
+static Entry *
+take_entry(Oid relid)
+{
+	Entry	   *oldest = &entries[0];
+
+	for (int i = 0; i < MESHES_KEPT; i++)
+	{
+		if (entries[i].cached.host == NULL)
+		{
+			oldest = &entries[i];
+			break;
+		}
+		if (entries[i].last_use < oldest->last_use)
+			oldest = &entries[i];
+	}
+	drop(oldest);
+	oldest->relid = relid;
+	return oldest;
+}
+
+/* Opens the mesh's handle in a free or outdated entry. */
+static void
+open_mesh(Entry *entry, const abacus_header *header)
+{
+	Host	   *host = entry->cached.host;
+	abacus_mesh *mesh = NULL;
+
+	entry->bytes = setting_cache_bytes();
+	host_run(host, abacus_mesh_open(&host->table, header, entry->bytes, &mesh, &host->failure));
+	host_own(host, mesh, (void (*) (void *)) abacus_mesh_close);
+	entry->cached.mesh = mesh;
+	entry->cached.dimension = header->dimension;
+}
+
+/* Makes the entry for `relid` valid under the active snapshot. */
+static Entry *
+validate(Oid relid, Entry *entry)
+{
+	Relation	rel;
+	abacus_header header;
+	Host	   *host;
+
+	/* a lock that the transaction holds already does not bring the news of privileges */
+	AcceptInvalidationMessages();
+	rel = mesh_table_open(relid, MESH_READ);
+	/* the data of a mesh lies in one file; TRUNCATE and rewrites give it another */
+	if (entry != NULL &&
+		(entry->cached.host->busy || !RelFileNodeEquals(entry->node, rel->rd_node) ||
+		 entry->bytes != setting_cache_bytes()))
+	{
+		drop(entry);
+		entry = NULL;
+	}
+	if (entry == NULL)
+	{
+		entry = take_entry(relid);
+		entry->node = rel->rd_node;
+		entry->cached.host = host_create(TopMemoryContext, relid, MESH_READ);
+	}
+	host = entry->cached.host;
+	host->busy = true;			/* until all went well */
+	header_read(host, &header, NULL);
+	page_store_expect_moves(&host->store);
+	host->busy = true;
+	if (entry->cached.mesh == NULL || entry->stamp != header.stamp)
+	{
+		/* the old handle must not be found under the new stamp, whatever happens */
+		host_own(host, NULL, NULL);
+		entry->cached.mesh = NULL;
+		open_mesh(entry, &header);
+		entry->stamp = header.stamp;
+	}
+	entry->user = GetUserId();
+	entry->statement = GetCurrentStatementStartTimestamp();
+	host_release(host);
+	host->busy = false;
+	table_close(rel, NoLock);
+	/* there may be no memory for it: last, when nothing is open any more */
+	mark_snapshot(&entry->valid, GetActiveSnapshot());
+	return entry;
+}
+
+/* The session's handle for reading a mesh as the active snapshot sees it. */
+CachedMesh *
+mesh_cache_get(Oid relid)
+{
+	Entry	   *entry = find(relid);
+
+	if (unlikely(entry == NULL || entry->cached.host->busy || entry->user != GetUserId() ||
+				 entry->statement != GetCurrentStatementStartTimestamp() ||
+				 entry->bytes != setting_cache_bytes() ||
+				 !same_snapshot(&entry->valid, GetActiveSnapshot())))
+		entry = validate(relid, entry);
+	entry->last_use = ++uses;
+	return &entry->cached;
+}
+
+/* What the session has of a mesh now, or NULL. */
+const CachedMesh *
+mesh_cache_peek(Oid relid)
+{
+	Entry	   *entry = find(relid);
+
+	return entry != NULL && !entry->cached.host->busy ? &entry->cached : NULL;
+}
+
+static void
+forget_validity(bool aborted)
+{
+	for (int i = 0; i < MESHES_KEPT; i++)
+	{
+		entries[i].valid.set = false;
+		if (aborted && entries[i].cached.host != NULL && entries[i].cached.host->busy)
+			drop(&entries[i]);
+	}
+}
+
+static void
+at_transaction_event(XactEvent event, void *arg)
+{
+	if (event == XACT_EVENT_ABORT || event == XACT_EVENT_PARALLEL_ABORT)
+		forget_validity(true);
+	else if (event == XACT_EVENT_COMMIT || event == XACT_EVENT_PARALLEL_COMMIT ||
+			 event == XACT_EVENT_PREPARE)
+		forget_validity(false);
+}
+
+static void
+at_subtransaction_event(SubXactEvent event, SubTransactionId id, SubTransactionId parent, void *arg)
+{
+	if (event == SUBXACT_EVENT_ABORT_SUB)
+		forget_validity(true);
+}
+
+void
+mesh_cache_init(void)
+{
+	RegisterXactCallback(at_transaction_event, NULL);
+	RegisterSubXactCallback(at_subtransaction_event, NULL);
+}

@@ -1,0 +1,21 @@
+/*
+ * mesh_cache.h: what a session keeps of the meshes it reads.
+ */
+#ifndef ABACUS_MESH_CACHE_H
+#define ABACUS_MESH_CACHE_H
+
+#include "abacus/read.h"
+#include "pg/mesh/header.h"
+
+typedef struct CachedMesh
+{
+	Host	   *host;
+	abacus_mesh *mesh;			/* NULL while being opened */
+	uint32		dimension;
+} CachedMesh;
+
+extern CachedMesh *mesh_cache_get(Oid relid);
+extern const CachedMesh *mesh_cache_peek(Oid relid);
+extern void mesh_cache_init(void);
+
+#endif

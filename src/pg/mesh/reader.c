@@ -1,0 +1,26 @@
+/*
+ * reader.c: one reading of a whole mesh, for the functions that return sets.
+ */
+#include "postgres.h"
+
+#include "access/table.h"
+#include "utils/memutils.h"
+
+#include "pg/mesh/reader.h"
+
+/*
+ * Opens a mesh for reading under the active snapshot. The reader lives in
+ * `memory`, whose end closes it; the caller releases the host before it
+ * returns to SQL.
+ */
+Reader *
+reader_open(Oid mesh, MemoryContext memory)
+{
+	Relation	table = mesh_table_open(mesh, MESH_READ);
+	Reader	   *reader = MemoryContextAllocZero(memory, sizeof(Reader));
+
+	reader->host = host_create(memory, mesh, MESH_READ);
+	header_read(reader->host, &reader->header, NULL);
+	table_close(table, NoLock);
+	return reader;
+}

@@ -1,0 +1,181 @@
+/*
+ * writer.c: one change of a mesh.
+ *
+ * Writers of a mesh take turns by locking its header row; readers are never
+ * blocked. The whole change happens inside one SQL call: when it returns,
+ * every page and the new header are in the tables under the command's own
+ * transaction, so that savepoints, rollback and crash recovery need nothing
+ * of ours. A writer that commits in between (abacus_build) makes each of its
+ * changes in that way.
+ *
+ * Waiting for another writer means that the snapshot taken before is too old
+ * to see what that writer did. Under READ COMMITTED we then take a new one and
+ * start again, as a second statement would; under the stricter levels it is a
+ * serialization failure.
+ */
+#include "postgres.h"
+
+#include "access/table.h"
+#include "access/tableam.h"
+#include "access/xact.h"
+#include "catalog/namespace.h"
+#include "commands/tablecmds.h"
+#include "miscadmin.h"
+#include "utils/lsyscache.h"
+#include "utils/snapmgr.h"
+
+#include "pg/mesh/writer.h"
+
+/* Locks the header row as the active snapshot sees it; false if it has changed since. */
+static bool
+lock_header(Host *host, ItemPointer tid)
+{
+	Relation	heap = host->store.simplices.heap;
+	TupleTableSlot *slot = table_slot_create(heap, NULL);
+	TM_FailureData failure;
+	TM_Result	result;
+
+	result = table_tuple_lock(heap, tid, GetActiveSnapshot(), slot, GetCurrentCommandId(false),
+							  LockTupleExclusive, LockWaitBlock, 0, &failure);
+	ExecDropSingleTupleTableSlot(slot);
+	switch (result)
+	{
+		case TM_Ok:
+			return true;
+		case TM_Updated:
+		case TM_Deleted:
+			if (IsolationUsesXactSnapshot())
+				ereport(ERROR,
+						(errcode(ERRCODE_T_R_SERIALIZATION_FAILURE),
+						 errmsg("could not serialize access due to concurrent update"),
+						 errdetail("Another transaction has changed mesh \"%s\".",
+								   RelationGetRelationName(heap)),
+						 errhint("The transaction might succeed if retried.")));
+			return false;
+		default:
+			elog(ERROR, "unexpected result %d of locking the header of mesh \"%s\"", result,
+				 RelationGetRelationName(heap));
+	}
+	return false;
+}
+
+/*
+ * Opens both tables, the second with all checks. While they are open PostgreSQL refuses
+ * to alter or drop them in this session: so they stay what was checked, whatever the
+ * query does that gives the points.
+ */
+static void
+open_tables(PageStore *store)
+{
+	page_table_open(&store->simplices);
+	page_store_vertex_table(store);
+	page_table_open(&store->vertices);
+}
+
+/*
+ * Opens the tables, with all checks, locks the header and pushes an active
+ * snapshot that sees it.
+ */
+static void
+open_and_lock(Writer *writer)
+{
+	Host	   *host = writer->host;
+	Relation	table = mesh_table_open(host->store.mesh, host->store.access);
+
+	/* also refuses a second writer inside the first one's source query */
+	CheckTableNotInUse(table, "change mesh");
+	open_tables(&host->store);
+	table_close(table, NoLock);
+
+	for (;;)
+	{
+		CommandCounterIncrement();
+		PushCopiedSnapshot(GetTransactionSnapshot());
+		header_read(host, writer->header, &writer->header_tid);
+		if (lock_header(host, &writer->header_tid))
+			break;
+		host_release(host);
+		PopActiveSnapshot();
+		open_tables(&host->store);
+	}
+	/* otherwise the snapshot is newer than our lock on the vertex table */
+	if (IsolationUsesXactSnapshot())
+		header_open_vertices(host, writer->header);
+	if (host->store.simplices.superseded == NULL)
+		host->store.simplices.superseded = superseded_of_session(host->store.simplices.heap);
+	superseded_reclaim_earlier(host->store.simplices.superseded, host->store.simplices.heap);
+}
+
+/*
+ * Opens a mesh for changing, or for moving its rows, with its header locked and
+ * an active snapshot that sees it. `command` names the function for messages.
+ * The writer lives in the current memory context.
+ */
+void
+writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command)
+{
+	/* what is temporary may be changed in a read-only transaction, as by INSERT */
+	if (!isTempNamespace(get_rel_namespace(mesh)))
+		PreventCommandIfReadOnly(command);
+	PreventCommandIfParallelMode(command);
+
+	writer->host = host_create(CurrentMemoryContext, mesh, access);
+	writer->header = MemoryContextAlloc(writer->host->home, sizeof(abacus_header));
+	open_and_lock(writer);
+	progress_begin(&writer->host->progress, mesh);
+}
+
+/*
+ * Gives up the tables and the snapshot, as long as which are held no transaction
+ * ends. Nothing has changed, or the header has been written.
+ */
+void
+writer_release(Writer *writer)
+{
+	host_release(writer->host);
+	PopActiveSnapshot();
+}
+
+/* Writes the header: the change is complete, and may be committed. */
+void
+writer_store(Writer *writer)
+{
+	header_update(writer->host, writer->header, &writer->header_tid);
+	writer_release(writer);
+}
+
+/*
+ * After writer_store() or writer_release(), and a commit: opens the mesh for
+ * the next change. What the core holds of it is still so if the caller has kept
+ * others from changing it meanwhile, by a lock of the session (mesh.h).
+ */
+void
+writer_continue(Writer *writer)
+{
+	writer->host->store.vertices.relid = InvalidOid;	/* may have gone: look again */
+	open_and_lock(writer);
+}
+
+static void
+destroy(Writer *writer)
+{
+	progress_end(&writer->host->progress);
+	host_destroy(writer->host);
+	writer->host = NULL;
+}
+
+/* Closes the mesh without a change. */
+void
+writer_close(Writer *writer)
+{
+	writer_release(writer);
+	destroy(writer);
+}
+
+/* Writes the header and closes the mesh. */
+void
+writer_end(Writer *writer)
+{
+	writer_store(writer);
+	destroy(writer);
+}

@@ -1,0 +1,175 @@
+/*
+ * compact.c: the rows of a mesh moved to the beginning of their tables.
+ *
+ * A page of a mesh fills a heap page. A statement that changes pages all over
+ * the mesh writes all of them anew, and the old versions are free only when it
+ * has committed: so the table becomes twice as large. From then on half of it
+ * is empty, each time another half, and there are always rows near its end,
+ * where VACUUM could cut it. Nothing that happens inside one transaction helps.
+ * abacus_build and VACUUM (vacuum.c) commit as they like: so it is there that
+ * the rows at the end are moved to the empty heap pages at the beginning, until
+ * these meet; each once, as a rule. Other writers are kept away meanwhile. In the
+ * vertex table the points that were staged leave such a beginning, and the pages
+ * of repeated points lie behind it.
+ *
+ * A move is a deletion and an insertion of the same row: an update would leave
+ * a small row on its heap page. Readers see the one or the other, by their
+ * snapshots, and what sessions have of the mesh in memory stays good, for the
+ * stamp of the header does. But each batch of moves writes the header, as
+ * every change does: a writer whose snapshot is older would look for pages
+ * where they were, and is told so by the header.
+ *
+ * Rows that somebody's snapshot still sees keep their heap pages; the rest is
+ * done, and another call goes on.
+ *
+ * The file is left as long as it is. Index entries point to what the moved rows
+ * have left, and only VACUUM removes these; then it cuts the file by itself.
+ */
+#include "postgres.h"
+
+#include "access/tableam.h"
+#include "executor/spi.h"
+#include "miscadmin.h"
+#include "storage/bufmgr.h"
+#include "utils/memutils.h"
+
+#include "pg/space/compact.h"
+
+/* Heap pages by which a larger table is judged. */
+#define SAMPLE 1024
+/* Rows moved in one transaction, which a cancel or a crash undoes. */
+#define ROWS_AT_ONCE 1024
+/* Empty heap pages, besides an eighth of the table, that are not worth the moves. */
+#define FEW_PAGES 8
+
+/* Whether much of a table is empty, judged by some of its heap pages. */
+static bool
+is_worthwhile(Superseded *superseded, Relation heap)
+{
+	uint64		blocks = RelationGetNumberOfBlocks(heap);
+	uint64		one_of = blocks / SAMPLE + 1;
+	uint64		block = 0;
+	uint64		empty = superseded_survey(superseded, heap, &block, blocks, one_of, blocks);
+
+	return empty * one_of > blocks / 8 + FEW_PAGES;
+}
+
+/*
+ * Whether compact() would do something, as far as the table tells, which any
+ * lock keeps; a snapshot must be active.
+ */
+bool
+compact_is_worthwhile(Relation heap)
+{
+	MemoryContext memory = AllocSetContextCreate(CurrentMemoryContext, "Abacus sample",
+												 ALLOCSET_SMALL_SIZES);
+	bool		is = is_worthwhile(superseded_create(memory), heap);
+
+	MemoryContextDelete(memory);
+	return is;
+}
+
+/* Whether a row lies behind an empty heap page; if so, *end is behind the last one. */
+static bool
+find_last_row(PageTable *table, BlockNumber *end)
+{
+	TupleTableSlot *slot = table_slot_create(table->heap, NULL);
+	bool		found = false;
+
+	while (!found && *end > 0 && superseded_has_empty_before(table->superseded, *end - 1))
+	{
+		TableScanDesc scan = page_table_scan_heap_page(table, *end - 1);
+
+		CHECK_FOR_INTERRUPTS();
+		found = table_scan_getnextslot_tidrange(scan, ForwardScanDirection, slot);
+		table_endscan(scan);
+		if (!found)
+			(*end)--;
+	}
+	ExecDropSingleTupleTableSlot(slot);
+	return found;
+}
+
+/* Moves rows, from the last one before *end backwards. Returns how many. */
+static int
+move_rows(PageTable *table, BlockNumber *end)
+{
+	TupleTableSlot *slot = table_slot_create(table->heap, NULL);
+	bool		room = true;	/* on an empty heap page before the row */
+	int			moved = 0;
+
+	while (room && moved < ROWS_AT_ONCE && *end > 0)
+	{
+		TableScanDesc scan = page_table_scan_heap_page(table, *end - 1);
+
+		CHECK_FOR_INTERRUPTS();
+		while (room && table_scan_getnextslot_tidrange(scan, ForwardScanDirection, slot))
+		{
+			room = page_table_move(table, slot);
+			if (room)
+				moved++;
+		}
+		table_endscan(scan);
+		if (room)
+			(*end)--;
+	}
+	ExecDropSingleTupleTableSlot(slot);
+	return moved;
+}
+
+/* Moves the rows of a table to its beginning, if that is worth it. Returns how many. */
+static uint64
+compact_table(Writer *writer, PageTable *table)
+{
+	uint64		looked = 0;		/* at the heap pages before this one */
+	uint64		moved = 0;
+	BlockNumber end;
+	int			rows = -1;
+
+	page_table_open(table);
+	table->superseded = superseded_create(writer->host->home);
+	if (!is_worthwhile(table->superseded, table->heap))
+		return 0;
+	end = RelationGetNumberOfBlocks(table->heap);
+	while (rows != 0)
+	{
+		superseded_survey(table->superseded, table->heap, &looked, end, 1, ROWS_AT_ONCE);
+		if (!find_last_row(table, &end))
+			break;
+		/* the header first, as long as there is room for it at the beginning */
+		header_rewrite(writer->host, writer->header, &writer->header_tid);
+		rows = move_rows(table, &end);
+		moved += rows;
+		writer_release(writer);
+		SPI_commit();
+		writer_continue(writer);
+		page_table_open(table);
+		/* of the vertex table others may have cut the file, or made another one */
+		end = Min(end, RelationGetNumberOfBlocks(table->heap));
+	}
+	return moved;
+}
+
+/*
+ * Moves the rows of a mesh to the beginning of the one table, the other or both,
+ * and commits after each batch. The caller has kept others from changing the
+ * mesh by a lock of the session (mesh.h), and no core handle has it open. Returns
+ * how many were moved.
+ */
+uint64
+compact(Writer *writer, bool simplices, bool vertices)
+{
+	PageStore  *store = &writer->host->store;
+	const abacus_header *header = writer->header;
+	uint64		moved = 0;
+
+	if (simplices)
+		moved += compact_table(writer, &store->simplices);
+	/* without such points all rows of the vertex table are dead, and it is truncated */
+	if (vertices && (header->duplicates > 0 || header->inserted < header->staged))
+	{
+		page_store_vertex_table(store);
+		moved += compact_table(writer, &store->vertices);
+	}
+	return moved;
+}

@@ -1,0 +1,90 @@
+/*
+ * truncate.c: the file of a table whose rows are all dead.
+ *
+ * A build in batches takes its points from vertex pages and erases them, each
+ * batch in a transaction of its own. At the end the vertex table holds nothing
+ * but dead rows, and its file is as large as ever, until VACUUM comes and cuts
+ * it. That can be done here and now if nobody is in the way: no transaction
+ * that may still see a row, nobody who has the table open. On a standby somebody
+ * may have, and is cancelled when the truncation gets there, as after VACUUM's;
+ * the table's setting vacuum_truncate forbids both.
+ *
+ * As TRUNCATE does it, table and index get new files, and the old ones go at
+ * commit. Cutting the files where they are is not for tables that must survive
+ * a crash: between the cut of the table and the new index there are moments
+ * when one does not fit the other.
+ */
+#include "postgres.h"
+
+#include "access/relation.h"
+#include "access/table.h"
+#include "access/tableam.h"
+#include "catalog/index.h"
+#include "pgstat.h"
+#include "storage/bufmgr.h"
+#include "storage/lmgr.h"
+#include "storage/predicate.h"
+#include "storage/procarray.h"
+#include "utils/rel.h"
+#include "utils/snapmgr.h"
+
+#include "pg/space/truncate.h"
+
+/* Whether a row is there that VACUUM would not remove. */
+static bool
+has_rows(Relation rel)
+{
+	SnapshotData snapshot;
+	TableScanDesc scan;
+	TupleTableSlot *slot = table_slot_create(rel, NULL);
+	bool		found;
+
+	InitNonVacuumableSnapshot(snapshot, GlobalVisTestFor(rel));
+	scan = table_beginscan_strat(rel, &snapshot, 0, NULL, true, false);
+	found = table_scan_getnextslot(scan, ForwardScanDirection, slot);
+	table_endscan(scan);
+	ExecDropSingleTupleTableSlot(slot);
+	return found;
+}
+
+/* New, empty files for a table and its indexes, under the lock of the caller. */
+static void
+truncate_table(Relation rel)
+{
+	ReindexParams params = {0};
+
+	CheckTableForSerializableConflictIn(rel);
+	RelationSetNewRelfilenode(rel, rel->rd_rel->relpersistence);
+	reindex_relation(RelationGetRelid(rel), REINDEX_REL_PROCESS_TOAST, &params);
+	pgstat_count_truncate(rel);
+}
+
+/* Whether there is something to cut, and the table's settings let lazy VACUUM cut it. */
+static bool
+is_empty(Relation rel)
+{
+	bool		may = rel->rd_options == NULL ||
+		((StdRdOptions *) rel->rd_options)->vacuum_truncate;
+
+	return may && RelationGetNumberOfBlocks(rel) > 0 && !has_rows(rel);
+}
+
+/*
+ * Truncates a table if it has only dead rows and nobody uses it; nobody can then until the
+ * transaction ends. Returns whether. The lock is asked for only if it will be used: standbys
+ * hear of it.
+ */
+bool
+truncate_if_empty(Oid relid)
+{
+	Relation	rel = try_relation_open(relid, AccessShareLock);
+	bool		empty;
+
+	if (rel == NULL)
+		return false;
+	empty = is_empty(rel) && ConditionalLockRelation(rel, AccessExclusiveLock) && is_empty(rel);
+	if (empty)
+		truncate_table(rel);
+	relation_close(rel, NoLock);
+	return empty;
+}

@@ -1,0 +1,194 @@
+/*
+ * vacuum_moves.c: the rows of meshes that have been vacuumed, moved to the
+ * beginning of their tables.
+ *
+ * Only where the file will be cut, so not if the table's settings keep VACUUM
+ * from it. Who may vacuum a table may have its rows moved: nobody sees or changes
+ * anything of them, and no function of a user is called.
+ *
+ * Nothing is waited for: a mesh that somebody is changing stays as it is. Of one
+ * without much empty space no more is seen than a sample of its heap pages.
+ *
+ * The moves are transactions of their own. One that fails is taken back whole, as
+ * autovacuum does it, and the failure becomes a warning; a cancel is an error. We
+ * are at the outermost level, so that nobody's transaction is aborted but ours.
+ */
+#include "postgres.h"
+
+#include "access/relation.h"
+#include "access/xact.h"
+#include "catalog/pg_am.h"
+#include "executor/spi.h"
+#include "miscadmin.h"
+#include "nodes/makefuncs.h"
+#include "storage/lmgr.h"
+#include "tcop/pquery.h"
+#include "utils/acl.h"
+#include "utils/lsyscache.h"
+#include "utils/memutils.h"
+#include "utils/syscache.h"
+
+#include "pg/space/compact.h"
+#include "pg/space/vacuum_moves.h"
+
+/* Whether VACUUM does not refuse the table; false if it has gone. */
+static bool
+may_vacuum(Oid relid)
+{
+	return SearchSysCacheExists1(RELOID, ObjectIdGetDatum(relid)) &&
+		(pg_class_ownercheck(relid, GetUserId()) ||
+		 pg_database_ownercheck(MyDatabaseId, GetUserId()));
+}
+
+/* Whether VACUUM would leave the table's file as it is. */
+static bool
+is_spared(Relation rel, const VacuumOptions *options)
+{
+	const StdRdOptions *settings = (const StdRdOptions *) rel->rd_options;
+
+	return rel->rd_rel->relam != HEAP_TABLE_AM_OID || RELATION_IS_OTHER_TEMP(rel) ||
+		(settings != NULL && !options->truncate && !settings->vacuum_truncate) ||
+		(settings != NULL && !options->index_cleanup &&
+		 settings->vacuum_index_cleanup == STDRD_OPTION_VACUUM_INDEX_CLEANUP_OFF);
+}
+
+/* Whether the rows of this table are worth moving, and may be. */
+static bool
+is_wanted(Oid relid, const VacuumOptions *options)
+{
+	Relation	rel;
+	bool		wanted;
+
+	if (!OidIsValid(relid) || !ConditionalLockRelationOid(relid, AccessShareLock))
+		return false;
+	rel = try_relation_open(relid, NoLock);
+	if (rel == NULL)
+	{
+		UnlockRelationOid(relid, AccessShareLock);
+		return false;
+	}
+	wanted = may_vacuum(relid) && !is_spared(rel, options) && compact_is_worthwhile(rel);
+	relation_close(rel, AccessShareLock);
+	return wanted;
+}
+
+static char *
+full_name(Oid relid)
+{
+	return psprintf("%s.%s", get_namespace_name(get_rel_namespace(relid)), get_rel_name(relid));
+}
+
+/* Moves rows, under locks that keep others from the mesh. Returns how many. */
+static uint64
+move_rows(const VacuumJob *job, MemoryContext memory)
+{
+	Writer		writer;
+	uint64		moved;
+
+	SPI_connect_ext(SPI_OPT_NONATOMIC);
+	MemoryContextSwitchTo(memory);
+	SPI_commit();				/* the next snapshot sees what was done before the lock */
+	writer_begin(&writer, job->mesh, MESH_MOVE, "VACUUM");
+	moved = compact(&writer, OidIsValid(job->simplices), OidIsValid(job->vertices));
+	writer_close(&writer);
+	SPI_commit();
+	SPI_finish();
+	return moved;
+}
+
+/*
+ * Moves the rows of one mesh, if that is worth it and nobody is in the way. Returns
+ * whether; where none had to be moved, VACUUM has put off what is before the cut.
+ */
+static bool
+move_mesh(VacuumJob *job, const VacuumOptions *options, MemoryContext memory)
+{
+	int			level = options->verbose ? INFO : DEBUG2;
+	MeshLocks	locks;
+	uint64		moved;
+
+	EnsurePortalSnapshotExists();
+	if (!is_wanted(job->simplices, options))
+		job->simplices = InvalidOid;
+	if (!is_wanted(job->vertices, options))
+		job->vertices = InvalidOid;
+	/* the header is in the simplex table, and written in any case */
+	if ((!OidIsValid(job->simplices) && !OidIsValid(job->vertices)) || !may_vacuum(job->mesh))
+		return false;
+	if (!mesh_try_lock_for_session(job->mesh, OidIsValid(job->vertices), &locks))
+	{
+		ereport(level,
+				(errmsg("pages of mesh \"%s\" are not moved, since somebody has it locked",
+						full_name(job->mesh))));
+		return false;
+	}
+	moved = move_rows(job, memory);
+	mesh_unlock_for_session(&locks);
+	if (moved > 0)
+		ereport(level,
+				(errmsg_plural("moved %llu page of mesh \"%s\" to the beginning of its table",
+							   "moved %llu pages of mesh \"%s\" to the beginning of its table",
+							   (unsigned long) moved, (unsigned long long) moved,
+							   full_name(job->mesh))));
+	return true;
+}
+
+/*
+ * After an error: takes the transaction back, which gives up all locks, and says
+ * what was wrong. Cancels go on.
+ */
+static void
+give_up(const VacuumJob *job, MemoryContext memory)
+{
+	ErrorData  *error;
+
+	MemoryContextSwitchTo(memory);
+	error = CopyErrorData();
+	if (error->sqlerrcode == ERRCODE_QUERY_CANCELED)
+		PG_RE_THROW();
+	FlushErrorState();
+	AbortCurrentTransaction();
+	ActivePortal->portalSnapshot = NULL;	/* went with the transaction */
+	StartTransactionCommand();
+	MemoryContextSwitchTo(memory);
+	ereport(WARNING,
+			(errcode(error->sqlerrcode),
+			 errmsg("could not move pages of mesh \"%s\"", full_name(job->mesh)),
+			 errdetail_internal("%s", error->message),
+			 error->hint != NULL ? errhint("%s", error->hint) : 0));
+}
+
+/* Moves the rows of meshes. Returns the tables that are to be vacuumed again. */
+List *
+vacuum_move_meshes(List *jobs, const VacuumOptions *options, MemoryContext home)
+{
+	MemoryContext memory = AllocSetContextCreate(home, "Abacus moves", ALLOCSET_DEFAULT_SIZES);
+	List	   *volatile tables = NIL;
+	ListCell   *cell;
+
+	foreach(cell, jobs)
+	{
+		VacuumJob  *job = lfirst(cell);
+
+		CHECK_FOR_INTERRUPTS();
+		MemoryContextSwitchTo(memory);
+		PG_TRY();
+		{
+			bool		again = move_mesh(job, options, memory);
+
+			MemoryContextSwitchTo(home);
+			if (again && OidIsValid(job->simplices))
+				tables = lappend(tables, makeVacuumRelation(NULL, job->simplices, NIL));
+			if (again && OidIsValid(job->vertices))
+				tables = lappend(tables, makeVacuumRelation(NULL, job->vertices, NIL));
+		}
+		PG_CATCH();
+		{
+			give_up(job, memory);
+		}
+		PG_END_TRY();
+		MemoryContextSwitchTo(home);
+		MemoryContextReset(memory);
+	}
+	return tables;
+}

@@ -1,0 +1,156 @@
+/*
+ * fn_build.c: abacus_build, staged points into the mesh in batches, each
+ * committed.
+ *
+ * A batch is a change like that of abacus_triangulate: all its pages and the
+ * new header under one transaction. So whatever stops the build, the mesh is
+ * that of the last batch, and the header says where to go on.
+ *
+ * At the end rows are moved to the beginning of their tables, if more than a
+ * little of these is empty (compact.c), so that VACUUM can cut them. The vertex table has only dead rows,
+ * as a rule, and is truncated.
+ *
+ * From one batch to the next the core keeps its cache. What it holds of the
+ * mesh, the places of stored pages included, stays true because a lock of the
+ * session keeps other writers, VACUUM FULL and the like away until the end. Of
+ * the vertex table, which that lock is not on, nothing is kept.
+ */
+#include "postgres.h"
+
+#include "access/xact.h"
+#include "executor/spi.h"
+#include "miscadmin.h"
+#include "nodes/parsenodes.h"
+#include "storage/lmgr.h"
+
+#include "abacus/change.h"
+#include "pg/mesh/writer.h"
+#include "pg/settings.h"
+#include "pg/space/compact.h"
+#include "pg/space/truncate.h"
+#include "pg/sql/sql_function.h"
+
+SQL_FUNCTION(abacus_sql_build);
+
+/* Whether the call may commit; as SPI_commit() would find later. */
+static void
+check_commits(FunctionCallInfo fcinfo)
+{
+	bool		atomic = fcinfo->context == NULL || !IsA(fcinfo->context, CallContext) ||
+		castNode(CallContext, fcinfo->context)->atomic || IsSubTransaction();
+
+	if (atomic)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_TRANSACTION_TERMINATION),
+				 errmsg("abacus_build() cannot commit here"),
+				 errdetail("It ends a transaction after each batch."),
+				 errhint("CALL it outside transaction blocks, functions and exception blocks, or "
+						 "use abacus_triangulate().")));
+}
+
+/* One batch, from where the header stands; false if nothing could be inserted. */
+static bool
+insert_batch(Writer *writer, abacus_build *build, uint64 limit)
+{
+	Host	   *host = writer->host;
+	abacus_header *header = writer->header;
+	uint64		inserted = header->inserted;
+	abacus_counters before = header->counters;
+
+	host_run(host, abacus_build_run(build, limit, header, &host->failure));
+	if (header->inserted == inserted)
+		return false;			/* the points span no simplex yet */
+	progress_batch_done(&host->progress, header->inserted - inserted,
+						header->counters.loads - before.loads,
+						header->counters.stores - before.stores);
+	return true;
+}
+
+/* A change by itself, where it is due: other keys for a mesh that has outgrown its domain. */
+static bool
+rekey(Writer *writer, abacus_build *build)
+{
+	Host	   *host = writer->host;
+	int			done;
+
+	host_run(host, abacus_build_rekey(build, setting_sort_bytes(), writer->header, &done,
+									  &host->failure));
+	return done;
+}
+
+/* Ends a change and goes on with the next one. */
+static void
+commit(Writer *writer)
+{
+	PageTable  *simplices = &writer->host->store.simplices;
+
+	writer_store(writer);
+	SPI_commit();
+	writer_continue(writer);
+	superseded_reclaim(simplices->superseded, simplices->heap);
+}
+
+/* Inserts all points that wait. */
+static void
+insert_all(Writer *writer, uint64 batch)
+{
+	Host	   *host = writer->host;
+	abacus_header *header = writer->header;
+	abacus_build *build = NULL;
+
+	host_run(host, abacus_build_open(&host->table, header, setting_cache_bytes(), &build,
+									 &host->failure));
+	host_own(host, build, (void (*) (void *)) abacus_build_close);
+	if (rekey(writer, build))
+		commit(writer);
+	while (header->inserted < header->staged && insert_batch(writer, build, batch))
+		commit(writer);
+	host_own(host, NULL, NULL);	/* the core would look for pages where they were */
+}
+
+/* abacus_build(mesh regclass, batch bigint), a procedure */
+Datum
+abacus_sql_build(PG_FUNCTION_ARGS)
+{
+	Oid			mesh;
+	Oid			vertices;
+	int64		batch;
+	LockRelId	lock;
+	Writer		writer;
+	abacus_header *header;
+	Host	   *host;
+	PageTable  *simplices;
+
+	check_commits(fcinfo);
+	if (PG_ARGISNULL(0) || PG_ARGISNULL(1))
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("mesh and batch must not be NULL")));
+	mesh = PG_GETARG_OID(0);
+	batch = PG_GETARG_INT64(1);
+	if (batch < 1)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("batch must be at least 1")));
+	PreventCommandIfReadOnly("abacus_build()");
+
+	SPI_connect_ext(SPI_OPT_NONATOMIC); /* its memory outlives transactions */
+	lock = mesh_lock_for_session(mesh);
+	writer_begin(&writer, mesh, MESH_WRITE, "abacus_build()");
+	host = writer.host;
+	header = writer.header;
+	simplices = &host->store.simplices;
+	simplices->superseded = superseded_create(host->home);
+	progress_in_batches(&host->progress, header->staged - header->inserted);
+	/* what is no Delaunay triangulation has no points that wait, and may yet have to be bound */
+	if (!header->not_delaunay)
+		insert_all(&writer, (uint64) batch);
+	compact(&writer, true, true);
+	vertices = page_store_vertex_table(&host->store);
+	writer_close(&writer);
+	if (truncate_if_empty(vertices))
+		SPI_commit();			/* lets readers at it */
+	SPI_finish();
+	UnlockRelationIdForSession(&lock, ShareRowExclusiveLock);
+	PG_RETURN_VOID();
+}

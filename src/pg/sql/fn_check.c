@@ -1,0 +1,163 @@
+/*
+ * fn_check.c: abacus_check, the exact verification of a mesh.
+ *
+ * The core verifies everything in the first call and keeps the faults. What
+ * keeps it from being asked at all (a header that is missing or cannot be
+ * read) is a fault as well, not an error; so is a row where the core has no
+ * keys.
+ */
+#include "postgres.h"
+
+#include "access/htup_details.h"
+#include "access/table.h"
+#include "funcapi.h"
+#include "utils/builtins.h"
+
+#include "abacus/read.h"
+#include "pg/mesh/header.h"
+#include "pg/settings.h"
+#include "pg/sql/result.h"
+#include "pg/sql/sql_function.h"
+
+SQL_FUNCTION(abacus_sql_check);
+
+typedef struct Checking
+{
+	Host	   *host;
+	bool		has_fault;		/* one that the core does not see, and comes first */
+	abacus_fault fault;
+	int64		code;			/* of its row */
+} Checking;
+
+static void
+note_fault(Checking *checking, const char *kind, const int64 *key, const char *message)
+{
+	checking->has_fault = true;
+	checking->code = key[0];
+	checking->fault.kind = kind;
+	checking->fault.key.part = (uint64) key[1];
+	strlcpy(checking->fault.message, message, sizeof(checking->fault.message));
+}
+
+/* Notes a header that is missing or damaged; true if it is sound. */
+static bool
+read_header(Checking *checking, abacus_header *header)
+{
+	Host	   *host = checking->host;
+	StoredPage	row;
+
+	if (!header_find(host, &row))
+		note_fault(checking, "header", header_key, "the header row (-1, 0) is missing");
+	else if (header_try_decode(host, &row, header) != ABACUS_OK)
+		note_fault(checking, "header", header_key,
+				   host->failure.detail[0] != '\0' ? host->failure.detail : host->failure.message);
+	return !checking->has_fault;
+}
+
+/* Notes the first row besides the header where no page can be. */
+static void
+look_before_pages(Checking *checking)
+{
+	PageTable  *table = &checking->host->store.simplices;
+	StoredPage	row;
+	bool		found = page_table_next(table, NULL, &row);
+
+	if (found && memcmp(row.key, header_key, sizeof(header_key)) == 0)
+		found = page_table_next(table, header_key, &row);
+	if (found && row.key[0] < 0)
+		note_fault(checking, "interval", row.key, "A row lies before the beginning of the curve.");
+}
+
+/* Has the core verify everything; it keeps at most so many faults. */
+static void
+check_pages(Checking *checking, Oid mesh, const abacus_header *header, int32 limit)
+{
+	Host	   *host = checking->host;
+	abacus_check *check = NULL;
+
+	header_open_vertices(host, header);
+	progress_begin(&host->progress, mesh);
+	host_run(host, abacus_check_open(&host->table, header, setting_cache_bytes(), limit, &check,
+									 &host->failure));
+	progress_end(&host->progress);
+	host_own(host, check, (void (*) (void *)) abacus_check_close);
+}
+
+static Checking *
+begin_check(Oid mesh, int32 limit, MemoryContext memory)
+{
+	Relation	table = mesh_table_open(mesh, MESH_READ);
+	Checking   *checking = MemoryContextAllocZero(memory, sizeof(Checking));
+	abacus_header header;
+
+	checking->host = host_create(memory, mesh, MESH_READ);
+	if (read_header(checking, &header))
+	{
+		look_before_pages(checking);
+		limit -= checking->has_fault;
+		if (limit > 0)
+			check_pages(checking, mesh, &header, limit);
+	}
+	host_release(checking->host);
+	table_close(table, NoLock);
+	return checking;
+}
+
+/* The next fault, if any. */
+static bool
+next_fault(Checking *checking, abacus_fault *fault, int64 *code)
+{
+	if (checking->has_fault)
+	{
+		*fault = checking->fault;
+		*code = checking->code;
+		checking->has_fault = false;
+		return true;
+	}
+	if (checking->host->handle == NULL ||
+		host_run(checking->host, abacus_check_next(checking->host->handle, fault)) == ABACUS_END)
+		return false;
+	*code = (int64) fault->key.code;
+	return true;
+}
+
+/* abacus_check(mesh regclass, max_faults int) -> fault, code, part, message */
+Datum
+abacus_sql_check(PG_FUNCTION_ARGS)
+{
+	FuncCallContext *set;
+	abacus_fault fault;
+	int64		code;
+	Datum		values[4];
+	bool		isnull[4] = {false};
+
+	if (SRF_IS_FIRSTCALL())
+	{
+		int32		limit;
+		MemoryContext old;
+
+		/* no row would say that all is well */
+		if (PG_ARGISNULL(0) || PG_ARGISNULL(1))
+			ereport(ERROR,
+					(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+					 errmsg("mesh and max_faults must not be NULL")));
+		limit = PG_GETARG_INT32(1);
+		if (limit < 1)
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("max_faults must be at least 1")));
+		set = SRF_FIRSTCALL_INIT();
+		old = MemoryContextSwitchTo(set->multi_call_memory_ctx);
+		set->tuple_desc = result_row_type(fcinfo);
+		set->user_fctx = begin_check(PG_GETARG_OID(0), limit, set->multi_call_memory_ctx);
+		MemoryContextSwitchTo(old);
+	}
+	set = SRF_PERCALL_SETUP();
+	if (!next_fault(set->user_fctx, &fault, &code))
+		SRF_RETURN_DONE(set);
+	values[0] = CStringGetTextDatum(fault.kind);
+	values[1] = Int64GetDatum(code);
+	values[2] = Int64GetDatum((int64) fault.key.part);
+	values[3] = CStringGetTextDatum(fault.message);
+	SRF_RETURN_NEXT(set, HeapTupleGetDatum(heap_form_tuple(set->tuple_desc, values, isnull)));
+}

@@ -1,0 +1,210 @@
+/*
+ * fn_draw.c: abacus_draw and abacus_draw_section, pictures of a mesh as PNG.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "utils/builtins.h"
+#include "utils/memutils.h"
+
+#include "abacus/draw.h"
+#include "pg/mesh/reader.h"
+#include "pg/sql/shape.h"
+#include "pg/sql/sql_function.h"
+
+SQL_FUNCTION(abacus_sql_draw);
+SQL_FUNCTION(abacus_sql_draw_section);
+
+#define MAX_PIXELS 16384
+
+/* Arguments of abacus_draw */
+enum
+{
+	DRAW_MESH,
+	DRAW_WIDTH,
+	DRAW_HEIGHT,
+	DRAW_LOWER,
+	DRAW_UPPER,
+	DRAW_ATTRIBUTE,
+	DRAW_EDGES,
+	DRAW_EXAGGERATION,
+	DRAW_MAX_EDGE
+};
+
+/* Arguments of abacus_draw_section */
+enum
+{
+	SECTION_MESH,
+	SECTION_THROUGH,
+	SECTION_NORMAL,
+	SECTION_WIDTH,
+	SECTION_HEIGHT,
+	SECTION_ATTRIBUTE,
+	SECTION_EDGES,
+	SECTION_LOWER,
+	SECTION_UPPER,
+	SECTION_EXAGGERATION,
+	SECTION_MAX_EDGE
+};
+
+static int32
+pixels(FunctionCallInfo fcinfo, int argument, int32 otherwise, const char *name)
+{
+	int32		value;
+
+	if (PG_ARGISNULL(argument))
+		return otherwise;
+	value = PG_GETARG_INT32(argument);
+	if (value < 1 || value > MAX_PIXELS)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("%s must be between 1 and %d pixels, not %d", name, MAX_PIXELS, value)));
+	return value;
+}
+
+static double
+factor(FunctionCallInfo fcinfo, int argument, const char *name)
+{
+	double		value = PG_ARGISNULL(argument) ? 0 : PG_GETARG_FLOAT8(argument);
+
+	if (!isfinite(value) || value < 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("%s must be a finite number, at least 0", name)));
+	return value;
+}
+
+static int
+attribute(FunctionCallInfo fcinfo, int argument, const abacus_header *header)
+{
+	char	   *name;
+	int			number;
+
+	if (PG_ARGISNULL(argument))
+		return -1;
+	name = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+	number = header_attribute(header, name);
+	if (number < 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_COLUMN),
+				 errmsg("mesh has no attribute \"%s\"", name)));
+	return number;
+}
+
+static ArrayType *
+array(FunctionCallInfo fcinfo, int argument)
+{
+	return PG_ARGISNULL(argument) ? NULL : PG_GETARG_ARRAYTYPE_P(argument);
+}
+
+/* The window, by the same rules as the domain of a new mesh; empty if not given. */
+static void
+window(const abacus_header *mesh, ArrayType *lower, ArrayType *upper, abacus_drawing *drawing)
+{
+	abacus_header *shape = palloc0(sizeof(abacus_header));
+
+	shape->dimension = mesh->dimension;
+	shape_domain(shape, lower, upper);
+	memcpy(drawing->lower, shape->lower, sizeof(drawing->lower));
+	memcpy(drawing->upper, shape->upper, sizeof(drawing->upper));
+	pfree(shape);
+}
+
+static void
+require_dimension(const abacus_header *header, uint32 dimension, const char *hint)
+{
+	if (header->dimension != dimension)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("mesh has dimension %u, not %u", header->dimension, dimension),
+				 errhint("%s", hint)));
+}
+
+/* Ends the reading; the picture becomes a bytea. */
+static bytea *
+finish(Host *host, unsigned char *png, size_t size)
+{
+	bytea	   *result;
+
+	if (size > MaxAllocSize - VARHDRSZ)
+		ereport(ERROR,
+				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED), errmsg("picture is too large"),
+				 errhint("Draw fewer pixels.")));
+	result = palloc(VARHDRSZ + size);
+	SET_VARSIZE(result, VARHDRSZ + size);
+	memcpy(VARDATA(result), png, size);
+	host->table.resize(host, png, 0);
+	host_release(host);
+	host_destroy(host);
+	return result;
+}
+
+/*
+ * abacus_draw(mesh regclass, width int, height int, lower float8[],
+ * upper float8[], attribute text, edges boolean, exaggeration float8,
+ * max_edge float8) -> bytea
+ */
+Datum
+abacus_sql_draw(PG_FUNCTION_ARGS)
+{
+	Reader	   *reader;
+	Host	   *host;
+	abacus_drawing drawing = {0};
+	unsigned char *png = NULL;
+	size_t		size = 0;
+
+	if (PG_ARGISNULL(DRAW_MESH))
+		PG_RETURN_NULL();
+	reader = reader_open(PG_GETARG_OID(DRAW_MESH), CurrentMemoryContext);
+	host = reader->host;
+	require_dimension(&reader->header, 2, "Use abacus_draw_section for a cut through it.");
+	drawing.width = pixels(fcinfo, DRAW_WIDTH, 1024, "width");
+	drawing.height = pixels(fcinfo, DRAW_HEIGHT, 0, "height");
+	drawing.attribute = attribute(fcinfo, DRAW_ATTRIBUTE, &reader->header);
+	drawing.edges = PG_ARGISNULL(DRAW_EDGES) || PG_GETARG_BOOL(DRAW_EDGES);
+	drawing.exaggeration = factor(fcinfo, DRAW_EXAGGERATION, "exaggeration");
+	drawing.max_edge = factor(fcinfo, DRAW_MAX_EDGE, "max_edge");
+	window(&reader->header, array(fcinfo, DRAW_LOWER), array(fcinfo, DRAW_UPPER), &drawing);
+
+	host_run(host, abacus_draw(&host->table, &reader->header, &drawing, &png, &size,
+							   &host->failure));
+	PG_RETURN_BYTEA_P(finish(host, png, size));
+}
+
+/*
+ * abacus_draw_section(mesh regclass, through float8[], normal float8[],
+ * width int, height int, attribute text, edges boolean, lower float8[],
+ * upper float8[], exaggeration float8, max_edge float8) -> bytea
+ */
+Datum
+abacus_sql_draw_section(PG_FUNCTION_ARGS)
+{
+	Reader	   *reader;
+	Host	   *host;
+	abacus_section section;
+	abacus_drawing drawing = {0};
+	unsigned char *png = NULL;
+	size_t		size = 0;
+
+	if (PG_ARGISNULL(SECTION_MESH) || PG_ARGISNULL(SECTION_THROUGH) ||
+		PG_ARGISNULL(SECTION_NORMAL))
+		PG_RETURN_NULL();
+	reader = reader_open(PG_GETARG_OID(SECTION_MESH), CurrentMemoryContext);
+	host = reader->host;
+	require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
+	shape_point(&reader->header, array(fcinfo, SECTION_THROUGH), "through", section.through);
+	shape_point(&reader->header, array(fcinfo, SECTION_NORMAL), "normal", section.normal);
+	section.exaggeration = PG_ARGISNULL(SECTION_EXAGGERATION) ? 1 :
+		PG_GETARG_FLOAT8(SECTION_EXAGGERATION);
+	drawing.width = pixels(fcinfo, SECTION_WIDTH, 1024, "width");
+	drawing.height = pixels(fcinfo, SECTION_HEIGHT, 0, "height");
+	drawing.attribute = attribute(fcinfo, SECTION_ATTRIBUTE, &reader->header);
+	drawing.edges = PG_ARGISNULL(SECTION_EDGES) || PG_GETARG_BOOL(SECTION_EDGES);
+	drawing.max_edge = factor(fcinfo, SECTION_MAX_EDGE, "max_edge");
+	window(&reader->header, array(fcinfo, SECTION_LOWER), array(fcinfo, SECTION_UPPER), &drawing);
+
+	host_run(host, abacus_draw_section(&host->table, &reader->header, &section, &drawing, &png,
+									   &size, &host->failure));
+	PG_RETURN_BYTEA_P(finish(host, png, size));
+}

@@ -1,0 +1,131 @@
+/*
+ * fn_estimate.c: how many rows abacus_simplices and abacus_vertices return, told
+ * to the planner by their support functions.
+ *
+ * As PostgreSQL does of any table, the size of the file is asked for, which costs a
+ * system call, and how full it is by the last VACUUM or ANALYZE: 0 to 1 page of a mesh
+ * in a page of the file, since old versions lie beside the new ones. What a page holds
+ * is a constant. The header would tell exactly, but it is a row, with privileges and
+ * a snapshot of its own; who plans a query need not be who may run it.
+ *
+ * A relation that is no mesh, or is not known yet, gets the estimate of CREATE FUNCTION.
+ * What is wrong with it is told when the function runs.
+ */
+#include "postgres.h"
+
+#include "access/relation.h"
+#include "access/xlog.h"
+#include "nodes/nodeFuncs.h"
+#include "nodes/supportnodes.h"
+#include "optimizer/optimizer.h"
+#include "storage/bufmgr.h"
+
+#include "pg/mesh/mesh.h"
+#include "pg/sql/sql_function.h"
+
+SQL_FUNCTION(abacus_sql_simplices_rows);
+SQL_FUNCTION(abacus_sql_vertices_rows);
+
+/* Of fresh builds of uniform points, in the plane and in space (docs/benchmarks.md). */
+#define BYTES_PER_SIMPLEX 12.0
+/* In the plane, by Euler's relation; in space it is 6.7 or so. */
+#define SIMPLICES_PER_VERTEX 2.0
+/* Of one that waits to be inserted, without attributes. */
+#define BYTES_PER_WAITING_POINT 32.0
+
+/*
+ * Whether a table has a file here: an unlogged one has none on a standby, and of a temporary
+ * one of another session some pages may never have reached it.
+ */
+static bool
+has_readable_file(Relation rel)
+{
+	if (RELATION_IS_OTHER_TEMP(rel))
+		return false;
+	return RelationIsPermanent(rel) || !RecoveryInProgress();
+}
+
+/*
+ * Bytes of a table's live pages; negative if there is no such table any more or nothing of it
+ * can be read. It is not kept locked, as pg_relation_size() does not: who may not read it
+ * should not hold up others.
+ */
+static double
+live_bytes(Oid relid)
+{
+	Relation	rel = OidIsValid(relid) ? try_relation_open(relid, AccessShareLock) : NULL;
+	double		bytes = -1;
+
+	if (rel == NULL)
+		return -1;
+	if (has_readable_file(rel))
+	{
+		bytes = (double) RelationGetNumberOfBlocks(rel) * BLCKSZ;
+		if (rel->rd_rel->relpages > 0 && rel->rd_rel->reltuples >= 0)
+			bytes *= Min(1.0, (double) rel->rd_rel->reltuples / rel->rd_rel->relpages);
+	}
+	relation_close(rel, AccessShareLock);
+	return bytes;
+}
+
+/*
+ * The mesh that a call is about: InvalidOid if that is not known before it runs, or not a
+ * mesh. *none becomes true if it is NULL, for which the functions return nothing.
+ */
+static Oid
+mesh_of_call(const SupportRequestRows *request, bool *none)
+{
+	Node	   *mesh;
+	Oid			relid;
+
+	*none = false;
+	if (!is_funcclause(request->node))
+		return InvalidOid;
+	mesh = estimate_expression_value(request->root,
+									 (Node *) linitial(((FuncExpr *) request->node)->args));
+	if (!IsA(mesh, Const))
+		return InvalidOid;
+	*none = ((Const *) mesh)->constisnull;
+	if (*none)
+		return InvalidOid;
+	relid = DatumGetObjectId(((Const *) mesh)->constvalue);
+	return mesh_of_table(relid) == relid ? relid : InvalidOid;
+}
+
+/* Answers a request for the number of rows; NULL where there is no answer. */
+static Datum
+estimate(FunctionCallInfo fcinfo, double rows_per_simplex, bool waiting)
+{
+	SupportRequestRows *request = (SupportRequestRows *) PG_GETARG_POINTER(0);
+	double		bytes;
+	bool		none;
+	Oid			mesh;
+
+	if (!IsA(request, SupportRequestRows))
+		PG_RETURN_POINTER(NULL);
+	mesh = mesh_of_call(request, &none);
+	request->rows = 0;
+	if (none)
+		PG_RETURN_POINTER(request);
+	bytes = live_bytes(mesh);
+	if (bytes < 0)
+		PG_RETURN_POINTER(NULL);
+	request->rows = bytes / BYTES_PER_SIMPLEX * rows_per_simplex;
+	if (waiting)
+		request->rows += Max(0, live_bytes(mesh_find_vertex_table(mesh))) / BYTES_PER_WAITING_POINT;
+	PG_RETURN_POINTER(request);
+}
+
+/* abacus_simplices_rows(internal) -> internal, for abacus_simplices */
+Datum
+abacus_sql_simplices_rows(PG_FUNCTION_ARGS)
+{
+	return estimate(fcinfo, 1, false);
+}
+
+/* abacus_vertices_rows(internal) -> internal, for abacus_vertices */
+Datum
+abacus_sql_vertices_rows(PG_FUNCTION_ARGS)
+{
+	return estimate(fcinfo, 1 / SIMPLICES_PER_VERTEX, true);
+}

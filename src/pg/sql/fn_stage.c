@@ -1,0 +1,32 @@
+/*
+ * fn_stage.c: abacus_stage, points from a query into vertex pages, where they
+ * wait for their insertion.
+ */
+#include "postgres.h"
+
+#include "utils/builtins.h"
+
+#include "pg/mesh/change.h"
+#include "pg/sql/sql_function.h"
+
+SQL_FUNCTION(abacus_sql_stage);
+
+/* abacus_stage(mesh regclass, query text) -> bigint */
+Datum
+abacus_sql_stage(PG_FUNCTION_ARGS)
+{
+	Source		source;
+	Change	   *change;
+	Host	   *host;
+	uint64		points;
+
+	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	change = change_begin(PG_GETARG_OID(0), "abacus_stage()");
+	host = change->writer.host;
+	change_read(change, &source, change->writer.header);
+	host_run(host, abacus_stage_finish(change->stage, change->writer.header, &host->failure));
+	points = change->points;
+	change_end(change);
+	source_finish(&source);
+	PG_RETURN_INT64((int64) points);
+}

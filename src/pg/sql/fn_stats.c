@@ -1,0 +1,136 @@
+/*
+ * fn_stats.c: abacus_stats, the figures of a mesh.
+ *
+ * Counts and counters come from the header, sizes from the files, and, if the
+ * session has the mesh in its cache, the counters of its own reading.
+ */
+#include "postgres.h"
+
+#include "access/table.h"
+#include "funcapi.h"
+#include "utils/fmgrprotos.h"
+
+#include "pg/mesh/mesh_cache.h"
+#include "pg/mesh/reader.h"
+#include "pg/sql/result.h"
+#include "pg/sql/sql_function.h"
+
+SQL_FUNCTION(abacus_sql_stats);
+
+/* One row for each counter of chapter 5; for a session's reading only those that move. */
+static void
+put_counters(Figures *figures, const abacus_counters *counters, bool reading)
+{
+	const struct
+	{
+		const char *name;
+		uint64		value;
+		bool		moves_when_reading;
+		const char *description;
+	}			rows[] = {
+		{"insertions", counters->insertions, false, "vertices added"},
+		{"removals", counters->removals, false, "vertices removed"},
+		{"steps", counters->steps, true, "links followed between simplices"},
+		{"misses", counters->misses, true, "links that led out of the cache"},
+		{"link_probes", counters->link_probes, true, "page searches by a stored neighbour key"},
+		{"quick_probes", counters->quick_probes, true, "quick probes for an unknown neighbour"},
+		{"ray_probes", counters->ray_probes, true, "ray-casting probes for an unknown neighbour"},
+		{"concentric_probes", counters->concentric_probes, true,
+		"concentric probes for an unknown neighbour"},
+		{"incircle_tests", counters->incircle_tests, false,
+		"insertions that asked the last created simplices where to start"},
+		{"incircle_hits", counters->incircle_hits, false, "insertions that those answered"},
+		{"walks", counters->walks, true, "point locations by walking"},
+		{"created", counters->created, false, "simplices created"},
+		{"deleted", counters->deleted, false, "simplices deleted"},
+		{"loads", counters->loads, true, "pages read into the cache"},
+		{"stores", counters->stores, false, "pages written from the cache"},
+		{"rewrites", counters->rewrites, false, "pages written in place of an older version"},
+		{"splits", counters->splits, false, "simplex blocks split"},
+		{"merges", counters->merges, false, "simplex blocks merged into their neighbours"},
+		{"evictions", counters->evictions, true, "simplex blocks dropped from the cache"},
+		{"eviction_batches", counters->eviction_batches, true, "batches of evictions"},
+		{"bytes_read", counters->bytes_read, true, "bytes of the pages read"},
+		{"bytes_written", counters->bytes_written, false, "bytes of the pages written"},
+		{"translation_ns", counters->translation_ns, true,
+		"nanoseconds spent between pages and memory, reading and writing included"},
+		{"total_ns", counters->total_ns, true, "nanoseconds spent in the core"},
+		{"peak_bytes", counters->peak_bytes, true, "largest amount of memory the cache held"},
+	};
+
+	for (int i = 0; i < lengthof(rows); i++)
+		if (!reading || rows[i].moves_when_reading)
+			put_figure(figures, rows[i].name, (double) rows[i].value, rows[i].description);
+	if (counters->steps > 0)
+		put_figure(figures, "hit_ratio", 1.0 - (double) counters->misses / counters->steps,
+				   "share of the followed links that stayed in the cache");
+}
+
+static void
+put_sizes(Figures *figures, const Reader *reader, Oid vertices)
+{
+	Oid			mesh = reader->host->store.mesh;
+	double		table = bytes_of(pg_table_size, mesh);
+	double		index = bytes_of(pg_indexes_size, mesh);
+
+	put_figure(figures, "simplex_table_bytes", table, "size of the simplex table");
+	put_figure(figures, "simplex_index_bytes", index, "size of its page index");
+	put_figure(figures, "vertex_table_bytes", bytes_of(pg_table_size, vertices),
+			   "size of the table of points that wait or are repeated");
+	put_figure(figures, "vertex_index_bytes", bytes_of(pg_indexes_size, vertices),
+			   "size of its index");
+	if (reader->header.simplices > 0)
+		put_figure(figures, "bytes_per_simplex", (table + index) / reader->header.simplices,
+				   "simplex table and index, per simplex");
+}
+
+static void
+put_counts(Figures *figures, const abacus_header *header)
+{
+	double		inserted = (double) header->vertices + (double) header->duplicates;
+	double		waiting = (double) (header->staged - header->inserted);
+
+	put_figure(figures, "dimension", header->dimension, "2 for triangles, 3 for tetrahedra");
+	put_figure(figures, "attributes", header->attributes, "attributes of a vertex");
+	put_figure(figures, "points", inserted + waiting, "all points");
+	put_figure(figures, "inserted", inserted, "points in the triangulation");
+	put_figure(figures, "waiting", waiting, "points that wait to be inserted");
+	put_figure(figures, "vertices", (double) header->vertices,
+			   "distinct points in the triangulation; 0 while they span no simplex");
+	put_figure(figures, "duplicates", (double) header->duplicates,
+			   "points in the triangulation that equal an earlier one");
+	put_figure(figures, "simplices", (double) header->simplices, "simplices of the mesh");
+	put_figure(figures, "hull_facets", (double) header->ghosts,
+			   header->not_delaunay ? "facets of its boundary" : "facets of its convex hull");
+	put_figure(figures, "outside", (double) header->outside,
+			   "points that came from outside the domain since it was set");
+	put_figure(figures, "delaunay", header->not_delaunay ? 0 : 1,
+			   "1: a Delaunay triangulation, which can be changed; 0: loaded, and another one");
+}
+
+/* abacus_stats(mesh regclass) -> name, value, description */
+Datum
+abacus_sql_stats(PG_FUNCTION_ARGS)
+{
+	Oid			mesh = PG_GETARG_OID(0);
+	Figures		figures = {(ReturnSetInfo *) fcinfo->resultinfo, ""};
+	Reader	   *reader = reader_open(mesh, CurrentMemoryContext);
+	Oid			vertices = page_store_vertex_table(&reader->host->store);
+	const CachedMesh *cached = mesh_cache_peek(mesh);
+
+	host_release(reader->host);
+	InitMaterializedSRF(fcinfo, 0);
+	put_counts(&figures, &reader->header);
+	put_sizes(&figures, reader, vertices);
+	put_counters(&figures, &reader->header.counters, false);
+	if (cached != NULL)
+	{
+		abacus_counters counters;
+
+		abacus_mesh_counters(cached->mesh, &counters);
+		figures.prefix = "session_";
+		put_counters(&figures, &counters, true);
+	}
+	host_destroy(reader->host);
+	PG_RETURN_NULL();
+}

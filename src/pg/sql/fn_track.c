@@ -1,0 +1,289 @@
+/*
+ * fn_track.c: abacus_track and abacus_untrack: a mesh begins to follow a table,
+ * and ends.
+ *
+ * The table is locked against writers first, so no row is missed: what is
+ * committed by then is read here, what comes later meets the triggers. Then an
+ * empty mesh gets the rows there are. One that has points must have just
+ * those; the difference of the two multisets says so, and is made good if the
+ * caller wishes.
+ */
+#include "postgres.h"
+
+#include "access/relation.h"
+#include "access/table.h"
+#include "access/xact.h"
+#include "catalog/pg_class.h"
+#include "catalog/pg_inherits.h"
+#include "miscadmin.h"
+#include "utils/acl.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+#include "utils/rls.h"
+#include "utils/syscache.h"
+
+#include "pg/mesh/change.h"
+#include "pg/sql/sql_function.h"
+#include "pg/track/tracked_points.h"
+#include "pg/track/tracking.h"
+
+SQL_FUNCTION(abacus_sql_track);
+SQL_FUNCTION(abacus_sql_untrack);
+
+/* Who may not track the table must not keep others from writing it, so this comes before the lock. */
+static void
+check_owner(Oid relid)
+{
+	if (SearchSysCacheExists1(RELOID, ObjectIdGetDatum(relid)) &&
+		!pg_class_ownercheck(relid, GetUserId()))
+		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, get_rel_name(relid));
+}
+
+/* The table to be tracked, locked; while it is open nobody drops it, an event trigger neither. */
+static Relation
+open_table(Oid relid, LOCKMODE mode)
+{
+	Relation	table = try_relation_open(relid, mode);
+
+	if (table == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_TABLE),
+				 errmsg("table with OID %u does not exist", relid)));
+	return table;
+}
+
+/* What cannot be tracked is refused. */
+static void
+check_table(Relation table)
+{
+	Oid			relid = RelationGetRelid(table);
+	const char *name = RelationGetRelationName(table);
+
+	if (table->rd_rel->relkind != RELKIND_RELATION || table->rd_rel->relispartition ||
+		has_superclass(relid) || find_inheritance_children(relid, NoLock) != NIL)
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 errmsg("cannot track \"%s\"", name),
+				 errdetail(table->rd_rel->relkind == RELKIND_RELATION ||
+						   table->rd_rel->relkind == RELKIND_PARTITIONED_TABLE
+						   ? "A statement on a partition or child table fires no statement trigger of "
+						   "its parent, nor the reverse."
+						   : "Statement triggers with transition tables are for tables."),
+				 errhint("Track an ordinary table without partitions, parents and children.")));
+	if (!pg_class_ownercheck(relid, GetUserId()))	/* another one since */
+		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, name);
+	if (check_enable_rls(relid, InvalidOid, true) == RLS_ENABLED)
+		ereport(ERROR,
+				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				 errmsg("row-level security on table \"%s\" applies to user \"%s\"", name,
+						GetUserNameFromId(GetUserId(), false)),
+				 errdetail("It may hide rows that belong in the mesh."),
+				 errhint("Use ALTER TABLE ... NO FORCE ROW LEVEL SECURITY.")));
+}
+
+/* What is emptied or gone at some time that no trigger tells the other of. */
+static void
+check_persistence(Relation table, char of_mesh)
+{
+	char		of_table = table->rd_rel->relpersistence;
+
+	/* a temporary table is gone after a crash, and its triggers with it */
+	if (of_table == RELPERSISTENCE_TEMP)
+		return;
+	if (of_mesh == RELPERSISTENCE_TEMP)
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 errmsg("a temporary mesh cannot follow a permanent table"),
+				 errdetail("Other sessions could not write the table any more.")));
+	if (of_mesh != of_table)
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 of_table == RELPERSISTENCE_UNLOGGED
+				 ? errmsg("a logged mesh cannot follow an unlogged table")
+				 : errmsg("an unlogged mesh cannot follow a logged table"),
+				 errdetail("A crash would empty one of them."),
+				 errhint("Use ALTER TABLE ... SET LOGGED or SET UNLOGGED; a mesh has two tables.")));
+}
+
+/* The mesh is written as the owner of the table later, in any session: may he? */
+static void
+check_mesh(Relation table, Oid mesh)
+{
+	Oid			user;
+	int			security;
+	Relation	simplices;
+	Oid			vertices;
+
+	GetUserIdAndSecContext(&user, &security);
+	SetUserIdAndSecContext(table->rd_rel->relowner, security | SECURITY_LOCAL_USERID_CHANGE);
+	simplices = mesh_table_open(mesh, MESH_WRITE);
+	vertices = mesh_vertex_table(simplices, MESH_WRITE);
+	SetUserIdAndSecContext(user, security);
+	check_persistence(table, simplices->rd_rel->relpersistence);
+	check_persistence(table, get_rel_persistence(vertices));
+	table_close(simplices, NoLock);
+}
+
+/* A mesh follows one table; returns its triggers if it is this one. */
+static List *
+present_triggers(Oid function, Oid mesh, Relation table)
+{
+	List	   *triggers = tracking_triggers(function, mesh, RelationGetRelid(table));
+	ListCell   *cell;
+
+	foreach(cell, triggers)
+	{
+		TrackingTrigger *trigger = lfirst(cell);
+
+		if (trigger->table != RelationGetRelid(table))
+			ereport(ERROR,
+					(errcode(ERRCODE_OBJECT_IN_USE),
+					 errmsg("mesh \"%s\" follows table \"%s\" already", get_rel_name(mesh),
+							get_rel_name(trigger->table)),
+					 errdetail("A mesh follows one table; a table may be followed by many meshes."),
+					 errhint("Call abacus_untrack() first, or make another mesh.")));
+	}
+	return triggers;
+}
+
+/* Reads the points of a query into the stage; returns how many. */
+static uint64
+read_points(Change *change, const char *query)
+{
+	Source		source;
+
+	source_prepare(&source, query);
+	change_read(change, &source, change->writer.header);
+	source_finish(&source);
+	return change->points;
+}
+
+/* Brings the mesh in step, or says that it is not; false if it was already. */
+static bool
+make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchronize,
+		   Oid extension_namespace)
+{
+	abacus_header *header = change->writer.header;
+	char	   *here = tracked_points_of_table(table, columns, header->dimension, true);
+	char	   *there = tracked_points_of_mesh(mesh, header, extension_namespace);
+	uint64		missing;
+	uint64		surplus;
+
+	/* both are read before the mesh changes, for a query would see it half changed */
+	missing = read_points(change, psprintf("%s EXCEPT ALL %s", here, there));
+	change_swap_stages(change);
+	surplus = read_points(change, psprintf("%s EXCEPT ALL %s", there, here));
+	if (!synchronize && missing + surplus > 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("mesh \"%s\" does not hold the points of table \"%s\"", get_rel_name(mesh),
+						RelationGetRelationName(table)),
+				 errdetail("Points that the mesh lacks: " UINT64_FORMAT "; points that it has too many: "
+						   UINT64_FORMAT ".", missing, surplus),
+				 errhint("With synchronize => true they are inserted and deleted.")));
+	/* inserted first, a point whose attributes alone differ takes over from the other */
+	change_swap_stages(change);
+	if (missing > 0)
+		change_insert(change);
+	change_swap_stages(change);
+	if (surplus > 0)
+		change_delete(change, true);
+	return missing + surplus > 0;
+}
+
+/* abacus_track(mesh regclass, table regclass, columns text[], synchronize bool) -> bigint */
+Datum
+abacus_sql_track(PG_FUNCTION_ARGS)
+{
+	Oid			extension_namespace = get_func_namespace(fcinfo->flinfo->fn_oid);
+	Oid			function = tracking_function(extension_namespace);
+	Oid			mesh;
+	Relation	simplices;
+	Relation	table;
+	List	   *present;
+	List	   *columns;
+	ListCell   *cell;
+	Change	   *change;
+	abacus_header header;
+	uint64		points;
+	bool		changed = true;
+
+	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(3))
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("mesh, table and synchronize must not be NULL")));
+	PreventCommandIfReadOnly("abacus_track()");	/* before the lock, which a standby has not */
+	if (IsolationUsesXactSnapshot())
+		ereport(ERROR,
+				(errcode(ERRCODE_ACTIVE_SQL_TRANSACTION),
+				 errmsg("abacus_track() needs the isolation level READ COMMITTED"),
+				 errdetail("The snapshot of this transaction may be older than rows of the table.")));
+	mesh = PG_GETARG_OID(0);
+	check_owner(PG_GETARG_OID(1));
+	table = open_table(PG_GETARG_OID(1), ShareRowExclusiveLock);
+	check_table(table);
+	check_mesh(table, mesh);
+
+	change = change_begin(mesh, "abacus_track()");
+	present = present_triggers(function, mesh, table);
+	header = *change->writer.header;
+	columns = tracked_columns(PG_ARGISNULL(2) ? NULL : PG_GETARG_ARRAYTYPE_P(2), &header, table);
+	if (header.vertices == 0 && header.inserted == header.staged)
+	{
+		read_points(change, tracked_points_of_table(table, columns, header.dimension, false));
+		change_insert(change);
+	}
+	else
+		changed = make_equal(change, mesh, table, columns, PG_GETARG_BOOL(3), extension_namespace);
+	header = *change->writer.header;
+	points = header.vertices + header.duplicates + (header.staged - header.inserted);
+	if (changed)
+		change_end(change);
+	else
+		change_abandon(change);
+
+	/* it has been locked by the change, and must not be dropped before its triggers are bound */
+	simplices = table_open(mesh, NoLock);
+	if (present != NIL)
+	{
+		table_close(table, NoLock); /* DROP TRIGGER refuses a table in use */
+		foreach(cell, present)
+			tracking_drop(lfirst(cell));
+		table = open_table(PG_GETARG_OID(1), NoLock);
+	}
+	tracking_create(function, mesh, header.dimension, table, columns, present);
+	table_close(table, NoLock);
+	table_close(simplices, NoLock);
+	PG_RETURN_INT64((int64) points);
+}
+
+/* abacus_untrack(mesh regclass, table regclass) */
+Datum
+abacus_sql_untrack(PG_FUNCTION_ARGS)
+{
+	Oid			mesh = PG_GETARG_OID(0);
+	Oid			table = PG_GETARG_OID(1);
+	Oid			function = tracking_function(get_func_namespace(fcinfo->flinfo->fn_oid));
+	List	   *triggers = tracking_triggers(function, mesh, table);
+	ListCell   *cell;
+	bool		found = false;
+
+	PreventCommandIfReadOnly("abacus_untrack()");
+	foreach(cell, triggers)
+	{
+		TrackingTrigger *trigger = lfirst(cell);
+
+		if (trigger->table != table)
+			continue;
+		tracking_drop(trigger);
+		found = true;
+	}
+	if (!found)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_OBJECT),
+				 errmsg("mesh %s does not follow table %s",
+						DatumGetCString(DirectFunctionCall1(regclassout, ObjectIdGetDatum(mesh))),
+						DatumGetCString(DirectFunctionCall1(regclassout,
+															ObjectIdGetDatum(table))))));
+	PG_RETURN_VOID();
+}

@@ -1,0 +1,68 @@
+/*
+ * fn_triangulate.c: abacus_triangulate, from staged points to simplex pages,
+ * or from a query to a finished mesh at once.
+ */
+#include "postgres.h"
+
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+
+#include "pg/mesh/change.h"
+#include "pg/mesh/new_mesh.h"
+#include "pg/settings.h"
+#include "pg/sql/shape.h"
+#include "pg/sql/sql_function.h"
+
+SQL_FUNCTION(abacus_sql_triangulate);
+SQL_FUNCTION(abacus_sql_triangulate_query);
+
+/* abacus_triangulate(mesh regclass) -> bigint */
+Datum
+abacus_sql_triangulate(PG_FUNCTION_ARGS)
+{
+	Change	   *change = change_begin(PG_GETARG_OID(0), "abacus_triangulate()");
+	Host	   *host = change->writer.host;
+	abacus_header *header = change->writer.header;
+	uint64		simplices;
+	int			rekeyed;
+
+	change_open_build(change);
+	host_run(host, abacus_build_rekey(change->build, setting_sort_bytes(), header,
+									  &rekeyed, &host->failure));
+	host_run(host, abacus_build_run(change->build, 0, header, &host->failure));
+	simplices = header->simplices;
+	change_end(change);
+	PG_RETURN_INT64((int64) simplices);
+}
+
+/*
+ * abacus_triangulate(mesh text, query text, attributes text[], dimension int,
+ * lower float8[], upper float8[]) -> bigint
+ */
+Datum
+abacus_sql_triangulate_query(PG_FUNCTION_ARGS)
+{
+	abacus_header *header = palloc0(sizeof(abacus_header));
+	Source		source;
+	Oid			mesh;
+
+	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(3))
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("mesh, query and dimension must not be NULL")));
+	shape_dimension(header, PG_GETARG_INT32(3));
+	if (!PG_ARGISNULL(2))
+		shape_attributes(header, PG_GETARG_ARRAYTYPE_P(2));
+	shape_domain(header, PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4),
+				 PG_ARGISNULL(5) ? NULL : PG_GETARG_ARRAYTYPE_P(5));
+
+	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	if (PG_ARGISNULL(2))
+		for (int i = 1 + header->dimension; i < source_columns(&source); i++)
+			shape_attribute(header, source_column_name(&source, i));
+	mesh = new_mesh(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid), header,
+						"abacus_triangulate()");
+	change_insert_query(mesh, &source, "abacus_triangulate()", header);
+	source_finish(&source);
+	PG_RETURN_INT64((int64) header->simplices);
+}

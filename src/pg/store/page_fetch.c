@@ -1,0 +1,101 @@
+/*
+ * page_fetch.c: a row of a table of pages by its place, which a search gave.
+ *
+ * The index is not asked. Rows that have been moved are not there any more, and
+ * VACUUM may have cut the file. That takes a lock which ours excludes: so the
+ * length of the file is asked for once for each time that
+ * page_table_expect_moves() is called.
+ *
+ * Mostly the heap page still is in the buffer where it was. Then the shared
+ * table of buffers, in cold memory as a rule, need not be asked either. But that
+ * does not count as a use of the buffer; so it is done with buffers that have
+ * uses in stock only, else what is needed all the time would be the first to be
+ * replaced. The bytes that will be read are asked for before it is known whether
+ * they are still there.
+ */
+#include "postgres.h"
+
+#include "access/heapam.h"
+#include "pgstat.h"
+#include "storage/buf_internals.h"
+#include "storage/bufmgr.h"
+#include "utils/snapmgr.h"
+
+#include "pg/store/page_table.h"
+
+/* Others may have moved rows. */
+void
+page_table_expect_moves(PageTable *table)
+{
+	table->blocks = 0;
+}
+
+/* Loads nobody waits for: prefetch instructions may be dropped in cold memory. */
+static void
+ask_for(const unsigned char *bytes, size_t size)
+{
+	for (size_t at = 0; at < size; at += 64)	/* a line of the processor's cache */
+		(void) ((const volatile unsigned char *) bytes)[at];
+}
+
+/* The row at *tid, if its heap page is in the buffer where its bytes were. */
+static bool
+fetch_where_it_was(PageTable *table, ItemPointer tid, const unsigned char *bytes, size_t size)
+{
+	BufferHeapTupleTableSlot *slot = (BufferHeapTupleTableSlot *) table->fetched;
+	HeapTuple	row = &slot->base.tupdata;
+	Size		place = (Size) ((const char *) bytes - BufferBlocks) / BLCKSZ;
+	Buffer		buffer = (Buffer) place + 1;
+	bool		found;
+
+	if (place >= (Size) NBuffers)
+		return false;			/* of a temporary table */
+	ask_for(bytes, Min(size, BLCKSZ - ((const char *) bytes - BufferBlocks) % BLCKSZ));
+	if (BUF_STATE_GET_USAGECOUNT(pg_atomic_read_u32(&GetBufferDescriptor(place)->state)) < 2 ||
+		!ReadRecentBuffer(table->heap->rd_node, MAIN_FORKNUM, ItemPointerGetBlockNumber(tid),
+						  buffer))
+		return false;
+	pgstat_count_buffer_read(table->heap);
+	pgstat_count_buffer_hit(table->heap);
+	ExecClearTuple(table->fetched);
+	row->t_self = *tid;
+	LockBuffer(buffer, BUFFER_LOCK_SHARE);
+	TestForOldSnapshot(GetActiveSnapshot(), table->heap, BufferGetPage(buffer));
+	found = heap_hot_search_buffer(&row->t_self, table->heap, buffer, GetActiveSnapshot(), row,
+								   NULL, true);
+	LockBuffer(buffer, BUFFER_LOCK_UNLOCK);
+	if (found)
+		ExecStorePinnedBufferHeapTuple(row, table->fetched, buffer);
+	else
+		ReleaseBuffer(buffer);
+	return found;
+}
+
+/*
+ * The row at *tid, whatever it is; false if there is none that we see. `bytes`
+ * is where its page was; `size` of them will be read.
+ */
+bool
+page_table_fetch(PageTable *table, ItemPointer tid, const unsigned char *bytes, size_t size,
+				 StoredPage *page)
+{
+	page_table_open(table);
+	page_table_see_own_changes(table);
+	if (ItemPointerGetBlockNumber(tid) >= table->blocks)
+		table->blocks = RelationGetNumberOfBlocks(table->heap);
+	if (ItemPointerGetBlockNumber(tid) >= table->blocks)
+		return false;
+	if (table->fetched == NULL)
+	{
+		MemoryContext old = MemoryContextSwitchTo(table->memory);
+
+		table->fetched = MakeSingleTupleTableSlot(RelationGetDescr(table->heap),
+												  &TTSOpsBufferHeapTuple);
+		MemoryContextSwitchTo(old);
+	}
+	if (!fetch_where_it_was(table, tid, bytes, size) &&
+		!table_tuple_fetch_row_version(table->heap, tid, GetActiveSnapshot(), table->fetched))
+		return false;
+	stored_page_read(table->fetched, page);
+	return true;
+}

@@ -1,0 +1,300 @@
+/*
+ * page_table.c: pages of bytes in one heap table, found by key.
+ *
+ * Searching: "greatest key <= K" is a backward scan of the primary key's
+ * B-tree that takes its first row. The scan is kept open and only rescanned;
+ * the bound is one comparison of rows, so equal codes with many parts still
+ * cost one descent. (A second bound some way below K, to keep
+ * nbtree from copying all matches of a leaf page, gained nothing when
+ * measured.)
+ *
+ * A writer sees its own changes because its active snapshot is a private copy whose
+ * command id follows each change, one CommandCounterIncrement between a change and
+ * the next search or update.
+ */
+#include "postgres.h"
+
+#include "access/heapam.h"
+#include "access/nbtree.h"
+#include "access/relscan.h"
+#include "access/stratnum.h"
+#include "access/table.h"
+#include "access/xact.h"
+#include "utils/builtins.h"
+#include "utils/fmgroids.h"
+#include "utils/memutils.h"
+#include "utils/snapmgr.h"
+
+#include "pg/mesh/mesh.h"
+#include "pg/store/page_table.h"
+#include "pg/store/page_type.h"
+
+/* Prepares a table for use; nothing is opened yet. */
+void
+page_table_init(PageTable *table, Oid relid, bool writable, MemoryContext memory)
+{
+	MemSet(table, 0, sizeof(*table));
+	table->relid = relid;
+	table->writable = writable;
+	table->memory = memory;
+}
+
+static LOCKMODE
+lock_mode(const PageTable *table)
+{
+	return table->writable ? RowExclusiveLock : AccessShareLock;
+}
+
+/*
+ * Others cannot rewrite a table that we have locked, but our own transaction can,
+ * between two rows of a cursor. Readers have places of the old file in memory, and
+ * a snapshot that need not see the new one. Where relations stay open between two
+ * rows, PostgreSQL refuses the rewriting itself.
+ */
+static void
+check_node(PageTable *table)
+{
+	if (!OidIsValid(table->node.relNode))
+		table->node = table->heap->rd_node;
+	else if (!table->writable && !RelFileNodeEquals(table->node, table->heap->rd_node))
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_IN_USE),
+				 errmsg("table \"%s\" was rewritten while this query reads it",
+						RelationGetRelationName(table->heap)),
+				 errhint("CLUSTER, TRUNCATE, or alter a mesh after queries and loops over it "
+						 "have ended.")));
+}
+
+/* Opens the table, which our own transaction may have dropped between two rows of a cursor. */
+static Relation
+open_heap(PageTable *table)
+{
+	Relation	heap = try_table_open(table->relid, lock_mode(table));
+
+	if (heap == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_IN_USE),
+				 errmsg("table of a mesh was dropped while this query reads it"),
+				 errhint("Drop a mesh after queries and loops over it have ended.")));
+	return heap;
+}
+
+void
+page_table_open(PageTable *table)
+{
+	MemoryContext old;
+
+	if (table->heap != NULL)
+		return;
+	old = MemoryContextSwitchTo(table->memory);
+	table->heap = open_heap(table);
+	check_node(table);
+	MemSet(&table->growth, 0, sizeof(table->growth));
+	table->target = InvalidBlockNumber;
+	if (table->writable)
+	{
+		table->indexes = page_index_open_all(table->heap);
+		if (table->datum == NULL)
+			table->datum = palloc0(PAGE_TYPE_OVERHEAD + ABACUS_PAGE_BYTES);
+	}
+	MemoryContextSwitchTo(old);
+}
+
+static void
+close_scan(PageScan *scan)
+{
+	if (scan->scan != NULL)
+	{
+		index_endscan(scan->scan);
+		ExecDropSingleTupleTableSlot(scan->slot);
+	}
+	scan->scan = NULL;
+	scan->slot = NULL;
+}
+
+/* Closes what is open; locks stay until the end of the transaction, as usual. */
+void
+page_table_close(PageTable *table)
+{
+	if (table->heap == NULL)
+		return;
+	close_scan(&table->floor);
+	close_scan(&table->forward);
+	if (table->fetched != NULL)
+		ExecDropSingleTupleTableSlot(table->fetched);
+	table->fetched = NULL;
+	table->at_key = false;
+	page_index_close_all(table->indexes);
+	table->indexes = NIL;
+	page_table_leave_target(table);
+	heap_growth_end(&table->growth, table->heap);
+	if (table->index != NULL)
+		index_close(table->index, NoLock);
+	table_close(table->heap, NoLock);
+	table->heap = NULL;
+	table->index = NULL;
+}
+
+/* Makes our own changes visible to the searches that follow. */
+void
+page_table_see_own_changes(PageTable *table)
+{
+	if (table->wrote)
+	{
+		CommandCounterIncrement();
+		UpdateActiveSnapshotCommandId();
+		table->wrote = false;
+		table->at_key = false;
+	}
+}
+
+/* Starts a search with these scan keys; opens the scan when first used. */
+static void
+search(PageTable *table, PageScan *scan, ScanKey keys, int count)
+{
+	if (scan->scan == NULL)
+	{
+		MemoryContext old = MemoryContextSwitchTo(table->memory);
+
+		if (table->index == NULL)
+			table->index = page_index_open_primary(table->heap, lock_mode(table));
+		scan->slot = MakeSingleTupleTableSlot(RelationGetDescr(table->heap), &TTSOpsBufferHeapTuple);
+		scan->scan = index_beginscan(table->heap, table->index, GetActiveSnapshot(), count, 0);
+		MemoryContextSwitchTo(old);
+	}
+	index_rescan(scan->scan, keys, count, NULL, 0);
+}
+
+/* "key <strategy> given" over all key columns, as one scan key. */
+static void
+bound_key(PageTable *table, PageScan *scan, ScanKey bound, StrategyNumber strategy,
+		  const int64 *key)
+{
+	for (int i = 0; i < PAGE_TABLE_KEYS; i++)
+	{
+		ScanKeyInit(&scan->members[i], i + 1, strategy, F_BTINT8CMP, Int64GetDatum(key[i]));
+		scan->members[i].sk_flags = SK_ROW_MEMBER | (i == PAGE_TABLE_KEYS - 1 ? SK_ROW_END : 0);
+	}
+	MemSet(bound, 0, sizeof(*bound));
+	bound->sk_flags = SK_ROW_HEADER;
+	bound->sk_attno = 1;
+	bound->sk_strategy = strategy;
+	bound->sk_argument = PointerGetDatum(scan->members);
+}
+
+/*
+ * The row with exactly this key. Backwards: of versions that a transaction has
+ * left in great number, all with this key, the last ones are the nearest.
+ */
+bool
+page_table_get(PageTable *table, const int64 *key, StoredPage *page)
+{
+	ScanKeyData keys[PAGE_TABLE_KEYS];
+
+	page_table_open(table);
+	page_table_see_own_changes(table);
+	/* used for the header row only: a scan of its own is not worth keeping */
+	close_scan(&table->forward);
+	table->at_key = false;
+	for (int i = 0; i < PAGE_TABLE_KEYS; i++)
+		ScanKeyInit(&keys[i], i + 1, BTEqualStrategyNumber, F_INT8EQ, Int64GetDatum(key[i]));
+	search(table, &table->forward, keys, PAGE_TABLE_KEYS);
+	if (!index_getnext_slot(table->forward.scan, BackwardScanDirection, table->forward.slot))
+	{
+		close_scan(&table->forward);
+		return false;
+	}
+	stored_page_read(table->forward.slot, page);
+	return true;
+}
+
+/* The row with the greatest key <= `key`. */
+bool
+page_table_floor(PageTable *table, const int64 *key, StoredPage *page)
+{
+	ScanKeyData bound;
+
+	page_table_open(table);
+	page_table_see_own_changes(table);
+	bound_key(table, &table->floor, &bound, BTLessEqualStrategyNumber, key);
+	search(table, &table->floor, &bound, 1);
+	if (!index_getnext_slot(table->floor.scan, BackwardScanDirection, table->floor.slot))
+		return false;
+	stored_page_read(table->floor.slot, page);
+	return true;
+}
+
+/* The row with the least key > `key`; NULL: with the least of all. */
+bool
+page_table_next(PageTable *table, const int64 *key, StoredPage *page)
+{
+	static const int64 least[PAGE_TABLE_KEYS] = {PG_INT64_MIN, PG_INT64_MIN};
+
+	page_table_open(table);
+	page_table_see_own_changes(table);
+	/* reading on in order, the scan already stands there */
+	if (key == NULL || !table->at_key ||
+		memcmp(key, table->forward_key, PAGE_TABLE_KEYS * sizeof(int64)) != 0)
+	{
+		ScanKeyData bound;
+
+		if (table->forward.scan != NULL && table->forward.scan->numberOfKeys != 1)
+			close_scan(&table->forward);
+		if (key == NULL)
+			bound_key(table, &table->forward, &bound, BTGreaterEqualStrategyNumber, least);
+		else
+			bound_key(table, &table->forward, &bound, BTGreaterStrategyNumber, key);
+		search(table, &table->forward, &bound, 1);
+	}
+	if (!index_getnext_slot(table->forward.scan, ForwardScanDirection, table->forward.slot))
+	{
+		table->at_key = false;
+		return false;
+	}
+	stored_page_read(table->forward.slot, page);
+	memcpy(table->forward_key, page->key, sizeof(table->forward_key));
+	table->at_key = true;
+	return true;
+}
+
+/*
+ * Called when rows are missed: an error if our snapshot sees none and newer ones
+ * would. Then the table has been made since, or an ALTER TABLE has written all of its
+ * rows anew, for which it takes no account of older snapshots.
+ */
+void
+page_table_refuse_newer(PageTable *table)
+{
+	StoredPage	page;
+	TupleTableSlot *slot;
+	TableScanDesc scan;
+	bool		is_newer;
+
+	if (page_table_next(table, NULL, &page))
+		return;
+	slot = table_slot_create(table->heap, NULL);
+	scan = table_beginscan(table->heap, SnapshotSelf, 0, NULL);
+	is_newer = table_scan_getnextslot(scan, ForwardScanDirection, slot);
+	table_endscan(scan);
+	ExecDropSingleTupleTableSlot(slot);
+	if (is_newer)
+		ereport(ERROR,
+				(errcode(ERRCODE_T_R_SERIALIZATION_FAILURE),
+				 errmsg("table \"%s\" was made or rewritten after this snapshot was taken",
+						RelationGetRelationName(table->heap)),
+				 errhint("The transaction might succeed if retried.")));
+}
+
+/* Starts a scan of the rows on one heap page, as they are after our changes. */
+TableScanDesc
+page_table_scan_heap_page(PageTable *table, BlockNumber block)
+{
+	ItemPointerData first;
+	ItemPointerData last;
+
+	page_table_open(table);
+	page_table_see_own_changes(table);
+	ItemPointerSet(&first, block, FirstOffsetNumber);
+	ItemPointerSet(&last, block, MaxOffsetNumber);
+	return table_beginscan_tidrange(table->heap, GetActiveSnapshot(), &first, &last);
+}

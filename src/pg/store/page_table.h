@@ -1,0 +1,82 @@
+/*
+ * page_table.h: pages of bytes in one heap table, found by key through its
+ * primary key's B-tree.
+ *
+ * Both tables of a mesh have this shape: two bigint key columns, then the
+ * page. Direct heap and nbtree calls; no SPI, no executor. A table is
+ * opened when first needed and closed before the SQL call returns.
+ */
+#ifndef ABACUS_PAGE_TABLE_H
+#define ABACUS_PAGE_TABLE_H
+
+#include "access/genam.h"
+#include "access/skey.h"
+#include "access/tableam.h"
+#include "executor/tuptable.h"
+#include "utils/rel.h"
+
+#include "pg/store/heap_growth.h"
+#include "pg/store/page_index.h"
+#include "pg/store/stored_page.h"
+#include "pg/store/superseded.h"
+
+/* A kept-open index scan in one direction. */
+typedef struct PageScan
+{
+	IndexScanDesc scan;			/* NULL while not open */
+	TupleTableSlot *slot;
+	/* columns of the row comparison; the scan points here as long as it runs */
+	ScanKeyData members[PAGE_TABLE_KEYS];
+} PageScan;
+
+typedef struct PageTable
+{
+	Oid			relid;
+	bool		writable;
+
+	Relation	heap;			/* NULL while closed */
+	RelFileNode node;			/* of the heap when it was opened first */
+	Relation	index;			/* NULL until searched */
+	List	   *indexes;		/* writers: all that they keep */
+
+	PageScan	floor;			/* backward: greatest key <= given */
+	PageScan	forward;		/* least key > given, and onward */
+	bool		at_key;			/* forward stands at forward_key */
+	int64		forward_key[PAGE_TABLE_KEYS];
+	TupleTableSlot *fetched;	/* NULL while none is */
+	BlockNumber blocks;			/* of the heap, at least; 0: not known */
+
+	bool		wrote;			/* changes that our snapshot does not see yet */
+	uint64		stored;			/* rows so far */
+	MemoryContext memory;		/* of what is open */
+	struct varlena *datum;		/* writers: room for one page */
+	Superseded *superseded;		/* where replaced rows lie; NULL if nobody asks */
+	HeapGrowth	growth;			/* new heap pages, not written yet */
+	BlockNumber target;			/* heap page that is being filled, or InvalidBlockNumber */
+	Size		room;			/* on it */
+} PageTable;
+
+extern void page_table_init(PageTable *table, Oid relid, bool writable, MemoryContext memory);
+extern void page_table_open(PageTable *table);
+extern void page_table_close(PageTable *table);
+extern void page_table_see_own_changes(PageTable *table);
+extern void page_table_refuse_newer(PageTable *table);
+
+extern bool page_table_get(PageTable *table, const int64 *key, StoredPage *page);
+extern bool page_table_floor(PageTable *table, const int64 *key, StoredPage *page);
+extern void page_table_expect_moves(PageTable *table);
+extern bool page_table_fetch(PageTable *table, ItemPointer tid, const unsigned char *bytes,
+							 size_t size, StoredPage *page);
+extern bool page_table_next(PageTable *table, const int64 *key, StoredPage *page);
+
+extern void page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes,
+							  size_t size, ItemPointer tid);
+extern void page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes,
+							  size_t size, ItemPointer tid);
+extern void page_table_delete(PageTable *table, ItemPointer tid);
+
+extern void page_table_leave_target(PageTable *table);
+extern TableScanDesc page_table_scan_heap_page(PageTable *table, BlockNumber block);
+extern bool page_table_move(PageTable *table, TupleTableSlot *slot);
+
+#endif

@@ -1,0 +1,183 @@
+/*
+ * page_write.c: rows of a table of pages are added, replaced, removed and moved.
+ *
+ * By heap_insert and index_insert, as the executor does it. No
+ * BulkInsertState (its ring would evict the pages that are about to be read
+ * again) and no SKIP_FSM (freed pages must be found; those that this session
+ * has freed are taken from the beginning of the table on). Where none is free,
+ * the table grows by many heap pages at a time.
+ */
+#include "postgres.h"
+
+#include "access/heapam.h"
+#include "access/xact.h"
+#include "storage/bufmgr.h"
+#include "storage/freespace.h"
+
+#include "pg/store/buffer_map.h"
+#include "pg/store/heap_room.h"
+#include "pg/store/page_table.h"
+#include "pg/store/page_type.h"
+
+/* Rows from which on a writer is one of very many. */
+#define MANY_ROWS 16
+
+/* Forms the tuple of a row in the current memory context. */
+static HeapTuple
+form_row(PageTable *table, const int64 *key, const unsigned char *bytes, size_t size,
+		 Datum *values, bool *isnull)
+{
+	page_type_fill(table->datum, bytes, size);
+	for (int i = 0; i < PAGE_TABLE_KEYS; i++)
+	{
+		values[i] = Int64GetDatum(key[i]);
+		isnull[i] = false;
+	}
+	values[PAGE_TABLE_KEYS] = PointerGetDatum(table->datum);
+	isnull[PAGE_TABLE_KEYS] = false;
+	return heap_form_tuple(RelationGetDescr(table->heap), values, isnull);
+}
+
+/*
+ * Has the next row go to the heap page that is being filled; or to one that has become
+ * empty, the first one in the table; or else to a new one of many, if the table may
+ * grow. Returns it, or InvalidBlockNumber: then the heap looks for a page by itself.
+ */
+static BlockNumber
+choose_heap_page(PageTable *table, HeapTuple tuple, bool may_grow)
+{
+	Size		size = MAXALIGN(tuple->t_len);
+
+	if (table->target == InvalidBlockNumber || table->room < size)
+	{
+		page_table_leave_target(table);
+		if (table->superseded != NULL)
+			table->target = superseded_take_empty(table->superseded, table->heap, size, &table->room);
+		if (table->target == InvalidBlockNumber && may_grow)
+		{
+			table->target = heap_growth_take(&table->growth, table->heap, size, table->stored);
+			table->room = NEW_HEAP_PAGE_ROOM;
+		}
+	}
+	if (table->target != InvalidBlockNumber)
+		RelationSetTargetBlock(table->heap, table->target);
+	return table->target;
+}
+
+/* Turns away from the heap page that is being filled, if one is; what is left on it can be had. */
+void
+page_table_leave_target(PageTable *table)
+{
+	if (table->target == InvalidBlockNumber)
+		return;
+	RecordPageWithFreeSpace(table->heap, table->target, table->room);
+	if (table->superseded != NULL)
+		superseded_give_back(table->superseded, table->target, table->room);
+	table->target = InvalidBlockNumber;
+}
+
+/* After a row has been written that was on the heap page `from`, or on none. */
+static void
+note_written(PageTable *table, HeapTuple tuple, BlockNumber from)
+{
+	BlockNumber block = ItemPointerGetBlockNumber(&tuple->t_self);
+
+	table->wrote = true;
+	if (block == table->target)
+		table->room -= Min(MAXALIGN(tuple->t_len) + sizeof(ItemIdData), table->room);
+	else if (block != from)
+		table->target = InvalidBlockNumber; /* the heap has found no room there, and told the map */
+}
+
+/* After a row has been stored. */
+static void
+note_stored(PageTable *table, HeapTuple tuple, BlockNumber from, ItemPointer tid)
+{
+	note_written(table, tuple, from);
+	*tid = tuple->t_self;
+	if (++table->stored > MANY_ROWS)
+		buffer_map_around(PrefetchBuffer(table->heap, MAIN_FORKNUM,
+										 ItemPointerGetBlockNumber(tid)).recent_buffer);
+	heap_freetuple(tuple);
+}
+
+/* Adds a row; *tid becomes its place. */
+void
+page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes, size_t size,
+				  ItemPointer tid)
+{
+	Datum		values[PAGE_TABLE_KEYS + 1];
+	bool		isnull[PAGE_TABLE_KEYS + 1];
+	HeapTuple	tuple;
+
+	page_table_open(table);
+	tuple = form_row(table, key, bytes, size, values, isnull);
+	choose_heap_page(table, tuple, true);
+	heap_insert(table->heap, tuple, GetCurrentCommandId(true), 0, NULL);
+	page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self, false);
+	note_stored(table, tuple, InvalidBlockNumber, tid);
+}
+
+/* Replaces the row at *tid, which must have this key; *tid becomes its new place. */
+void
+page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes, size_t size,
+				  ItemPointer tid)
+{
+	Datum		values[PAGE_TABLE_KEYS + 1];
+	bool		isnull[PAGE_TABLE_KEYS + 1];
+	HeapTuple	tuple;
+
+	page_table_open(table);
+	/* an update would leave a small row where it lies */
+	if (table->superseded != NULL &&
+		superseded_is_far(table->superseded, ItemPointerGetBlockNumber(tid)))
+	{
+		page_table_delete(table, tid);
+		page_table_insert(table, key, bytes, size, tid);
+		return;
+	}
+	page_table_see_own_changes(table);
+	tuple = form_row(table, key, bytes, size, values, isnull);
+	choose_heap_page(table, tuple, true);
+	simple_heap_update(table->heap, tid, tuple);
+	if (table->superseded != NULL)
+		superseded_add(table->superseded, ItemPointerGetBlockNumber(tid));
+	if (!HeapTupleIsHeapOnly(tuple))
+		page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self, true);
+	note_stored(table, tuple, ItemPointerGetBlockNumber(tid), tid);
+}
+
+/* Removes the row at *tid. */
+void
+page_table_delete(PageTable *table, ItemPointer tid)
+{
+	page_table_open(table);
+	page_table_see_own_changes(table);
+	simple_heap_delete(table->heap, tid);
+	if (table->superseded != NULL)
+		superseded_add(table->superseded, ItemPointerGetBlockNumber(tid));
+	table->wrote = true;
+}
+
+/*
+ * Moves the row in the slot, as it is, to the first heap page that has become
+ * empty; returns false if that is none before the one on which it lies.
+ */
+bool
+page_table_move(PageTable *table, TupleTableSlot *slot)
+{
+	HeapTuple	tuple = ExecCopySlotHeapTuple(slot);
+	bool		moves = choose_heap_page(table, tuple, false) < ItemPointerGetBlockNumber(&slot->tts_tid);
+
+	if (moves)
+	{
+		slot_getallattrs(slot);
+		page_table_delete(table, &slot->tts_tid);
+		heap_insert(table->heap, tuple, GetCurrentCommandId(true), 0, NULL);
+		page_index_insert(table->indexes, table->heap, slot->tts_values, slot->tts_isnull,
+						  &tuple->t_self, true);
+		note_written(table, tuple, InvalidBlockNumber);
+	}
+	heap_freetuple(tuple);
+	return moves;
+}

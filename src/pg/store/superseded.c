@@ -1,0 +1,332 @@
+/*
+ * superseded.c: the space of rows that were replaced.
+ *
+ * A page of a mesh fills a heap page, so the new version of a row goes
+ * elsewhere and the old one keeps its heap page. PostgreSQL would prune that
+ * when somebody comes by, but nobody does: no search leads to a dead row, and
+ * an insertion goes where the free space map sends it, which pruning does not
+ * tell. So a writer remembers the heap pages that it left, has them pruned
+ * when the commit has made the old versions dead, and enters their space into
+ * the map: abacus_build after each batch, every other change at the session's
+ * next change of the mesh. Else each single point would leave pages behind.
+ *
+ * Old versions that some transaction still sees stay, and are tried again the
+ * next time. What remains in any case, until VACUUM, are a line pointer of
+ * four bytes and the index entry.
+ *
+ * What has become free is handed out from the beginning of the table on. The
+ * free space map goes round and round, so that a table that has grown once,
+ * because somebody saw the old versions for a while, would have pages in use up
+ * to its end for ever, and VACUUM could not cut it.
+ *
+ * What other sessions have left, and what was rolled back, is looked for only
+ * when rows are moved anyway (compact.c): that takes a look at every heap page.
+ *
+ * The heap pages are remembered in bitmaps: 2 MB for 64 GB of table.
+ */
+#include "postgres.h"
+
+#include "access/heapam.h"
+#include "miscadmin.h"
+#include "port/pg_bitutils.h"
+#include "storage/bufmgr.h"
+#include "storage/freespace.h"
+#include "storage/proc.h"
+#include "storage/procarray.h"
+#include "utils/memutils.h"
+#include "utils/rel.h"
+
+#include "pg/store/heap_room.h"
+#include "pg/store/superseded.h"
+
+#define FIRST_BYTES 1024
+/* Heap pages that one page of the free space map is about, and fewer. */
+#define MAP_STRIDE 4000
+/*
+ * Of a heap page without rows. Until VACUUM each row that it had takes a line
+ * pointer; full pages of a mesh fit for long, since most leave some room.
+ */
+#define EMPTY_BYTES (BLCKSZ - BLCKSZ / 8)
+/* Heap pages; a row that is nearer than these to the beginning is left where it lies. */
+#define NEAR_PAGES 4
+
+struct Superseded
+{
+	Size		bytes;
+	uint8	   *bits;			/* of each heap page: a row on it has been replaced */
+	uint64		count;			/* of bits set */
+	uint8	   *free;			/* of each heap page: it has become empty */
+	Size		first_free;		/* no bit is set in the bytes before */
+	LocalTransactionId last;	/* that added one */
+	TransactionId horizon;		/* what somebody still saw when not all could be pruned */
+};
+
+/* Lives in `memory`. */
+Superseded *
+superseded_create(MemoryContext memory)
+{
+	Superseded *superseded = MemoryContextAllocZero(memory, sizeof(Superseded));
+
+	superseded->bytes = FIRST_BYTES;
+	superseded->bits = MemoryContextAllocZero(memory, FIRST_BYTES);
+	superseded->free = MemoryContextAllocZero(memory, FIRST_BYTES);
+	return superseded;
+}
+
+void
+superseded_forget(Superseded *superseded)
+{
+	pfree(superseded->bits);
+	pfree(superseded->free);
+	pfree(superseded);
+}
+
+/* Room in the bitmaps for this heap page. */
+static void
+cover(Superseded *superseded, BlockNumber block)
+{
+	Size		more;
+
+	if (block / BITS_PER_BYTE < superseded->bytes)
+		return;
+	more = Max(block / BITS_PER_BYTE + 1, superseded->bytes * 2);
+	superseded->bits = repalloc_huge(superseded->bits, more);
+	superseded->free = repalloc_huge(superseded->free, more);
+	MemSet(superseded->bits + superseded->bytes, 0, more - superseded->bytes);
+	MemSet(superseded->free + superseded->bytes, 0, more - superseded->bytes);
+	superseded->bytes = more;
+}
+
+/* Remembers that a row on this heap page has been replaced. */
+void
+superseded_add(Superseded *superseded, BlockNumber block)
+{
+	Size		byte = block / BITS_PER_BYTE;
+
+	cover(superseded, block);
+	if ((superseded->bits[byte] & (1 << (block % BITS_PER_BYTE))) == 0)
+		superseded->count++;
+	superseded->bits[byte] |= 1 << (block % BITS_PER_BYTE);
+	superseded->last = MyProc->lxid;
+}
+
+/* An empty heap page is the next to be written, if none before it is. */
+static void
+hand_out(Superseded *superseded, BlockNumber block)
+{
+	Size		byte = block / BITS_PER_BYTE;
+
+	cover(superseded, block);
+	superseded->free[byte] |= 1 << (block % BITS_PER_BYTE);
+	superseded->first_free = Min(superseded->first_free, byte);
+}
+
+/* The first heap page that has become empty, or InvalidBlockNumber. */
+static BlockNumber
+first_empty(Superseded *superseded)
+{
+	for (; superseded->first_free < superseded->bytes; superseded->first_free++)
+	{
+		uint8		free = superseded->free[superseded->first_free];
+
+		if (free != 0)
+			return (BlockNumber) (superseded->first_free * BITS_PER_BYTE + pg_rightmost_one_pos32(free));
+	}
+	return InvalidBlockNumber;
+}
+
+/*
+ * Takes the first heap page that has become empty and has room for `size`
+ * bytes, now: another session may have written it meanwhile. Its room goes to
+ * *room. InvalidBlockNumber if there is none, and *room is left as it was.
+ */
+BlockNumber
+superseded_take_empty(Superseded *superseded, Relation heap, Size size, Size *room)
+{
+	BlockNumber block;
+
+	while ((block = first_empty(superseded)) != InvalidBlockNumber)
+	{
+		Size		here = 0;
+
+		superseded->free[block / BITS_PER_BYTE] &= ~(1 << (block % BITS_PER_BYTE));
+		/* VACUUM may have cut the table; it does not while we hold a lock on it */
+		if (block < RelationGetNumberOfBlocks(heap))
+			here = heap_room_at(heap, block);
+		if (here >= size)
+		{
+			*room = here;
+			return block;
+		}
+	}
+	return InvalidBlockNumber;
+}
+
+/* Takes back a heap page on which so much room is left, if it still is as good as empty. */
+void
+superseded_give_back(Superseded *superseded, BlockNumber block, Size room)
+{
+	if (room >= EMPTY_BYTES)
+		hand_out(superseded, block);
+}
+
+/*
+ * Whether a row lies far behind the first empty heap page. A row of less than half
+ * a heap page is updated where it lies, the header above all, and the table
+ * could not be cut before it.
+ */
+bool
+superseded_is_far(Superseded *superseded, BlockNumber block)
+{
+	BlockNumber empty = first_empty(superseded);
+
+	return empty != InvalidBlockNumber && block > NEAR_PAGES && (block - NEAR_PAGES) / 2 > empty;
+}
+
+/* Whether there is an empty heap page before this one. */
+bool
+superseded_has_empty_before(Superseded *superseded, BlockNumber block)
+{
+	return first_empty(superseded) < block; /* so InvalidBlockNumber is not */
+}
+
+/* Whether a row is there whose insertion was rolled back; the page's header does not tell. */
+static bool
+has_rolled_back(Relation heap, Buffer buffer)
+{
+	Page		page = BufferGetPage(buffer);
+
+	for (OffsetNumber offset = FirstOffsetNumber; offset <= PageGetMaxOffsetNumber(page); offset++)
+	{
+		ItemId		item = PageGetItemId(page, offset);
+		HeapTupleData tuple;
+		TransactionId dead_after;
+
+		if (!ItemIdIsNormal(item))
+			continue;
+		tuple.t_data = (HeapTupleHeader) PageGetItem(page, item);
+		tuple.t_len = ItemIdGetLength(item);
+		tuple.t_tableOid = RelationGetRelid(heap);
+		ItemPointerSet(&tuple.t_self, BufferGetBlockNumber(buffer), offset);
+		if (HeapTupleSatisfiesVacuumHorizon(&tuple, buffer, &dead_after) == HEAPTUPLE_DEAD)
+			return true;
+	}
+	return false;
+}
+
+/*
+ * Prunes a heap page and tells the free space map what room it has; *is_empty
+ * is whether it has become empty. Returns false if there is more to prune, but
+ * not now: a row is seen by somebody still, or the page is being read.
+ */
+static bool
+reclaim(Superseded *superseded, Relation heap, BlockNumber block, bool *is_empty)
+{
+	Buffer		buffer = ReadBuffer(heap, block);
+	Page		page = BufferGetPage(buffer);
+	Size		room;
+	bool		done;
+
+	LockBuffer(buffer, BUFFER_LOCK_EXCLUSIVE);
+	/* a transaction long ended: what was rolled back has been dead since ever */
+	if (!TransactionIdIsValid(((PageHeader) page)->pd_prune_xid) && has_rolled_back(heap, buffer))
+		PageSetPrunable(page, heap->rd_rel->relfrozenxid);
+	/* a page that a row was deleted from, and that has room, would not be pruned for long */
+	if (TransactionIdIsValid(((PageHeader) page)->pd_prune_xid))
+		PageSetFull(page);
+	LockBuffer(buffer, BUFFER_LOCK_UNLOCK);
+	heap_page_prune_opt(heap, buffer);
+	LockBuffer(buffer, BUFFER_LOCK_SHARE);
+	room = heap_room_on(buffer);
+	done = !TransactionIdIsValid(((PageHeader) page)->pd_prune_xid);
+	UnlockReleaseBuffer(buffer);
+	RecordPageWithFreeSpace(heap, block, room);
+	*is_empty = room >= EMPTY_BYTES;
+	if (*is_empty)
+		hand_out(superseded, block);
+	return done;
+}
+
+/*
+ * Gives the space back. The replacing transactions must have committed, and
+ * a snapshot taken since be active: it is what tells this backend that nobody
+ * else needs the old versions.
+ */
+void
+superseded_reclaim(Superseded *superseded, Relation heap)
+{
+	BlockNumber first = InvalidBlockNumber;
+	BlockNumber last = InvalidBlockNumber;
+	BlockNumber blocks = RelationGetNumberOfBlocks(heap);	/* VACUUM may have cut it */
+	bool		is_empty;
+
+	for (Size byte = 0; byte < superseded->bytes; byte++)
+	{
+		for (int bit = 0; superseded->bits[byte] >> bit != 0; bit++)
+		{
+			BlockNumber block = (BlockNumber) (byte * BITS_PER_BYTE + bit);
+
+			if ((superseded->bits[byte] & (1 << bit)) == 0)
+				continue;
+			CHECK_FOR_INTERRUPTS();
+			if (block >= blocks || reclaim(superseded, heap, block, &is_empty))
+			{
+				superseded->bits[byte] &= ~(1 << bit);
+				superseded->count--;
+			}
+			if (block >= blocks)
+				continue;
+			if (first != InvalidBlockNumber && block - last > MAP_STRIDE)
+			{
+				FreeSpaceMapVacuumRange(heap, first, last + 1);
+				first = InvalidBlockNumber;
+			}
+			if (first == InvalidBlockNumber)
+				first = block;
+			last = block;
+		}
+	}
+	if (first != InvalidBlockNumber)
+		FreeSpaceMapVacuumRange(heap, first, last + 1);
+}
+
+/*
+ * The same for what earlier transactions of the session have left. What cannot
+ * be reclaimed yet is tried again when whoever saw it has ended.
+ */
+void
+superseded_reclaim_earlier(Superseded *superseded, Relation heap)
+{
+	TransactionId horizon;
+
+	if (superseded->count == 0 || superseded->last == MyProc->lxid)
+		return;
+	horizon = GetOldestNonRemovableTransactionId(heap);
+	if (horizon == superseded->horizon)
+		return;
+	superseded_reclaim(superseded, heap);
+	superseded->horizon = superseded->count > 0 ? horizon : InvalidTransactionId;
+}
+
+/*
+ * Looks at one of so many heap pages, from *block to before `end`, until so many
+ * are found to be empty; these are handed out now. Whoever has left dead rows
+ * there, their space is reclaimed. Returns how many are empty.
+ */
+uint64
+superseded_survey(Superseded *superseded, Relation heap, uint64 *block, uint64 end,
+				  uint64 one_of, uint64 enough)
+{
+	uint64		empty = 0;
+
+	for (; *block < end && empty < enough; *block += one_of)
+	{
+		bool		is_empty;
+
+		CHECK_FOR_INTERRUPTS();
+		reclaim(superseded, heap, (BlockNumber) *block, &is_empty);
+		if (is_empty)
+			empty++;
+	}
+	return empty;
+}

@@ -1,0 +1,61 @@
+/*
+ * superseded_session.c: what a session has left in the meshes that it changed lately.
+ *
+ * The query that gives points to one mesh may change others, any number of them. So
+ * what the transaction at hand has asked for may be in use, and is not forgotten for
+ * another mesh; when there are too many, the last ones are not kept.
+ */
+#include "postgres.h"
+
+#include "storage/proc.h"
+#include "utils/memutils.h"
+
+#include "pg/store/superseded.h"
+
+#define MESHES_KEPT 4
+
+static struct
+{
+	RelFileNode node;
+	Superseded *superseded;		/* NULL while nothing is kept here */
+	LocalTransactionId used;	/* the last that asked for it */
+}			kept[MESHES_KEPT];
+static int	next_kept = 0;
+
+/* Where what is left in this table is kept, or may be; MESHES_KEPT if nowhere. */
+static int
+place_for(Relation heap)
+{
+	int			i = 0;
+
+	while (i < MESHES_KEPT &&
+		   !(kept[i].superseded != NULL && RelFileNodeEquals(kept[i].node, heap->rd_node)))
+		i++;
+	for (int tried = 0; i == MESHES_KEPT && tried < MESHES_KEPT; tried++)
+	{
+		if (kept[next_kept].superseded == NULL || kept[next_kept].used != MyProc->lxid)
+			i = next_kept;
+		next_kept = (next_kept + 1) % MESHES_KEPT;
+	}
+	return i;
+}
+
+/* What this session has left in a table; lives as long as the transaction, or longer. */
+Superseded *
+superseded_of_session(Relation heap)
+{
+	int			i = place_for(heap);
+
+	if (i == MESHES_KEPT)
+		return superseded_create(CurTransactionContext);
+	if (kept[i].superseded != NULL && !RelFileNodeEquals(kept[i].node, heap->rd_node))
+	{
+		superseded_forget(kept[i].superseded);
+		kept[i].superseded = NULL;
+	}
+	if (kept[i].superseded == NULL)
+		kept[i].superseded = superseded_create(TopMemoryContext);
+	kept[i].node = heap->rd_node;
+	kept[i].used = MyProc->lxid;
+	return kept[i].superseded;
+}

@@ -1,0 +1,151 @@
+/*
+ * tracked_points.c: the points of a table that a mesh follows, and those of the
+ * mesh: which columns they have, and queries for them.
+ */
+#include "postgres.h"
+
+#include "access/tupdesc.h"
+#include "catalog/pg_type.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+
+#include "pg/sql/row_packer.h"
+#include "pg/sql/shape.h"
+#include "pg/track/tracked_points.h"
+
+/* Names of the columns of a point: as given, or as the mesh names its own. */
+static List *
+column_names(ArrayType *given, const abacus_header *header, Relation table)
+{
+	int			wanted = 1 + header->dimension + header->attributes;
+	List	   *names = NIL;
+	ListCell   *cell;
+
+	if (given != NULL)
+	{
+		int			count;
+		Datum	   *elements = shape_names(given, "columns", &count);
+
+		if (count != wanted)
+			ereport(ERROR,
+					(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
+					 errmsg("columns has %d elements, but points of the mesh have %d", count,
+							wanted),
+					 errdetail("They are id, coordinates and attributes, as in a source query.")));
+		for (int i = 0; i < count; i++)
+			names = lappend(names, TextDatumGetCString(elements[i]));
+	}
+	else
+		for (int i = 0; i < wanted; i++)
+			names = lappend(names, pstrdup(row_packer_column(header, i)));
+
+	foreach(cell, names)
+		if (get_attnum(RelationGetRelid(table), lfirst(cell)) <= 0)
+			ereport(ERROR,
+					(errcode(ERRCODE_UNDEFINED_COLUMN),
+					 errmsg("column \"%s\" of table \"%s\" does not exist",
+							(char *) lfirst(cell), RelationGetRelationName(table)),
+					 errhint("Name the columns with the argument columns: id, coordinates, "
+							 "attributes.")));
+	return names;
+}
+
+/* Types that the triggers would refuse are refused before there are any. */
+static void
+check_types(List *columns, const abacus_header *header, Relation table)
+{
+	TupleDesc	point = CreateTemplateTupleDesc(list_length(columns));
+	ListCell   *cell;
+
+	foreach(cell, columns)
+		TupleDescCopyEntry(point, foreach_current_index(cell) + 1, RelationGetDescr(table),
+						   get_attnum(RelationGetRelid(table), lfirst(cell)));
+	row_packer_create_tracked(point, header, 1);
+}
+
+/* Names of the columns of a point, which the table has, of types that can be read. */
+List *
+tracked_columns(ArrayType *given, const abacus_header *header, Relation table)
+{
+	List	   *names = column_names(given, header, table);
+
+	check_types(names, header, table);
+	return names;
+}
+
+/*
+ * A numeric as the row packer reads it (numeric_float8_no_overflow): what rounds
+ * to zero or infinity is that, where the cast would be an error. Both bounds are
+ * exact: half the least double, and the greatest with half a step more.
+ */
+#define NUMERIC_AS_PACKED \
+	"CASE WHEN %1$s OPERATOR(pg_catalog.=) 'NaN'::pg_catalog.numeric THEN 'NaN'::pg_catalog.float8 " \
+	"WHEN pg_catalog.abs(%1$s) OPERATOR(pg_catalog.>=) (pg_catalog.power(2::pg_catalog.numeric, " \
+	"1024::pg_catalog.numeric) OPERATOR(pg_catalog.-) pg_catalog.power(2::pg_catalog.numeric, " \
+	"970::pg_catalog.numeric)) THEN pg_catalog.sign(%1$s)::pg_catalog.float8 " \
+	"OPERATOR(pg_catalog.*) 'Infinity'::pg_catalog.float8 " \
+	"WHEN (pg_catalog.abs(%1$s) OPERATOR(pg_catalog.*) pg_catalog.power(2::pg_catalog.numeric, " \
+	"1075::pg_catalog.numeric)) OPERATOR(pg_catalog.<=) 1::pg_catalog.numeric " \
+	"THEN 0::pg_catalog.float8 ELSE %1$s::pg_catalog.float8 END"
+
+/* A coordinate or attribute as the row packer reads it, in SQL. */
+static char *
+as_packed(Relation table, const char *column)
+{
+	AttrNumber	number = get_attnum(RelationGetRelid(table), column);
+	Oid			type = getBaseType(TupleDescAttr(RelationGetDescr(table), number - 1)->atttypid);
+	char	   *value = psprintf("t.%s", quote_identifier(column));
+
+	return type == NUMERICOID
+		? psprintf(NUMERIC_AS_PACKED, psprintf("%s::pg_catalog.numeric", value))
+		: psprintf("%s::pg_catalog.float8", value);
+}
+
+/* SELECT of the points of the table; `packed`: as the mesh has them, an attribute NaN as NULL. */
+char *
+tracked_points_of_table(Relation table, List *columns, int dimension, bool packed)
+{
+	StringInfoData query;
+	ListCell   *cell;
+
+	initStringInfo(&query);
+	foreach(cell, columns)
+	{
+		int			i = foreach_current_index(cell);
+		const char *name = lfirst(cell);
+
+		appendStringInfoString(&query, i == 0 ? "SELECT " : ", ");
+		if (!packed)
+			appendStringInfo(&query, "t.%s", quote_identifier(name));
+		else if (i == 0)
+			appendStringInfo(&query, "t.%s::pg_catalog.int8", quote_identifier(name));
+		else if (i <= dimension)
+			appendStringInfoString(&query, as_packed(table, name));
+		else
+			appendStringInfo(&query, "CASE WHEN (%1$s) OPERATOR(pg_catalog.<>) "
+							 "'NaN'::pg_catalog.float8 THEN %1$s END", as_packed(table, name));
+	}
+	appendStringInfo(&query, " FROM %s AS t WHERE ",
+					 quote_qualified_identifier(get_namespace_name(RelationGetNamespace(table)),
+												RelationGetRelationName(table)));
+	for (int i = 1; i <= dimension; i++)
+		appendStringInfo(&query, "%st.%s IS NOT NULL", i > 1 ? " AND " : "",
+						 quote_identifier(list_nth(columns, i)));
+	return query.data;
+}
+
+/* SELECT of the points of the mesh. */
+char *
+tracked_points_of_mesh(Oid mesh, const abacus_header *header, Oid extension_namespace)
+{
+	StringInfoData query;
+
+	initStringInfo(&query);
+	appendStringInfoString(&query, header->dimension == 2 ? "SELECT v.id, v.x, v.y"
+						   : "SELECT v.id, v.x, v.y, v.z");
+	for (uint32 i = 1; i <= header->attributes; i++)
+		appendStringInfo(&query, ", v.attributes[%u]", i);
+	appendStringInfo(&query, " FROM %s.abacus_vertices(%u::pg_catalog.regclass) AS v",
+					 quote_identifier(get_namespace_name(extension_namespace)), mesh);
+	return query.data;
+}

@@ -1,0 +1,218 @@
+/*
+ * transition.c: the points in the transition tables of a trigger.
+ *
+ * An UPDATE has two of them, rows as they were and as they are; rows of the
+ * same number are those of one row of the table. Where they give the same
+ * point there is nothing to do. That is all that is compared, and it needs no
+ * sort: taking equal rows out of two lists, one for one, leaves the same
+ * difference whichever pairs are found.
+ *
+ * Rows with a NULL among the coordinates are no points. They become points
+ * when they get coordinates, and are none any more when they lose them.
+ *
+ * The rows are read straight out of the tuplestores, which costs less than
+ * planning a query on them, and so a statement that changes one row is quick.
+ */
+#include "postgres.h"
+
+#include "access/tupdesc.h"
+#include "executor/executor.h"
+#include "executor/tuptable.h"
+#include "miscadmin.h"
+#include "utils/builtins.h"
+#include "utils/datum.h"
+#include "utils/lsyscache.h"
+#include "utils/rel.h"
+#include "utils/tuplestore.h"
+
+#include "pg/track/transition.h"
+
+#define POINTS_A_BATCH 1024
+
+static void
+open_rows(TransitionRows *rows, Tuplestorestate *store, TupleDesc desc)
+{
+	rows->rows = store;
+	rows->counts = false;
+	if (store == NULL)
+		return;
+	/* a place of our own: other triggers read the same rows */
+	rows->pointer = tuplestore_alloc_read_pointer(store, EXEC_FLAG_REWIND);
+	rows->slot = MakeSingleTupleTableSlot(desc, &TTSOpsMinimalTuple);
+}
+
+static void
+rewind_rows(TransitionRows *rows)
+{
+	if (rows->rows == NULL)
+		return;
+	tuplestore_select_read_pointer(rows->rows, rows->pointer);
+	tuplestore_rescan(rows->rows);
+}
+
+/* The next row into the slot; false at the end. */
+static bool
+fetch_row(TransitionRows *rows)
+{
+	if (rows->rows == NULL)
+		return false;
+	tuplestore_select_read_pointer(rows->rows, rows->pointer);
+	return tuplestore_gettupleslot(rows->rows, true, false, rows->slot);
+}
+
+/* Opens the transition tables of a trigger that tracking_create() has made. */
+Transition *
+transition_open(const TriggerData *trigger)
+{
+	Transition *transition = palloc0(sizeof(Transition));
+	TupleDesc	desc = RelationGetDescr(trigger->tg_relation);
+	char	  **names = trigger->tg_trigger->tgargs + TRACKING_ARGUMENT_COLUMNS;
+
+	transition->columns = trigger->tg_trigger->tgnargs - TRACKING_ARGUMENT_COLUMNS;
+	transition->dimension =
+		pg_strtoint32(trigger->tg_trigger->tgargs[TRACKING_ARGUMENT_DIMENSION]);
+	/* arguments are what whoever made the trigger has written */
+	if (transition->dimension < 2 || transition->dimension > ABACUS_MAX_DIMENSION ||
+		transition->columns < 1 + transition->dimension)
+		ereport(ERROR,
+				(errcode(ERRCODE_E_R_I_E_TRIGGER_PROTOCOL_VIOLATED),
+				 errmsg("trigger \"%s\" has wrong arguments", trigger->tg_trigger->tgname),
+				 errhint("Make it with abacus_track().")));
+	transition->numbers = palloc(transition->columns * sizeof(AttrNumber));
+	transition->points = CreateTemplateTupleDesc(transition->columns);
+	for (int i = 0; i < transition->columns; i++)
+	{
+		AttrNumber	number = get_attnum(RelationGetRelid(trigger->tg_relation), names[i]);
+
+		if (number <= 0)
+			ereport(ERROR,
+					(errcode(ERRCODE_UNDEFINED_COLUMN),
+					 errmsg("column \"%s\" of table \"%s\", which a mesh follows, does not exist",
+							names[i], RelationGetRelationName(trigger->tg_relation)),
+					 errhint("Name the columns again with abacus_track(), or call "
+							 "abacus_untrack().")));
+		transition->numbers[i] = number;
+		TupleDescCopyEntry(transition->points, i + 1, desc, number);
+	}
+	transition->point = MakeSingleTupleTableSlot(transition->points, &TTSOpsVirtual);
+	open_rows(&transition->old, trigger->tg_oldtable, desc);
+	open_rows(&transition->new, trigger->tg_newtable, desc);
+	return transition;
+}
+
+static void
+rewind_all(Transition *transition)
+{
+	rewind_rows(&transition->old);
+	rewind_rows(&transition->new);
+}
+
+/* Whether the row in the slot is a point. */
+static bool
+is_point(const Transition *transition, TupleTableSlot *slot)
+{
+	for (int i = 1; i <= transition->dimension; i++)
+		if (slot_attisnull(slot, transition->numbers[i]))
+			return false;
+	return true;
+}
+
+static bool
+is_same_point(const Transition *transition)
+{
+	for (int i = 0; i < transition->columns; i++)
+	{
+		Form_pg_attribute attribute = TupleDescAttr(transition->points, i);
+		bool		old_null;
+		bool		new_null;
+		Datum		old = slot_getattr(transition->old.slot, transition->numbers[i], &old_null);
+		Datum		new = slot_getattr(transition->new.slot, transition->numbers[i], &new_null);
+
+		if (old_null != new_null ||
+			(!old_null && !datum_image_eq(old, new, attribute->attbyval, attribute->attlen)))
+			return false;
+	}
+	return true;
+}
+
+/* Goes on to the next rows; false at the end of both tables. */
+static bool
+advance(Transition *transition)
+{
+	TransitionRows *old = &transition->old;
+	TransitionRows *new = &transition->new;
+	bool		was = fetch_row(old);
+	bool		is = fetch_row(new);
+
+	CHECK_FOR_INTERRUPTS();
+	old->counts = was && is_point(transition, old->slot);
+	new->counts = is && is_point(transition, new->slot);
+	if (old->counts && new->counts && is_same_point(transition))
+		old->counts = new->counts = false;
+	return was || is;
+}
+
+/* Whether the statement has changed points at all. */
+bool
+transition_changes(Transition *transition)
+{
+	rewind_all(transition);
+	while (advance(transition))
+		if (transition->old.counts || transition->new.counts)
+			return true;
+	return false;
+}
+
+/* The point of a row to the packer. */
+static void
+pack(const Transition *transition, TupleTableSlot *row, RowPacker *packer)
+{
+	TupleTableSlot *point = transition->point;
+
+	ExecClearTuple(point);
+	for (int i = 0; i < transition->columns; i++)
+		point->tts_values[i] = slot_getattr(row, transition->numbers[i], &point->tts_isnull[i]);
+	ExecStoreVirtualTuple(point);
+	packer->receiver.receiveSlot(point, &packer->receiver);
+}
+
+/* Stages the points that are new, or those that are no more; returns how many. */
+uint64
+transition_stage(Transition *transition, bool new, Change *change)
+{
+	const abacus_header *header = change->writer.header;
+	TransitionRows *rows = new ? &transition->new : &transition->old;
+	RowPacker  *packer = row_packer_create_tracked(transition->points, header, POINTS_A_BATCH);
+
+	change_open_stage(change, header);
+	rewind_all(transition);
+	while (advance(transition))
+	{
+		if (!rows->counts)
+			continue;
+		pack(transition, rows->slot, packer);
+		if (packer->count == POINTS_A_BATCH)
+		{
+			change_add(change, packer->points, packer->count);
+			row_packer_reset(packer);
+		}
+	}
+	if (packer->count > 0)
+		change_add(change, packer->points, packer->count);
+	return change->points;
+}
+
+static void
+close_rows(TransitionRows *rows)
+{
+	if (rows->rows != NULL)
+		ExecDropSingleTupleTableSlot(rows->slot);
+}
+
+void
+transition_close(Transition *transition)
+{
+	close_rows(&transition->old);
+	close_rows(&transition->new);
+	ExecDropSingleTupleTableSlot(transition->point);
+}
