@@ -15,8 +15,8 @@
 // before.
 #include "cache/domain_of.hpp"
 #include "delaunay/insertion.hpp"
+#include "points/vertex_reader.hpp"
 #include "staged_file.hpp"
-#include "staging/vertex_reader.hpp"
 #include "support/memory_host.hpp"
 
 #include <abacus/header.h>

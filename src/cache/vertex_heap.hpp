@@ -8,9 +8,9 @@
 #pragma once
 
 #include "cache/free_numbers.hpp"
-#include "cache/hash_slots.hpp"
 #include "geometry/locational_code.hpp"
 #include "host/arena.hpp"
+#include "host/hash_slots.hpp"
 #include "mesh/simplex.hpp"
 
 #include <bit>

@@ -6,9 +6,9 @@
 #pragma once
 
 #include "cache/free_numbers.hpp"
-#include "cache/hash_slots.hpp"
 #include "cache/key.hpp"
 #include "host/arena.hpp"
+#include "host/hash_slots.hpp"
 #include "mesh/simplex.hpp"
 
 namespace abacus {

@@ -13,9 +13,9 @@
 #include "delaunay/first_simplex.hpp"
 #include "delaunay/insertion.hpp"
 #include "delaunay/removal.hpp"
-#include "staging/repeated_points.hpp"
+#include "points/repeated_points.hpp"
+#include "points/vertex_reader.hpp"
 #include "staging/stage.hpp"
-#include "staging/vertex_reader.hpp"
 
 #include <abacus/header.h>
 #include <optional>

@@ -1,7 +1,7 @@
 // Taking points away.
 #include "delaunay/build.hpp"
 
-#include "staging/vertex_page.hpp"
+#include "points/vertex_page.hpp"
 
 namespace abacus {
 

@@ -1,5 +1,5 @@
+#include "delaunay/cached_conflict.hpp"
 #include "delaunay/cavity.hpp"
-#include "delaunay/conflict.hpp"
 
 #include <algorithm>
 

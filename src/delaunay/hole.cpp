@@ -1,6 +1,6 @@
 #include "delaunay/hole.hpp"
 
-#include "delaunay/conflict.hpp"
+#include "delaunay/cached_conflict.hpp"
 #include "delaunay/link_mesh.hpp"
 
 #include <algorithm>

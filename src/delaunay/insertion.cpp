@@ -1,6 +1,6 @@
 #include "delaunay/insertion.hpp"
 
-#include "delaunay/conflict.hpp"
+#include "delaunay/cached_conflict.hpp"
 
 #include <utility>
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "delaunay/build.hpp"
-#include "staging/vertex_page.hpp"
+#include "points/vertex_page.hpp"
 
 #include <optional>
 

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "delaunay/build.hpp"
-#include "staging/waiting_points.hpp"
+#include "points/waiting_points.hpp"
 
 namespace abacus {
 

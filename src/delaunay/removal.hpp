@@ -6,7 +6,7 @@
 #pragma once
 
 #include "delaunay/hole.hpp"
-#include "staging/leaving.hpp"
+#include "points/leaving.hpp"
 
 #include <optional>
 

@@ -15,9 +15,9 @@
 #include "delaunay/first_simplex.hpp"
 #include "goose/circumbox.hpp"
 #include "goose/rim.hpp"
-#include "staging/record.hpp"
-#include "staging/record_sink.hpp"
-#include "staging/spool.hpp"
+#include "points/record.hpp"
+#include "points/record_sink.hpp"
+#include "sort/spool.hpp"
 
 #include <abacus/goose.h>
 

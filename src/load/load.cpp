@@ -4,8 +4,8 @@
 #include "load/element_writer.hpp"
 #include "load/flanks.hpp"
 #include "load/overlap.hpp"
-#include "staging/canonical.hpp"
-#include "staging/vertex_page.hpp"
+#include "points/canonical.hpp"
+#include "points/vertex_page.hpp"
 
 #include <algorithm>
 

@@ -27,11 +27,11 @@
 // them in a mesh that is not changed.
 #pragma once
 
+#include "geometry/box_tree.hpp"
 #include "geometry/locational_code.hpp"
 #include "load/record_sort.hpp"
 #include "load/record_spool.hpp"
 #include "load/records.hpp"
-#include "mesh/box_tree.hpp"
 
 #include <abacus/header.h>
 #include <optional>

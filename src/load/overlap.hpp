@@ -28,11 +28,11 @@
 // is larger than the memory.
 #pragma once
 
+#include "geometry/box_tree.hpp"
+#include "geometry/contact.hpp"
 #include "load/record_sort.hpp"
 #include "load/record_spool.hpp"
 #include "load/records.hpp"
-#include "geometry/contact.hpp"
-#include "mesh/box_tree.hpp"
 
 namespace abacus {
 

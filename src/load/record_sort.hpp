@@ -12,8 +12,8 @@
 #pragma once
 
 #include "host/arena.hpp"
-#include "staging/radix_sort.hpp"
-#include "staging/spool.hpp"
+#include "sort/radix_sort.hpp"
+#include "sort/spool.hpp"
 
 namespace abacus {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/arena.hpp"
-#include "staging/spool.hpp"
+#include "sort/spool.hpp"
 
 namespace abacus {
 

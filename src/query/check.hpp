@@ -30,11 +30,11 @@
 // perturbation unique, where no place is covered twice: see query/stars.hpp.
 #pragma once
 
+#include "points/repeated_points.hpp"
+#include "points/vertex_reader.hpp"
 #include "query/page_scan.hpp"
 #include "query/reader.hpp"
 #include "query/stars.hpp"
-#include "staging/repeated_points.hpp"
-#include "staging/vertex_reader.hpp"
 
 #include "host/memory.hpp"
 

@@ -5,7 +5,7 @@
 // simplex or so; if that is more than its bound, a box for every two, four, ... pages.
 #pragma once
 
-#include "mesh/box_tree.hpp"
+#include "geometry/box_tree.hpp"
 #include "query/page_scan.hpp"
 
 namespace abacus {

@@ -1,6 +1,6 @@
 #include "query/places.hpp"
 
-#include "staging/record.hpp"
+#include "points/record.hpp"
 
 namespace abacus {
 

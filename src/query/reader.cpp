@@ -2,8 +2,8 @@
 
 #include "cache/domain_of.hpp"
 #include "host/memory.hpp"
+#include "points/record.hpp"
 #include "query/describe.hpp"
-#include "staging/record.hpp"
 
 #include <algorithm>
 #include <memory_resource>

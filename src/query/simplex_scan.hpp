@@ -1,8 +1,8 @@
 // The simplices of a mesh, in the order of their pages.
 #pragma once
 
-#include "query/page_scan.hpp"
 #include "geometry/locational_code.hpp"
+#include "query/page_scan.hpp"
 
 #include <abacus/read.h>
 

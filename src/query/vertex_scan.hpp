@@ -2,9 +2,9 @@
 #pragma once
 
 #include "delaunay/own_vertices.hpp"
+#include "points/repeated_points.hpp"
+#include "points/vertex_reader.hpp"
 #include "query/reader.hpp"
-#include "staging/repeated_points.hpp"
-#include "staging/vertex_reader.hpp"
 
 #include <abacus/read.h>
 

@@ -10,8 +10,8 @@
 #pragma once
 
 #include "host/arena.hpp"
-#include "staging/pacer.hpp"
-#include "staging/record.hpp"
+#include "points/record.hpp"
+#include "sort/pacer.hpp"
 #include "staging/slice.hpp"
 
 namespace abacus {

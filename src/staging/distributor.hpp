@@ -1,9 +1,9 @@
 // Distributes records over spools, one for each part of a slice of the insertion order.
 #pragma once
 
-#include "staging/record.hpp"
+#include "points/record.hpp"
+#include "sort/spool.hpp"
 #include "staging/splitters.hpp"
-#include "staging/spool.hpp"
 
 namespace abacus {
 

@@ -7,9 +7,9 @@
 // of their bounding box; when that is a single point they are in order already.
 #pragma once
 
+#include "points/record_sink.hpp"
 #include "staging/curve_sort.hpp"
 #include "staging/distributor.hpp"
-#include "staging/record_sink.hpp"
 
 namespace abacus {
 

@@ -5,7 +5,7 @@
 
 #include "geometry/box.hpp"
 #include "geometry/locational_code.hpp"
-#include "staging/radix_sort.hpp"
+#include "sort/radix_sort.hpp"
 #include "staging/rounds.hpp"
 
 #include <bit>

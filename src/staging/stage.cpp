@@ -1,9 +1,9 @@
 #include "staging/stage.hpp"
 
 #include "cache/domain_of.hpp"
-#include "staging/canonical.hpp"
+#include "points/canonical.hpp"
+#include "points/vertex_page.hpp"
 #include "staging/density.hpp"
-#include "staging/vertex_page.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // and read back from its vertex pages.
 #pragma once
 
-#include "staging/vertex_page.hpp"
+#include "points/vertex_page.hpp"
 #include "support/memory_host.hpp"
 
 #include <abacus/change.h>

@@ -1,7 +1,7 @@
 // abacus_check finds every kind of damage. A sound mesh is built, one thing in it is
 // spoilt, and there has to be a fault.
 #include "geometry/predicates.hpp"
-#include "staging/vertex_page.hpp"
+#include "points/vertex_page.hpp"
 #include "support/patient.hpp"
 
 #include <gtest/gtest.h>

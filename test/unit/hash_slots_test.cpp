@@ -1,6 +1,6 @@
 // The table of hashes against a map, with hashes that meet in one run, across the end of the
 // table, and while it grows.
-#include "cache/hash_slots.hpp"
+#include "host/hash_slots.hpp"
 #include "support/memory_host.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Many points of one place taken away in one call: as one after the other, without searching
 // the pages of the place for each.
-#include "staging/leaving.hpp"
+#include "points/leaving.hpp"
 
 #include "support/oracle.hpp"
 #include "support/sanitized.hpp"

@@ -1,4 +1,4 @@
-#include "staging/waiting_points.hpp"
+#include "points/waiting_points.hpp"
 
 #include <algorithm>
 

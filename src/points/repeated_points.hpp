@@ -17,8 +17,8 @@
 #include "cache/key.hpp"
 #include "geometry/locational_code.hpp"
 #include "host/arena.hpp"
-#include "staging/leaving.hpp"
-#include "staging/record.hpp"
+#include "points/leaving.hpp"
+#include "points/record.hpp"
 
 namespace abacus {
 

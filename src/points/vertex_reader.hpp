@@ -1,7 +1,7 @@
 // Points that wait, in insertion order, read page by page.
 #pragma once
 
-#include "staging/vertex_page.hpp"
+#include "points/vertex_page.hpp"
 
 #include <optional>
 

@@ -9,8 +9,8 @@
 // has it: 0 equals -0, and a NaN every other one.
 #pragma once
 
-#include "cache/hash_slots.hpp"
 #include "host/arena.hpp"
+#include "host/hash_slots.hpp"
 
 #include <bit>
 #include <cmath>

@@ -7,9 +7,9 @@
 #pragma once
 
 #include "host/arena.hpp"
-#include "staging/identities.hpp"
-#include "staging/record.hpp"
-#include "staging/vertex_reader.hpp"
+#include "points/identities.hpp"
+#include "points/record.hpp"
+#include "points/vertex_reader.hpp"
 
 namespace abacus {
 

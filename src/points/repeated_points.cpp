@@ -1,6 +1,6 @@
-#include "staging/repeated_points.hpp"
+#include "points/repeated_points.hpp"
 
-#include "staging/vertex_page.hpp"
+#include "points/vertex_page.hpp"
 
 #include <algorithm>
 

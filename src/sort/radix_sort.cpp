@@ -1,4 +1,4 @@
-#include "staging/radix_sort.hpp"
+#include "sort/radix_sort.hpp"
 
 #include <algorithm>
 #include <cstring>

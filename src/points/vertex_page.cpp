@@ -1,4 +1,4 @@
-#include "staging/vertex_page.hpp"
+#include "points/vertex_page.hpp"
 
 #include <bit>
 

@@ -2,7 +2,7 @@
 // itself, or who looks for them there.
 #pragma once
 
-#include "staging/pacer.hpp"
+#include "sort/pacer.hpp"
 
 namespace abacus {
 

@@ -4,7 +4,7 @@
 // numbers.
 #pragma once
 
-#include "staging/pacer.hpp"
+#include "sort/pacer.hpp"
 
 #include <cstdint>
 

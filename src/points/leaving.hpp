@@ -1,7 +1,7 @@
 // Which of the equal points at one place leave, when some are taken away one after the other.
 //
 // Each time the first point with the id wanted leaves, or if none has it the first of all;
-// `exactly`, only one that has the id and the attributes wanted (staging/identities.hpp, which
+// `exactly`, only one that has the id and the attributes wanted (points/identities.hpp, which
 // makes numbers of both; what is said of ids here holds for these). So what an id takes depends
 // on what went before, but not on what a search after each of them would have to read: all are
 // found in one run over the points of the place.
@@ -13,7 +13,7 @@
 #pragma once
 
 #include "host/arena.hpp"
-#include "staging/identities.hpp"
+#include "points/identities.hpp"
 
 #include <cstdint>
 

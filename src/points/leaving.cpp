@@ -1,4 +1,4 @@
-#include "staging/leaving.hpp"
+#include "points/leaving.hpp"
 
 #include <algorithm>
 

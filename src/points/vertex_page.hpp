@@ -9,8 +9,8 @@
 #pragma once
 
 #include "host/host.hpp"
-#include "staging/record.hpp"
-#include "staging/record_sink.hpp"
+#include "points/record.hpp"
+#include "points/record_sink.hpp"
 
 #include <cstdint>
 #include <cstring>
