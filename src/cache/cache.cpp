@@ -3,14 +3,20 @@
 
 namespace abacus {
 
+namespace {
+// What the last pass is given for itself, in bytes.
+template <int D> constexpr std::size_t last_pass_room = std::size_t{D == 2 ? 16 : 48} << 20;
+} // namespace
+
 template <int D>
 Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
                 const CacheOptions &options)
     : host_(host), domain_(domain), options_(options), capacity_(attributes), blocks_(host), slots_(host),
       vertices_(host, attributes), visible_(host), directory_(host), unused_blocks_(host),
-      limbo_(host), places_(host), limit_(options.budget), writer_(host), numbered_(host),
+      limbo_(host), places_(host), replacement_(host, options.budget, last_pass_room<D>),
+      inner_links_(host), writer_(host), numbered_(host),
       on_border_(host), uses_(host), left_(host), border_(host), values_(host), codes_(host),
-      open_(host), facets_(host), chains_(host), hashes_(host), guesses_(host) {
+      hashes_(host), guesses_(host) {
     values_.resize(static_cast<std::size_t>(attributes));
 }
 

@@ -28,9 +28,11 @@
 
 #include "cache/block.hpp"
 #include "cache/directory.hpp"
-#include "cache/key.hpp"
+#include "cache/inner_links.hpp"
+#include "cache/key_cut.hpp"
 #include "cache/page_capacity.hpp"
 #include "cache/page_writer.hpp"
+#include "cache/replacement.hpp"
 #include "cache/vertex_heap.hpp"
 #include "cache/visible_facets.hpp"
 #include "geometry/locational_code.hpp"
@@ -220,26 +222,19 @@ public:
     /// follow().
     bool settle(std::uint64_t code) {
         ++clock_;
-        if (code < front_) [[unlikely]] begin_pass();
-        front_ = code;
+        if (replacement_.reached(code)) [[unlikely]] replacement_.begin_pass(bytes());
         if (limbo_.empty()) [[likely]] return false;
         settle_limbo(code);
         return true;
     }
     /// Others need some of the memory.
-    void set_budget(std::size_t bytes) {
-        options_.budget = bytes;
-        set_limit();
-    }
+    void set_budget(std::size_t bytes) { replacement_.set_budget(bytes); }
     /// Whether this pass along the curve is the last: what it leaves behind is finished.
-    void expect_last_pass(bool last) {
-        last_pass_ = last;
-        set_limit();
-    }
+    void expect_last_pass(bool last) { replacement_.expect_last_pass(last); }
     /// Evicts what is beyond the budget, or in the last pass beyond what that needs. Handles may
     /// die: see is_live().
     void trim() {
-        if (bytes() > limit_) [[unlikely]] shrink();
+        if (bytes() > replacement_.limit()) [[unlikely]] shrink();
     }
     /// Writes every changed block; they stay cached.
     void flush();
@@ -310,17 +305,8 @@ private:
     // cache_place.cpp
     void settle_limbo(std::uint64_t code);
     Handle move(Handle h, BlockIndex to);
-    struct Place {
-        Key key;
-        Handle handle;
-    };
     /// Fills places_ with the block's simplices and their keys.
     void collect_places(BlockIndex b);
-    /// Parts places_ at about `wanted`: all keys below the returned index are less than
-    /// the one there, which is the least from there on. places_.size() if impossible.
-    std::size_t cut_near(std::size_t wanted);
-    /// The same a little below, by a histogram of the codes; 0 if that does not tell.
-    std::size_t cut_below(std::size_t wanted);
     void make_room(BlockIndex b, std::uint64_t code);
     /// Moves at most so many simplices, those with the least keys, to the block before, if that
     /// has room for them; so that a block that has nearly all its points is not cut.
@@ -359,17 +345,10 @@ private:
     /// The block that owns the key, loaded if need be; no_block if no page does.
     BlockIndex owner(const Key &key);
     BlockIndex load(const abacus_page &page);
-    /// Links the simplices of the page at hand with one another, lists the facets on its
-    /// border and marks the vertices there.
-    void link_inside(Handle first);
     void load_vertices();
     void note_vertices(Block &block) const;
     void load_simplices(Handle first);
     void link_outside();
-    /// Whether a facet is a ghost's ridge, in a mesh that does not link them.
-    bool is_loose(bool ghost, int facet) const {
-        return !options_.linked_ghosts && ghost && facet < D;
-    }
     void link_outside(Link link, std::uint32_t hash, const Key &beyond);
     bool leads_to(const Key &link, Handle h) const;
 
@@ -387,10 +366,7 @@ private:
     int octant_level(const Cell<D> &cell) const;
 
     // cache_evict.cpp
-    void begin_pass();
-    void set_limit();
     void shrink();
-    void choose_victims(Arena<BlockIndex> &victims);
     void evict(Arena<BlockIndex> &victims);
     /// Asks for what the blocks after this one of a list need to be made pages: the vertices of
     /// the next, and the slots of the one after it, which tell its vertices.
@@ -419,24 +395,15 @@ private:
     Directory directory_;
     Arena<BlockIndex> unused_blocks_;
     Arena<BlockIndex> limbo_;
-    Arena<Place> places_;
-    std::uint64_t least_code_ = 0, greatest_code_ = 0; // of places_
+    KeyCut places_;
+    Replacement replacement_;
     std::size_t cached_blocks_ = 0;
     std::array<BlockIndex, 2> at_hand_{no_block, no_block}; // took the last simplices
     std::uint64_t clock_ = 0;       // operations so far, for the replacement
-    std::uint64_t front_ = 0;       // code of the last one
-    std::size_t bytes_before_pass_ = 0; // in use when the front began at the curve's beginning
-    bool last_pass_ = false;
-    std::size_t limit_;             // bytes beyond which blocks leave
 
     // Page translation: reused from page to page.
-    struct LocalFacet {
-        std::uint64_t vertices;
-        Link link; // with `absent` for an odd facet; unset once it has found its partner
-        std::uint16_t next;
-    };
-    static constexpr std::uint16_t no_facet = 0xffff;
     PageView<D> view_;
+    InnerLinks<D> inner_links_;
     PageWriter<D> writer_;
     typename VertexHeap<D>::Numbering numbered_; // vertices by local number
     Arena<bool> on_border_;         // of these
@@ -445,9 +412,6 @@ private:
     Arena<Link> border_;            // facets on the border of a block, from inside
     Arena<double> values_;          // attributes of a vertex
     Arena<std::uint64_t> codes_;    // of the vertices of a page
-    Arena<Link> open_;              // facets of a page whose partner has to be searched for
-    Arena<LocalFacet> facets_;      // those met so far
-    Arena<std::uint16_t> chains_;   // hash table of them: the last one of each chain
     Arena<std::uint32_t> hashes_;   // of the facets of border_
     Arena<std::uint32_t> guesses_;  // their entries among the visible ones, perhaps
 };

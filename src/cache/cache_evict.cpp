@@ -19,83 +19,16 @@
 
 namespace abacus {
 
-namespace {
-constexpr std::size_t largest_batch = 64; // blocks
-// The window of blocks behind: at least so many, and this share of all, in percent.
-constexpr std::size_t least_window = 512, window_share = 15;
-constexpr std::uint64_t in_use = 1024; // operations since the last use
-// What the last pass is given for itself, in bytes.
-template <int D> constexpr std::size_t last_pass_room = std::size_t{D == 2 ? 16 : 48} << 20;
-} // namespace
-
-template <int D> void Cache<D>::begin_pass() {
-    bytes_before_pass_ = bytes();
-    set_limit();
-}
-
-// Behind the front of the last pass blocks are finished, but for those where the curve comes by
-// again, mostly soon. To keep the others until the end would take new memory all the time,
-// which is slower than that of blocks that have left; and a page is made sooner while its block is
-// still in the processor's cache. What there was before the pass lies ahead, and is all needed.
-template <int D> void Cache<D>::set_limit() {
-    limit_ = options_.budget;
-    if (last_pass_) limit_ = std::min(limit_, bytes_before_pass_ + last_pass_room<D>);
-}
-
 template <int D> void Cache<D>::shrink() {
     counters.peak_bytes = std::max<std::uint64_t>(counters.peak_bytes, bytes());
     Arena<BlockIndex> victims(host_);
     // The last two stay: the next operation starts in one of them.
-    while (bytes() > limit_ && cached_blocks_ > 2) {
-        choose_victims(victims);
+    while (bytes() > replacement_.limit() && cached_blocks_ > 2) {
+        replacement_.choose(blocks_, cached_blocks_, clock_, victims);
         evict(victims);
         // All may have gone up in their neighbours.
         counters.eviction_batches += !victims.empty();
     }
-}
-
-// Points come along the curve, in each round from its beginning to its end. The blocks
-// ahead are all needed once more, the farthest last; those behind, only where the curve
-// comes by again. Least recently used first would drop what is needed next: of two blocks
-// ahead, the nearer one has not been used for longer. So the blocks behind go first, by
-// their last use, except for a window of them, and then the farthest ahead.
-template <int D> void Cache<D>::choose_victims(Arena<BlockIndex> &victims) {
-    enum Rank : std::uint8_t { first, second, last };
-    struct Candidate {
-        Rank rank;
-        std::uint64_t order;
-        BlockIndex block;
-    };
-    Arena<Candidate> candidates(host_);
-    const auto is_behind = [&](const Block &b) { return b.upper.code <= front_; };
-    std::size_t behind = 0;
-    for (const Block &b : blocks_) behind += b.state == Block::cached && is_behind(b);
-    // A small cache is no more than the window.
-    const bool along_the_curve = front_ != 0 && cached_blocks_ >= 2 * least_window;
-    const bool window_is_full =
-        behind > std::max(least_window, cached_blocks_ * window_share / 100);
-    for (BlockIndex b = 0; b < blocks_.size(); ++b) {
-        const Block &block = blocks_[b];
-        if (block.state != Block::cached) continue;
-        Candidate &c = *candidates.extend(1);
-        c = {last, block.used_at, b};
-        if (!along_the_curve) continue;
-        if (is_behind(block)) {
-            c.rank = window_is_full ? first : second;
-        } else if (block.lower.code > front_ && clock_ - block.used_at > in_use) {
-            c.rank = window_is_full ? second : first;
-            c.order = ~block.lower.code;
-        }
-    }
-    const std::size_t batch =
-        std::min(std::clamp<std::size_t>(candidates.size() / 10, 1, largest_batch),
-                 candidates.size() - 2);
-    std::nth_element(candidates.begin(), candidates.begin() + batch, candidates.end(),
-                     [](const Candidate &a, const Candidate &b) {
-                         return a.rank < b.rank || (a.rank == b.rank && a.order < b.order);
-                     });
-    victims.clear();
-    for (std::size_t i = 0; i < batch; ++i) victims.push_back(candidates[i].block);
 }
 
 template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {

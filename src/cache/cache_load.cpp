@@ -1,8 +1,7 @@
 // Misses and loading: from stored pages to linked simplices (dissertation §4.10).
 //
-// Half of the links inside a page are stored; the other facets find their partners in a
-// small hash table of local numbers. What finds none is the page's border. Vertices
-// there may be cached already and are looked up by coordinates, the others are new.
+// Inside a page simplices are linked by local numbers (inner_links.hpp). What finds no partner
+// there is the page's border. Vertices there may be cached already and are looked up by coordinates, the others are new.
 // Facets on the border look for their partner among the visible facets, or become
 // visible themselves. So the large hash tables are asked once for each border vertex
 // and border facet, never for each simplex.
@@ -76,81 +75,12 @@ template <int D> BlockIndex Cache<D>::load(const abacus_page &page) {
     directory_.insert(block.lower, b);
 
     const Handle first = b * block_slots<D>;
-    link_inside(first);
+    inner_links_.connect(view_, &slots_[first], first, options_.linked_ghosts, border_, on_border_);
     load_vertices();
     note_vertices(block);
     load_simplices(first);
     link_outside();
     return b;
-}
-
-template <int D> void Cache<D>::link_inside(Handle first) {
-    const int simplices = view_.simplices();
-    for (int s = 0; s < simplices; ++s) slots_[first + s].link.fill(unset);
-    for (int s = 0; s < simplices; ++s) {
-        const Link parent = view_.parent(s);
-        if (parent == PageView<D>::no_link) [[unlikely]] continue;
-        connect(make_link(first + link_simplex(parent), link_facet(parent)),
-                make_link(first + s, view_.facet_to_parent(s)));
-    }
-    // The facets still open, gathered without a branch: which they are is hard to foresee.
-    open_.resize(std::size_t(simplices) * (D + 1) + 1); // one more, to be overwritten
-    Link *open = open_.begin();
-    for (int s = 0; s < simplices; ++s)
-        for (int i = 0; i <= D; ++i) {
-            *open = make_link(first + s, i);
-            open += slots_[first + s].link[i] == unset;
-        }
-    open_.resize(static_cast<std::size_t>(open - open_.begin()));
-
-    // A hash table of short chains, small enough for the processor's first cache.
-    chains_.resize(std::bit_ceil(open_.size() + 1));
-    std::fill(chains_.begin(), chains_.end(), no_facet);
-    const int shift = 64 - std::countr_zero(chains_.size());
-    facets_.clear();
-    facets_.reserve(open_.size());
-    for (const Link link : open_) {
-        const int s = static_cast<int>(link_simplex(link) - first), i = link_facet(link);
-        if (is_loose(view_.corner(s, D) == view_.vertices(), i)) {
-            slots_[first + s].link[i] = link;
-            continue;
-        }
-        const FacetVertices<D, std::uint32_t> facet(view_.corners(s), i);
-        std::uint64_t vertices = 0;
-        for (const std::uint32_t v : facet.vertex) vertices = vertices << 16 | v;
-        const Link odd = facet.odd ? absent : 0;
-        std::uint16_t &chain =
-            chains_[shift == 64 ? 0 : vertices * 0x9e3779b97f4a7c15ull >> shift];
-        std::uint16_t at = chain;
-        while (at != no_facet && facets_[at].vertices != vertices) at = facets_[at].next;
-        if (at == no_facet) {
-            facets_.push_back({vertices, link | odd, chain});
-            chain = static_cast<std::uint16_t>(facets_.size() - 1);
-            continue;
-        }
-        LocalFacet &other = facets_[at];
-        if (other.link == unset) throw_corrupted("Three simplices share a facet.");
-        if ((other.link & absent) == odd)
-            throw_corrupted("Neighbours have different orientations.");
-        connect(other.link & ~absent, link);
-        other.link = unset;
-    }
-
-    // What has found no partner is the border, in the order of its simplices.
-    border_.clear();
-    on_border_.resize(static_cast<std::size_t>(view_.vertices()));
-    std::fill(on_border_.begin(), on_border_.end(), false);
-    for (const LocalFacet &facet : facets_) {
-        if (facet.link == unset) continue;
-        const Link link = facet.link & ~absent;
-        border_.push_back(link);
-        const int s = static_cast<int>(link_simplex(link) - first);
-        for (int j = 0; j <= D; ++j)
-            if (j != link_facet(link) && view_.corner(s, j) < view_.vertices())
-                on_border_[view_.corner(s, j)] = true;
-    }
-    if (static_cast<int>(border_.size()) != view_.links())
-        throw_corrupted("A page has another number of links than of facets on its border.");
 }
 
 template <int D> void Cache<D>::load_vertices() {

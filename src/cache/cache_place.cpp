@@ -32,10 +32,6 @@ constexpr double packed = 0.95;
 constexpr double sparse = 0.6;
 constexpr double much = 1.0 / 12;
 constexpr double least_move = 1.0 / 16;
-// Where a block is cut.
-constexpr int histogram_bits = 8;
-constexpr double near_enough = 1.0 / 64; // of the simplices
-constexpr auto by_key = [](const auto &a, const auto &b) { return a.key < b.key; };
 } // namespace
 
 template <int D> void Cache<D>::settle_limbo(std::uint64_t code) {
@@ -77,60 +73,16 @@ template <int D> void Cache<D>::collect_places(BlockIndex b) {
     places_.clear();
     // Half of the block is ahead, and has not been used for long.
     for_each_simplex(b, [&](Handle h) { touch(&vertices_[slots_[h].vertex[0]].code); });
-    std::uint64_t least = key_word_end, greatest = 0;
-    for_each_simplex(b, [&](Handle h) {
-        const std::uint64_t c = code(slots_[h]);
-        least = std::min(least, c);
-        greatest = std::max(greatest, c);
-        places_.push_back({{c, 0}, h});
-    });
-    least_code_ = least;
-    greatest_code_ = greatest;
+    for_each_simplex(b, [&](Handle h) { places_.add(code(slots_[h]), h); });
     // Parts are dear to compute and rarely matter: only inside one code.
+    const std::uint64_t least = places_.least_code(), greatest = places_.greatest_code();
     if (least == greatest || blocks_[b].has_parts())
-        for (Place &place : places_) place.key.part = part(slots_[place.handle]);
+        for (KeyCut::Place &place : places_) place.key.part = part(slots_[place.handle]);
     // A page may have been forged, and it is borders between these keys that blocks are cut at.
     if (blocks_[b].surely_owns(least) && blocks_[b].surely_owns(greatest)) return;
-    for (const Place &place : places_)
+    for (const KeyCut::Place &place : places_)
         if (!blocks_[b].owns(place.key))
             throw_corrupted("A simplex lies in a page that does not own its key.");
-}
-
-template <int D> std::size_t Cache<D>::cut_below(std::size_t wanted) {
-    std::array<std::uint16_t, 1 << histogram_bits> histogram{};
-    const int bits = static_cast<int>(std::bit_width(greatest_code_ - least_code_));
-    const int shift = std::max(0, bits - histogram_bits);
-    for (const Place &p : places_) ++histogram[(p.key.code - least_code_) >> shift];
-    std::size_t below = 0, bin = 0;
-    while (below + histogram[bin] <= wanted) below += histogram[bin++];
-    if (below == 0 || wanted - below > near_enough * places_.size()) return 0;
-    const std::uint64_t border = least_code_ + (std::uint64_t{bin} << shift);
-    const auto upper = std::partition(places_.begin(), places_.end(),
-                                      [&](const Place &p) { return p.key.code < border; });
-    std::iter_swap(upper, std::min_element(upper, places_.end(), by_key));
-    return below;
-}
-
-template <int D> std::size_t Cache<D>::cut_near(std::size_t wanted) {
-    const std::size_t n = places_.size();
-    wanted = std::clamp<std::size_t>(wanted, 1, n - 1);
-    if (const std::size_t below = cut_below(wanted)) return below;
-    std::nth_element(places_.begin(), places_.begin() + wanted, places_.end(), by_key);
-    // Equal keys stay together: all that equal the wanted one go to the upper part, or,
-    // when nothing would be left below, to the lower one.
-    const Key border = places_[wanted].key;
-    const auto below = static_cast<std::size_t>(
-        std::partition(places_.begin(), places_.begin() + wanted,
-                       [&](const Place &p) { return p.key < border; }) -
-        places_.begin());
-    if (below > 0) return below;
-    const auto equal = static_cast<std::size_t>(
-        std::partition(places_.begin() + wanted, places_.end(),
-                       [&](const Place &p) { return p.key == border; }) -
-        places_.begin());
-    if (equal < n) std::nth_element(places_.begin() + equal, places_.begin() + equal,
-                                    places_.end(), by_key);
-    return equal;
 }
 
 template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
@@ -141,7 +93,7 @@ template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
         if (!blocks_[b].is_full()) return;
     }
     collect_places(b);
-    const auto is_behind = [&](const Place &p) { return p.key.code < code; };
+    const auto is_behind = [&](const KeyCut::Place &p) { return p.key.code < code; };
     const auto behind = static_cast<std::size_t>(
         std::count_if(places_.begin(), places_.end(), is_behind));
     if (!has_changed_much(b) || behind < sequential_from * places_.size()) {
@@ -180,7 +132,7 @@ template <int D> bool Cache<D>::dissolve(BlockIndex b) {
     std::size_t cut = room_left >= n ? n : std::min(room_left, (room_left + n - room_right + 1) / 2);
     if (room_right >= n) cut = 0;
     if (cut > 0 && cut < n) {
-        cut = cut_near(cut);
+        cut = places_.cut_near(cut);
         if (cut > room_left || n - cut > room_right) return false;
     }
     // An empty block's interval goes to either.
@@ -252,7 +204,7 @@ template <int D> bool Cache<D>::is_followed_by(BlockIndex b, BlockIndex next) co
 template <int D> bool Cache<D>::draw(BlockIndex b, BlockIndex next, std::size_t most) {
     const Key border = blocks_[next].lower, upper = blocks_[next].upper;
     std::size_t cut = places_.size();
-    if (cut > most) cut = cut_near(most);
+    if (cut > most) cut = places_.cut_near(most);
     if (cut > most) return false;
     const std::uint64_t used = blocks_[b].used_at, next_used = blocks_[next].used_at;
     const bool is_whole = cut == places_.size();
@@ -300,7 +252,7 @@ BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t cut, const Key &border) 
 }
 
 template <int D> BlockIndex Cache<D>::split_at_median(BlockIndex b) {
-    const std::size_t cut = cut_near(places_.size() / 2);
+    const std::size_t cut = places_.cut_near(places_.size() / 2);
     if (cut == 0 || cut >= places_.size())
         throw Error(ABACUS_ERROR_LIMIT, "too many simplices share one key",
                     "More simplices than fit a page cannot be told apart on the curve.");

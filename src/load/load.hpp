@@ -51,21 +51,27 @@ public:
     void finish(abacus_header &header);
 
 private:
+    // load_vertices.cpp
     void find_corners();
     void use_vertex(const Word *vertex);
+    [[noreturn]] void refuse_unknown(Word number, Word id);
     void choose_domain();
     void order_vertices();
-    [[noreturn]] void refuse_unknown(Word number, Word id);
+
+    // load_simplices.cpp
     void assemble();
     void link();
     void find_boundary();
     void add_ghost(const Word *simplex, int facet, Key &key);
+    Key key_of(const std::array<const Word *, D + 1> &vertices, int n) const;
+
+    // load_boundary.cpp
     void link_ghosts();
     void check_hull();
     void add_ghosts();
-    void write_vertices();
-    Key key_of(const std::array<const Word *, D + 1> &vertices, int n) const;
 
+    // load.cpp
+    void write_vertices();
     void begin(std::optional<RecordSort> &sort, std::size_t stride, std::size_t key) {
         sort.emplace(host_, stride, key, share_);
     }

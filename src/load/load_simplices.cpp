@@ -1,0 +1,142 @@
+// Simplices: their orientations, keys and neighbours, and the facets that have none.
+#include "load/flanks.hpp"
+#include "load/load.hpp"
+
+#include <algorithm>
+
+namespace abacus {
+
+template <int D>
+Key Load<D>::key_of(const std::array<const Word *, D + 1> &vertices, int n) const {
+    std::array<const Point<D> *, D + 1> points{};
+    std::array<std::uint64_t, D + 1> codes{};
+    std::uint64_t greatest = 0;
+    for (int i = 0; i < n; ++i) {
+        points[i] = &point_in<D>(vertices[i]);
+        codes[i] = domain_->code(*points[i]);
+        greatest = std::max(greatest, codes[i]);
+    }
+    return {greatest, Domain<D>::part(points, codes, n)};
+}
+
+template <int D> void Load<D>::assemble() {
+    begin(flanks_, LoadLayout<D>::flank(D), D + 1);
+    Arena<Word> corners(host_);
+    corners.resize((D + 1) * layout_.vertex);
+    Word simplex = 0;
+    while (const Word *corner = placed_->next()) {
+        const Word k = corner[0] & 3;
+        std::copy_n(corner + 1, layout_.vertex, corners.data() + k * layout_.vertex);
+        if (k != D) continue;
+        std::array<const Word *, D + 1> vertices;
+        for (int i = 0; i <= D; ++i) vertices[i] = corners.data() + i * layout_.vertex;
+        Corners<D> points;
+        std::array<Word, D + 1> ids;
+        for (int i = 0; i <= D; ++i) {
+            points[i] = &point_in<D>(vertices[i]);
+            ids[i] = vertices[i][0];
+        }
+        const int sign = orientation<D>(points);
+        if (sign == 0)
+            refuse("simplex " + name_of(ids) + " is flat",
+                   D == 2 ? "Its vertices lie on one line." : "Its vertices lie in one plane.",
+                   "Leave flat simplices out, and join the simplices beside them.");
+        if (sign < 0 && !reorient_)
+            refuse("simplex " + name_of(ids) + " has negative orientation",
+                   {}, "Exchange two of its vertices, or let reorient => true do it.");
+        if (sign < 0) std::swap(vertices[0], vertices[1]);
+        const Key key = key_of(vertices, D + 1);
+        Word *record = simplices_.add();
+        record[0] = key.code;
+        record[1] = key.part;
+        for (int i = 0; i <= D; ++i)
+            std::copy_n(vertices[i], layout_.vertex, record + 2 + i * layout_.vertex);
+        for (int i = 0; i <= D; ++i)
+            Flank<D, D>(simplex, i, key, [&](int v) { return vertices[v]; }).write(flanks_->add());
+        ++simplex;
+    }
+    end(placed_);
+    simplices_.rewind();
+    flanks_->finish();
+}
+
+template <int D> void Load<D>::link() {
+    begin(links_, LoadLayout<D>::link, 1);
+    each_facet<D, D>(*flanks_, [&](const auto &flanks, std::uint64_t n) {
+        const auto name = [&](int i) { return sorted_name(flanks[i].ids, flanks[i].opposite); };
+        const auto facet = [&] { return sorted_name(flanks[0].ids); };
+        for (std::uint64_t i = 1; i < std::min<std::uint64_t>(n, 3); ++i)
+            for (std::uint64_t k = 0; k < i; ++k)
+                if (flanks[i].opposite == flanks[k].opposite)
+                    refuse("simplex " + name(static_cast<int>(i)) + " is given twice", {},
+                           "Take each simplex once: SELECT DISTINCT.");
+        if (n > 2)
+            refuse("facet " + facet() + " belongs to " + std::to_string(n) + " simplices",
+                   "Three of them are " + name(0) + ", " + name(1) + " and " + name(2) + ".",
+                   "A facet has two sides, and on each one simplex at most.");
+        if (n < 2) return;
+        if (flanks[0].odd() == flanks[1].odd())
+            refuse(names_of(name(0), name(1)) + " overlap",
+                   "They lie on the same side of their common facet " + facet() + ".",
+                   "A facet has two sides, and on each one simplex at most.");
+        add_link(*links_, flanks[0], flanks[1]);
+        add_link(*links_, flanks[1], flanks[0]);
+    });
+    end(flanks_);
+    links_->finish();
+}
+
+template <int D> void Load<D>::find_boundary() {
+    begin(elements_, layout_.element, 2);
+    begin(boundary_, layout_.boundary, 2);
+    LinkReader<D> links(*links_);
+    Word simplex = 0;
+    while (const Word *record = simplices_.next()) {
+        Word *element = elements_->add();
+        element[0] = record[0];
+        element[1] = record[1];
+        Corners<D> corners;
+        for (int i = 0; i <= D; ++i)
+            corners[i] = &point_in<D>(layout_.simplex_vertex(record, i));
+        for (int i = 0; i <= D; ++i) {
+            Key beyond;
+            if (const auto *link = links.of(simplex, i)) {
+                beyond = link->key;
+                // Each facet from one of its sides.
+                if (delaunay_ && layout_.simplex_vertex(record, i)[0] < link->opposite &&
+                    in_sphere(corners, link->point) > 0)
+                    delaunay_ = false;
+            } else {
+                add_ghost(record, i, beyond);
+            }
+            element[2 + 2 * i] = beyond.code;
+            element[3 + 2 * i] = beyond.part;
+        }
+        element[2 + 2 * (D + 1)] = 0;
+        std::copy_n(record + 2, (D + 1) * layout_.vertex, element + 3 + 2 * (D + 1));
+        ++simplex;
+    }
+    end(links_);
+    boundary_->finish();
+}
+
+/// The ghost beyond a facet, which looks at it from outside.
+template <int D> void Load<D>::add_ghost(const Word *simplex, int facet, Key &key) {
+    std::array<const Word *, D + 1> vertices{};
+    for (int i = 0, n = 0; i <= D; ++i)
+        if (i != facet) vertices[n++] = layout_.simplex_vertex(simplex, i);
+    if ((D - facet) % 2 == 0) std::swap(vertices[0], vertices[1]);
+    key = key_of(vertices, D);
+    Word *ghost = boundary_->add();
+    *ghost++ = key.code;
+    *ghost++ = key.part;
+    for (int i = 0; i < D; ++i) ghost = std::copy_n(vertices[i], layout_.vertex, ghost);
+    *ghost++ = simplex[0];
+    *ghost++ = simplex[1];
+    std::copy_n(layout_.simplex_vertex(simplex, facet), 1 + D, ghost);
+}
+
+template class Load<2>;
+template class Load<3>;
+
+} // namespace abacus

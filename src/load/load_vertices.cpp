@@ -1,0 +1,111 @@
+// Vertices and corners: which vertices the simplices have, where they lie, and their order
+// along the curve.
+#include "cache/domain_of.hpp"
+#include "load/load.hpp"
+
+#include <algorithm>
+
+namespace abacus {
+
+namespace {
+std::string number(Word id) { return std::to_string(static_cast<std::int64_t>(id)); }
+} // namespace
+
+template <int D> void Load<D>::find_corners() {
+    begin(placed_, 1 + layout_.vertex, 1);
+    const Word *corner = corners_->next();
+    std::optional<Word> previous;
+    while (const Word *vertex = vertices_->next()) {
+        if (previous == vertex[0])
+            refuse("two vertices have the id " + number(vertex[0]), {},
+                   "Ids name the vertices of simplices: each must be given once.");
+        previous = vertex[0];
+        if (corner != nullptr && corner[0] < vertex[0]) refuse_unknown(corner[1] >> 2, corner[0]);
+        if (corner == nullptr || corner[0] != vertex[0]) continue; // in no simplex
+        use_vertex(vertex);
+        for (; corner != nullptr && corner[0] == vertex[0]; corner = corners_->next()) {
+            Word *placed = placed_->add();
+            placed[0] = corner[1];
+            std::copy_n(vertex, layout_.vertex, placed + 1);
+        }
+    }
+    if (corner != nullptr) refuse_unknown(corner[1] >> 2, corner[0]);
+    end(corners_);
+    end(vertices_);
+    placed_->finish();
+}
+
+template <int D> void Load<D>::use_vertex(const Word *vertex) {
+    const Point<D> &p = point_in<D>(vertex);
+    const bool first = box_.lower[0] > box_.upper[0];
+    if (first || lexicographically_less<D>(p, least_)) least_ = p;
+    if (first || lexicographically_less<D>(greatest_, p)) greatest_ = p;
+    box_.extend(p);
+    ++vertex_count_;
+    outside_ += domain_ && !Box<D>(domain_->lower(), domain_->upper()).contains(p);
+    std::copy_n(vertex, layout_.vertex, used_.add());
+}
+
+/// Looks for the other corners of the simplex, to name it.
+template <int D> void Load<D>::refuse_unknown(Word simplex, Word id) {
+    std::array<Word, D + 1> ids{};
+    corners_->rewind();
+    while (const Word *corner = corners_->next())
+        if (corner[1] >> 2 == simplex) ids[corner[1] & 3] = corner[0];
+    refuse("simplex " + name_of(ids) + " names vertex " + number(id) +
+               ", which does not exist",
+           {}, "The vertices query must return all vertices of the simplices.");
+}
+
+/// A given domain that the vertices do not keep to is widened at once: a mesh that is not Delaunay
+/// is never keyed anew.
+template <int D> void Load<D>::choose_domain() {
+    keeps_domain_ = domain_ && !has_outgrown_domain(outside_, vertex_count_);
+    if (keeps_domain_) return;
+    if (domain_) {
+        box_.extend(domain_->lower());
+        box_.extend(domain_->upper());
+    }
+    domain_ = domain_around<D>(box_.lower, box_.upper);
+}
+
+template <int D> void Load<D>::order_vertices() {
+    // Code, coordinates, then the rest of the record.
+    RecordSort places(host_, 1 + layout_.vertex, 1 + D, share_);
+    used_.rewind();
+    while (const Word *vertex = used_.next()) {
+        Word *place = places.add();
+        place[0] = domain_->code(point_in<D>(vertex));
+        std::copy_n(vertex + 1, D, place + 1);
+        place[1 + D] = vertex[0];
+        std::copy_n(vertex + 1 + D, attributes_, place + 2 + D);
+    }
+    used_.close();
+    places.finish();
+    Word previous = 0;
+    std::optional<Point<D>> previous_point;
+    while (const Word *place = places.next()) {
+        const Point<D> &p = point_in<D>(place);
+        const Word id = place[1 + D];
+        if (previous_point == p) {
+            const auto [lesser, greater] = std::minmax(
+                {static_cast<std::int64_t>(previous), static_cast<std::int64_t>(id)});
+            refuse("vertices " + std::to_string(lesser) + " and " + std::to_string(greater) +
+                       " have the same coordinates",
+                   {}, "Give the simplices one vertex for each place.");
+        }
+        previous = id;
+        previous_point = p;
+        Word *vertex = ordered_.add();
+        vertex[0] = id;
+        std::copy_n(place + 1, D, vertex + 1);
+        std::copy_n(place + 2 + D, attributes_, vertex + 1 + D);
+    }
+    ordered_.rewind();
+    places.close();
+}
+
+template class Load<2>;
+template class Load<3>;
+
+} // namespace abacus

@@ -1,0 +1,105 @@
+// Which blocks leave: those behind the front, then the farthest ahead, never what is in use.
+#include "cache/replacement.hpp"
+
+#include "support/memory_host.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace abacus::test {
+namespace {
+
+class Blocks {
+public:
+    explicit Blocks(std::size_t n) : list(host_), count(n) {
+        list.resize(n);
+        for (BlockIndex b = 0; b < n; ++b) {
+            list[b] = Block{};
+            list[b].state = Block::cached;
+            list[b].own({b * 10, 0}, {b * 10 + 10, 0});
+            list[b].used_at = b < n / 2 ? 5000 + b : b; // those behind have been used last
+        }
+    }
+    /// The next to leave, when the front is at the middle.
+    std::vector<BlockIndex> next(Replacement &replacement) {
+        Arena<BlockIndex> victims(host_);
+        replacement.choose(list, count, 10000, victims);
+        std::vector<BlockIndex> sorted(victims.begin(), victims.end());
+        std::sort(sorted.begin(), sorted.end());
+        return sorted;
+    }
+    const Host &host() const { return host_; }
+
+private:
+    MemoryHost memory_;
+    const Host host_ = memory_.host();
+
+public:
+    Arena<Block> list;
+    const std::size_t count;
+};
+
+std::vector<BlockIndex> range(BlockIndex from, BlockIndex to) {
+    std::vector<BlockIndex> blocks;
+    for (BlockIndex b = from; b < to; ++b) blocks.push_back(b);
+    return blocks;
+}
+
+TEST(Replacement, TakesThoseBehindByTheirLastUse) {
+    Blocks blocks(2000);
+    Replacement replacement(blocks.host(), 0, 0);
+    replacement.reached(1000 * 10);
+    EXPECT_EQ(blocks.next(replacement), range(0, 64));
+}
+
+TEST(Replacement, TakesTheFarthestAheadWhileTheWindowIsNotFull) {
+    Blocks blocks(2000);
+    Replacement replacement(blocks.host(), 0, 0);
+    replacement.reached(500 * 10);
+    EXPECT_EQ(blocks.next(replacement), range(2000 - 64, 2000));
+    // ... but none that is in use
+    for (BlockIndex b = 1900; b < 2000; ++b) blocks.list[b].used_at = 9999;
+    EXPECT_EQ(blocks.next(replacement), range(1900 - 64, 1900));
+}
+
+TEST(Replacement, IsByLastUseInASmallCacheOrWithoutAFront) {
+    Blocks blocks(1000);
+    Replacement replacement(blocks.host(), 0, 0);
+    replacement.reached(500 * 10);
+    EXPECT_EQ(blocks.next(replacement), range(500, 564));
+    Blocks many(2000);
+    Replacement nowhere(many.host(), 0, 0);
+    EXPECT_EQ(many.next(nowhere), range(1000, 1064));
+}
+
+TEST(Replacement, TakesATenthOfFewBlocksAndLeavesTwo) {
+    Blocks few(40), three(3);
+    Replacement replacement(few.host(), 0, 0);
+    EXPECT_EQ(few.next(replacement).size(), 4u);
+    EXPECT_EQ(three.next(replacement).size(), 1u);
+}
+
+TEST(Replacement, GivesTheLastPassALittleRoomOfItsOwn) {
+    MemoryHost memory;
+    const Host host = memory.host();
+    Replacement replacement(host, 1000, 100);
+    EXPECT_EQ(replacement.limit(), 1000u);
+    EXPECT_FALSE(replacement.reached(7));
+    EXPECT_FALSE(replacement.reached(7));
+    EXPECT_TRUE(replacement.reached(3));
+    replacement.begin_pass(300);
+    EXPECT_EQ(replacement.limit(), 1000u);
+    replacement.expect_last_pass(true);
+    EXPECT_EQ(replacement.limit(), 400u);
+    replacement.set_budget(350);
+    EXPECT_EQ(replacement.limit(), 350u);
+    replacement.begin_pass(100);
+    EXPECT_EQ(replacement.limit(), 200u);
+    replacement.expect_last_pass(false);
+    EXPECT_EQ(replacement.limit(), 350u);
+}
+
+} // namespace
+} // namespace abacus::test
