@@ -12,14 +12,22 @@ constexpr auto by_key = [](const auto &a, const auto &b) { return a.key < b.key;
 } // namespace
 
 std::size_t KeyCut::cut_below(std::size_t wanted) {
-    std::array<std::uint16_t, 1 << histogram_bits> histogram{};
-    const int bits = static_cast<int>(std::bit_width(greatest_ - least_));
-    const int shift = std::max(0, bits - histogram_bits);
-    for (const Place &p : places_) ++histogram[(p.key.code - least_) >> shift];
-    std::size_t below = 0, bin = 0;
-    while (below + histogram[bin] <= wanted) below += histogram[bin++];
-    if (below == 0 || wanted - below > near_enough * places_.size()) return 0;
-    const std::uint64_t border = least_ + (std::uint64_t{bin} << shift);
+    std::uint64_t border = least_;
+    std::size_t below = 0;
+    // Codes may be of any magnitude: where a bin has too many, the next histogram is of that one.
+    for (int shift = static_cast<int>(std::bit_width(greatest_ - least_));;) {
+        if (shift == 0) return 0;
+        shift = std::max(0, shift - histogram_bits);
+        std::array<std::uint16_t, 1 << histogram_bits> histogram{};
+        for (const Place &p : places_) {
+            const std::uint64_t bin = (p.key.code - border) >> shift;
+            if (bin < histogram.size()) ++histogram[bin];
+        }
+        std::uint64_t bin = 0;
+        while (below + histogram[bin] <= wanted) below += histogram[bin++];
+        border += bin << shift;
+        if (below > 0 && wanted - below <= near_enough * places_.size()) break;
+    }
     const auto upper = std::partition(places_.begin(), places_.end(),
                                       [&](const Place &p) { return p.key.code < border; });
     std::iter_swap(upper, std::min_element(upper, places_.end(), by_key));
