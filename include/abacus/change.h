@@ -66,8 +66,8 @@ ABACUS_API abacus_status abacus_build_insert(abacus_build *build, abacus_stage *
  * delete: inserts what waits, then takes away a point for each point of a stage
  * that has ended: one with the same coordinates, and of several the one with the
  * same id, or else the first; `exactly`: only one with the same id and attributes,
- * among which 0 equals -0, and a NaN any other. *deleted says
- * how many there were. What is left is the triangulation of the other points; if
+ * among which 0 equals -0, and a NaN any other; the stage must have those of the mesh.
+ * *deleted says how many there were. What is left is the triangulation of the other points; if
  * they span no simplex they wait again.
  */
 ABACUS_API abacus_status abacus_build_delete(abacus_build *build, abacus_stage *stage, int exactly,

@@ -110,7 +110,10 @@ typedef struct abacus_fault
 	char message[256];
 } abacus_fault;
 
-/* Verifies the mesh exactly, once, when opened; then hands out the faults (at most `limit`). */
+/*
+ * Verifies the mesh exactly, once, when opened; then hands out the faults (at most `limit`). The
+ * header is one that abacus_header_decode() has read: what that refuses is not looked for again.
+ */
 typedef struct abacus_check abacus_check;
 ABACUS_API abacus_status abacus_check_open(const abacus_host *host, const abacus_header *header,
 										   size_t cache_bytes, size_t limit, abacus_check **check,

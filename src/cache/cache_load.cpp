@@ -1,10 +1,10 @@
 // Misses and loading: from stored pages to linked simplices (dissertation §4.10).
 //
 // Inside a page simplices are linked by local numbers (inner_links.hpp). What finds no partner
-// there is the page's border. Vertices there may be cached already and are looked up by coordinates, the others are new.
-// Facets on the border look for their partner among the visible facets, or become
-// visible themselves. So the large hash tables are asked once for each border vertex
-// and border facet, never for each simplex.
+// there is the page's border. Vertices there may be cached already and are looked up by
+// coordinates, the others are new. Facets on the border look for their partner among the
+// visible facets, or become visible themselves. So the large hash tables are asked once for each
+// border vertex and border facet, never for each simplex.
 #include "cache/cache.hpp"
 
 #include "cache/stopwatch.hpp"

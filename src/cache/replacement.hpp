@@ -38,7 +38,8 @@ public:
         last_pass_ = last;
         set_limit();
     }
-    /// An operation has been at this code. True if another pass has begun with it: see begin_pass().
+    /// An operation has been at this code. True if another pass has begun with it: call
+    /// begin_pass() then.
     bool reached(std::uint64_t code) {
         const bool begins = code < front_;
         front_ = code;

@@ -125,7 +125,14 @@ template <int D> void Build<D>::run(std::uint64_t limit, abacus_header &header) 
     });
 }
 
+/// Points whose attributes will be read must have those of the mesh.
+template <int D> void Build<D>::check_attributes(const Stage<D> &stage) const {
+    if (!stage.has_attributes(attributes_))
+        throw Error(ABACUS_ERROR_ARGUMENT, "the points have other attributes than the mesh", {}, {});
+}
+
 template <int D> void Build<D>::insert(Stage<D> &stage, abacus_header &header) {
+    check_attributes(stage);
     change(header, [&] {
         const std::uint64_t points = stage.points();
         // Not for a few points: a single one would have to wait for all of a large mesh.
@@ -141,7 +148,9 @@ template <int D> void Build<D>::insert(Stage<D> &stage, abacus_header &header) {
     });
 }
 
-template <int D> std::uint64_t Build<D>::remove(Stage<D> &stage, bool exactly, abacus_header &header) {
+template <int D>
+std::uint64_t Build<D>::remove(Stage<D> &stage, bool exactly, abacus_header &header) {
+    if (exactly) check_attributes(stage);
     std::uint64_t taken = 0;
     change(header, [&] {
         const std::uint64_t points = stage.points();

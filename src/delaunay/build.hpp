@@ -52,6 +52,7 @@ private:
         Removal<D> removal;
     };
 
+    void check_attributes(const Stage<D> &stage) const;
     bool has_simplices() const { return header_->vertices > 0; }
     bool has_waiting() const { return header_->inserted < header_->staged; }
     VertexIndex create(const std::uint64_t *record);

@@ -12,6 +12,7 @@
 #include "host/arena.hpp"
 #include "host/hash_slots.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -60,7 +61,7 @@ public:
     std::size_t bytes_each() const {
         return attributes_ == 0 ? 0
                                 : stride_ * sizeof(std::uint64_t) + sizeof(std::uint32_t) +
-                                      2 * HashSlots<none>::slot_bytes;
+                                      4 * HashSlots<none>::slot_bytes;
     }
 
 private:

@@ -10,7 +10,8 @@ constexpr std::size_t fewest_wants = 16, most_wants = 1 << 20;
 
 Leaving::Leaving(const Host &host, std::size_t bytes, bool exactly, unsigned attributes)
     : exactly_(exactly), identities_(host, exactly ? attributes : 0),
-      most_(std::clamp(bytes / (bytes_a_want + identities_.bytes_each()), fewest_wants, most_wants)),
+      most_(std::clamp(bytes / (bytes_a_want + identities_.bytes_each()), fewest_wants,
+                       most_wants)),
       wants_(host), wanted_(host), candidates_(host) {}
 
 void Leaving::begin() {

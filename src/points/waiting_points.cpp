@@ -14,7 +14,8 @@ template <int D> void WaitingPoints<D>::find(std::uint64_t from, std::uint64_t t
     found_again_ = 0;
     VertexReader<D> reader(host_, attributes_, from, to);
     while (reader.advance()) {
-        const Wanted given{reader.point(), identities_.find(reader.id(), reader.attributes()), false, 0};
+        const std::int64_t identity = identities_.find(reader.id(), reader.attributes());
+        const Wanted given{reader.point(), identity, false, 0};
         const auto [begin, end] = std::equal_range(wanted_.begin(), wanted_.end(), given, below);
         // Of equal wants the first ones have got theirs.
         const auto want = std::partition_point(begin, end, [](const Wanted &w) { return w.is_met; });

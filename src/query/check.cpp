@@ -53,7 +53,7 @@ template <int D> void Check<D>::report(std::uint64_t pages) {
     if (pages % 64 == 0) host_.progress({ABACUS_PHASE_CHECKING, pages, pages_, pages, 0});
 }
 
-/// What does not hold of any header that can be read (capi/header.cpp).
+/// What need not hold of a header that can be read; the rest capi/header.cpp has seen to.
 template <int D> void Check<D>::check_header() {
     const abacus_header &h = header_;
     if (D == 2 && h.simplices > 0 && h.not_delaunay == 0 &&

@@ -27,6 +27,8 @@
 #include "delaunay/own_vertices.hpp"
 #include "geometry/predicates.hpp"
 
+#include <algorithm>
+
 namespace abacus {
 
 template <int D> class Stars {

@@ -2,6 +2,7 @@
 // insertion makes them, so they are wired by hand.
 #include "support/mesh_in_change.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -95,6 +96,53 @@ TEST(CheckWhole, FindsTetrahedraThatWindTwiceAroundAnEdge) {
         tetrahedra.push_back({0, 1, 2 + i, 2 + (i + 2) % 5});
     }
     EXPECT_EQ(faults<3>(points, tetrahedra), Faults{wound});
+}
+
+TEST(CheckWhole, FindsAHullThatWindsMoreThanOnce) {
+    // A fan of more than a full turn around a vertex, or edge, that lies on the hull.
+    std::vector<Point<2>> points{{0, 0}};
+    std::vector<Vertices<2>> triangles;
+    std::vector<Point<3>> spindle{{0, 0, -0.5}, {0, 0, 0.5}};
+    std::vector<Vertices<3>> tetrahedra;
+    for (int i = 0; i < 7; ++i) {
+        const Point<2> p = corner(i);
+        const double further = 1 + 0.02 * i;
+        points.push_back({p[0] * further, p[1] * further});
+        spindle.push_back({p[0] * further, p[1] * further, 0});
+        if (i == 6) break;
+        triangles.push_back({0, i + 1, i + 2});
+        tetrahedra.push_back({0, 1, i + 2, i + 3});
+    }
+    EXPECT_THAT(faults<2>(points, triangles), testing::Contains(wound));
+    EXPECT_THAT(faults<3>(spindle, tetrahedra), testing::Contains(wound));
+}
+
+TEST(CheckWhole, LooksAlongAnyAxis) {
+    // Edges along one axis are points in one of the projections, and in line in another.
+    std::vector<Point<3>> grid;
+    for (int i = 0; i < 64; ++i) grid.push_back({double(i % 4), double(i / 4 % 4), double(i / 16)});
+    MeshInChange<3> mesh(box_around<3>(grid), 64 << 20);
+    ASSERT_TRUE(mesh.build(grid));
+    mesh.verify(grid);
+    for (int axis = 0; axis < 3; ++axis)
+        for (const int step : {1, 2}) {
+            std::vector<Point<3>> spindle(2, Point<3>{});
+            spindle[0][axis] = -0.5;
+            spindle[1][axis] = 0.5;
+            std::vector<Vertices<3>> tetrahedra;
+            // Some corners lie straight above others, and above the ends.
+            constexpr std::array<Point<2>, 5> star{{{1, 0}, {0.25, 1}, {-1, 0.5}, {-1, -0.5}, {0.25, -1}}};
+            for (int i = 0; i < 5; ++i) {
+                Point<3> p{};
+                p[(axis + 1) % 3] = star[i][0];
+                p[(axis + 2) % 3] = star[i][1];
+                spindle.push_back(p);
+                tetrahedra.push_back({0, 1, 2 + i, 2 + (i + step) % 5});
+            }
+            const Faults found = faults<3>(spindle, tetrahedra);
+            if (step == 1) EXPECT_EQ(found, Faults{}) << axis;
+            else EXPECT_THAT(found, testing::Contains(wound)) << axis;
+        }
 }
 
 TEST(CheckWhole, FindsASecondPieceAroundTheSameVertexWhereEulersRelationHolds) {

@@ -106,6 +106,14 @@ open_and_lock(Writer *writer)
 	superseded_reclaim_earlier(host->store.simplices.superseded, host->store.simplices.heap);
 }
 
+/* What is temporary may be changed in a read-only transaction, as by INSERT. */
+void
+writer_prevent_read_only(Oid mesh, const char *command)
+{
+	if (!isTempNamespace(get_rel_namespace(mesh)))
+		PreventCommandIfReadOnly(command);
+}
+
 /*
  * Opens a mesh for changing, or for moving its rows, with its header locked and
  * an active snapshot that sees it. `command` names the function for messages.
@@ -114,9 +122,7 @@ open_and_lock(Writer *writer)
 void
 writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command)
 {
-	/* what is temporary may be changed in a read-only transaction, as by INSERT */
-	if (!isTempNamespace(get_rel_namespace(mesh)))
-		PreventCommandIfReadOnly(command);
+	writer_prevent_read_only(mesh, command);
 	PreventCommandIfParallelMode(command);
 
 	writer->host = host_create(CurrentMemoryContext, mesh, access);

@@ -7,8 +7,8 @@
  * that of the last batch, and the header says where to go on.
  *
  * At the end rows are moved to the beginning of their tables, if more than a
- * little of these is empty (compact.c), so that VACUUM can cut them. The vertex table has only dead rows,
- * as a rule, and is truncated.
+ * little of these is empty (compact.c), so that VACUUM can cut them. The vertex
+ * table has only dead rows, as a rule, and is truncated.
  *
  * From one batch to the next the core keeps its cache. What it holds of the
  * mesh, the places of stored pages included, stays true because a lock of the
@@ -132,7 +132,7 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("batch must be at least 1")));
-	PreventCommandIfReadOnly("abacus_build()");
+	writer_prevent_read_only(mesh, "abacus_build()");	/* before the lock, which a standby has not */
 
 	SPI_connect_ext(SPI_OPT_NONATOMIC); /* its memory outlives transactions */
 	lock = mesh_lock_for_session(mesh);

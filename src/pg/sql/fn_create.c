@@ -30,5 +30,5 @@ abacus_sql_create(PG_FUNCTION_ARGS)
 	shape_domain(header, PG_ARGISNULL(3) ? NULL : PG_GETARG_ARRAYTYPE_P(3),
 				 PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4));
 	PG_RETURN_OID(new_mesh(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid),
-							   header, "abacus_create()"));
+						   header, "abacus_create()"));
 }

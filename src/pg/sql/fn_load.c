@@ -95,7 +95,7 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 				 PG_ARGISNULL(5) ? NULL : PG_GETARG_ARRAYTYPE_P(5));
 
 	mesh = new_mesh(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid), header,
-						"abacus_load()");
+					"abacus_load()");
 	loaded = load(mesh, &vertices, &simplices, PG_GETARG_BOOL(6));
 	source_finish(&simplices);
 	source_finish(&vertices);

@@ -61,7 +61,7 @@ abacus_sql_triangulate_query(PG_FUNCTION_ARGS)
 		for (int i = 1 + header->dimension; i < source_columns(&source); i++)
 			shape_attribute(header, source_column_name(&source, i));
 	mesh = new_mesh(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid), header,
-						"abacus_triangulate()");
+					"abacus_triangulate()");
 	change_insert_query(mesh, &source, "abacus_triangulate()", header);
 	source_finish(&source);
 	PG_RETURN_INT64((int64) header->simplices);

@@ -117,12 +117,13 @@ page_store_fetch(PageStore *store, abacus_page_kind kind, abacus_page *page)
 bool
 page_store_next(PageStore *store, abacus_page_kind kind, const abacus_key *key, abacus_page *page)
 {
-	int64		columns[PAGE_TABLE_KEYS] = {least_column(kind), PG_INT64_MIN};
+	int64		columns[PAGE_TABLE_KEYS] = {-1, PG_INT64_MAX};
+	bool		first = key == NULL && least_column(kind) == PG_INT64_MIN;
 	StoredPage	stored;
 
 	if (key != NULL)
 		to_columns(kind, *key, columns);
-	if (!page_table_next(table_of(store, kind), columns, &stored) ||
+	if (!page_table_next(table_of(store, kind), first ? NULL : columns, &stored) ||
 		(kind == ABACUS_REPEATED_PAGES && stored.key[0] >= 0))
 		return false;
 	hand_out(&stored, kind, page);
