@@ -67,7 +67,7 @@ SELECT fault, damage, a.mesh, a.noticed FROM (VALUES
     ('interval', 'INSERT INTO %1$s SELECT -9223372036854775808, 0, page FROM %1$s WHERE code = 0'),
     ('interval', 'INSERT INTO %1$s SELECT -9223372036854775808, -9223372036854775808, page FROM %1$s WHERE code = 0'),
     ('page', 'INSERT INTO %1$s SELECT 0, -9223372036854775808, page FROM %1$s WHERE code = 0'),
-    ('point', 'INSERT INTO %1$s_vertices SELECT 0, -9223372036854775808, page FROM %1$s WHERE code = 0'),
+    ('count', 'INSERT INTO %1$s_vertices SELECT 0, -9223372036854775808, page FROM %1$s WHERE code = 0'),
     ('point', 'INSERT INTO %1$s_vertices SELECT -9223372036854775808, -9223372036854775808, page FROM %1$s WHERE code = 0'),
     ('page', 'ALTER TABLE %1$s ALTER page DROP NOT NULL; UPDATE %1$s SET page = NULL WHERE code = last(%1$L)'),
     ('header', 'ALTER TABLE %1$s ALTER page DROP NOT NULL; UPDATE %1$s SET page = NULL WHERE code = -1')
