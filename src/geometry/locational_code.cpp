@@ -73,23 +73,32 @@ std::uint64_t Domain<D>::part(const std::array<const Point<D> *, D + 1> &corners
         hash += h.value(); // a sum: the same for every order of the corners
     }
 
-    // A quarter of the coordinates, so that no difference overflows.
-    const auto quarter = [&](int i, int axis) { return 0.25 * (*corners[i])[axis]; };
+    // Not the greatest vertex; but of a ghost's edge nothing else is left.
+    const auto counts = [&](int i) { return i != greatest || n == 2; };
+    // A quarter of the coordinates, so that no difference overflows; or, where they are so small
+    // that steps might be no normal numbers, whose inverses overflow, a whole number of nine
+    // octaves more.
+    double extent = 0;
+    for (int i = 0; i < n; ++i)
+        for (int axis = 0; axis < D; ++axis)
+            if (counts(i)) extent = std::max(extent, std::fabs((*corners[i])[axis]));
+    const int raised = extent < 0x1p-900 ? 72 : 0;
+    const double scale = raised != 0 ? 0x1p70 : 0.25;
+    const auto scaled = [&](int i, int axis) { return scale * (*corners[i])[axis]; };
     double size = std::numeric_limits<double>::denorm_min();
     for (int i = 0; i < n; ++i)
         for (int axis = 0; axis < D; ++axis)
-            if (i != greatest || n == 2) // of a ghost's edge nothing else is left
-                size = std::max(size, std::fabs(quarter(i, axis) - quarter(least, axis)));
+            if (counts(i)) size = std::max(size, std::fabs(scaled(i, axis) - scaled(least, axis)));
     // A power of two.
     const int unit = static_cast<int>(floor_of(exponent(size) / 9.0)) * 9 - fine_bits<D>;
     const double cells = power(-unit);
 
     Hash coarse;
-    coarse.add(unit);
+    coarse.add(unit - raised);
     Cell<D> place;
     constexpr double places = 1u << place_bits<D>;
     for (int axis = 0; axis < D; ++axis) {
-        const double at = floor_of(quarter(least, axis) * cells);
+        const double at = floor_of(scaled(least, axis) * cells);
         const double corner = floor_of(at / places);
         coarse.add(corner);
         place[axis] = static_cast<std::uint32_t>(clamp(at - corner * places, places - 1));

@@ -10,6 +10,11 @@ namespace {
     refuse(names_of(a, b) + " overlap", "Their interiors have points in common.",
            "Simplices of a mesh meet in common faces only.");
 }
+[[noreturn]] void refuse_contact(const std::string &a, const std::string &b,
+                                 const std::string &detail) {
+    refuse(names_of(a, b) + " meet in more than a common face", detail,
+           "Simplices of a mesh meet in common faces only.");
+}
 
 constexpr std::size_t least_room = 64; // facets
 
@@ -73,17 +78,22 @@ template <int D> void Overlap<D>::check_simplices(RecordSpool &simplices) const 
         }
         tree_.visit(box, [&](std::size_t i) {
             host_.poll();
-            if (!covers(corners, facets_[i])) return true;
-            std::array<Word, D> facet;
-            for (int k = 0; k < D; ++k) facet[k] = layout_.simplex_vertex(simplex, k)[0];
-            refuse_overlap(facets_[i].simplex(),
-                           sorted_name(facet, layout_.simplex_vertex(simplex, D)[0]));
+            const Cover cover = covers(corners, facets_[i]);
+            if (cover == Cover::none) return true;
+            std::array<Word, D + 1> ids;
+            for (int k = 0; k <= D; ++k) ids[k] = layout_.simplex_vertex(simplex, k)[0];
+            if (cover == Cover::inside) refuse_overlap(facets_[i].simplex(), sorted_name(ids));
+            refuse_contact(facets_[i].simplex(), sorted_name(ids),
+                           "Facet " + sorted_name(facets_[i].id) + " lies along " +
+                               sorted_name(ids) + ".");
         });
     }
 }
 
 template <int D>
-bool Overlap<D>::covers(const Corners<D> &corners, const BoundaryFacet &facet) {
+typename Overlap<D>::Cover Overlap<D>::covers(const Corners<D> &corners,
+                                              const BoundaryFacet &facet) {
+    Cover cover = Cover::inside;
     for (int k = 0; k <= D; ++k) {
         Corners<D> replaced = corners;
         int side = 0;
@@ -98,10 +108,11 @@ bool Overlap<D>::covers(const Corners<D> &corners, const BoundaryFacet &facet) {
             const int solid = orientation<D>(base);
             base[D] = corners[k];
             side = orientation<D>(base) == solid ? -1 : 1;
+            cover = Cover::along;
         }
-        if (side < 0) return false;
+        if (side < 0) return Cover::none;
     }
-    return true;
+    return cover;
 }
 
 template <int D> void Overlap<D>::check_boundary(RecordSort &boundary) const {
@@ -116,11 +127,9 @@ template <int D> void Overlap<D>::check_boundary(RecordSort &boundary) const {
             const BoundaryFacet &other = facets_[i];
             if (first_ + i >= number) return false; // itself and later ones: their turn comes
             if (meet_improperly(facet.vertices(), other.vertices()))
-                refuse(names_of(other.simplex(), facet.simplex()) +
-                           " meet in more than a common face",
-                       "Their facets " + sorted_name(other.id) + " and " +
-                           sorted_name(facet.id) + " cross or touch.",
-                       "Simplices of a mesh meet in common faces only.");
+                refuse_contact(other.simplex(), facet.simplex(),
+                               "Their facets " + sorted_name(other.id) + " and " +
+                                   sorted_name(facet.id) + " cross or touch.");
             return true;
         });
     }

@@ -68,8 +68,10 @@ private:
     bool fill(RecordSort &boundary);
     void check_simplices(RecordSpool &simplices) const;
     void check_boundary(RecordSort &boundary) const;
-    /// Whether the simplex with these corners covers the place just outside the facet.
-    static bool covers(const Corners<D> &corners, const BoundaryFacet &facet);
+    /// Whether the simplex with these corners covers the place just outside the facet, which lies
+    /// inside of it, or along one of its own facets: then the simplex behind is on the other side.
+    enum class Cover { none, inside, along };
+    static Cover covers(const Corners<D> &corners, const BoundaryFacet &facet);
 
     const Host &host_;
     const LoadLayout<D> layout_;

@@ -4,56 +4,69 @@
 
 namespace abacus {
 
-/// Gives each want the first point with its coordinates and identity that no other has.
-template <int D> void WaitingPoints<D>::find(std::uint64_t from, std::uint64_t to) {
-    const auto below = [](const Wanted &a, const Wanted &b) {
-        return a.point < b.point || (a.point == b.point && a.identity < b.identity);
-    };
-    std::sort(wanted_.begin(), wanted_.end(), below);
-    found_.clear();
-    found_again_ = 0;
+/// Those that a place's wants can take: as many first points as there are wants, and behind them
+/// of each identity as many as are wanted.
+template <int D>
+void WaitingPoints<D>::find_candidates(std::uint64_t from, std::uint64_t to) {
+    const auto at_place = [](const Wanted &a, const Wanted &b) { return a.point < b.point; };
+    const auto by_identity = [](const Wanted &a, const Wanted &b) { return a.identity < b.identity; };
+    std::sort(wanted_.begin(), wanted_.end(), [&](const Wanted &a, const Wanted &b) {
+        if (!(a.point == b.point)) return a.point < b.point;
+        return a.identity < b.identity || (a.identity == b.identity && a.order < b.order);
+    });
+    candidates_.clear();
     VertexReader<D> reader(host_, attributes_, from, to);
     while (reader.advance()) {
-        const std::int64_t identity = identities_.find(reader.id(), reader.attributes());
-        const Wanted given{reader.point(), identity, false, 0};
-        const auto [begin, end] = std::equal_range(wanted_.begin(), wanted_.end(), given, below);
-        // Of equal wants the first ones have got theirs.
-        const auto want = std::partition_point(begin, end, [](const Wanted &w) { return w.is_met; });
-        if (want == end) continue;
-        want->is_met = true;
-        found_.push_back(reader.sequence());
-    }
-    if (exactly_) return;
-    Wanted *first = wanted_.begin();
-    for (Wanted &w : wanted_) {
-        if (!(w.point == first->point)) first = &w;
-        first->unmet += !w.is_met;
+        Wanted given{reader.point(), 0, 0, 0, 0};
+        const auto [first, last] = std::equal_range(wanted_.begin(), wanted_.end(), given, at_place);
+        if (first == last) continue;
+        given.identity = identities_.find(reader.id(), reader.attributes());
+        const auto [same, end] = std::equal_range(first, last, given, by_identity);
+        const auto times = static_cast<std::uint32_t>(end - same);
+        const bool is_behind = first->offered >= static_cast<std::uint32_t>(last - first);
+        if (times == 0 ? is_behind || exactly_ : is_behind && same->behind == times) continue;
+        ++first->offered;
+        if (times != 0) same->behind += is_behind;
+        candidates_.push_back({static_cast<std::uint32_t>(first - wanted_.begin()),
+                               reader.sequence(), given.identity});
     }
 }
 
-/// Whether the point at hand goes: because it is one that find() found, or because it is
-/// the first left for a want that found none, where any point will do.
-template <int D> bool WaitingPoints<D>::is_wanted(const VertexReader<D> &reader) {
-    if (found_again_ < found_.size() && found_[found_again_] == reader.sequence()) {
-        ++found_again_;
-        return true;
+/// Each place chooses among its candidates, for its wants in their order.
+template <int D> void WaitingPoints<D>::choose() {
+    found_.clear();
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate &a, const Candidate &b) {
+        return a.place < b.place || (a.place == b.place && a.sequence < b.sequence);
+    });
+    const auto is_earlier = [](const Wanted &a, const Wanted &b) { return a.order < b.order; };
+    for (const Candidate *c = candidates_.begin(); c != candidates_.end();) {
+        Wanted *const first = wanted_.begin() + c->place;
+        Wanted *last = first;
+        while (last != wanted_.end() && last->point == first->point) ++last;
+        std::sort(first, last, is_earlier);
+        leaving_.clear();
+        for (const Wanted *w = first; w != last; ++w) leaving_.want(w->identity, nullptr);
+        leaving_.begin();
+        const Candidate *const here = c;
+        for (; c != candidates_.end() && c->place == here->place; ++c)
+            leaving_.offer(c->identity, nullptr, c->sequence);
+        leaving_.decide();
+        if (leaving_.has_first()) found_.push_back(here->sequence);
+        leaving_.each_other([&](std::uint64_t sequence) { found_.push_back(sequence); });
+        host_.poll();
     }
-    const Point<D> p = reader.point();
-    Wanted *const first = std::lower_bound(
-        wanted_.begin(), wanted_.end(), p,
-        [](const Wanted &a, const Point<D> &b) { return a.point < b; });
-    if (first == wanted_.end() || !(first->point == p) || first->unmet == 0) return false;
-    --first->unmet;
-    return true;
+    leaving_.clear();
+    std::sort(found_.begin(), found_.end());
 }
 
 template <int D> std::uint64_t WaitingPoints<D>::take(std::uint64_t &from, std::uint64_t &to) {
-    find(from, to);
+    find_candidates(from, to);
+    choose();
     std::uint64_t taken = 0;
     VertexReader<D> reader(host_, attributes_, from, to, true);
     VertexPageWriter left(host_, D, attributes_, to);
     while (reader.advance()) {
-        if (is_wanted(reader)) ++taken;
+        if (taken < found_.size() && found_[taken] == reader.sequence()) ++taken;
         else left.add(reader.record());
     }
     left.finish();

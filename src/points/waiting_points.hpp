@@ -1,13 +1,14 @@
 // Taking points away from those that wait.
 //
 // They are in no order in which one could be found, so many are looked for at once, in
-// two runs over all of them: the first finds the points meant, the second writes the
-// others anew behind the last page and erases the pages it has read. All may be at one place,
-// so no point is compared with all wants for its place.
+// two runs over all of them: the first finds the points that may leave, of which each place
+// then chooses as it does in the triangulation (leaving.hpp); the second writes the others anew
+// behind the last page and erases the pages it has read. All may be at one place, so no point is
+// compared with all wants for its place, and no more are kept than these can take.
 #pragma once
 
 #include "host/arena.hpp"
-#include "points/identities.hpp"
+#include "points/leaving.hpp"
 #include "points/record.hpp"
 #include "points/vertex_reader.hpp"
 
@@ -19,12 +20,14 @@ public:
     WaitingPoints(const Host &host, unsigned attributes, bool exactly)
         : host_(host), attributes_(attributes), exactly_(exactly),
           identities_(host, exactly ? attributes : 0),
-          most_(bytes / (sizeof(Wanted) + identities_.bytes_each())), wanted_(host), found_(host) {}
+          most_(bytes / (sizeof(Wanted) + identities_.bytes_each())), wanted_(host),
+          candidates_(host), found_(host), leaving_(host, bytes, exactly, 0) {}
 
     /// Wants a point taken away: one with these coordinates, and of several the one with
-    /// this id, or else (unless exactly) the first.
+    /// this id, or else (unless exactly) the first; one want after the other.
     void want(const Point<D> &p, std::int64_t id, const double *attributes) {
-        wanted_.push_back({p, identities_.enter(id, attributes), false, 0});
+        const auto order = static_cast<std::uint32_t>(wanted_.size());
+        wanted_.push_back({p, identities_.enter(id, attributes), order, 0, 0});
     }
     bool is_full() const { return wanted_.size() >= most_; }
 
@@ -33,16 +36,23 @@ public:
     std::uint64_t take(std::uint64_t &from, std::uint64_t &to);
 
 private:
-    static constexpr std::size_t bytes = 1 << 20; // for what is wanted
+    static constexpr std::size_t bytes = 3 << 19; // for what is wanted
 
     struct Wanted {
         Point<D> point;
         std::int64_t identity;
-        bool is_met;         ///< by a point with it
-        std::uint32_t unmet; ///< of the first want for a place: how many take any point there
+        std::uint32_t order;   ///< among all wants
+        std::uint32_t offered; ///< of the first want for a place: candidates there
+        std::uint32_t behind;  ///< of the first for an identity: those behind the first points
     };
-    void find(std::uint64_t from, std::uint64_t to);
-    bool is_wanted(const VertexReader<D> &reader);
+    /// A point that may leave.
+    struct Candidate {
+        std::uint32_t place; ///< number of its first want
+        std::uint64_t sequence;
+        std::int64_t identity;
+    };
+    void find_candidates(std::uint64_t from, std::uint64_t to);
+    void choose();
 
     const Host &host_;
     const unsigned attributes_;
@@ -50,8 +60,9 @@ private:
     Identities identities_;
     const std::size_t most_;
     Arena<Wanted> wanted_;
-    Arena<std::uint64_t> found_; // sequence numbers of the points that meet a want by their ids
-    std::size_t found_again_ = 0; // of them, in the second run
+    Arena<Candidate> candidates_;
+    Arena<std::uint64_t> found_; // sequence numbers of the points that leave
+    Leaving leaving_;            // those of one place
 };
 
 extern template class WaitingPoints<2>;

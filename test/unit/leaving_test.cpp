@@ -12,6 +12,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <set>
 
 namespace abacus::test {
 namespace {
@@ -96,6 +97,54 @@ TEST(Leaving, KeepsAFewPointsOfManyForAFewWants) {
     EXPECT_TRUE(leaving.has_first());
     leaving.each_other([&](std::uint64_t serial) { others.push_back(serial); });
     EXPECT_EQ(others, std::vector<std::uint64_t>{1});
+}
+
+TEST(Leaving, IsTheSameWhilePointsWait) {
+    Random random(5);
+    for (int round = 0; round < 400; ++round) {
+        const bool exactly = round % 2 == 1;
+        const std::int64_t ids = 1 + static_cast<std::int64_t>(random() % 6);
+        const auto some = [&](std::int64_t more) {
+            std::vector<Input> points;
+            for (std::size_t n = 1 + random() % 30; n > 0; --n)
+                points.push_back({static_cast<std::int64_t>(random() % (ids + more)),
+                                  {double(random() % 2), 0},
+                                  {double(random() % 2)}});
+            return points;
+        };
+        const std::vector<Input> points = some(0), gone = some(2);
+        MeshOf<2> mesh(1); // all on a line: no triangle
+        ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+        std::uint64_t deleted = 0;
+        ASSERT_EQ(mesh.remove(gone, deleted, 16 << 20, exactly), ABACUS_OK);
+
+        std::multiset<std::array<double, 3>> expected, found; // id, x, attribute
+        std::size_t left = 0;
+        for (const double x : {0.0, 1.0}) {
+            std::vector<Input> here;
+            Points identities, wants;
+            const auto identity = [&](const Input &p) {
+                return exactly ? 2 * p.id + (p.attributes[0] != 0) : p.id;
+            };
+            for (const Input &p : points)
+                if (p.point[0] == x) here.push_back(p), identities.push_back(identity(p));
+            for (const Input &p : gone)
+                if (p.point[0] == x) wants.push_back(identity(p));
+            for (const std::size_t i : left_one_by_one(identities, wants, exactly)) {
+                expected.insert({double(here[i].id), x, here[i].attributes[0]});
+                ++left;
+            }
+        }
+        ASSERT_EQ(deleted, points.size() - left);
+        abacus_vertex_scan *scan = nullptr;
+        ASSERT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header, mesh.cache_bytes, &scan,
+                                          &mesh.error), ABACUS_OK);
+        abacus_vertex vertex;
+        while (abacus_vertex_scan_next(scan, &vertex, &mesh.error) == ABACUS_OK)
+            found.insert({double(vertex.id), vertex.point[0], vertex.attributes[0]});
+        abacus_vertex_scan_close(scan);
+        ASSERT_EQ(found, expected) << exactly;
+    }
 }
 
 /// A mesh, of which some points are at one place, and what should be there.

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <set>
 #include <vector>
 
 namespace abacus {
@@ -125,6 +126,40 @@ TYPED_TEST(LocationalCode, PartDoesNotDependOnTheOrderOfTheCorners) {
             do EXPECT_EQ(part_of(), part);
             while (std::next_permutation(corners.begin(), corners.end()));
         }
+    }
+}
+
+TYPED_TEST(LocationalCode, PartsOfAGridAreInOrderHoweverFineItIs) {
+    constexpr int D = TypeParam::value;
+    constexpr int n = 32;
+    Point<D> lower, upper;
+    lower.fill(-1);
+    upper.fill(1);
+    const Domain<D> domain(lower, upper);
+    for (const double step : {0x1p-990, 0x1p-1020, 0x1p-1030, 0x1p-1060, 0x1p-1074}) {
+        std::set<std::uint64_t> coarse, places;
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j) {
+                std::array<Point<D>, D + 1> points;
+                for (int k = 0; k <= D; ++k) {
+                    points[k].fill(0);
+                    points[k][0] = (i + (k == 1)) * step;
+                    points[k][1] = (j + (k == 2)) * step;
+                    if (D == 3) points[k][D - 1] = (k == 3) * step;
+                }
+                std::array<const Point<D> *, D + 1> corners;
+                std::array<std::uint64_t, D + 1> codes{};
+                for (int k = 0; k <= D; ++k) {
+                    corners[k] = &points[k];
+                    codes[k] = domain.code(points[k]);
+                }
+                const std::uint64_t part = Domain<D>::part(corners, codes, D + 1);
+                coarse.insert(part >> 47);
+                places.insert(part >> (D == 2 ? 15 : 11));
+            }
+        // All are in one coarse place, each in one of its own.
+        EXPECT_EQ(coarse.size(), 1u) << step;
+        EXPECT_EQ(places.size(), std::size_t(n) * n) << step;
     }
 }
 
