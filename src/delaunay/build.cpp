@@ -128,7 +128,8 @@ template <int D> void Build<D>::run(std::uint64_t limit, abacus_header &header) 
 /// Points whose attributes will be read must have those of the mesh.
 template <int D> void Build<D>::check_attributes(const Stage<D> &stage) const {
     if (!stage.has_attributes(attributes_))
-        throw Error(ABACUS_ERROR_ARGUMENT, "the points have other attributes than the mesh", {}, {});
+        throw Error(ABACUS_ERROR_ARGUMENT, "the points have other attributes than the mesh", {},
+                    {});
 }
 
 template <int D> void Build<D>::insert(Stage<D> &stage, abacus_header &header) {

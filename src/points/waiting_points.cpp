@@ -9,7 +9,9 @@ namespace abacus {
 template <int D>
 void WaitingPoints<D>::find_candidates(std::uint64_t from, std::uint64_t to) {
     const auto at_place = [](const Wanted &a, const Wanted &b) { return a.point < b.point; };
-    const auto by_identity = [](const Wanted &a, const Wanted &b) { return a.identity < b.identity; };
+    const auto by_identity = [](const Wanted &a, const Wanted &b) {
+        return a.identity < b.identity;
+    };
     std::sort(wanted_.begin(), wanted_.end(), [&](const Wanted &a, const Wanted &b) {
         if (!(a.point == b.point)) return a.point < b.point;
         return a.identity < b.identity || (a.identity == b.identity && a.order < b.order);
@@ -18,7 +20,8 @@ void WaitingPoints<D>::find_candidates(std::uint64_t from, std::uint64_t to) {
     VertexReader<D> reader(host_, attributes_, from, to);
     while (reader.advance()) {
         Wanted given{reader.point(), 0, 0, 0, 0};
-        const auto [first, last] = std::equal_range(wanted_.begin(), wanted_.end(), given, at_place);
+        const auto [first, last] =
+            std::equal_range(wanted_.begin(), wanted_.end(), given, at_place);
         if (first == last) continue;
         given.identity = identities_.find(reader.id(), reader.attributes());
         const auto [same, end] = std::equal_range(first, last, given, by_identity);

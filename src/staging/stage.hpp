@@ -40,7 +40,9 @@ public:
     /// Points so far.
     std::uint64_t points() const { return spilled_ + buffered_; }
     /// Whether its points have so many attributes.
-    bool has_attributes(unsigned attributes) const { return stride_ == record_words(D, attributes); }
+    bool has_attributes(unsigned attributes) const {
+        return stride_ == record_words(D, attributes);
+    }
     /// Around these.
     const Box<D> &box() const { return box_; }
     /// What it may use, in bytes.
