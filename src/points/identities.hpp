@@ -16,6 +16,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace abacus {
 
@@ -26,34 +27,34 @@ public:
     /// `attributes`: how many of them count.
     Identities(const Host &host, unsigned attributes)
         : attributes_(attributes), stride_(1 + std::size_t(attributes)), words_(host),
-          hashes_(host), slots_(host) {}
+          hashes_(host) {
+        if (attributes_ > 0) slots_.emplace(host); // a first table that most have no use for
+    }
 
     /// The number of a point that is wanted.
     std::int64_t enter(std::int64_t id, const double *attributes) {
-        if (attributes_ == 0) return id;
-        const std::uint32_t hash = append(id, attributes);
-        const std::uint32_t last = count();
-        const std::uint32_t known = find_words(last, hash);
-        if (known != none) {
-            words_.resize(last * stride_);
-            return known;
-        }
+        const std::int64_t known = find(id, attributes);
+        if (attributes_ == 0 || known != unknown) return known;
+        const std::uint32_t hash = append(id, attributes), number = count();
         hashes_.push_back(hash);
-        slots_.add(hash, last);
-        return last;
+        slots_->add(hash, number);
+        return number;
     }
     /// The number of a point; `unknown` if none like it has been entered.
     std::int64_t find(std::int64_t id, const double *attributes) {
         if (attributes_ == 0) return id;
         const std::uint32_t hash = append(id, attributes);
-        const std::uint32_t last = count();
-        const std::uint32_t known = find_words(last, hash);
-        words_.resize(last * stride_);
-        return known == none ? unknown : known;
+        const std::uint64_t *const words = words_.data();
+        const std::uint64_t *const wanted = words + count() * stride_;
+        const std::uint32_t number = slots_->find(hash, [&](std::uint32_t n) {
+            return std::equal(wanted, wanted + stride_, words + n * stride_);
+        });
+        words_.resize(count() * stride_);
+        return number == none ? unknown : number;
     }
     /// Forgets all that has been entered.
     void clear() {
-        for (std::uint32_t n = 0; n < hashes_.size(); ++n) slots_.remove(hashes_[n], n);
+        for (std::uint32_t n = 0; n < hashes_.size(); ++n) slots_->remove(hashes_[n], n);
         hashes_.clear();
         words_.clear();
     }
@@ -83,19 +84,12 @@ private:
         }
         return static_cast<std::uint32_t>(hash);
     }
-    /// The entry with the same words as those at number `at`, or none.
-    std::uint32_t find_words(std::uint32_t at, std::uint32_t hash) const {
-        const std::uint64_t *words = words_.data() + at * stride_;
-        return slots_.find(hash, [&](std::uint32_t n) {
-            return std::equal(words, words + stride_, words_.data() + n * stride_);
-        });
-    }
 
     const unsigned attributes_;
     const std::size_t stride_;
     Arena<std::uint64_t> words_; // id and attributes of each entry
     Arena<std::uint32_t> hashes_;
-    HashSlots<none> slots_;
+    std::optional<HashSlots<none>> slots_; // of the entries, by their words
 };
 
 } // namespace abacus

@@ -117,8 +117,8 @@ page_store_fetch(PageStore *store, abacus_page_kind kind, abacus_page *page)
 bool
 page_store_next(PageStore *store, abacus_page_kind kind, const abacus_key *key, abacus_page *page)
 {
-	int64		columns[PAGE_TABLE_KEYS] = {-1, PG_INT64_MAX};
-	bool		first = key == NULL && least_column(kind) == PG_INT64_MIN;
+	int64		columns[PAGE_TABLE_KEYS] = {-1, PG_INT64_MAX};	/* before all but repeated pages */
+	bool		first = key == NULL && kind == ABACUS_REPEATED_PAGES;
 	StoredPage	stored;
 
 	if (key != NULL)
