@@ -15,8 +15,8 @@ namespace {
 /// all its pages together. It is raised when any of them changes.
 constexpr std::uint64_t name = 0x535543414241, format = 3;
 constexpr int name_bits = 48;
-/// Sequence numbers are bigint in the database.
-constexpr std::uint64_t count_limit = std::uint64_t{1} << 63;
+/// Counts and sequence numbers are bigint in the database, and so is the sum of two.
+constexpr std::uint64_t count_limit = std::uint64_t{1} << 62;
 
 // The counters are fields of one type without gaps: they go as an array.
 constexpr std::size_t counter_count = sizeof(abacus_counters) / sizeof(std::uint64_t);
