@@ -136,7 +136,8 @@ TEST(Header, ContradictionsAreRefused) {
         refused([](abacus_header &h) { h.upper[0] = std::numeric_limits<double>::infinity(); }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.inserted = 1001; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.staged = std::uint64_t{1} << 62; }));
-    EXPECT_FALSE(refused([](abacus_header &h) { h.simplices = h.ghosts = (std::uint64_t{1} << 62) - 1; }));
+    EXPECT_FALSE(refused(
+        [](abacus_header &h) { h.simplices = h.ghosts = (std::uint64_t{1} << 62) - 1; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.simplices = std::uint64_t{1} << 62; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.ghosts = std::uint64_t{1} << 62; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.duplicates = 111; }));

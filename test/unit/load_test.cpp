@@ -270,8 +270,9 @@ TEST(LoadFaults, InThePlane) {
                   t.vertices.erase(t.vertices.begin() + 3);
               }),
               "simplices (1, 2, 3) and (1, 3, 5) overlap");
-    EXPECT_EQ(refusal(Triangulation<2>{{{1, {0, 0}}, {2, {4, 0}}, {3, {0, 4}}, {4, {2, 0}}, {5, {0, -4}}},
-                                         {{1, 2, 3}, {1, 5, 4}}}), // a hanging node
+    EXPECT_EQ(refusal(Triangulation<2>{ // a hanging node
+                  {{1, {0, 0}}, {2, {4, 0}}, {3, {0, 4}}, {4, {2, 0}}, {5, {0, -4}}},
+                  {{1, 2, 3}, {1, 5, 4}}}),
               "simplices (1, 2, 3) and (1, 4, 5) meet in more than a common face");
     EXPECT_EQ(with([](auto &t) { // far from one another in the complex
                   t.vertices.insert(t.vertices.end(), {{5, {1, 0.5}}, {6, {9, 1}}, {7, {9, 2}}});
