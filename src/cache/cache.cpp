@@ -13,7 +13,7 @@ Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
                 const CacheOptions &options)
     : host_(host), domain_(domain), options_(options), capacity_(attributes), blocks_(host),
       slots_(host), vertices_(host, attributes), visible_(host), directory_(host),
-      unused_blocks_(host), limbo_(host), places_(host),
+      unused_blocks_(host), full_(host), limbo_(host), places_(host),
       replacement_(host, options.budget, last_pass_room<D>), inner_links_(host), writer_(host),
       numbered_(host), on_border_(host), uses_(host), left_(host), border_(host), values_(host),
       codes_(host), hashes_(host), guesses_(host) {
@@ -21,7 +21,7 @@ Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
 }
 
 template <int D> Handle Cache<D>::follow(Handle h) const {
-    // A simplex moves at most from limbo to a block that is then split.
+    // A simplex moves from limbo, or with a part of its block, once or twice.
     for (int i = 0; i < 4 && h < slots_.size(); ++i) {
         if (is_live(h)) return h;
         if (!slots_[h].is_free()) break;
@@ -95,8 +95,8 @@ template <int D> BlockIndex Cache<D>::place_elsewhere(std::uint64_t code) {
         const BlockIndex b = cached_owner({code, 0});
         at_hand_[0] = b != no_block && blocks_[b].surely_owns(code) ? b : no_block;
     }
-    if (at_hand_[0] != no_block && !blocks_[at_hand_[0]].is_full()) return at_hand_[0];
-    if (limbo_.empty() || blocks_[limbo_.back()].count >= block_slots<D>)
+    if (at_hand_[0] != no_block && has_slot(at_hand_[0])) return at_hand_[0];
+    if (limbo_.empty() || !has_slot(limbo_.back()))
         limbo_.push_back(new_block(Block::limbo));
     return limbo_.back();
 }

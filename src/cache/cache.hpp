@@ -9,10 +9,11 @@
 //   miss     A link that is absent names a visible facet, which knows the key of
 //            the simplex beyond. One floor search finds its page (cache_load.cpp).
 //            Only a link without a usable key has to be probed for (probing.cpp).
-//   place    A new simplex goes to the block that owns its key. When that block is
-//            full or not cached, it goes to a limbo block for now, so that nothing
-//            is split or loaded in the middle of an insertion and handles stay
-//            valid; settle() brings limbo home afterwards (cache_place.cpp).
+//   place    A new simplex goes to the block that owns its key. When that block has
+//            no slot or is not cached, it goes to a limbo block for now, so that nothing
+//            is split or loaded in the middle of an insertion and handles stay valid;
+//            settle() splits full blocks and brings limbo home afterwards
+//            (cache_place.cpp).
 //   evict    When the cache has outgrown its budget, trim() drops a tenth of the
 //            blocks, those that will not be missed soon (cache_evict.cpp); changed
 //            ones are written first. Nothing is evicted during an insertion.
@@ -188,11 +189,12 @@ public:
     /// whose content is then to be set and its vertices to be acquired.
     Handle allot(std::uint64_t code) {
         BlockIndex b = at_hand_[0];
-        if (b == no_block || blocks_[b].is_full() || !blocks_[b].surely_owns(code))
-            [[unlikely]]
+        if (b == no_block || !has_slot(b) || !blocks_[b].surely_owns(code)) [[unlikely]]
             b = place_elsewhere(code);
         ++counters.created;
-        return take_slot(b);
+        const Handle h = take_slot(b);
+        if (blocks_[b].is_full()) [[unlikely]] note_full(b);
+        return h;
     }
     void set(Handle h, const Simplex<D> &s) { slots_[h] = s; }
     void set_corner(Handle h, int i, VertexIndex v) { slots_[h].vertex[i] = v; }
@@ -217,14 +219,15 @@ public:
         block.dirty = true;
         block.used_at = clock_;
     }
-    /// Ends an operation: brings limbo home. Sequential splits cut at `code`, which is 0 if
-    /// the operations do not come along the curve. Returns whether simplices moved: see
-    /// follow().
+    /// Ends an operation: full blocks make room, limbo comes home. Sequential splits cut at
+    /// `code`, which is 0 if the operations do not come along the curve. Returns whether
+    /// simplices moved: see follow().
     bool settle(std::uint64_t code) {
         ++clock_;
         if (replacement_.reached(code)) [[unlikely]] replacement_.begin_pass(bytes());
-        if (limbo_.empty()) [[likely]] return false;
-        settle_limbo(code);
+        if (full_.empty() && limbo_.empty()) [[likely]] return false;
+        relieve(code);
+        bring_home(code);
         return true;
     }
     /// Others need some of the memory.
@@ -266,6 +269,10 @@ private:
     BlockIndex cached_owner(const Key &key) const;
     BlockIndex place_elsewhere(std::uint64_t code);
     Handle closest_of_some(BlockIndex b, const Point<D> &p) const;
+    bool has_slot(BlockIndex b) const { return blocks_[b].count < block_slots<D>; }
+    void note_full(BlockIndex b) {
+        if (full_.empty() || full_.back() != b) full_.push_back(b);
+    }
     Handle take_slot(BlockIndex b) {
         Block &block = blocks_[b];
         std::uint32_t slot = block.free;
@@ -303,7 +310,10 @@ private:
     std::uint64_t part(const Simplex<D> &s) const;
 
     // cache_place.cpp
-    void settle_limbo(std::uint64_t code);
+    void relieve(std::uint64_t code);
+    void bring_home(std::uint64_t code);
+    /// The block that owns the simplex's key, loaded if need be.
+    BlockIndex home(const Simplex<D> &s);
     Handle move(Handle h, BlockIndex to);
     /// Fills places_ with the block's simplices and their keys.
     void collect_places(BlockIndex b);
@@ -335,7 +345,8 @@ private:
     /// Cuts the block, whose simplices from places_[cut] on, and no others, have keys from
     /// `border` on; returns the new block, the upper part.
     BlockIndex split_at(BlockIndex b, std::size_t cut, const Key &border);
-    BlockIndex split_at_median(BlockIndex b);
+    /// Cuts it where so many, or nearly, are below.
+    BlockIndex split_near(BlockIndex b, std::size_t wanted);
     BlockIndex halve(BlockIndex b);
 
     // cache_load.cpp
@@ -394,6 +405,7 @@ private:
     VisibleFacets<D> visible_;
     Directory directory_;
     Arena<BlockIndex> unused_blocks_;
+    Arena<BlockIndex> full_; // to make room when the operation ends, some more than once
     Arena<BlockIndex> limbo_;
     KeyCut places_;
     Replacement replacement_;

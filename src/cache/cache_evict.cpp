@@ -205,7 +205,8 @@ template <int D> bool Cache<D>::encode(BlockIndex b) {
     }
     const bool fits = writer_.finish(blocks_[b].lower, blocks_[b].upper, vertices_, numbered_,
                                      on_border_.data());
-    blocks_[b].capacity = capacity_.learn(blocks_[b].count, writer_.size());
+    if (writer_.size() != 0)
+        blocks_[b].capacity = capacity_.learn(blocks_[b].count, writer_.size());
     return fits;
 }
 

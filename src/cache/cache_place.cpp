@@ -34,20 +34,33 @@ constexpr double much = 1.0 / 12;
 constexpr double least_move = 1.0 / 16;
 } // namespace
 
-template <int D> void Cache<D>::settle_limbo(std::uint64_t code) {
+template <int D> void Cache<D>::relieve(std::uint64_t code) {
+    for (std::size_t i = 0; i < full_.size(); ++i) // of two halves the second may be full, too
+        while (blocks_[full_[i]].state == Block::cached && blocks_[full_[i]].is_full())
+            make_room(full_[i], code);
+    full_.clear();
+}
+
+template <int D> BlockIndex Cache<D>::home(const Simplex<D> &s) {
+    // Parts are dear to compute, and nearly always the code alone tells the block.
+    const std::uint64_t code = this->code(s);
+    const BlockIndex b = cached_owner({code, 0});
+    return b != no_block && blocks_[b].surely_owns(code) ? b : owner({code, part(s)});
+}
+
+template <int D> void Cache<D>::bring_home(std::uint64_t code) {
     for (std::size_t i = 0; i < limbo_.size(); ++i) {
         const BlockIndex b = limbo_[i];
         for (std::uint32_t slot = 0; slot < blocks_[b].high_water; ++slot) {
             const Handle h = b * block_slots<D> + slot;
             if (slots_[h].is_free()) continue;
-            const Key key = this->key(slots_[h]);
-            BlockIndex home = owner(key);
-            while (home != no_block && blocks_[home].is_full()) {
-                make_room(home, code);
-                home = cached_owner(key);
+            BlockIndex to = home(slots_[h]);
+            while (to != no_block && blocks_[to].is_full()) {
+                make_room(to, code);
+                to = home(slots_[h]);
             }
-            if (home == no_block) throw_corrupted("No page owns a part of the curve.");
-            move(h, home);
+            if (to == no_block) throw_corrupted("No page owns a part of the curve.");
+            move(h, to);
         }
     }
     // The slots forward to where the simplices went until the block is used again.
@@ -97,10 +110,14 @@ template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
     const auto behind = static_cast<std::size_t>(
         std::count_if(places_.begin(), places_.end(), is_behind));
     if (!has_changed_much(b) || behind < sequential_from * places_.size()) {
-        split_at_median(b);
-    } else if (!lend(b, behind)) {
+        split_near(b, places_.size() / 2);
+    } else if (lend(b, behind)) {
+        return;
+    } else if (behind < blocks_[b].capacity) {
         std::partition(places_.begin(), places_.end(), is_behind);
         split_at(b, behind, {code, 0});
+    } else {
+        split_near(b, static_cast<std::size_t>(packed * blocks_[b].capacity));
     }
 }
 
@@ -248,11 +265,12 @@ BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t cut, const Key &border) 
     directory_.insert(border, right);
     share_settled(b, right, places_.size() - cut, places_.size());
     for (std::size_t i = cut; i < places_.size(); ++i) move(places_[i].handle, right);
+    if (blocks_[right].is_full()) note_full(right);
     return right;
 }
 
-template <int D> BlockIndex Cache<D>::split_at_median(BlockIndex b) {
-    const std::size_t cut = places_.cut_near(places_.size() / 2);
+template <int D> BlockIndex Cache<D>::split_near(BlockIndex b, std::size_t wanted) {
+    const std::size_t cut = places_.cut_near(wanted);
     if (cut == 0 || cut >= places_.size())
         throw Error(ABACUS_ERROR_LIMIT, "too many simplices share one key",
                     "More simplices than fit a page cannot be told apart on the curve.");
@@ -261,7 +279,7 @@ template <int D> BlockIndex Cache<D>::split_at_median(BlockIndex b) {
 
 template <int D> BlockIndex Cache<D>::halve(BlockIndex b) {
     collect_places(b);
-    return split_at_median(b);
+    return split_near(b, places_.size() / 2);
 }
 
 template class Cache<2>;

@@ -11,6 +11,15 @@ constexpr double near_enough = 1.0 / 64; // of the simplices
 constexpr auto by_key = [](const auto &a, const auto &b) { return a.key < b.key; };
 } // namespace
 
+bool KeyCut::has_one_key(std::uint64_t code) const {
+    const Place *one = nullptr;
+    return std::all_of(places_.begin(), places_.end(), [&](const Place &p) {
+        if (p.key.code != code) return true;
+        if (one == nullptr) one = &p;
+        return p.key == one->key;
+    });
+}
+
 std::size_t KeyCut::cut_below(std::size_t wanted) {
     std::uint64_t border = least_;
     std::size_t below = 0;
@@ -27,6 +36,7 @@ std::size_t KeyCut::cut_below(std::size_t wanted) {
         while (below + histogram[bin] <= wanted) below += histogram[bin++];
         border += bin << shift;
         if (below > 0 && wanted - below <= near_enough * places_.size()) break;
+        if (below > 0 && shift == 0 && has_one_key(border)) break; // no cut is nearer
     }
     const auto upper = std::partition(places_.begin(), places_.end(),
                                       [&](const Place &p) { return p.key.code < border; });

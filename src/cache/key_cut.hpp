@@ -46,6 +46,8 @@ public:
     std::size_t cut_near(std::size_t wanted);
 
 private:
+    /// Whether no part tells the simplices of a code apart.
+    bool has_one_key(std::uint64_t code) const;
     /// The same a little below, by a histogram of the codes; 0 if that does not tell.
     std::size_t cut_below(std::size_t wanted);
 

@@ -151,7 +151,7 @@ template <int D>
 bool PageWriter<D>::finish(const Key &lower, const Key &upper, const Vertices &vertices,
                            const Numbering &numbered, const bool *on_border) {
     vertices_ = numbered.size();
-    size_ = ABACUS_PAGE_BYTES + 1;
+    size_ = 0;
     if (vertices_ > page_vertices<D> || simplices_ > block_slots<D>) return false;
     gather(vertices, numbered);
     bound_patches();

@@ -42,7 +42,7 @@ public:
                 const Numbering &numbered, const bool *on_border);
 
     const unsigned char *bytes() const { return page_; }
-    /// Bytes of the page; also of one that has too many.
+    /// Bytes of the page; also of one that has too many, but 0 if it has too many vertices.
     std::size_t size() const { return size_; }
 
 private:
