@@ -38,6 +38,7 @@ struct Block {
     }
     bool surely_owns(std::uint64_t code) const { return sure_lower <= code && code < sure_upper; }
     bool is_full() const { return count >= capacity; }
+    bool is_overfull() const { return count > capacity; }
     bool owns(const Key &key) const { return lower <= key && key < upper; }
     bool has_parts() const { return lower.part != 0 || upper.part != 0; }
 };

@@ -13,7 +13,7 @@ Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
                 const CacheOptions &options)
     : host_(host), domain_(domain), options_(options), capacity_(attributes), blocks_(host),
       slots_(host), vertices_(host, attributes), visible_(host), directory_(host),
-      unused_blocks_(host), full_(host), limbo_(host), places_(host),
+      unused_blocks_(host), overfull_(host), limbo_(host), places_(host),
       replacement_(host, options.budget, last_pass_room<D>), inner_links_(host), writer_(host),
       numbered_(host), on_border_(host), uses_(host), left_(host), border_(host), values_(host),
       codes_(host), hashes_(host), guesses_(host) {

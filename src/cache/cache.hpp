@@ -12,7 +12,7 @@
 //   place    A new simplex goes to the block that owns its key. When that block has
 //            no slot or is not cached, it goes to a limbo block for now, so that nothing
 //            is split or loaded in the middle of an insertion and handles stay valid;
-//            settle() splits full blocks and brings limbo home afterwards
+//            settle() splits overfull blocks and brings limbo home afterwards
 //            (cache_place.cpp).
 //   evict    When the cache has outgrown its budget, trim() drops a tenth of the
 //            blocks, those that will not be missed soon (cache_evict.cpp); changed
@@ -193,7 +193,7 @@ public:
             b = place_elsewhere(code);
         ++counters.created;
         const Handle h = take_slot(b);
-        if (blocks_[b].is_full()) [[unlikely]] note_full(b);
+        if (blocks_[b].is_overfull()) [[unlikely]] note_overfull(b);
         return h;
     }
     void set(Handle h, const Simplex<D> &s) { slots_[h] = s; }
@@ -219,13 +219,13 @@ public:
         block.dirty = true;
         block.used_at = clock_;
     }
-    /// Ends an operation: full blocks make room, limbo comes home. Sequential splits cut at
+    /// Ends an operation: overfull blocks make room, limbo comes home. Sequential splits cut at
     /// `code`, which is 0 if the operations do not come along the curve. Returns whether
     /// simplices moved: see follow().
     bool settle(std::uint64_t code) {
         ++clock_;
         if (replacement_.reached(code)) [[unlikely]] replacement_.begin_pass(bytes());
-        if (full_.empty() && limbo_.empty()) [[likely]] return false;
+        if (overfull_.empty() && limbo_.empty()) [[likely]] return false;
         relieve(code);
         bring_home(code);
         return true;
@@ -270,8 +270,8 @@ private:
     BlockIndex place_elsewhere(std::uint64_t code);
     Handle closest_of_some(BlockIndex b, const Point<D> &p) const;
     bool has_slot(BlockIndex b) const { return blocks_[b].count < block_slots<D>; }
-    void note_full(BlockIndex b) {
-        if (full_.empty() || full_.back() != b) full_.push_back(b);
+    void note_overfull(BlockIndex b) {
+        if (overfull_.empty() || overfull_.back() != b) overfull_.push_back(b);
     }
     Handle take_slot(BlockIndex b) {
         Block &block = blocks_[b];
@@ -405,7 +405,7 @@ private:
     VisibleFacets<D> visible_;
     Directory directory_;
     Arena<BlockIndex> unused_blocks_;
-    Arena<BlockIndex> full_; // to make room when the operation ends, some more than once
+    Arena<BlockIndex> overfull_; // to make room when the operation ends, some more than once
     Arena<BlockIndex> limbo_;
     KeyCut places_;
     Replacement replacement_;

@@ -9,13 +9,16 @@
 
 namespace abacus {
 
-// A full block makes room in one of three ways, by where the point being inserted lies
-// among its simplices, in curve order. Points come in the same order.
+// A block has slots for more than a page takes, so what an operation makes finds room there.
+// When the operation is over, a block that is overfull makes room in one of three ways, by
+// where the point being inserted lies among its simplices, in curve order. Points come in
+// the same order.
 //
 //   Somewhere in the upper half: what lies behind the point is finished, since a
 //   simplex of the point has no smaller code than it. The block before, finished too,
 //   takes as much of it as it has room for. If it has none, a cut at the point's code
-//   leaves a well-filled page that will hardly be touched again (the sequential split).
+//   leaves a well-filled page that will hardly be touched again (the sequential split);
+//   if more lies behind than a page takes, the cut is where one is well filled.
 //
 //   Otherwise the block is cut at the median key.
 //
@@ -35,10 +38,11 @@ constexpr double least_move = 1.0 / 16;
 } // namespace
 
 template <int D> void Cache<D>::relieve(std::uint64_t code) {
-    for (std::size_t i = 0; i < full_.size(); ++i) // of two halves the second may be full, too
-        while (blocks_[full_[i]].state == Block::cached && blocks_[full_[i]].is_full())
-            make_room(full_[i], code);
-    full_.clear();
+    for (std::size_t i = 0; i < overfull_.size(); ++i) { // of two halves the second may be, too
+        const BlockIndex b = overfull_[i];
+        while (blocks_[b].state == Block::cached && blocks_[b].is_overfull()) make_room(b, code);
+    }
+    overfull_.clear();
 }
 
 template <int D> BlockIndex Cache<D>::home(const Simplex<D> &s) {
@@ -113,7 +117,7 @@ template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
         split_near(b, places_.size() / 2);
     } else if (lend(b, behind)) {
         return;
-    } else if (behind < blocks_[b].capacity) {
+    } else if (behind <= blocks_[b].capacity) {
         std::partition(places_.begin(), places_.end(), is_behind);
         split_at(b, behind, {code, 0});
     } else {
@@ -265,7 +269,7 @@ BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t cut, const Key &border) 
     directory_.insert(border, right);
     share_settled(b, right, places_.size() - cut, places_.size());
     for (std::size_t i = cut; i < places_.size(); ++i) move(places_[i].handle, right);
-    if (blocks_[right].is_full()) note_full(right);
+    if (blocks_[right].is_overfull()) note_overfull(right);
     return right;
 }
 

@@ -320,6 +320,32 @@ TEST(Cache, CountsWhatItDoes) {
     EXPECT_EQ(mesh.header.counters.insertions, sum.insertions);
 }
 
+TEST(Cache, KeepsAnOverfullBlockUntilTheOperationIsOver) {
+    MemoryHost memory;
+    const Host host = memory.host();
+    Cache<2> cache(host, Domain<2>({0, 0}, {1, 1}), 0, {.budget = ample});
+    cache.create_first_block();
+    Random random(13);
+    const std::size_t n = cache.capacity() + 20; // of block_slots<2>
+    std::vector<Handle> made;
+    const auto make = [&] {
+        std::array<VertexIndex, 3> v;
+        for (auto &vertex : v)
+            vertex = cache.create_vertex({unit(random), unit(random)}, 0, nullptr);
+        made.push_back(cache.create(v));
+        for (int i = 0; i < 3; ++i) // its own neighbour: it has a page's links
+            cache.point_at(made.back(), i, make_link(made.back(), i));
+    };
+    while (made.size() < cache.capacity()) make();
+    EXPECT_FALSE(cache.settle(0)); // as many as it takes
+    while (made.size() < n) make();
+    EXPECT_EQ(cache.cached_blocks(), 1u); // all are in slots of their own block
+    for (const Handle h : made) EXPECT_TRUE(cache.is_home(h));
+    EXPECT_TRUE(cache.settle(0));
+    EXPECT_GT(cache.cached_blocks(), 1u);
+    EXPECT_FALSE(cache.settle(0));
+}
+
 TEST(Cache, MovesSimplicesHomeAndTellsWhere) {
     MemoryHost memory;
     const Host host = memory.host();
