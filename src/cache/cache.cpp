@@ -42,8 +42,6 @@ template <int D> std::uint64_t Cache<D>::part(const Simplex<D> &s) const {
     return Domain<D>::part(corners, codes, n);
 }
 
-template <int D> Key Cache<D>::key(const Simplex<D> &s) const { return {code(s), part(s)}; }
-
 template <int D> BlockIndex Cache<D>::new_block(Block::State state) {
     BlockIndex b;
     if (!unused_blocks_.empty()) {

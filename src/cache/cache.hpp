@@ -12,7 +12,7 @@
 //   place    A new simplex goes to the block that owns its key. When that block has
 //            no slot or is not cached, it goes to a limbo block for now, so that nothing
 //            is split or loaded in the middle of an insertion and handles stay valid;
-//            settle() splits overfull blocks and brings limbo home afterwards
+//            settle() brings limbo home and splits overfull blocks afterwards
 //            (cache_place.cpp).
 //   evict    When the cache has outgrown its budget, trim() drops a tenth of the
 //            blocks, those that will not be missed soon (cache_evict.cpp); changed
@@ -117,7 +117,6 @@ public:
         return greatest;
     }
     std::uint64_t code(const Simplex<D> &s) const { return code(s.vertex); }
-    Key key(const Simplex<D> &s) const;
     /// Whether the simplex is in the block that owns its key.
     bool is_home(Handle h) const {
         const Simplex<D> &s = slots_[h];
@@ -219,15 +218,15 @@ public:
         block.dirty = true;
         block.used_at = clock_;
     }
-    /// Ends an operation: overfull blocks make room, limbo comes home. Sequential splits cut at
+    /// Ends an operation: limbo comes home, overfull blocks make room. Sequential splits cut at
     /// `code`, which is 0 if the operations do not come along the curve. Returns whether
     /// simplices moved: see follow().
     bool settle(std::uint64_t code) {
         ++clock_;
         if (replacement_.reached(code)) [[unlikely]] replacement_.begin_pass(bytes());
         if (overfull_.empty() && limbo_.empty()) [[likely]] return false;
-        relieve(code);
         bring_home(code);
+        relieve(code);
         return true;
     }
     /// Others need some of the memory.
@@ -310,8 +309,8 @@ private:
     std::uint64_t part(const Simplex<D> &s) const;
 
     // cache_place.cpp
-    void relieve(std::uint64_t code);
     void bring_home(std::uint64_t code);
+    void relieve(std::uint64_t code);
     /// The block that owns the simplex's key, loaded if need be.
     BlockIndex home(const Simplex<D> &s);
     Handle move(Handle h, BlockIndex to);

@@ -37,14 +37,6 @@ constexpr double much = 1.0 / 12;
 constexpr double least_move = 1.0 / 16;
 } // namespace
 
-template <int D> void Cache<D>::relieve(std::uint64_t code) {
-    for (std::size_t i = 0; i < overfull_.size(); ++i) { // of two halves the second may be, too
-        const BlockIndex b = overfull_[i];
-        while (blocks_[b].state == Block::cached && blocks_[b].is_overfull()) make_room(b, code);
-    }
-    overfull_.clear();
-}
-
 template <int D> BlockIndex Cache<D>::home(const Simplex<D> &s) {
     // Parts are dear to compute, and nearly always the code alone tells the block.
     const std::uint64_t code = this->code(s);
@@ -72,6 +64,14 @@ template <int D> void Cache<D>::bring_home(std::uint64_t code) {
         free_block(limbo_.back());
         limbo_.pop_back();
     }
+}
+
+template <int D> void Cache<D>::relieve(std::uint64_t code) {
+    for (std::size_t i = 0; i < overfull_.size(); ++i) { // it may grow
+        const BlockIndex b = overfull_[i];
+        while (blocks_[b].state == Block::cached && blocks_[b].is_overfull()) make_room(b, code);
+    }
+    overfull_.clear();
 }
 
 template <int D> Handle Cache<D>::move(Handle h, BlockIndex to) {
@@ -113,16 +113,18 @@ template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
     const auto is_behind = [&](const KeyCut::Place &p) { return p.key.code < code; };
     const auto behind = static_cast<std::size_t>(
         std::count_if(places_.begin(), places_.end(), is_behind));
+    BlockIndex upper;
     if (!has_changed_much(b) || behind < sequential_from * places_.size()) {
-        split_near(b, places_.size() / 2);
+        upper = split_near(b, places_.size() / 2);
     } else if (lend(b, behind)) {
         return;
     } else if (behind <= blocks_[b].capacity) {
         std::partition(places_.begin(), places_.end(), is_behind);
-        split_at(b, behind, {code, 0});
+        upper = split_at(b, behind, {code, 0});
     } else {
-        split_near(b, static_cast<std::size_t>(packed * blocks_[b].capacity));
+        upper = split_near(b, static_cast<std::size_t>(packed * blocks_[b].capacity));
     }
+    if (blocks_[upper].is_overfull()) note_overfull(upper);
 }
 
 template <int D> bool Cache<D>::lend(BlockIndex b, std::size_t most) {
@@ -269,7 +271,6 @@ BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t cut, const Key &border) 
     directory_.insert(border, right);
     share_settled(b, right, places_.size() - cut, places_.size());
     for (std::size_t i = cut; i < places_.size(); ++i) move(places_[i].handle, right);
-    if (blocks_[right].is_overfull()) note_overfull(right);
     return right;
 }
 

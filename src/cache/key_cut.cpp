@@ -35,8 +35,10 @@ std::size_t KeyCut::cut_below(std::size_t wanted) {
         std::uint64_t bin = 0;
         while (below + histogram[bin] <= wanted) below += histogram[bin++];
         border += bin << shift;
-        if (below > 0 && wanted - below <= near_enough * places_.size()) break;
-        if (below > 0 && shift == 0 && has_one_key(border)) break; // no cut is nearer
+        // Inside of one key there is no nearer cut.
+        if (below > 0 && (wanted - below <= near_enough * places_.size() ||
+                          (shift == 0 && has_one_key(border))))
+            break;
     }
     const auto upper = std::partition(places_.begin(), places_.end(),
                                       [&](const Place &p) { return p.key.code < border; });
