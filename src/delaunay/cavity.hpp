@@ -12,8 +12,12 @@
 // looked up: the new triangle on an edge meets that on the next.
 //
 // In space the search may come back to a tetrahedron, so it marks what it has seen, and
-// numbers the corners. The new tetrahedra find one another by their ridges, the edges of
-// the rim, in small tables (ridges.hpp).
+// numbers the corners. It goes breadth first, and tests what lies beyond several facets
+// together: the outcome of a test, about a coin's toss, is nothing that a processor could
+// foresee, and a branch upon it would stop the next test, not only the next step. So links and
+// vertices are fetched side by side, the determinants are computed side by side, and what
+// follows is sorted out without branches. The new tetrahedra find one another by their ridges,
+// the edges of the rim, in small tables (ridges.hpp).
 #pragma once
 
 #include "delaunay/delaunay.hpp"
@@ -124,11 +128,34 @@ private:
         std::uint32_t facet;
     };
 
+    /// A tetrahedron beyond a facet.
+    struct Beyond {
+        Link outer;
+        std::uint32_t facet;
+        VertexIndex vertex; // the one opposite the facet
+        InSphere test;
+        SeenPoint<3> apex; // that vertex
+    };
+    /// What is tested together. One more of each, which may be written and does not count.
+    struct Batch {
+        static constexpr std::size_t most = 8;
+        std::size_t size;
+        std::size_t entered;
+        std::array<Beyond, most + 1> beyond;
+        std::array<std::uint32_t, most + 1> to_enter; // of them, those newly found inside
+    };
+
     void begin(const Point<3> &p, Handle first);
-    /// The other side of a facet. A page may be loaded then, and number its vertices.
-    Link beyond(Link inner);
-    /// Adds the other three facets of a tetrahedron that is inside, too.
-    void enter(std::size_t facet, Link outer, const SeenPoint<3> &apex);
+    /// Gathers what lies beyond the facets from `at` on and is not known to be inside; returns
+    /// how many facets that were.
+    std::size_t look_beyond(std::size_t at, Batch &batch);
+    /// The same links where pages have to be loaded, which may number their vertices.
+    [[gnu::noinline]] void load_beyond(std::size_t at, std::size_t facets, Link *outer);
+    void test(Batch &batch, const Point<3> &p);
+    /// Marks them; those outside go to the rim, the others are to be entered.
+    void sort_out(Batch &batch);
+    /// Adds a tetrahedron that is inside, with its other three facets.
+    void enter(const Beyond &beyond);
     std::uint32_t add_corner(VertexIndex v, const SeenPoint<3> &point);
     void make_room();
     LiftedPlane plane(const Facet &facet) const;

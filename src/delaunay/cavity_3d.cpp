@@ -44,13 +44,6 @@ inline std::uint32_t Cavity<3>::add_corner(VertexIndex v, const SeenPoint<3> &po
     return number;
 }
 
-inline Link Cavity<3>::beyond(Link inner) {
-    const std::uint64_t loads = cache_.counters.loads;
-    const Link outer = cache_.cross(link_simplex(inner), link_facet(inner));
-    if (cache_.counters.loads != loads) [[unlikely]] cache_.renumber(corners_);
-    return outer;
-}
-
 inline LiftedPlane Cavity<3>::plane(const Facet &facet) const {
     const auto &[s, t, u] = facet.corner;
     const auto &[st, su, tu] = facet.edge;
@@ -64,27 +57,82 @@ bool Cavity<3>::is_exactly_inside(Handle h, const Point<3> &p) const {
 
 void Cavity<3>::find(const Point<3> &p, Handle first) {
     begin(p, first);
-    for (std::size_t at = 1; at < facets_.size(); ++at) {
-        // The outer side is asked for anew, since loading for an earlier facet may have
-        // linked it.
-        const Link outer = beyond(facets_[at].inner);
-        const Handle h = link_simplex(outer);
-        const Marks::Mark mark = mesh_.marks.get(h);
-        if (mark == Marks::inside) continue; // came back to the cavity from within
-        if (mark == Marks::none) {
-            const VertexIndex v = cache_.simplex(h).vertex[link_facet(outer)];
-            const SeenPoint<3> apex = seen(cache_.point(v), p);
-            const InSphere test = in_sphere(plane(facets_[at]), apex);
-            const bool is_inside = test.is_sure ? test.is_inside : is_exactly_inside(h, p);
-            mesh_.marks.set(h, is_inside ? Marks::inside : Marks::outside);
-            if (is_inside) {
-                add(h);
-                enter(at, outer, apex);
-                continue;
-            }
-        }
-        rim_.push_back({outer, static_cast<std::uint32_t>(at)});
+    Batch batch;
+    for (std::size_t at = 1; at < facets_.size();) {
+        at += look_beyond(at, batch);
+        test(batch, p);
+        sort_out(batch);
+        for (std::size_t n = 0; n < batch.entered; ++n) enter(batch.beyond[batch.to_enter[n]]);
     }
+}
+
+inline std::size_t Cavity<3>::look_beyond(std::size_t at, Batch &batch) {
+    const std::size_t facets = std::min(Batch::most, facets_.size() - at);
+    // Links are asked for anew, since loading for an earlier facet may have set them.
+    std::array<Link, Batch::most> outer;
+    Link all = 0;
+    for (std::size_t n = 0; n < facets; ++n) {
+        const Link inner = facets_[at + n].inner;
+        outer[n] = cache_.simplex(link_simplex(inner)).link[link_facet(inner)];
+        all |= outer[n];
+    }
+    if (is_absent(all)) [[unlikely]] load_beyond(at, facets, outer.data());
+    else cache_.counters.steps += facets;
+    batch.size = 0;
+    for (std::size_t n = 0; n < facets; ++n) {
+        const Handle h = link_simplex(outer[n]);
+        Beyond &beyond = batch.beyond[batch.size];
+        beyond.outer = outer[n];
+        beyond.facet = static_cast<std::uint32_t>(at + n);
+        beyond.vertex = cache_.simplex(h).vertex[link_facet(outer[n])];
+        __builtin_prefetch(&cache_.point(beyond.vertex));
+        batch.size += mesh_.marks.get(h) != Marks::inside; // else back from within
+    }
+    return facets;
+}
+
+void Cavity<3>::load_beyond(std::size_t at, std::size_t facets, Link *outer) {
+    const std::uint64_t loads = cache_.counters.loads;
+    for (std::size_t n = 0; n < facets; ++n) {
+        const Link inner = facets_[at + n].inner;
+        outer[n] = cache_.cross(link_simplex(inner), link_facet(inner));
+    }
+    if (cache_.counters.loads != loads) cache_.renumber(corners_);
+}
+
+inline void Cavity<3>::test(Batch &batch, const Point<3> &p) {
+    bool are_sure = true;
+    for (std::size_t n = 0; n < batch.size; ++n) {
+        Beyond &beyond = batch.beyond[n];
+        beyond.apex = seen(cache_.point(beyond.vertex), p);
+        beyond.test = in_sphere(plane(facets_[beyond.facet]), beyond.apex);
+        are_sure &= beyond.test.is_sure;
+    }
+    if (are_sure) [[likely]] return;
+    for (std::size_t n = 0; n < batch.size; ++n) {
+        Beyond &beyond = batch.beyond[n];
+        if (!beyond.test.is_sure)
+            beyond.test.is_inside = is_exactly_inside(link_simplex(beyond.outer), p);
+    }
+}
+
+inline void Cavity<3>::sort_out(Batch &batch) {
+    RimFacet *const rim = rim_.extend(batch.size + 1);
+    std::size_t outside = 0;
+    batch.entered = 0;
+    for (std::size_t n = 0; n < batch.size; ++n) {
+        const Beyond &beyond = batch.beyond[n];
+        const Handle h = link_simplex(beyond.outer);
+        const bool is_inside = beyond.test.is_inside;
+        // Two facets may lead to one tetrahedron.
+        const bool is_new = mesh_.marks.get(h) != Marks::inside;
+        mesh_.marks.set(h, is_inside ? Marks::inside : Marks::outside);
+        rim[outside] = {beyond.outer, beyond.facet};
+        outside += !is_inside;
+        batch.to_enter[batch.entered] = static_cast<std::uint32_t>(n);
+        batch.entered += is_inside & is_new;
+    }
+    rim_.resize(rim_.size() - (batch.size + 1) + outside);
 }
 
 void Cavity<3>::begin(const Point<3> &p, Handle first) {
@@ -93,7 +141,6 @@ void Cavity<3>::begin(const Point<3> &p, Handle first) {
     edges_.clear();
     facets_.clear();
     rim_.clear();
-    add(first);
     mesh_.marks.set(first, Marks::inside);
     const std::array<VertexIndex, 4> &vertex = cache_.simplex(first).vertex;
     for (int i = 0; i < 3; ++i) add_corner(vertex[i], seen(cache_.point(vertex[i]), p));
@@ -105,18 +152,19 @@ void Cavity<3>::begin(const Point<3> &p, Handle first) {
     Facet *const facet = facets_.extend(2);
     facet[0] = {unset, {}, -1, {1, 0, 2}, {0, 2, 1}};
     facet[1] = {make_link(first, 3), {0, 1, 2}, 1, {0, 1, 2}, {0, 1, 2}};
-    enter(0, make_link(first, 3), seen(cache_.point(vertex[3]), p));
+    enter({make_link(first, 3), 0, vertex[3], {}, seen(cache_.point(vertex[3]), p)});
 }
 
 // A call would cost some 20 instructions, some 20 times a point.
-[[gnu::always_inline]] inline void Cavity<3>::enter(std::size_t facet, Link outer,
-                                                    const SeenPoint<3> &apex) {
-    const Handle h = link_simplex(outer);
-    const int in_u = link_facet(outer);
+[[gnu::always_inline]] inline void Cavity<3>::enter(const Beyond &beyond) {
+    const SeenPoint<3> &apex = beyond.apex;
+    const Handle h = link_simplex(beyond.outer);
+    const int in_u = link_facet(beyond.outer);
+    add(h);
     const std::array<VertexIndex, 4> &vertex = cache_.simplex(h).vertex;
-    const std::uint32_t u = add_corner(vertex[in_u], apex);
+    const std::uint32_t u = add_corner(beyond.vertex, apex);
     Facet *const created = facets_.extend(3);
-    const Facet &f = facets_[facet];
+    const Facet &f = facets_[beyond.facet];
     const auto &[a, b, c] = f.corner;
     const auto &[ab, ac, bc] = f.edge;
     const auto au = static_cast<std::uint32_t>(edges_.size()), bu = au + 1, cu = au + 2;
