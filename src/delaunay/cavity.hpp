@@ -152,6 +152,8 @@ private:
     /// The same links where pages have to be loaded, which may number their vertices.
     [[gnu::noinline]] void load_beyond(std::size_t at, std::size_t facets, Link *outer);
     void test(Batch &batch, const Point<3> &p);
+    /// Decides where that was not sure.
+    [[gnu::noinline]] void test_exactly(Batch &batch, const Point<3> &p);
     /// Marks them; those outside go to the rim, the others are to be entered.
     void sort_out(Batch &batch);
     /// Adds a tetrahedron that is inside, with its other three facets.
@@ -159,7 +161,7 @@ private:
     std::uint32_t add_corner(VertexIndex v, const SeenPoint<3> &point);
     void make_room();
     LiftedPlane plane(const Facet &facet) const;
-    [[gnu::noinline]] bool is_exactly_inside(Handle h, const Point<3> &p) const;
+    bool is_exactly_inside(Handle h, const Point<3> &p) const;
     /// The new tetrahedron on a facet of the rim; it leaves its ridges.
     template <class View>
     Handle create(const RimFacet &rim, VertexIndex v, std::uint64_t code, const View &ridges);

@@ -108,11 +108,21 @@ inline void Cavity<3>::test(Batch &batch, const Point<3> &p) {
         beyond.test = in_sphere(plane(facets_[beyond.facet]), beyond.apex);
         are_sure &= beyond.test.is_sure;
     }
-    if (are_sure) [[likely]] return;
+    if (!are_sure) [[unlikely]] test_exactly(batch, p);
+}
+
+void Cavity<3>::test_exactly(Batch &batch, const Point<3> &p) {
     for (std::size_t n = 0; n < batch.size; ++n) {
         Beyond &beyond = batch.beyond[n];
-        if (!beyond.test.is_sure)
-            beyond.test.is_inside = is_exactly_inside(link_simplex(beyond.outer), p);
+        if (beyond.test.is_sure) continue;
+        // Several facets may lead to it, of this batch and of those before; so dear a test is
+        // not to be made twice.
+        const Handle h = link_simplex(beyond.outer);
+        const Beyond *same = batch.beyond.data();
+        while (link_simplex(same->outer) != h) ++same;
+        if (same != &beyond) beyond.test.is_inside = same->test.is_inside;
+        else
+            beyond.test.is_inside = mesh_.marks.get(h) == Marks::none && is_exactly_inside(h, p);
     }
 }
 
