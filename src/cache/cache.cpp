@@ -4,8 +4,11 @@
 namespace abacus {
 
 namespace {
-// What the last pass is given for itself, in bytes.
-template <int D> constexpr std::size_t last_pass_room = std::size_t{D == 2 ? 16 : 48} << 20;
+constexpr Replacement::LastPassRoom last_pass_room(int dimension) {
+    constexpr std::size_t mb = std::size_t{1} << 20;
+    if (dimension == 2) return {.after_others = 16 * mb, .alone = 16 * mb};
+    return {.after_others = 48 * mb, .alone = 96 * mb};
+}
 } // namespace
 
 template <int D>
@@ -14,7 +17,7 @@ Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
     : host_(host), domain_(domain), options_(options), capacity_(attributes), blocks_(host),
       slots_(host), vertices_(host, attributes), visible_(host), directory_(host),
       unused_blocks_(host), overfull_(host), limbo_(host), places_(host),
-      replacement_(host, options.budget, last_pass_room<D>), inner_links_(host), writer_(host),
+      replacement_(host, options.budget, last_pass_room(D)), inner_links_(host), writer_(host),
       numbered_(host), on_border_(host), uses_(host), left_(host), border_(host), values_(host),
       codes_(host), hashes_(host), guesses_(host) {
     values_.resize(static_cast<std::size_t>(attributes));

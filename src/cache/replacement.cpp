@@ -13,7 +13,9 @@ constexpr std::uint64_t in_use = 1024; // operations since the last use
 
 void Replacement::set_limit() {
     limit_ = budget_;
-    if (last_pass_) limit_ = std::min(limit_, bytes_before_pass_ + last_pass_room_);
+    if (!last_pass_) return;
+    const auto [after_others, alone] = last_pass_room_;
+    limit_ = std::min(limit_, bytes_before_pass_ > 0 ? bytes_before_pass_ + after_others : alone);
 }
 
 void Replacement::choose(const Arena<Block> &blocks, std::size_t cached, std::uint64_t clock,

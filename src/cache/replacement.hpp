@@ -9,7 +9,9 @@
 // Behind the front of the last pass blocks are finished, but for those where the curve comes by
 // again, mostly soon. To keep the others until the end would take new memory all the time,
 // which is slower than that of blocks that have left; and a page is made sooner while its block is
-// still in the processor's cache. What there was before the pass lies ahead, and is all needed.
+// still in the processor's cache. What there was before the pass lies ahead, and is all needed. A
+// pass over a stored mesh finds nothing: there what is ahead has been loaded since, by points
+// whose cavities reach it, and takes from the same room. So that has to be larger.
 #pragma once
 
 #include "cache/block.hpp"
@@ -22,9 +24,14 @@ namespace abacus {
 
 class Replacement {
 public:
-    /// `budget`: bytes that the cache may take; `last_pass_room`: what the last pass is given for
-    /// itself, in bytes.
-    Replacement(const Host &host, std::size_t budget, std::size_t last_pass_room)
+    /// What the last pass is given for itself, in bytes: after others, and where there was nothing
+    /// before it.
+    struct LastPassRoom {
+        std::size_t after_others, alone;
+    };
+
+    /// `budget`: bytes that the cache may take.
+    Replacement(const Host &host, std::size_t budget, const LastPassRoom &last_pass_room)
         : budget_(budget), last_pass_room_(last_pass_room), limit_(budget), candidates_(host) {}
 
     /// Bytes beyond which blocks leave.
@@ -66,7 +73,7 @@ private:
     void set_limit();
 
     std::size_t budget_;
-    const std::size_t last_pass_room_;
+    const LastPassRoom last_pass_room_;
     std::size_t limit_;
     std::uint64_t front_ = 0;           // code of the last operation
     std::size_t bytes_before_pass_ = 0; // in use when the front began at the curve's beginning

@@ -49,14 +49,14 @@ std::vector<BlockIndex> range(BlockIndex from, BlockIndex to) {
 
 TEST(Replacement, TakesThoseBehindByTheirLastUse) {
     Blocks blocks(2000);
-    Replacement replacement(blocks.host(), 0, 0);
+    Replacement replacement(blocks.host(), 0, {});
     replacement.reached(1000 * 10);
     EXPECT_EQ(blocks.next(replacement), range(0, 64));
 }
 
 TEST(Replacement, TakesTheFarthestAheadWhileTheWindowIsNotFull) {
     Blocks blocks(2000);
-    Replacement replacement(blocks.host(), 0, 0);
+    Replacement replacement(blocks.host(), 0, {});
     replacement.reached(500 * 10);
     EXPECT_EQ(blocks.next(replacement), range(2000 - 64, 2000));
     // ... but none that is in use
@@ -66,17 +66,17 @@ TEST(Replacement, TakesTheFarthestAheadWhileTheWindowIsNotFull) {
 
 TEST(Replacement, IsByLastUseInASmallCacheOrWithoutAFront) {
     Blocks blocks(1000);
-    Replacement replacement(blocks.host(), 0, 0);
+    Replacement replacement(blocks.host(), 0, {});
     replacement.reached(500 * 10);
     EXPECT_EQ(blocks.next(replacement), range(500, 564));
     Blocks many(2000);
-    Replacement nowhere(many.host(), 0, 0);
+    Replacement nowhere(many.host(), 0, {});
     EXPECT_EQ(many.next(nowhere), range(1000, 1064));
 }
 
 TEST(Replacement, TakesATenthOfFewBlocksAndLeavesTwo) {
     Blocks few(40), three(3);
-    Replacement replacement(few.host(), 0, 0);
+    Replacement replacement(few.host(), 0, {});
     EXPECT_EQ(few.next(replacement).size(), 4u);
     EXPECT_EQ(three.next(replacement).size(), 1u);
 }
@@ -84,10 +84,13 @@ TEST(Replacement, TakesATenthOfFewBlocksAndLeavesTwo) {
 TEST(Replacement, GivesTheLastPassALittleRoomOfItsOwn) {
     MemoryHost memory;
     const Host host = memory.host();
-    Replacement replacement(host, 1000, 100);
+    Replacement replacement(host, 1000, {.after_others = 100, .alone = 150});
     EXPECT_EQ(replacement.limit(), 1000u);
     EXPECT_FALSE(replacement.reached(7));
     EXPECT_FALSE(replacement.reached(7));
+    replacement.expect_last_pass(true);
+    EXPECT_EQ(replacement.limit(), 150u);
+    replacement.expect_last_pass(false);
     EXPECT_TRUE(replacement.reached(3));
     replacement.begin_pass(300);
     EXPECT_EQ(replacement.limit(), 1000u);
