@@ -7,7 +7,7 @@ namespace abacus {
 namespace {
 constexpr std::size_t largest_batch = 64; // blocks
 // The window of blocks behind: at least so many, and this share of all, in percent.
-constexpr std::size_t least_window = 512, window_share = 15;
+constexpr std::size_t least_window = 64, window_share = 15;
 constexpr std::uint64_t in_use = 1024; // operations since the last use
 } // namespace
 

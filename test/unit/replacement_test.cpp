@@ -57,7 +57,7 @@ TEST(Replacement, TakesThoseBehindByTheirLastUse) {
 TEST(Replacement, TakesTheFarthestAheadWhileTheWindowIsNotFull) {
     Blocks blocks(2000);
     Replacement replacement(blocks.host(), 0, {});
-    replacement.reached(500 * 10);
+    replacement.reached(250 * 10);
     EXPECT_EQ(blocks.next(replacement), range(2000 - 64, 2000));
     // ... but none that is in use
     for (BlockIndex b = 1900; b < 2000; ++b) blocks.list[b].used_at = 9999;
@@ -65,10 +65,10 @@ TEST(Replacement, TakesTheFarthestAheadWhileTheWindowIsNotFull) {
 }
 
 TEST(Replacement, IsByLastUseInASmallCacheOrWithoutAFront) {
-    Blocks blocks(1000);
+    Blocks blocks(100);
     Replacement replacement(blocks.host(), 0, {});
-    replacement.reached(500 * 10);
-    EXPECT_EQ(blocks.next(replacement), range(500, 564));
+    replacement.reached(50 * 10);
+    EXPECT_EQ(blocks.next(replacement), range(50, 60));
     Blocks many(2000);
     Replacement nowhere(many.host(), 0, {});
     EXPECT_EQ(many.next(nowhere), range(1000, 1064));
