@@ -4,6 +4,7 @@
 namespace abacus {
 
 namespace {
+// In the plane more room gains nothing over a stored mesh.
 constexpr Replacement::LastPassRoom last_pass_room(int dimension) {
     constexpr std::size_t mb = std::size_t{1} << 20;
     if (dimension == 2) return {.after_others = 16 * mb, .alone = 16 * mb};

@@ -136,13 +136,13 @@ private:
         InSphere test;
         SeenPoint<3> apex; // that vertex
     };
-    /// What is tested together. One more of each, which may be written and does not count.
+    /// What is tested together.
     struct Batch {
         static constexpr std::size_t most = 8;
         std::size_t size;
         std::size_t entered;
-        std::array<Beyond, most + 1> beyond;
-        std::array<std::uint32_t, most + 1> to_enter; // of them, those newly found inside
+        std::array<Beyond, most> beyond;
+        std::array<std::uint32_t, most> to_enter; // of them, those newly found inside
     };
 
     void begin(const Point<3> &p, Handle first);

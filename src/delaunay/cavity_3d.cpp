@@ -81,7 +81,7 @@ inline std::size_t Cavity<3>::look_beyond(std::size_t at, Batch &batch) {
     batch.size = 0;
     for (std::size_t n = 0; n < facets; ++n) {
         const Handle h = link_simplex(outer[n]);
-        Beyond &beyond = batch.beyond[batch.size];
+        Beyond &beyond = batch.beyond[batch.size]; // written anew if it does not count
         beyond.outer = outer[n];
         beyond.facet = static_cast<std::uint32_t>(at + n);
         beyond.vertex = cache_.simplex(h).vertex[link_facet(outer[n])];
@@ -127,7 +127,7 @@ void Cavity<3>::test_exactly(Batch &batch, const Point<3> &p) {
 }
 
 inline void Cavity<3>::sort_out(Batch &batch) {
-    RimFacet *const rim = rim_.extend(batch.size + 1);
+    RimFacet *const rim = rim_.extend(batch.size);
     std::size_t outside = 0;
     batch.entered = 0;
     for (std::size_t n = 0; n < batch.size; ++n) {
@@ -142,7 +142,7 @@ inline void Cavity<3>::sort_out(Batch &batch) {
         batch.to_enter[batch.entered] = static_cast<std::uint32_t>(n);
         batch.entered += is_inside & is_new;
     }
-    rim_.resize(rim_.size() - (batch.size + 1) + outside);
+    rim_.resize(rim_.size() - batch.size + outside);
 }
 
 void Cavity<3>::begin(const Point<3> &p, Handle first) {
