@@ -4,7 +4,8 @@
 // together as a block, written and dropped again. A page is cut where the code changes, so
 // that parts of keys need not be stored, unless one code has more simplices than half a
 // page: then links into it carry parts. What a page costs in bytes is known when it is
-// made; one that turns out too large is cut shorter.
+// made; one that turns out too large is cut shorter, if need be inside of a code without parts:
+// all its pages are looked into then, from the last one back (cache_load.cpp).
 #pragma once
 
 #include "cache/cache.hpp"

@@ -31,6 +31,20 @@ SELECT is(abacus_load('solid_copy', 'TABLE solid', 'TABLE tetrahedra'), (SELECT 
 SELECT set_eq($$ SELECT * FROM pg_temp.simplices('solid_copy') $$, $$ SELECT * FROM pg_temp.simplices('solid_mesh') $$, 'the same tetrahedra');
 SELECT is_empty($$ SELECT * FROM abacus_check('solid_copy') $$, 'sound');
 
+-- With so many attributes only some tetrahedra fit into a page, and pages are cut inside of codes.
+CREATE TABLE heavy AS SELECT solid.*, number.* FROM solid,
+    LATERAL (SELECT array_agg(sqrt(id * 100 + i)) AS of FROM generate_series(1, 100) AS i) AS number;
+SELECT is(abacus_load('heavy_copy', 'SELECT id, x, y, z, ' || string_agg(format('of[%s]', i), ', ') || ' FROM heavy', 'TABLE tetrahedra',
+                      attributes => array_agg('a' || i)), (SELECT count(*) FROM tetrahedra), 'all tetrahedra with 100 attributes')
+FROM generate_series(1, 100) AS i;
+SELECT is_empty($$ SELECT * FROM abacus_check('heavy_copy') $$, 'sound with 100 attributes');
+CREATE FUNCTION pg_temp.neighbours(mesh regclass) RETURNS TABLE (ids bigint[], beyond bigint, neighbour bigint[]) LANGUAGE sql AS
+    $$ SELECT ARRAY[s.v0, s.v1, s.v2, s.v3], (ARRAY[s.v0, s.v1, s.v2, s.v3])[facet + 1], ARRAY[n.v0, n.v1, n.v2, n.v3]
+       FROM abacus_simplices(mesh) AS s, generate_series(0, 3) AS facet, abacus_walk(mesh, s, facet) AS n $$;
+SET LOCAL abacus.cache_size = '1MB';
+SELECT set_eq($$ SELECT * FROM pg_temp.neighbours('heavy_copy') $$, $$ SELECT * FROM pg_temp.neighbours('solid_mesh') $$, 'the same neighbours');
+RESET abacus.cache_size;
+
 -- With holes: located wherever a simplex is left, and nowhere else.
 CREATE TABLE left_over AS SELECT * FROM tetrahedra WHERE (v0 + v1 + v2 + v3) % 3 > 0;
 SELECT is(abacus_load('holes', 'TABLE solid', 'TABLE left_over'), (SELECT count(*) FROM left_over), 'what is left over');
