@@ -98,12 +98,11 @@ template <int D> void Build(benchmark::State &state) {
     state.SetItemsProcessed(state.iterations() * state.range(0));
     const auto &counters = header.counters;
     state.counters["bytes/simplex"] = double(page_bytes) / double(header.simplices);
-    state.counters["fill"] =
-        double(page_bytes) / double(page_count) / ABACUS_PAGE_BYTES;
+    state.counters["fill"] = double(page_bytes) / double(page_count) / ABACUS_PAGE_BYTES;
     state.counters["loads"] = double(counters.loads);
     state.counters["stores"] = double(counters.stores);
-    state.counters["page_us"] = 1e-3 * double(counters.translation_ns) /
-                                double(counters.loads + counters.stores);
+    state.counters["page_us"] =
+        1e-3 * double(counters.translation_ns) / double(counters.loads + counters.stores);
     state.counters["hit_ratio"] = 1 - double(counters.misses) / double(counters.steps);
 }
 

@@ -98,8 +98,7 @@ template <int D> BlockIndex Cache<D>::place_elsewhere(std::uint64_t code) {
         at_hand_[0] = b != no_block && blocks_[b].surely_owns(code) ? b : no_block;
     }
     if (at_hand_[0] != no_block && has_slot(at_hand_[0])) return at_hand_[0];
-    if (limbo_.empty() || !has_slot(limbo_.back()))
-        limbo_.push_back(new_block(Block::limbo));
+    if (limbo_.empty() || !has_slot(limbo_.back())) limbo_.push_back(new_block(Block::limbo));
     return limbo_.back();
 }
 

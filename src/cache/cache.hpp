@@ -46,11 +46,11 @@
 namespace abacus {
 
 struct CacheOptions {
-    std::size_t budget = 64u << 20;  // bytes; exceeded only while one operation needs it
-    bool stored_links = true;        // false: probe at every miss, to measure §4.10
-    bool verify_links = false;       // compare every stored key with the simplex it leads to
-    bool verify_checksums = true;    // false: for who looks for the damage itself
-    bool linked_ghosts = true;       // false: a ghost is its own neighbour across its ridges
+    std::size_t budget = 64u << 20; // bytes; exceeded only while one operation needs it
+    bool stored_links = true;       // false: probe at every miss, to measure §4.10
+    bool verify_links = false;      // compare every stored key with the simplex it leads to
+    bool verify_checksums = true;   // false: for who looks for the damage itself
+    bool linked_ghosts = true;      // false: a ghost is its own neighbour across its ridges
 };
 
 /// A simplex for Cache::append(): its vertices as records (id, coordinates, attributes), the
@@ -192,7 +192,8 @@ public:
             b = place_elsewhere(code);
         ++counters.created;
         const Handle h = take_slot(b);
-        if (blocks_[b].is_overfull()) [[unlikely]] note_overfull(b);
+        if (blocks_[b].is_overfull()) [[unlikely]]
+            note_overfull(b);
         return h;
     }
     void set(Handle h, const Simplex<D> &s) { slots_[h] = s; }
@@ -223,8 +224,10 @@ public:
     /// simplices moved: see follow().
     bool settle(std::uint64_t code) {
         ++clock_;
-        if (replacement_.reached(code)) [[unlikely]] replacement_.begin_pass(bytes());
-        if (overfull_.empty() && limbo_.empty()) [[likely]] return false;
+        if (replacement_.reached(code)) [[unlikely]]
+            replacement_.begin_pass(bytes());
+        if (overfull_.empty() && limbo_.empty()) [[likely]]
+            return false;
         bring_home(code);
         relieve(code);
         return true;
@@ -236,7 +239,8 @@ public:
     /// Evicts what is beyond the budget, or in the last pass beyond what that needs. Handles may
     /// die: see is_live().
     void trim() {
-        if (bytes() > replacement_.limit()) [[unlikely]] shrink();
+        if (bytes() > replacement_.limit()) [[unlikely]]
+            shrink();
     }
     /// Writes every changed block; they stay cached.
     void flush();
@@ -275,8 +279,10 @@ private:
     Handle take_slot(BlockIndex b) {
         Block &block = blocks_[b];
         std::uint32_t slot = block.free;
-        if (slot != no_slot) block.free = slots_[b * block_slots<D> + slot].link[0];
-        else slot = block.high_water++;
+        if (slot != no_slot)
+            block.free = slots_[b * block_slots<D> + slot].link[0];
+        else
+            slot = block.high_water++;
         ++block.count;
         block.dirty = true;
         block.used_at = clock_;
@@ -410,26 +416,24 @@ private:
     Replacement replacement_;
     std::size_t cached_blocks_ = 0;
     std::array<BlockIndex, 2> at_hand_{no_block, no_block}; // took the last simplices
-    std::uint64_t clock_ = 0;       // operations so far, for the replacement
+    std::uint64_t clock_ = 0; // operations so far, for the replacement
 
     // Page translation: reused from page to page.
     PageView<D> view_;
     InnerLinks<D> inner_links_;
     PageWriter<D> writer_;
     typename VertexHeap<D>::Numbering numbered_; // vertices by local number
-    Arena<bool> on_border_;         // of these
-    Arena<std::uint32_t> uses_;     // of the vertices of the page being loaded
-    Arena<VertexIndex> left_;       // border vertices of the blocks evicted together
-    Arena<Link> border_;            // facets on the border of a block, from inside
-    Arena<double> values_;          // attributes of a vertex
-    Arena<std::uint64_t> codes_;    // of the vertices of a page
-    Arena<std::uint32_t> hashes_;   // of the facets of border_
-    Arena<std::uint32_t> guesses_;  // their entries among the visible ones, perhaps
+    Arena<bool> on_border_;                      // of these
+    Arena<std::uint32_t> uses_;                  // of the vertices of the page being loaded
+    Arena<VertexIndex> left_;                    // border vertices of the blocks evicted together
+    Arena<Link> border_;                         // facets on the border of a block, from inside
+    Arena<double> values_;                       // attributes of a vertex
+    Arena<std::uint64_t> codes_;                 // of the vertices of a page
+    Arena<std::uint32_t> hashes_;                // of the facets of border_
+    Arena<std::uint32_t> guesses_;               // their entries among the visible ones, perhaps
 };
 
-template <int D>
-template <class Visit>
-void Cache<D>::visit_code(std::uint64_t code, Visit visit) {
+template <int D> template <class Visit> void Cache<D>::visit_code(std::uint64_t code, Visit visit) {
     // Several blocks share the code when it has parts: from the last one back.
     for (Key key{code, key_word_end - 1};;) {
         const BlockIndex b = owner(key);
@@ -444,9 +448,7 @@ void Cache<D>::visit_code(std::uint64_t code, Visit visit) {
     }
 }
 
-template <int D>
-template <class Visit>
-Key Cache<D>::visit(const Key &key, Visit visit) {
+template <int D> template <class Visit> Key Cache<D>::visit(const Key &key, Visit visit) {
     const BlockIndex b = owner(key);
     if (b == no_block) throw_corrupted("No page owns a part of the curve.");
     blocks_[b].used_at = ++clock_; // page by page is an order of use, too

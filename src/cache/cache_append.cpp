@@ -40,7 +40,8 @@ bool Cache<D>::append(const Key &lower, const Key &upper, const LooseSimplex<D> 
             Simplex<D> &simplex = slots_[first + s];
             if (is_loose_ridge<D>(options_.linked_ghosts, simplex.is_ghost(), i))
                 simplex.link[i] = link;
-            else link_outside(link, hash(link), simplices[s].beyond[i]);
+            else
+                link_outside(link, hash(link), simplices[s].beyond[i]);
         }
 
     const bool fits = encode(b);

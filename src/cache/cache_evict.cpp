@@ -33,9 +33,8 @@ template <int D> void Cache<D>::shrink() {
 
 template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
     // In the order of the curve: each fills up from the next one.
-    std::sort(victims.begin(), victims.end(), [&](BlockIndex a, BlockIndex b) {
-        return blocks_[a].lower < blocks_[b].lower;
-    });
+    std::sort(victims.begin(), victims.end(),
+              [&](BlockIndex a, BlockIndex b) { return blocks_[a].lower < blocks_[b].lower; });
     for (const BlockIndex b : victims) blocks_[b].leaving = true;
     for (std::size_t i = 0; i < victims.size(); ++i) {
         ask_ahead(victims, i + 1); // it fills up from the next one
@@ -64,8 +63,10 @@ template <int D> void Cache<D>::evict(Arena<BlockIndex> &victims) {
     for (const VertexIndex v : left_) {
         if (numbered_.contains(vertices_, v)) continue; // on the border of several
         numbered_.number(vertices_, v);
-        if (vertices_.in_use(v)) vertices_.share(v);
-        else vertices_.destroy(v);
+        if (vertices_.in_use(v))
+            vertices_.share(v);
+        else
+            vertices_.destroy(v);
     }
     for (const BlockIndex b : victims) {
         directory_.erase(blocks_[b].lower);
@@ -79,8 +80,10 @@ template <int D> void Cache<D>::unlink(BlockIndex b) {
     hashes_.resize(border_.size());
     for (std::size_t i = 0; i < border_.size(); ++i) {
         const Link link = slots_[link_simplex(border_[i])].link[link_facet(border_[i])];
-        if (is_absent(link)) visible_.prefetch_entry(link & ~absent);
-        else if (blocks_[block_of<D>(link_simplex(link))].leaving) continue;
+        if (is_absent(link))
+            visible_.prefetch_entry(link & ~absent);
+        else if (blocks_[block_of<D>(link_simplex(link))].leaving)
+            continue;
         hashes_[i] = hash(border_[i]);
         visible_.prefetch(hashes_[i]);
     }
@@ -95,8 +98,7 @@ template <int D> void Cache<D>::unlink(BlockIndex b) {
         if (blocks_[block_of<D>(neighbour)].leaving) continue;
         const Simplex<D> &s = slots_[h];
         const Key key{code(s), blocks_[b].has_parts() ? part(s) : 0};
-        slots_[neighbour].link[link_facet(link)] =
-            absent | visible_.add(hashes_[i], key, link);
+        slots_[neighbour].link[link_facet(link)] = absent | visible_.add(hashes_[i], key, link);
     }
     for_each_simplex(b, [&](Handle h) {
         for (const VertexIndex v : slots_[h].vertex) vertices_.release(v);
@@ -104,9 +106,12 @@ template <int D> void Cache<D>::unlink(BlockIndex b) {
     // A vertex off the border has no other simplices than these.
     for (std::size_t n = 0; n < numbered_.size(); ++n) {
         const VertexIndex v = numbered_[n];
-        if (on_border_[n]) left_.push_back(v);
-        else if (vertices_.in_use(v)) throw_corrupted("A vertex has two separate stars.");
-        else vertices_.destroy(v);
+        if (on_border_[n])
+            left_.push_back(v);
+        else if (vertices_.in_use(v))
+            throw_corrupted("A vertex has two separate stars.");
+        else
+            vertices_.destroy(v);
     }
 }
 
@@ -148,8 +153,7 @@ template <int D> void Cache<D>::ask_for_vertices(BlockIndex b) const {
         if (!slots[i].is_free()) touch(&vertices_[slots[i].vertex[0]]);
 }
 
-template <int D>
-void Cache<D>::ask_ahead(const Arena<BlockIndex> &blocks, std::size_t at) const {
+template <int D> void Cache<D>::ask_ahead(const Arena<BlockIndex> &blocks, std::size_t at) const {
     if (at + 1 < blocks.size() && blocks_[blocks[at + 1]].state == Block::cached)
         ask_for_vertices(blocks[at + 1]);
     if (at + 2 < blocks.size()) ask_for_slots(blocks[at + 2]);
@@ -178,8 +182,10 @@ template <int D> void Cache<D>::mark_border() {
     for (const Link inner : border_) {
         const Simplex<D> &s = slots_[link_simplex(inner)];
         const Link outer = s.link[link_facet(inner)];
-        if (is_absent(outer)) visible_.prefetch_entry(outer & ~absent);
-        else touch(&slots_[link_simplex(outer)]);
+        if (is_absent(outer))
+            visible_.prefetch_entry(outer & ~absent);
+        else
+            touch(&slots_[link_simplex(outer)]);
         for (int i = 0; i <= D; ++i)
             if (i != link_facet(inner) && s.vertex[i] != infinite_vertex)
                 on_border_[vertices_[s.vertex[i]].number] = true;
@@ -203,8 +209,8 @@ template <int D> bool Cache<D>::encode(BlockIndex b) {
         if (beyond.part == unknown_part) beyond.part = 0;
         writer_.set_link(i, beyond);
     }
-    const bool fits = writer_.finish(blocks_[b].lower, blocks_[b].upper, vertices_, numbered_,
-                                     on_border_.data());
+    const bool fits =
+        writer_.finish(blocks_[b].lower, blocks_[b].upper, vertices_, numbered_, on_border_.data());
     if (writer_.size() != 0)
         blocks_[b].capacity = capacity_.learn(blocks_[b].count, writer_.size());
     return fits;

@@ -18,14 +18,14 @@ template <int D> Link Cache<D>::miss(Handle h, int facet) {
     host_.poll();
     const Key beyond = visible_[slots_[h].link[facet] & ~absent].beyond;
     const bool known = options_.stored_links && beyond.code != unknown_code;
-    if (!known) probe(h, facet);
+    if (!known)
+        probe(h, facet);
     else if (!follow_stored_link(h, facet, beyond))
         throw_corrupted("A link has a key under which its neighbour is not found.");
     return slots_[h].link[facet];
 }
 
-template <int D>
-bool Cache<D>::follow_stored_link(Handle h, int facet, const Key &beyond) {
+template <int D> bool Cache<D>::follow_stored_link(Handle h, int facet, const Key &beyond) {
     if (beyond.part != unknown_part) {
         ++counters.link_probes;
         if (owner(beyond) == no_block) return false;
@@ -103,9 +103,8 @@ template <int D> void Cache<D>::load_vertices() {
             throw_corrupted("A page has the same vertex twice.");
         } else if (vertices_.id(v) != view_.id(n)) {
             throw_corrupted("Two pages have different ids for one vertex.");
-        } else if (view_.attributes() > 0 &&
-                   std::memcmp(vertices_.attributes(v), values_.data(),
-                               values_.size() * sizeof(double)) != 0) {
+        } else if (view_.attributes() > 0 && std::memcmp(vertices_.attributes(v), values_.data(),
+                                                         values_.size() * sizeof(double)) != 0) {
             throw_corrupted("Two pages have different attributes for one vertex.");
         }
         numbered_.number(vertices_, v);
@@ -157,14 +156,13 @@ template <int D> void Cache<D>::link_outside() {
             __builtin_prefetch(&slots_[link_simplex(visible_[guess].owner)], 1);
     for (std::size_t i = 0; i < border_.size(); ++i) {
         const int n = view_.link_vertex(static_cast<int>(i));
-        const std::uint64_t code = n < view_.vertices() ? vertices_[numbered_[n]].code
-                                                        : view_.foreign_code(n);
+        const std::uint64_t code =
+            n < view_.vertices() ? vertices_[numbered_[n]].code : view_.foreign_code(n);
         link_outside(border_[i], hashes_[i], {code, view_.link_part(static_cast<int>(i))});
     }
 }
 
-template <int D>
-void Cache<D>::link_outside(Link link, std::uint32_t hash, const Key &beyond) {
+template <int D> void Cache<D>::link_outside(Link link, std::uint32_t hash, const Key &beyond) {
     if ((beyond.code >= key_word_end && beyond.code != unknown_code) ||
         (beyond.part >= key_word_end && beyond.part != unknown_part))
         throw_corrupted("A page has a link to an impossible key.");

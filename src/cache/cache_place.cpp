@@ -79,8 +79,10 @@ template <int D> Handle Cache<D>::move(Handle h, BlockIndex to) {
     slots_[moved] = slots_[h];
     for (int i = 0; i <= D; ++i) {
         const Link link = slots_[h].link[i];
-        if (is_absent(link)) visible_[link & ~absent].owner = make_link(moved, i);
-        else slots_[link_simplex(link)].link[link_facet(link)] = make_link(moved, i);
+        if (is_absent(link))
+            visible_[link & ~absent].owner = make_link(moved, i);
+        else
+            slots_[link_simplex(link)].link[link_facet(link)] = make_link(moved, i);
     }
     give_back(h, moved);
     return moved;
@@ -111,8 +113,8 @@ template <int D> void Cache<D>::make_room(BlockIndex b, std::uint64_t code) {
     }
     collect_places(b);
     const auto is_behind = [&](const KeyCut::Place &p) { return p.key.code < code; };
-    const auto behind = static_cast<std::size_t>(
-        std::count_if(places_.begin(), places_.end(), is_behind));
+    const auto behind =
+        static_cast<std::size_t>(std::count_if(places_.begin(), places_.end(), is_behind));
     BlockIndex upper;
     if (!has_changed_much(b) || behind < sequential_from * places_.size()) {
         upper = split_near(b, places_.size() / 2);
@@ -152,7 +154,8 @@ template <int D> bool Cache<D>::dissolve(BlockIndex b) {
     if (!(suits_left || suits_right) || room_left + room_right < n) return false;
 
     collect_places(b);
-    std::size_t cut = room_left >= n ? n : std::min(room_left, (room_left + n - room_right + 1) / 2);
+    std::size_t cut =
+        room_left >= n ? n : std::min(room_left, (room_left + n - room_right + 1) / 2);
     if (room_right >= n) cut = 0;
     if (cut > 0 && cut < n) {
         cut = places_.cut_near(cut);
@@ -189,11 +192,12 @@ template <int D> bool Cache<D>::dissolve(BlockIndex b) {
 
 template <int D> void Cache<D>::fill_up(BlockIndex b, bool only_leaving) {
     const BlockIndex next = directory_.after(blocks_[b].lower);
-    if (next == no_block || !blocks_[b].dirty || !has_changed_much(b) ||
-        !is_followed_by(b, next) || (only_leaving && !blocks_[next].leaving))
+    if (next == no_block || !blocks_[b].dirty || !has_changed_much(b) || !is_followed_by(b, next) ||
+        (only_leaving && !blocks_[next].leaving))
         return;
     const std::size_t room = room_to_pack(b);
-    if (room < least_move * blocks_[b].capacity && room < blocks_[next].count) return; // not worth it
+    if (room < least_move * blocks_[b].capacity && room < blocks_[next].count)
+        return; // not worth it
     collect_places(next);
     draw(b, next, room);
 }
@@ -209,8 +213,7 @@ template <int D> bool Cache<D>::has_changed_much(BlockIndex b) const {
 }
 
 template <int D>
-void Cache<D>::share_settled(BlockIndex from, BlockIndex to, std::size_t moving,
-                             std::size_t all) {
+void Cache<D>::share_settled(BlockIndex from, BlockIndex to, std::size_t moving, std::size_t all) {
     if (moving == 0) return;
     const std::size_t share = blocks_[from].settled * moving / all;
     blocks_[from].settled = static_cast<std::uint16_t>(blocks_[from].settled - share);
@@ -256,8 +259,7 @@ template <int D> void Cache<D>::erase_page(BlockIndex b) {
     block.location = 0;
 }
 
-template <int D>
-BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t cut, const Key &border) {
+template <int D> BlockIndex Cache<D>::split_at(BlockIndex b, std::size_t cut, const Key &border) {
     ++counters.splits;
     const BlockIndex right = new_block(Block::cached);
     Block &left = blocks_[b];

@@ -30,8 +30,8 @@ public:
     std::uint32_t after(const Key &key) const {
         for (std::size_t p = piece_of(key); p < pieces_.size(); ++p) {
             const Entry *first = begin(p), *last = first + pieces_[p].count;
-            const Entry *entry = std::partition_point(
-                first, last, [&](const Entry &e) { return !(key < e.lower); });
+            const Entry *entry =
+                std::partition_point(first, last, [&](const Entry &e) { return !(key < e.lower); });
             if (entry != last) return entry->block;
         }
         return none;
@@ -89,8 +89,8 @@ private:
 
     /// The last piece whose first key is <= key, or the first piece.
     std::size_t piece_of(const Key &key) const {
-        const Piece *piece = std::partition_point(
-            pieces_.begin(), pieces_.end(), [&](const Piece &p) { return !(key < p.first); });
+        const Piece *piece = std::partition_point(pieces_.begin(), pieces_.end(),
+                                                  [&](const Piece &p) { return !(key < p.first); });
         return piece == pieces_.begin() ? 0 : static_cast<std::size_t>(piece - pieces_.begin()) - 1;
     }
     Entry *find(std::size_t p, const Key &lower) {
@@ -107,9 +107,8 @@ private:
                                                   [&](const Piece &p) { return low(p.first); });
         if (piece == pieces_.begin()) return none;
         const std::size_t p = static_cast<std::size_t>(piece - pieces_.begin()) - 1;
-        const Entry *entry =
-            std::partition_point(begin(p), begin(p) + pieces_[p].count,
-                                 [&](const Entry &e) { return low(e.lower); });
+        const Entry *entry = std::partition_point(begin(p), begin(p) + pieces_[p].count,
+                                                  [&](const Entry &e) { return low(e.lower); });
         return (entry - 1)->block;
     }
 

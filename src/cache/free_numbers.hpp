@@ -4,8 +4,8 @@
 // What is evicted together was made together, so its numbers are many in a row. Taken again in that
 // order, they lead to memory that lies in a row as well: the processor fetches it in advance, and
 // what is then made together lies together in turn. Last in, first out would shuffle them more with
-// each round: in a build of 10 M points in the plane with 64 MB, a tenth of the time went on waiting
-// for the places of new vertices.
+// each round: in a build of 10 M points in the plane with 64 MB, a tenth of the time went on
+// waiting for the places of new vertices.
 #pragma once
 
 #include "host/arena.hpp"
@@ -26,7 +26,8 @@ public:
     /// A number that is not among them.
     void add(std::uint32_t number) {
         const std::size_t word = number / 64;
-        if (word >= words_.size()) [[unlikely]] grow(word + 1);
+        if (word >= words_.size()) [[unlikely]]
+            grow(word + 1);
         words_[word] |= bit(number);
         summary_[word / 64] |= bit(word);
         ++count_;

@@ -21,7 +21,8 @@ void InnerLinks<D>::join_trees(const PageView<D> &page, Simplex<D> *slots, Handl
     for (int s = 0; s < simplices; ++s) slots[s].link.fill(unset);
     for (int s = 0; s < simplices; ++s) {
         const Link parent = page.parent(s);
-        if (parent == PageView<D>::no_link) [[unlikely]] continue;
+        if (parent == PageView<D>::no_link) [[unlikely]]
+            continue;
         join(slots, first, parent, make_link(static_cast<Handle>(s), page.facet_to_parent(s)));
     }
     // The facets still open, gathered without a branch: which they are is hard to foresee.
@@ -53,8 +54,7 @@ void InnerLinks<D>::match_open(const PageView<D> &page, Simplex<D> *slots, Handl
         std::uint64_t vertices = 0;
         for (const std::uint32_t v : facet.vertex) vertices = vertices << 16 | v;
         const Link odd = facet.odd ? absent : 0;
-        std::uint16_t &chain =
-            chains_[shift == 64 ? 0 : vertices * 0x9e3779b97f4a7c15ull >> shift];
+        std::uint16_t &chain = chains_[shift == 64 ? 0 : vertices * 0x9e3779b97f4a7c15ull >> shift];
         std::uint16_t at = chain;
         while (at != no_facet && facets_[at].vertices != vertices) at = facets_[at].next;
         if (at == no_facet) {

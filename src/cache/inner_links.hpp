@@ -44,9 +44,9 @@ private:
     void list_border(const PageView<D> &page, Handle first, Arena<Link> &border,
                      Arena<bool> &on_border) const;
 
-    Arena<Link> open_;             // facets whose partner has to be searched for
-    Arena<LocalFacet> facets_;     // those met so far
-    Arena<std::uint16_t> chains_;  // hash table of them: the last one of each chain
+    Arena<Link> open_;            // facets whose partner has to be searched for
+    Arena<LocalFacet> facets_;    // those met so far
+    Arena<std::uint16_t> chains_; // hash table of them: the last one of each chain
 };
 
 extern template class InnerLinks<2>;

@@ -36,8 +36,8 @@ std::size_t KeyCut::cut_below(std::size_t wanted) {
         while (below + histogram[bin] <= wanted) below += histogram[bin++];
         border += bin << shift;
         // Inside of one key there is no nearer cut.
-        if (below > 0 && (wanted - below <= near_enough * places_.size() ||
-                          (shift == 0 && has_one_key(border))))
+        if (below > 0 &&
+            (wanted - below <= near_enough * places_.size() || (shift == 0 && has_one_key(border))))
             break;
     }
     const auto upper = std::partition(places_.begin(), places_.end(),
@@ -54,17 +54,17 @@ std::size_t KeyCut::cut_near(std::size_t wanted) {
     // Equal keys stay together: all that equal the wanted one go to the upper part, or,
     // when nothing would be left below, to the lower one.
     const Key border = places_[wanted].key;
-    const auto below = static_cast<std::size_t>(
-        std::partition(places_.begin(), places_.begin() + wanted,
-                       [&](const Place &p) { return p.key < border; }) -
-        places_.begin());
+    const auto below =
+        static_cast<std::size_t>(std::partition(places_.begin(), places_.begin() + wanted,
+                                                [&](const Place &p) { return p.key < border; }) -
+                                 places_.begin());
     if (below > 0) return below;
-    const auto equal = static_cast<std::size_t>(
-        std::partition(places_.begin() + wanted, places_.end(),
-                       [&](const Place &p) { return p.key == border; }) -
-        places_.begin());
-    if (equal < n) std::nth_element(places_.begin() + equal, places_.begin() + equal,
-                                    places_.end(), by_key);
+    const auto equal =
+        static_cast<std::size_t>(std::partition(places_.begin() + wanted, places_.end(),
+                                                [&](const Place &p) { return p.key == border; }) -
+                                 places_.begin());
+    if (equal < n)
+        std::nth_element(places_.begin() + equal, places_.begin() + equal, places_.end(), by_key);
     return equal;
 }
 

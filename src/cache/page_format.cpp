@@ -15,7 +15,8 @@ namespace {
 
 // In sight of each of its callers: some are in loops.
 [[gnu::always_inline]] inline void require(bool condition, const char *detail) {
-    if (!condition) [[unlikely]] throw_corrupted(detail);
+    if (!condition) [[unlikely]]
+        throw_corrupted(detail);
 }
 
 constexpr const char *wrong_size = "A simplex page's size does not fit its counts.";
@@ -96,7 +97,8 @@ void PageView<D>::open(const unsigned char *bytes, std::size_t size, int attribu
         at += taken;
         return result;
     };
-    each_column([&](Column &column, std::size_t) { require(column.read_head(at, end), wrong_size); });
+    each_column(
+        [&](Column &column, std::size_t) { require(column.read_head(at, end), wrong_size); });
     steps_ = fields(s, D + 1);
     numbers_ = fields(s == 0 ? 0 : patches_[patches() - 1].named_end, std::bit_width(v));
     each_column([&](Column &column, std::size_t n) {
@@ -148,8 +150,7 @@ template <int D> void PageView<D>::read_point(int vertex) {
     }
 }
 
-template <int D>
-std::size_t PageView<D>::read_root(int s, std::size_t named, std::size_t fresh) {
+template <int D> std::size_t PageView<D>::read_root(int s, std::size_t named, std::size_t fresh) {
     const auto infinity = static_cast<std::size_t>(vertices());
     Lanes &corner = corners_[s];
     corner = Lanes{} + no_vertex;
@@ -214,8 +215,7 @@ template <int D> void PageView<D>::read_patch(int patch) {
             reached += children<D>.count[facet][bits];
             require(named <= named_end, wrong_size);
         }
-        require(reached <= parents_.data() + patch_end,
-                "A simplex page has impossible counts.");
+        require(reached <= parents_.data() + patch_end, "A simplex page has impossible counts.");
     }
     require(std::bit_cast<std::uint64_t>(repeated) == 0, repeated_vertex);
     require(named == named_end && fresh == static_cast<std::size_t>(fresh_of(patch).end),

@@ -117,7 +117,9 @@ public:
     Range named_of(int patch) const {
         return {patch == 0 ? 0 : patches_[patch - 1].named_end, patches_[patch].named_end};
     }
-    int named(int i) const { return static_cast<int>(numbers_.narrow(static_cast<std::size_t>(i))); }
+    int named(int i) const {
+        return static_cast<int>(numbers_.narrow(static_cast<std::size_t>(i)));
+    }
     /// The box of a patch's vertices.
     const PagePatch<D> &patch(int patch) const { return patches_[patch]; }
     /// The coordinate of a vertex as it is stored, ordered().
@@ -140,14 +142,10 @@ public:
     }
     /// The box's lower bounds, then its upper ones.
     double box(int i) const { return box_[i]; }
-    void ask_for_id(int vertex) const {
-        ids_.ask_for(static_cast<std::size_t>(vertex));
-    }
+    void ask_for_id(int vertex) const { ids_.ask_for(static_cast<std::size_t>(vertex)); }
     std::int64_t id(int vertex) const { return static_cast<std::int64_t>(ids_[vertex]); }
     const Point<D> &point(int vertex) const { return points_[vertex]; }
-    double attribute(int vertex, int i) const {
-        return from_ordered(attributes_[i][vertex]);
-    }
+    double attribute(int vertex, int i) const { return from_ordered(attributes_[i][vertex]); }
 
     /// Number of the vertex whose code is the link's; from vertices() on, foreign_code()
     /// has the code.
@@ -197,7 +195,7 @@ private:
     std::array<Point<D>, page_vertices<D>> points_;
     std::array<Lanes, block_slots<D>> corners_;
     // The last ones are overwritten, until it is known that there are too many.
-    std::array<std::uint16_t, block_slots<D> + simplices_at_once * (D + 2) + lanes> parents_;
+    std::array<std::uint16_t, block_slots<D> + simplices_at_once *(D + 2) + lanes> parents_;
 };
 
 } // namespace abacus

@@ -29,8 +29,7 @@ public:
                        const std::array<VertexIndex, D + 1> &slot) const {
         unsigned place = 0;
         if constexpr (D == 3)
-            for (unsigned i = 1; i <= D; ++i)
-                place += slot[i] == corners[asked_for(entry)] ? i : 0;
+            for (unsigned i = 1; i <= D; ++i) place += slot[i] == corners[asked_for(entry)] ? i : 0;
         return even_[entry][mirror][place];
     }
 
@@ -86,7 +85,9 @@ void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle fir
             if (at == patch_end || root == end) {
                 if (at > 0)
                     patches_.push_back({static_cast<std::uint16_t>(named - named_.data()),
-                                        static_cast<std::uint16_t>(numbered.size()), {}, {}});
+                                        static_cast<std::uint16_t>(numbered.size()),
+                                        {},
+                                        {}});
                 patch_end += patch_simplices;
             }
             if (root == end) break;
@@ -136,8 +137,7 @@ void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle fir
             step = number(apex);
             named += 1 - step;
             const auto &others = other_facets<D>.find(entry, placed.mirror, child, s.vertex);
-            for (int i = 0; i < D; ++i)
-                step |= look_across(i + (i >= entry), others[i]) << (i + 1);
+            for (int i = 0; i < D; ++i) step |= look_across(i + (i >= entry), others[i]) << (i + 1);
         }
         order[at].step = static_cast<std::uint8_t>(step);
     }
@@ -163,8 +163,7 @@ bool PageWriter<D>::finish(const Key &lower, const Key &upper, const Vertices &v
 }
 
 /// Fills the columns of the vertices.
-template <int D>
-void PageWriter<D>::gather(const Vertices &vertices, const Numbering &numbered) {
+template <int D> void PageWriter<D>::gather(const Vertices &vertices, const Numbering &numbered) {
     const auto columns = static_cast<std::size_t>(1 + D + attributes_);
     columns_.resize(vertices_ * columns);
     plans_.resize(columns);
@@ -253,8 +252,7 @@ void PageWriter<D>::code_links(const Vertices &vertices, const Numbering &number
 }
 
 template <int D> std::size_t PageWriter<D>::planned_size() const {
-    std::size_t size =
-        sizeof(PageHeader) + patches_.size() * sizeof(PagePatch<D>) + checksum_bytes;
+    std::size_t size = sizeof(PageHeader) + patches_.size() * sizeof(PagePatch<D>) + checksum_bytes;
     for (const ColumnPlan &plan : plans_) size += plan.size();
     return size + foreign_plan_.size() + parts_plan_.size() +
            bits_to_bytes(links_.size() * std::bit_width(vertices_ + foreign_.size())) +

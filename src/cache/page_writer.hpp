@@ -21,10 +21,9 @@ public:
     static constexpr Link untold = unset;
 
     explicit PageWriter(const Host &host)
-        : order_(host), patches_(host), prefixes_(host), reached_(host), cut_(host),
-          corners_(host), named_(host), links_(host), columns_(host), plans_(host),
-          foreign_(host), parts_(host), link_vertices_(host), codes_(host), coded_(host),
-          index_(host) {}
+        : order_(host), patches_(host), prefixes_(host), reached_(host), cut_(host), corners_(host),
+          named_(host), links_(host), columns_(host), plans_(host), foreign_(host), parts_(host),
+          link_vertices_(host), codes_(host), coded_(host), index_(host) {}
 
     /// Begins a page of the simplices in the slots [slots, end), whose handles begin with
     /// `first`. Sets `numbered` to the page's vertices and `border` to the inner sides of its
@@ -70,17 +69,17 @@ private:
     Arena<std::uint8_t> reached_;    // of the slots
     Arena<std::uint32_t> cut_;       // slots that a full patch had no room for
     Arena<WideLanes> corners_;
-    Arena<std::uint16_t> named_;     // numbers that do not follow from the steps; none: infinity
+    Arena<std::uint16_t> named_; // numbers that do not follow from the steps; none: infinity
     Arena<Key> links_;
-    Arena<std::uint64_t> columns_;   // ranks of coordinates, ids, ranks of attributes
+    Arena<std::uint64_t> columns_; // ranks of coordinates, ids, ranks of attributes
     Arena<ColumnPlan> plans_;
-    Arena<std::uint64_t> foreign_;   // codes
+    Arena<std::uint64_t> foreign_; // codes
     Arena<std::uint64_t> parts_;
     ColumnPlan foreign_plan_, parts_plan_;
     Arena<std::uint16_t> link_vertices_;
-    Arena<std::uint64_t> codes_;     // that index_ knows
-    Arena<std::uint16_t> coded_;     // their numbers
-    Arena<std::uint16_t> index_;     // hash table of codes_
+    Arena<std::uint64_t> codes_;                           // that index_ knows
+    Arena<std::uint16_t> coded_;                           // their numbers
+    Arena<std::uint16_t> index_;                           // hash table of codes_
     alignas(8) unsigned char page_[ABACUS_PAGE_BYTES + 8]; // BitWriter writes beyond
     std::size_t size_ = 0;
 };

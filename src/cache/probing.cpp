@@ -76,8 +76,7 @@ template <int D> bool Cache<D>::load_uncached(std::uint64_t code) {
     return owner(key) != no_block;
 }
 
-template <int D>
-bool Cache<D>::quick_probe(Handle h, int facet, std::uint64_t greatest) {
+template <int D> bool Cache<D>::quick_probe(Handle h, int facet, std::uint64_t greatest) {
     if (!load_uncached(greatest)) return false;
     ++counters.quick_probes;
     return present(h, facet);
@@ -104,7 +103,8 @@ template <int D> bool Cache<D>::ray_probe(Handle h, int facet, const Cell<D> &mi
     Vector<D> outward{};
     if (!from_ghost)
         for (int axis = 0; axis < D; ++axis)
-            outward[axis] = double(middle[axis]) - double(domain_.cell(point(s.vertex[facet]))[axis]);
+            outward[axis] =
+                double(middle[axis]) - double(domain_.cell(point(s.vertex[facet]))[axis]);
 
     struct Ray {
         Vector<D> at, along;
@@ -121,7 +121,8 @@ template <int D> bool Cache<D>::ray_probe(Handle h, int facet, const Cell<D> &mi
         for (Ray &ray : rays) {
             if (!ray.alive) continue;
             Cell<D> cell;
-            for (int axis = 0; axis < D; ++axis) cell[axis] = static_cast<std::uint32_t>(ray.at[axis]);
+            for (int axis = 0; axis < D; ++axis)
+                cell[axis] = static_cast<std::uint32_t>(ray.at[axis]);
             if (load_uncached(curve_code<D>(cell))) {
                 ++counters.ray_probes;
                 if (present(h, facet)) return true;

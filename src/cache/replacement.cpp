@@ -40,9 +40,8 @@ void Replacement::choose(const Arena<Block> &blocks, std::size_t cached, std::ui
             c.order = ~block.lower.code;
         }
     }
-    const std::size_t batch =
-        std::min(std::clamp<std::size_t>(candidates_.size() / 10, 1, largest_batch),
-                 candidates_.size() - 2);
+    const std::size_t batch = std::min(
+        std::clamp<std::size_t>(candidates_.size() / 10, 1, largest_batch), candidates_.size() - 2);
     std::nth_element(candidates_.begin(), candidates_.begin() + batch, candidates_.end(),
                      [](const Candidate &a, const Candidate &b) {
                          return a.rank < b.rank || (a.rank == b.rank && a.order < b.order);

@@ -12,7 +12,8 @@ public:
     Stopwatch(const Stopwatch &) = delete;
     Stopwatch &operator=(const Stopwatch &) = delete;
     ~Stopwatch() {
-        total_ += std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin_).count();
+        total_ +=
+            std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin_).count();
     }
 
 private:

@@ -18,8 +18,8 @@ public:
     using Vertices = FacetVertices<D, VertexIndex>;
 
     struct Entry {
-        Key beyond;         // key of the simplex that is not in the cache
-        Link owner;         // the facet of the simplex that is; `unset` of a free entry
+        Key beyond; // key of the simplex that is not in the cache
+        Link owner; // the facet of the simplex that is; `unset` of a free entry
         std::uint32_t hash;
     };
 

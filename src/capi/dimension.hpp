@@ -14,9 +14,14 @@ public:
     template <class... Args>
     ByDimension(const Host &host, const abacus_header &header, Args &&...args) {
         switch (header.dimension) {
-        case 2: flat_.emplace(host, header, std::forward<Args>(args)...); break;
-        case 3: solid_.emplace(host, header, std::forward<Args>(args)...); break;
-        default: throw Error(ABACUS_ERROR_ARGUMENT, "a mesh has 2 or 3 dimensions");
+        case 2:
+            flat_.emplace(host, header, std::forward<Args>(args)...);
+            break;
+        case 3:
+            solid_.emplace(host, header, std::forward<Args>(args)...);
+            break;
+        default:
+            throw Error(ABACUS_ERROR_ARGUMENT, "a mesh has 2 or 3 dimensions");
         }
     }
 
@@ -25,8 +30,10 @@ public:
     }
 
     template <int D> T<D> &get() {
-        if constexpr (D == 2) return flat_.value();
-        else return solid_.value();
+        if constexpr (D == 2)
+            return flat_.value();
+        else
+            return solid_.value();
     }
 
 private:

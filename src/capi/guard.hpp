@@ -44,15 +44,18 @@ inline bool rounds_to_nearest() noexcept {
 class RoundingModeKept {
 public:
     RoundingModeKept() noexcept : is_nearest_(rounds_to_nearest()) {
-        if (is_nearest_) [[likely]] return;
+        if (is_nearest_) [[likely]]
+            return;
         std::fegetenv(&found_);
         std::fesetround(FE_TONEAREST);
     }
     RoundingModeKept(const RoundingModeKept &) = delete;
     RoundingModeKept &operator=(const RoundingModeKept &) = delete;
     ~RoundingModeKept() {
-        if (!is_nearest_) std::fesetenv(&found_);
-        else if (!rounds_to_nearest()) std::fesetround(FE_TONEAREST);
+        if (!is_nearest_)
+            std::fesetenv(&found_);
+        else if (!rounds_to_nearest())
+            std::fesetround(FE_TONEAREST);
     }
 
 private:

@@ -15,9 +15,8 @@ struct abacus_load {
     abacus::ByDimension<abacus::Load> load;
 };
 
-abacus_status abacus_load_open(const abacus_host *host, const abacus_header *header,
-                               size_t memory, int reorient, abacus_load **load,
-                               abacus_error *error) {
+abacus_status abacus_load_open(const abacus_host *host, const abacus_header *header, size_t memory,
+                               int reorient, abacus_load **load, abacus_error *error) {
     return abacus::guard(error, [&] {
         *load = abacus::create_handle<abacus_load>(host, *header, memory, reorient != 0);
         return ABACUS_OK;

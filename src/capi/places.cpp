@@ -29,8 +29,8 @@ abacus_status abacus_places_add(abacus_places *places, const uint64_t *records, 
     return abacus::dispatch(places->places, error, [&](auto &all) { all.add(records, count); });
 }
 
-abacus_status abacus_places_locate(abacus_places *places, abacus_place_report report,
-                                   void *context, abacus_error *error) {
+abacus_status abacus_places_locate(abacus_places *places, abacus_place_report report, void *context,
+                                   abacus_error *error) {
     return abacus::dispatch(places->places, error, [&](auto &all) { all.locate(report, context); });
 }
 

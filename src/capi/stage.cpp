@@ -16,7 +16,8 @@ abacus_status abacus_stage_open(const abacus_host *host, const abacus_header *he
 
 abacus_status abacus_stage_add(abacus_stage *stage, const uint64_t *points, size_t count,
                                abacus_error *error) {
-    return abacus::dispatch(stage->stage, error, [&](auto &staging) { staging.add(points, count); });
+    return abacus::dispatch(stage->stage, error,
+                            [&](auto &staging) { staging.add(points, count); });
 }
 
 abacus_status abacus_stage_end(abacus_stage *stage, abacus_header *header, abacus_error *error) {

@@ -35,7 +35,7 @@ Build<D>::Build(const Host &host, const abacus_header &header, std::size_t cache
 
 template <int D> VertexIndex Build<D>::create(const std::uint64_t *record) {
     return core_->cache.create_vertex(record_point<D>(record), record_id(record),
-                                record_attributes<D>(record));
+                                      record_attributes<D>(record));
 }
 
 template <int D> void Build<D>::start(const std::array<VertexIndex, D + 1> &vertices) {
@@ -137,10 +137,9 @@ template <int D> void Build<D>::insert(Stage<D> &stage, abacus_header &header) {
     change(header, [&] {
         const std::uint64_t points = stage.points();
         // Not for a few points: a single one would have to wait for all of a large mesh.
-        const bool is_worth_it = header.vertices <= rekeyed_at_once ||
-                                 header.vertices / rekeyed_by_share <= points;
-        if (is_worth_it && has_outgrown_domain(points))
-            change_domain(stage.box(), stage.memory());
+        const bool is_worth_it =
+            header.vertices <= rekeyed_at_once || header.vertices / rekeyed_by_share <= points;
+        if (is_worth_it && has_outgrown_domain(points)) change_domain(stage.box(), stage.memory());
         insert_waiting(0);
         Intake intake(*this);
         stage.emit(intake, header);

@@ -88,9 +88,9 @@ private:
     const unsigned attributes_;
     const std::size_t cache_bytes_;
     Domain<D> domain_;
-    std::optional<Core> core_; ///< always there; optional, to be made anew
+    std::optional<Core> core_;                  ///< always there; optional, to be made anew
     std::optional<RepeatedPoints<D>> repeated_; ///< as well
-    abacus_header *header_ = nullptr; ///< of the change at hand
+    abacus_header *header_ = nullptr;           ///< of the change at hand
 };
 
 /// Adds up counters of several builds; peaks are maxima.

@@ -29,12 +29,16 @@ template <int D> std::uint64_t Build<D>::pass_on(const Point<D> &p) {
     return 1;
 }
 
-template <int D>
-std::uint64_t Build<D>::erase_vertex(const Point<D> &p, Leaving *want) {
+template <int D> std::uint64_t Build<D>::erase_vertex(const Point<D> &p, Leaving *want) {
     switch (core_->removal.remove(p, want)) {
-    case Removed::no_such_vertex: return 0;
-    case Removed::removed: --header_->vertices; break;
-    case Removed::collapses: collapse(); break;
+    case Removed::no_such_vertex:
+        return 0;
+    case Removed::removed:
+        --header_->vertices;
+        break;
+    case Removed::collapses:
+        collapse();
+        break;
     }
     return 1;
 }

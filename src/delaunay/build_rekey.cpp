@@ -74,8 +74,7 @@ template <int D> void Build<D>::change_domain(Box<D> box, std::size_t memory) {
 
 /// Moves all points of the triangulation to a stage, of equal ones the vertex first; but for the
 /// corners of one simplex, from which the next triangulation can begin.
-template <int D>
-void Build<D>::take_apart(Stage<D> &points, std::array<Record, D + 1> &corners) {
+template <int D> void Build<D>::take_apart(Stage<D> &points, std::array<Record, D + 1> &corners) {
     Cache<D> &cache = core_->cache;
     Record record;
     const auto read = [&](Record &to, VertexIndex v) {

@@ -35,7 +35,8 @@ void Cavity<2>::find(const Point<2> &p, Handle first) {
         const int facet = link_facet(outer);
         const int next = facet == 2 ? 0 : facet + 1, last = 3 - facet - next;
         add(h);
-        if (top + 2 > stack_.data() + stack_.capacity()) [[unlikely]] top = deepen(top);
+        if (top + 2 > stack_.data() + stack_.capacity()) [[unlikely]]
+            top = deepen(top);
         top[1].begin = top->begin;
         top[1].cross = top->cross_ac;
         top[1].vertex = top->vertex;

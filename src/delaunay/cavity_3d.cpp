@@ -23,8 +23,8 @@ constexpr std::array<std::array<std::array<std::uint8_t, 4>, 3>, 4> slots_beyond
 
 Cavity<3>::Cavity(Delaunay<3> &mesh)
     : CavityInside(mesh), corners_(cache_.host()), seen_(cache_.host()), codes_(cache_.host()),
-      edges_(cache_.host()), facets_(cache_.host()), rim_(cache_.host()),
-      created_(cache_.host()), ridges_(cache_.host()) {
+      edges_(cache_.host()), facets_(cache_.host()), rim_(cache_.host()), created_(cache_.host()),
+      ridges_(cache_.host()) {
     make_room();
 }
 
@@ -38,7 +38,8 @@ void Cavity<3>::make_room() {
 inline std::uint32_t Cavity<3>::add_corner(VertexIndex v, const SeenPoint<3> &point) {
     // New or not is hard to foresee: it is written in either case.
     const std::uint32_t number = cache_.number_in_room(corners_, v);
-    if (number >= seen_.capacity()) [[unlikely]] make_room();
+    if (number >= seen_.capacity()) [[unlikely]]
+        make_room();
     seen_[number] = point;
     codes_[number] = cache_.vertices()[v].code;
     return number;
@@ -76,8 +77,10 @@ inline std::size_t Cavity<3>::look_beyond(std::size_t at, Batch &batch) {
         outer[n] = cache_.simplex(link_simplex(inner)).link[link_facet(inner)];
         all |= outer[n];
     }
-    if (is_absent(all)) [[unlikely]] load_beyond(at, facets, outer.data());
-    else cache_.counters.steps += facets;
+    if (is_absent(all)) [[unlikely]]
+        load_beyond(at, facets, outer.data());
+    else
+        cache_.counters.steps += facets;
     batch.size = 0;
     for (std::size_t n = 0; n < facets; ++n) {
         const Handle h = link_simplex(outer[n]);
@@ -108,7 +111,8 @@ inline void Cavity<3>::test(Batch &batch, const Point<3> &p) {
         beyond.test = in_sphere(plane(facets_[beyond.facet]), beyond.apex);
         are_sure &= beyond.test.is_sure;
     }
-    if (!are_sure) [[unlikely]] test_exactly(batch, p);
+    if (!are_sure) [[unlikely]]
+        test_exactly(batch, p);
 }
 
 void Cavity<3>::test_exactly(Batch &batch, const Point<3> &p) {
@@ -120,7 +124,8 @@ void Cavity<3>::test_exactly(Batch &batch, const Point<3> &p) {
         const Handle h = link_simplex(beyond.outer);
         const Beyond *same = batch.beyond.data();
         while (link_simplex(same->outer) != h) ++same;
-        if (same != &beyond) beyond.test.is_inside = same->test.is_inside;
+        if (same != &beyond)
+            beyond.test.is_inside = same->test.is_inside;
         else
             beyond.test.is_inside = mesh_.marks.get(h) == Marks::none && is_exactly_inside(h, p);
     }
@@ -184,8 +189,7 @@ void Cavity<3>::begin(const Point<3> &p, Handle first) {
     edge[2] = cross(seen_[c], apex);
     const auto &orders = slots_beyond[in_u];
     const VertexIndex first = corners_[a];
-    const auto &in =
-        orders[(vertex[orders[1][0]] == first) + 2 * (vertex[orders[2][0]] == first)];
+    const auto &in = orders[(vertex[orders[1][0]] == first) + 2 * (vertex[orders[2][0]] == first)];
     created[0] = {make_link(h, in[2]), {in[0], in[1], in[3]}, f.sign, {a, b, u}, {ab, au, bu}};
     created[1] = {make_link(h, in[0]), {in[1], in[2], in[3]}, 1, {b, c, u}, {bc, bu, cu}};
     created[2] = {make_link(h, in[1]), {in[2], in[0], in[3]}, -1, {c, a, u}, {ac, cu, au}};
@@ -219,8 +223,8 @@ inline Handle Cavity<3>::create(const RimFacet &rim, VertexIndex v, std::uint64_
                                 const View &ridges) {
     const Facet &facet = facets_[rim.facet];
     const auto corner = facet.corner;
-    const Handle h = cache_.allot(
-        std::max({code, codes_[corner[0]], codes_[corner[1]], codes_[corner[2]]}));
+    const Handle h =
+        cache_.allot(std::max({code, codes_[corner[0]], codes_[corner[1]], codes_[corner[2]]}));
     // v lies on the same side as the vertex in whose place it comes, so the orientation stays,
     // and a ghost's point at infinity stays last.
     const int opposite = link_facet(facet.inner);

@@ -7,8 +7,7 @@
 namespace abacus {
 
 template <int D>
-Insertion<D>::Insertion(Delaunay<D> &mesh)
-    : mesh_(mesh), cache_(mesh.cache()), cavity_(mesh) {}
+Insertion<D>::Insertion(Delaunay<D> &mesh) : mesh_(mesh), cache_(mesh.cache()), cavity_(mesh) {}
 
 template <int D> Handle Insertion<D>::find_conflict(const Point<D> &p, std::uint64_t code) {
     Handle from = no_handle;
@@ -16,9 +15,13 @@ template <int D> Handle Insertion<D>::find_conflict(const Point<D> &p, std::uint
     for (const Handle h : mesh_.recent()) {
         if (!cache_.is_live(h)) continue;
         switch (side_of<D>(cache_, cache_.simplex(h), p)) {
-        case Side::vertex: return no_handle;
-        case Side::inside: ++cache_.counters.incircle_hits; return h;
-        case Side::outside: from = h;
+        case Side::vertex:
+            return no_handle;
+        case Side::inside:
+            ++cache_.counters.incircle_hits;
+            return h;
+        case Side::outside:
+            from = h;
         }
     }
     const Handle h = mesh_.locate(p, code, from);

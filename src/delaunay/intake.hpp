@@ -27,8 +27,10 @@ public:
         } else {
             first_.offer(record_point<D>(record), held());
             std::copy_n(record, stride_, held_.extend(stride_));
-            if (first_.is_complete()) start();
-            else if (held() == most_held) stage();
+            if (first_.is_complete())
+                start();
+            else if (held() == most_held)
+                stage();
         }
     }
     void add(const std::uint64_t *records, std::size_t n, std::size_t stride) override {

@@ -14,8 +14,7 @@ namespace abacus {
 template <int D> class Build<D>::Outlet final : public RecordSink {
 public:
     Outlet(Build &build, bool exactly)
-        : build_(build),
-          leaving_(build.host_, build.cache_bytes_ / 16, exactly, build.attributes_),
+        : build_(build), leaving_(build.host_, build.cache_bytes_ / 16, exactly, build.attributes_),
           waiting_(build.host_, build.attributes_, exactly) {}
 
     void add(const std::uint64_t *record) override {

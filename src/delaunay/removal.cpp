@@ -52,8 +52,7 @@ template <int D> Removed Removal<D>::remove(const Point<D> &p, Leaving *want) {
     return Removed::removed;
 }
 
-template <int D>
-std::optional<bool> Removal<D>::offer(const Point<D> &p, Leaving &leaving) {
+template <int D> std::optional<bool> Removal<D>::offer(const Point<D> &p, Leaving &leaving) {
     const Link corner = find(p);
     std::optional<bool> more;
     if (corner != nowhere) {

@@ -36,13 +36,15 @@ class Ridges {
         /// cavity is no ball then.
         void add(std::uint32_t a, std::uint32_t b, Link link) const {
             Entry &entry = find_(a, b);
-            if ((entry ^ epoch_) >> 32 == 0) [[unlikely]] refuse();
+            if ((entry ^ epoch_) >> 32 == 0) [[unlikely]]
+                refuse();
             entry = epoch_ | link;
         }
         /// What lies on the other side; throws when there is nothing.
         Link across(std::uint32_t a, std::uint32_t b) const {
             const Entry entry = find_(b, a);
-            if ((entry ^ epoch_) >> 32 != 0) [[unlikely]] refuse();
+            if ((entry ^ epoch_) >> 32 != 0) [[unlikely]]
+                refuse();
             return static_cast<Link>(entry);
         }
 
@@ -62,9 +64,9 @@ public:
         if (++epoch_ == 0) forget(); // once in four billion insertions
         if (vertices <= numbers) [[likely]] {
             Entry *const table = table_.data();
-            fill(View([table](std::uint32_t a, std::uint32_t b) -> Entry & {
-                return table[a * numbers + b];
-            }, epoch_));
+            fill(View([table](std::uint32_t a,
+                              std::uint32_t b) -> Entry & { return table[a * numbers + b]; },
+                      epoch_));
             return;
         }
         const std::size_t size = std::bit_ceil(links + 1);
@@ -72,17 +74,19 @@ public:
             hashed_.resize(size);
             forget();
         }
-        fill(View([table = hashed_.data(), mask = size - 1, epoch = epoch_](
-                      std::uint32_t a, std::uint32_t b) -> Entry & {
-            const std::uint64_t edge = std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
-            std::size_t at = (edge * 0x9e3779b97f4a7c15ull >> 32) & mask;
-            const auto is_taken = [&](const Hashed &hashed) {
-                return hashed.entry[0] >> 32 == epoch || hashed.entry[1] >> 32 == epoch;
-            };
-            while (is_taken(table[at]) && table[at].edge != edge) at = (at + 1) & mask;
-            table[at].edge = edge;
-            return table[at].entry[a > b];
-        }, epoch_));
+        fill(View(
+            [table = hashed_.data(), mask = size - 1, epoch = epoch_](std::uint32_t a,
+                                                                      std::uint32_t b) -> Entry & {
+                const std::uint64_t edge = std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
+                std::size_t at = (edge * 0x9e3779b97f4a7c15ull >> 32) & mask;
+                const auto is_taken = [&](const Hashed &hashed) {
+                    return hashed.entry[0] >> 32 == epoch || hashed.entry[1] >> 32 == epoch;
+                };
+                while (is_taken(table[at]) && table[at].edge != edge) at = (at + 1) & mask;
+                table[at].edge = edge;
+                return table[at].entry[a > b];
+            },
+            epoch_));
     }
 
 private:

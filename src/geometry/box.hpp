@@ -38,8 +38,7 @@ template <int D> struct Box {
     bool is_point() const { return lower == upper; }
     bool meets(const Box &box) const {
         bool meets = true;
-        for (int i = 0; i < D; ++i)
-            meets &= lower[i] <= box.upper[i] && box.lower[i] <= upper[i];
+        for (int i = 0; i < D; ++i) meets &= lower[i] <= box.upper[i] && box.lower[i] <= upper[i];
         return meets;
     }
 };

@@ -35,8 +35,7 @@ public:
             if (end - begin <= 1) break;
             for (std::size_t i = begin; i < end; i += fan) {
                 Box<D> node = boxes_[i];
-                for (std::size_t k = i + 1; k < std::min(i + fan, end); ++k)
-                    node.extend(boxes_[k]);
+                for (std::size_t k = i + 1; k < std::min(i + fan, end); ++k) node.extend(boxes_[k]);
                 boxes_.push_back(node);
             }
             begin = end;
@@ -62,9 +61,9 @@ private:
         return true;
     }
 
-    Arena<Box<D>> boxes_;  // those added, then each level of nodes
+    Arena<Box<D>> boxes_; // those added, then each level of nodes
     std::size_t size_ = 0;
-    std::size_t begin_[24];   // of each level in boxes_
+    std::size_t begin_[24]; // of each level in boxes_
     int levels_ = 0;
 };
 

@@ -56,7 +56,9 @@ private:
         std::uint32_t number = 0;
         while (gray(number) != turned) ++number;
         const std::uint32_t entry = number == 0 ? 0 : gray((number - 1) / 2 * 2);
-        const std::uint32_t axis = std::countr_one(number % 2 == 1 ? number : number == 0 ? 0 : number - 1);
+        const std::uint32_t axis = std::countr_one(number % 2 == 1 ? number
+                                                   : number == 0   ? 0
+                                                                   : number - 1);
         state.entry ^= rotated(entry, state.axis + 1);
         state.axis = (state.axis + axis + 1) % D;
         return number;
@@ -78,7 +80,8 @@ private:
             std::uint32_t numbers = 0;
             for (int level = levels - 1; level >= 0; --level)
                 numbers = numbers << D | descend(state, octant(i, level));
-            table[i] = static_cast<std::uint16_t>((state.entry * D + state.axis) * group_size | numbers);
+            table[i] =
+                static_cast<std::uint16_t>((state.entry * D + state.axis) * group_size | numbers);
         }
         return table;
     }();

@@ -20,7 +20,7 @@ template <int D> constexpr int place_bits = D == 2 ? 16 : 12; // an axis
 /// Cells of the grid along the size of a simplex, as a power of two: neighbours that differ
 /// from one another by much less than their size, as around an edge, still come in order.
 template <int D> constexpr int fine_bits = D == 2 ? 3 : 0;
-template <int D> constexpr int hash_bits = 63 - coarse_bits - D * place_bits<D>;
+template <int D> constexpr int hash_bits = 63 - coarse_bits - D *place_bits<D>;
 
 class Hash {
 public:

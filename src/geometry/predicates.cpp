@@ -136,9 +136,8 @@ template <int D> int in_sphere(const Corners<D> &corners, const Point<D> &p) {
     for (const Point<D> *corner : corners)
         if (*corner == p) return 0;
 
-    return perturbed_sign<D, D + 1>(corners, p, [](const Corners<D> &replaced) {
-        return abacus::orientation<D>(replaced);
-    });
+    return perturbed_sign<D, D + 1>(
+        corners, p, [](const Corners<D> &replaced) { return abacus::orientation<D>(replaced); });
 }
 
 int in_hull_facet(const Corners<3> &corners, const Point<3> &p) {

@@ -74,8 +74,7 @@ inline int orientation(const Point<2> &a, const Point<2> &b, const Point<2> &c) 
 }
 
 /// +1 if det(b-a, c-a, d-a) > 0, -1 if < 0, 0 if coplanar.
-inline int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c,
-                       const Point<3> &d) {
+inline int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c, const Point<3> &d) {
     const double ax = a[0] - d[0], ay = a[1] - d[1], az = a[2] - d[2];
     const double bx = b[0] - d[0], by = b[1] - d[1], bz = b[2] - d[2];
     const double cx = c[0] - d[0], cy = c[1] - d[1], cz = c[2] - d[2];
@@ -94,8 +93,10 @@ inline int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c,
 }
 
 template <int D> inline int orientation(const Corners<D> &c) {
-    if constexpr (D == 2) return orientation(*c[0], *c[1], *c[2]);
-    else return orientation(*c[0], *c[1], *c[2], *c[3]);
+    if constexpr (D == 2)
+        return orientation(*c[0], *c[1], *c[2]);
+    else
+        return orientation(*c[0], *c[1], *c[2], *c[3]);
 }
 
 /// Position of p to a facet of positively oriented corners: +1 on the side of the corner opposite,
@@ -137,19 +138,19 @@ inline bool is_independent(const Corners<3> &points, int n, const Point<3> &p) {
 /// -1 outside, points on the sphere perturbed to one or the other; 0 if and only
 /// if p equals a corner.
 inline int in_sphere(const Corners<2> &corners, const Point<2> &p) {
-    const SeenPoint<2> a = seen(*corners[1], p), b = seen(*corners[0], p),
-                       c = seen(*corners[2], p);
+    const SeenPoint<2> a = seen(*corners[1], p), b = seen(*corners[0], p), c = seen(*corners[2], p);
     const InCircle test = in_circle(a, b, cross(a, b), c);
-    if (test.is_sure) [[likely]] return test.is_inside ? 1 : -1;
+    if (test.is_sure) [[likely]]
+        return test.is_inside ? 1 : -1;
     return exact::in_sphere<2>(corners, p);
 }
 
 inline int in_sphere(const Corners<3> &corners, const Point<3> &p) {
-    const SeenPoint<3> s = seen(*corners[1], p), t = seen(*corners[0], p),
-                       u = seen(*corners[2], p);
+    const SeenPoint<3> s = seen(*corners[1], p), t = seen(*corners[0], p), u = seen(*corners[2], p);
     const LiftedPlane facet = lifted_plane(s, t, u, cross(s, t), cross(s, u), cross(t, u), 1);
     const InSphere test = in_sphere(facet, seen(*corners[3], p));
-    if (test.is_sure) [[likely]] return test.is_inside ? 1 : -1;
+    if (test.is_sure) [[likely]]
+        return test.is_inside ? 1 : -1;
     return exact::in_sphere<3>(corners, p);
 }
 

@@ -31,9 +31,8 @@ public:
     Arena &operator=(const Arena &) = delete;
     Arena(Arena &&other) noexcept
         : host_(other.host_), block_(std::exchange(other.block_, nullptr)),
-          data_(std::exchange(other.data_, nullptr)),
-          size_(std::exchange(other.size_, 0)), capacity_(std::exchange(other.capacity_, 0)),
-          ready_(std::exchange(other.ready_, 0)) {}
+          data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)),
+          capacity_(std::exchange(other.capacity_, 0)), ready_(std::exchange(other.ready_, 0)) {}
     ~Arena() { host_->release(block_); }
 
     T &operator[](std::size_t i) { return data_[i]; }
@@ -61,13 +60,15 @@ public:
     }
     /// New elements are uninitialized.
     void resize(std::size_t n) {
-        if (n > ready_) [[unlikely]] make_ready(n);
+        if (n > ready_) [[unlikely]]
+            make_ready(n);
         size_ = n;
     }
     void push_back(T value) { *extend(1) = value; } // by value: it may be an element
     /// Adds n uninitialized elements; returns the first.
     T *extend(std::size_t n) {
-        if (size_ + n > ready_) [[unlikely]] make_ready(size_ + n);
+        if (size_ + n > ready_) [[unlikely]]
+            make_ready(size_ + n);
         size_ += n;
         return data_ + (size_ - n);
     }

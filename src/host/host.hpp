@@ -49,7 +49,8 @@ public:
 
     /// Serves a pending interrupt; throws if it ends the statement.
     void poll() const {
-        if (*table_->interrupted != 0) [[unlikely]] require(table_->poll(table_->context));
+        if (*table_->interrupted != 0) [[unlikely]]
+            require(table_->poll(table_->context));
     }
     void progress(const abacus_progress &progress) const {
         require(table_->progress(table_->context, &progress));

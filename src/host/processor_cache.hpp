@@ -23,7 +23,8 @@ template <class T> inline void touch(const T *object) {
 /// Asks for so many objects in a row by prefetch instructions.
 template <class T> inline void prefetch(const T *objects, std::size_t count) {
     const auto *const bytes = reinterpret_cast<const char *>(objects);
-    for (std::size_t at = 0; at < count * sizeof(T); at += cache_line) __builtin_prefetch(bytes + at);
+    for (std::size_t at = 0; at < count * sizeof(T); at += cache_line)
+        __builtin_prefetch(bytes + at);
 }
 
 } // namespace abacus

@@ -16,11 +16,9 @@ constexpr std::size_t sorts_at_once = 4;
 
 template <int D>
 Load<D>::Load(const Host &host, const abacus_header &header, std::size_t memory, bool reorient)
-    : host_(host), attributes_(header.attributes), layout_(header.attributes),
-      reorient_(reorient), share_(memory / sorts_at_once), pacer_(host),
-      used_(host, layout_.vertex),
-      ordered_(host, layout_.vertex),
-      simplices_(host, layout_.simplex) {
+    : host_(host), attributes_(header.attributes), layout_(header.attributes), reorient_(reorient),
+      share_(memory / sorts_at_once), pacer_(host), used_(host, layout_.vertex),
+      ordered_(host, layout_.vertex), simplices_(host, layout_.simplex) {
     if (header.staged > 0 || header.vertices > 0)
         throw Error(ABACUS_ERROR_STATE, "the mesh has points already", {},
                     "Load into an empty mesh.");
@@ -90,11 +88,15 @@ template <int D> void Load<D>::finish(abacus_header &header) {
     ElementWriter<D> pages(host_, layout_, *domain_, attributes_, delaunay_);
     pages.write(*elements_, pacer_);
     end(elements_);
-    if (delaunay_) ordered_.close();
-    else write_vertices();
+    if (delaunay_)
+        ordered_.close();
+    else
+        write_vertices();
 
-    if (keeps_domain_) header.outside = outside_;
-    else set_domain(header, box_);
+    if (keeps_domain_)
+        header.outside = outside_;
+    else
+        set_domain(header, box_);
     header.vertices = vertex_count_;
     header.simplices = simplex_count_;
     header.not_delaunay = !delaunay_;

@@ -90,8 +90,8 @@ private:
     Box<D> box_;
     bool delaunay_ = true;
     Word vertex_count_ = 0, simplex_count_ = 0;
-    Word outside_ = 0;          // vertices, of a given domain
-    bool keeps_domain_ = false; // the given one
+    Word outside_ = 0;              // vertices, of a given domain
+    bool keeps_domain_ = false;     // the given one
     Point<D> least_{}, greatest_{}; // of the vertices, lexicographically
 
     std::optional<RecordSort> vertices_, corners_, placed_, flanks_, links_, boundary_, elements_;

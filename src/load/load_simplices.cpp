@@ -6,8 +6,7 @@
 
 namespace abacus {
 
-template <int D>
-Key Load<D>::key_of(const std::array<const Word *, D + 1> &vertices, int n) const {
+template <int D> Key Load<D>::key_of(const std::array<const Word *, D + 1> &vertices, int n) const {
     std::array<const Point<D> *, D + 1> points{};
     std::array<std::uint64_t, D + 1> codes{};
     std::uint64_t greatest = 0;
@@ -42,8 +41,8 @@ template <int D> void Load<D>::assemble() {
                    D == 2 ? "Its vertices lie on one line." : "Its vertices lie in one plane.",
                    "Leave flat simplices out, and join the simplices beside them.");
         if (sign < 0 && !reorient_)
-            refuse("simplex " + name_of(ids) + " has negative orientation",
-                   {}, "Exchange two of its vertices, or let reorient => true do it.");
+            refuse("simplex " + name_of(ids) + " has negative orientation", {},
+                   "Exchange two of its vertices, or let reorient => true do it.");
         if (sign < 0) std::swap(vertices[0], vertices[1]);
         const Key key = key_of(vertices, D + 1);
         Word *record = simplices_.add();
@@ -96,8 +95,7 @@ template <int D> void Load<D>::find_boundary() {
         element[0] = record[0];
         element[1] = record[1];
         Corners<D> corners;
-        for (int i = 0; i <= D; ++i)
-            corners[i] = &point_in<D>(layout_.simplex_vertex(record, i));
+        for (int i = 0; i <= D; ++i) corners[i] = &point_in<D>(layout_.simplex_vertex(record, i));
         for (int i = 0; i <= D; ++i) {
             Key beyond;
             if (const auto *link = links.of(simplex, i)) {

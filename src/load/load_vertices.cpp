@@ -52,9 +52,8 @@ template <int D> void Load<D>::refuse_unknown(Word simplex, Word id) {
     corners_->rewind();
     while (const Word *corner = corners_->next())
         if (corner[1] >> 2 == simplex) ids[corner[1] & 3] = corner[0];
-    refuse("simplex " + name_of(ids) + " names vertex " + number(id) +
-               ", which does not exist",
-           {}, "The vertices query must return all vertices of the simplices.");
+    refuse("simplex " + name_of(ids) + " names vertex " + number(id) + ", which does not exist", {},
+           "The vertices query must return all vertices of the simplices.");
 }
 
 /// A given domain that the vertices do not keep to is widened at once: a mesh that is not Delaunay
@@ -88,8 +87,8 @@ template <int D> void Load<D>::order_vertices() {
         const Point<D> &p = point_in<D>(place);
         const Word id = place[1 + D];
         if (previous_point == p) {
-            const auto [lesser, greater] = std::minmax(
-                {static_cast<std::int64_t>(previous), static_cast<std::int64_t>(id)});
+            const auto [lesser, greater] =
+                std::minmax({static_cast<std::int64_t>(previous), static_cast<std::int64_t>(id)});
             refuse("vertices " + std::to_string(lesser) + " and " + std::to_string(greater) +
                        " have the same coordinates",
                    {}, "Give the simplices one vertex for each place.");

@@ -23,12 +23,10 @@ constexpr std::size_t least_room = 64; // facets
 template <int D>
 Overlap<D>::Overlap(const Host &host, const LoadLayout<D> &layout, std::size_t memory)
     : host_(host), layout_(layout),
-      room_(std::max(least_room,
-                     memory / (sizeof(BoundaryFacet) + BoxTree<D>::bytes_per_box))),
+      room_(std::max(least_room, memory / (sizeof(BoundaryFacet) + BoxTree<D>::bytes_per_box))),
       facets_(host), tree_(host) {}
 
-template <int D>
-typename Overlap<D>::BoundaryFacet Overlap<D>::read(const Word *record) const {
+template <int D> typename Overlap<D>::BoundaryFacet Overlap<D>::read(const Word *record) const {
     BoundaryFacet facet;
     for (int i = 0; i < D; ++i) {
         const Word *vertex = layout_.boundary_vertex(record, i);

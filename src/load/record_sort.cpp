@@ -19,13 +19,11 @@ RecordSort::RecordSort(const Host &host, std::size_t stride, std::size_t key, st
       runs_(host), pieces_(host), heap_(host) {
     memory = std::max(memory, least);
     const std::size_t bytes = stride * sizeof(std::uint64_t);
-    const std::size_t piece_bytes =
-        std::clamp(memory / 64, least_piece_bytes, most_piece_bytes);
+    const std::size_t piece_bytes = std::clamp(memory / 64, least_piece_bytes, most_piece_bytes);
     piece_ = std::max<std::size_t>(1, piece_bytes / bytes);
     // A quarter for merging; runs of two levels wait.
-    fan_in_ = static_cast<unsigned>(
-        std::clamp<std::size_t>(memory / 4 / (piece_bytes + 2 * host_bytes_per_spool),
-                                least_fan_in, most_fan_in));
+    fan_in_ = static_cast<unsigned>(std::clamp<std::size_t>(
+        memory / 4 / (piece_bytes + 2 * host_bytes_per_spool), least_fan_in, most_fan_in));
     room_ = std::clamp<std::size_t>(memory / 8 * 5 / (bytes + sort_bytes_per_record), 16,
                                     most_sorted_records);
 }
@@ -57,8 +55,8 @@ void RecordSort::order(std::size_t begin, std::size_t end, std::size_t word) {
     const int shift = std::max(0, static_cast<int>(std::bit_width(most - least)) - key_bits);
     pacer_.each_piece(n, [&](std::size_t from, std::size_t to) {
         for (std::size_t i = begin + from; i < begin + to; ++i)
-            words[i] = ((record(words[i])[word] - least) >> shift) << index_bits |
-                       (words[i] & index_mask);
+            words[i] =
+                ((record(words[i])[word] - least) >> shift) << index_bits | (words[i] & index_mask);
     });
     std::uint64_t *const scratch = words + count_ + begin;
     const std::uint64_t *sorted = radix_sort(words + begin, scratch, n, pacer_);
@@ -144,8 +142,10 @@ const std::uint64_t *RecordSort::next() {
 }
 
 void RecordSort::rewind() {
-    if (in_memory()) at_ = 0;
-    else open(0);
+    if (in_memory())
+        at_ = 0;
+    else
+        open(0);
 }
 
 void RecordSort::close() {

@@ -88,14 +88,14 @@ private:
 
     Arena<std::uint64_t> records_; // the buffer
     std::size_t count_ = 0;
-    Arena<std::uint64_t> words_;   // its order, and as much again for sorting
-    std::size_t at_ = 0;           // next of it, when all is in the buffer
+    Arena<std::uint64_t> words_; // its order, and as much again for sorting
+    std::size_t at_ = 0;         // next of it, when all is in the buffer
 
     Arena<Run> runs_;
     Arena<std::uint64_t> pieces_;
     Arena<std::size_t> heap_; // runs that have records left, the least first
     std::size_t first_ = 0;
-    bool advance_ = false;    // the head was handed out
+    bool advance_ = false; // the head was handed out
 };
 
 } // namespace abacus

@@ -29,9 +29,9 @@ namespace abacus {
 using Word = std::uint64_t;
 
 template <int D> struct LoadLayout {
-    std::size_t vertex;                                  // words
-    std::size_t simplex, boundary, element;              // words
-    static constexpr std::size_t link = 4 + D;           // words
+    std::size_t vertex;                        // words
+    std::size_t simplex, boundary, element;    // words
+    static constexpr std::size_t link = 4 + D; // words
     static constexpr std::size_t flank(std::size_t ids) { return ids + 4 + D; }
 
     explicit LoadLayout(unsigned attributes)

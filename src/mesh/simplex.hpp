@@ -68,8 +68,10 @@ template <class Vertex, std::size_t n>
 constexpr std::array<Vertex, n> ghost_on(std::array<Vertex, n> corners, std::size_t facet,
                                          const Vertex &infinity) {
     corners[facet] = infinity;
-    if (facet == n - 1) std::swap(corners[0], corners[1]);
-    else std::swap(corners[facet], corners[n - 1]);
+    if (facet == n - 1)
+        std::swap(corners[0], corners[1]);
+    else
+        std::swap(corners[facet], corners[n - 1]);
     return corners;
 }
 

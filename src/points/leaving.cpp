@@ -10,8 +10,8 @@ constexpr std::size_t fewest_wants = 16, most_wants = 1 << 20;
 
 Leaving::Leaving(const Host &host, std::size_t bytes, bool exactly, unsigned attributes)
     : exactly_(exactly), identities_(host, exactly ? attributes : 0),
-      most_(std::clamp(bytes / (bytes_a_want + identities_.bytes_each()), fewest_wants,
-                       most_wants)),
+      most_(
+          std::clamp(bytes / (bytes_a_want + identities_.bytes_each()), fewest_wants, most_wants)),
       wants_(host), wanted_(host), candidates_(host) {}
 
 void Leaving::begin() {
@@ -23,8 +23,10 @@ void Leaving::begin() {
               [](const Wanted &a, const Wanted &b) { return a.id < b.id; });
     unmet_ = 0; // so far the ids that are different
     for (const Wanted &wanted : wanted_) {
-        if (unmet_ > 0 && wanted_[unmet_ - 1].id == wanted.id) ++wanted_[unmet_ - 1].times;
-        else wanted_[unmet_++] = wanted;
+        if (unmet_ > 0 && wanted_[unmet_ - 1].id == wanted.id)
+            ++wanted_[unmet_ - 1].times;
+        else
+            wanted_[unmet_++] = wanted;
     }
     wanted_.resize(unmet_);
 }
@@ -42,8 +44,10 @@ bool Leaving::offer(std::int64_t id, const double *attributes, std::uint64_t ser
     const auto number = static_cast<std::uint32_t>(candidates_.size());
     candidates_.push_back({serial, none, false});
     if (wanted != nullptr) {
-        if (wanted->first == none) wanted->first = number;
-        else candidates_[wanted->last].next = number;
+        if (wanted->first == none)
+            wanted->first = number;
+        else
+            candidates_[wanted->last].next = number;
         wanted->last = number;
         wanted->behind += is_behind;
         unmet_ -= ++wanted->offered == wanted->times;

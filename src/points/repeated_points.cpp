@@ -60,8 +60,7 @@ void decode(const abacus_page &page, const Domain<D> &domain, unsigned attribute
 
 template <int D>
 RepeatedPoints<D>::RepeatedPoints(const Host &host, const Domain<D> &domain, unsigned attributes)
-    : host_(host), domain_(domain), attributes_(attributes),
-      stride_(entry_words(D, attributes)),
+    : host_(host), domain_(domain), attributes_(attributes), stride_(entry_words(D, attributes)),
       capacity_((ABACUS_PAGE_BYTES / 8 - RepeatedPageHeader::words) / stride_), records_(host),
       taken_(host) {}
 
@@ -97,8 +96,10 @@ template <int D> std::size_t RepeatedPoints<D>::lower_bound(const Key &key) {
     std::size_t low = 0, high = count();
     while (low < high) {
         const std::size_t middle = (low + high) / 2;
-        if (key_of(entry(middle)) < key) low = middle + 1;
-        else high = middle;
+        if (key_of(entry(middle)) < key)
+            low = middle + 1;
+        else
+            high = middle;
     }
     return low;
 }
@@ -172,8 +173,7 @@ template <int D> void RepeatedPoints<D>::offer(const Point<D> &p, Leaving &leavi
     });
 }
 
-template <int D>
-std::uint64_t RepeatedPoints<D>::take(const Point<D> &p, const Leaving &leaving) {
+template <int D> std::uint64_t RepeatedPoints<D>::take(const Point<D> &p, const Leaving &leaving) {
     const std::uint64_t code = domain_.code(p);
     std::uint64_t taken = 0;
     leaving.each_other([&](std::uint64_t serial) {

@@ -70,10 +70,10 @@ private:
     const unsigned attributes_;
     const std::size_t stride_;   // words of an entry
     const std::size_t capacity_; // entries of a page
-    bool at_page_ = false; // otherwise what follows says nothing
+    bool at_page_ = false;       // otherwise what follows says nothing
     bool dirty_ = false;
-    Key lower_{}, upper_{};      // interval of the page at hand
-    std::uint64_t location_ = 0; // where it is stored; 0 = not yet
+    Key lower_{}, upper_{};        // interval of the page at hand
+    std::uint64_t location_ = 0;   // where it is stored; 0 = not yet
     Arena<std::uint64_t> records_; // its entries
     Arena<std::uint64_t> taken_;   // the record that was taken last
 };

@@ -6,8 +6,7 @@ namespace abacus {
 
 /// Those that a place's wants can take: as many first points as there are wants, and behind them
 /// of each identity as many as are wanted.
-template <int D>
-void WaitingPoints<D>::find_candidates(std::uint64_t from, std::uint64_t to) {
+template <int D> void WaitingPoints<D>::find_candidates(std::uint64_t from, std::uint64_t to) {
     const auto at_place = [](const Wanted &a, const Wanted &b) { return a.point < b.point; };
     const auto by_identity = [](const Wanted &a, const Wanted &b) {
         return a.identity < b.identity;
@@ -69,8 +68,10 @@ template <int D> std::uint64_t WaitingPoints<D>::take(std::uint64_t &from, std::
     VertexReader<D> reader(host_, attributes_, from, to, true);
     VertexPageWriter left(host_, D, attributes_, to);
     while (reader.advance()) {
-        if (taken < found_.size() && found_[taken] == reader.sequence()) ++taken;
-        else left.add(reader.record());
+        if (taken < found_.size() && found_[taken] == reader.sequence())
+            ++taken;
+        else
+            left.add(reader.record());
     }
     left.finish();
     from = to;

@@ -22,9 +22,8 @@ Check<D>::Check(const Host &host, const abacus_header &header, std::size_t cache
     if (is_sound() && pages_ > 0) run("link", [&] { check_topology(); });
     if (is_sound()) run("point", [&] { check_repeated_points(); });
     if (is_sound())
-        run("point", [&] {
-            header.not_delaunay != 0 ? check_listed_vertices() : check_waiting_points();
-        });
+        run("point",
+            [&] { header.not_delaunay != 0 ? check_listed_vertices() : check_waiting_points(); });
 }
 
 template <int D> void Check<D>::fault(const char *kind, const Key &key, const char *message) {
@@ -126,7 +125,8 @@ template <int D> void Check<D>::check_box(const PageView<D> &page, int patch) {
                 greatest = std::max(greatest, prefix);
             }
         if (page.patch(patch).least[axis] != least || page.patch(patch).greatest[axis] != greatest)
-            fault_of_content("page", "The box of a patch of simplices is not that of its vertices.");
+            fault_of_content("page",
+                             "The box of a patch of simplices is not that of its vertices.");
     }
 }
 

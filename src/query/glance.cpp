@@ -15,7 +15,7 @@ template <int D>
 bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex) {
     looks_ = 0;
     if (!in_order_) held_[0].upper = {}; // its bytes were the host's, for a while
-    KnownPage own; // a copy: others will be added
+    KnownPage own;                       // a copy: others will be added
     if (const Held *const held = find_held(code)) {
         own = held->page;
     } else if (const KnownPage *const known = known_.find(code)) {
@@ -31,8 +31,10 @@ bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &sim
         Codes codes;
         add_along_axes(cell, distance * own.spacing, codes);
         const bool is_first = distance == distances[0];
-        if (is_first) codes.add(code);
-        else add_diagonally(cell, distance * own.spacing, codes);
+        if (is_first)
+            codes.add(code);
+        else
+            add_diagonally(cell, distance * own.spacing, codes);
         std::sort(codes.begin(), codes.end(), std::greater());
         if (is_first) {
             code = *codes.begin();
@@ -52,7 +54,7 @@ bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &sim
 /// Code of the cell so far away in a direction, or at the border of the domain.
 template <int D>
 static std::uint64_t code_at(const Cell<D> &cell, const std::array<int, D> &way, double distance) {
-    constexpr std::int64_t last = (std::int64_t{1} << code_bits<D>) - 1;
+    constexpr std::int64_t last = (std::int64_t{1} << code_bits<D>)-1;
     const std::int64_t step = static_cast<std::int64_t>(distance) + 1;
     Cell<D> other;
     for (int i = 0; i < D; ++i)
@@ -85,9 +87,8 @@ void Glance<D>::add_diagonally(const Cell<D> &cell, double distance, Codes &code
 
 template <int D> bool Glance<D>::has_looked(std::uint64_t code) const {
     const Key key{code, 0};
-    return std::any_of(looked_.begin(), looked_.begin() + looks_, [&](const auto &page) {
-        return page.first <= key && key < page.second;
-    });
+    return std::any_of(looked_.begin(), looked_.begin() + looks_,
+                       [&](const auto &page) { return page.first <= key && key < page.second; });
 }
 
 template <int D> bool Glance<D>::was_seen(const Key &page) {
@@ -121,8 +122,7 @@ template <int D>
 typename Glance<D>::Held &Glance<D>::hold(std::uint64_t code, const abacus_page &page,
                                           const KnownPage *known) {
     const auto used_before = [](const Held &a, const Held &b) { return a.last_use < b.last_use; };
-    Held &held =
-        in_order_ ? *std::min_element(held_.begin(), held_.end(), used_before) : held_[0];
+    Held &held = in_order_ ? *std::min_element(held_.begin(), held_.end(), used_before) : held_[0];
     ++pages_read_;
     held.upper = {}; // no page's, until all went well
     held.asked = 0;
@@ -134,8 +134,8 @@ typename Glance<D>::Held &Glance<D>::hold(std::uint64_t code, const abacus_page 
         std::memcpy(held.bytes.data(), bytes, std::min(page.size, held.bytes.size()));
         bytes = held.bytes.data();
     }
-    const bool is_known = known != nullptr && known->location == page.location &&
-                          known->bytes == page.bytes;
+    const bool is_known =
+        known != nullptr && known->location == page.location && known->bytes == page.bytes;
     view.open(bytes, page.size, cache_.vertices().attribute_count(),
               is_known ? PageView<D>::Checksum::ignore : PageView<D>::Checksum::verify);
     if (!(view.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
@@ -185,8 +185,7 @@ template <int D> double Glance<D>::spacing(const PageView<D> &view) {
 
 template <int D> int Glance<D>::search(Held &held, const Point<D> &p) {
     Prefixes own;
-    for (int axis = 0; axis < D; ++axis)
-        own[axis] = held.view.ranks(axis).prefix(ordered(p[axis]));
+    for (int axis = 0; axis < D; ++axis) own[axis] = held.view.ranks(axis).prefix(ordered(p[axis]));
     return held.asked > worth_boxes ? search_boxes(held, p, own) : search_patches(held, p, own);
 }
 
@@ -201,8 +200,7 @@ static unsigned side_of(Column::Prefix prefix, Column::Prefix own, int axis) {
     return (prefix < own ? 1u << 2 * axis : 0) | (prefix > own ? 2u << 2 * axis : 0);
 }
 
-template <int D>
-void Glance<D>::compare(const PageView<D> &view, int patch, const Prefixes &own) {
+template <int D> void Glance<D>::compare(const PageView<D> &view, int patch, const Prefixes &own) {
     const auto fresh = view.fresh_of(patch), named = view.named_of(patch);
     for (int axis = 0; axis < D; ++axis) {
         view.ranks(axis).prefixes(static_cast<std::size_t>(fresh.begin),
@@ -217,7 +215,8 @@ void Glance<D>::compare(const PageView<D> &view, int patch, const Prefixes &own)
         if (v >= fresh.begin) continue; // the point at infinity has its side at last
         unsigned side = 0;
         for (int axis = 0; axis < D; ++axis)
-            side |= side_of(view.ranks(axis).prefix_at(static_cast<std::size_t>(v)), own[axis], axis);
+            side |=
+                side_of(view.ranks(axis).prefix_at(static_cast<std::size_t>(v)), own[axis], axis);
         sides_[v] = static_cast<Side>(side);
     }
     sides_[view.vertices()] = static_cast<Side>(-1);
@@ -232,14 +231,14 @@ template <int D> int Glance<D>::position(PageView<D> &view, int simplex, const P
     return in_simplex<D>(corners_of(view, simplex), p);
 }
 
-template <int D>
-int Glance<D>::search_patches(Held &held, const Point<D> &p, const Prefixes &own) {
+template <int D> int Glance<D>::search_patches(Held &held, const Point<D> &p, const Prefixes &own) {
     PageView<D> &view = held.view;
     for (int patch = 0; patch < view.patches(); ++patch) {
         const PagePatch<D> &box = view.patch(patch);
         bool is_within = true;
         for (int axis = 0; axis < D; ++axis)
-            is_within = is_within && box.least[axis] <= own[axis] && own[axis] <= box.greatest[axis];
+            is_within =
+                is_within && box.least[axis] <= own[axis] && own[axis] <= box.greatest[axis];
         if (!is_within) continue;
         read_patch(held, patch);
         compare(view, patch, own);
@@ -279,8 +278,7 @@ template <int D> void Glance<D>::make_boxes(Held &held) {
     held.has_boxes = true;
 }
 
-template <int D>
-int Glance<D>::search_boxes(Held &held, const Point<D> &p, const Prefixes &own) {
+template <int D> int Glance<D>::search_boxes(Held &held, const Point<D> &p, const Prefixes &own) {
     if (!held.has_boxes) make_boxes(held);
     const auto load = [](const Prefix *from) {
         PrefixLanes lanes;

@@ -90,7 +90,7 @@ private:
         Key lower{}, upper{}; ///< what it owns; nothing at first
         KnownPage page;
         std::uint64_t last_use = 0;
-        unsigned asked = 0;       ///< places looked for
+        unsigned asked = 0;        ///< places looked for
         std::uint64_t patches = 0; ///< those that have been read, a bit each
         bool has_boxes = false;
         PageView<D> view;

@@ -14,7 +14,7 @@ namespace abacus {
 struct KnownPage {
     std::uint64_t lower, upper; // codes
     std::uint64_t location;
-    double spacing; // of vertices, in cells of the curve
+    double spacing;             // of vertices, in cells of the curve
     const unsigned char *bytes; // where they were; they are not read there
 };
 

@@ -32,9 +32,7 @@ public:
         std::memcpy(copy_, page.bytes, std::min(size_, sizeof copy_));
         return true;
     }
-    void parse() {
-        view_.read(copy_, size_, static_cast<int>(attributes_));
-    }
+    void parse() { view_.read(copy_, size_, static_cast<int>(attributes_)); }
     /// The same whatever the checksum is; false if that is wrong.
     bool parse_unsealed() {
         view_.read(copy_, size_, static_cast<int>(attributes_), PageView<D>::Checksum::ignore);

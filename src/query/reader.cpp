@@ -204,8 +204,7 @@ template <int D> bool Reader<D>::has_ids(Handle h, const std::int64_t *ids) cons
     return std::is_permutation(here.begin(), here.end(), ids);
 }
 
-template <int D>
-int Reader<D>::named_corner(Handle h, const std::int64_t *ids, int facet) const {
+template <int D> int Reader<D>::named_corner(Handle h, const std::int64_t *ids, int facet) const {
     // Which of several corners with this id is meant, their order tells where the simplex is
     // handed out.
     const Simplex<D> &s = cache_.simplex(h);
@@ -243,7 +242,8 @@ bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
     if (h == no_handle)
         throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such simplex", {},
                     "Take a simplex that abacus_locate, abacus_walk or abacus_simplices returned "
-                    "for this mesh, and a facet from 0 to " + std::to_string(D) + ".");
+                    "for this mesh, and a facet from 0 to " +
+                        std::to_string(D) + ".");
     if (!is_unique)
         throw Error(ABACUS_ERROR_ARGUMENT,
                     "several simplices of the mesh have this code and these ids",
@@ -260,8 +260,7 @@ bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
     return true;
 }
 
-template <int D>
-std::optional<typename Reader<D>::Found> Reader<D>::vertex_at(const Point<D> &p) {
+template <int D> std::optional<typename Reader<D>::Found> Reader<D>::vertex_at(const Point<D> &p) {
     Handle h = no_handle;
     if (delaunay_)
         h = find(p, cache_.domain().code(p));

@@ -55,8 +55,8 @@ private:
     /// A simplex with p in its closure, or a ghost that sees p; no_handle in an empty mesh.
     /// Here and below `code` is p's, or that of where its simplex may be expected.
     Handle find(const Point<D> &p, std::uint64_t code);
-    /// Locates p in a page that is not in the cache, if that has been full, or places come in order,
-    /// and it is worth while. Else says where a walk should begin.
+    /// Locates p in a page that is not in the cache, if that has been full, or places come in
+    /// order, and it is worth while. Else says where a walk should begin.
     bool glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex);
     /// Where a walk to p begins; no_handle in an empty mesh.
     Handle start(const Point<D> &p, std::uint64_t code);

@@ -98,8 +98,10 @@ private:
         for (int i = 0; i < others; ++i) {
             if (is_lesser[i]) continue;
             Turn &turn = turn_around(other[i]);
-            if (s.is_ghost()) ++turn.ghosts;
-            else turn.changes += is_left[i] == is_left[(i + 2) % 3];
+            if (s.is_ghost())
+                ++turn.ghosts;
+            else
+                turn.changes += is_left[i] == is_left[(i + 2) % 3];
         }
         return has_lesser;
     }
@@ -117,7 +119,8 @@ private:
     bool turns_left(VertexIndex v, VertexIndex a, VertexIndex b) const {
         const Point<3> &p = cache_.point(v), &q = cache_.point(a), &r = cache_.point(b);
         const SignedArea area = signed_area({q[1] - p[1], q[2] - p[2]}, {r[1] - p[1], r[2] - p[2]});
-        if (area.is_sure()) [[likely]] return area.value > 0; // a coin's toss: no branch
+        if (area.is_sure()) [[likely]]
+            return area.value > 0; // a coin's toss: no branch
         for (int axis = 0; axis < 3; ++axis) {
             const int i = (axis + 1) % 3, j = (axis + 2) % 3;
             const int side = orientation({p[i], p[j]}, {q[i], q[j]}, {r[i], r[j]});

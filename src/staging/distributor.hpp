@@ -26,8 +26,7 @@ public:
 
     void add(const std::uint64_t *record) {
         const unsigned part = splitters_.part(record_point<D>(record));
-        std::uint64_t *to =
-            buffers_.data() + (part * piece_ + waiting_[part]) * stride_;
+        std::uint64_t *to = buffers_.data() + (part * piece_ + waiting_[part]) * stride_;
         for (std::size_t word = 0; word < stride_; ++word) to[word] = record[word];
         if (++waiting_[part] == piece_) write(part);
         ++size_;
@@ -37,8 +36,8 @@ public:
 
 private:
     void write(unsigned part) {
-        parts_[part].spool.write(host_, buffers_.data() + part * piece_ * stride_,
-                                 waiting_[part], stride_);
+        parts_[part].spool.write(host_, buffers_.data() + part * piece_ * stride_, waiting_[part],
+                                 stride_);
         waiting_[part] = 0;
     }
 

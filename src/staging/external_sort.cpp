@@ -93,9 +93,8 @@ template <int D> void ExternalSort<D>::sort_spool(Spool &spool, const Slice<D> &
     sort_.release();
     const Box<D> box = survey(spool);
     if (slice.has_one_code() && box.is_point()) return emit_as_is(spool);
-    Arena<Part<D>> parts =
-        cut(&spool, 1, slice.has_one_code() ? Slice<D>{Domain<D>(box.lower, box.upper)} : slice,
-            false);
+    Arena<Part<D>> parts = cut(
+        &spool, 1, slice.has_one_code() ? Slice<D>{Domain<D>(box.lower, box.upper)} : slice, false);
     sort_parts(parts);
 }
 
@@ -145,8 +144,7 @@ Arena<Part<D>> ExternalSort<D>::cut(Spool *spools, std::size_t n, const Slice<D>
         spools[i].rewind(host_);
         while (const std::size_t read =
                    spools[i].read(host_, records_.data(), budget_.piece, stride_)) {
-            for (std::size_t r = 0; r < read; ++r)
-                distributor.add(records_.data() + r * stride_);
+            for (std::size_t r = 0; r < read; ++r) distributor.add(records_.data() + r * stride_);
             report ? pacer_.reached(distributor.size()) : pacer_.poll();
         }
         close(spools[i]);

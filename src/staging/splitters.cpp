@@ -18,8 +18,8 @@ template <int D>
 Splitters<D>::Splitters(const Host &host, const Slice<D> &slice, const Sample<D> &sample,
                         unsigned parts, bool more_rounds)
     : slice_(slice), rounds_(slice.rounds == nullptr ? 1 : slice.rounds->size()), lower_(host),
-      cell_shift_(std::max<int>(0, std::bit_width(slice.upper - slice.lower) -
-                                  std::countr_zero(cells))),
+      cell_shift_(
+          std::max<int>(0, std::bit_width(slice.upper - slice.lower) - std::countr_zero(cells))),
       first_in_cell_(host) {
     Arena<Place> places(host);
     places.reserve(sample.size());

@@ -44,8 +44,8 @@ public:
     /// The slice that is one of the parts, and its round.
     Slice<D> slice(unsigned part) const;
     unsigned round(unsigned part) const {
-        return static_cast<unsigned>(
-            std::upper_bound(first_part_, first_part_ + rounds_, part) - first_part_ - 1);
+        return static_cast<unsigned>(std::upper_bound(first_part_, first_part_ + rounds_, part) -
+                                     first_part_ - 1);
     }
 
 private:

@@ -16,12 +16,10 @@ constexpr double vertices_a_sample = 32;
 } // namespace
 
 template <int D>
-Stage<D>::Stage(const Host &host, const abacus_header &header, std::size_t memory,
-                bool with_rounds)
-    : host_(host), stride_(record_words(D, header.attributes)),
-      memory_(memory), with_rounds_(with_rounds), budget_(memory, 8 * stride_, D),
-      pacer_(host), sample_(host, budget_.sampled), buffer_(host), room_(budget_.records),
-      piles_(host) {
+Stage<D>::Stage(const Host &host, const abacus_header &header, std::size_t memory, bool with_rounds)
+    : host_(host), stride_(record_words(D, header.attributes)), memory_(memory),
+      with_rounds_(with_rounds), budget_(memory, 8 * stride_, D), pacer_(host),
+      sample_(host, budget_.sampled), buffer_(host), room_(budget_.records), piles_(host) {
     if (header.has_domain != 0) domain_ = domain_of<D>(header);
     pacer_.begin(ABACUS_PHASE_READING, 0);
 }
@@ -62,7 +60,8 @@ template <int D> void Stage<D>::copy(const std::uint64_t *points, std::size_t co
 template <int D> void Stage<D>::spill() {
     for (std::size_t i = 0; i < buffered_; ++i)
         sample_.add(record_point<D>(buffer_.data() + i * stride_));
-    if (spilled_ == 0) begin_to_distribute();
+    if (spilled_ == 0)
+        begin_to_distribute();
     else if (distributor_ && !domain_ &&
              !is_distributed_over(domain_around<D>(box_.lower, box_.upper)))
         stop_distributing();
@@ -113,8 +112,10 @@ template <int D> bool Stage<D>::is_distributed_by(const Slice<D> &slice) const {
 }
 
 template <int D> void Stage<D>::end(abacus_header &header) {
-    if (header.has_domain != 0) header.outside += outside_;
-    else if (points() > 0) set_domain(header, box_);
+    if (header.has_domain != 0)
+        header.outside += outside_;
+    else if (points() > 0)
+        set_domain(header, box_);
 }
 
 /// Whether the mesh has vertices where the points are, at least as many as an earlier round
@@ -129,21 +130,21 @@ bool Stage<D>::mesh_stands_in(const abacus_header &header, const Domain<D> &doma
         const std::size_t step = std::max<std::size_t>(1, n / looked_up);
         for (std::size_t i = 0; i < n; i += step) codes.push_back(domain.code(point(i)));
     };
-    if (spilled_ > 0) take(sample_.size(), [&](std::size_t i) { return sample_.begin()[i]; });
-    else take(buffered_, [&](std::size_t i) {
-        return record_point<D>(buffer_.data() + i * stride_);
-    });
+    if (spilled_ > 0)
+        take(sample_.size(), [&](std::size_t i) { return sample_.begin()[i]; });
+    else
+        take(buffered_,
+             [&](std::size_t i) { return record_point<D>(buffer_.data() + i * stride_); });
     return is_dense(host_, codes, wanted / static_cast<double>(codes.size()));
 }
 
-template <int D>
-void Stage<D>::emit(RecordSink &sink, const abacus_header &header, bool reversed) {
+template <int D> void Stage<D>::emit(RecordSink &sink, const abacus_header &header, bool reversed) {
     const std::uint64_t n = points();
     if (n == 0) return;
     const Rounds<D> rounds(n, reversed);
     const Domain<D> domain = domain_of<D>(header);
-    const bool in_rounds = with_rounds_ && rounds.size() > 1 &&
-                           (reversed || !mesh_stands_in(header, domain));
+    const bool in_rounds =
+        with_rounds_ && rounds.size() > 1 && (reversed || !mesh_stands_in(header, domain));
     const Slice<D> all{domain, in_rounds ? &rounds : nullptr};
     ExternalSort<D> sort(host_, stride_, budget_, sample_, pacer_, sink);
     if (spilled_ == 0) {
@@ -157,9 +158,8 @@ void Stage<D>::emit(RecordSink &sink, const abacus_header &header, bool reversed
             // There may be more rounds now than there were: of those promoted most often.
             if (in_rounds) parts[0].slice = all;
             if (reversed) // inside a round the order is the same
-                std::stable_sort(parts.begin(), parts.end(), [](const auto &a, const auto &b) {
-                    return a.round > b.round;
-                });
+                std::stable_sort(parts.begin(), parts.end(),
+                                 [](const auto &a, const auto &b) { return a.round > b.round; });
             sort.run(parts);
         } else {
             sort.run(piles_, all);

@@ -67,9 +67,9 @@ private:
     Sample<D> sample_;
     Box<D> box_;
     Arena<std::uint64_t> buffer_;
-    std::size_t buffered_ = 0; ///< records in the buffer
-    std::size_t room_;         ///< records that may be in the buffer
-    std::uint64_t spilled_ = 0; ///< the records before those
+    std::size_t buffered_ = 0;        ///< records in the buffer
+    std::size_t room_;                ///< records that may be in the buffer
+    std::uint64_t spilled_ = 0;       ///< the records before those
     std::optional<Domain<D>> domain_; ///< if the header has one from the start
     std::uint64_t outside_ = 0;       ///< points that it does not contain
     std::optional<Rounds<D>> rounds_; ///< of the distributor's slice, if it has any

@@ -150,8 +150,8 @@ template <int D> Points<D> duplicates(std::size_t size, Random &random) {
     });
 }
 
-/// Half of the points close around closed curves, half in Gaussian clusters of different widths: dense
-/// in few places, as shorelines, settlements and scanned surfaces are.
+/// Half of the points close around closed curves, half in Gaussian clusters of different widths:
+/// dense in few places, as shorelines, settlements and scanned surfaces are.
 template <int D> Points<D> curves(std::size_t size, Random &random) {
     constexpr double turn = 6.283185307179586;
     const auto normal = [&] { // Box and Muller
@@ -175,11 +175,12 @@ template <int D> Points<D> curves(std::size_t size, Random &random) {
         const Shape &shape = shapes[chosen];
         const double along = turn * random.unit();
         for (int axis = 0; axis < D; ++axis)
-            p[axis] = shape.centre[axis] +
-                      (chosen % 2 == 0 ? shape.width * normal()
-                                       : shape.width * std::sin(shape.frequency[axis] * along +
-                                                                shape.phase[axis]) +
-                                             1e-5 * normal());
+            p[axis] =
+                shape.centre[axis] +
+                (chosen % 2 == 0
+                     ? shape.width * normal()
+                     : shape.width * std::sin(shape.frequency[axis] * along + shape.phase[axis]) +
+                           1e-5 * normal());
     }
     return points;
 }

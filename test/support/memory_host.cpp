@@ -14,8 +14,8 @@ void MemoryHost::Page::assign(const unsigned char *bytes, std::size_t new_size) 
 }
 
 std::uint64_t MemoryHost::Calls::fallible() const {
-    return poll + progress + find + fetch + next + put + erase + spool_create + spool_write + spool_rewind +
-           spool_read + spool_close;
+    return poll + progress + find + fetch + next + put + erase + spool_create + spool_write +
+           spool_rewind + spool_read + spool_close;
 }
 
 void MemoryHost::restore(const MemoryHost &other) {
@@ -47,9 +47,12 @@ bool MemoryHost::enter(std::uint64_t &counter) {
 
 MemoryHost::Pages &MemoryHost::pages_of(abacus_page_kind kind) {
     switch (kind) {
-    case ABACUS_SIMPLEX_PAGES: break;
-    case ABACUS_STAGED_PAGES: return staged_pages;
-    case ABACUS_REPEATED_PAGES: return repeated_pages;
+    case ABACUS_SIMPLEX_PAGES:
+        break;
+    case ABACUS_STAGED_PAGES:
+        return staged_pages;
+    case ABACUS_REPEATED_PAGES:
+        return repeated_pages;
     }
     return pages;
 }
@@ -183,8 +186,7 @@ struct MemoryHost::Functions {
         return ABACUS_HOST_OK;
     }
 
-    static abacus_host_status erase(void *context, abacus_page_kind kind,
-                                    const abacus_page *page) {
+    static abacus_host_status erase(void *context, abacus_page_kind kind, const abacus_page *page) {
         MemoryHost &host = self(context);
         const std::uint64_t location = page->location;
         if (!host.enter(host.calls.erase)) return ABACUS_HOST_FAILED;

@@ -83,8 +83,7 @@ abacus_status MeshOf<D>::load(const std::vector<InputOf<D>> &vertices,
                               const std::vector<std::array<std::int64_t, D + 1>> &simplices,
                               std::size_t memory, bool reorient) {
     abacus_load *load = nullptr;
-    abacus_status status =
-        abacus_load_open(host.table(), &header, memory, reorient, &load, &error);
+    abacus_status status = abacus_load_open(host.table(), &header, memory, reorient, &load, &error);
     if (status != ABACUS_OK) return status;
     for (const InputOf<D> &vertex : vertices) {
         const std::vector<std::uint64_t> record = record_of(vertex);

@@ -21,8 +21,7 @@ PageEditor::PageEditor(const MemoryHost::Page &page, const abacus_header &mesh)
         ids.push_back(view.id(v));
         points.push_back(view.point(v));
         attributes.emplace_back();
-        for (int i = 0; i < attribute_count; ++i)
-            attributes.back().push_back(view.attribute(v, i));
+        for (int i = 0; i < attribute_count; ++i) attributes.back().push_back(view.attribute(v, i));
     }
     for (int i = 0; i < view.links(); ++i) {
         const int v = view.link_vertex(i);
@@ -63,8 +62,7 @@ std::vector<Simplex<2>> PageEditor::slots() const {
         outside += sides.size() == 1;
         if (sides.size() != 2) continue;
         for (int i = 0; i < 2; ++i)
-            slots[link_simplex(sides[i].link)].link[link_facet(sides[i].link)] =
-                sides[1 - i].link;
+            slots[link_simplex(sides[i].link)].link[link_facet(sides[i].link)] = sides[1 - i].link;
     }
     if (!is_sound || outside != links.size())
         for (Simplex<2> &slot : slots) slot.link.fill(PageWriter<2>::untold);

@@ -77,8 +77,8 @@ private:
                 std::find_if(place->second.begin(), place->second.end(),
                              [&](const InputOf<D> &input) { return input.id == v.id; });
             ASSERT_NE(given, place->second.end()) << "a point with another id: " << v.id;
-            ASSERT_TRUE(std::equal(given->attributes.begin(), given->attributes.end(),
-                                   v.attributes));
+            ASSERT_TRUE(
+                std::equal(given->attributes.begin(), given->attributes.end(), v.attributes));
             seen[p].push_back(v.id);
         }
         abacus_vertex_scan_close(scan);

@@ -78,7 +78,8 @@ template <int D> Input<D> staged(MemoryHost &host, const abacus_header &header) 
         const VertexPage<D> view(page.words.data(), page.size, header.attributes, key);
         for (std::size_t i = 0; i < view.size(); ++i) {
             const std::uint64_t *record = view.record(i);
-            result.push_back({record_id(record), record_point<D>(record),
+            result.push_back({record_id(record),
+                              record_point<D>(record),
                               {record + 1 + D, record + record_words(D, header.attributes)}});
         }
     }

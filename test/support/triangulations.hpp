@@ -90,10 +90,11 @@ inline void flip(Triangulation<2> &t, int flips, unsigned seed) {
         const int k = static_cast<int>(random() % 3);
         const std::int64_t a = s[(k + 1) % 3], b = s[(k + 2) % 3], p = s[k];
         for (auto &n : t.simplices) {
-            if (&n == &s || std::count(n.begin(), n.end(), a) + std::count(n.begin(), n.end(), b) != 2)
+            if (&n == &s ||
+                std::count(n.begin(), n.end(), a) + std::count(n.begin(), n.end(), b) != 2)
                 continue;
-            const std::int64_t q = *std::find_if(n.begin(), n.end(),
-                                                 [&](auto id) { return id != a && id != b; });
+            const std::int64_t q =
+                *std::find_if(n.begin(), n.end(), [&](auto id) { return id != a && id != b; });
             if (orientation(at[p], at[q], at[a]) * orientation(at[p], at[q], at[b]) >= 0) break;
             s = {p, q, a};
             n = {p, q, b};

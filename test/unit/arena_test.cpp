@@ -18,8 +18,10 @@ TYPED_TEST_SUITE(Arrays, Elements);
 
 template <class T> T element(std::size_t i) {
     T value{};
-    if constexpr (std::is_integral_v<T>) value = static_cast<T>(i * 0x9e3779b97f4a7c15);
-    else value.back() = static_cast<typename T::value_type>(i * 0x9e3779b97f4a7c15);
+    if constexpr (std::is_integral_v<T>)
+        value = static_cast<T>(i * 0x9e3779b97f4a7c15);
+    else
+        value.back() = static_cast<typename T::value_type>(i * 0x9e3779b97f4a7c15);
     return value;
 }
 

@@ -135,8 +135,9 @@ TEST(Cache, TellsALinkToTheWrongPlaceFromAMissingOne) {
     EXPECT_EQ(open.error.kind, ABACUS_ERROR_CORRUPTED);
 }
 
-/// Moves the border between two pages that follow one another up among the keys of the second, whose
-/// simplices stay where they are; and returns a point for each of them that its page still owns.
+/// Moves the border between two pages that follow one another up among the keys of the second,
+/// whose simplices stay where they are; and returns a point for each of them that its page still
+/// owns.
 std::vector<Input> forge_border(Mesh &mesh, const abacus_key &first, const abacus_key &second) {
     MemoryHost::Pages &pages = mesh.host.pages;
     PageEditor before(pages.at(first), mesh.header), page(pages.at(second), mesh.header);

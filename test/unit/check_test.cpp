@@ -149,9 +149,9 @@ TEST(Check, FindsWrongLinksAndPlaces) {
     });
     big.expect_fault("exchanged links", "link", [&] {
         big.edit(big.middle(), [](PageEditor &page) {
-            const auto other = std::find_if(page.links.begin(), page.links.end(), [&](const Key &key) {
-                return key.code != page.links[0].code;
-            });
+            const auto other =
+                std::find_if(page.links.begin(), page.links.end(),
+                             [&](const Key &key) { return key.code != page.links[0].code; });
             std::swap(page.links[0], *other);
         });
     });
@@ -235,7 +235,8 @@ TEST(Check, FindsPagesMissingOrOutOfPlace) {
         // Both pages agree about it, but triangles lie on the wrong side.
         const auto at = std::next(pages.begin(), 4);
         const Key lower = at->first, moved{lower.code + (lower.code >> 4), 0};
-        PageEditor before(std::prev(at)->second, big.mesh.header), after(at->second, big.mesh.header);
+        PageEditor before(std::prev(at)->second, big.mesh.header),
+            after(at->second, big.mesh.header);
         before.upper = after.lower = moved;
         before.write(std::prev(at)->second);
         MemoryHost::Page changed;

@@ -131,7 +131,8 @@ TEST(CheckWhole, LooksAlongAnyAxis) {
             spindle[1][axis] = 0.5;
             std::vector<Vertices<3>> tetrahedra;
             // Some corners lie straight above others, and above the ends.
-            constexpr std::array<Point<2>, 5> star{{{1, 0}, {0.25, 1}, {-1, 0.5}, {-1, -0.5}, {0.25, -1}}};
+            constexpr std::array<Point<2>, 5> star{
+                {{1, 0}, {0.25, 1}, {-1, 0.5}, {-1, -0.5}, {0.25, -1}}};
             for (int i = 0; i < 5; ++i) {
                 Point<3> p{};
                 p[(axis + 1) % 3] = star[i][0];
@@ -140,8 +141,10 @@ TEST(CheckWhole, LooksAlongAnyAxis) {
                 tetrahedra.push_back({0, 1, 2 + i, 2 + (i + step) % 5});
             }
             const Faults found = faults<3>(spindle, tetrahedra);
-            if (step == 1) EXPECT_EQ(found, Faults{}) << axis;
-            else EXPECT_THAT(found, testing::Contains(wound)) << axis;
+            if (step == 1)
+                EXPECT_EQ(found, Faults{}) << axis;
+            else
+                EXPECT_THAT(found, testing::Contains(wound)) << axis;
         }
 }
 
@@ -158,8 +161,10 @@ TEST(CheckWhole, FindsASecondPieceInSpace) {
         for (const Point<3> &p : first) points.push_back({p[0] + distance, p[1] - 0.1, p[2] + 0.1});
         EXPECT_EQ(faults<3>(points, {{0, 1, 2, 3}, {4, 5, 6, 7}}), Faults{in_pieces});
     }
-    EXPECT_EQ(faults<3>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0},
-                         {0, 0, -1}}, {{0, 1, 2, 3}, {0, 4, 6, 5}}), Faults{two_stars});
+    EXPECT_EQ(
+        faults<3>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+                  {{0, 1, 2, 3}, {0, 4, 6, 5}}),
+        Faults{two_stars});
 }
 
 } // namespace

@@ -44,8 +44,7 @@ private:
     std::mt19937_64 random_{3};
     std::int64_t next_id_ = 0;
 };
-using Dimensions =
-    testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(OtherDomain, Dimensions);
 
 TYPED_TEST(OtherDomain, ForManyPointsOutside) {

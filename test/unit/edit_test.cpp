@@ -22,9 +22,14 @@ protected:
         Point<D> p;
         for (double &x : p) {
             switch (kind) {
-            case 0: x = std::uniform_real_distribution<double>(0, 1)(random); break;
-            case 1: x = double(random() % 12); break;
-            default: x = double(random() % 3);
+            case 0:
+                x = std::uniform_real_distribution<double>(0, 1)(random);
+                break;
+            case 1:
+                x = double(random() % 12);
+                break;
+            default:
+                x = double(random() % 3);
             }
         }
         if (kind == 3) p[D - 1] = 2 * p[0] + 1;
@@ -49,8 +54,7 @@ protected:
     Random random{11};
     std::int64_t next_id = 0;
 };
-using Dimensions =
-    testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(Edit, Dimensions);
 
 TYPED_TEST(Edit, KeepsTheMeshOfThePointsThereAre) {
@@ -65,7 +69,8 @@ TYPED_TEST(Edit, KeepsTheMeshOfThePointsThereAre) {
                 const std::size_t n = sizes[this->random() % std::size(sizes)];
                 const int now = this->random() % 8 == 0 ? 0 : kind;
                 switch (this->random() % 5) {
-                case 0: case 1: {
+                case 0:
+                case 1: {
                     const auto points = this->fresh(n, now);
                     model.insert(points);
                     ASSERT_EQ(mesh.insert(points), ABACUS_OK) << mesh.error.detail;

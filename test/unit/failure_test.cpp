@@ -104,8 +104,7 @@ abacus_status locate_many(Mesh &mesh) {
 /// A triangulation with a hole, so not Delaunay, or one without.
 abacus_status load(Mesh &mesh, bool hole, std::size_t memory) {
     auto t = delaunay<2>(unit_square_points(900, 3));
-    if (hole)
-        t = keeping<2>(t, [](const auto &c) { return std::abs(c[0] - 0.5) + c[1] > 0.3; });
+    if (hole) t = keeping<2>(t, [](const auto &c) { return std::abs(c[0] - 0.5) + c[1] > 0.3; });
     for (auto &v : t.vertices) v.attributes = {v.point[0]};
     return mesh.load(t.vertices, t.simplices, memory);
 }
@@ -131,7 +130,8 @@ void PrintTo(const Work &work, std::ostream *out) { *out << work.name; }
 
 const Work works[] = {
     {"stage", 0, 0, [](Mesh &mesh) { return mesh.stage(random_points(400, 1)); }},
-    {"stage_through_spools", 0, 0, [](Mesh &mesh) { return mesh.stage(random_points(9000, 1), 1); }},
+    {"stage_through_spools", 0, 0,
+     [](Mesh &mesh) { return mesh.stage(random_points(9000, 1), 1); }},
     {"insert", 0, 0, [](Mesh &mesh) { return mesh.insert(random_points(1500, 1)); }},
     {"insert_more", 700, 400, [](Mesh &mesh) { return mesh.insert(random_points(700, 7)); }},
     {"insert_outside", 700, 400, insert_outside},
@@ -228,8 +228,10 @@ TEST_P(Failure, OfACancelInAnyPhase) {
         });
         // How often a long phase reports depends on the time: the cancel may come with the last
         // report, when all is done, or not at all. No report follows one that is noticed.
-        if (succeeded(status)) EXPECT_LE(calls_.progress, report);
-        else EXPECT_EQ(status, ABACUS_HOST_ERROR) << "report " << report;
+        if (succeeded(status))
+            EXPECT_LE(calls_.progress, report);
+        else
+            EXPECT_EQ(status, ABACUS_HOST_ERROR) << "report " << report;
     }
 }
 

@@ -89,7 +89,8 @@ TYPED_TEST(Glance, IsNotMisledByAnotherPage) {
     abacus_host table = *sound_host;
     table.fetch = fetch_another;
     abacus_mesh *handle = nullptr;
-    ASSERT_EQ(abacus_mesh_open(&table, &mesh.header, mesh.tenth(), &handle, &mesh.error), ABACUS_OK);
+    ASSERT_EQ(abacus_mesh_open(&table, &mesh.header, mesh.tenth(), &handle, &mesh.error),
+              ABACUS_OK);
     OpenMeshOf<D> other(mesh, ample);
     for (int round = 0; round < 2000; ++round) {
         const Point<D> p = mesh.place(round);
@@ -107,7 +108,8 @@ TYPED_TEST(Glance, RefusesDamagedPages) {
     constexpr int D = TypeParam::value;
     Large<D> mesh(D == 2 ? 30000 : 6000);
     for (auto &[key, page] : mesh.host.pages)
-        page.bytes()[mesh.random() % page.size] ^= static_cast<unsigned char>(1 << mesh.random() % 8);
+        page.bytes()[mesh.random() % page.size] ^=
+            static_cast<unsigned char>(1 << mesh.random() % 8);
     OpenMeshOf<D> open(mesh, mesh.tenth());
     abacus_simplex simplex;
     EXPECT_EQ(open.locate(mesh.place(0), simplex), ABACUS_ERROR);

@@ -46,8 +46,7 @@ protected:
         EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
     }
 };
-using Dimensions =
-    testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(Grow, Dimensions);
 
 TYPED_TEST(Grow, AsManyPointsAgainAreOneRound) {

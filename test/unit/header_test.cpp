@@ -136,8 +136,8 @@ TEST(Header, ContradictionsAreRefused) {
         refused([](abacus_header &h) { h.upper[0] = std::numeric_limits<double>::infinity(); }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.inserted = 1001; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.staged = std::uint64_t{1} << 62; }));
-    EXPECT_FALSE(refused(
-        [](abacus_header &h) { h.simplices = h.ghosts = (std::uint64_t{1} << 62) - 1; }));
+    EXPECT_FALSE(
+        refused([](abacus_header &h) { h.simplices = h.ghosts = (std::uint64_t{1} << 62) - 1; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.simplices = std::uint64_t{1} << 62; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.ghosts = std::uint64_t{1} << 62; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.duplicates = 111; }));
@@ -164,9 +164,8 @@ TEST(Header, OfAMeshThatIsNotDelaunay) {
     EXPECT_FALSE(taken([](abacus_header &h) { h.inserted = 0; }));
     EXPECT_FALSE(taken([](abacus_header &h) { ++h.staged; }));
     EXPECT_FALSE(taken([](abacus_header &h) { h.serials = 1; }));
-    EXPECT_FALSE(taken([](abacus_header &h) {
-        h.staged = h.inserted = h.vertices = h.simplices = h.ghosts = 0;
-    }));
+    EXPECT_FALSE(taken(
+        [](abacus_header &h) { h.staged = h.inserted = h.vertices = h.simplices = h.ghosts = 0; }));
 }
 
 TEST(Header, DamagedBytesNeverCrash) {

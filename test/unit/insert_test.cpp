@@ -34,7 +34,8 @@ protected:
         Points points;
         for (int i = 0; i < n; ++i) {
             points.emplace_back();
-            for (int axis = 0; axis < D; ++axis) points.back()[axis] = (axis + 1) * double(i % 5000);
+            for (int axis = 0; axis < D; ++axis)
+                points.back()[axis] = (axis + 1) * double(i % 5000);
         }
         return points;
     }
@@ -50,8 +51,7 @@ protected:
 
     Random random{5};
 };
-using Dimensions =
-    testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(Insert, Dimensions);
 
 TYPED_TEST(Insert, GivesTheMeshOfAllPointsAndNoVertexPages) {

@@ -64,7 +64,8 @@ TEST(KeyCut, PartsKeysNearTheNumberWanted) {
         const auto [first, last] = std::equal_range(keys.begin(), keys.end(), keys[goal]);
         const auto below = static_cast<std::size_t>(first - keys.begin());
         const auto above = static_cast<std::size_t>(last - keys.begin());
-        ASSERT_TRUE(at == below || (below == 0 && at == above) || (at < goal && goal - at <= n / 64))
+        ASSERT_TRUE(at == below || (below == 0 && at == above) ||
+                    (at < goal && goal - at <= n / 64))
             << at << " for " << goal << " of " << n;
     }
 }

@@ -28,10 +28,12 @@ std::vector<std::size_t> left_one_by_one(const Points &points, const Wants &want
     std::iota(left.begin(), left.end(), 0);
     for (const std::int64_t id : wants) {
         if (left.empty()) break;
-        const auto at = std::find_if(left.begin(), left.end(),
-                                     [&](std::size_t i) { return points[i] == id; });
-        if (at != left.end()) left.erase(at);
-        else if (!exactly) left.erase(left.begin());
+        const auto at =
+            std::find_if(left.begin(), left.end(), [&](std::size_t i) { return points[i] == id; });
+        if (at != left.end())
+            left.erase(at);
+        else if (!exactly)
+            left.erase(left.begin());
     }
     return left;
 }
@@ -138,7 +140,8 @@ TEST(Leaving, IsTheSameWhilePointsWait) {
         ASSERT_EQ(deleted, points.size() - left);
         abacus_vertex_scan *scan = nullptr;
         ASSERT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header, mesh.cache_bytes, &scan,
-                                          &mesh.error), ABACUS_OK);
+                                          &mesh.error),
+                  ABACUS_OK);
         abacus_vertex vertex;
         while (abacus_vertex_scan_next(scan, &vertex, &mesh.error) == ABACUS_OK)
             found.insert({double(vertex.id), vertex.point[0], vertex.attributes[0]});
@@ -168,8 +171,8 @@ public:
         for (const std::int64_t id : ids) {
             gone.push_back({id, {0, 0}, {0.}});
             if (here.empty()) continue;
-            const auto at = std::find_if(here.begin(), here.end(),
-                                         [&](const Input &p) { return p.id == id; });
+            const auto at =
+                std::find_if(here.begin(), here.end(), [&](const Input &p) { return p.id == id; });
             here.erase(at == here.end() ? here.begin() : at);
             ++expected;
         }
@@ -184,8 +187,8 @@ public:
         ASSERT_EQ(mesh.header.vertices, here.empty() ? 3u : 4u);
         ASSERT_EQ(mesh.header.duplicates, here.empty() ? 0u : here.size() - 1);
         abacus_vertex_scan *scan = nullptr;
-        ASSERT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header, mesh.cache_bytes,
-                                          &scan, &mesh.error),
+        ASSERT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header, mesh.cache_bytes, &scan,
+                                          &mesh.error),
                   ABACUS_OK);
         std::vector<std::pair<std::int64_t, double>> found, expected;
         for (const Input &p : here) expected.push_back({p.id, p.attributes[0]});
@@ -221,8 +224,10 @@ TEST(Leaving, TakesPointsOfOnePlaceAsOneAfterTheOther) {
             const std::int64_t ids = 1 + static_cast<std::int64_t>(random() % 2000);
             std::vector<std::int64_t> some(1 + random() % 900);
             for (std::int64_t &id : some) id = static_cast<std::int64_t>(random() % ids);
-            if (random() % 2 == 0) place.add(some);
-            else place.remove(some);
+            if (random() % 2 == 0)
+                place.add(some);
+            else
+                place.remove(some);
             place.expect();
             if (testing::Test::HasFatalFailure()) return;
         }

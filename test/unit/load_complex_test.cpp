@@ -42,8 +42,8 @@ bool vertex_inside(const Places<3> &at, const Ids<3> &s, std::int64_t v) {
     return t.bounded_side(cgal(at.at(v))) != CGAL::ON_UNBOUNDED_SIDE;
 }
 
-template <int D> bool edges_meet(const Places<D> &at, std::array<std::int64_t, 2> a,
-                                 std::array<std::int64_t, 2> b) {
+template <int D>
+bool edges_meet(const Places<D> &at, std::array<std::int64_t, 2> a, std::array<std::int64_t, 2> b) {
     using Segment = std::conditional_t<D == 2, Kernel::Segment_2, Kernel::Segment_3>;
     return CGAL::do_intersect(Segment(cgal(at.at(a[0])), cgal(at.at(a[1]))),
                               Segment(cgal(at.at(b[0])), cgal(at.at(b[1]))));
@@ -66,10 +66,9 @@ template <int D> bool edges_cross(const Places<D> &at, const Ids<D> &a, const Id
                             std::count(t.begin(), t.begin() + 3, a[j]) >
                         0)
                         continue;
-                    if (CGAL::do_intersect(
-                            Kernel::Segment_3(cgal(at.at(a[i])), cgal(at.at(a[j]))),
-                            Kernel::Triangle_3(cgal(at.at(t[0])), cgal(at.at(t[1])),
-                                               cgal(at.at(t[2])))))
+                    if (CGAL::do_intersect(Kernel::Segment_3(cgal(at.at(a[i])), cgal(at.at(a[j]))),
+                                           Kernel::Triangle_3(cgal(at.at(t[0])), cgal(at.at(t[1])),
+                                                              cgal(at.at(t[2])))))
                         return true;
                 }
         }

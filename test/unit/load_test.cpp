@@ -106,8 +106,8 @@ TYPED_TEST(Load, OtherTriangulationsAreMarked) {
     for (const std::size_t memory : {tiny, ample}) {
         MeshOf<D> mesh(0, little);
         expect_loads<D>(mesh, t, false, memory);
-        for (const abacus_status status : {mesh.stage(number<D>(random_points<D>(5, 1))),
-                                           mesh.build()}) {
+        for (const abacus_status status :
+             {mesh.stage(number<D>(random_points<D>(5, 1))), mesh.build()}) {
             EXPECT_EQ(status, ABACUS_ERROR);
             EXPECT_EQ(mesh.error.kind, ABACUS_ERROR_STATE);
             EXPECT_STRNE(mesh.error.hint, "");
@@ -137,7 +137,7 @@ TYPED_TEST(Load, HolesPiecesAndPinches) {
     const double r = middle / 2;
     std::vector<Triangulation<D>> cases;
     cases.push_back(keeping<D>(full, [&](const auto &c) { return distance(c) > r; })); // a hole
-    cases.push_back(keeping<D>(full, [&](const auto &c) {                                // two pieces
+    cases.push_back(keeping<D>(full, [&](const auto &c) {                              // two pieces
         return distance(c) > 1.5 * r || distance(c) < 0.7 * r;
     }));
     cases.push_back(keeping<D>(full, [&](const auto &c) { // a chess board: pinched everywhere
@@ -230,7 +230,9 @@ TEST(LoadFaults, InThePlane) {
         change(t);
         return refusal(t, true, false);
     };
-    EXPECT_EQ(with([](auto &t) { t.vertices.push_back({2, {9, 9}}); }),
+    EXPECT_EQ(with([](auto &t) {
+                  t.vertices.push_back({2, {9, 9}});
+              }),
               "two vertices have the id 2");
     EXPECT_EQ(with([](auto &t) {
                   t.vertices.push_back({5, {4, 4}});
@@ -257,7 +259,9 @@ TEST(LoadFaults, InThePlane) {
                   t.simplices.push_back({1, 5, 3});
               }),
               "simplex (1, 5, 3) is flat");
-    EXPECT_EQ(with([](auto &t) { t.simplices.push_back({3, 1, 2}); }),
+    EXPECT_EQ(with([](auto &t) {
+                  t.simplices.push_back({3, 1, 2});
+              }),
               "simplex (1, 2, 3) is given twice");
     EXPECT_EQ(with([](auto &t) {
                   t.vertices.push_back({5, {1, 3.5}});
@@ -270,26 +274,26 @@ TEST(LoadFaults, InThePlane) {
                   t.vertices.erase(t.vertices.begin() + 3);
               }),
               "simplices (1, 2, 3) and (1, 3, 5) overlap");
-    EXPECT_EQ(refusal(Triangulation<2>{ // a hanging node
-                  {{1, {0, 0}}, {2, {4, 0}}, {3, {0, 4}}, {4, {2, 0}}, {5, {0, -4}}},
-                  {{1, 2, 3}, {1, 5, 4}}}),
-              "simplices (1, 2, 3) and (1, 4, 5) meet in more than a common face");
+    EXPECT_EQ(
+        refusal(Triangulation<2>{// a hanging node
+                                 {{1, {0, 0}}, {2, {4, 0}}, {3, {0, 4}}, {4, {2, 0}}, {5, {0, -4}}},
+                                 {{1, 2, 3}, {1, 5, 4}}}),
+        "simplices (1, 2, 3) and (1, 4, 5) meet in more than a common face");
     EXPECT_EQ(with([](auto &t) { // far from one another in the complex
                   t.vertices.insert(t.vertices.end(), {{5, {1, 0.5}}, {6, {9, 1}}, {7, {9, 2}}});
                   t.simplices.push_back({5, 6, 7});
               }),
               "simplices (1, 2, 3) and (5, 6, 7) overlap");
     EXPECT_EQ(with([](auto &t) { // inside, touching nothing
-                  t.vertices.insert(t.vertices.end(),
-                                    {{5, {2, 0.5}}, {6, {3, 0.5}}, {7, {3, 1}}});
+                  t.vertices.insert(t.vertices.end(), {{5, {2, 0.5}}, {6, {3, 0.5}}, {7, {3, 1}}});
                   t.simplices.push_back({5, 6, 7});
               }),
               "simplices (1, 2, 3) and (5, 6, 7) overlap");
     EXPECT_EQ(with([](auto &t) { // two edges cross; no vertex inside
-                  t.vertices.insert(t.vertices.end(),
-                                    {{5, {-1, 1}}, {6, {5, 1}}, {7, {2, -9}}});
+                  t.vertices.insert(t.vertices.end(), {{5, {-1, 1}}, {6, {5, 1}}, {7, {2, -9}}});
                   t.simplices.push_back({5, 6, 7});
-              }).substr(0, 9),
+              })
+                  .substr(0, 9),
               "simplices");
     EXPECT_EQ(with([](auto &t) { // beside it, but its corner in the middle of an edge
                   t.vertices.insert(t.vertices.end(), {{5, {4, 2}}, {6, {6, 1}}, {7, {6, 3}}});
@@ -299,7 +303,8 @@ TEST(LoadFaults, InThePlane) {
     EXPECT_EQ(with([](auto &t) { // at a common corner, and into the mesh
                   t.vertices.insert(t.vertices.end(), {{5, {2, 3}}, {6, {3, 5}}});
                   t.simplices.push_back({3, 6, 5});
-              }).substr(0, 9),
+              })
+                  .substr(0, 9),
               "simplices");
     EXPECT_EQ(with([](auto &t) { // around a corner that is shared, without overlap
                   t.vertices.insert(t.vertices.end(), {{5, {5, 6}}, {6, {6, 5}}});
@@ -358,7 +363,7 @@ TEST(LoadFaults, InSpace) {
     EXPECT_EQ(beside({1, 1, 0.5}, {1.1, 1, 0.5}, {1, 1.1, 0.5}, {1, 1, 0.6}), // inside
               "simplices (1, 2, 3, 4) and (6, 7, 8, 9) overlap");
     EXPECT_EQ(beside({0.5, 0.5, 0.5}, {9, 9, 9}, {9, 8, 9}, {8, 9, 9}).substr(0, 9), "simplices");
-    EXPECT_EQ(beside({-1, -1, 1}, {5, -1, 1}, {-1, -9, 2}, {-1, -9, -2}), ""); // clear of it
+    EXPECT_EQ(beside({-1, -1, 1}, {5, -1, 1}, {-1, -9, 2}, {-1, -9, -2}), "");    // clear of it
     EXPECT_EQ(beside({-1, 1, 1}, {5, 1, 1}, {5, 1, 1.5}, {5, 2, 1}).substr(0, 9), // pierces it
               "simplices");
     EXPECT_EQ(beside({2, -1, 0}, {2, -9, 1}, {2, -9, -1}, {3, -9, 0}), ""); // clear of it
@@ -369,18 +374,21 @@ TEST(LoadFaults, InSpace) {
     EXPECT_EQ(with([](auto &t) { // one edge in common, faces crossing behind it
                   t.vertices.insert(t.vertices.end(), {{6, {1, -2, 1}}, {7, {1, 3, 0.5}}});
                   t.simplices.push_back({1, 2, 6, 7});
-              }).substr(0, 9),
+              })
+                  .substr(0, 9),
               "simplices");
     EXPECT_EQ(with([](auto &t) { // one edge in common, clear of the others
                   t.vertices.insert(t.vertices.end(), {{6, {1, -2, 1}}, {7, {1, -2, -1}}});
                   t.simplices.push_back({1, 2, 6, 7});
               }),
               "");
-    EXPECT_EQ(with([](auto &t) { // one vertex in common, and through the opposite face
-                  t.vertices.insert(t.vertices.end(), {{6, {5, 5, 4}}, {7, {5, 4, 5}}, {8, {4, 5, 5}}});
-                  t.simplices.push_back({1, 6, 7, 8});
-              }).substr(0, 9),
-              "simplices");
+    EXPECT_EQ(
+        with([](auto &t) { // one vertex in common, and through the opposite face
+            t.vertices.insert(t.vertices.end(), {{6, {5, 5, 4}}, {7, {5, 4, 5}}, {8, {4, 5, 5}}});
+            t.simplices.push_back({1, 6, 7, 8});
+        })
+            .substr(0, 9),
+        "simplices");
 }
 
 /// Simplices moved or added at random to a sound mesh: refused exactly when a test of all

@@ -78,8 +78,8 @@ TYPED_TEST(LocationalCode, StepsFromCellToNeighbour) {
     constexpr int D = TypeParam::value;
     constexpr std::uint32_t edge = 16;
     // Octants at both ends of the curve and inside it.
-    for (const std::uint32_t corner : {0u, edge, 5 * edge, (this->last_cell + 1) / 2,
-                                       this->last_cell + 1 - edge}) {
+    for (const std::uint32_t corner :
+         {0u, edge, 5 * edge, (this->last_cell + 1) / 2, this->last_cell + 1 - edge}) {
         std::map<std::uint64_t, Cell<D>> place;
         Cell<D> step{};
         for (int axis = 0; axis < D;) {

@@ -32,8 +32,7 @@ protected:
         }
     }
 };
-using Dimensions =
-    testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(PageCapacities, Dimensions);
 
 TYPED_TEST(PageCapacities, AreTheSameOfFullPagesAndOfHalfFullOnes) {
@@ -52,8 +51,7 @@ TYPED_TEST(PageCapacities, AreTheSameOfFullPagesAndOfHalfFullOnes) {
     }
     ASSERT_GE(count[false], 5);
     ASSERT_GE(count[true], 5);
-    EXPECT_NEAR(sum[false] / count[false], sum[true] / count[true],
-                0.06 * sum[true] / count[true]);
+    EXPECT_NEAR(sum[false] / count[false], sum[true] / count[true], 0.06 * sum[true] / count[true]);
 }
 
 TYPED_TEST(PageCapacities, AreLearnedFromTheFirstPageAndNotLostByCrumbs) {

@@ -50,8 +50,7 @@ TEST(Column, GivesBackWordsOfEveryWidthAndShift) {
             for (const std::uint64_t base : {std::uint64_t(0), std::uint64_t(1), random()}) {
                 Words words;
                 for (int i = 0; i < 70; ++i)
-                    words.push_back(
-                        base + ((width == 0 ? 0 : random() >> (64 - width)) << shift));
+                    words.push_back(base + ((width == 0 ? 0 : random() >> (64 - width)) << shift));
                 ASSERT_EQ(through_a_column(words), words) << width << " << " << shift;
             }
         }
@@ -106,7 +105,8 @@ TEST(Column, ComparesWordsByTheirPrefixes) {
             }
             std::vector<Column::Prefix> prefixes(80);
             column.prefixes(10, 90, prefixes.data());
-            for (const std::uint64_t other : Words{words[3], words[40] + 1, base - 1, base, random(), ~0ull}) {
+            for (const std::uint64_t other :
+                 Words{words[3], words[40] + 1, base - 1, base, random(), ~0ull}) {
                 const Column::Prefix prefix = column.prefix(other);
                 for (std::size_t i = 10; i < 90; ++i) {
                     if (prefixes[i - 10] != prefix) {
@@ -227,7 +227,8 @@ TEST_F(Square, IsReadAsItWasWritten) {
         for (int s = 0; s < 2; ++s) { // counterclockwise
             const auto p = [&](int i) { return page.point(page.corner(s, i)); };
             EXPECT_GT((p(1)[0] - p(0)[0]) * (p(2)[1] - p(0)[1]) -
-                          (p(1)[1] - p(0)[1]) * (p(2)[0] - p(0)[0]), 0);
+                          (p(1)[1] - p(0)[1]) * (p(2)[0] - p(0)[0]),
+                      0);
         }
         EXPECT_EQ(page.parent(0), PageView<2>::no_link);
         EXPECT_EQ(page.parent(1), told ? make_link(0, 1) : PageView<2>::no_link);
@@ -236,8 +237,7 @@ TEST_F(Square, IsReadAsItWasWritten) {
         std::vector<std::uint64_t> codes;
         for (int i = 0; i < 4; ++i) {
             const int v = page.link_vertex(i);
-            codes.push_back(v < 4 ? static_cast<std::uint64_t>(10 * ids[v])
-                                  : page.foreign_code(v));
+            codes.push_back(v < 4 ? static_cast<std::uint64_t>(10 * ids[v]) : page.foreign_code(v));
         }
         std::sort(codes.begin(), codes.end());
         EXPECT_EQ(codes, (Words{0, 10, 1002, 1003}));

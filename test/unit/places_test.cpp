@@ -171,7 +171,8 @@ TYPED_TEST(Places, AreReportedAsProgress) {
     };
     std::vector<LocatedPlace> located;
     ASSERT_EQ(locate_places<D>(mesh, places, located), ABACUS_OK);
-    EXPECT_EQ(phases, (std::vector{ABACUS_PHASE_READING, ABACUS_PHASE_SORTING, ABACUS_PHASE_LOCATING}));
+    EXPECT_EQ(phases,
+              (std::vector{ABACUS_PHASE_READING, ABACUS_PHASE_SORTING, ABACUS_PHASE_LOCATING}));
     EXPECT_EQ(done, places.size());
 }
 
@@ -194,7 +195,8 @@ TYPED_TEST(Places, SurviveSealedDamage) {
             }
             seal_page(page.bytes(), page.size);
         }
-        if (trial % 3 == 1) std::erase_if(mesh.host.pages, [&](auto &) { return mesh.random() % 9 == 0; });
+        if (trial % 3 == 1)
+            std::erase_if(mesh.host.pages, [&](auto &) { return mesh.random() % 9 == 0; });
         std::vector<LocatedPlace> located;
         const abacus_status status = locate_places<D>(mesh, places, located);
         if (status == ABACUS_ERROR) {
@@ -222,7 +224,8 @@ TYPED_TEST(Places, InDamagedPagesAreAnError) {
     constexpr int D = TypeParam::value;
     Large<D> mesh(D == 2 ? 30000 : 6000);
     for (auto &[key, page] : mesh.host.pages)
-        page.bytes()[mesh.random() % page.size] ^= static_cast<unsigned char>(1 << mesh.random() % 8);
+        page.bytes()[mesh.random() % page.size] ^=
+            static_cast<unsigned char>(1 << mesh.random() % 8);
     std::vector<LocatedPlace> located;
     EXPECT_EQ(locate_places<D>(mesh, places_in(mesh, 1000), located), ABACUS_ERROR);
     EXPECT_EQ(mesh.error.kind, ABACUS_ERROR_CORRUPTED);

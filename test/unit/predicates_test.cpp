@@ -48,8 +48,7 @@ template <int D> int exact_position(const Corners<D> &c, const Point<D> &p) {
         return Kernel::Triangle_2(cgal<D>(*c[0]), cgal<D>(*c[1]), cgal<D>(*c[2]))
             .bounded_side(cgal<D>(p));
     else
-        return Kernel::Tetrahedron_3(cgal<D>(*c[0]), cgal<D>(*c[1]), cgal<D>(*c[2]),
-                                     cgal<D>(*c[3]))
+        return Kernel::Tetrahedron_3(cgal<D>(*c[0]), cgal<D>(*c[1]), cgal<D>(*c[2]), cgal<D>(*c[3]))
             .bounded_side(cgal<D>(p));
 }
 

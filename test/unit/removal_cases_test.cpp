@@ -263,8 +263,10 @@ template <int D> void merge_stored_pages(std::size_t count) {
     // Every other point, along the curve.
     std::vector<Point<D>> left;
     for (std::size_t i = 0; i < points.size(); ++i)
-        if (i % 2 == 0) left.push_back(points[i]);
-        else ASSERT_EQ(mesh.removal.remove(points[i]), Removed::removed);
+        if (i % 2 == 0)
+            left.push_back(points[i]);
+        else
+            ASSERT_EQ(mesh.removal.remove(points[i]), Removed::removed);
     mesh.verify(left);
     EXPECT_LT(bytes_a_simplex(mesh), 1.25 * before);
     remove_down_to<D>(mesh, left, 100);

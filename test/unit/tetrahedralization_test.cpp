@@ -113,8 +113,9 @@ TEST(Tetrahedralization, FewerDimensionsMakeAnEmptyMeshThatCanGrow) {
 
 TEST(ProbingInSpace, GivesTheSameMeshAsStoredLinks) {
     Random random(8);
-    const Points points =
-        make(3000, [&](int) { return Point<3>{unit(random), unit(random), unit(random)}; });
+    const Points points = make(3000, [&](int) {
+        return Point<3>{unit(random), unit(random), unit(random)};
+    });
     MeshOf<3> mesh;
     const Host host = mesh.host.host();
     Cache<3> cache(host, Domain<3>({0, 0, 0}, {1, 1, 1}), 0,
