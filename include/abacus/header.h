@@ -11,6 +11,18 @@
 extern "C" {
 #endif
 
+/* ---- Pages of a mesh ------------------------------------------------------ */
+
+enum
+{
+	/* Simplices: the interval of their keys from the page's key to that of the next. */
+	ABACUS_SIMPLEX_PAGES = 0,
+	/* Points that wait to be inserted, in insertion order: {sequence number of the first, 0}. */
+	ABACUS_STAGED_PAGES,
+	/* Points equal to a vertex: {code, serial number}, an interval as of simplices. */
+	ABACUS_REPEATED_PAGES
+};
+
 /* ---- Counters (chapter 5 of the dissertation) --------------------------- */
 
 typedef struct abacus_counters

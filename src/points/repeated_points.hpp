@@ -20,6 +20,8 @@
 #include "points/leaving.hpp"
 #include "points/record.hpp"
 
+#include <abacus/header.h>
+
 namespace abacus {
 
 template <int D> class RepeatedPoints {

@@ -36,7 +36,7 @@
 #include "query/reader.hpp"
 #include "query/stars.hpp"
 
-#include "host/memory.hpp"
+#include "host/memory_resource.hpp"
 
 #include <abacus/read.h>
 #include <memory_resource>

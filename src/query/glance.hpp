@@ -21,7 +21,7 @@
 #pragma once
 
 #include "cache/cache.hpp"
-#include "host/memory.hpp"
+#include "host/memory_resource.hpp"
 #include "query/known_pages.hpp"
 
 #include <abacus/read.h>

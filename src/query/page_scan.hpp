@@ -6,6 +6,8 @@
 #include "cache/page_format.hpp"
 #include "host/host.hpp"
 
+#include <abacus/header.h>
+
 #include <algorithm>
 #include <cstring>
 

@@ -1,5 +1,7 @@
 #include "staging/density.hpp"
 
+#include <abacus/header.h>
+
 #include "cache/page_format.hpp"
 
 namespace abacus {

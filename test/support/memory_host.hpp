@@ -7,6 +7,8 @@
 #include "cache/key.hpp"
 #include "host/host.hpp"
 
+#include <abacus/header.h>
+
 #include <cstdint>
 #include <functional>
 #include <map>

@@ -8,8 +8,8 @@
  */
 #include "postgres.h"
 
+#include "pg/base/settings.h"
 #include "pg/mesh/change.h"
-#include "pg/settings.h"
 
 /* The handles go when the host does. */
 static void
@@ -42,8 +42,7 @@ change_open_stage(Change *change, const abacus_header *shape)
 	abacus_stage_close(change->stage);
 	change->stage = NULL;
 	change->points = 0;
-	host_run(host, abacus_stage_open(&host->table, shape, setting_sort_bytes(), &change->stage,
-									 &host->failure));
+	host_run(host, abacus_stage_open, &host->table, shape, setting_sort_bytes(), &change->stage);
 }
 
 /* Adds points to the stage. */
@@ -52,7 +51,7 @@ change_add(Change *change, const uint64 *points, size_t count)
 {
 	Host	   *host = change->writer.host;
 
-	host_run(host, abacus_stage_add(change->stage, points, count, &host->failure));
+	host_run(host, abacus_stage_add, change->stage, points, count);
 	change->points += count;
 }
 
@@ -90,8 +89,8 @@ change_open_build(Change *change)
 	Host	   *host = change->writer.host;
 
 	if (change->build == NULL)
-		host_run(host, abacus_build_open(&host->table, change->writer.header,
-										 setting_cache_bytes(), &change->build, &host->failure));
+		host_run(host, abacus_build_open, &host->table, change->writer.header,
+				 setting_cache_bytes(), &change->build);
 }
 
 /* Inserts the points of the stage. */
@@ -101,9 +100,9 @@ change_insert(Change *change)
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
 
-	host_run(host, abacus_stage_end(change->stage, header, &host->failure));
+	host_run(host, abacus_stage_end, change->stage, header);
 	change_open_build(change);
-	host_run(host, abacus_build_insert(change->build, change->stage, header, &host->failure));
+	host_run(host, abacus_build_insert, change->build, change->stage, header);
 }
 
 /*
@@ -117,8 +116,8 @@ change_delete(Change *change, bool exactly)
 	uint64		deleted;
 
 	change_open_build(change);
-	host_run(host, abacus_build_delete(change->build, change->stage, exactly, change->writer.header,
-									   &deleted, &host->failure));
+	host_run(host, abacus_build_delete, change->build, change->stage, exactly,
+			 change->writer.header, &deleted);
 	return deleted;
 }
 
@@ -130,8 +129,7 @@ change_clear(Change *change)
 	uint64		deleted;
 
 	change_open_build(change);
-	host_run(host, abacus_build_clear(change->build, change->writer.header, &deleted,
-									  &host->failure));
+	host_run(host, abacus_build_clear, change->build, change->writer.header, &deleted);
 }
 
 /* Closes the mesh, which has not been changed. */

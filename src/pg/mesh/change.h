@@ -5,8 +5,8 @@
 #define ABACUS_CHANGE_OF_MESH_H
 
 #include "abacus/change.h"
+#include "pg/input/source.h"
 #include "pg/mesh/writer.h"
-#include "pg/sql/source.h"
 
 typedef struct Change
 {

@@ -5,7 +5,7 @@
 #define ABACUS_HEADER_H
 
 #include "abacus/header.h"
-#include "pg/host.h"
+#include "pg/mesh/mesh_pages.h"
 
 /* Of its row. */
 extern const int64 header_key[PAGE_TABLE_KEYS];

@@ -10,10 +10,10 @@
 #include "utils/lsyscache.h"
 #include "utils/varlena.h"
 
+#include "pg/base/utility.h"
 #include "pg/mesh/header.h"
 #include "pg/mesh/new_mesh.h"
 #include "pg/mesh/new_table.h"
-#include "pg/utility.h"
 
 /* CREATE TABLE of one of the extension's row types, through the usual utility path. */
 static void
@@ -59,7 +59,7 @@ new_mesh(text *name, Oid extension_namespace, abacus_header *header, const char 
 	mesh_bind_vertex_table(mesh, new_table_id(namespace, vertices_name));
 	CommandCounterIncrement();
 
-	host = host_create(CurrentMemoryContext, mesh, MESH_WRITE);
+	host = mesh_host_create(CurrentMemoryContext, mesh, MESH_WRITE);
 	header_insert(host, header);
 	host_release(host);
 	host_destroy(host);

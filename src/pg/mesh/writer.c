@@ -30,7 +30,7 @@
 static bool
 lock_header(Host *host, ItemPointer tid)
 {
-	Relation	heap = host->store.simplices.heap;
+	Relation	heap = mesh_pages(host)->simplices.heap;
 	TupleTableSlot *slot = table_slot_create(heap, NULL);
 	TM_FailureData failure;
 	TM_Result	result;
@@ -65,11 +65,11 @@ lock_header(Host *host, ItemPointer tid)
  * query does that gives the points.
  */
 static void
-open_tables(PageStore *store)
+open_tables(MeshPages *pages)
 {
-	page_table_open(&store->simplices);
-	page_store_vertex_table(store);
-	page_table_open(&store->vertices);
+	page_table_open(&pages->simplices);
+	mesh_pages_vertex_table(pages);
+	page_table_open(&pages->vertices);
 }
 
 /*
@@ -80,11 +80,11 @@ static void
 open_and_lock(Writer *writer)
 {
 	Host	   *host = writer->host;
-	Relation	table = mesh_table_open(host->store.mesh, host->store.access);
+	Relation	table = mesh_table_open(mesh_pages(host)->mesh, mesh_pages(host)->access);
 
 	/* also refuses a second writer inside the first one's source query */
 	CheckTableNotInUse(table, "change mesh");
-	open_tables(&host->store);
+	open_tables(mesh_pages(host));
 	table_close(table, NoLock);
 
 	for (;;)
@@ -96,14 +96,14 @@ open_and_lock(Writer *writer)
 			break;
 		host_release(host);
 		PopActiveSnapshot();
-		open_tables(&host->store);
+		open_tables(mesh_pages(host));
 	}
 	/* otherwise the snapshot is newer than our lock on the vertex table */
 	if (IsolationUsesXactSnapshot())
 		header_open_vertices(host, writer->header);
-	if (host->store.simplices.superseded == NULL)
-		host->store.simplices.superseded = superseded_of_session(host->store.simplices.heap);
-	superseded_reclaim_earlier(host->store.simplices.superseded, host->store.simplices.heap);
+	if (mesh_pages(host)->simplices.superseded == NULL)
+		mesh_pages(host)->simplices.superseded = superseded_of_session(mesh_pages(host)->simplices.heap);
+	superseded_reclaim_earlier(mesh_pages(host)->simplices.superseded, mesh_pages(host)->simplices.heap);
 }
 
 /* What is temporary may be changed in a read-only transaction, as by INSERT. */
@@ -125,7 +125,7 @@ writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command)
 	writer_prevent_read_only(mesh, command);
 	PreventCommandIfParallelMode(command);
 
-	writer->host = host_create(CurrentMemoryContext, mesh, access);
+	writer->host = mesh_host_create(CurrentMemoryContext, mesh, access);
 	writer->header = MemoryContextAlloc(writer->host->home, sizeof(abacus_header));
 	open_and_lock(writer);
 	progress_begin(&writer->host->progress, mesh);
@@ -158,7 +158,7 @@ writer_store(Writer *writer)
 void
 writer_continue(Writer *writer)
 {
-	writer->host->store.vertices.relid = InvalidOid;	/* may have gone: look again */
+	mesh_pages(writer->host)->vertices.relid = InvalidOid;	/* may have gone: look again */
 	open_and_lock(writer);
 }
 

@@ -24,11 +24,11 @@
 #include "storage/lmgr.h"
 
 #include "abacus/change.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
 #include "pg/mesh/writer.h"
-#include "pg/settings.h"
 #include "pg/space/compact.h"
 #include "pg/space/truncate.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_build);
 
@@ -57,7 +57,7 @@ insert_batch(Writer *writer, abacus_build *build, uint64 limit)
 	uint64		inserted = header->inserted;
 	abacus_counters before = header->counters;
 
-	host_run(host, abacus_build_run(build, limit, header, &host->failure));
+	host_run(host, abacus_build_run, build, limit, header);
 	if (header->inserted == inserted)
 		return false;			/* the points span no simplex yet */
 	progress_batch_done(&host->progress, header->inserted - inserted,
@@ -73,8 +73,7 @@ rekey(Writer *writer, abacus_build *build)
 	Host	   *host = writer->host;
 	int			done;
 
-	host_run(host, abacus_build_rekey(build, setting_sort_bytes(), writer->header, &done,
-									  &host->failure));
+	host_run(host, abacus_build_rekey, build, setting_sort_bytes(), writer->header, &done);
 	return done;
 }
 
@@ -82,7 +81,7 @@ rekey(Writer *writer, abacus_build *build)
 static void
 commit(Writer *writer)
 {
-	PageTable  *simplices = &writer->host->store.simplices;
+	PageTable  *simplices = &mesh_pages(writer->host)->simplices;
 
 	writer_store(writer);
 	SPI_commit();
@@ -98,8 +97,7 @@ insert_all(Writer *writer, uint64 batch)
 	abacus_header *header = writer->header;
 	abacus_build *build = NULL;
 
-	host_run(host, abacus_build_open(&host->table, header, setting_cache_bytes(), &build,
-									 &host->failure));
+	host_run(host, abacus_build_open, &host->table, header, setting_cache_bytes(), &build);
 	host_own(host, build, (void (*) (void *)) abacus_build_close);
 	if (rekey(writer, build))
 		commit(writer);
@@ -139,14 +137,14 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 	writer_begin(&writer, mesh, MESH_WRITE, "abacus_build()");
 	host = writer.host;
 	header = writer.header;
-	simplices = &host->store.simplices;
+	simplices = &mesh_pages(host)->simplices;
 	simplices->superseded = superseded_create(host->home);
 	progress_in_batches(&host->progress, header->staged - header->inserted);
 	/* what is no Delaunay triangulation has no points that wait, and may yet have to be bound */
 	if (!header->not_delaunay)
 		insert_all(&writer, (uint64) batch);
 	compact(&writer, true, true);
-	vertices = page_store_vertex_table(&host->store);
+	vertices = mesh_pages_vertex_table(mesh_pages(host));
 	writer_close(&writer);
 	if (truncate_if_empty(vertices))
 		SPI_commit();			/* lets readers at it */

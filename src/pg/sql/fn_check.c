@@ -14,10 +14,10 @@
 #include "utils/builtins.h"
 
 #include "abacus/read.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
 #include "pg/mesh/header.h"
-#include "pg/settings.h"
 #include "pg/sql/result.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_check);
 
@@ -58,7 +58,7 @@ read_header(Checking *checking, abacus_header *header)
 static void
 look_before_pages(Checking *checking)
 {
-	PageTable  *table = &checking->host->store.simplices;
+	PageTable  *table = &mesh_pages(checking->host)->simplices;
 	StoredPage	row;
 	bool		found = page_table_next(table, NULL, &row);
 
@@ -77,8 +77,7 @@ check_pages(Checking *checking, Oid mesh, const abacus_header *header, int32 lim
 
 	header_open_vertices(host, header);
 	progress_begin(&host->progress, mesh);
-	host_run(host, abacus_check_open(&host->table, header, setting_cache_bytes(), limit, &check,
-									 &host->failure));
+	host_run(host, abacus_check_open, &host->table, header, setting_cache_bytes(), limit, &check);
 	progress_end(&host->progress);
 	host_own(host, check, (void (*) (void *)) abacus_check_close);
 }
@@ -90,7 +89,7 @@ begin_check(Oid mesh, int32 limit, MemoryContext memory)
 	Checking   *checking = MemoryContextAllocZero(memory, sizeof(Checking));
 	abacus_header header;
 
-	checking->host = host_create(memory, mesh, MESH_READ);
+	checking->host = mesh_host_create(memory, mesh, MESH_READ);
 	if (read_header(checking, &header))
 	{
 		look_before_pages(checking);
@@ -115,7 +114,7 @@ next_fault(Checking *checking, abacus_fault *fault, int64 *code)
 		return true;
 	}
 	if (checking->host->handle == NULL ||
-		host_run(checking->host, abacus_check_next(checking->host->handle, fault)) == ABACUS_END)
+		host_check(checking->host, abacus_check_next(checking->host->handle, fault)) == ABACUS_END)
 		return false;
 	*code = (int64) fault->key.code;
 	return true;

@@ -9,9 +9,9 @@
 #include "utils/memutils.h"
 
 #include "abacus/draw.h"
+#include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
-#include "pg/sql/shape.h"
-#include "pg/sql/sql_function.h"
+#include "pg/mesh/shape.h"
 
 SQL_FUNCTION(abacus_sql_draw);
 SQL_FUNCTION(abacus_sql_draw_section);
@@ -167,8 +167,7 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	drawing.max_edge = factor(fcinfo, DRAW_MAX_EDGE, "max_edge");
 	window(&reader->header, array(fcinfo, DRAW_LOWER), array(fcinfo, DRAW_UPPER), &drawing);
 
-	host_run(host, abacus_draw(&host->table, &reader->header, &drawing, &png, &size,
-							   &host->failure));
+	host_run(host, abacus_draw, &host->table, &reader->header, &drawing, &png, &size);
 	PG_RETURN_BYTEA_P(finish(host, png, size));
 }
 
@@ -204,7 +203,7 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 	drawing.max_edge = factor(fcinfo, SECTION_MAX_EDGE, "max_edge");
 	window(&reader->header, array(fcinfo, SECTION_LOWER), array(fcinfo, SECTION_UPPER), &drawing);
 
-	host_run(host, abacus_draw_section(&host->table, &reader->header, &section, &drawing, &png,
-									   &size, &host->failure));
+	host_run(host, abacus_draw_section, &host->table, &reader->header, &section, &drawing, &png,
+			 &size);
 	PG_RETURN_BYTEA_P(finish(host, png, size));
 }

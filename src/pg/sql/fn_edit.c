@@ -10,8 +10,8 @@
 
 #include "utils/builtins.h"
 
+#include "pg/base/sql_function.h"
 #include "pg/mesh/change.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_insert);
 SQL_FUNCTION(abacus_sql_delete);

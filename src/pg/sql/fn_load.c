@@ -11,12 +11,12 @@
 #include "utils/lsyscache.h"
 
 #include "abacus/change.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
+#include "pg/input/source.h"
 #include "pg/mesh/new_mesh.h"
+#include "pg/mesh/shape.h"
 #include "pg/mesh/writer.h"
-#include "pg/settings.h"
-#include "pg/sql/shape.h"
-#include "pg/sql/source.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_load);
 
@@ -48,19 +48,18 @@ load(Oid mesh, Source *vertices, Source *simplices, bool reorient)
 
 	writer_begin(&writer, mesh, MESH_WRITE, "abacus_load()");
 	host = writer.host;
-	host_run(host, abacus_load_open(&host->table, writer.header, setting_sort_bytes(), reorient,
-									&loading, &host->failure));
+	host_run(host, abacus_load_open, &host->table, writer.header, setting_sort_bytes(), reorient,
+			 &loading);
 	host_own(host, loading, (void (*) (void *)) abacus_load_close);
 	source_open(vertices, writer.header);
 	while ((count = source_fetch(vertices, &records)) > 0)
-		host_run(host, abacus_load_vertices(loading, records, count, &host->failure));
+		host_run(host, abacus_load_vertices, loading, records, count);
 	source_close(vertices);
 	source_open_simplices(simplices, writer.header);
 	while ((count = source_fetch(simplices, &records)) > 0)
-		host_run(host, abacus_load_simplices(loading, (const int64_t *) records, count,
-											 &host->failure));
+		host_run(host, abacus_load_simplices, loading, (const int64_t *) records, count);
 	source_close(simplices);
-	host_run(host, abacus_load_finish(loading, writer.header, &host->failure));
+	host_run(host, abacus_load_finish, loading, writer.header);
 	loaded = writer.header->simplices;
 	writer_end(&writer);
 	return loaded;

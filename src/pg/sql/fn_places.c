@@ -12,12 +12,12 @@
 #include "utils/builtins.h"
 
 #include "abacus/read.h"
-#include "pg/guard.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
+#include "pg/host/guard.h"
+#include "pg/input/source.h"
 #include "pg/mesh/reader.h"
-#include "pg/settings.h"
 #include "pg/sql/simplex_row.h"
-#include "pg/sql/source.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_locate_places);
 
@@ -65,7 +65,7 @@ read_places(Host *host, Source *source, const abacus_header *shape)
 
 	source_open(source, shape);
 	while ((count = source_fetch(source, &records)) > 0)
-		host_run(host, abacus_places_add(host->handle, records, count, &host->failure));
+		host_run(host, abacus_places_add, host->handle, records, count);
 	source_close(source);
 }
 
@@ -93,11 +93,11 @@ abacus_sql_locate_places(PG_FUNCTION_ARGS)
 	shape->attributes = 0;
 
 	progress_begin(&host->progress, mesh);
-	host_run(host, abacus_places_open(&host->table, &reader->header, setting_query_sort_bytes(),
-									  setting_cache_bytes(), &places, &host->failure));
+	host_run(host, abacus_places_open, &host->table, &reader->header, setting_query_sort_bytes(),
+			 setting_cache_bytes(), &places);
 	host_own(host, places, (void (*) (void *)) abacus_places_close);
 	read_places(host, &source, shape);
-	host_run(host, abacus_places_locate(places, put_answer, &answers, &host->failure));
+	host_run(host, abacus_places_locate, places, put_answer, &answers);
 	progress_end(&host->progress);
 	host_release(host);
 	host_destroy(host);

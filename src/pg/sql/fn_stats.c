@@ -10,10 +10,10 @@
 #include "funcapi.h"
 #include "utils/fmgrprotos.h"
 
+#include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/mesh/reader.h"
 #include "pg/sql/result.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_stats);
 
@@ -69,7 +69,7 @@ put_counters(Figures *figures, const abacus_counters *counters, bool reading)
 static void
 put_sizes(Figures *figures, const Reader *reader, Oid vertices)
 {
-	Oid			mesh = reader->host->store.mesh;
+	Oid			mesh = mesh_pages(reader->host)->mesh;
 	double		table = bytes_of(pg_table_size, mesh);
 	double		index = bytes_of(pg_indexes_size, mesh);
 
@@ -115,7 +115,7 @@ abacus_sql_stats(PG_FUNCTION_ARGS)
 	Oid			mesh = PG_GETARG_OID(0);
 	Figures		figures = {(ReturnSetInfo *) fcinfo->resultinfo, ""};
 	Reader	   *reader = reader_open(mesh, CurrentMemoryContext);
-	Oid			vertices = page_store_vertex_table(&reader->host->store);
+	Oid			vertices = mesh_pages_vertex_table(mesh_pages(reader->host));
 	const CachedMesh *cached = mesh_cache_peek(mesh);
 
 	host_release(reader->host);

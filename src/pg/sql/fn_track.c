@@ -22,8 +22,8 @@
 #include "utils/rls.h"
 #include "utils/syscache.h"
 
+#include "pg/base/sql_function.h"
 #include "pg/mesh/change.h"
-#include "pg/sql/sql_function.h"
 #include "pg/track/tracked_points.h"
 #include "pg/track/tracking.h"
 

@@ -19,7 +19,7 @@
 
 #include "miscadmin.h"
 
-#include "pg/sql/sql_function.h"
+#include "pg/base/sql_function.h"
 #include "pg/track/tracking.h"
 #include "pg/track/transition.h"
 
@@ -78,7 +78,7 @@ follow(const TriggerData *trigger, Transition *transition, Change *change)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("mesh \"%s\" is not in step with table \"%s\"",
-						RelationGetRelationName(change->writer.host->store.simplices.heap),
+						RelationGetRelationName(mesh_pages(change->writer.host)->simplices.heap),
 						RelationGetRelationName(trigger->tg_relation)),
 				 errdetail("Points to delete: " UINT64_FORMAT "; found: " UINT64_FORMAT ".", gone,
 						   deleted),

@@ -25,7 +25,6 @@
 #include "utils/memutils.h"
 #include "utils/snapmgr.h"
 
-#include "pg/mesh/mesh.h"
 #include "pg/store/page_table.h"
 #include "pg/store/page_type.h"
 

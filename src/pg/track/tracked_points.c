@@ -9,8 +9,8 @@
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
-#include "pg/sql/row_packer.h"
-#include "pg/sql/shape.h"
+#include "pg/input/row_packer.h"
+#include "pg/mesh/shape.h"
 #include "pg/track/tracked_points.h"
 
 /* Names of the columns of a point: as given, or as the mesh names its own. */

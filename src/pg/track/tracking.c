@@ -39,9 +39,9 @@
 #include "utils/syscache.h"
 #include "utils/varlena.h"
 
+#include "pg/base/utility.h"
 #include "pg/mesh/mesh.h"
 #include "pg/track/tracking.h"
-#include "pg/utility.h"
 
 /* The function TRACKING_FUNCTION of the extension; InvalidOid if it has none. */
 Oid

@@ -18,7 +18,7 @@
 #include "utils/lsyscache.h"
 #include "utils/memutils.h"
 
-#include "pg/sql/row_packer.h"
+#include "pg/input/row_packer.h"
 
 static const char *const coordinate_names[ABACUS_MAX_DIMENSION] = {"x", "y", "z"};
 static const char *const corner_names[ABACUS_MAX_DIMENSION + 1] = {"v0", "v1", "v2", "v3"};

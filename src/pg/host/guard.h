@@ -2,7 +2,7 @@
  * guard.h: around the PostgreSQL calls of a function that the core calls.
  *
  *     GUARD_BEGIN();
- *     page_store_put(&host->store, kind, page);
+ *     pages->functions->put(pages->owner, kind, page);
  *     GUARD_END(host);
  *     return ABACUS_HOST_OK;
  *
@@ -12,10 +12,7 @@
 #ifndef ABACUS_GUARD_H
 #define ABACUS_GUARD_H
 
-#include "pg/host.h"
-
-/* Counts down to the failure that abacus.fail_host_call asks for. */
-extern int	guard_calls_to_failure;
+#include "pg/host/host.h"
 
 extern bool guard_failure_is_due(void);
 extern void guard_inject_failure(void);

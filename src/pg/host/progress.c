@@ -16,7 +16,7 @@
 #include "utils/backend_status.h"
 #include "utils/timestamp.h"
 
-#include "pg/progress.h"
+#include "pg/host/progress.h"
 
 /* Slots that CREATE INDEX leaves free; the view's param numbers are one higher. */
 #define PROGRESS_ABACUS_PAGES_READ 1

@@ -9,7 +9,7 @@
 #include "utils/builtins.h"
 
 #include "pg/mesh/header.h"
-#include "pg/sql/shape.h"
+#include "pg/mesh/shape.h"
 
 void
 shape_dimension(abacus_header *header, int32 dimension)

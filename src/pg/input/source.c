@@ -16,7 +16,7 @@
 #include "utils/plancache.h"
 #include "utils/portal.h"
 
-#include "pg/sql/source.h"
+#include "pg/input/source.h"
 
 #define ROWS_A_BATCH 1024
 

@@ -7,7 +7,7 @@
 
 #include "executor/spi.h"
 
-#include "pg/sql/row_packer.h"
+#include "pg/input/row_packer.h"
 
 typedef struct Source
 {

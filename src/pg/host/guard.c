@@ -5,15 +5,14 @@
 
 #include "utils/memutils.h"
 
-#include "pg/guard.h"
-
-int			guard_calls_to_failure = 0;
+#include "pg/base/settings.h"
+#include "pg/host/guard.h"
 
 /* Whether this call is the one that abacus.fail_host_call wants to fail. */
 bool
 guard_failure_is_due(void)
 {
-	return guard_calls_to_failure > 0 && --guard_calls_to_failure == 0;
+	return setting_calls_to_failure > 0 && --setting_calls_to_failure == 0;
 }
 
 void

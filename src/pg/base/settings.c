@@ -3,20 +3,23 @@
  */
 #include "postgres.h"
 
+#include <limits.h>
+
 #include "miscadmin.h"
 #include "utils/guc.h"
 
-#include "pg/guard.h"
-#include "pg/settings.h"
+#include "pg/base/settings.h"
 
 static int	cache_size_mb = 128;
 static int	fail_host_call = 0;
 static bool vacuum_moves_rows = true;
 
+int			setting_calls_to_failure = 0;
+
 static void
 assign_fail_host_call(int value, void *extra)
 {
-	guard_calls_to_failure = value;
+	setting_calls_to_failure = value;
 }
 
 void

@@ -9,7 +9,7 @@
 #include "access/xact.h"
 #include "executor/spi.h"
 
-#include "pg/utility.h"
+#include "pg/base/utility.h"
 
 /* What the statement has done is visible afterwards. */
 void

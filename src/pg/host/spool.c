@@ -9,7 +9,7 @@
 #include "storage/buffile.h"
 #include "utils/memutils.h"
 
-#include "pg/store/spool.h"
+#include "pg/host/spool.h"
 
 void *
 spool_create(MemoryContext memory)
