@@ -15,7 +15,7 @@
 
 #include "cache/domain_of.hpp"
 #include "delaunay/intake.hpp"
-#include "delaunay/own_vertices.hpp"
+#include "traverse/own_vertices.hpp"
 
 #include <algorithm>
 

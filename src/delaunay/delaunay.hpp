@@ -4,8 +4,8 @@
 #pragma once
 
 #include "cache/cache.hpp"
-#include "delaunay/marks.hpp"
-#include "delaunay/walk.hpp"
+#include "traverse/marks.hpp"
+#include "traverse/walk.hpp"
 
 namespace abacus {
 
@@ -81,7 +81,7 @@ public:
 
 private:
     Cache<D> &cache_;
-    Walk<D> walk_;
+    Walk<D, Cache<D>> walk_;
     std::array<Handle, recent_size> recent_;
     std::int64_t simplices_;
     std::int64_t ghosts_;

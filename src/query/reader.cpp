@@ -1,14 +1,11 @@
 #include "query/reader.hpp"
 
 #include "cache/domain_of.hpp"
-#include "host/memory_resource.hpp"
 #include "points/record.hpp"
 #include "query/describe.hpp"
 
 #include <algorithm>
-#include <memory_resource>
 #include <string>
-#include <unordered_set>
 
 namespace abacus {
 
@@ -29,7 +26,7 @@ Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOpti
       cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
              linked_as(header, options)),
       glance_(cache_, options.budget / 10, in_order), read_ahead_(cache_),
-      walk_(cache_, /*far=*/true) {}
+      walk_(cache_, /*far=*/true), around_(host) {}
 
 template <int D> Handle Reader<D>::start(const Point<D> &p, std::uint64_t code) {
     if (size_ == 0) return no_handle;
@@ -175,25 +172,17 @@ bool Reader<D>::glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &s
 template <int D>
 void Reader<D>::first_around(const Point<D> &p, Handle h, abacus_simplex &simplex) {
     // Across every facet that p lies on there is another simplex that contains p.
-    HostMemory memory(cache_.host());
-    std::pmr::unordered_set<Handle> seen(&memory);
-    Arena<Handle> open(cache_.host());
-    for (Handle at = h;;) {
-        for (int i = 0; i <= D; ++i) {
-            if (facet_side<D>(cache_.corners(cache_.simplex(at)), i, p) != 0) continue;
-            if (seen.empty()) seen.insert(h);
-            const Handle next = link_simplex(cache_.cross(at, i));
-            if (cache_.simplex(next).is_ghost() || !seen.insert(next).second) continue;
-            open.push_back(next);
-            abacus_simplex other;
-            describe(next, other);
-            if (comes_before<D>(other, simplex)) simplex = other;
-        }
-        if (open.empty()) return;
-        at = open.back();
-        open.pop_back();
-        cache_.poll();
-    }
+    const auto has_p = [&](Handle at, int facet) {
+        const Simplex<D> &s = cache_.simplex(at);
+        return !s.is_ghost() && facet_side<D>(cache_.corners(s), facet, p) == 0;
+    };
+    around_.from(cache_, h, has_p, [&](Handle met) {
+        if (cache_.simplex(met).is_ghost()) return true;
+        abacus_simplex other;
+        describe(met, other);
+        if (comes_before<D>(other, simplex)) simplex = other;
+        return true;
+    });
 }
 
 template <int D> bool Reader<D>::has_ids(Handle h, const std::int64_t *ids) const {

@@ -7,10 +7,11 @@
 // into whose box contains the point (page_boxes.hpp).
 #pragma once
 
-#include "delaunay/walk.hpp"
 #include "query/glance.hpp"
 #include "query/page_boxes.hpp"
 #include "query/read_ahead.hpp"
+#include "traverse/flood.hpp"
+#include "traverse/walk.hpp"
 
 #include <abacus/read.h>
 #include <optional>
@@ -93,7 +94,8 @@ private:
     Cache<D> cache_;
     Glance<D> glance_;
     ReadAhead<D> read_ahead_;
-    Walk<D> walk_;
+    Walk<D, Cache<D>> walk_;
+    Flood<D> around_;
     Handle last_ = no_handle;
 };
 

@@ -1,7 +1,7 @@
 // All points: the vertices of the mesh page by page, those equal to one, those that wait.
 #pragma once
 
-#include "delaunay/own_vertices.hpp"
+#include "traverse/own_vertices.hpp"
 #include "points/repeated_points.hpp"
 #include "points/vertex_reader.hpp"
 #include "query/reader.hpp"

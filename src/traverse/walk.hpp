@@ -7,21 +7,21 @@
 // for a while, and end at a boundary that is not the hull: within() says so.
 #pragma once
 
-#include "delaunay/separator.hpp"
+#include "traverse/separator.hpp"
 
 namespace abacus {
 
-template <int D> class Walk {
+template <int D, Topology<D> Mesh> class Walk {
 public:
     /// `far`: walks begin far from where they lead, among simplices that have not been used for
     /// long.
-    explicit Walk(Cache<D> &cache, bool far = false) : cache_(cache), far_(far) {}
+    explicit Walk(Mesh &mesh, bool far = false) : mesh_(mesh), far_(far) {}
 
     /// Whether p is so close to a simplex, measured by the simplex's own size, that a walk
     /// from there is short, thin simplices included. No more than a guess, whatever overflows.
     bool is_close(Handle h, const Point<D> &p) const {
-        const Simplex<D> &s = cache_.simplex(h);
-        const Point<D> &a = cache_.point(s.vertex[0]), &b = cache_.point(s.vertex[1]);
+        const Simplex<D> &s = mesh_.simplex(h);
+        const Point<D> &a = mesh_.point(s.vertex[0]), &b = mesh_.point(s.vertex[1]);
         double size = 0, distance = 0;
         for (int i = 0; i < D; ++i) {
             size += (b[i] - a[i]) * (b[i] - a[i]);
@@ -40,24 +40,25 @@ public:
     }
     /// The same; no_handle after `longest` steps.
     Handle within(const Point<D> &p, Handle from, std::uint64_t longest) {
-        ++cache_.counters.walks;
+        if constexpr (requires { mesh_.counters.walks; }) ++mesh_.counters.walks;
         Handle h = from;
-        Separator<D> separator(cache_, p);
+        Separator<D, Mesh> separator(mesh_, p);
         int entered = separator.none;
         // From a ghost inside through its hull facet, beyond which p may well lie.
-        if (cache_.simplex(h).is_ghost()) h = link_simplex(cache_.cross(h, D));
+        if (mesh_.simplex(h).is_ghost()) h = link_simplex(mesh_.cross(h, D));
         for (std::uint64_t steps = 0;; ++steps) {
-            if (steps % 4096 == 4095) cache_.poll();
+            if (steps % 4096 == 4095) mesh_.poll();
             if (steps > longest) return no_handle;
-            const Simplex<D> &s = cache_.simplex(h);
+            const Simplex<D> &s = mesh_.simplex(h);
             if (s.is_ghost()) return h;
-            if (far_) cache_.ask_for_neighbours(s);
+            if constexpr (requires { mesh_.ask_for_neighbours(s); })
+                if (far_) mesh_.ask_for_neighbours(s);
             const int separating = separator.find(s, entered, random());
             if (separating == separator.none) {
                 ends_on_facet_ = separator.is_on_facet();
                 return h;
             }
-            const Link link = cache_.cross(h, separating);
+            const Link link = mesh_.cross(h, separating);
             h = link_simplex(link);
             entered = link_facet(link);
         }
@@ -76,7 +77,7 @@ private:
         return state_;
     }
 
-    Cache<D> &cache_;
+    Mesh &mesh_;
     const bool far_;
     std::uint32_t state_ = 2463534242u;
     bool ends_on_facet_ = false;

@@ -7,16 +7,24 @@
 // the facets are tested in turns, beginning with any, until one separates.
 #pragma once
 
-#include "cache/cache.hpp"
+#include "geometry/predicates.hpp"
+#include "traverse/topology.hpp"
 
 #include <utility>
 
 namespace abacus {
 
-template <int D> class Separator {
+/// Corners of a finite simplex.
+template <int D, Topology<D> Mesh> Corners<D> corners_of(const Mesh &mesh, const Simplex<D> &s) {
+    Corners<D> corners;
+    for (int i = 0; i <= D; ++i) corners[i] = &mesh.point(s.vertex[i]);
+    return corners;
+}
+
+template <int D, Topology<D> Mesh> class Separator {
 public:
     /// Both are to outlive it.
-    Separator(const Cache<D> &cache, const Point<D> &p) : cache_(cache), p_(p) {}
+    Separator(const Mesh &mesh, const Point<D> &p) : mesh_(mesh), p_(p) {}
 
     static constexpr int none = -1;
     /// A facet of a finite simplex that has p strictly beyond it, or `none`. `entered` is the facet
@@ -27,14 +35,15 @@ public:
     bool is_on_facet() const { return is_on_facet_; }
 
 private:
-    const Cache<D> &cache_;
+    const Mesh &mesh_;
     const Point<D> &p_;
     bool is_on_facet_ = false;
 };
 
-template <int D> int Separator<D>::find(const Simplex<D> &s, int entered, std::uint32_t random) {
+template <int D, Topology<D> Mesh>
+int Separator<D, Mesh>::find(const Simplex<D> &s, int entered, std::uint32_t random) {
     is_on_facet_ = false;
-    const Corners<D> corners = cache_.corners(s);
+    const Corners<D> corners = corners_of(mesh_, s);
     // All of the first simplex, else those behind the one entered by, in a circle.
     const int facets = entered == none ? D + 1 : D;
     int turn = static_cast<int>(random % D);
@@ -47,9 +56,9 @@ template <int D> int Separator<D>::find(const Simplex<D> &s, int entered, std::u
     return none;
 }
 
-template <> class Separator<2> {
+template <Topology<2> Mesh> class Separator<2, Mesh> {
 public:
-    Separator(const Cache<2> &cache, const Point<2> &p) : cache_(cache), p_(p) {}
+    Separator(const Mesh &mesh, const Point<2> &p) : mesh_(mesh), p_(p) {}
 
     static constexpr int none = -1;
     int find(const Simplex<2> &s, int entered, std::uint32_t random) {
@@ -58,7 +67,7 @@ public:
             // As if by edge 0, if that does not separate.
             after_ = seen_from_p(s.vertex[1]);
             before_ = seen_from_p(s.vertex[2]);
-            const int side = facet_side<2>(cache_.corners(s), 0, p_);
+            const int side = facet_side<2>(corners_of(mesh_, s), 0, p_);
             if (side < 0) {
                 std::swap(after_, before_);
                 return 0;
@@ -70,7 +79,7 @@ public:
         const SignedArea one = signed_area(before_, apex), other = signed_area(apex, after_);
         bool beyond_one = one.is_negative(), beyond_other = other.is_negative();
         if (!(one.is_sure() & other.is_sure())) [[unlikely]] {
-            const Corners<2> corners = cache_.corners(s);
+            const Corners<2> corners = corners_of(mesh_, s);
             const int side = facet_side<2>(corners, edge_after(entered), p_);
             const int other_side = facet_side<2>(corners, edge_before(entered), p_);
             beyond_one = side < 0;
@@ -92,11 +101,11 @@ private:
     static constexpr int edge_before(int edge) { return 0b01'00'10 >> 2 * edge & 3; }
 
     Point<2> seen_from_p(VertexIndex v) const {
-        const Point<2> &point = cache_.point(v);
+        const Point<2> &point = mesh_.point(v);
         return {point[0] - p_[0], point[1] - p_[1]};
     }
 
-    const Cache<2> &cache_;
+    const Mesh &mesh_;
     const Point<2> &p_;
     bool is_on_facet_ = false;
     Point<2> after_, before_; ///< the vertices after and before the apex, as seen from p

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "cache/cache.hpp"
-#include "delaunay/marks.hpp"
+#include "traverse/flood.hpp"
 
 namespace abacus {
 
@@ -14,7 +14,7 @@ template <int D> class OwnVertices {
 public:
     explicit OwnVertices(Cache<D> &cache)
         : cache_(cache), numbered_(cache.host()), corners_(cache.host()), own_(cache.host()),
-          open_(cache.host()), seen_(cache.host()) {}
+          star_(cache.host()) {}
 
     /// Lists the vertices that belong to the page that owns the key; returns the lower key
     /// of the next page, end_key after the last.
@@ -36,7 +36,7 @@ public:
         for (const Link corner : corners_) {
             if (!is_own(link_simplex(corner), link_facet(corner))) continue;
             own_.push_back(cache_.simplex(link_simplex(corner)).vertex[link_facet(corner)]);
-            visit(own_.back(), open_);
+            visit(own_.back(), star_.met());
         }
         return next;
     }
@@ -45,34 +45,18 @@ public:
 private:
     /// Whether no simplex around this corner of h is in an earlier page.
     bool is_own(Handle h, int corner) {
-        const VertexIndex v = cache_.simplex(h).vertex[corner];
         const Key page = cache_.lower(h);
-        bool own = true;
-        open_.clear();
-        open_.push_back(h);
-        seen_.set(h, Marks::inside);
-        for (std::size_t n = 0; own && n < open_.size(); ++n) {
-            if (n % 4096 == 4095) cache_.poll();
-            for (int i = 0; own && i <= D; ++i) {
-                if (cache_.simplex(open_[n]).vertex[i] == v) continue;
-                const Handle neighbour = link_simplex(cache_.cross(open_[n], i));
-                if (seen_.get(neighbour) == Marks::inside) continue;
-                seen_.set(neighbour, Marks::inside);
-                open_.push_back(neighbour);
-                cache_.use(neighbour);
-                own = page <= cache_.lower(neighbour);
-            }
-        }
-        for (const Handle seen : open_) seen_.set(seen, Marks::none);
-        return own;
+        return star_.around(cache_, h, cache_.simplex(h).vertex[corner], [&](Handle met) {
+            cache_.use(met);
+            return page <= cache_.lower(met);
+        });
     }
 
     Cache<D> &cache_;
     typename VertexHeap<D>::Numbering numbered_;
     Arena<Link> corners_; // of the page: one for each vertex
     Arena<VertexIndex> own_;
-    Arena<Handle> open_; // around a vertex
-    Marks seen_;
+    Flood<D> star_;
 };
 
 } // namespace abacus

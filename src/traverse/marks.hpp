@@ -11,7 +11,7 @@ class Marks {
 public:
     enum Mark : std::uint8_t { none, inside, outside };
 
-    explicit Marks(const Host &host) : marks_(host) {}
+    explicit Marks(const Memory &memory) : marks_(memory) {}
 
     Mark get(Handle h) const { return h < marks_.size() ? marks_[h] : none; }
     void set(Handle h, Mark mark) {
