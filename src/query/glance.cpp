@@ -12,7 +12,8 @@ namespace abacus {
 // ---- Where to look --------------------------------------------------------------------
 
 template <int D>
-bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex) {
+bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex,
+                     CornerValues *values) {
     looks_ = 0;
     if (!in_order_) held_[0].upper = {}; // its bytes were the host's, for a while
     KnownPage own;                       // a copy: others will be added
@@ -22,7 +23,7 @@ bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &sim
         own = *known;
     } else { // then it is not known either how far to look around
         if (is_cached(code)) return false;
-        const Outcome outcome = look(code, nullptr, p, simplex);
+        const Outcome outcome = look(code, nullptr, p, simplex, values);
         if (outcome != Outcome::not_here) return outcome == Outcome::found;
         own = find_held(code)->page;
     }
@@ -44,7 +45,8 @@ bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &sim
         }
         for (const std::uint64_t c : codes) {
             if (c < own.lower || has_looked(c)) continue;
-            const Outcome outcome = look(c, c < own.upper ? &own : known_.find(c), p, simplex);
+            const Outcome outcome =
+                look(c, c < own.upper ? &own : known_.find(c), p, simplex, values);
             if (outcome != Outcome::not_here) return outcome == Outcome::found;
         }
     }
@@ -152,7 +154,8 @@ typename Glance<D>::Held &Glance<D>::hold(std::uint64_t code, const abacus_page 
 
 template <int D>
 typename Glance<D>::Outcome Glance<D>::look(std::uint64_t code, const KnownPage *known,
-                                            const Point<D> &p, abacus_simplex &simplex) {
+                                            const Point<D> &p, abacus_simplex &simplex,
+                                            CornerValues *values) {
     Held *held = find_held(code);
     if (held == nullptr) {
         abacus_page page{};
@@ -167,7 +170,7 @@ typename Glance<D>::Outcome Glance<D>::look(std::uint64_t code, const KnownPage 
     const int number = search(*held, p);
     if (number == nowhere) return Outcome::not_here;
     if (number == on_facet) return Outcome::not_now;
-    describe(held->view, number, cache_.domain(), simplex);
+    describe(held->view, number, cache_.domain(), simplex, values);
     return Outcome::found;
 }
 

@@ -22,6 +22,7 @@
 
 #include "cache/cache.hpp"
 #include "host/memory_resource.hpp"
+#include "query/corner_values.hpp"
 #include "query/known_pages.hpp"
 
 #include <abacus/read.h>
@@ -47,7 +48,8 @@ public:
     /// Looks for a finite simplex with p strictly inside, in pages. False if there is none where
     /// it may be expected, or p is on a facet, or a page is in the cache, or to be loaded. The
     /// code is p's, and becomes that of where it may be expected first.
-    bool find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex);
+    bool find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex,
+              CornerValues *values);
 
     std::size_t bytes() const { return known_.bytes() + held_.size() * sizeof(Held); }
     std::uint64_t pages_read() const { return pages_read_; }
@@ -103,7 +105,7 @@ private:
     static void add_diagonally(const Cell<D> &cell, double distance, Codes &codes);
     /// Looks into the page that owns a code, which may be known.
     Outcome look(std::uint64_t code, const KnownPage *known, const Point<D> &p,
-                 abacus_simplex &simplex);
+                 abacus_simplex &simplex, CornerValues *values);
     bool fetch(std::uint64_t code, const KnownPage *known, abacus_page &page);
     /// The held page that owns a code, or null; of places in no order that looked into last.
     Held *find_held(std::uint64_t code);

@@ -115,12 +115,13 @@ template <int D> std::uint64_t Reader<D>::pages_with(const std::uint64_t *vertex
     return same ? pages : 0;
 }
 
-template <int D> bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex) {
+template <int D>
+bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values) {
     bool found = false;
     search(p, [&](Handle h) {
         abacus_simplex other;
         describe(h, other);
-        if (!found || comes_before<D>(other, simplex)) simplex = other;
+        if (!found || comes_before<D>(other, simplex)) describe(h, simplex, values);
         found = true;
         return true;
     });
@@ -129,48 +130,57 @@ template <int D> bool Reader<D>::search_first(const Point<D> &p, abacus_simplex 
 
 // ---- All meshes ------------------------------------------------------------------------
 
-template <int D> void Reader<D>::describe(Handle h, abacus_simplex &simplex) const {
+template <int D>
+void Reader<D>::describe(Handle h, abacus_simplex &simplex, CornerValues *values) const {
     const Simplex<D> &s = cache_.simplex(h);
     DescribedCorners<D> corners;
     for (int i = 0; i < s.finite_vertices(); ++i) {
         corners.id[i] = cache_.vertices().id(s.vertex[i]);
         corners.point[i] = &cache_.point(s.vertex[i]);
     }
-    abacus::describe(corners, cache_.code(s), s.is_ghost(), simplex);
+    const auto &order = abacus::describe(corners, cache_.code(s), s.is_ghost(), simplex);
+    if (values == nullptr) return;
+    for (int i = 0; i < s.finite_vertices(); ++i) {
+        const double *attributes = cache_.vertices().attributes(s.vertex[order[i]]);
+        values->set(i, [&](int attribute) { return attributes[attribute]; });
+    }
 }
 
-template <int D> bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex) {
+template <int D>
+bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex, CornerValues *values) {
     if (!delaunay_) {
         const Handle inside = walk_to_inside(p);
-        if (inside == no_handle) return search_first(p, simplex);
-        describe(inside, simplex);
+        if (inside == no_handle) return search_first(p, simplex, values);
+        describe(inside, simplex, values);
         return true;
     }
     std::uint64_t code = cache_.domain().code(p);
-    if (glance(p, code, simplex)) return true;
+    if (glance(p, code, simplex, values)) return true;
     const Handle h = find(p, code);
     const bool is_inside = h != no_handle && !cache_.simplex(h).is_ghost();
     is_no_glance_ = !is_inside || walk_.ends_on_facet();
     if (!is_inside) return false;
-    describe(h, simplex);
-    if (walk_.ends_on_facet()) first_around(p, h, simplex);
+    describe(h, simplex, values);
+    if (walk_.ends_on_facet()) first_around(p, h, simplex, values);
     return true;
 }
 
 template <int D>
-bool Reader<D>::glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex) {
+bool Reader<D>::glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex,
+                       CornerValues *values) {
     if (cache_.counters.evictions == 0 && !in_order_) return false; // the cache takes more
     if (size_ == 0) return false;
     // Of places in order those that no glance finds come together, too.
     if ((!in_order_ || is_no_glance_) && is_at_hand(code)) return false;
     cache_.poll();
-    const bool is_found = glance_.find(code, p, simplex);
+    const bool is_found = glance_.find(code, p, simplex, values);
     cache_.set_budget(budget_ - std::min(budget_, glance_.bytes()));
     return is_found;
 }
 
 template <int D>
-void Reader<D>::first_around(const Point<D> &p, Handle h, abacus_simplex &simplex) {
+void Reader<D>::first_around(const Point<D> &p, Handle h, abacus_simplex &simplex,
+                             CornerValues *values) {
     // Across every facet that p lies on there is another simplex that contains p.
     const auto has_p = [&](Handle at, int facet) {
         const Simplex<D> &s = cache_.simplex(at);
@@ -180,7 +190,7 @@ void Reader<D>::first_around(const Point<D> &p, Handle h, abacus_simplex &simple
         if (cache_.simplex(met).is_ghost()) return true;
         abacus_simplex other;
         describe(met, other);
-        if (comes_before<D>(other, simplex)) simplex = other;
+        if (comes_before<D>(other, simplex)) describe(met, simplex, values);
         return true;
     });
 }

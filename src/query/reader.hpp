@@ -28,8 +28,8 @@ public:
            bool in_order = false);
 
     /// The simplex that contains p; of several, the first by comes_before(). False
-    /// outside the hull.
-    bool locate(const Point<D> &p, abacus_simplex &simplex);
+    /// outside the hull. `values` gets what its corners carry.
+    bool locate(const Point<D> &p, abacus_simplex &simplex, CornerValues *values = nullptr);
     /// The neighbour across facet `facet` of the simplex with this code and these ids.
     /// False at the hull; throws an Error (argument) if there is no such simplex, or several,
     /// as there may be where points have equal ids.
@@ -58,7 +58,8 @@ private:
     Handle find(const Point<D> &p, std::uint64_t code);
     /// Locates p in a page that is not in the cache, if that has been full, or places come in
     /// order, and it is worth while. Else says where a walk should begin.
-    bool glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex);
+    bool glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex,
+                CornerValues *values);
     /// Where a walk to p begins; no_handle in an empty mesh.
     Handle start(const Point<D> &p, std::uint64_t code);
     /// Whether the block of the simplex found last owns the code.
@@ -75,14 +76,14 @@ private:
     template <class Visit> void search(const Point<D> &p, Visit visit);
     /// As in_simplex(); every point is outside of a ghost.
     int position(Handle h, const Point<D> &p) const;
-    bool search_first(const Point<D> &p, abacus_simplex &simplex);
-    void describe(Handle h, abacus_simplex &simplex) const;
+    bool search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values);
+    void describe(Handle h, abacus_simplex &simplex, CornerValues *values = nullptr) const;
     /// Whether these are the ids of the simplex's corners, in any order.
     bool has_ids(Handle h, const std::int64_t *ids) const;
     /// Which of its corners is then meant by corner `facet` of the ids.
     int named_corner(Handle h, const std::int64_t *ids, int facet) const;
     /// The first of all simplices around a point on a facet of h, which `simplex` describes.
-    void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex);
+    void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex, CornerValues *values);
 
     std::uint64_t size_; // simplices and ghosts
     bool delaunay_;

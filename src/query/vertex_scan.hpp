@@ -1,10 +1,10 @@
 // All points: the vertices of the mesh page by page, those equal to one, those that wait.
 #pragma once
 
-#include "traverse/own_vertices.hpp"
 #include "points/repeated_points.hpp"
 #include "points/vertex_reader.hpp"
 #include "query/reader.hpp"
+#include "traverse/own_vertices.hpp"
 
 #include <abacus/read.h>
 
