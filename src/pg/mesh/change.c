@@ -33,6 +33,17 @@ change_begin(Oid mesh, const char *command)
 	return change;
 }
 
+/* The same in a function that is called as a trigger. */
+Change *
+change_begin_in_trigger(Oid mesh, const char *command)
+{
+	Change	   *change = palloc0(sizeof(Change));
+
+	writer_begin_in_trigger(&change->writer, mesh, command);
+	host_own(change->writer.host, change, close_handles);
+	return change;
+}
+
 /* Opens an empty stage for points of the shape that a header describes. */
 void
 change_open_stage(Change *change, const abacus_header *shape)

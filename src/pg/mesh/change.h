@@ -18,6 +18,7 @@ typedef struct Change
 } Change;
 
 extern Change *change_begin(Oid mesh, const char *command);
+extern Change *change_begin_in_trigger(Oid mesh, const char *command);
 extern void change_open_stage(Change *change, const abacus_header *shape);
 extern void change_add(Change *change, const uint64 *points, size_t count);
 extern void change_read(Change *change, Source *source, const abacus_header *shape);

@@ -77,16 +77,19 @@ open_tables(PageStore *store)
  * snapshot that sees it.
  */
 static void
-open_and_lock(Writer *writer)
+open_and_lock(Writer *writer, bool in_trigger)
 {
 	Host	   *host = writer->host;
 	Relation	table = mesh_table_open(host->store.mesh, host->store.access);
+	OwnSight	sight;
 
 	/* also refuses a second writer inside the first one's source query */
 	CheckTableNotInUse(table, "change mesh");
 	open_tables(&host->store);
 	table_close(table, NoLock);
 
+	/* before there is a snapshot of ours, which would be in nobody's way */
+	own_sight_take(&sight, in_trigger);
 	for (;;)
 	{
 		CommandCounterIncrement();
@@ -103,7 +106,7 @@ open_and_lock(Writer *writer)
 		header_open_vertices(host, writer->header);
 	if (host->store.simplices.superseded == NULL)
 		host->store.simplices.superseded = superseded_of_session(host->store.simplices.heap);
-	superseded_reclaim_earlier(host->store.simplices.superseded, host->store.simplices.heap);
+	superseded_reclaim_earlier(host->store.simplices.superseded, host->store.simplices.heap, &sight);
 }
 
 /* What is temporary may be changed in a read-only transaction, as by INSERT. */
@@ -114,6 +117,18 @@ writer_prevent_read_only(Oid mesh, const char *command)
 		PreventCommandIfReadOnly(command);
 }
 
+static void
+begin(Writer *writer, Oid mesh, MeshAccess access, const char *command, bool in_trigger)
+{
+	writer_prevent_read_only(mesh, command);
+	PreventCommandIfParallelMode(command);
+
+	writer->host = host_create(CurrentMemoryContext, mesh, access);
+	writer->header = MemoryContextAlloc(writer->host->home, sizeof(abacus_header));
+	open_and_lock(writer, in_trigger);
+	progress_begin(&writer->host->progress, mesh);
+}
+
 /*
  * Opens a mesh for changing, or for moving its rows, with its header locked and
  * an active snapshot that sees it. `command` names the function for messages.
@@ -122,13 +137,14 @@ writer_prevent_read_only(Oid mesh, const char *command)
 void
 writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command)
 {
-	writer_prevent_read_only(mesh, command);
-	PreventCommandIfParallelMode(command);
+	begin(writer, mesh, access, command, false);
+}
 
-	writer->host = host_create(CurrentMemoryContext, mesh, access);
-	writer->header = MemoryContextAlloc(writer->host->home, sizeof(abacus_header));
-	open_and_lock(writer);
-	progress_begin(&writer->host->progress, mesh);
+/* The same for changing, in a function that is called as a trigger: more is known of snapshots. */
+void
+writer_begin_in_trigger(Writer *writer, Oid mesh, const char *command)
+{
+	begin(writer, mesh, MESH_WRITE, command, true);
 }
 
 /*
@@ -159,7 +175,7 @@ void
 writer_continue(Writer *writer)
 {
 	writer->host->store.vertices.relid = InvalidOid;	/* may have gone: look again */
-	open_and_lock(writer);
+	open_and_lock(writer, false);
 }
 
 static void

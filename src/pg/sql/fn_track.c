@@ -124,18 +124,38 @@ check_mesh(Relation table, Oid mesh)
 	table_close(simplices, NoLock);
 }
 
-/* A mesh follows one table; returns its triggers if it is this one. */
-static List *
-present_triggers(Oid function, Oid mesh, Relation table)
+/* Whether the mesh is bound to the table, so that triggers that name it alone are none of its own. */
+static bool
+is_bound_to(List *triggers, Oid table)
 {
-	List	   *triggers = tracking_triggers(function, mesh, RelationGetRelid(table));
 	ListCell   *cell;
 
 	foreach(cell, triggers)
 	{
 		TrackingTrigger *trigger = lfirst(cell);
 
-		if (trigger->table != RelationGetRelid(table))
+		if (trigger->bound && trigger->table == table)
+			return true;
+	}
+	return false;
+}
+
+/* A mesh follows one table; returns its triggers on this one. */
+static List *
+present_triggers(Oid function, Oid mesh, Relation table)
+{
+	List	   *triggers = tracking_triggers(function, mesh, RelationGetRelid(table));
+	bool		is_bound = is_bound_to(triggers, RelationGetRelid(table));
+	List	   *present = NIL;
+	ListCell   *cell;
+
+	foreach(cell, triggers)
+	{
+		TrackingTrigger *trigger = lfirst(cell);
+
+		if (trigger->table == RelationGetRelid(table))
+			present = lappend(present, trigger);
+		else if (trigger->bound || !is_bound)
 			ereport(ERROR,
 					(errcode(ERRCODE_OBJECT_IN_USE),
 					 errmsg("mesh \"%s\" follows table \"%s\" already", get_rel_name(mesh),
@@ -143,7 +163,7 @@ present_triggers(Oid function, Oid mesh, Relation table)
 					 errdetail("A mesh follows one table; a table may be followed by many meshes."),
 					 errhint("Call abacus_untrack() first, or make another mesh.")));
 	}
-	return triggers;
+	return present;
 }
 
 /* Reads the points of a query into the stage; returns how many. */

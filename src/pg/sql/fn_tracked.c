@@ -101,7 +101,7 @@ change_mesh(const TriggerData *trigger, Transition *transition)
 	if (bound)
 		SetUserIdAndSecContext(trigger->tg_relation->rd_rel->relowner,
 							   security | SECURITY_LOCAL_USERID_CHANGE);
-	change = change_begin(mesh, "abacus_track()");
+	change = change_begin_in_trigger(mesh, "abacus_track()");
 	if (transition == NULL)
 		change_clear(change);
 	else

@@ -72,13 +72,19 @@ mesh_by_name(const char *name, Oid namespace)
 	return OidIsValid(namespace) ? get_relname_relid(llast(names), namespace) : InvalidOid;
 }
 
-/* The mesh that a trigger of the table is bound to; InvalidOid if none. */
+/*
+ * The mesh that a trigger of the table is bound to; InvalidOid if none. `from` is the table
+ * that a constraint trigger names after FROM, or InvalidOid.
+ */
 static Oid
-bound_mesh(Oid trigger, Oid table)
+bound_mesh(Oid trigger, Oid table, Oid from)
 {
-	Oid			mesh = mesh_of_trigger(trigger);
+	/*
+	 * Every trigger depends on its own table, which may be a mesh's, and one with FROM on that
+	 * table, too: whoever has the privilege TRIGGER on a mesh can make such. abacus_track() does not.
+	 */
+	Oid			mesh = OidIsValid(from) ? InvalidOid : mesh_of_trigger(trigger);
 
-	/* every trigger depends on its own table, which may be a mesh's */
 	return mesh == table ? InvalidOid : mesh;
 }
 
@@ -114,7 +120,7 @@ read_trigger(Oid oid)
 		trigger->oid = oid;
 		trigger->name = pstrdup(NameStr(form->tgname));
 		trigger->table = form->tgrelid;
-		trigger->mesh = bound_mesh(oid, form->tgrelid);
+		trigger->mesh = bound_mesh(oid, form->tgrelid, form->tgconstrrelid);
 		trigger->bound = OidIsValid(trigger->mesh);
 		trigger->event = form->tgtype & TRIGGER_TYPE_EVENT_MASK;
 		trigger->fires = form->tgenabled;
@@ -275,7 +281,7 @@ tracking_mesh(const TriggerData *data, bool *bound)
 {
 	const Trigger *trigger = data->tg_trigger;
 	Oid			table = RelationGetRelid(data->tg_relation);
-	Oid			mesh = bound_mesh(trigger->tgoid, table);
+	Oid			mesh = bound_mesh(trigger->tgoid, table, trigger->tgconstrrelid);
 
 	*bound = OidIsValid(mesh);
 	if (*bound)
