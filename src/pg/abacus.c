@@ -9,6 +9,7 @@
 #include "pg/settings.h"
 #include "pg/space/vacuum.h"
 #include "pg/sql/sql_function.h"
+#include "pg/track/pending.h"
 
 PG_MODULE_MAGIC;
 
@@ -22,6 +23,7 @@ _PG_init(void)
 	settings_define();
 	mesh_cache_init();
 	vacuum_init();
+	pending_init();
 }
 
 /* Version of the module, which may differ from that of the extension's SQL objects. */

@@ -29,6 +29,7 @@
 #include "pg/space/compact.h"
 #include "pg/space/truncate.h"
 #include "pg/sql/sql_function.h"
+#include "pg/track/pending.h"
 
 SQL_FUNCTION(abacus_sql_build);
 
@@ -135,6 +136,7 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 	writer_prevent_read_only(mesh, "abacus_build()");	/* before the lock, which a standby has not */
 
 	SPI_connect_ext(SPI_OPT_NONATOMIC); /* its memory outlives transactions */
+	pending_settle(mesh);		/* not in the middle of it, by a commit */
 	lock = mesh_lock_for_session(mesh);
 	writer_begin(&writer, mesh, MESH_WRITE, "abacus_build()");
 	host = writer.host;
