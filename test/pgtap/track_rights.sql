@@ -1,7 +1,7 @@
 -- abacus_track: whose rights its triggers have, and which triggers are a mesh's, when they are
 -- bound to it (pg_depend) and when they only name it: made by hand, or restored from a dump.
 BEGIN;
-SELECT plan(43);
+SELECT plan(46);
 
 CREATE ROLE pgtap_owner;
 CREATE ROLE pgtap_guest;
@@ -197,7 +197,20 @@ CREATE TRIGGER h AFTER TRUNCATE ON own.notes FOR EACH STATEMENT EXECUTE FUNCTION
 SET ROLE pgtap_owner;
 SELECT is(abacus_track('own.lone', 'own.points'), 0::bigint, 'a trigger that names a mesh which follows another table');
 SELECT lives_ok($$ SELECT abacus_untrack('own.lone', 'own.notes') $$, '... and is dropped by the owner');
+
+-- deferred: the rights are the same, and missed at the statement
+SET ROLE pgtap_owner;
+SELECT abacus_track('own.lone', 'own.points', deferred => true);
+GRANT INSERT ON own.points TO pgtap_guest;
+SET ROLE pgtap_guest;
+SELECT lives_ok('INSERT INTO own.points VALUES (1, 2, 3)', 'deferred: noted by a guest, with the rights of the owner');
+CREATE TABLE guests.deferred (id int, x float8, y float8);
+CREATE TRIGGER d AFTER INSERT ON guests.deferred REFERENCING NEW TABLE AS n FOR EACH STATEMENT
+    EXECUTE FUNCTION abacus_tracked('own.lone', '2 deferred', 'id', 'x', 'y');
+SELECT throws_ok('INSERT INTO guests.deferred VALUES (9, 9, 9)', '42501', 'permission denied for table lone', 'made by hand: no rights but the writer''s');
+SET CONSTRAINTS ALL IMMEDIATE;
 RESET ROLE;
+SELECT is(apart('own.lone', 'own.points'), 0::bigint, '... in step');
 
 SELECT * FROM finish();
 ROLLBACK;

@@ -18,6 +18,7 @@
  */
 #include "postgres.h"
 
+#include "access/table.h"
 #include "access/xact.h"
 #include "miscadmin.h"
 #include "tcop/utility.h"
@@ -70,6 +71,22 @@ static bool immediate = false;
 
 /* ---- Notes of statements ------------------------------------------------- */
 
+/*
+ * Whether the mesh can be changed with the rights of this user, who learns it now and not at commit. It
+ * stays locked as by any writer: else DROP TABLE would have it, and wait for the table, which we have.
+ */
+static void
+check_mesh(Oid mesh, Oid user)
+{
+	Oid			current;
+	int			security;
+
+	GetUserIdAndSecContext(&current, &security);
+	SetUserIdAndSecContext(user, security | SECURITY_LOCAL_USERID_CHANGE);
+	table_close(mesh_table_open(mesh, MESH_WRITE), NoLock);
+	SetUserIdAndSecContext(current, security);
+}
+
 /* What is noted of a mesh that is changed with the rights of this user. */
 Pending *
 pending_open(Oid mesh, Oid user, const TriggerData *trigger, const Transition *transition)
@@ -77,6 +94,7 @@ pending_open(Oid mesh, Oid user, const TriggerData *trigger, const Transition *t
 	Pending    *pending = all;
 	MemoryContext old;
 
+	check_mesh(mesh, user);
 	while (pending != NULL && !(pending->mesh == mesh && pending->user == user &&
 								pending->dimension == transition->dimension &&
 								pending->columns == transition->columns))
