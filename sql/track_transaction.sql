@@ -43,9 +43,27 @@ BEGIN
 END $$;
 SELECT with_exceptions(5001, 5500);
 SELECT grown() < 14 AS small, apart();
+-- ... and deeper
+CREATE FUNCTION deeper(depth int, first int, last int) RETURNS int LANGUAGE plpgsql AS $$
+DECLARE
+    same int;
+BEGIN
+    IF depth = 0 THEN
+        CALL one_by_one(first, last);
+        RETURN 0;
+    END IF;
+    same := deeper(depth - 1, first, last);
+    RETURN same;
+END $$;
+SELECT deeper(3, 5501, 5900);
+SELECT grown() < 15 AS small, apart();
 -- of many changes in one statement, too
 SELECT sum(abacus_insert('spotted', format('SELECT * FROM spots(%s, %s)', i, i))) FROM generate_series(6001, 6300) AS i;
 SELECT grown() < 16 AS small;
+DO $$ BEGIN FOR i IN 6301 .. 6600 LOOP
+    PERFORM abacus_insert('spotted', format('SELECT * FROM spots(%s, %s)', i, i));
+END LOOP; END $$;
+SELECT grown() < 18 AS small;
 INSERT INTO spots SELECT * FROM spots(5990, 5999);
 SELECT abacus_track('spotted', 'spots', synchronize => true) > 0 AS tracked, apart();
 
@@ -132,6 +150,6 @@ DO $$ BEGIN FOR i IN 1 .. 600 LOOP INSERT INTO moments SELECT * FROM spots(i, i)
 SELECT pg_relation_size('passing') < 400000 AS small, count(*) FROM abacus_vertices('passing');
 SELECT * FROM abacus_check('passing');
 
-DROP FUNCTION apart, grown, with_exceptions, simplices, add, look, spots(int, int);
+DROP FUNCTION apart, grown, with_exceptions, deeper, simplices, add, look, spots(int, int);
 DROP TABLE spotted, spots, sizes, before, passing, moments;
 DROP PROCEDURE one_by_one;

@@ -7,11 +7,13 @@
  * comes back with a rollback to a savepoint between the two. Otherwise nobody can see it any more.
  *
  * PostgreSQL does not tell which snapshots there are. Registered ones lie in one heap of pairs,
- * whose nodes are part of the snapshots and lead from one to all others. Of the stack of
- * active ones the first and the last can be had, and, where we know in which
- * transaction the last was put there, the last but one. So all are known where there are no
- * more than that: in statements that a client sends, and in those of a DO block, of a procedure, or of a
- * function that such a statement calls. Whatever is nested deeper is not known, and nothing is past.
+ * whose nodes are part of the snapshots and lead from one to all others. Active ones are a stack:
+ * each can be had when those above are taken off, and these are put back. With each goes the
+ * nested transaction that has put it there, which is not to be seen, but outside of all nested ones
+ * there is no doubt. In a nested transaction the first and the last can be had, and, in a
+ * trigger, the last but one. So all are known there if there are no more than that: in
+ * statements that a client sends, and in those of a DO block, of a procedure, or of a function that such
+ * a statement calls. Where they are not known, nothing is past.
  */
 #include "postgres.h"
 
@@ -57,6 +59,28 @@ add_all_registered(OwnSight *sight)
 	UnregisterSnapshot(mine);
 }
 
+/* Adds all active snapshots, where none was put there by a nested transaction. */
+static void
+add_all_active(OwnSight *sight)
+{
+	Snapshot	taken[SIGHT_MOST_SNAPSHOTS];
+	int			count = 0;
+
+	while (ActiveSnapshotSet() && sight->known)
+	{
+		add_snapshot(sight, GetActiveSnapshot());
+		if (!sight->known)
+			break;
+		taken[count++] = RegisterSnapshot(GetActiveSnapshot());
+		PopActiveSnapshot();
+	}
+	while (count-- > 0)
+	{
+		PushActiveSnapshot(taken[count]);
+		UnregisterSnapshot(taken[count]);
+	}
+}
+
 /*
  * The last but one active snapshot. The last must have been put there in the innermost
  * transaction, for there it is put again.
@@ -88,7 +112,9 @@ own_sight_take(OwnSight *sight, bool in_trigger)
 	sight->innermost = GetCurrentTransactionIdIfAny();
 	if (!sight->known)
 		return;
-	if (ActiveSnapshotSet())
+	if (sight->level == 1)
+		add_all_active(sight);
+	else if (ActiveSnapshotSet())
 	{
 		Snapshot	first = GetOldestSnapshot();
 
