@@ -315,48 +315,42 @@ typedef struct FiringTrigger
 	Oid			from;			/* as bound_mesh() takes it */
 } FiringTrigger;
 
-/* Goes to the trigger of which this one is a clone; false if it is none. */
-static bool
-go_to_original(FiringTrigger *trigger)
+/* Reads a trigger from the catalogue; returns the one of which it is a clone, or InvalidOid. */
+static Oid
+read_firing(Oid oid, FiringTrigger *trigger)
 {
 	Relation	triggers = table_open(TriggerRelationId, AccessShareLock);
 	Oid			original = InvalidOid;
+	ScanKeyData key;
+	SysScanDesc scan;
+	HeapTuple	tuple;
 
-	for (int i = 0; i < 2; i++)
+	ScanKeyInit(&key, Anum_pg_trigger_oid, BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(oid));
+	scan = systable_beginscan(triggers, TriggerOidIndexId, true, NULL, 1, &key);
+	tuple = systable_getnext(scan);
+	if (HeapTupleIsValid(tuple))
 	{
-		ScanKeyData key;
-		SysScanDesc scan;
-		HeapTuple	tuple;
+		Form_pg_trigger form = (Form_pg_trigger) GETSTRUCT(tuple);
 
-		if (i == 1 && !OidIsValid(original))
-			break;
-		ScanKeyInit(&key, Anum_pg_trigger_oid, BTEqualStrategyNumber, F_OIDEQ,
-					ObjectIdGetDatum(i == 0 ? trigger->oid : original));
-		scan = systable_beginscan(triggers, TriggerOidIndexId, true, NULL, 1, &key);
-		tuple = systable_getnext(scan);
-		if (HeapTupleIsValid(tuple) && i == 0)
-			original = ((Form_pg_trigger) GETSTRUCT(tuple))->tgparentid;
-		else if (HeapTupleIsValid(tuple))
-		{
-			trigger->oid = original;
-			trigger->table = ((Form_pg_trigger) GETSTRUCT(tuple))->tgrelid;
-			trigger->from = ((Form_pg_trigger) GETSTRUCT(tuple))->tgconstrrelid;
-		}
-		systable_endscan(scan);
+		trigger->oid = oid;
+		trigger->table = form->tgrelid;
+		trigger->from = form->tgconstrrelid;
+		original = form->tgparentid;
 	}
+	systable_endscan(scan);
 	table_close(triggers, AccessShareLock);
-	return OidIsValid(original);
+	return original;
 }
 
-/* The trigger that counts for one of a table. */
+/* The trigger that counts for one of a table: itself, or the one of which it is a clone. */
 static FiringTrigger
 original_trigger(const Trigger *trigger, Oid table)
 {
 	FiringTrigger original = {trigger->tgoid, table, trigger->tgconstrrelid};
+	Oid			next = trigger->tgisclone ? trigger->tgoid : InvalidOid;
 
-	if (trigger->tgisclone)
-		while (go_to_original(&original))
-			;
+	while (OidIsValid(next))
+		next = read_firing(next, &original);
 	return original;
 }
 
