@@ -70,6 +70,16 @@ ALTER TABLE survey ATTACH PARTITION survey_2023 FOR VALUES IN (2023);
 SELECT apart();
 INSERT INTO survey_2023 VALUES (501, 61, 60, 1, 2023);
 SELECT abacus_track('surveyed', 'survey', synchronize => true) > 0 AS tracked, apart();
+-- one that has come since tells nobody of TRUNCATE by itself, until the mesh is tracked again
+CREATE TABLE survey_2030 PARTITION OF survey FOR VALUES IN (2030);
+INSERT INTO survey_2030 VALUES (550, 65, 60, 1, 2030), (551, 66, 60, 1, 2030);
+TRUNCATE survey_2030;
+SELECT apart();
+SELECT abacus_track('surveyed', 'survey', synchronize => true) > 0 AS tracked, apart();
+INSERT INTO survey_2030 VALUES (550, 65, 60, 1, 2030), (551, 66, 60, 1, 2030);
+TRUNCATE survey_2030;
+SELECT apart();
+DROP TABLE survey_2030;
 -- ... and go
 ALTER TABLE survey DETACH PARTITION survey_2023;
 SELECT apart();
@@ -121,6 +131,12 @@ INSERT INTO survey VALUES (802, 'NaN', 1, 1, 2020);
 INSERT INTO survey VALUES (NULL, 1, 1, 1, 2020);
 \echo :LAST_ERROR_SQLSTATE
 SELECT apart();
+-- tracked again, the triggers fire as they did, clones too
+ALTER TABLE survey ENABLE ALWAYS TRIGGER abacus_track_rows_surveyed;
+SELECT abacus_track('surveyed', 'survey') > 0 AS tracked;
+SELECT tgenabled, count(*) FROM pg_trigger WHERE tgname = 'abacus_track_rows_surveyed' GROUP BY tgenabled;
+SELECT abacus_untrack('surveyed', 'survey');
+SELECT abacus_track('surveyed', 'survey') > 0 AS tracked;
 -- the mesh goes, and with it the triggers
 SELECT abacus_untrack('surveyed', 'survey_2020');
 \echo :LAST_ERROR_SQLSTATE
