@@ -140,7 +140,7 @@ second_line_end() {
 }
 
 documentation_examples() {
-    scripts/doc_examples.py docs/sql.md docs/operations.md README.md
+    scripts/doc_examples.py docs/sql.md docs/lab.md docs/operations.md README.md
 }
 
 scripts/install-dependencies.sh test || fail "packages are missing"

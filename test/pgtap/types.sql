@@ -35,12 +35,10 @@ INSERT INTO wanted VALUES
     ('abacus_simplices', 'mesh regclass', 'SETOF abacus_simplex', 's', true, 's'),
     ('abacus_vertices', 'mesh regclass, OUT sequence bigint, OUT id bigint, OUT x double precision, OUT y double precision, OUT z double precision, OUT attributes double precision[], OUT vertex bigint', 'SETOF record', 's', true, 's'),
     ('abacus_build', 'IN mesh regclass, IN batch bigint DEFAULT 1000000', NULL, 'v', false, 'u'),
-    ('abacus_quake', 'frequency double precision, points_per_wavelength double precision DEFAULT 8, OUT id bigint, OUT x double precision, OUT y double precision, OUT z double precision, OUT vs double precision, OUT vp double precision, OUT density double precision', 'SETOF record', 'i', true, 's'),
     ('abacus_check', 'mesh regclass, max_faults integer DEFAULT 1000, OUT fault text, OUT code bigint, OUT part bigint, OUT message text', 'SETOF record', 's', false, 's'),
     ('abacus_stats', 'mesh regclass, OUT name text, OUT value double precision, OUT description text', 'SETOF record', 'v', true, 'r'),
     ('abacus_draw', 'mesh regclass, width integer DEFAULT 1024, height integer DEFAULT NULL::integer, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], attribute text DEFAULT NULL::text, edges boolean DEFAULT true, exaggeration double precision DEFAULT 0, max_edge double precision DEFAULT NULL::double precision', 'bytea', 's', false, 's'),
     ('abacus_draw_section', 'mesh regclass, through double precision[], normal double precision[], width integer DEFAULT 1024, height integer DEFAULT NULL::integer, attribute text DEFAULT NULL::text, edges boolean DEFAULT true, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], exaggeration double precision DEFAULT 1, max_edge double precision DEFAULT NULL::double precision', 'bytea', 's', false, 's'),
-    ('abacus_goose', 'mesh text, query text, dimension integer DEFAULT 2, OUT name text, OUT value double precision, OUT description text', 'SETOF record', 'v', false, 'u'),
     ('abacus_simplices_rows', 'internal', 'internal', 'v', true, 'u'),
     ('abacus_vertices_rows', 'internal', 'internal', 'v', true, 'u'),
     ('abacus_version', '', 'text', 's', false, 's');
