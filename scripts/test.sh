@@ -4,7 +4,7 @@
 # examples of the documentation, comparison with CGAL, random changes against a
 # model, reports of benchmarks, smoke runs of the benchmarks and the evaluation. Logs are left in build/test.
 #
-#   test.sh             all suites
+#   test.sh             all suites but tidy
 #   test.sh NAME...     these, after the builds that they need
 #   test.sh list        the names
 set -uo pipefail
@@ -49,7 +49,7 @@ declare -A needs=([unit]=build [unit-sanitized]=build-sanitized [fuzz]=build-fuz
 for name in build regress pgtap docs tap; do needs[$name]=build-extension; done
 for name in acceptance acceptance-goose model bench evaluation; do needs[$name]=build; done
 
-# choose NAME...: all suites if there is none; leaves in the lists what was chosen.
+# choose NAME...: leaves in the lists these, and what they need.
 declare -A chosen=()
 choose() {
     local name
@@ -102,7 +102,7 @@ build_with_clang() {
         cmake --build "$1" -j "$ABACUS_JOBS"
 }
 
-# The core alone: with the tests, which include much of CGAL, it would take many minutes.
+# The whole core; `dev.sh tidy` checks what has changed.
 tidy_core() {
     local files
     mapfile -t files < <(git ls-files 'src/*.cpp')
@@ -164,7 +164,11 @@ if [[ ${1:-} == list ]]; then
     printf '%s\n' "${first_builds[@]}" "${first_line[@]}" "${second_line[@]}"
     exit
 fi
-if (($#)); then choose "$@"; else choose "${!command[@]}"; fi
+if ((!$#)); then
+    unset "command[tidy]" # takes five minutes of processor time: only where it is named
+    set -- "${!command[@]}"
+fi
+choose "$@"
 scripts/install-dependencies.sh test || fail "packages are missing"
 export ABACUS_BUILT=1 # tells the scripts below that all is built and installed
 export ABACUS_CORE_OBJECTS=$ABACUS_BUILD/extension # what is tested is what is installed
