@@ -20,7 +20,7 @@ public:
 
     constexpr EvenOrders() {
         Order order{};
-        for (std::uint8_t i = 0; i <= D; ++i) order[i] = i;
+        for (int i = 0; i <= D; ++i) order[i] = static_cast<std::uint8_t>(i);
         do {
             if (is_even(order)) orders_[order[0]][D == 2 ? 0 : order[1]] = order;
         } while (std::next_permutation(order.begin(), order.end()));
