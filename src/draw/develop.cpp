@@ -46,7 +46,7 @@ private:
     static constexpr float least_range = 7;
 
     static int bin(float density) {
-        const float place = (std::log2(density) + octaves / 2.0f) * per_octave;
+        const float place = (std::log2(density) + octaves / 2) * per_octave;
         return static_cast<int>(std::clamp(place, 0.0f, octaves * per_octave - 1.0f));
     }
     float quantile(double share) const {
