@@ -316,6 +316,8 @@ host_leave(Host *host, abacus_status status)
 			ereport(ERROR, (errcode(ERRCODE_OUT_OF_MEMORY), errmsg("out of memory")));
 		ReThrowError(host->error);
 	}
+	if (host->failure.kind == ABACUS_ERROR_CORRUPTED)
+		page_store_refuse_newer_index(&host->store);
 	ereport(ERROR,
 			(errcode(sqlstate_of(host->failure.kind)),
 			 errmsg_internal("%s", host->failure.message),

@@ -24,7 +24,7 @@ SQL_FUNCTION(abacus_sql_check);
 typedef struct Checking
 {
 	Host	   *host;
-	bool		has_fault;		/* one that the core does not see, and comes first */
+	bool		has_fault;		/* `fault`, before those that the core still has */
 	abacus_fault fault;
 	int64		code;			/* of its row */
 } Checking;
@@ -83,6 +83,17 @@ check_pages(Checking *checking, Oid mesh, const abacus_header *header, int32 lim
 	host_own(host, check, (void (*) (void *)) abacus_check_close);
 }
 
+/* What the core has found first, if anything. */
+static void
+look_for_first_fault(Checking *checking)
+{
+	Host	   *host = checking->host;
+
+	checking->has_fault = host->handle != NULL &&
+		host_run(host, abacus_check_next(host->handle, &checking->fault)) == ABACUS_OK;
+	checking->code = (int64) checking->fault.key.code;
+}
+
 static Checking *
 begin_check(Oid mesh, int32 limit, MemoryContext memory)
 {
@@ -98,6 +109,10 @@ begin_check(Oid mesh, int32 limit, MemoryContext memory)
 		if (limit > 0)
 			check_pages(checking, mesh, &header, limit);
 	}
+	if (!checking->has_fault)
+		look_for_first_fault(checking);
+	if (checking->has_fault)
+		page_store_refuse_newer_index(&checking->host->store);
 	host_release(checking->host);
 	table_close(table, NoLock);
 	return checking;

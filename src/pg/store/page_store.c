@@ -32,6 +32,15 @@ page_store_close(PageStore *store)
 	page_table_close(&store->vertices);
 }
 
+/* Called when pages do not fit together: an error if that is since our snapshot is too old. */
+void
+page_store_refuse_newer_index(PageStore *store)
+{
+	page_table_refuse_newer_index(&store->simplices);
+	if (OidIsValid(store->vertices.relid))
+		page_table_refuse_newer_index(&store->vertices);
+}
+
 /* OID of the vertex table, with lock and privileges. */
 Oid
 page_store_vertex_table(PageStore *store)

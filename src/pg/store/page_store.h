@@ -19,6 +19,7 @@ typedef struct PageStore
 
 extern void page_store_init(PageStore *store, Oid mesh, MeshAccess access, MemoryContext memory);
 extern void page_store_close(PageStore *store);
+extern void page_store_refuse_newer_index(PageStore *store);
 extern Oid	page_store_vertex_table(PageStore *store);
 
 extern bool page_store_find(PageStore *store, abacus_page_kind kind, abacus_key key,
