@@ -22,3 +22,7 @@ COMMENT ON COLUMN abacus_vertex_page.first IS
     'sequence number of the page''s first point; of points equal to a vertex the locational code, less 2^63';
 COMMENT ON COLUMN abacus_vertex_page.part IS 'continues the code: serial number of a point; 0 where points wait';
 COMMENT ON COLUMN abacus_vertex_page.page IS 'the page';
+
+-- The drawing functions take the range of the colours, too.
+DROP FUNCTION abacus_draw(regclass, integer, integer, double precision[], double precision[], text, boolean, double precision, double precision);
+DROP FUNCTION abacus_draw_section(regclass, double precision[], double precision[], integer, integer, text, boolean, double precision[], double precision[], double precision, double precision);

@@ -24,7 +24,7 @@ CacheOptions linked_as(const abacus_header &header, CacheOptions options) {
 template <int D>
 Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOptions &options,
                   bool in_order)
-    : size_(header.simplices == 0 ? 0 : header.simplices + header.ghosts),
+    : header_(header), size_(header.simplices == 0 ? 0 : header.simplices + header.ghosts),
       delaunay_(header.not_delaunay == 0), in_order_(in_order), budget_(options.budget),
       cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
              linked_as(header, options)),
@@ -70,7 +70,7 @@ template <int D>
 template <class Visit>
 void Reader<D>::search_pages(const Point<D> &p, Visit visit) {
     if (size_ == 0) return;
-    if (!boxes_) boxes_.emplace(cache_.host(), cache_.vertices().attribute_count(), budget_ / 8);
+    if (!boxes_) boxes_.emplace(cache_.host(), header_, budget_ / 8);
     boxes_->around(p, [&](Key key, const Key &end) {
         while (key < end) {
             cache_.trim();
@@ -158,6 +158,13 @@ template <int D> bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simpl
     describe(h, simplex);
     if (walk_.ends_on_facet()) first_around(p, h, simplex);
     return true;
+}
+
+template <int D>
+std::optional<typename Reader<D>::Around> Reader<D>::page_around(const Point<D> &p) {
+    const Handle h = find(p, cache_.domain().code(p));
+    if (h == no_handle) return std::nullopt;
+    return Around{cache_.lower(h), !cache_.simplex(h).is_ghost()};
 }
 
 template <int D>

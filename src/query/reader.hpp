@@ -41,6 +41,14 @@ public:
     };
     std::optional<Found> vertex_at(const Point<D> &p);
 
+    /// In a Delaunay mesh: the page of the simplex around p or, outside the hull, of a ghost that
+    /// has p strictly beyond its facet. None if the mesh is empty.
+    struct Around {
+        Key page;
+        bool is_inside;
+    };
+    std::optional<Around> page_around(const Point<D> &p);
+
     /// In a mesh that is not Delaunay: how many pages have this vertex, with its id and
     /// attributes.
     std::uint64_t pages_with(const std::uint64_t *vertex);
@@ -83,6 +91,7 @@ private:
     /// The first of all simplices around a point on a facet of h, which `simplex` describes.
     void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex);
 
+    const abacus_header header_;
     std::uint64_t size_; // simplices and ghosts
     bool delaunay_;
     const bool in_order_;

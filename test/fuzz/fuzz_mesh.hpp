@@ -195,14 +195,13 @@ public:
             drawing.edges = 1;
             drawing.exaggeration = 1;
             const abacus_section section{{0.5, 0.5, 0.5}, {1, 2, 3}, 1};
-            unsigned char *png = nullptr;
-            std::size_t size = 0;
+            abacus_picture picture{};
             const abacus_status status =
                 header.dimension == 2
-                    ? abacus_draw(host.table(), &header, &drawing, &png, &size, &error)
-                    : abacus_draw_section(host.table(), &header, &section, &drawing, &png, &size,
+                    ? abacus_draw(host.table(), &header, &drawing, &picture, &error)
+                    : abacus_draw_section(host.table(), &header, &section, &drawing, &picture,
                                           &error);
-            if (status == ABACUS_OK) host.host().release(png);
+            if (status == ABACUS_OK) host.host().release(picture.png);
             return status;
         });
     }

@@ -295,11 +295,11 @@ TEST_F(Draw, LeavesOutLongTriangles) {
         drawing.width = 100;
         drawing.attribute = -1;
         drawing.max_edge = max_edge;
-        unsigned char *png = nullptr;
-        std::size_t size = 0;
-        ASSERT_EQ(abacus_draw(memory.table(), &header, &drawing, &png, &size, &error), ABACUS_OK);
-        const Image image = decode(png, size);
-        host.release(png);
+        abacus_picture picture{};
+        ASSERT_EQ(abacus_draw(memory.table(), &header, &drawing, &picture, &error), ABACUS_OK);
+        const Image image = decode(picture.png, picture.size);
+        host.release(picture.png);
+        EXPECT_EQ(picture.is_blank, 0);
         EXPECT_EQ(image.height, 20);
         EXPECT_EQ(image(50, 10) == 0x03060f, max_edge > 0);
         EXPECT_NE(image(10, 10), 0x03060fu);

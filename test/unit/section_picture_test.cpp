@@ -167,10 +167,9 @@ TEST_F(Section, RefusesWhatCannotBeDrawn) {
     EXPECT_FALSE(refused([](O &, D &d) { d = boxed(d, {0, 0, 0}, {1, 1, 0.5}); }));
     EXPECT_TRUE(refused([](O &, D &d) { d = boxed(d, {-infinity, 0, 0}, {1, 1, 1}); }));
     // Each mesh has its own kind of picture.
-    unsigned char *png = nullptr;
-    std::size_t size = 0;
+    abacus_picture picture{};
     const D flat = drawing(10);
-    EXPECT_EQ(abacus_draw(host.table(), &header, &flat, &png, &size, &error), ABACUS_ERROR);
+    EXPECT_EQ(abacus_draw(host.table(), &header, &flat, &picture, &error), ABACUS_ERROR);
     header.dimension = 2;
     EXPECT_TRUE(refused([](O &, D &) {}));
 }

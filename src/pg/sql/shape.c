@@ -93,6 +93,26 @@ shape_point(const abacus_header *header, ArrayType *point, const char *what, dou
 		values[i] = DatumGetFloat8(elements[i]);
 }
 
+/* Reads a float8[] of two finite values, the lesser one first. */
+void
+shape_range(ArrayType *range, const char *what, double *values)
+{
+	int			count;
+	Datum	   *elements = plain_elements(range, what, FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
+										  TYPALIGN_DOUBLE, &count);
+
+	if (count != 2)
+		ereport(ERROR,
+				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
+				 errmsg("%s has %d elements, not 2", what, count)));
+	for (int i = 0; i < count; i++)
+		values[i] = DatumGetFloat8(elements[i]);
+	if (!isfinite(values[0]) || !isfinite(values[1]) || !(values[0] < values[1]))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("%s must be two finite values, the lesser one first", what)));
+}
+
 /* The domain, if both corners are given; else it comes from the first points. */
 void
 shape_domain(abacus_header *header, ArrayType *lower, ArrayType *upper)
