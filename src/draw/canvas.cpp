@@ -78,11 +78,11 @@ constexpr double most_density = 1e6;
 Canvas::Canvas(const Host &host, const abacus_drawing &drawing, double low, double high)
     : host_(&host), drawing_(Extent(drawing).drawing()), low_(low), high_(high), frame_(drawing_),
       range_(low, high), raster_(host, drawing_.width, drawing_.height), pixels_(host) {
-    pixels_.resize(static_cast<std::size_t>(drawing_.width) * drawing_.height);
+    // Row by row: to get memory for all of a large picture takes most of a second.
+    pixels_.reserve(static_cast<std::size_t>(drawing_.width) * drawing_.height);
     for (std::int32_t y = 0; y < drawing_.height; ++y) {
         host_->poll();
-        std::fill_n(pixels_.begin() + static_cast<std::size_t>(y) * drawing_.width, drawing_.width,
-                    Pixel{});
+        std::fill_n(pixels_.extend(drawing_.width), drawing_.width, Pixel{});
     }
 }
 

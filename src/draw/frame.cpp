@@ -10,9 +10,9 @@ namespace abacus {
 namespace {
 
 // What a height from the window's shape is kept between, in widths: beyond that a picture is a
-// line, or takes a hundred times the memory that its width lets expect.
+// line, or takes many times the memory that its width lets expect.
 constexpr double flattest = 1.0 / 8;
-constexpr std::int64_t tallest = 4;
+constexpr std::int64_t tallest = 8;
 
 [[noreturn]] void throw_argument(const std::string &message, std::string detail = {},
                                  std::string hint = {}) {

@@ -61,7 +61,7 @@ public:
 
     /// The drawing with window and height filled in: the window given or, if that is
     /// empty, the one that just holds the patches. A height from the window's shape
-    /// is kept within the limits, and from an eighth of the width to four times, at the cost of
+    /// is kept within the limits, and from an eighth of the width to eight times, at the cost of
     /// the shape.
     abacus_drawing drawing() const;
     /// Range of the colours: the one given or that of the values; NaN if there are none.

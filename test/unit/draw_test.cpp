@@ -71,10 +71,16 @@ TEST_F(Draw, TakesTheHeightFromTheWindow) {
     drawing.height = 0;
     drawing.upper[1] = 0.5;
     EXPECT_EQ(draw(drawing, {}).height, 20);
+    // A long or narrow window is stretched.
     drawing.upper[1] = 1e-9;
-    EXPECT_EQ(draw(drawing, {}).height, 1);
+    EXPECT_EQ(draw(drawing, {}).height, 5);
     drawing.upper[1] = 1e9;
-    EXPECT_EQ(Extent(drawing).drawing().height, max_side);
+    EXPECT_EQ(Extent(drawing).drawing().height, 320);
+    drawing.width = 3;
+    EXPECT_EQ(Extent(drawing).drawing().height, 24);
+    drawing.upper[1] = 1e-9;
+    EXPECT_EQ(Extent(drawing).drawing().height, 1);
+    drawing.upper[1] = 1e9;
     drawing.width = max_side;
     EXPECT_EQ(Extent(drawing).drawing().height, max_pixels / max_side);
 }
@@ -105,6 +111,50 @@ TEST_F(Draw, TakesTheRangeFromTheWindow) {
     extent.add({{{0.5, 0}, {3, 0}, {2, 1}}, {1, 2, 3}});
     EXPECT_EQ(extent.low(), 1);
     EXPECT_EQ(extent.high(), 3);
+}
+
+TEST_F(Draw, TakesTheRangeOfWhatIsSeen) {
+    // The box of this triangle meets the window, its corner reaches it, and it has nothing inside.
+    Extent extent(square_drawing(10));
+    extent.add({{{2, 0}, {2, 2}, {0, 2}}, {7, 7, 7}});
+    EXPECT_TRUE(std::isnan(extent.low()));
+    extent.add({{{2, -0.5}, {2, 2}, {-0.5, 2}}, {1, 2, 3}});
+    EXPECT_EQ(extent.high(), 3);
+}
+
+TEST_F(Draw, GivesAPlaceOneColourInAllWindowsOfARange) {
+    const auto triangles = grid(7, [](double x, double y) { return 100 * x * y * y; });
+    abacus_drawing whole = square_drawing(64);
+    whole.range[0] = 20;
+    whole.range[1] = 70;
+    EXPECT_FALSE(Extent::is_needed(whole));
+    const Image all = draw(whole, triangles);
+    for (const int right : {0, 1}) {
+        abacus_drawing tile = whole;
+        tile.width = 32;
+        tile.lower[0] = 0.5 * right;
+        tile.upper[0] = 0.5 + 0.5 * right;
+        const Image part = draw(tile, triangles);
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 32; ++x) ASSERT_EQ(part(x, y), all(x + 32 * right, y));
+    }
+    // What lies beyond has the last colour, however far.
+    const Palette palette = Palette::terrain();
+    EXPECT_EQ(all(0, 60), encode(palette(0)));
+    const double most = std::numeric_limits<double>::max();
+    const Image far = draw(whole, grid(7, [&](double x, double) { return x > 0 ? most : -most; }));
+    EXPECT_EQ(far(63, 30), encode(palette(1)));
+    EXPECT_EQ(far(0, 63), encode(palette(0)));
+}
+
+TEST_F(Draw, KnowsWhetherAnythingIsSeen) {
+    abacus_drawing drawing = square_drawing(10);
+    Canvas canvas(host, drawing, NAN, NAN);
+    EXPECT_TRUE(canvas.is_blank());
+    canvas.add({{{2, 0}, {2, 2}, {1.2, 2}}, {7, 7, 7}});
+    EXPECT_TRUE(canvas.is_blank());
+    canvas.add({{{0.5, 0.5}, {0.51, 0.5}, {0.5, 0.51}}, {7, 7, 7}});
+    EXPECT_FALSE(canvas.is_blank());
 }
 
 TEST_F(Draw, TintsByHeightWithNorthUp) {

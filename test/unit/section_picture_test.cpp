@@ -184,7 +184,7 @@ TEST_F(Section, MemoryDependsOnThePictureAlone) {
 }
 
 TEST_F(Section, EveryWayOutIsClean) {
-    build(full_cube(1000));
+    build(full_cube(2000));
     const Order order({0.5, 0.5, 0.5}, {0, 1, 0});
     const abacus_drawing drawing = this->drawing(100);
     int failures = 0;
@@ -208,7 +208,7 @@ TEST_F(Section, EveryWayOutIsClean) {
     host.cancel();
     EXPECT_EQ(try_draw(order, drawing), ABACUS_HOST_ERROR);
     host.recover();
-    // A damaged page is reported, whether or not the plane meets it.
+    // A damaged page that the plane meets is reported.
     std::prev(host.pages.end())->second.bytes()[0] ^= 1;
     EXPECT_EQ(try_draw(order, drawing), ABACUS_ERROR);
     EXPECT_EQ(error.kind, ABACUS_ERROR_CORRUPTED);
