@@ -79,8 +79,9 @@ public:
     /// Of all pages if `region` is null. It is read as long as the scan.
     RangeScan(const Host &host, const abacus_header &header, const Region<D> *region);
 
-    /// Goes to the next page in whose box something may meet the region; false after the last.
-    /// Throws if a page is damaged or missing.
+    /// Goes to the next page whose box may meet the region; false after the last. Which of its
+    /// simplices do the caller asks, of a window by meets(). Throws if a page is damaged or
+    /// missing.
     bool advance();
     /// After the last page: begins again, in the order of the curve.
     void rewind();

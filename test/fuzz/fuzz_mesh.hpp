@@ -188,12 +188,19 @@ public:
         return faults;
     }
 
+    /// All of it, and a window.
     void draw() {
+        abacus_drawing drawing{};
+        drawing.width = drawing.height = 16;
+        drawing.edges = 1;
+        drawing.exaggeration = 1;
+        draw(drawing);
+        std::fill_n(drawing.lower, 3, 0.45);
+        std::fill_n(drawing.upper, 3, 0.55);
+        draw(drawing);
+    }
+    void draw(const abacus_drawing &drawing) {
         run([&](abacus_error &error) {
-            abacus_drawing drawing{};
-            drawing.width = drawing.height = 16;
-            drawing.edges = 1;
-            drawing.exaggeration = 1;
             const abacus_section section{{0.5, 0.5, 0.5}, {1, 2, 3}, 1};
             abacus_picture picture{};
             const abacus_status status =

@@ -288,7 +288,8 @@ page_table_refuse_newer_index(PageTable *table)
 /*
  * Called when rows are missed: an error if our snapshot sees none and newer ones
  * would. Then the table has been made since, or an ALTER TABLE has written all of its
- * rows anew, for which it takes no account of older snapshots.
+ * rows anew, for which it takes no account of older snapshots. An error also if the
+ * snapshot is older than the index.
  */
 void
 page_table_refuse_newer(PageTable *table)
@@ -298,9 +299,11 @@ page_table_refuse_newer(PageTable *table)
 	TableScanDesc scan;
 	bool		is_newer;
 
-	page_table_refuse_newer_index(table);
 	if (page_table_next(table, NULL, &page))
+	{
+		page_table_refuse_newer_index(table);
 		return;
+	}
 	slot = table_slot_create(table->heap, NULL);
 	scan = table_beginscan(table->heap, SnapshotSelf, 0, NULL);
 	is_newer = table_scan_getnextslot(scan, ForwardScanDirection, slot);
