@@ -356,6 +356,48 @@ TEST_F(Draw, LeavesOutLongTriangles) {
     }
 }
 
+// A large window is read page by page, and the pages of a small one are searched for.
+TEST_F(Draw, HasInAWindowWhatIsThereInALargerOne) {
+    Input<2> input = with_ids<2>(points<2>(Kind::uniform, 20000));
+    for (auto &p : input) p.attributes = {std::bit_cast<std::uint64_t>(p.point[0] * p.point[1])};
+    abacus_header header = empty_header<2>(1);
+    abacus_error error{};
+    ASSERT_EQ(stage<2>(memory, header, input, ample, error), ABACUS_OK);
+    abacus_build *build = nullptr;
+    ASSERT_EQ(abacus_build_open(memory.table(), &header, ample, &build, &error), ABACUS_OK);
+    ASSERT_EQ(abacus_build_run(build, 0, &header, &error), ABACUS_OK);
+    abacus_build_close(build);
+    const auto shown = [&](const abacus_drawing &drawing, bool &is_blank) {
+        abacus_picture picture{};
+        EXPECT_EQ(abacus_draw(memory.table(), &header, &drawing, &picture, &error), ABACUS_OK);
+        const Image image = decode(picture.png, picture.size);
+        host.release(picture.png);
+        is_blank = picture.is_blank != 0;
+        return image;
+    };
+    abacus_drawing drawing = square_drawing(256);
+    std::fill_n(drawing.lower, 2, -0.5);
+    std::fill_n(drawing.upper, 2, 1.5);
+    drawing.range[1] = 1;
+    bool is_blank;
+    const Image all = shown(drawing, is_blank);
+    EXPECT_FALSE(is_blank);
+    drawing.width = drawing.height = 32;
+    int blank = 0;
+    for (int i = 0; i < 8; ++i)
+        for (int j = 0; j < 8; ++j) {
+            drawing.lower[0] = -0.5 + 0.25 * i;
+            drawing.lower[1] = -0.5 + 0.25 * j;
+            for (int axis = 0; axis < 2; ++axis) drawing.upper[axis] = drawing.lower[axis] + 0.25;
+            const Image part = shown(drawing, is_blank);
+            blank += is_blank;
+            for (int y = 0; y < 32; ++y)
+                for (int x = 0; x < 32; ++x)
+                    ASSERT_LE(difference(part(x, y), all(32 * i + x, 32 * (7 - j) + y)), 1);
+        }
+    EXPECT_EQ(blank, 48);
+}
+
 TEST_F(Draw, LightComesFromTheNorthWest) {
     abacus_drawing drawing = square_drawing(64);
     drawing.exaggeration = 0.5;
