@@ -11,12 +11,14 @@
 
 #include <math.h>
 
+#include "access/htup_details.h"
 #include "catalog/pg_type.h"
 #include "executor/tuptable.h"
 #include "lib/stringinfo.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 #include "utils/memutils.h"
+#include "utils/syscache.h"
 
 #include "pg/sql/row_packer.h"
 
@@ -25,15 +27,15 @@ static const char *const corner_names[ABACUS_MAX_DIMENSION + 1] = {"v0", "v1", "
 
 static const RowOrigin query_of_points = {
 	"the source query", "the source query", "Cast the column in the query.",
-	"Leave such points out with a WHERE clause."
+	"Leave such points out with a WHERE clause.", true
 };
 static const RowOrigin query_of_simplices = {
 	"the source query", "the source query", "Cast the column in the query.",
-	"Leave such simplices out with a WHERE clause."
+	"Leave such simplices out with a WHERE clause.", false
 };
 static const RowOrigin tracked_table = {
 	"the tracked table", "the statement", "Track other columns, generated ones for instance.",
-	"A row without a point has NULL for a coordinate."
+	"A row without a point has NULL for a coordinate.", false
 };
 
 /* What a column is called in messages, and in tables by default. */
@@ -65,12 +67,66 @@ expected_columns(const RowPacker *packer)
 	return names.data;
 }
 
+/* A geometry has its coordinates in one value; where they are to be found, or NULL. */
+static char *
+geometry_hint(const RowPacker *packer, const char *column, Oid type)
+{
+	HeapTuple	tuple = SearchSysCache1(TYPEOID, ObjectIdGetDatum(type));
+	bool		is_geometry = false;
+
+	if (HeapTupleIsValid(tuple))
+	{
+		const char *name = NameStr(((Form_pg_type) GETSTRUCT(tuple))->typname);
+
+		is_geometry = strcmp(name, "geometry") == 0 || strcmp(name, "geography") == 0;
+		ReleaseSysCache(tuple);
+	}
+	if (!is_geometry)
+		return NULL;
+	return psprintf(packer->header->dimension == 2
+					? "Give its coordinates, ST_X(%1$s) and ST_Y(%1$s), or use the functions of the "
+					"extension abacus_postgis."
+					: "Give its coordinates, ST_X(%1$s), ST_Y(%1$s) and ST_Z(%1$s), or use the functions "
+					"of the extension abacus_postgis.", quote_identifier(column));
+}
+
+static void
+refuse_type(const RowPacker *packer, int column, Form_pg_attribute attribute)
+{
+	bool		is_id = column < packer->ids;
+	char	   *hint = geometry_hint(packer, NameStr(attribute->attname), attribute->atttypid);
+
+	ereport(ERROR,
+			(errcode(ERRCODE_DATATYPE_MISMATCH),
+			 errmsg("column %d (%s) of %s has type %s", column + 1, column_name(packer, column),
+					packer->origin->columns_of, format_type_be(attribute->atttypid)),
+			 is_id ? errdetail("An id is smallint, integer or bigint.")
+			 : errdetail("Coordinates and attributes are double precision, real, numeric or integers."),
+			 errhint("%s", hint != NULL ? hint : packer->origin->type_hint)));
+}
+
+static void
+refuse_count(const RowPacker *packer, TupleDesc desc)
+{
+	char	   *hint = NULL;
+
+	for (int i = 0; hint == NULL && i < desc->natts; i++)
+		hint = geometry_hint(packer, NameStr(TupleDescAttr(desc, i)->attname),
+							 TupleDescAttr(desc, i)->atttypid);
+	ereport(ERROR,
+			(errcode(ERRCODE_DATATYPE_MISMATCH),
+			 errmsg("source query returns %d columns, but the mesh takes %d", desc->natts,
+					packer->columns),
+			 errdetail("Columns go by position: %s.", expected_columns(packer)),
+			 hint != NULL ? errhint("%s", hint) : 0));
+}
+
 static PackKind
-pack_kind(const RowPacker *packer, int column, Oid type)
+pack_kind(const RowPacker *packer, int column, Form_pg_attribute attribute)
 {
 	bool		is_id = column < packer->ids;
 
-	switch (getBaseType(type))
+	switch (getBaseType(attribute->atttypid))
 	{
 		case INT2OID:
 			return PACK_INT2;
@@ -90,14 +146,13 @@ pack_kind(const RowPacker *packer, int column, Oid type)
 			if (!is_id)
 				return PACK_NUMERIC;
 			break;
+		case TEXTOID:
+			/* a bare NULL of a query is of this type */
+			if (packer->origin->bare_nulls && column > (int) packer->header->dimension)
+				return PACK_NULL;
+			break;
 	}
-	ereport(ERROR,
-			(errcode(ERRCODE_DATATYPE_MISMATCH),
-			 errmsg("column %d (%s) of %s has type %s", column + 1, column_name(packer, column),
-					packer->origin->columns_of, format_type_be(type)),
-			 is_id ? errdetail("An id is smallint, integer or bigint.")
-			 : errdetail("Coordinates and attributes are double precision, real, numeric or integers."),
-			 errhint("%s", packer->origin->type_hint)));
+	refuse_type(packer, column, attribute);
 	return PACK_INT8;			/* not reached */
 }
 
@@ -138,6 +193,8 @@ to_double(PackKind kind, Datum value)
 			return (double) DatumGetInt64(value);
 		case PACK_NUMERIC:
 			return DatumGetFloat8(DirectFunctionCall1(numeric_float8_no_overflow, value));
+		case PACK_NULL:
+			break;
 	}
 	pg_unreachable();
 }
@@ -158,6 +215,15 @@ bits(double value)
 	return word;
 }
 
+/* What is of no type that can be read may be NULL, and nothing else. */
+static void
+check_nulls(const RowPacker *packer, const TupleTableSlot *slot)
+{
+	for (int i = 0; i < packer->columns; i++)
+		if (packer->kinds[i] == PACK_NULL && !slot->tts_isnull[i])
+			refuse_type(packer, i, TupleDescAttr(slot->tts_tupleDescriptor, i));
+}
+
 static bool
 receive_row(TupleTableSlot *slot, DestReceiver *self)
 {
@@ -167,7 +233,9 @@ receive_row(TupleTableSlot *slot, DestReceiver *self)
 	MemoryContext old = NULL;
 
 	packer->row++;
-	slot_getallattrs(slot);
+	slot_getsomeattrs(slot, packer->columns);
+	if (unlikely(packer->any_null))
+		check_nulls(packer, slot);
 	if (unlikely(packer->any_numeric))
 		old = MemoryContextSwitchTo(packer->scratch);
 
@@ -202,9 +270,10 @@ shut_down(DestReceiver *self)
 {
 }
 
+/* A packer for the first columns; `more`: others may follow them. */
 static RowPacker *
 create(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int ids, int columns,
-	   size_t batch)
+	   bool more, size_t batch)
 {
 	RowPacker  *packer = palloc0(sizeof(RowPacker));
 
@@ -212,12 +281,8 @@ create(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int
 	packer->header = header;
 	packer->ids = ids;
 	packer->columns = columns;
-	if (desc->natts != columns)
-		ereport(ERROR,
-				(errcode(ERRCODE_DATATYPE_MISMATCH),
-				 errmsg("source query returns %d columns, but the mesh takes %d", desc->natts,
-						columns),
-				 errdetail("Columns go by position: %s.", expected_columns(packer))));
+	if (desc->natts != columns && !(more && desc->natts > columns))
+		refuse_count(packer, desc);
 	packer->receiver.receiveSlot = receive_row;
 	packer->receiver.rStartup = start_up;
 	packer->receiver.rShutdown = shut_down;
@@ -226,8 +291,9 @@ create(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int
 	packer->kinds = palloc(columns * sizeof(PackKind));
 	for (int i = 0; i < columns; i++)
 	{
-		packer->kinds[i] = pack_kind(packer, i, TupleDescAttr(desc, i)->atttypid);
+		packer->kinds[i] = pack_kind(packer, i, TupleDescAttr(desc, i));
 		packer->any_numeric |= packer->kinds[i] == PACK_NUMERIC;
+		packer->any_null |= packer->kinds[i] == PACK_NULL;
 	}
 	packer->points = palloc(batch * columns * sizeof(uint64));
 	packer->scratch = AllocSetContextCreate(CurrentMemoryContext, "Abacus row conversion",
@@ -240,7 +306,14 @@ RowPacker *
 row_packer_create(TupleDesc desc, const abacus_header *header, size_t batch)
 {
 	return create(desc, header, &query_of_points, 1, 1 + header->dimension + header->attributes,
-				  batch);
+				  false, batch);
+}
+
+/* The same for rows of a query that are places: id and coordinates, whatever else the rows have. */
+RowPacker *
+row_packer_create_places(TupleDesc desc, const abacus_header *header, size_t batch)
+{
+	return create(desc, header, &query_of_points, 1, 1 + header->dimension, true, batch);
 }
 
 /* The same for rows of a table that the mesh follows. */
@@ -248,7 +321,7 @@ RowPacker *
 row_packer_create_tracked(TupleDesc desc, const abacus_header *header, size_t batch)
 {
 	return create(desc, header, &tracked_table, 1, 1 + header->dimension + header->attributes,
-				  batch);
+				  false, batch);
 }
 
 /* The same for rows of a query that are simplices: ids of their vertices. */
@@ -256,7 +329,7 @@ RowPacker *
 row_packer_create_simplices(TupleDesc desc, const abacus_header *header, size_t batch)
 {
 	return create(desc, header, &query_of_simplices, header->dimension + 1, header->dimension + 1,
-				  batch);
+				  false, batch);
 }
 
 void

@@ -17,7 +17,8 @@ typedef enum PackKind
 	PACK_INT2,
 	PACK_INT4,
 	PACK_INT8,
-	PACK_NUMERIC
+	PACK_NUMERIC,
+	PACK_NULL					/* of no type that can be read: NULLs only */
 } PackKind;
 
 /* Where rows come from, for messages. */
@@ -27,6 +28,7 @@ typedef struct RowOrigin
 	const char *rows_of;
 	const char *type_hint;		/* what to do about a type that cannot be read */
 	const char *value_hint;		/* ... and a row that cannot be placed */
+	bool		bare_nulls;		/* an attribute may be NULL without a cast */
 } RowOrigin;
 
 typedef struct RowPacker
@@ -38,6 +40,7 @@ typedef struct RowPacker
 	int			ids;			/* columns of ids: 1, or all */
 	PackKind   *kinds;
 	bool		any_numeric;
+	bool		any_null;		/* of kind PACK_NULL */
 	uint64	   *points;			/* records: room for a batch */
 	size_t		count;
 	uint64		row;			/* rows seen, for messages */
@@ -46,6 +49,8 @@ typedef struct RowPacker
 
 extern const char *row_packer_column(const abacus_header *header, int column);
 extern RowPacker *row_packer_create(TupleDesc desc, const abacus_header *header, size_t batch);
+extern RowPacker *row_packer_create_places(TupleDesc desc, const abacus_header *header,
+										   size_t batch);
 extern RowPacker *row_packer_create_tracked(TupleDesc desc, const abacus_header *header,
 											size_t batch);
 extern RowPacker *row_packer_create_simplices(TupleDesc desc, const abacus_header *header,

@@ -9,6 +9,10 @@
  */
 #include "postgres.h"
 
+#include <ctype.h>
+
+#include "common/keywords.h"
+#include "mb/pg_wchar.h"
 #include "nodes/nodeFuncs.h"
 #include "nodes/parsenodes.h"
 #include "tcop/pquery.h"
@@ -38,6 +42,74 @@ locks_rows(Node *node, void *context)
 		query_tree_walker((Query *) node, locks_rows, context, 0);
 }
 
+/* Past a comment, which may have others in it; what is no comment is left as it is. */
+static const char *
+skip_comment(const char *text)
+{
+	int			depth = 0;
+
+	if (strncmp(text, "--", 2) == 0)
+		return text + strcspn(text, "\r\n");
+	do
+	{
+		int			change = strncmp(text, "/*", 2) == 0 ? 1 : strncmp(text, "*/", 2) == 0 ? -1 : 0;
+
+		if (depth == 0 && change <= 0)
+			return text;
+		depth += change;
+		text += change != 0 ? 2 : 1;
+	} while (depth > 0 && *text != '\0');
+	return text;
+}
+
+/* Past all that may come before the first word: white space, comments, parentheses. */
+static const char *
+skip_to_word(const char *text)
+{
+	const char *from;
+
+	do
+	{
+		from = text;
+		text = skip_comment(text + strspn(text, " \t\n\r\f\v(;"));
+	} while (text != from);
+	return text;
+}
+
+static bool
+is_word_of_sql(const char *text)
+{
+	char		word[NAMEDATALEN];
+	int			length = 0;
+
+	for (; length < NAMEDATALEN - 1 && (isalnum((unsigned char) *text) || *text == '_'); text++)
+		word[length++] = pg_ascii_tolower((unsigned char) *text);
+	word[length] = '\0';
+	return ScanKeywordLookup(word, &ScanKeywords) >= 0;
+}
+
+/*
+ * What begins with no word of SQL is no query, but most often a value that was cast to text
+ * without being asked: a geometry has an implicit cast.
+ */
+static void
+check_is_query(const char *query)
+{
+	const int	most = 40;
+	const char *word = skip_to_word(query);
+	int			length = pg_mbcliplen(query, strlen(query), most);
+
+	if (*word == '\0' || is_word_of_sql(word))
+		return;
+	ereport(ERROR,
+			(errcode(ERRCODE_SYNTAX_ERROR),
+			 errmsg("this is no query: \"%.*s%s\"", length, query,
+					query[length] == '\0' ? "" : "..."),
+			 errdetail("A query begins with SELECT, VALUES, TABLE or WITH."),
+			 errhint("Of a geometry give the coordinates, ST_X(geom) and ST_Y(geom), or use the "
+					 "functions of the extension abacus_postgis.")));
+}
+
 /* Parses the query; anything but one plain SELECT is refused. */
 void
 source_prepare(Source *source, const char *query)
@@ -47,6 +119,7 @@ source_prepare(Source *source, const char *query)
 
 	MemSet(source, 0, sizeof(*source));
 	source->query = query;
+	check_is_query(query);
 	SPI_connect();
 	source->plan = SPI_prepare_cursor(query, 0, NULL, CURSOR_OPT_NO_SCROLL);
 	if (source->plan == NULL)
@@ -87,6 +160,14 @@ source_open(Source *source, const abacus_header *header)
 {
 	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
 	source->packer = row_packer_create(source->portal->tupDesc, header, ROWS_A_BATCH);
+}
+
+/* Starts reading places: points without attributes, whatever other columns there are. */
+void
+source_open_places(Source *source, const abacus_header *header)
+{
+	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
+	source->packer = row_packer_create_places(source->portal->tupDesc, header, ROWS_A_BATCH);
 }
 
 /* Starts reading simplices, by the ids of their vertices. */

@@ -21,6 +21,7 @@ extern void source_prepare(Source *source, const char *query);
 extern int	source_columns(const Source *source);
 extern const char *source_column_name(const Source *source, int column);
 extern void source_open(Source *source, const abacus_header *header);
+extern void source_open_places(Source *source, const abacus_header *header);
 extern void source_open_simplices(Source *source, const abacus_header *header);
 extern size_t source_fetch(Source *source, const uint64 **points);
 extern void source_close(Source *source);
