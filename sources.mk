@@ -96,6 +96,7 @@ PG_SOURCES += src/pg/space/compact.c
 PG_SOURCES += src/pg/space/truncate.c
 PG_SOURCES += src/pg/space/vacuum.c
 PG_SOURCES += src/pg/space/vacuum_moves.c
+PG_SOURCES += src/pg/sql/fn_attributes.c
 PG_SOURCES += src/pg/sql/fn_build.c
 PG_SOURCES += src/pg/sql/fn_check.c
 PG_SOURCES += src/pg/sql/fn_create.c

@@ -27,6 +27,7 @@ typedef struct Host
 	bool		busy;			/* in a core call, or left in one by an error */
 	PageStore	store;
 	Progress	progress;
+	struct StoredNames *names;	/* of attributes, where they are converted: header.c */
 	MemoryContext home;			/* of this struct and the open tables */
 	MemoryContext core;			/* of the core's handle */
 	MemoryContext errors;		/* of `error` */

@@ -9,6 +9,8 @@
  */
 #include "postgres.h"
 
+#include "lib/stringinfo.h"
+
 #include "pg/mesh/header.h"
 #include "pg/mesh/names.h"
 
@@ -23,11 +25,12 @@ new_stamp(abacus_header *header)
 }
 
 static size_t
-encode(const abacus_header *header, unsigned char *bytes)
+encode(Host *host, const abacus_header *header, unsigned char *bytes)
 {
 	abacus_header stored = *header;
 
-	names_to_storage(&stored);
+	if (names_are_converted())
+		names_to_storage(&stored, host->names);
 	return abacus_header_encode(&stored, bytes);
 }
 
@@ -40,7 +43,7 @@ header_insert(Host *host, abacus_header *header)
 	size_t		size;
 
 	new_stamp(header);
-	size = encode(header, bytes);
+	size = encode(host, header, bytes);
 	page_table_insert(&host->store.simplices, header_key, bytes, size, &tid);
 }
 
@@ -93,8 +96,12 @@ header_try_decode(Host *host, const StoredPage *row, abacus_header *header)
 				sizeof(host->failure.hint));
 		return ABACUS_ERROR;
 	}
-	if (status == ABACUS_OK)
-		names_to_database(header);
+	if (status == ABACUS_OK && names_are_converted())
+	{
+		if (host->names == NULL)
+			host->names = MemoryContextAlloc(host->home, sizeof(StoredNames));
+		names_to_database(header, host->names);
+	}
 	return status;
 }
 
@@ -132,7 +139,7 @@ void
 header_rewrite(Host *host, const abacus_header *header, ItemPointer tid)
 {
 	unsigned char bytes[ABACUS_PAGE_BYTES];
-	size_t		size = encode(header, bytes);
+	size_t		size = encode(host, header, bytes);
 
 	page_table_update(&host->store.simplices, header_key, bytes, size, tid);
 }
@@ -153,4 +160,31 @@ header_attribute(const abacus_header *header, const char *name)
 		if (strcmp(header->names[i], name) == 0)
 			return (int) i;
 	return -1;
+}
+
+/* What attributes there are, for messages. */
+static char *
+list_attributes(const abacus_header *header)
+{
+	StringInfoData names;
+
+	initStringInfo(&names);
+	for (uint32 i = 0; i < header->attributes; i++)
+		appendStringInfo(&names, "%s\"%s\"", i > 0 ? ", " : "", header->names[i]);
+	return names.data;
+}
+
+/* Number of the attribute with this name, which must be there. */
+int
+header_find_attribute(const abacus_header *header, const char *name)
+{
+	int			number = header_attribute(header, name);
+
+	if (number < 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_COLUMN),
+				 errmsg("mesh has no attribute \"%s\"", name),
+				 header->attributes == 0 ? errdetail("It has no attributes.")
+				 : errdetail("Its attributes are %s.", list_attributes(header))));
+	return number;
 }

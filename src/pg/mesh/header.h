@@ -20,5 +20,6 @@ extern void header_rewrite(Host *host, const abacus_header *header, ItemPointer 
 extern void header_update(Host *host, abacus_header *header, ItemPointer tid);
 
 extern int	header_attribute(const abacus_header *header, const char *name);
+extern int	header_find_attribute(const abacus_header *header, const char *name);
 
 #endif

@@ -78,18 +78,9 @@ factor(FunctionCallInfo fcinfo, int argument, const char *name)
 static int
 attribute(FunctionCallInfo fcinfo, int argument, const abacus_header *header)
 {
-	char	   *name;
-	int			number;
-
 	if (PG_ARGISNULL(argument))
 		return -1;
-	name = text_to_cstring(PG_GETARG_TEXT_PP(argument));
-	number = header_attribute(header, name);
-	if (number < 0)
-		ereport(ERROR,
-				(errcode(ERRCODE_UNDEFINED_COLUMN),
-				 errmsg("mesh has no attribute \"%s\"", name)));
-	return number;
+	return header_find_attribute(header, text_to_cstring(PG_GETARG_TEXT_PP(argument)));
 }
 
 static ArrayType *

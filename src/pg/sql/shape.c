@@ -21,6 +21,16 @@ shape_dimension(abacus_header *header, int32 dimension)
 	header->dimension = (uint32) dimension;
 }
 
+void
+shape_check_name(const char *name)
+{
+	if (name[0] == '\0' || strlen(name) >= ABACUS_NAME_BYTES)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_NAME),
+				 errmsg("invalid attribute name \"%s\"", name),
+				 errhint("A name has 1 to %d bytes.", ABACUS_NAME_BYTES - 1)));
+}
+
 /* Adds one attribute. */
 void
 shape_attribute(abacus_header *header, const char *name)
@@ -29,11 +39,7 @@ shape_attribute(abacus_header *header, const char *name)
 		ereport(ERROR,
 				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
 				 errmsg("a mesh can have at most %d attributes", ABACUS_MAX_ATTRIBUTES)));
-	if (name[0] == '\0' || strlen(name) >= ABACUS_NAME_BYTES)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_NAME),
-				 errmsg("invalid attribute name \"%s\"", name),
-				 errhint("A name has 1 to %d bytes.", ABACUS_NAME_BYTES - 1)));
+	shape_check_name(name);
 	if (header_attribute(header, name) >= 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_DUPLICATE_COLUMN),
