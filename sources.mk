@@ -88,6 +88,7 @@ PG_SOURCES += src/pg/mesh/mesh_cache.c
 PG_SOURCES += src/pg/mesh/names.c
 PG_SOURCES += src/pg/mesh/new_mesh.c
 PG_SOURCES += src/pg/mesh/new_table.c
+PG_SOURCES += src/pg/mesh/notices.c
 PG_SOURCES += src/pg/mesh/reader.c
 PG_SOURCES += src/pg/mesh/writer.c
 PG_SOURCES += src/pg/progress.c

@@ -56,11 +56,20 @@ ABACUS_API abacus_status abacus_build_open(const abacus_host *host, const abacus
  */
 ABACUS_API abacus_status abacus_build_run(abacus_build *build, uint64_t limit,
 										  abacus_header *header, abacus_error *error);
+/* What becomes of a point that comes to a place where there are others. */
+typedef enum abacus_on_duplicate
+{
+	ABACUS_KEEP = 0,  /* it stays beside them */
+	ABACUS_REPLACE,   /* it takes the place of all of them */
+	ABACUS_REFUSE     /* ABACUS_ERROR (duplicate) */
+} abacus_on_duplicate;
+
 /*
  * insert: inserts what waits, then the points of a stage that has ended, without
  * vertex pages between; they are staged after all if they span no simplex.
  */
 ABACUS_API abacus_status abacus_build_insert(abacus_build *build, abacus_stage *stage,
+											 abacus_on_duplicate on_duplicate,
 											 abacus_header *header, abacus_error *error);
 /*
  * delete: inserts what waits, then takes away a point for each point of a stage

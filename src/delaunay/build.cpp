@@ -2,6 +2,7 @@
 
 #include "cache/domain_of.hpp"
 #include "cache/stopwatch.hpp"
+#include "delaunay/distinct.hpp"
 #include "delaunay/intake.hpp"
 #include "delaunay/outlet.hpp"
 #include "staging/rounds.hpp"
@@ -58,11 +59,26 @@ template <int D> void Build<D>::add(const std::uint64_t *records, std::size_t n)
                                         record_attributes<D>(records))) {
                 ++header_->vertices;
             } else {
-                repeated_->add(header_->serials++, records);
-                ++header_->duplicates;
+                add_duplicate(records);
             }
         }
         n -= some;
+    }
+}
+
+template <int D> void Build<D>::add_duplicate(const std::uint64_t *record) {
+    const Point<D> p = record_point<D>(record);
+    switch (on_duplicate_) {
+    case ABACUS_KEEP:
+        repeated_->add(header_->serials++, record);
+        ++header_->duplicates;
+        return;
+    case ABACUS_REPLACE:
+        if (header_->duplicates > 0) forget_repeated(p);
+        core_->removal.rename(p, record_id(record), record_attributes<D>(record));
+        return;
+    case ABACUS_REFUSE:
+        throw_duplicate(record_id(record));
     }
 }
 
@@ -132,7 +148,20 @@ template <int D> void Build<D>::check_attributes(const Stage<D> &stage) const {
                     {});
 }
 
-template <int D> void Build<D>::insert(Stage<D> &stage, abacus_header &header) {
+template <int D> void Build<D>::take_in(Stage<D> &stage) {
+    Intake intake(*this);
+    stage.emit(intake, *header_);
+}
+
+template <int D> void Build<D>::take_in_distinct(Stage<D> &stage, bool refuses) {
+    Stage<D> distinct(host_, *header_, stage.memory());
+    Distinct filter(*this, distinct, refuses);
+    stage.emit(filter, *header_);
+    take_in(distinct);
+}
+
+template <int D>
+void Build<D>::insert(Stage<D> &stage, abacus_on_duplicate on_duplicate, abacus_header &header) {
     check_attributes(stage);
     change(header, [&] {
         const std::uint64_t points = stage.points();
@@ -141,8 +170,13 @@ template <int D> void Build<D>::insert(Stage<D> &stage, abacus_header &header) {
             header.vertices <= rekeyed_at_once || header.vertices / rekeyed_by_share <= points;
         if (is_worth_it && has_outgrown_domain(points)) change_domain(stage.box(), stage.memory());
         insert_waiting(0);
-        Intake intake(*this);
-        stage.emit(intake, header);
+        if (on_duplicate == ABACUS_KEEP || has_simplices()) {
+            on_duplicate_ = on_duplicate;
+            take_in(stage);
+            on_duplicate_ = ABACUS_KEEP;
+        } else {
+            take_in_distinct(stage, on_duplicate == ABACUS_REFUSE);
+        }
         insert_waiting(0); // if they had to be staged after all
         return points;
     });

@@ -17,7 +17,7 @@
 #include "points/vertex_reader.hpp"
 #include "staging/stage.hpp"
 
-#include <abacus/header.h>
+#include <abacus/change.h>
 #include <optional>
 
 namespace abacus {
@@ -29,7 +29,7 @@ public:
     /// Inserts at most `limit` of the points that wait (0 = all).
     void run(std::uint64_t limit, abacus_header &header);
     /// Inserts what waits, then the points of a stage.
-    void insert(Stage<D> &stage, abacus_header &header);
+    void insert(Stage<D> &stage, abacus_on_duplicate on_duplicate, abacus_header &header);
     /// Inserts what waits, then takes away a point for each of a stage, `exactly` only one
     /// that has its id and attributes; returns how many there were.
     std::uint64_t remove(Stage<D> &stage, bool exactly, abacus_header &header);
@@ -41,6 +41,7 @@ public:
 
 private:
     class Intake;
+    class Distinct;
     class Outlet;
 
     /// The triangulation in memory. All of it goes when the mesh collapses.
@@ -58,7 +59,15 @@ private:
     VertexIndex create(const std::uint64_t *record);
     void start(const std::array<VertexIndex, D + 1> &vertices);
     void add(const std::uint64_t *records, std::size_t n);
+    /// Adds a point where there is a vertex.
+    void add_duplicate(const std::uint64_t *record);
+    /// Takes in the points of a stage.
+    void take_in(Stage<D> &stage);
+    /// The same where all points wait, one for each place, or refuses a second one there.
+    void take_in_distinct(Stage<D> &stage, bool refuses);
     void insert_waiting(std::uint64_t limit);
+    /// Takes the repeated points at p away.
+    void forget_repeated(const Point<D> &p);
     /// Takes points of the triangulation away, all at one place: those that leave. Returns
     /// how many there were.
     std::uint64_t erase(const Point<D> &p, Leaving &leaving);
@@ -91,6 +100,7 @@ private:
     std::optional<Core> core_;                  ///< always there; optional, to be made anew
     std::optional<RepeatedPoints<D>> repeated_; ///< as well
     abacus_header *header_ = nullptr;           ///< of the change at hand
+    abacus_on_duplicate on_duplicate_ = ABACUS_KEEP;
 };
 
 /// Adds up counters of several builds; peaks are maxima.

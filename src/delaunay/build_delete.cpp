@@ -21,6 +21,13 @@ template <int D> std::uint64_t Build<D>::erase(const Point<D> &p, Leaving &leavi
     return taken + (leaving.has_first() ? pass_on(p) : 0);
 }
 
+template <int D> void Build<D>::forget_repeated(const Point<D> &p) {
+    const std::uint64_t taken = repeated_->take_all(p);
+    if (taken > header_->duplicates)
+        throw_corrupted("There are more repeated points than the header counts.");
+    header_->duplicates -= taken;
+}
+
 template <int D> std::uint64_t Build<D>::pass_on(const Point<D> &p) {
     const std::uint64_t *next = header_->duplicates > 0 ? repeated_->take_first(p) : nullptr;
     if (next == nullptr) return erase_vertex(p);
@@ -81,6 +88,8 @@ template <int D> void Build<D>::forget_simplices() {
 
 template std::uint64_t Build<2>::erase(const Point<2> &, Leaving &);
 template std::uint64_t Build<3>::erase(const Point<3> &, Leaving &);
+template void Build<2>::forget_repeated(const Point<2> &);
+template void Build<3>::forget_repeated(const Point<3> &);
 template void Build<2>::erase_pages(abacus_page_kind);
 template void Build<3>::erase_pages(abacus_page_kind);
 template void Build<2>::forget_simplices();

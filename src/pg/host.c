@@ -295,6 +295,8 @@ sqlstate_of(abacus_error_kind kind)
 			return ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE;
 		case ABACUS_ERROR_LIMIT:
 			return ERRCODE_PROGRAM_LIMIT_EXCEEDED;
+		case ABACUS_ERROR_DUPLICATE:
+			return ERRCODE_UNIQUE_VIOLATION;
 		case ABACUS_ERROR_INTERNAL:
 			break;
 	}

@@ -194,6 +194,22 @@ template <int D> const std::uint64_t *RepeatedPoints<D>::take_first(const Point<
     return taken_.data();
 }
 
+template <int D> std::uint64_t RepeatedPoints<D>::take_all(const Point<D> &p) {
+    const std::uint64_t code = domain_.code(p);
+    std::uint64_t taken = 0;
+    const auto any = [](const std::uint64_t *) { return true; };
+    for (std::size_t i; (i = find(p, any)) != none;) {
+        while (i < count() && key_of(entry(i)).code == code)
+            if (record_point<D>(record_of(entry(i))) == p) {
+                remove(i);
+                ++taken;
+            } else {
+                ++i;
+            }
+    }
+    return taken;
+}
+
 template <int D> void RepeatedPoints<D>::flush() {
     if (!dirty_) return;
     dirty_ = false;

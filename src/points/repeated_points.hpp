@@ -38,6 +38,8 @@ public:
     /// Takes away the first point equal to p; its record, valid until the next call, or
     /// nullptr if there is none.
     const std::uint64_t *take_first(const Point<D> &p);
+    /// Takes away all points equal to p; returns how many there were.
+    std::uint64_t take_all(const Point<D> &p);
     /// Writes the page at hand.
     void flush();
     /// All pages have gone, or may lie elsewhere.

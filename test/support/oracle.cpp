@@ -126,7 +126,7 @@ abacus_status MeshOf<D>::insert(const std::vector<InputOf<D>> &points, std::size
         const abacus_status ended = abacus_stage_end(stage, &header, &error);
         if (ended != ABACUS_OK) return ended;
         return with_build([&](abacus_build *build) {
-            return abacus_build_insert(build, stage, &header, &error);
+            return abacus_build_insert(build, stage, ABACUS_KEEP, &header, &error);
         });
     });
     if (status != ABACUS_OK) header = before;

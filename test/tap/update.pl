@@ -82,6 +82,7 @@ for my $old (@released)
 		$node->safe_psql($database, 'DROP TABLE field, field_vertices');
 	}
 	my $session = $node->background_psql($database);
+	$session->query('SET client_min_messages = warning');
 	my $locate = "SELECT v0, v1, v2 FROM abacus_locate('field', 1, 0.5)";
 	my $located = $unread{$old} ? $session->query('SELECT 1') : $session->query($locate);
 	$node->safe_psql($database, 'ALTER EXTENSION abacus UPDATE');

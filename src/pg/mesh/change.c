@@ -9,6 +9,7 @@
 #include "postgres.h"
 
 #include "pg/mesh/change.h"
+#include "pg/mesh/notices.h"
 #include "pg/settings.h"
 
 /* The handles go when the host does. */
@@ -29,6 +30,7 @@ change_begin(Oid mesh, const char *command)
 	Change	   *change = palloc0(sizeof(Change));
 
 	writer_begin(&change->writer, mesh, MESH_WRITE, command);
+	change->duplicates = change->writer.header->duplicates;
 	host_own(change->writer.host, change, close_handles);
 	return change;
 }
@@ -103,7 +105,9 @@ change_insert(Change *change)
 
 	host_run(host, abacus_stage_end(change->stage, header, &host->failure));
 	change_open_build(change);
-	host_run(host, abacus_build_insert(change->build, change->stage, header, &host->failure));
+	host_run(host, abacus_build_insert(change->build, change->stage, change->on_duplicate, header,
+									   &host->failure));
+	change->inserts = true;
 }
 
 /*
@@ -146,6 +150,9 @@ change_abandon(Change *change)
 void
 change_end(Change *change)
 {
+	notice_duplicates(&change->writer, change->duplicates, change->may_replace);
+	if (change->inserts)
+		notice_waiting(&change->writer);
 	writer_end(&change->writer);
 	pfree(change);
 }

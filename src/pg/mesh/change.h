@@ -15,6 +15,10 @@ typedef struct Change
 	abacus_build *build;
 	uint64		points;			/* how many it holds */
 	abacus_stage *put_aside;	/* another one */
+	abacus_on_duplicate on_duplicate;
+	uint64		duplicates;		/* of the mesh before the change */
+	bool		may_replace;	/* the user can choose that */
+	bool		inserts;
 } Change;
 
 extern Change *change_begin(Oid mesh, const char *command);

@@ -24,6 +24,7 @@
 #include "storage/lmgr.h"
 
 #include "abacus/change.h"
+#include "pg/mesh/notices.h"
 #include "pg/mesh/writer.h"
 #include "pg/settings.h"
 #include "pg/space/compact.h"
@@ -96,6 +97,7 @@ insert_all(Writer *writer, uint64 batch)
 {
 	Host	   *host = writer->host;
 	abacus_header *header = writer->header;
+	uint64		duplicates = header->duplicates;
 	abacus_build *build = NULL;
 
 	host_run(host, abacus_build_open(&host->table, header, setting_cache_bytes(), &build,
@@ -105,6 +107,8 @@ insert_all(Writer *writer, uint64 batch)
 		commit(writer);
 	while (header->inserted < header->staged && insert_batch(writer, build, batch))
 		commit(writer);
+	notice_duplicates(writer, duplicates, false);
+	notice_waiting(writer);
 	host_own(host, NULL, NULL);	/* the core would look for pages where they were */
 }
 

@@ -31,6 +31,7 @@ abacus_sql_triangulate(PG_FUNCTION_ARGS)
 									  &rekeyed, &host->failure));
 	host_run(host, abacus_build_run(change->build, 0, header, &host->failure));
 	simplices = header->simplices;
+	change->inserts = true;
 	change_end(change);
 	PG_RETURN_INT64((int64) simplices);
 }
