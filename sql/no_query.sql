@@ -37,6 +37,10 @@ SELECT abacus_insert('field', 'SELECT id, "Geom", 0 FROM places');
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_triangulate('other', 'SELECT id, "Geom" AS geom FROM places', dimension => 3);
 SELECT abacus_triangulate('other', 'SELECT id, 0, 0, "Geom" AS geom FROM places');
+SELECT abacus_load('other', 'VALUES (1, 0, 0), (2, 10, 0), (3, 0, 10)', 'SELECT 1, 2, "Geom" FROM places');
+CREATE TABLE spots (id int, x geometry, y float8);
+SELECT abacus_create('spotted', 2);
+SELECT abacus_track('spotted', 'spots');
 
 -- places are found whatever else their rows have
 SELECT abacus_locate('field', 'SELECT 1, 1, 1, ''a name'', "Geom" FROM (VALUES (NULL::geometry)) AS t ("Geom")');

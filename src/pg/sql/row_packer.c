@@ -27,15 +27,15 @@ static const char *const corner_names[ABACUS_MAX_DIMENSION + 1] = {"v0", "v1", "
 
 static const RowOrigin query_of_points = {
 	"the source query", "the source query", "Cast the column in the query.",
-	"Leave such points out with a WHERE clause.", true
+	"Give its coordinates", "Leave such points out with a WHERE clause.", true
 };
 static const RowOrigin query_of_simplices = {
 	"the source query", "the source query", "Cast the column in the query.",
-	"Leave such simplices out with a WHERE clause.", false
+	NULL, "Leave such simplices out with a WHERE clause.", false
 };
 static const RowOrigin tracked_table = {
 	"the tracked table", "the statement", "Track other columns, generated ones for instance.",
-	"A row without a point has NULL for a coordinate.", false
+	"Track generated columns", "A row without a point has NULL for a coordinate.", false
 };
 
 /* What a column is called in messages, and in tables by default. */
@@ -81,13 +81,14 @@ geometry_hint(const RowPacker *packer, const char *column, Oid type)
 		is_geometry = strcmp(name, "geometry") == 0 || strcmp(name, "geography") == 0;
 		ReleaseSysCache(tuple);
 	}
-	if (!is_geometry)
+	if (!is_geometry || packer->origin->geometry_hint == NULL)
 		return NULL;
 	return psprintf(packer->header->dimension == 2
-					? "Give its coordinates, ST_X(%1$s) and ST_Y(%1$s), or use the functions of the "
-					"extension abacus_postgis."
-					: "Give its coordinates, ST_X(%1$s), ST_Y(%1$s) and ST_Z(%1$s), or use the functions "
-					"of the extension abacus_postgis.", quote_identifier(column));
+					? "%2$s, ST_X(%1$s) and ST_Y(%1$s), or use the functions of the extension "
+					"abacus_postgis."
+					: "%2$s, ST_X(%1$s), ST_Y(%1$s) and ST_Z(%1$s), or use the functions of the "
+					"extension abacus_postgis.",
+					quote_identifier(column), packer->origin->geometry_hint);
 }
 
 static void

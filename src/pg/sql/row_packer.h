@@ -27,6 +27,7 @@ typedef struct RowOrigin
 	const char *columns_of;
 	const char *rows_of;
 	const char *type_hint;		/* what to do about a type that cannot be read */
+	const char *geometry_hint;	/* ... that is a geometry: begins a sentence, or NULL */
 	const char *value_hint;		/* ... and a row that cannot be placed */
 	bool		bare_nulls;		/* an attribute may be NULL without a cast */
 } RowOrigin;
