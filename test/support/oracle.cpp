@@ -120,13 +120,14 @@ template <int D> abacus_status MeshOf<D>::build() {
 }
 
 template <int D>
-abacus_status MeshOf<D>::insert(const std::vector<InputOf<D>> &points, std::size_t memory) {
+abacus_status MeshOf<D>::insert(const std::vector<InputOf<D>> &points, std::size_t memory,
+                                abacus_on_duplicate on_duplicate) {
     const abacus_header before = header;
     const abacus_status status = with_stage(points, memory, [&](abacus_stage *stage) {
         const abacus_status ended = abacus_stage_end(stage, &header, &error);
         if (ended != ABACUS_OK) return ended;
         return with_build([&](abacus_build *build) {
-            return abacus_build_insert(build, stage, ABACUS_KEEP, &header, &error);
+            return abacus_build_insert(build, stage, on_duplicate, &header, &error);
         });
     });
     if (status != ABACUS_OK) header = before;

@@ -38,7 +38,8 @@ template <int D> struct MeshOf {
     abacus_status stage(const std::vector<InputOf<D>> &points, std::size_t memory = 16 << 20);
     abacus_status build();
     /// Without vertex pages between.
-    abacus_status insert(const std::vector<InputOf<D>> &points, std::size_t memory = 16 << 20);
+    abacus_status insert(const std::vector<InputOf<D>> &points, std::size_t memory = 16 << 20,
+                         abacus_on_duplicate on_duplicate = ABACUS_KEEP);
     /// `deleted` becomes the number of points that there were.
     abacus_status remove(const std::vector<InputOf<D>> &points, std::uint64_t &deleted,
                          std::size_t memory = 16 << 20, bool exactly = false);

@@ -98,6 +98,70 @@ TYPED_TEST(Edit, KeepsTheMeshOfThePointsThereAre) {
         }
 }
 
+TYPED_TEST(Edit, PutsPointsInThePlaceOfOthers) {
+    // Beside points that are kept, that wait, and that go; also where all are on a line or plane.
+    constexpr int D = TypeParam::value;
+    const std::size_t sizes[] = {1, 2, 10, 100, 5000};
+    int refused = 0, taken = 0;
+    for (const int kind : {0, 1, 2, 3, 4})
+        for (const std::size_t cache_bytes : {std::size_t(40) << 10, std::size_t(1) << 20}) {
+            SCOPED_TRACE(kind);
+            MeshOf<D> mesh(1, cache_bytes);
+            PointModel<D> model;
+            const std::size_t memory = cache_bytes == 1 << 20 ? 16 << 20 : 64 << 10;
+            for (int step = 0; step < (sanitized ? 15 : 40); ++step) {
+                const std::size_t n = sizes[this->random() % (step % 10 == 0 ? 5 : 4)];
+                auto points = this->fresh(n, kind == 4 ? 1 : kind);
+                if (kind == 4) // many on a line or plane
+                    for (auto &p : points) p.point[D - 1] = 2 * (p.point[0] += double(p.id % 600));
+                switch (this->random() % 6) {
+                case 0:
+                    model.insert(points);
+                    ASSERT_EQ(mesh.insert(points, memory), ABACUS_OK) << mesh.error.detail;
+                    break;
+                case 1:
+                    model.stage(points);
+                    ASSERT_EQ(mesh.stage(points), ABACUS_OK) << mesh.error.detail;
+                    break;
+                case 2: {
+                    auto gone = this->some(model, n);
+                    std::uint64_t deleted = 0;
+                    const std::uint64_t expected = model.remove(gone);
+                    ASSERT_EQ(mesh.remove(gone, deleted), ABACUS_OK) << mesh.error.detail;
+                    ASSERT_EQ(deleted, expected);
+                    break;
+                }
+                case 3: {
+                    if (this->random() % 2 == 0) points = this->fresh(2, 0);
+                    MeshOf<D> tried(1, cache_bytes);
+                    tried.host.restore(mesh.host);
+                    tried.header = mesh.header;
+                    if (model.are_apart(points)) {
+                        ++taken;
+                        model.insert(points);
+                        ASSERT_EQ(mesh.insert(points, memory, ABACUS_REFUSE), ABACUS_OK)
+                            << mesh.error.message;
+                    } else {
+                        ++refused;
+                        ASSERT_EQ(tried.insert(points, memory, ABACUS_REFUSE), ABACUS_ERROR);
+                        ASSERT_EQ(tried.error.kind, ABACUS_ERROR_DUPLICATE);
+                        ASSERT_EQ(tried.host.bytes, 0u);
+                    }
+                    break;
+                }
+                default:
+                    model.replace(points);
+                    ASSERT_EQ(mesh.insert(points, memory, ABACUS_REPLACE), ABACUS_OK)
+                        << mesh.error.detail;
+                }
+                model.expect(mesh);
+                if (this->HasFatalFailure()) return;
+            }
+        }
+    EXPECT_GT(refused, 0);
+    EXPECT_GT(taken, 0);
+}
+
 TYPED_TEST(Edit, CollapsesAndGrowsAgain) {
     // Many points in a plane or on a line, and one beside it that comes and goes.
     constexpr int D = TypeParam::value;
