@@ -355,22 +355,38 @@ TYPED_TEST(Edit, EveryHostCallMayFail) {
         model.insert(points);
         ASSERT_EQ(sound.insert(points), ABACUS_OK);
     }
-    const auto gone = model.points(); // all: it collapses on the way
-    bool done = false;
-    for (std::uint64_t n = 1; !done; n += 1 + n / 8) {
-        MeshOf<D> mesh(1, 40 << 10);
-        mesh.host.restore(sound.host);
-        mesh.header = sound.header;
-        mesh.host.on_progress = [&](const abacus_progress &) { mesh.host.interrupted = 1; };
-        mesh.host.fail_at(n);
+    const auto all = model.points();
+    std::vector<InputOf<D>> flat = all; // and as many as span nothing
+    for (auto &p : flat) p.point[D - 1] = p.point[0];
+    MeshOf<D> waiting(1, 40 << 10);
+    ASSERT_EQ(waiting.insert(flat), ABACUS_OK);
+    const auto replace = [](MeshOf<D> &mesh, const std::vector<InputOf<D>> &points) {
+        return mesh.insert(points, 16 << 10, ABACUS_REPLACE);
+    };
+    const auto remove = [](MeshOf<D> &mesh, const std::vector<InputOf<D>> &points) {
         std::uint64_t deleted = 0;
-        const abacus_status status = mesh.remove(gone, deleted);
-        done = !mesh.host.failed;
-        ASSERT_EQ(status, done ? ABACUS_OK : ABACUS_HOST_ERROR);
-        ASSERT_EQ(mesh.host.bytes, 0u);
-        ASSERT_EQ(mesh.host.violations, std::vector<std::string>{});
-        ASSERT_EQ(std::memcmp(&mesh.header, &sound.header, sizeof sound.header) == 0, !done);
-    }
+        return mesh.remove(points, deleted);
+    };
+    const auto expect_undone = [](MeshOf<D> &before, auto change,
+                                  const std::vector<InputOf<D>> &points) {
+        bool done = false;
+        for (std::uint64_t n = 1; !done; n += 1 + n / 8) {
+            MeshOf<D> mesh(1, 40 << 10);
+            mesh.host.restore(before.host);
+            mesh.header = before.header;
+            mesh.host.on_progress = [&](const abacus_progress &) { mesh.host.interrupted = 1; };
+            mesh.host.fail_at(n);
+            const abacus_status status = change(mesh, points);
+            done = !mesh.host.failed;
+            ASSERT_EQ(status, done ? ABACUS_OK : ABACUS_HOST_ERROR);
+            ASSERT_EQ(mesh.host.bytes, 0u);
+            ASSERT_EQ(mesh.host.violations, std::vector<std::string>{});
+            ASSERT_EQ(std::memcmp(&mesh.header, &before.header, sizeof before.header) == 0, !done);
+        }
+    };
+    expect_undone(sound, remove, all); // it collapses on the way
+    expect_undone(sound, replace, all);
+    expect_undone(waiting, replace, flat);
 }
 
 } // namespace
