@@ -11,14 +11,14 @@
 
 namespace abacus {
 
-[[noreturn]] inline void throw_duplicate(const std::string &point) {
+[[noreturn]] inline void throw_duplicate(const std::string &message) {
     throw Error(
-        ABACUS_ERROR_DUPLICATE, point + " is at the place of another point", {},
-        "With on_duplicate => 'replace' it takes the place of that one, with 'keep' it stays "
-        "beside it.");
+        ABACUS_ERROR_DUPLICATE, message, {},
+        "With on_duplicate => 'replace' a point takes the place of those that are there, with "
+        "'keep' it stays beside them.");
 }
 [[noreturn]] inline void throw_duplicate(std::int64_t id) {
-    throw_duplicate("point " + std::to_string(id));
+    throw_duplicate("point " + std::to_string(id) + " is at the place of another point");
 }
 
 template <int D> class Build<D>::Distinct final : public RecordSink {
@@ -57,7 +57,9 @@ private:
         if (!build_.has_waiting()) return;
         const std::uint64_t displaced =
             waiting_.take_all(build_.header_->inserted, build_.header_->staged);
-        if (displaced > 0 && refuses_) throw_duplicate("a point");
+        if (displaced > 0 && refuses_)
+            throw_duplicate("a point is at the place of point " +
+                            std::to_string(waiting_.last_taken()) + ", which waits");
     }
 
     Build &build_;

@@ -94,8 +94,10 @@ template <int D> std::uint64_t WaitingPoints<D>::take_all(std::uint64_t &from, s
     const auto is_before = [](const Wanted &a, const Wanted &b) { return a.point < b.point; };
     std::sort(wanted_.begin(), wanted_.end(), is_before);
     return take_those(from, to, [&](const VertexReader<D> &reader, std::uint64_t) {
-        return std::binary_search(wanted_.begin(), wanted_.end(),
-                                  Wanted{reader.point(), 0, 0, 0, 0}, is_before);
+        const Wanted given{reader.point(), 0, 0, 0, 0};
+        const bool leaves = std::binary_search(wanted_.begin(), wanted_.end(), given, is_before);
+        if (leaves) last_taken_ = reader.id();
+        return leaves;
     });
 }
 

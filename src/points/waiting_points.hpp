@@ -36,6 +36,8 @@ public:
     std::uint64_t take(std::uint64_t &from, std::uint64_t &to);
     /// The same for all points at the places wanted, whatever their ids: in one run.
     std::uint64_t take_all(std::uint64_t &from, std::uint64_t &to);
+    /// The id of the last point that take_all() has taken.
+    std::int64_t last_taken() const { return last_taken_; }
 
 private:
     static constexpr std::size_t bytes = 3 << 19; // for what is wanted
@@ -67,6 +69,7 @@ private:
     Arena<Candidate> candidates_;
     Arena<std::uint64_t> found_; // sequence numbers of the points that leave
     Leaving leaving_;            // those of one place
+    std::int64_t last_taken_ = 0;
 };
 
 extern template class WaitingPoints<2>;
