@@ -13,6 +13,7 @@ CORE_SOURCES += src/cache/probing.cpp
 CORE_SOURCES += src/cache/replacement.cpp
 CORE_SOURCES += src/capi/build.cpp
 CORE_SOURCES += src/capi/check.cpp
+CORE_SOURCES += src/capi/delaunay_words.cpp
 CORE_SOURCES += src/capi/draw.cpp
 CORE_SOURCES += src/capi/goose.cpp
 CORE_SOURCES += src/capi/header.cpp

@@ -106,12 +106,18 @@ ABACUS_API abacus_status abacus_load_vertices(abacus_load *load, const uint64_t 
 ABACUS_API abacus_status abacus_load_simplices(abacus_load *load, const int64_t *ids,
 											   size_t count, abacus_error *error);
 /*
- * Checks that the simplices form a complex, exactly, writes the pages and brings the
- * header up to date. ABACUS_ERROR (argument) names the first fault found: an unknown,
- * repeated or unused vertex, a flat simplex, a facet used too often, an overlap.
+ * No more simplices come: checks, exactly, that they form a complex, and how this is related to
+ * the Delaunay triangulation of its vertices. ABACUS_ERROR (argument) names what is wrong: an
+ * unknown or repeated vertex, a flat simplex, a facet used too often, an overlap.
  */
-ABACUS_API abacus_status abacus_load_finish(abacus_load *load, abacus_header *header,
-											abacus_error *error);
+ABACUS_API abacus_status abacus_load_check(abacus_load *load, abacus_delaunay *outcome,
+										   abacus_error *error);
+/* After the check: writes the pages and brings the header up to date. */
+ABACUS_API abacus_status abacus_load_write(abacus_load *load, abacus_header *header,
+										   abacus_error *error);
+/* Or instead: adds the vertices of the simplices to a stage, to be triangulated anew. */
+ABACUS_API abacus_status abacus_load_stage(abacus_load *load, abacus_stage *stage,
+										   abacus_error *error);
 ABACUS_API void abacus_load_close(abacus_load *load);
 
 #ifdef __cplusplus

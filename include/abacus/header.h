@@ -44,6 +44,25 @@ typedef struct abacus_counters
 
 /* ---- Header of a mesh ----------------------------------------------------- */
 
+/*
+ * How a mesh is related to the Delaunay triangulation of its vertices: under the symbolic
+ * perturbation there is one, that which the core makes. What is another was loaded
+ * (abacus_load_open).
+ */
+typedef enum abacus_delaunay
+{
+	ABACUS_DELAUNAY = 0,    /* is it, and can be changed */
+	ABACUS_NOT_DELAUNAY,    /* a vertex lies inside the circumsphere of a simplex */
+	ABACUS_WEAKLY_DELAUNAY, /* all circumspheres are empty, but of cospherical vertices others
+							   were joined */
+	ABACUS_NOT_CONVEX       /* its boundary is not the convex hull of the vertices: there are
+							   holes, notches or pieces */
+} abacus_delaunay;
+
+/* The same in words: a clause about the mesh, and a sentence that says why; not of ABACUS_DELAUNAY. */
+ABACUS_API const char *abacus_delaunay_clause(abacus_delaunay delaunay);
+ABACUS_API const char *abacus_delaunay_reason(abacus_delaunay delaunay);
+
 typedef struct abacus_header
 {
 	uint32_t dimension;    /* 2 or 3 */
@@ -60,8 +79,7 @@ typedef struct abacus_header
 	uint64_t serials;      /* serial number of the next such point */
 	uint64_t simplices;
 	uint64_t ghosts;       /* hull facets; facets of the boundary if not_delaunay */
-	uint32_t not_delaunay; /* 1: loaded from elsewhere (abacus_load_open), and not the Delaunay
-							  triangulation of its vertices: it is read, never changed. Its
+	uint32_t not_delaunay; /* an abacus_delaunay. Unless 0 the mesh is read, never changed; its
 							  vertices are listed in staged pages; staged = inserted = vertices */
 	abacus_counters counters; /* summed over all builds; peak_bytes: the largest */
 	char names[ABACUS_MAX_ATTRIBUTES][ABACUS_NAME_BYTES];

@@ -59,12 +59,18 @@ template <int D> void Load<D>::write_vertices() {
     ordered_.close();
 }
 
-template <int D> void Load<D>::finish(abacus_header &header) {
+template <int D> abacus_delaunay Load<D>::outcome() const {
+    if (!is_empty_) return ABACUS_NOT_DELAUNAY;
+    if (!is_convex_) return ABACUS_NOT_CONVEX;
+    return is_own_ ? ABACUS_DELAUNAY : ABACUS_WEAKLY_DELAUNAY;
+}
+
+template <int D> abacus_delaunay Load<D>::check() {
     pacer_.begin(ABACUS_PHASE_SORTING, 0);
     vertices_->finish();
     corners_->finish();
     find_corners();
-    if (simplex_count_ == 0) return;
+    if (simplex_count_ == 0) return ABACUS_DELAUNAY;
     choose_domain();
     order_vertices();
     assemble();
@@ -74,10 +80,16 @@ template <int D> void Load<D>::finish(abacus_header &header) {
     pacer_.begin(ABACUS_PHASE_CHECKING, 0);
     Overlap<D>(host_, layout_, share_).check(*boundary_, simplices_);
     simplices_.close();
-    if (delaunay_) {
+    if (is_empty_) {
         link_ghosts();
-        if (delaunay_) check_hull();
+        if (is_convex_) check_hull();
     }
+    return outcome();
+}
+
+template <int D> void Load<D>::write(abacus_header &header) {
+    if (simplex_count_ == 0) return;
+    const bool is_delaunay = outcome() == ABACUS_DELAUNAY;
     add_ghosts();
     if (links_) end(links_);
     header.ghosts = boundary_->size();
@@ -85,10 +97,10 @@ template <int D> void Load<D>::finish(abacus_header &header) {
     elements_->finish();
 
     pacer_.begin(ABACUS_PHASE_FLUSHING, elements_->size());
-    ElementWriter<D> pages(host_, layout_, *domain_, attributes_, delaunay_);
+    ElementWriter<D> pages(host_, layout_, *domain_, attributes_, is_delaunay);
     pages.write(*elements_, pacer_);
     end(elements_);
-    if (delaunay_)
+    if (is_delaunay)
         ordered_.close();
     else
         write_vertices();
@@ -99,8 +111,8 @@ template <int D> void Load<D>::finish(abacus_header &header) {
         set_domain(header, box_);
     header.vertices = vertex_count_;
     header.simplices = simplex_count_;
-    header.not_delaunay = !delaunay_;
-    if (!delaunay_) header.staged = header.inserted = vertex_count_;
+    header.not_delaunay = outcome();
+    if (!is_delaunay) header.staged = header.inserted = vertex_count_;
     header.counters = pages.counters(); // nothing has been done with it before
 }
 

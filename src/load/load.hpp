@@ -16,7 +16,9 @@
 //
 // The mesh is the Delaunay triangulation of its vertices if and only if across every facet
 // the empty-sphere criterion holds under the perturbation, each ridge of the boundary joins
-// two facets and is convex, and it is in one piece (Delaunay 1934). What is convex at all
+// two facets and is convex, and it is in one piece (Delaunay 1934). If the criterion holds
+// without the perturbation alone it is weakly Delaunay: all spheres are empty, but of vertices
+// on one sphere others are joined. What is convex at all
 // ridges of a connected boundary is convex (Tietze, Nakajima). Of two convex pieces, one
 // would have the least or the greatest vertex of all beyond one of its facets: if both were
 // in both pieces, so would be all that lies between them, which overlap.hpp excludes but for
@@ -47,8 +49,17 @@ public:
     void add_vertices(const std::uint64_t *points, std::size_t count);
     /// Adds simplices: D + 1 vertex ids each.
     void add_simplices(const std::uint64_t *ids, std::size_t count);
-    /// Checks, writes the pages and brings the header of the empty mesh up to date.
-    void finish(abacus_header &header);
+    /// No more come: checks.
+    abacus_delaunay check();
+    /// Writes the pages and brings the header of the empty mesh up to date.
+    void write(abacus_header &header);
+    /// Or instead: calls add(vertex) with the record of each vertex of a simplex.
+    template <class Add> void give_vertices(Add add) {
+        for (auto *sort : {&links_, &boundary_, &elements_})
+            if (*sort) end(*sort); // whoever takes the vertices needs memory
+        while (const Word *vertex = ordered_.next()) add(vertex);
+        ordered_.close();
+    }
 
 private:
     // load_vertices.cpp
@@ -71,6 +82,7 @@ private:
     void add_ghosts();
 
     // load.cpp
+    abacus_delaunay outcome() const;
     void write_vertices();
     void begin(std::optional<RecordSort> &sort, std::size_t stride, std::size_t key) {
         sort.emplace(host_, stride, key, share_);
@@ -88,7 +100,9 @@ private:
     Pacer pacer_;
     std::optional<Domain<D>> domain_;
     Box<D> box_;
-    bool delaunay_ = true;
+    /// As far as it has been looked into: the circumspheres are empty, the boundary is the convex
+    /// hull, and of cospherical vertices those are joined that the perturbation joins.
+    bool is_empty_ = true, is_convex_ = true, is_own_ = true;
     Word vertex_count_ = 0, simplex_count_ = 0;
     Word outside_ = 0;              // vertices, of a given domain
     bool keeps_domain_ = false;     // the given one

@@ -101,9 +101,11 @@ template <int D> void Load<D>::find_boundary() {
             if (const auto *link = links.of(simplex, i)) {
                 beyond = link->key;
                 // Each facet from one of its sides.
-                if (delaunay_ && layout_.simplex_vertex(record, i)[0] < link->opposite &&
-                    in_sphere(corners, link->point) > 0)
-                    delaunay_ = false;
+                if (is_empty_ && layout_.simplex_vertex(record, i)[0] < link->opposite &&
+                    in_sphere(corners, link->point) > 0) {
+                    is_own_ = false;
+                    is_empty_ = exact::unperturbed_in_sphere<D>(corners, link->point) <= 0;
+                }
             } else {
                 add_ghost(record, i, beyond);
             }

@@ -45,7 +45,9 @@ template <int D> struct MeshOf {
     /// Loads a triangulation; simplices are named by the ids of their vertices.
     abacus_status load(const std::vector<InputOf<D>> &vertices,
                        const std::vector<std::array<std::int64_t, D + 1>> &simplices,
-                       std::size_t memory = 16 << 20, bool reorient = true);
+                       std::size_t memory = 16 << 20, bool reorient = true,
+                       bool retriangulate = false);
+    abacus_delaunay loaded_as = ABACUS_DELAUNAY; ///< what load() has found
     /// Where all simplices are, sorted.
     std::vector<Positions<D>> positions();
     /// What a scan gives; fails the test if it does not end well.

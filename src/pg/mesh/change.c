@@ -20,6 +20,7 @@ close_handles(void *handle)
 	abacus_build_close(change->build);
 	abacus_stage_close(change->stage);
 	abacus_stage_close(change->put_aside);
+	abacus_load_close(change->load);
 }
 
 /* Opens a mesh for changing; `command` names the function for messages. */

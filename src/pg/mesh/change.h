@@ -15,6 +15,7 @@ typedef struct Change
 	abacus_build *build;
 	uint64		points;			/* how many it holds */
 	abacus_stage *put_aside;	/* another one */
+	abacus_load *load;			/* a triangulation made elsewhere */
 } Change;
 
 extern Change *change_begin(Oid mesh, const char *command);

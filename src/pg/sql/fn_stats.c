@@ -84,6 +84,21 @@ put_sizes(Figures *figures, const Reader *reader, Oid vertices)
 				   "simplex table and index, per simplex");
 }
 
+/* What a mesh is that is not Abacus' own was found out when it was loaded. */
+static void
+put_delaunay(Figures *figures, abacus_delaunay delaunay)
+{
+	bool		is_own = delaunay == ABACUS_DELAUNAY;
+
+	put_figure(figures, "delaunay", is_own || delaunay == ABACUS_WEAKLY_DELAUNAY ? 1 : 0,
+			   is_own ? "1: a Delaunay triangulation; 0: none" :
+			   psprintf("1: a Delaunay triangulation; 0: none. %s",
+						abacus_delaunay_reason(delaunay)));
+	put_figure(figures, "changeable", is_own ? 1 : 0,
+			   "1: the Delaunay triangulation that Abacus makes, which can be changed; 0: loaded, "
+			   "and another one");
+}
+
 static void
 put_counts(Figures *figures, const abacus_header *header)
 {
@@ -104,8 +119,7 @@ put_counts(Figures *figures, const abacus_header *header)
 			   header->not_delaunay ? "facets of its boundary" : "facets of its convex hull");
 	put_figure(figures, "outside", (double) header->outside,
 			   "points that came from outside the domain since it was set");
-	put_figure(figures, "delaunay", header->not_delaunay ? 0 : 1,
-			   "1: a Delaunay triangulation, which can be changed; 0: loaded, and another one");
+	put_delaunay(figures, header->not_delaunay);
 }
 
 /* abacus_stats(mesh regclass) -> name, value, description */
