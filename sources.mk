@@ -63,6 +63,7 @@ CORE_SOURCES += src/quake/quake_points.cpp
 CORE_SOURCES += src/query/check.cpp
 CORE_SOURCES += src/query/glance.cpp
 CORE_SOURCES += src/query/page_boxes.cpp
+CORE_SOURCES += src/query/page_search.cpp
 CORE_SOURCES += src/query/places.cpp
 CORE_SOURCES += src/query/portrait.cpp
 CORE_SOURCES += src/query/reader.cpp

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <limits>
 
 namespace abacus {
 
@@ -184,8 +183,7 @@ template <int D> double Glance<D>::spacing(const PageView<D> &view) {
 // ---- In a page ------------------------------------------------------------------------
 
 template <int D> int Glance<D>::search(Held &held, const Point<D> &p) {
-    Prefixes own;
-    for (int axis = 0; axis < D; ++axis) own[axis] = held.view.ranks(axis).prefix(ordered(p[axis]));
+    const Prefixes own = SimplexBoxes<D>::place(held.view, p);
     return held.asked > worth_boxes ? search_boxes(held, p, own) : search_patches(held, p, own);
 }
 
@@ -255,50 +253,22 @@ template <int D> int Glance<D>::search_patches(Held &held, const Point<D> &p, co
 }
 
 template <int D> void Glance<D>::make_boxes(Held &held) {
-    constexpr auto most = std::numeric_limits<Prefix>::max(), least = Prefix(~most);
-    PageView<D> &view = held.view;
-    for (int patch = 0; patch < view.patches(); ++patch) read_patch(held, patch);
-    const int n = view.simplices();
-    for (int axis = 0; axis < D; ++axis) {
-        view.ranks(axis).prefixes(0, static_cast<std::size_t>(view.vertices()), prefixes_.data());
-        auto &lower = held.boxes.lower[axis], &upper = held.boxes.upper[axis];
-        for (int s = 0; s < n; ++s) {
-            const Lanes &corners = view.corners(s);
-            Prefix below = most, above = least;
-            for (int i = 0; i <= D && !view.is_ghost(s); ++i) {
-                below = std::min(below, prefixes_[corners[i]]);
-                above = std::max(above, prefixes_[corners[i]]);
-            }
-            lower[s] = below;
-            upper[s] = above;
-        }
-        std::fill_n(&lower[n], Boxes::at_once, most);
-        std::fill_n(&upper[n], Boxes::at_once, least);
+    for (int patch = 0; patch < held.view.patches(); ++patch) {
+        read_patch(held, patch);
+        held.boxes.make(held.view, patch);
     }
     held.has_boxes = true;
 }
 
 template <int D> int Glance<D>::search_boxes(Held &held, const Point<D> &p, const Prefixes &own) {
     if (!held.has_boxes) make_boxes(held);
-    const auto load = [](const Prefix *from) {
-        PrefixLanes lanes;
-        std::memcpy(&lanes, from, sizeof lanes);
-        return lanes;
-    };
-    for (int first = 0; first < held.view.simplices(); first += Boxes::at_once) {
-        PrefixLanes within = PrefixLanes{} - 1;
-        for (int axis = 0; axis < D; ++axis)
-            within &= (load(&held.boxes.lower[axis][first]) <= own[axis]) &
-                      (own[axis] <= load(&held.boxes.upper[axis][first]));
-        const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(within);
-        if ((halves[0] | halves[1]) == 0) continue;
-        for (int i = 0; i < Boxes::at_once; ++i) {
-            if (within[i] == 0) continue;
-            const int inside = position(held.view, first + i, p);
-            if (inside >= 0) return inside > 0 ? first + i : on_facet;
-        }
-    }
-    return nowhere;
+    int found = nowhere;
+    held.boxes.around(own, {0, held.view.simplices()}, [&](int simplex) {
+        const int inside = position(held.view, simplex, p);
+        if (inside >= 0) found = inside > 0 ? simplex : on_facet;
+        return inside < 0;
+    });
+    return found;
 }
 
 template class Glance<2>;

@@ -119,13 +119,20 @@ template <int D> std::uint64_t Reader<D>::pages_with(const std::uint64_t *vertex
 }
 
 template <int D> bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex) {
+    if (!search_) {
+        search_.emplace(cache_.host(), cache_.vertices().attribute_count(), budget_ / 16);
+        cache_.set_budget(budget_ - std::min(budget_, search_->bytes()));
+    }
     bool found = false;
-    search(p, [&](Handle h) {
-        abacus_simplex other;
-        describe(h, other);
-        if (!found || comes_before<D>(other, simplex)) simplex = other;
-        found = true;
-        return true;
+    is_search_ = true;
+    search_pages(p, [&](const Key &page) -> std::optional<Key> {
+        return search_->around(page, p, [&](const PageView<D> &view, int number, int position) {
+            abacus_simplex other;
+            abacus::describe(view, number, cache_.domain(), other);
+            if (!found || comes_before<D>(other, simplex)) simplex = other;
+            found = true;
+            if (position > 0) is_search_ = false;
+        });
     });
     return found;
 }
@@ -144,7 +151,7 @@ template <int D> void Reader<D>::describe(Handle h, abacus_simplex &simplex) con
 
 template <int D> bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex) {
     if (!delaunay_) {
-        const Handle inside = walk_to_inside(p);
+        const Handle inside = is_search_ ? no_handle : walk_to_inside(p);
         if (inside == no_handle) return search_first(p, simplex);
         describe(inside, simplex);
         return true;

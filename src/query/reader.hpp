@@ -4,12 +4,14 @@
 // In a mesh that is not Delaunay a walk may miss a point that the mesh contains: at the
 // border of a hole it ends, and it may take too long. Then, and for a point on a facet,
 // around which not all simplices need be neighbours of one another, all pages are looked
-// into whose box contains the point (page_boxes.hpp).
+// into whose box contains the point (page_boxes.hpp, page_search.hpp). Places of this kind
+// come together; so after one the next is looked for in pages at once.
 #pragma once
 
 #include "delaunay/walk.hpp"
 #include "query/glance.hpp"
 #include "query/page_boxes.hpp"
+#include "query/page_search.hpp"
 #include "query/read_ahead.hpp"
 
 #include <abacus/read.h>
@@ -46,7 +48,9 @@ public:
     std::uint64_t pages_with(const std::uint64_t *vertex);
 
     /// Pages loaded or looked into.
-    std::uint64_t pages_read() const { return cache_.counters.loads + glance_.pages_read(); }
+    std::uint64_t pages_read() const {
+        return cache_.counters.loads + glance_.pages_read() + (search_ ? search_->pages_read() : 0);
+    }
 
     const Cache<D> &cache() const { return cache_; }
     Cache<D> &cache() { return cache_; }
@@ -74,6 +78,7 @@ private:
     template <class Visit> void search(const Point<D> &p, Visit visit);
     /// As in_simplex(); every point is outside of a ghost.
     int position(Handle h, const Point<D> &p) const;
+    /// The first of all simplices that contain p, of those in the pages themselves.
     bool search_first(const Point<D> &p, abacus_simplex &simplex);
     void describe(Handle h, abacus_simplex &simplex) const;
     /// Whether these are the ids of the simplex's corners, in any order.
@@ -90,6 +95,10 @@ private:
     bool is_no_glance_ = false;
     std::size_t budget_;
     std::optional<PageBoxes<D>> boxes_; // once needed
+    std::optional<PageSearch<D>> search_;
+    /// The place that was looked for last was strictly inside of no simplex: nor will the next one
+    /// be, most likely, and a walk to it would be in vain.
+    bool is_search_ = false;
     Cache<D> cache_;
     Glance<D> glance_;
     ReadAhead<D> read_ahead_;
