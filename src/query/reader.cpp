@@ -120,7 +120,7 @@ template <int D> std::uint64_t Reader<D>::pages_with(const std::uint64_t *vertex
 
 template <int D> bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex) {
     if (!search_) {
-        search_.emplace(cache_.host(), cache_.vertices().attribute_count(), budget_ / 16);
+        search_.emplace(cache_.host(), cache_.vertices().attribute_count(), budget_ / 4);
         cache_.set_budget(budget_ - std::min(budget_, search_->bytes()));
     }
     bool found = false;
@@ -151,7 +151,9 @@ template <int D> void Reader<D>::describe(Handle h, abacus_simplex &simplex) con
 
 template <int D> bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex) {
     if (!delaunay_) {
-        const Handle inside = is_search_ ? no_handle : walk_to_inside(p);
+        // Of a cache that is full a walk needs pages that are evicted; a search keeps others.
+        const bool is_walk = !is_search_ && cache_.counters.evictions == 0;
+        const Handle inside = is_walk ? walk_to_inside(p) : no_handle;
         if (inside == no_handle) return search_first(p, simplex);
         describe(inside, simplex);
         return true;

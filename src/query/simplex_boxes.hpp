@@ -86,6 +86,7 @@ template <int D> void SimplexBoxes<D>::make(const PageView<D> &page, int patch) 
             lower_[axis][s] = below;
             upper_[axis][s] = above;
         }
+        if (simplices.end < page.simplices()) continue; // another patch's
         std::fill_n(&lower_[axis][simplices.end], at_once, most);
         std::fill_n(&upper_[axis][simplices.end], at_once, least);
     }
