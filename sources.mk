@@ -47,6 +47,7 @@ CORE_SOURCES += src/geometry/predicates.cpp
 CORE_SOURCES += src/goose/circumbox.cpp
 CORE_SOURCES += src/goose/goose.cpp
 CORE_SOURCES += src/load/element_writer.cpp
+CORE_SOURCES += src/load/faults.cpp
 CORE_SOURCES += src/load/load.cpp
 CORE_SOURCES += src/load/load_boundary.cpp
 CORE_SOURCES += src/load/load_simplices.cpp

@@ -151,9 +151,21 @@ SELECT try_load(', (5, 3, 1), (6, 3, 2), (7, 9, 9)', ', (5, 6, 7)');
 SELECT try_load(', (5, 4, 2), (6, 6, 1), (7, 6, 3)', ', (5, 6, 7)');
 SELECT try_load(', (5, 4, -1)', ', (2, 3, 5)');
 SELECT try_load(', (5, 7, 7)', ', (2, 3, 5)');
+DROP TABLE bad;
+-- Several at once: all of a step, up to a hundred.
+SELECT try_load(', (5, 4, 4), (6, 0, 4), (7, 0, 0)', ', (2, 5, 4), (6, 7, 2)');
+SELECT try_load(', (1, 7, 7), (4, 7, 8)', ', (2, 3, 3), (2, 8, 9), (2, 8, 3)');
+SELECT try_load(', (5, 2, 2), (6, 1, 1), (7, 9, 9)', ', (1, 3, 5), (1, 5, 6), (4, 3, 7)');
+SELECT try_load(', (5, 0, 5), (6, 9, 9), (7, 8, 9)', ', (3, 2, 1), (1, 4, 3), (1, 3, 5), (2, 3, 6), (2, 3, 7), (3, 6, 7), (7, 3, 6)');
+SELECT try_load(', (5, 3, 1), (6, 3, 2), (7, 9, 9), (8, 2, 3), (9, -9, 3.5)', ', (5, 6, 7), (8, 4, 9)');
+SELECT string_agg(line, E'\n') FROM (SELECT line FROM regexp_split_to_table((SELECT try_load('', ', ' || string_agg(format('(%s, 2, 3)', i), ', ' ORDER BY i)) FROM generate_series(11, 260) AS i), E'\n') WITH ORDINALITY AS l (line, n)
+    WHERE n < 6 OR n > 98) AS ends;
+SELECT count(*), max(length(line)) FROM regexp_split_to_table((
+    SELECT try_load(', ' || string_agg(format('(%s, %s, 0.5), (%s, %s, 0.5), (%s, %s, 9)', -i * 10, i / 100.0, -i * 10 - 1, i / 100.0 + 0.005, -i * 10 - 2, i), ', ' ORDER BY i),
+                    ', ' || string_agg(format('(%s, %s, %s)', -i * 10, -i * 10 - 1, -i * 10 - 2), ', ' ORDER BY i))
+    FROM generate_series(1, 300) AS i), E'\n') AS line;
 \pset format aligned
 \pset tuples_only off
-DROP TABLE bad;
 
 -- Arguments.
 SELECT abacus_load('bad', 'TABLE corner', 'VALUES (1, 2)');

@@ -112,6 +112,8 @@ ABACUS_API abacus_status abacus_load_simplices(abacus_load *load, const int64_t 
  */
 ABACUS_API abacus_status abacus_load_check(abacus_load *load, abacus_delaunay *outcome,
 										   abacus_error *error);
+/* The error's detail in full: it lists up to a hundred faults. Valid as long as the load. */
+ABACUS_API const char *abacus_load_detail(const abacus_load *load);
 /* After the check: writes the pages and brings the header up to date. */
 ABACUS_API abacus_status abacus_load_write(abacus_load *load, abacus_header *header,
 										   abacus_error *error);

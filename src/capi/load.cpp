@@ -14,6 +14,7 @@ struct abacus_load {
 
     const abacus::Host host;
     abacus::ByDimension<abacus::Load> load;
+    std::string detail;
 };
 
 abacus_status abacus_load_open(const abacus_host *host, const abacus_header *header, size_t memory,
@@ -38,8 +39,17 @@ abacus_status abacus_load_simplices(abacus_load *load, const int64_t *ids, size_
 }
 
 abacus_status abacus_load_check(abacus_load *load, abacus_delaunay *outcome, abacus_error *error) {
-    return abacus::dispatch(load->load, error, [&](auto &loading) { *outcome = loading.check(); });
+    return abacus::dispatch(load->load, error, [&](auto &loading) {
+        try {
+            *outcome = loading.check();
+        } catch (const abacus::Error &fault) {
+            load->detail = fault.detail;
+            throw;
+        }
+    });
 }
+
+const char *abacus_load_detail(const abacus_load *load) { return load->detail.c_str(); }
 
 abacus_status abacus_load_write(abacus_load *load, abacus_header *header, abacus_error *error) {
     return abacus::dispatch(load->load, error, [&](auto &loading) {

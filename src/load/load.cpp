@@ -17,7 +17,7 @@ constexpr std::size_t sorts_at_once = 4;
 template <int D>
 Load<D>::Load(const Host &host, const abacus_header &header, std::size_t memory, bool reorient)
     : host_(host), attributes_(header.attributes), layout_(header.attributes), reorient_(reorient),
-      share_(memory / sorts_at_once), pacer_(host), used_(host, layout_.vertex),
+      unknown_(host), share_(memory / sorts_at_once), pacer_(host), used_(host, layout_.vertex),
       ordered_(host, layout_.vertex), simplices_(host, layout_.simplex) {
     if (header.staged > 0 || header.vertices > 0)
         throw Error(ABACUS_ERROR_STATE, "the mesh has points already", {},
@@ -41,8 +41,8 @@ template <int D> void Load<D>::add_simplices(const Word *ids, std::size_t count)
     for (std::size_t i = 0; i < count; ++i, ids += D + 1, ++simplex_count_)
         for (int k = 0; k <= D; ++k) {
             if (std::find(ids, ids + k, ids[k]) != ids + k)
-                refuse("simplex " + name_of({ids, D + 1}) + " has the same vertex twice", {},
-                       "Leave out simplices that have collapsed.");
+                faults_.add("simplex " + name_of({ids, D + 1}) + " has the same vertex twice", {},
+                            "Leave out simplices that have collapsed.");
             Word *corner = corners_->add();
             corner[0] = ids[k];
             corner[1] = simplex_count_ << 2 | static_cast<Word>(k);
@@ -78,7 +78,7 @@ template <int D> abacus_delaunay Load<D>::check() {
     find_boundary();
 
     pacer_.begin(ABACUS_PHASE_CHECKING, 0);
-    Overlap<D>(host_, layout_, share_).check(*boundary_, simplices_);
+    Overlap<D>(host_, layout_, share_).check(*boundary_, simplices_, faults_);
     simplices_.close();
     if (is_empty_) {
         link_ghosts();

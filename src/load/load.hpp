@@ -31,6 +31,7 @@
 
 #include "geometry/box_tree.hpp"
 #include "geometry/locational_code.hpp"
+#include "load/faults.hpp"
 #include "load/record_sort.hpp"
 #include "load/record_spool.hpp"
 #include "load/records.hpp"
@@ -65,7 +66,13 @@ private:
     // load_vertices.cpp
     void find_corners();
     void use_vertex(const Word *vertex);
-    [[noreturn]] void refuse_unknown(Word number, Word id);
+    /// A corner without a vertex, and the ids of its simplex, by which it is named.
+    struct Unknown {
+        Word simplex, id;
+        std::array<Word, D + 1> ids;
+    };
+    void add_unknown(const Word *corner);
+    void name_unknown();
     void choose_domain();
     void order_vertices();
 
@@ -96,6 +103,8 @@ private:
     const unsigned attributes_;
     const LoadLayout<D> layout_;
     const bool reorient_;
+    Faults faults_; // of one step: there is no next one if it has some
+    Arena<Unknown> unknown_;
     const std::size_t share_; // of memory, for one of the sorts that are open at once
     Pacer pacer_;
     std::optional<Domain<D>> domain_;

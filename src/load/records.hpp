@@ -83,10 +83,4 @@ inline std::string names_of(const std::string &a, const std::string &b) {
     return "simplices " + std::min(a, b) + " and " + std::max(a, b);
 }
 
-/// Refuses the input.
-[[noreturn]] inline void refuse(const std::string &message, const std::string &detail,
-                                const std::string &hint) {
-    throw Error(ABACUS_ERROR_ARGUMENT, message, detail, hint);
-}
-
 } // namespace abacus

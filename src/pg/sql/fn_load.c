@@ -34,13 +34,35 @@ dimension_of(const Source *simplices)
 	return columns - 1;
 }
 
+/* Checks what has been read; of an error's detail, which may have many lines, all of them are told. */
+static abacus_delaunay
+check(Host *host, abacus_load *load)
+{
+	abacus_delaunay delaunay = ABACUS_DELAUNAY;
+	abacus_status status;
+
+	host_enter(host);
+	status = abacus_load_check(load, &delaunay, &host->failure);
+	if (status != ABACUS_ERROR || host->failure.kind != ABACUS_ERROR_ARGUMENT)
+	{
+		host_leave(host, status);
+		return delaunay;
+	}
+	host_leave(host, ABACUS_OK);
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg_internal("%s", host->failure.message),
+			 abacus_load_detail(load)[0] != '\0' ?
+			 errdetail_internal("%s", abacus_load_detail(load)) : 0,
+			 errhint("%s", host->failure.hint)));
+}
+
 /* Gives the rows of two prepared queries to the core, which checks them. */
 static abacus_delaunay
 read_triangulation(Change *change, Source *vertices, Source *simplices, bool reorient)
 {
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
-	abacus_delaunay delaunay = ABACUS_DELAUNAY;
 	const uint64 *records;
 	size_t		count;
 
@@ -55,8 +77,7 @@ read_triangulation(Change *change, Source *vertices, Source *simplices, bool reo
 		host_run(host, abacus_load_simplices(change->load, (const int64_t *) records, count,
 											 &host->failure));
 	source_close(simplices);
-	host_run(host, abacus_load_check(change->load, &delaunay, &host->failure));
-	return delaunay;
+	return check(host, change->load);
 }
 
 /* Says of a triangulation that is not Abacus' own what it is. */
