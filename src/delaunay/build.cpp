@@ -155,8 +155,9 @@ std::uint64_t Build<D>::remove(Stage<D> &stage, bool exactly, abacus_header &hea
     change(header, [&] {
         const std::uint64_t points = stage.points();
         insert_waiting(0);
-        Outlet outlet(*this, exactly);
+        Outlet outlet(*this, stage, exactly);
         if (has_simplices() || has_waiting()) stage.emit(outlet, header, true);
+        if (rest_) triangulate_rest();
         taken = outlet.taken();
         return points;
     });

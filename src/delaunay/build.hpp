@@ -5,14 +5,17 @@
 // vertex of simplex pages, or, if it equals a vertex, is a repeated point
 // (repeated_points.hpp). While the points span no simplex all of them wait.
 //
-// A mesh much of which came from outside its domain is keyed anew (build_rekey.cpp).
+// A mesh much of which came from outside its domain is keyed anew (build_rekey.cpp). One that
+// loses so much that the rest costs less to triangulate is made anew, too (outlay.hpp, rest.hpp).
 //
 // Each change ends with all pages written and the header brought up to date.
 #pragma once
 
 #include "delaunay/first_simplex.hpp"
 #include "delaunay/insertion.hpp"
+#include "delaunay/outlay.hpp"
 #include "delaunay/removal.hpp"
+#include "delaunay/rest.hpp"
 #include "points/repeated_points.hpp"
 #include "points/vertex_reader.hpp"
 #include "staging/stage.hpp"
@@ -54,6 +57,10 @@ private:
 
     void check_attributes(const Stage<D> &stage) const;
     bool has_simplices() const { return header_->vertices > 0; }
+    /// Of all kinds.
+    std::uint64_t simplices() const {
+        return static_cast<std::uint64_t>(core_->mesh.simplices() + core_->mesh.ghosts());
+    }
     bool has_waiting() const { return header_->inserted < header_->staged; }
     VertexIndex create(const std::uint64_t *record);
     void start(const std::array<VertexIndex, D + 1> &vertices);
@@ -70,6 +77,11 @@ private:
     std::uint64_t erase_vertex(const Point<D> &p, Leaving *want = nullptr);
     /// The points left, the neighbours of the vertex last found, span no simplex: they wait.
     void collapse();
+    /// From now on vertices that leave stay where they are, until the rest is triangulated.
+    void put_off_removals(std::size_t memory);
+    void triangulate_rest();
+    /// Moves the repeated points to vertex pages.
+    void make_repeated_wait(VertexPageWriter &pages);
     /// Erases all pages of a kind.
     void erase_pages(abacus_page_kind kind);
     /// Begins anew without a triangulation.
@@ -90,6 +102,7 @@ private:
     Domain<D> domain_;
     std::optional<Core> core_;                  ///< always there; optional, to be made anew
     std::optional<RepeatedPoints<D>> repeated_; ///< as well
+    std::optional<Rest<D>> rest_;               ///< while removals are put off
     abacus_header *header_ = nullptr;           ///< of the change at hand
 };
 

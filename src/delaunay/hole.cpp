@@ -51,8 +51,9 @@ template <int D> std::uint64_t Hole<D>::fill(const Star<D> &star) {
     else
         wrap(star);
     mesh_.count(static_cast<std::int64_t>(created_ - ghosts_), static_cast<std::int64_t>(ghosts_));
-    // Where it is cut or wrapped, every neighbour is looked at for each simplex.
-    return created_ + (tried > 0 ? tried : created_ * star.link().size() / 3);
+    // Cut or wrapped, for each simplex some of the neighbours are looked at, or all.
+    constexpr std::size_t looks = D == 2 ? 4 : 2; // that cost what a simplex does
+    return created_ + (tried > 0 ? tried : created_ * star.link().size() / looks);
 }
 
 template <int D> Handle Hole<D>::create(const Vertices &vertices) {

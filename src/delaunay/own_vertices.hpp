@@ -75,4 +75,16 @@ private:
     Marks seen_;
 };
 
+/// Calls visit(vertex) for every vertex of the mesh; what is not needed for it any more may leave
+/// the cache.
+template <int D, class Visit> void each_vertex(Cache<D> &cache, Visit visit) {
+    OwnVertices<D> own(cache);
+    for (Key page = first_key; page < end_key;) {
+        cache.trim();
+        cache.poll();
+        page = own.collect(page);
+        for (const VertexIndex v : own.list()) visit(v);
+    }
+}
+
 } // namespace abacus
