@@ -21,24 +21,24 @@ namespace abacus {
 
 template <int D> class Outlay {
 public:
-    /// `effort` is what removals have cost before; so many points are to be taken away.
-    Outlay(std::uint64_t effort, std::uint64_t points)
-        : begin_(effort), last_(effort), left_(static_cast<double>(points)) {}
+    /// So many points are to be taken away from a mesh of so many vertices and simplices; `effort`
+    /// is what removals have cost before.
+    Outlay(std::uint64_t points, std::uint64_t vertices, std::uint64_t simplices,
+           std::uint64_t effort)
+        : begin_(effort), last_(effort), left_(static_cast<double>(points)) {
+        const auto n = static_cast<double>(vertices);
+        const double a_vertex = 2 * (D + 1) * static_cast<double>(simplices) / std::max(n, 1.0);
+        anew_ = std::max(0.0, n - left_) * a_vertex + n * to_read + left_ * to_look_up;
+    }
 
-    /// With so many of them done. Whether the others had better be left out of a mesh made anew;
-    /// this one has so many vertices and simplices.
-    bool is_too_much(std::uint64_t effort, std::uint64_t done, std::uint64_t vertices,
-                     std::uint64_t simplices) {
+    /// With so many more of them done. Whether the others had better be left out of a mesh made
+    /// anew.
+    bool is_too_much(std::uint64_t effort, std::uint64_t done) {
         const auto each = static_cast<double>(effort - last_) / static_cast<double>(done);
         last_ = effort;
         left_ -= static_cast<double>(done);
         recent_ = recent_ < 0 ? each : recent_ + (each - recent_) / memory;
-        if (!(left_ > 0) || vertices == 0) return false;
-        const auto n = static_cast<double>(vertices);
-        const double a_vertex = 2 * (D + 1) * static_cast<double>(simplices) / n;
-        const double anew = std::max(0.0, n - left_) * a_vertex + n * to_read + left_ * to_look_up;
-        const auto spent = static_cast<double>(effort - begin_);
-        return 4 * spent * left_ * recent_ > anew * anew;
+        return 4 * static_cast<double>(effort - begin_) * left_ * recent_ > anew_ * anew_;
     }
 
 private:
@@ -48,7 +48,8 @@ private:
 
     const std::uint64_t begin_;
     std::uint64_t last_;
-    double left_;
+    double left_;        // points that are still to be taken away
+    double anew_;        // the cost of a mesh made anew
     double recent_ = -1; // the cost of one of the last points; negative: of none yet
 };
 

@@ -16,7 +16,8 @@ template <int D> class Build<D>::Outlet final : public RecordSink {
 public:
     Outlet(Build &build, const Stage<D> &stage, bool exactly)
         : build_(build), memory_(stage.memory()),
-          outlay_(build.core_->removal.effort(), stage.points()),
+          outlay_(stage.points(), build.header_->vertices, build.simplices(),
+                  build.core_->removal.effort()),
           leaving_(build.host_, build.cache_bytes_ / 16, exactly, build.attributes_),
           waiting_(build.host_, build.attributes_, exactly) {}
 
@@ -50,8 +51,7 @@ private:
         taken_ += build_.erase(place_, leaving_);
         leaving_.clear();
         if (!build_.rest_ && build_.has_simplices() &&
-            outlay_.is_too_much(build_.core_->removal.effort(), wanted_, build_.header_->vertices,
-                                build_.simplices()))
+            outlay_.is_too_much(build_.core_->removal.effort(), wanted_))
             build_.put_off_removals(memory_);
         wanted_ = 0;
     }
