@@ -5,9 +5,12 @@
 #pragma once
 
 #include "points/record.hpp"
+#include "points/record_sink.hpp"
 #include "staging/stage.hpp"
 
 #include <abacus/header.h>
+
+#include <algorithm>
 #include <array>
 #include <optional>
 
