@@ -77,9 +77,10 @@ ABACUS_API abacus_status abacus_build_delete(abacus_build *build, abacus_stage *
 ABACUS_API abacus_status abacus_build_clear(abacus_build *build, abacus_header *header,
 											uint64_t *deleted, abacus_error *error);
 /*
- * rekey: gives a mesh many of whose points came from outside its domain one around all of them,
- * and all its pages other keys, with `memory` bytes for sorting; *done is 0 if it had no need
- * to. The simplices are the same. The insertion of many points does so by itself.
+ * rekey: gives a mesh whose domain does not fit many of its points another one, and all its pages
+ * other keys, with `memory` bytes for sorting; *done is 0 if there is no better one, and header->outside
+ * is 0 then if that took a look at all points. The simplices are the same. The insertion of many
+ * points does so by itself.
  */
 ABACUS_API abacus_status abacus_build_rekey(abacus_build *build, size_t memory,
 											abacus_header *header, int *done,

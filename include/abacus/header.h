@@ -51,7 +51,8 @@ typedef struct abacus_header
 	uint32_t has_domain;   /* 0 until given or taken from the first points */
 	double lower[ABACUS_MAX_DIMENSION]; /* domain; used for clustering only */
 	double upper[ABACUS_MAX_DIMENSION];
-	uint64_t outside;      /* points that have come from outside the domain since it was set */
+	uint64_t outside;      /* points that came where the domain does not fit them, outside it or to a
+							  code that fills pages, since it was last chosen */
 	uint64_t stamp;        /* never repeats; set by the host at each change */
 	uint64_t staged;       /* sequence number of the next staged point */
 	uint64_t inserted;     /* ... of the first that waits; those before it are in the mesh */

@@ -147,9 +147,6 @@ public:
     /// Some simplex of the block that owns the code, loaded if need be, preferably
     /// close to p; no_handle if the mesh has none there.
     Handle start(std::uint64_t code, const Point<D> &p);
-    /// Calls visit(handle) for the simplices with this code, in all blocks that have some. These
-    /// may be more than there is room for: a block may be evicted before the next one is loaded.
-    template <class Visit> void visit_code(std::uint64_t code, Visit visit);
     /// Calls visit(handle) for the simplices of the block that owns the key, loaded if
     /// need be; returns the lower key of the next block, end_key after the last.
     template <class Visit> Key visit(const Key &key, Visit visit);
@@ -432,21 +429,6 @@ private:
     Arena<std::uint32_t> hashes_;                // of the facets of border_
     Arena<std::uint32_t> guesses_;               // their entries among the visible ones, perhaps
 };
-
-template <int D> template <class Visit> void Cache<D>::visit_code(std::uint64_t code, Visit visit) {
-    // Several blocks share the code when it has parts: from the last one back.
-    for (Key key{code, key_word_end - 1};;) {
-        const BlockIndex b = owner(key);
-        if (b == no_block) return;
-        for_each_simplex(b, [&](Handle h) {
-            if (this->code(slots_[h]) == code) visit(h);
-        });
-        if (blocks_[b].lower <= Key{code, 0}) return;
-        key = predecessor(blocks_[b].lower);
-        trim();
-        poll();
-    }
-}
 
 template <int D> template <class Visit> Key Cache<D>::visit(const Key &key, Visit visit) {
     const BlockIndex b = owner(key);

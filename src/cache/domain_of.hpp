@@ -32,15 +32,21 @@ template <int D> Domain<D> domain_around(Point<D> lower, Point<D> upper) {
     return {lower, upper};
 }
 
-/// The domain of a mesh, from the box in its header.
-template <int D> Domain<D> domain_of(const abacus_header &header) {
-    Point<D> lower, upper;
-    std::copy_n(header.lower, D, lower.begin());
-    std::copy_n(header.upper, D, upper.begin());
-    return domain_around<D>(lower, upper);
+/// The box in a mesh's header.
+template <int D> Box<D> domain_box(const abacus_header &header) {
+    Box<D> box;
+    std::copy_n(header.lower, D, box.lower.begin());
+    std::copy_n(header.upper, D, box.upper.begin());
+    return box;
 }
 
-/// Whether so many of a mesh's points came from outside its domain that it needs another one.
+/// The domain of a mesh.
+template <int D> Domain<D> domain_of(const abacus_header &header) {
+    const Box<D> box = domain_box<D>(header);
+    return domain_around<D>(box.lower, box.upper);
+}
+
+/// Whether a mesh's domain does not fit so many of its points that it needs another one.
 inline bool has_outgrown_domain(std::uint64_t outside, std::uint64_t points) {
     constexpr std::uint64_t harmless = 64;
     return outside > harmless + points / 8;

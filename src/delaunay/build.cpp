@@ -2,6 +2,7 @@
 
 #include "cache/domain_of.hpp"
 #include "cache/stopwatch.hpp"
+#include "delaunay/crowding.hpp"
 #include "delaunay/intake.hpp"
 #include "delaunay/outlet.hpp"
 #include "staging/rounds.hpp"
@@ -57,6 +58,7 @@ template <int D> void Build<D>::add(const std::uint64_t *records, std::size_t n)
             if (core_->insertion.insert(record_point<D>(records), codes[i], record_id(records),
                                         record_attributes<D>(records))) {
                 ++header_->vertices;
+                if (counts_crowded_) count_crowded();
             } else {
                 repeated_->add(header_->serials++, records);
                 ++header_->duplicates;
@@ -139,10 +141,13 @@ template <int D> void Build<D>::insert(Stage<D> &stage, abacus_header &header) {
         // Not for a few points: a single one would have to wait for all of a large mesh.
         const bool is_worth_it =
             header.vertices <= rekeyed_at_once || header.vertices / rekeyed_by_share <= points;
-        if (is_worth_it && has_outgrown_domain(points)) change_domain(stage.box(), stage.memory());
+        if (is_worth_it && has_outgrown_domain(points))
+            change_domain(stage.spread(), stage.memory());
         insert_waiting(0);
+        counts_crowded_ = has_simplices();
         Intake intake(*this);
         stage.emit(intake, header);
+        counts_crowded_ = false;
         insert_waiting(0); // if they had to be staged after all
         return points;
     });
@@ -179,13 +184,14 @@ template <int D> std::uint64_t Build<D>::clear(abacus_header &header) {
 
 template <int D> bool Build<D>::rekey(std::size_t memory, abacus_header &header) {
     header_ = &header;
-    if (!has_outgrown_domain(0)) return false;
+    if (!has_outgrown_domain(0) && !looks_crowded<D>(host_, header)) return false;
+    bool is_changed = false;
     change(header, [&] {
         const std::uint64_t points = header.vertices + header.duplicates;
-        change_domain({}, memory);
+        is_changed = change_domain(Spread<D>(host_), memory);
         return points;
     });
-    return true;
+    return is_changed;
 }
 
 template <int D>

@@ -5,7 +5,7 @@
 // vertex of simplex pages, or, if it equals a vertex, is a repeated point
 // (repeated_points.hpp). While the points span no simplex all of them wait.
 //
-// A mesh much of which came from outside its domain is keyed anew (build_rekey.cpp).
+// A mesh whose domain does not fit many of its points is keyed anew (build_rekey.cpp).
 //
 // Each change ends with all pages written and the header brought up to date.
 #pragma once
@@ -35,8 +35,8 @@ public:
     std::uint64_t remove(Stage<D> &stage, bool exactly, abacus_header &header);
     /// Takes away all points, those that wait too; returns how many there were.
     std::uint64_t clear(abacus_header &header);
-    /// Gives a mesh that has outgrown its domain another one, with `memory` bytes for sorting;
-    /// false if it has not.
+    /// Gives a mesh whose domain does not fit its points another one, with `memory` bytes for
+    /// sorting; false if there is no better one.
     bool rekey(std::size_t memory, abacus_header &header);
 
 private:
@@ -74,12 +74,17 @@ private:
     void erase_pages(abacus_page_kind kind);
     /// Begins anew without a triangulation.
     void forget_simplices();
+    /// Counts a point as one that the domain does not fit if the simplices around it share one code
+    /// with more than a page takes. It has just been inserted.
+    void count_crowded();
     /// With so many points that come.
     bool has_outgrown_domain(std::uint64_t coming) const;
     using Record = std::array<std::uint64_t, record_words(D, ABACUS_MAX_ATTRIBUTES)>;
-    /// A new domain, around all points and this box; the triangulation made anew over it.
-    void change_domain(Box<D> box, std::size_t memory);
+    /// Another domain, for all points and those to come, and the triangulation made anew over it;
+    /// false if none serves them better by far.
+    bool change_domain(const Spread<D> &coming, std::size_t memory);
     void take_apart(Stage<D> &points, std::array<Record, D + 1> &corners);
+    void take_repeated(Stage<D> &points);
     /// Runs a change, which returns how many points it has dealt with, and ends it.
     template <class Change> void change(abacus_header &header, Change change);
     void report(abacus_phase phase, std::uint64_t done, std::uint64_t total);
@@ -91,6 +96,7 @@ private:
     std::optional<Core> core_;                  ///< always there; optional, to be made anew
     std::optional<RepeatedPoints<D>> repeated_; ///< as well
     abacus_header *header_ = nullptr;           ///< of the change at hand
+    bool counts_crowded_ = false;               ///< the mesh had vertices before what comes
 };
 
 /// Adds up counters of several builds; peaks are maxima.

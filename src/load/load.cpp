@@ -17,7 +17,7 @@ constexpr std::size_t sorts_at_once = 4;
 template <int D>
 Load<D>::Load(const Host &host, const abacus_header &header, std::size_t memory, bool reorient)
     : host_(host), attributes_(header.attributes), layout_(header.attributes), reorient_(reorient),
-      share_(memory / sorts_at_once), pacer_(host), used_(host, layout_.vertex),
+      share_(memory / sorts_at_once), pacer_(host), spread_(host), used_(host, layout_.vertex),
       ordered_(host, layout_.vertex), simplices_(host, layout_.simplex) {
     if (header.staged > 0 || header.vertices > 0)
         throw Error(ABACUS_ERROR_STATE, "the mesh has points already", {},

@@ -32,6 +32,7 @@
 #include "load/record_sort.hpp"
 #include "load/record_spool.hpp"
 #include "load/records.hpp"
+#include "points/spread.hpp"
 
 #include <abacus/header.h>
 #include <optional>
@@ -87,7 +88,8 @@ private:
     const std::size_t share_; // of memory, for one of the sorts that are open at once
     Pacer pacer_;
     std::optional<Domain<D>> domain_;
-    Box<D> box_;
+    Spread<D> spread_; // of the vertices
+    Box<D> box_;       // that the domain is chosen by
     bool delaunay_ = true;
     Word vertex_count_ = 0, simplex_count_ = 0;
     Word outside_ = 0;              // vertices, of a given domain

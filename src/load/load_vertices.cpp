@@ -37,10 +37,10 @@ template <int D> void Load<D>::find_corners() {
 
 template <int D> void Load<D>::use_vertex(const Word *vertex) {
     const Point<D> &p = point_in<D>(vertex);
-    const bool first = box_.lower[0] > box_.upper[0];
+    const bool first = vertex_count_ == 0;
     if (first || lexicographically_less<D>(p, least_)) least_ = p;
     if (first || lexicographically_less<D>(greatest_, p)) greatest_ = p;
-    box_.extend(p);
+    spread_.add(p);
     ++vertex_count_;
     outside_ += domain_ && !Box<D>(domain_->lower(), domain_->upper()).contains(p);
     std::copy_n(vertex, layout_.vertex, used_.add());
@@ -56,15 +56,18 @@ template <int D> void Load<D>::refuse_unknown(Word simplex, Word id) {
            "The vertices query must return all vertices of the simplices.");
 }
 
-/// A given domain that the vertices do not keep to is widened at once: a mesh that is not Delaunay
-/// is never keyed anew.
+/// A given domain that does not fit the vertices gives way to another one at once: a mesh that is
+/// not Delaunay is never keyed anew.
 template <int D> void Load<D>::choose_domain() {
-    keeps_domain_ = domain_ && !has_outgrown_domain(outside_, vertex_count_);
-    if (keeps_domain_) return;
+    Box<D> first = spread_.box();
     if (domain_) {
-        box_.extend(domain_->lower());
-        box_.extend(domain_->upper());
+        const Box<D> given(domain_->lower(), domain_->upper());
+        keeps_domain_ =
+            !has_outgrown_domain(outside_, vertex_count_) && spread_.choose(given) == given;
+        if (keeps_domain_) return;
+        first.extend(given);
     }
+    box_ = spread_.choose(first);
     domain_ = domain_around<D>(box_.lower, box_.upper);
 }
 

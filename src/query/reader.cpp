@@ -29,7 +29,8 @@ Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOpti
       cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
              linked_as(header, options)),
       glance_(cache_, options.budget / 10, in_order), read_ahead_(cache_),
-      walk_(cache_, /*far=*/true) {}
+      walk_(cache_, /*far=*/true),
+      pages_of_code_(host, static_cast<int>(header.attributes), options.budget / 16) {}
 
 template <int D> Handle Reader<D>::start(const Point<D> &p, std::uint64_t code) {
     if (size_ == 0) return no_handle;
@@ -230,14 +231,20 @@ bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
         return cache_.is_live(candidate) && cache_.code(cache_.simplex(candidate)) == code &&
                has_ids(candidate, ids);
     };
-    if (size_ != 0 && facet >= 0 && facet <= D && code < key_word_end) {
+    const auto look = [&](const Key &key) {
         cache_.trim();
-        cache_.visit_code(code, [&](Handle candidate) {
-            if (!has_ids(candidate, ids)) return;
+        cache_.visit(key, [&](Handle candidate) {
+            if (!is_it(candidate)) return;
             is_unique = h == no_handle;
             h = candidate;
             page = cache_.lower(h);
         });
+    };
+    if (size_ != 0 && facet >= 0 && facet <= D && code < key_word_end) {
+        if (is_at_hand(code))
+            look({code, 0});
+        else
+            pages_of_code_.with_ids(code, ids, look);
     }
     if (h == no_handle)
         throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such simplex", {},

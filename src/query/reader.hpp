@@ -10,6 +10,7 @@
 #include "delaunay/walk.hpp"
 #include "query/glance.hpp"
 #include "query/page_boxes.hpp"
+#include "query/pages_of_code.hpp"
 #include "query/read_ahead.hpp"
 
 #include <abacus/read.h>
@@ -94,6 +95,7 @@ private:
     Glance<D> glance_;
     ReadAhead<D> read_ahead_;
     Walk<D> walk_;
+    PagesOfCode<D> pages_of_code_;
     Handle last_ = no_handle;
 };
 

@@ -22,6 +22,7 @@
 #include "miscadmin.h"
 #include "nodes/parsenodes.h"
 #include "storage/lmgr.h"
+#include "utils/lsyscache.h"
 
 #include "abacus/change.h"
 #include "pg/mesh/writer.h"
@@ -66,16 +67,25 @@ insert_batch(Writer *writer, abacus_build *build, uint64 limit)
 	return true;
 }
 
-/* A change by itself, where it is due: other keys for a mesh that has outgrown its domain. */
+/*
+ * A change by itself, where it is due: other keys for a mesh whose domain does not fit its points.
+ * Returns whether there is something to commit.
+ */
 static bool
 rekey(Writer *writer, abacus_build *build)
 {
 	Host	   *host = writer->host;
+	abacus_header *header = writer->header;
+	uint64		outside = header->outside;
 	int			done;
 
-	host_run(host, abacus_build_rekey(build, setting_sort_bytes(), writer->header, &done,
+	host_run(host, abacus_build_rekey(build, setting_sort_bytes(), header, &done,
 									  &host->failure));
-	return done;
+	if (done)
+		ereport(NOTICE,
+				(errmsg("mesh \"%s\" has another domain", get_rel_name(host->store.mesh)),
+				 errdetail("The one before did not fit its points; the simplices are the same.")));
+	return done || header->outside != outside;
 }
 
 /* Ends a change and goes on with the next one. */

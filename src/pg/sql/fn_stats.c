@@ -9,7 +9,9 @@
 #include "access/table.h"
 #include "funcapi.h"
 #include "utils/fmgrprotos.h"
+#include "utils/lsyscache.h"
 
+#include "abacus/read.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/mesh/reader.h"
 #include "pg/sql/result.h"
@@ -103,9 +105,32 @@ put_counts(Figures *figures, const abacus_header *header)
 	put_figure(figures, "hull_facets", (double) header->ghosts,
 			   header->not_delaunay ? "facets of its boundary" : "facets of its convex hull");
 	put_figure(figures, "outside", (double) header->outside,
-			   "points that came from outside the domain since it was set");
+			   "points that the domain does not fit, since it was last chosen");
 	put_figure(figures, "delaunay", header->not_delaunay ? 0 : 1,
 			   "1: a Delaunay triangulation, which can be changed; 0: loaded, and another one");
+}
+
+/*
+ * Says so where the domain of a mesh no longer fits its points, and abacus_build() would choose
+ * another one; not for a mesh that is never changed.
+ */
+static void
+report_domain(Reader *reader)
+{
+	Host	   *host = reader->host;
+	const abacus_header *header = &reader->header;
+	int			fits;
+
+	if (header->not_delaunay)
+		return;
+	host_run(host, abacus_domain_fits(&host->table, header, &fits, &host->failure));
+	if (!fits)
+		ereport(NOTICE,
+				(errmsg("the domain of mesh \"%s\" does not fit its points",
+						get_rel_name(host->store.mesh)),
+				 errdetail("Pages are found more slowly than need be."),
+				 errhint("CALL abacus_build for the mesh: it gets another domain, and its pages other "
+						 "keys. That takes as long as building it did.")));
 }
 
 /* abacus_stats(mesh regclass) -> name, value, description */
@@ -118,6 +143,7 @@ abacus_sql_stats(PG_FUNCTION_ARGS)
 	Oid			vertices = page_store_vertex_table(&reader->host->store);
 	const CachedMesh *cached = mesh_cache_peek(mesh);
 
+	report_domain(reader);
 	host_release(reader->host);
 	InitMaterializedSRF(fcinfo, 0);
 	put_counts(&figures, &reader->header);
