@@ -7,8 +7,8 @@
 namespace abacus {
 
 namespace {
-/// So many points may have one code.
-constexpr int points_a_cell_log = 4;
+/// So many points should not have one code, as a power of two: they take a good part of a page.
+constexpr int crowd_log = 5;
 /// Share of the points that may be misplaced without harm.
 constexpr std::size_t harmless = 16;
 /// On either side of an interval of the sample, of its extent: for the points that are not in it.
@@ -32,9 +32,11 @@ template <int D> void Spread<D>::cut() {
 template <int D> std::size_t Spread<D>::misplaced_by(const Box<D> &box) {
     const Domain<D> domain = domain_around<D>(box.lower, box.upper);
     const Box<D> inside(domain.lower(), domain.upper());
-    // The sample has one of 2^n points: two of it in one cell stand for that many, twice.
+    // The sample has one of 2^n points. In a cell of 2^m codes a crowd has 2^(m + 5 - n) of it,
+    // and for that to be some, a cell may have to be larger than a code.
     const int n = std::countl_zero(least_excluded_);
-    const int cell_bits = std::max(0, n - points_a_cell_log);
+    const int cell_bits = std::max(0, n + 1 - crowd_log);
+    const std::size_t crowd = std::size_t{1} << (cell_bits + crowd_log - n);
     Arena<std::uint64_t> cells(host_);
     cells.reserve(sample_.size());
     for (const Drawn &drawn : sample_)
@@ -44,7 +46,7 @@ template <int D> std::size_t Spread<D>::misplaced_by(const Box<D> &box) {
     for (std::size_t i = 0, next; i < cells.size(); i = next) {
         next = i + 1;
         while (next < cells.size() && cells[next] == cells[i]) ++next;
-        if (next - i > 1) misplaced += next - i;
+        if (next - i >= crowd) misplaced += next - i;
     }
     return misplaced;
 }

@@ -7,13 +7,13 @@
 //
 // So besides the box there is a sample of the distinct points: those with the least hashes. It is a
 // function of the set of points, whatever their order, and of two sets it comes from the samples of
-// both. A point of it is misplaced by a domain if it lies outside, or shares its cell with another
-// one; the cells are those of so many points as a page should not have with one code. The box is
-// taken if it misplaces few. If not, boxes compete that leave out more and more of the sample: on
-// each axis the shortest interval that has all but a few of the points, with room for those not in
-// the sample. One wins if it misplaces less than half as many. So outliers on any side lose to the
-// others, but of two clusters that one domain can resolve neither does, and where no linear scale
-// would do (points at all magnitudes, ten clusters too far apart) the box stays.
+// both. A point of it is misplaced by a domain if it lies outside, or has one code with so many
+// others that they take a good part of a page, as far as the sample tells. The box is taken if it
+// misplaces few. If not, boxes compete that leave out more and more of the sample: on each axis the
+// shortest interval that has all but a few of the points, with room for those not in the sample.
+// One wins if it misplaces less than half as many. So outliers on any side lose to the others, but
+// of two clusters that one domain can resolve neither does, and where no linear scale would do
+// (points at all magnitudes, ten clusters too far apart) the box stays.
 #pragma once
 
 #include "geometry/box.hpp"

@@ -233,9 +233,9 @@ TYPED_TEST(OtherDomain, NotAroundOnePointFarAway) {
     constexpr int D = TypeParam::value;
     for (const double far : {-3.4028234663852886e38, 1e15}) {
         auto points = this->fresh(4000, 5e5, 1000);
-        MeshOf<D> mesh(1, little), plain(1);
+        MeshOf<D> mesh(1, little), plain(1, little);
         PointModel<D> model;
-        ASSERT_EQ(plain.insert(points), ABACUS_OK);
+        ASSERT_EQ(plain.insert(points, std::size_t(1)), ABACUS_OK);
         points.insert(points.begin() + 1000, this->at(far));
         model.insert(points);
         ASSERT_EQ(mesh.insert(points, std::size_t(1)), ABACUS_OK) << mesh.error.detail;

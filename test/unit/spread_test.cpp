@@ -125,13 +125,13 @@ TYPED_TEST(WherePointsAre, ClustersThatOneScaleShowsStay) {
 
 TYPED_TEST(WherePointsAre, OfClustersTooFarApartOneIsServedIfItIsMost) {
     constexpr int D = TypeParam::value;
-    auto points = this->cube(8000, 0, 1);
-    for (const Point<D> &p : this->cube(2000, 1e15, 1)) points.push_back(p);
-    EXPECT_LE(this->extent(this->choose(points)), 2.5);
+    auto points = this->cube(8000, 0, 256);
+    for (const Point<D> &p : this->cube(2000, 1e15, 256)) points.push_back(p);
+    EXPECT_LE(this->extent(this->choose(points)), 640);
     // Of many none would gain what the others lose.
     points.clear();
     for (int cluster = 0; cluster < 5; ++cluster)
-        for (const Point<D> &p : this->cube(2000, cluster * 1e15, 1)) points.push_back(p);
+        for (const Point<D> &p : this->cube(2000, cluster * 1e15, 256)) points.push_back(p);
     EXPECT_EQ(this->choose(points), this->spread(points).box());
 }
 
