@@ -59,16 +59,14 @@ template <int D> void Load<D>::refuse_unknown(Word simplex, Word id) {
 /// A given domain that does not fit the vertices gives way to another one at once: a mesh that is
 /// not Delaunay is never keyed anew.
 template <int D> void Load<D>::choose_domain() {
-    Box<D> first = spread_.box();
-    if (domain_) {
+    Box<D> all = spread_.box();
+    if (domain_) all.extend(Box<D>(domain_->lower(), domain_->upper()));
+    box_ = spread_.choose(all);
+    if (domain_ && !has_outgrown_domain(outside_, vertex_count_)) {
         const Box<D> given(domain_->lower(), domain_->upper());
-        keeps_domain_ =
-            !has_outgrown_domain(outside_, vertex_count_) && spread_.choose(given) == given;
-        if (keeps_domain_) return;
-        first.extend(given);
+        keeps_domain_ = box_ == all || spread_.choose(given) == given;
     }
-    box_ = spread_.choose(first);
-    domain_ = domain_around<D>(box_.lower, box_.upper);
+    if (!keeps_domain_) domain_ = domain_around<D>(box_.lower, box_.upper);
 }
 
 template <int D> void Load<D>::order_vertices() {
