@@ -1,9 +1,9 @@
 #include "delaunay/build.hpp"
 
-#include "cache/domain_of.hpp"
-#include "cache/stopwatch.hpp"
 #include "delaunay/intake.hpp"
 #include "delaunay/outlet.hpp"
+#include "host/stopwatch.hpp"
+#include "keys/domain_of.hpp"
 #include "staging/rounds.hpp"
 
 #include <algorithm>

@@ -13,9 +13,9 @@
 // no more than for a second build.
 #include "delaunay/build.hpp"
 
-#include "cache/domain_of.hpp"
 #include "delaunay/intake.hpp"
 #include "delaunay/own_vertices.hpp"
+#include "keys/domain_of.hpp"
 
 #include <algorithm>
 

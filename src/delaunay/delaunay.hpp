@@ -3,9 +3,9 @@
 // way from there to the next point.
 #pragma once
 
-#include "cache/cache.hpp"
 #include "delaunay/marks.hpp"
 #include "delaunay/walk.hpp"
+#include "mesh/cache.hpp"
 
 namespace abacus {
 

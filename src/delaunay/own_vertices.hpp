@@ -5,8 +5,8 @@
 // part of its star in the same pages where both are corners of many simplices.
 #pragma once
 
-#include "cache/cache.hpp"
 #include "delaunay/marks.hpp"
+#include "mesh/cache.hpp"
 
 namespace abacus {
 

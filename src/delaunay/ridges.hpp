@@ -10,9 +10,9 @@
 // empty at once for the next insertion: an entry counts only in the one that made it.
 #pragma once
 
-#include "cache/vertex_heap.hpp"
 #include "host/arena.hpp"
 #include "mesh/simplex.hpp"
+#include "mesh/vertex_heap.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -7,7 +7,7 @@
 // the facets are tested in turns, beginning with any, until one separates.
 #pragma once
 
-#include "cache/cache.hpp"
+#include "mesh/cache.hpp"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include "load/load.hpp"
 
-#include "cache/domain_of.hpp"
+#include "keys/domain_of.hpp"
 #include "load/element_writer.hpp"
 #include "load/overlap.hpp"
 #include "points/canonical.hpp"

@@ -28,7 +28,7 @@
 #pragma once
 
 #include "geometry/box_tree.hpp"
-#include "geometry/locational_code.hpp"
+#include "keys/locational_code.hpp"
 #include "load/record_sort.hpp"
 #include "load/record_spool.hpp"
 #include "load/records.hpp"

@@ -1,6 +1,6 @@
 // Vertices and corners: which vertices the simplices have, where they lie, and their order
 // along the curve.
-#include "cache/domain_of.hpp"
+#include "keys/domain_of.hpp"
 #include "load/load.hpp"
 
 #include <algorithm>

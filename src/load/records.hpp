@@ -13,9 +13,9 @@
 //             D+1 vertices, of a ghost D
 #pragma once
 
-#include "cache/key.hpp"
 #include "geometry/predicates.hpp"
 #include "host/host.hpp"
+#include "keys/key.hpp"
 
 #include <algorithm>
 #include <array>

@@ -14,9 +14,9 @@
 // curve, so the next one nearly always belongs to the page at hand.
 #pragma once
 
-#include "cache/key.hpp"
-#include "geometry/locational_code.hpp"
 #include "host/arena.hpp"
+#include "keys/key.hpp"
+#include "keys/locational_code.hpp"
 #include "points/leaving.hpp"
 #include "points/record.hpp"
 

@@ -1,7 +1,7 @@
 #include "query/check.hpp"
 
-#include "cache/domain_of.hpp"
 #include "delaunay/cached_conflict.hpp"
+#include "keys/domain_of.hpp"
 #include "query/page_simplex.hpp"
 
 #include <cstdio>

@@ -20,8 +20,8 @@
 // is among the last pages looked into and no longer held.
 #pragma once
 
-#include "cache/cache.hpp"
 #include "host/memory.hpp"
+#include "mesh/cache.hpp"
 #include "query/known_pages.hpp"
 
 #include <abacus/read.h>

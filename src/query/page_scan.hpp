@@ -3,8 +3,8 @@
 // calls of its user.
 #pragma once
 
-#include "cache/page_format.hpp"
 #include "host/host.hpp"
+#include "mesh/page_format.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,9 +1,9 @@
 // The simplices of a stored page as the mesh and its users see them, without a cache.
 #pragma once
 
-#include "cache/page_format.hpp"
-#include "geometry/locational_code.hpp"
 #include "geometry/predicates.hpp"
+#include "keys/locational_code.hpp"
+#include "mesh/page_format.hpp"
 #include "query/describe.hpp"
 
 #include <abacus/read.h>

@@ -3,8 +3,8 @@
 // not meet, are skipped by their boxes.
 #pragma once
 
-#include "cache/page_format.hpp"
 #include "draw/canvas.hpp"
+#include "mesh/page_format.hpp"
 
 #include <abacus/draw.h>
 

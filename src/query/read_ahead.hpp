@@ -7,7 +7,7 @@
 // far. If nobody has asked for those of the block at hand before, the same places do.
 #pragma once
 
-#include "cache/cache.hpp"
+#include "mesh/cache.hpp"
 
 namespace abacus {
 

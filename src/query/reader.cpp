@@ -1,7 +1,7 @@
 #include "query/reader.hpp"
 
-#include "cache/domain_of.hpp"
 #include "host/memory.hpp"
+#include "keys/domain_of.hpp"
 #include "points/record.hpp"
 #include "query/describe.hpp"
 

@@ -1,6 +1,6 @@
 #include "query/simplex_scan.hpp"
 
-#include "cache/domain_of.hpp"
+#include "keys/domain_of.hpp"
 #include "query/page_simplex.hpp"
 
 namespace abacus {

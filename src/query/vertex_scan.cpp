@@ -1,6 +1,6 @@
 #include "query/vertex_scan.hpp"
 
-#include "cache/domain_of.hpp"
+#include "keys/domain_of.hpp"
 
 namespace abacus {
 namespace {

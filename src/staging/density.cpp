@@ -1,6 +1,6 @@
 #include "staging/density.hpp"
 
-#include "cache/page_format.hpp"
+#include "mesh/page_format.hpp"
 
 namespace abacus {
 

@@ -1,6 +1,6 @@
 #include "staging/stage.hpp"
 
-#include "cache/domain_of.hpp"
+#include "keys/domain_of.hpp"
 #include "points/canonical.hpp"
 #include "points/vertex_page.hpp"
 #include "staging/density.hpp"

@@ -3,7 +3,7 @@
 // call has to end with a clean status, in bounded time and without a leak.
 #pragma once
 
-#include "cache/page_format.hpp"
+#include "mesh/page_format.hpp"
 #include "support/memory_host.hpp"
 
 #include <abacus/abacus.h>

@@ -2,9 +2,9 @@
 // own, beside the points that it should have.
 #pragma once
 
-#include "cache/domain_of.hpp"
 #include "delaunay/insertion.hpp"
 #include "delaunay/removal.hpp"
+#include "keys/domain_of.hpp"
 #include "support/oracle.hpp"
 
 #include <abacus/header.h>

@@ -1,6 +1,6 @@
 // Meshes that grow out of their domain get another one, when it is worth it; and stay the mesh
 // of their points.
-#include "cache/domain_of.hpp"
+#include "keys/domain_of.hpp"
 #include "support/point_model.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // What pages tell of how many simplices fit into one.
-#include "cache/page_capacity.hpp"
+#include "mesh/page_capacity.hpp"
 #include "support/oracle.hpp"
 
 #include <gtest/gtest.h>

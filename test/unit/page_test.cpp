@@ -1,5 +1,5 @@
 // The simplex page: what is written is read again, and what was not written is refused.
-#include "cache/page_writer.hpp"
+#include "mesh/page_writer.hpp"
 #include "support/memory_host.hpp"
 #include "support/patient.hpp"
 

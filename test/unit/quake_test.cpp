@@ -1,7 +1,7 @@
 // The earthquake data sets against an octree made the plain way: leaves in a map,
 // split until the wavelength is resolved, then until no leaf presses another.
-#include "geometry/locational_code.hpp"
 #include "host/host.hpp"
+#include "keys/locational_code.hpp"
 #include "quake/quake_points.hpp"
 
 #include <gtest/gtest.h>

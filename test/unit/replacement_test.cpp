@@ -1,5 +1,5 @@
 // Which blocks leave: those behind the front, then the farthest ahead, never what is in use.
-#include "cache/replacement.hpp"
+#include "blocks/replacement.hpp"
 
 #include "support/memory_host.hpp"
 

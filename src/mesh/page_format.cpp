@@ -1,4 +1,4 @@
-#include "cache/page_format.hpp"
+#include "mesh/page_format.hpp"
 
 #include "host/host.hpp"
 

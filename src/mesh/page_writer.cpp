@@ -1,4 +1,4 @@
-#include "cache/page_writer.hpp"
+#include "mesh/page_writer.hpp"
 
 #include <algorithm>
 #include <limits>

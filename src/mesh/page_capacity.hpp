@@ -8,7 +8,7 @@
 // get the mean of the pages of late.
 #pragma once
 
-#include "cache/page_format.hpp"
+#include "mesh/page_format.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 // Slots are taken from a chain of those given back, or else from behind all that were ever used.
 #pragma once
 
-#include "cache/directory.hpp"
-#include "cache/key.hpp"
+#include "blocks/directory.hpp"
+#include "keys/key.hpp"
 
 namespace abacus {
 

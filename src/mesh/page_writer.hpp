@@ -1,4 +1,4 @@
-// Makes simplex pages (cache/page_format.hpp) of simplices and their vertices.
+// Makes simplex pages (mesh/page_format.hpp) of simplices and their vertices.
 //
 //   order(), then each link, then finish()
 //
@@ -7,9 +7,9 @@
 // finds out by comparing vertices; it only takes more bytes and time.
 #pragma once
 
-#include "cache/page_format.hpp"
-#include "cache/vertex_heap.hpp"
 #include "host/arena.hpp"
+#include "mesh/page_format.hpp"
+#include "mesh/vertex_heap.hpp"
 
 namespace abacus {
 

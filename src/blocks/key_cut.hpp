@@ -1,8 +1,8 @@
 // Where a block is cut: its simplices with their keys, and how to part them at about some number.
 #pragma once
 
-#include "cache/key.hpp"
 #include "host/arena.hpp"
+#include "keys/key.hpp"
 #include "mesh/simplex.hpp"
 
 #include <algorithm>

@@ -14,7 +14,7 @@
 // whose cavities reach it, and takes from the same room. So that has to be larger.
 #pragma once
 
-#include "cache/block.hpp"
+#include "blocks/block.hpp"
 #include "host/arena.hpp"
 
 #include <cstddef>

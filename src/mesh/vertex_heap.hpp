@@ -7,10 +7,10 @@
 // an insertion and surrounded by cached simplices is never hashed.
 #pragma once
 
-#include "cache/free_numbers.hpp"
-#include "geometry/locational_code.hpp"
 #include "host/arena.hpp"
+#include "host/free_numbers.hpp"
 #include "host/hash_slots.hpp"
+#include "keys/locational_code.hpp"
 #include "mesh/simplex.hpp"
 
 #include <bit>

@@ -12,8 +12,8 @@
 // magnitude), the key goes on in a second word, `part`: see part().
 #pragma once
 
-#include "geometry/hilbert.hpp"
 #include "geometry/point.hpp"
+#include "keys/hilbert.hpp"
 
 #include <algorithm>
 #include <array>

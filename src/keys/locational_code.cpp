@@ -8,7 +8,7 @@
 // steps of 512: first the coarse place, hashed, whose stretch of the curve holds many
 // pages' worth of simplices, then the place inside it. A hash of the vertices tells apart
 // what is left.
-#include "geometry/locational_code.hpp"
+#include "keys/locational_code.hpp"
 
 namespace abacus {
 

@@ -5,10 +5,10 @@
 // that comes in looks for its neighbours).
 #pragma once
 
-#include "cache/free_numbers.hpp"
-#include "cache/key.hpp"
 #include "host/arena.hpp"
+#include "host/free_numbers.hpp"
 #include "host/hash_slots.hpp"
+#include "keys/key.hpp"
 #include "mesh/simplex.hpp"
 
 namespace abacus {

@@ -2,7 +2,7 @@
 //
 //   header      what is in it, the interval [lower, upper) of keys it owns
 //   patches     for each, how far corners and vertices go, and the box of its vertices
-//   heads       of the columns (cache/bit_column.hpp): ranks of the vertices on each axis, their
+//   heads       of the columns (mesh/bit_column.hpp): ranks of the vertices on each axis, their
 //               ids, each attribute, codes of vertices in other pages, parts of the links'
 //               keys, which are all 0 in most meshes
 //   steps       D + 1 bits a simplex, see below
@@ -31,10 +31,10 @@
 // attribute, a small move of a vertex.
 #pragma once
 
-#include "cache/bit_column.hpp"
-#include "cache/key.hpp"
-#include "cache/page_tree.hpp"
 #include "geometry/point.hpp"
+#include "keys/key.hpp"
+#include "mesh/bit_column.hpp"
+#include "mesh/page_tree.hpp"
 #include "mesh/simplex.hpp"
 
 #include <algorithm>

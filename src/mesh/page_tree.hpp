@@ -1,4 +1,4 @@
-// From a simplex to its child in the trees of a page (cache/page_format.hpp): the one across a
+// From a simplex to its child in the trees of a page (mesh/page_format.hpp): the one across a
 // facet, with its vertices in an order of the same orientation and the point at infinity last.
 #pragma once
 

@@ -5,9 +5,9 @@
 // coordinates, the others are new. Facets on the border look for their partner among the
 // visible facets, or become visible themselves. So the large hash tables are asked once for each
 // border vertex and border facet, never for each simplex.
-#include "cache/cache.hpp"
+#include "mesh/cache.hpp"
 
-#include "cache/stopwatch.hpp"
+#include "host/stopwatch.hpp"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "cache/inner_links.hpp"
+#include "mesh/inner_links.hpp"
 
 #include <algorithm>
 #include <bit>

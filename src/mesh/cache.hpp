@@ -27,19 +27,19 @@
 // that a simplex left forwards to its new place until it is used again.
 #pragma once
 
-#include "cache/block.hpp"
-#include "cache/directory.hpp"
-#include "cache/inner_links.hpp"
-#include "cache/key_cut.hpp"
-#include "cache/page_capacity.hpp"
-#include "cache/page_writer.hpp"
-#include "cache/replacement.hpp"
-#include "cache/vertex_heap.hpp"
-#include "cache/visible_facets.hpp"
-#include "geometry/locational_code.hpp"
+#include "blocks/block.hpp"
+#include "blocks/directory.hpp"
+#include "blocks/key_cut.hpp"
+#include "blocks/replacement.hpp"
 #include "geometry/predicates.hpp"
 #include "host/host.hpp"
+#include "keys/locational_code.hpp"
+#include "mesh/inner_links.hpp"
+#include "mesh/page_capacity.hpp"
+#include "mesh/page_writer.hpp"
 #include "mesh/simplex.hpp"
+#include "mesh/vertex_heap.hpp"
+#include "mesh/visible_facets.hpp"
 
 #include <abacus/header.h>
 

@@ -5,8 +5,8 @@
 // which stay in the processor's cache, and then at one piece.
 #pragma once
 
-#include "cache/key.hpp"
 #include "host/arena.hpp"
+#include "keys/key.hpp"
 
 #include <algorithm>
 

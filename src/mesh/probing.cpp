@@ -14,7 +14,7 @@
 // Where the dissertation walks the leaves of its octree, we have intervals of the
 // same curve: the largest octant around a cell that lies inside the interval plays
 // the leaf's part.
-#include "cache/cache.hpp"
+#include "mesh/cache.hpp"
 
 #include <numbers>
 

@@ -1,6 +1,6 @@
 // Appending: pages of a mesh that comes in the order of keys, as when it is loaded. Each is
 // put together as a block like any other, so that there is one way only to make a page.
-#include "cache/cache.hpp"
+#include "mesh/cache.hpp"
 
 namespace abacus {
 

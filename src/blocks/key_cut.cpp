@@ -1,4 +1,4 @@
-#include "cache/key_cut.hpp"
+#include "blocks/key_cut.hpp"
 
 #include <array>
 #include <bit>

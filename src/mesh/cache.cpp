@@ -1,5 +1,5 @@
 // Blocks, slots, keys: the parts of the cache that all others use.
-#include "cache/cache.hpp"
+#include "mesh/cache.hpp"
 
 namespace abacus {
 

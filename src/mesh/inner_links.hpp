@@ -5,8 +5,8 @@
 // chains, small enough for the processor's first cache. What finds none is the page's border.
 #pragma once
 
-#include "cache/page_format.hpp"
 #include "host/arena.hpp"
+#include "mesh/page_format.hpp"
 
 namespace abacus {
 

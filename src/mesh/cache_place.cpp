@@ -1,6 +1,6 @@
 // Placement: simplices move to the blocks that own their keys, and full blocks lend to
 // the one before them or split in two along the curve.
-#include "cache/cache.hpp"
+#include "mesh/cache.hpp"
 
 #include "host/processor_cache.hpp"
 

@@ -1,4 +1,4 @@
-#include "cache/replacement.hpp"
+#include "blocks/replacement.hpp"
 
 #include <algorithm>
 

@@ -12,10 +12,10 @@
 // its border. All of them are asked for before the first is read: the vertices while the
 // block before is made a page, and its slots, which tell the vertices, while the one before
 // that is.
-#include "cache/cache.hpp"
+#include "mesh/cache.hpp"
 
-#include "cache/stopwatch.hpp"
 #include "host/processor_cache.hpp"
+#include "host/stopwatch.hpp"
 
 namespace abacus {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/box.hpp"
-#include "geometry/locational_code.hpp"
+#include "keys/locational_code.hpp"
 
 #include <abacus/header.h>
 
