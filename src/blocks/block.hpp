@@ -1,4 +1,4 @@
-// A page in the cache: the interval of keys that it owns, and the slots for its simplices.
+// A page in the cache: the interval of keys that it owns, and the slots for its records.
 //
 // Slots are taken from a chain of those given back, or else from behind all that were ever used.
 #pragma once
@@ -10,6 +10,9 @@ namespace abacus {
 
 using BlockIndex = std::uint32_t;
 inline constexpr BlockIndex no_block = Directory::none;
+/// Numbers a record: block * slots of a block + slot.
+using Handle = std::uint32_t;
+inline constexpr Handle no_handle = 0xffffffffu;
 /// Ends the chain of free slots.
 inline constexpr std::uint32_t no_slot = 0xffffffffu;
 
@@ -19,13 +22,11 @@ struct Block {
     std::uint64_t sure_lower, sure_upper; // codes that it owns whatever their part
     std::uint64_t location;               // of the stored page; 0 = none
     std::uint64_t used_at;
-    std::uint16_t count;        // simplices
-    std::uint16_t capacity;     // simplices that it takes before it is split
-    std::uint16_t high_water;   // slots ever used
-    std::uint16_t settled;      // as many of them as were loaded, wherever they lie now
-    std::uint32_t free;         // chain of slots given back, by link[0]
-    std::uint32_t first_vertex; // of those that came with the page ...
-    std::uint16_t vertex_run;   // ... and whose numbers are mostly in a row, so long
+    std::uint16_t count;      // records
+    std::uint16_t capacity;   // records that it takes before it is split
+    std::uint16_t high_water; // slots ever used
+    std::uint16_t settled;    // as many of them as were loaded, wherever they lie now
+    std::uint32_t free;       // chain of slots given back
     State state;
     bool dirty;
     bool leaving; // being evicted

@@ -7,7 +7,7 @@ namespace abacus {
 
 namespace {
 constexpr int histogram_bits = 8;
-constexpr double near_enough = 1.0 / 64; // of the simplices
+constexpr double near_enough = 1.0 / 64; // of the records
 constexpr auto by_key = [](const auto &a, const auto &b) { return a.key < b.key; };
 } // namespace
 

@@ -1,9 +1,9 @@
-// Where a block is cut: its simplices with their keys, and how to part them at about some number.
+// Where a block is cut: its records with their keys, and how to part them at about some number.
 #pragma once
 
+#include "blocks/block.hpp"
 #include "host/arena.hpp"
 #include "keys/key.hpp"
-#include "mesh/simplex.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -25,7 +25,7 @@ public:
         least_ = key_word_end;
         greatest_ = 0;
     }
-    /// A simplex; the part of its key is 0 until it is set.
+    /// A record; the part of its key is 0 until it is set.
     void add(std::uint64_t code, Handle h) {
         least_ = std::min(least_, code);
         greatest_ = std::max(greatest_, code);
@@ -46,7 +46,7 @@ public:
     std::size_t cut_near(std::size_t wanted);
 
 private:
-    /// Whether no part tells the simplices of a code apart.
+    /// Whether no part tells the records of a code apart.
     bool has_one_key(std::uint64_t code) const;
     /// The same a little below, by a histogram of the codes; 0 if that does not tell.
     std::size_t cut_below(std::size_t wanted);

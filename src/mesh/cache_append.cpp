@@ -22,11 +22,8 @@ template <int D> VertexIndex Cache<D>::appended_vertex(const std::uint64_t *reco
 template <int D>
 bool Cache<D>::append(const Key &lower, const Key &upper, const LooseSimplex<D> *simplices,
                       std::size_t n) {
-    const BlockIndex b = new_block(Block::cached);
-    blocks_[b].own(lower, upper);
-    blocks_[b].count = blocks_[b].high_water = static_cast<std::uint16_t>(n);
-    directory_.insert(lower, b);
-    const Handle first = b * block_slots<D>;
+    const BlockIndex b = this->begin_appended(lower, upper, n);
+    const Handle first = first_of(b);
     for (std::size_t s = 0; s < n; ++s) {
         Simplex<D> &simplex = slots_[first + s];
         for (int i = 0; i <= D; ++i) {
@@ -43,14 +40,7 @@ bool Cache<D>::append(const Key &lower, const Key &upper, const LooseSimplex<D> 
             else
                 link_outside(link, hash(link), simplices[s].beyond[i]);
         }
-
-    const bool fits = encode(b);
-    if (fits) store(b);
-    blocks_[b].dirty = false;
-    Arena<BlockIndex> victims(host_);
-    victims.push_back(b);
-    evict(victims);
-    return fits;
+    return this->end_appended(b);
 }
 
 template class Cache<2>;

@@ -7,10 +7,6 @@
 // border vertex and border facet, never for each simplex.
 #include "mesh/cache.hpp"
 
-#include "host/stopwatch.hpp"
-
-#include <utility>
-
 namespace abacus {
 
 template <int D> Link Cache<D>::miss(Handle h, int facet) {
@@ -42,64 +38,41 @@ template <int D> bool Cache<D>::follow_stored_link(Handle h, int facet, const Ke
     }
 }
 
-template <int D> BlockIndex Cache<D>::owner(const Key &key) {
-    const BlockIndex cached = cached_owner(key);
-    if (cached != no_block) return cached;
-    const Stopwatch stopwatch(counters.translation_ns);
-    abacus_page page{};
-    if (!host_.find(ABACUS_SIMPLEX_PAGES, key, page)) return no_block;
-    const BlockIndex b = load(page);
-    if (!blocks_[b].owns(key)) throw_corrupted("No page owns a part of the curve.");
-    return b;
-}
-
-template <int D> BlockIndex Cache<D>::load(const abacus_page &page) {
-    ++counters.loads;
-    counters.bytes_read += page.size;
+template <int D> PageContents Cache<D>::open_page(const abacus_page &page) {
     view_.read(page.bytes, page.size, vertices_.attribute_count(),
                options_.verify_checksums ? PageView<D>::Checksum::verify
                                          : PageView<D>::Checksum::ignore);
-    if (!(view_.lower() == page.key)) throw_corrupted("A page is stored under another page's key.");
-    const BlockIndex before = directory_.floor(view_.lower());
-    const BlockIndex after = directory_.after(view_.lower());
-    if ((before != no_block && view_.lower() < blocks_[before].upper) ||
-        (after != no_block && blocks_[after].lower < view_.upper()))
-        throw_corrupted("Two pages own the same part of the curve.");
+    return {view_.lower(), view_.upper(), static_cast<std::uint32_t>(view_.simplices())};
+}
 
-    const BlockIndex b = new_block(Block::cached);
-    Block &block = blocks_[b];
-    block.own(view_.lower(), view_.upper());
-    block.location = page.location;
-    block.count = block.high_water = block.settled = static_cast<std::uint16_t>(view_.simplices());
-    block.capacity = capacity_.learn(block.count, page.size);
-    directory_.insert(block.lower, b);
-
-    const Handle first = b * block_slots<D>;
-    inner_links_.connect(view_, &slots_[first], first, options_.linked_ghosts, border_, on_border_);
+template <int D> void Cache<D>::tie(BlockIndex b) {
+    const Handle first = first_of(b);
+    border_.block = b;
+    inner_links_.connect(view_, &slots_[first], first, options_.linked_ghosts, border_.facets,
+                         border_.has_vertex);
     load_vertices();
-    note_vertices(block);
+    notes_[b] = run_of_vertices();
     load_simplices(first);
     link_outside();
-    return b;
 }
 
 template <int D> void Cache<D>::load_vertices() {
     for (int n = 0; n < view_.vertices(); ++n)
-        if (on_border_[n]) vertices_.prefetch_slot(view_.point(n));
+        if (border_.has_vertex[n]) vertices_.prefetch_slot(view_.point(n));
     for (int n = 0; n < view_.vertices(); ++n)
-        if (on_border_[n]) vertices_.prefetch_vertex(view_.point(n));
+        if (border_.has_vertex[n]) vertices_.prefetch_vertex(view_.point(n));
     // By themselves, as each is a chain of table look-ups.
     codes_.resize(static_cast<std::size_t>(view_.vertices()));
     for (int n = 0; n < view_.vertices(); ++n) codes_[n] = domain_.code(view_.point(n));
-    numbered_.clear();
+    border_.vertices.clear();
     for (int n = 0; n < view_.vertices(); ++n) {
         const Point<D> &p = view_.point(n);
         for (int i = 0; i < view_.attributes(); ++i) values_[i] = view_.attribute(n, i);
-        VertexIndex v = on_border_[n] ? vertices_.find_shared(p) : infinite_vertex;
+        VertexIndex v = border_.has_vertex[n] ? vertices_.find_shared(p) : infinite_vertex;
         if (v == infinite_vertex) {
             v = vertices_.create(p, codes_[n], view_.id(n), values_.data());
-            if (on_border_[n]) vertices_.share(v);
-        } else if (numbered_.contains(vertices_, v)) {
+            if (border_.has_vertex[n]) vertices_.share(v);
+        } else if (border_.vertices.contains(vertices_, v)) {
             throw_corrupted("A page has the same vertex twice.");
         } else if (vertices_.id(v) != view_.id(n)) {
             throw_corrupted("Two pages have different ids for one vertex.");
@@ -107,58 +80,59 @@ template <int D> void Cache<D>::load_vertices() {
                                                          values_.size() * sizeof(double)) != 0) {
             throw_corrupted("Two pages have different attributes for one vertex.");
         }
-        numbered_.number(vertices_, v);
+        border_.vertices.number(vertices_, v);
     }
 }
 
 /// Where the vertices lie that were made for the page at hand, so that they can be asked for.
-template <int D> void Cache<D>::note_vertices(Block &block) const {
+template <int D> VertexRun Cache<D>::run_of_vertices() const {
     VertexIndex least = free_mark, greatest = 0;
-    for (std::size_t n = 0; n < numbered_.size(); ++n) {
-        if (on_border_[n]) continue; // it may be of another page
-        least = std::min(least, numbered_[n]);
-        greatest = std::max(greatest, numbered_[n]);
+    for (std::size_t n = 0; n < border_.vertices.size(); ++n) {
+        if (border_.has_vertex[n]) continue; // it may be of another page
+        least = std::min(least, border_.vertices[n]);
+        greatest = std::max(greatest, border_.vertices[n]);
     }
-    if (least > greatest) return;
-    block.first_vertex = least;
-    block.vertex_run = static_cast<std::uint16_t>(
-        std::min<std::size_t>(greatest - least + 1, 2 * numbered_.size()));
+    if (least > greatest) return {};
+    return {least, static_cast<std::uint16_t>(
+                       std::min<std::size_t>(greatest - least + 1, 2 * border_.vertices.size()))};
 }
 
 template <int D> void Cache<D>::load_simplices(Handle first) {
-    uses_.resize(numbered_.size() + 1); // that of the point at infinity is the last
+    uses_.resize(border_.vertices.size() + 1); // that of the point at infinity is the last
     std::fill(uses_.begin(), uses_.end(), 0);
     for (int s = 0; s < view_.simplices(); ++s)
         for (int i = 0; i <= D; ++i) {
             const auto corner = static_cast<std::size_t>(view_.corner(s, i));
             ++uses_[corner];
             slots_[first + s].vertex[i] =
-                corner < numbered_.size() ? numbered_[corner] : infinite_vertex;
+                corner < border_.vertices.size() ? border_.vertices[corner] : infinite_vertex;
         }
-    for (std::size_t n = 0; n < numbered_.size(); ++n) vertices_.acquire(numbered_[n], uses_[n]);
-    vertices_.acquire(infinite_vertex, uses_[numbered_.size()]);
+    for (std::size_t n = 0; n < border_.vertices.size(); ++n)
+        vertices_.acquire(border_.vertices[n], uses_[n]);
+    vertices_.acquire(infinite_vertex, uses_[border_.vertices.size()]);
 }
 
 template <int D> void Cache<D>::link_outside() {
     // What is read of other blocks lies in cold memory: table, entry, simplex.
-    hashes_.resize(border_.size());
-    for (std::size_t i = 0; i < border_.size(); ++i) {
-        hashes_[i] = hash(border_[i]);
-        visible_.prefetch(hashes_[i]);
+    border_.hashes.resize(border_.facets.size());
+    for (std::size_t i = 0; i < border_.facets.size(); ++i) {
+        border_.hashes[i] = hash(border_.facets[i]);
+        visible_.prefetch(border_.hashes[i]);
     }
-    guesses_.resize(border_.size());
-    for (std::size_t i = 0; i < border_.size(); ++i) {
-        guesses_[i] = visible_.guess(hashes_[i]);
+    guesses_.resize(border_.facets.size());
+    for (std::size_t i = 0; i < border_.facets.size(); ++i) {
+        guesses_[i] = visible_.guess(border_.hashes[i]);
         if (guesses_[i] != VisibleFacets<D>::none) visible_.prefetch_entry(guesses_[i]);
     }
     for (const std::uint32_t guess : guesses_)
         if (guess != VisibleFacets<D>::none)
             __builtin_prefetch(&slots_[link_simplex(visible_[guess].owner)], 1);
-    for (std::size_t i = 0; i < border_.size(); ++i) {
+    for (std::size_t i = 0; i < border_.facets.size(); ++i) {
         const int n = view_.link_vertex(static_cast<int>(i));
         const std::uint64_t code =
-            n < view_.vertices() ? vertices_[numbered_[n]].code : view_.foreign_code(n);
-        link_outside(border_[i], hashes_[i], {code, view_.link_part(static_cast<int>(i))});
+            n < view_.vertices() ? vertices_[border_.vertices[n]].code : view_.foreign_code(n);
+        link_outside(border_.facets[i], border_.hashes[i],
+                     {code, view_.link_part(static_cast<int>(i))});
     }
 }
 

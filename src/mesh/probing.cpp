@@ -170,7 +170,11 @@ template <int D> bool Cache<D>::concentric_probe(Handle h, int facet, const Cell
             if (axis == D) break;
         }
     }
-    // What is still not found may be anywhere: every page there is.
+    return probe_every_page(h, facet);
+}
+
+/// What is still not found may be anywhere.
+template <int D> bool Cache<D>::probe_every_page(Handle h, int facet) {
     Key last{};
     const Key *after = nullptr;
     abacus_page page{};
@@ -178,7 +182,7 @@ template <int D> bool Cache<D>::concentric_probe(Handle h, int facet, const Cell
         host_.poll();
         last = page.key;
         after = &last;
-        if (directory_.contains(last)) continue;
+        if (this->has_block_at(last)) continue;
         ++counters.concentric_probes;
         load(page);
         if (present(h, facet)) return true;

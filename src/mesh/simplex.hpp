@@ -11,6 +11,8 @@
 // the last one of its simplex.
 #pragma once
 
+#include "blocks/block.hpp"
+
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -18,12 +20,10 @@
 namespace abacus {
 
 using VertexIndex = std::uint32_t;
-using Handle = std::uint32_t;
 using Link = std::uint32_t;
 
 inline constexpr VertexIndex infinite_vertex = 0;
 inline constexpr VertexIndex free_mark = 0xffffffffu; // vertex[0] of a free slot
-inline constexpr Handle no_handle = 0xffffffffu;
 inline constexpr Link absent = 0x80000000u;
 inline constexpr Link unset = 0xffffffffu;
 
@@ -36,14 +36,21 @@ constexpr bool is_absent(Link link) { return (link & absent) != 0; }
 
 /// Slots of a block: more than a page of simplices can fill.
 template <int D> inline constexpr std::uint32_t block_slots = D == 2 ? 1024 : 768;
-template <int D> constexpr std::uint32_t block_of(Handle h) { return h / block_slots<D>; }
 
 template <int D> struct Simplex {
     std::array<VertexIndex, D + 1> vertex;
     std::array<Link, D + 1> link;
 
     bool is_ghost() const { return vertex[D] == infinite_vertex; }
+    // A free slot, see blocks/data_type.hpp.
     bool is_free() const { return vertex[0] == free_mark; }
+    std::uint32_t next_free() const { return link[0]; }
+    Handle moved_to() const { return link[1]; }
+    void set_free(std::uint32_t next, Handle moved) {
+        vertex[0] = free_mark;
+        link[0] = next;
+        link[1] = moved;
+    }
     /// Vertices that are not at infinity.
     int finite_vertices() const { return is_ghost() ? D : D + 1; }
     int index_of(VertexIndex v) const {

@@ -132,7 +132,10 @@ public:
     /// references away before it makes new ones.
     void release(VertexIndex v) { --vertices_[v].references; }
     void release(VertexIndex v, std::uint32_t times) { vertices_[v].references -= times; }
-    bool in_use(VertexIndex v) const { return (vertices_[v].references & ~shared) != 0; }
+    /// So many simplices have the vertex.
+    std::uint32_t references(VertexIndex v) const { return vertices_[v].references & ~shared; }
+    bool in_use(VertexIndex v) const { return references(v) != 0; }
+    bool is_shared(VertexIndex v) const { return (vertices_[v].references & shared) != 0; }
 
     void destroy(VertexIndex v) {
         if (vertices_[v].references & shared) slots_.remove(hash(point(v)), v);

@@ -27,6 +27,9 @@ public:
 
     Entry &operator[](std::uint32_t number) { return entries_[number]; }
     const Entry &operator[](std::uint32_t number) const { return entries_[number]; }
+    bool has(std::uint32_t number) const {
+        return number < entries_.size() && entries_[number].owner != unset;
+    }
     std::size_t count() const { return count_; }
     std::size_t bytes() const { return count_ * (sizeof(Entry) + 2 * Slots::slot_bytes); }
 

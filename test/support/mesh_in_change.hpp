@@ -63,6 +63,7 @@ public:
     /// Stores a mesh of so many vertices; what is wrong with it.
     std::vector<std::string> check(std::size_t vertices) {
         cache.flush();
+        if (const char *fault = cache.check_invariants()) return {fault};
         mesh_.header.vertices = vertices;
         mesh_.header.simplices = static_cast<std::uint64_t>(delaunay.simplices());
         mesh_.header.ghosts = static_cast<std::uint64_t>(delaunay.ghosts());

@@ -48,6 +48,7 @@ template <int D> void insert_and_remove(int grid, int steps, int verified_every)
                 points.erase(p) > 0 ? Removed::removed : Removed::no_such_vertex;
             ASSERT_EQ(mesh.removal.remove(p), expected);
         }
+        ASSERT_EQ(mesh.cache.check_invariants(), nullptr) << "step " << step;
         if (step % verified_every == 0) {
             mesh.verify({points.begin(), points.end()});
             if (testing::Test::HasFatalFailure()) return;
