@@ -50,6 +50,7 @@ CORE_SOURCES += src/mesh/cache_check.cpp
 CORE_SOURCES += src/mesh/cache_load.cpp
 CORE_SOURCES += src/mesh/inner_links.cpp
 CORE_SOURCES += src/mesh/page_format.cpp
+CORE_SOURCES += src/mesh/page_order.cpp
 CORE_SOURCES += src/mesh/page_writer.cpp
 CORE_SOURCES += src/mesh/probing.cpp
 CORE_SOURCES += src/points/leaving.cpp

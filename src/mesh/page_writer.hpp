@@ -47,6 +47,8 @@ public:
 private:
     static constexpr std::uint16_t none = 0xffff;
 
+    class Tour; // page_order.cpp
+
     void gather(const Vertices &vertices, const Numbering &numbered);
     void bound_patches();
     void code_links(const Vertices &vertices, const Numbering &numbered, const bool *on_border);
