@@ -4,6 +4,7 @@
 #include "delaunay/outlet.hpp"
 #include "host/stopwatch.hpp"
 #include "keys/domain_of.hpp"
+#include "mesh/counters.hpp"
 #include "staging/rounds.hpp"
 
 #include <algorithm>
@@ -114,7 +115,7 @@ void Build<D>::change(abacus_header &header, Change change) {
     header.simplices = static_cast<std::uint64_t>(core_->mesh.simplices());
     header.ghosts = static_cast<std::uint64_t>(core_->mesh.ghosts());
     core_->cache.counters.total_ns = time;
-    add_counters(header.counters, core_->cache.counters);
+    header.counters += core_->cache.counters;
 }
 
 template <int D> void Build<D>::run(std::uint64_t limit, abacus_header &header) {
@@ -192,15 +193,6 @@ template <int D>
 void Build<D>::report(abacus_phase phase, std::uint64_t done, std::uint64_t total) {
     const abacus_counters &counters = core_->cache.counters;
     host_.progress({phase, done, total, counters.loads, counters.stores});
-}
-
-void add_counters(abacus_counters &sum, const abacus_counters &more) {
-    const std::uint64_t peak = std::max(sum.peak_bytes, more.peak_bytes);
-    // Fields of one type without gaps.
-    auto *to = reinterpret_cast<std::uint64_t *>(&sum);
-    const auto *from = reinterpret_cast<const std::uint64_t *>(&more);
-    for (std::size_t i = 0; i < sizeof sum / sizeof *to; ++i) to[i] += from[i];
-    sum.peak_bytes = peak;
 }
 
 template class Build<2>;

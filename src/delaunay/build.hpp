@@ -93,7 +93,4 @@ private:
     abacus_header *header_ = nullptr;           ///< of the change at hand
 };
 
-/// Adds up counters of several builds; peaks are maxima.
-void add_counters(abacus_counters &sum, const abacus_counters &more);
-
 } // namespace abacus
