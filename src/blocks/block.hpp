@@ -3,13 +3,14 @@
 // Slots are taken from a chain of those given back, or else from behind all that were ever used.
 #pragma once
 
-#include "blocks/directory.hpp"
 #include "keys/key.hpp"
 
 namespace abacus {
 
-using BlockIndex = std::uint32_t;
-inline constexpr BlockIndex no_block = Directory::none;
+/// Numbers a block; a type of its own, so that none is taken for a handle.
+enum class BlockIndex : std::uint32_t {};
+inline constexpr BlockIndex no_block{0xffffffffu};
+constexpr std::uint32_t to_number(BlockIndex b) { return static_cast<std::uint32_t>(b); }
 /// Numbers a record: block * slots of a block + slot.
 using Handle = std::uint32_t;
 inline constexpr Handle no_handle = 0xffffffffu;

@@ -70,7 +70,9 @@ public:
     BlockCache &operator=(const BlockCache &) = delete;
 
     static constexpr std::uint32_t slots = Type::slots;
-    static constexpr BlockIndex block_of(Handle h) { return h / slots; }
+    static constexpr BlockIndex block_of(Handle h) { return BlockIndex{h / slots}; }
+    /// Of a block's first slot.
+    static constexpr Handle first_of(BlockIndex b) { return to_number(b) * slots; }
 
     // ---- Records -------------------------------------------------------------
 
@@ -79,7 +81,7 @@ public:
     bool is_live(Handle h) const {
         if (h >= slots_.size()) return false;
         const BlockIndex b = block_of(h);
-        return blocks_[b].state == Block::cached && h - b * slots < blocks_[b].high_water &&
+        return blocks_[b].state == Block::cached && h - first_of(b) < blocks_[b].high_water &&
                !slots_[h].is_free();
     }
     /// Where settle() took the record, or no_handle; another record, if its slot has been
@@ -103,7 +105,9 @@ public:
     /// Whether the block that owns the key is in memory.
     bool is_cached(const Key &key) const { return cached_owner(key) != no_block; }
     /// Asks for the slots of a block: a stretch of memory, where prefetch instructions do.
-    void ask_for_slots(BlockIndex b) const { prefetch(&slots_[b * slots], blocks_[b].high_water); }
+    void ask_for_slots(BlockIndex b) const {
+        prefetch(&slots_[first_of(b)], blocks_[b].high_water);
+    }
     /// The block around h is in use, as those are that change: for callers that only read.
     void use(Handle h) { blocks_[block_of(h)].used_at = clock_; }
     /// Calls visit(handle) for the records with this code, in all blocks that have some. These
@@ -190,14 +194,18 @@ protected:
         Block &block = blocks_[b];
         ABACUS_ASSERT(!slots_[h].is_free());
         slots_[h].set_free(block.free, moved);
-        block.free = h - b * slots;
+        block.free = h - first_of(b);
         --block.count;
         block.dirty = true;
         block.used_at = clock_;
     }
+    template <class Visit> void for_each_cached(Visit visit) const {
+        for (std::uint32_t n = 0; n < blocks_.size(); ++n)
+            if (blocks_[BlockIndex{n}].state == Block::cached) visit(BlockIndex{n});
+    }
     template <class Visit> void for_each_record(BlockIndex b, Visit visit) const {
         for (std::uint32_t slot = 0; slot < blocks_[b].high_water; ++slot) {
-            const Handle h = b * slots + slot;
+            const Handle h = first_of(b) + slot;
             if (!slots_[h].is_free()) visit(h);
         }
     }
@@ -240,13 +248,13 @@ private:
         Block &block = blocks_[b];
         std::uint32_t slot = block.free;
         if (slot != no_slot)
-            block.free = slots_[b * slots + slot].next_free();
+            block.free = slots_[first_of(b) + slot].next_free();
         else
             slot = block.high_water++;
         ++block.count;
         block.dirty = true;
         block.used_at = clock_;
-        return b * slots + slot;
+        return first_of(b) + slot;
     }
     void bring_home(std::uint64_t code);
     void relieve(std::uint64_t code);
@@ -309,7 +317,7 @@ private:
 
     PageCapacity capacity_;
     unsigned full_blocks_ = 0; // so far
-    Directory directory_;
+    DirectoryOf<BlockIndex> directory_;
     Arena<BlockIndex> unused_blocks_;
     Arena<BlockIndex> overfull_; // to make room when the operation ends, some more than once
     Arena<BlockIndex> limbo_;
@@ -321,9 +329,9 @@ private:
 
 protected:
     const Host &host_;
-    Arena<Block> blocks_;
-    Arena<Record> slots_;              // so many of each block
-    Arena<typename Type::Note> notes_; // the owner's, of each block; zero at first
+    Arena<Block, BlockIndex> blocks_;
+    Arena<Record> slots_;                          // so many of each block
+    Arena<typename Type::Note, BlockIndex> notes_; // the owner's, of each block; zero at first
 };
 
 template <class Owner, BlockDescription Type>

@@ -36,13 +36,14 @@ BlockIndex BlockCache<Owner, Type>::new_block(Block::State state) {
         b = unused_blocks_.back();
         unused_blocks_.pop_back();
     } else {
-        b = static_cast<BlockIndex>(blocks_.size());
-        if ((std::uint64_t(b) + 1) * slots >= Type::handles_end)
+        const std::size_t known = blocks_.size();
+        b = static_cast<BlockIndex>(known);
+        if ((known + 1) * slots >= Type::handles_end)
             throw Error(ABACUS_ERROR_LIMIT, "the computational cache has too many blocks", {},
                         "Lower abacus.cache_size.");
-        blocks_.resize(b + 1);
-        notes_.resize(b + 1);
-        slots_.resize((std::size_t(b) + 1) * slots);
+        blocks_.resize(known + 1);
+        notes_.resize(known + 1);
+        slots_.resize((known + 1) * slots);
     }
     Block &block = blocks_[b];
     block = Block{};
@@ -171,9 +172,9 @@ const char *BlockCache<Owner, Type>::check_block(BlockIndex b, bool forged) cons
     std::uint32_t used = 0, free = 0;
     for_each_record(b, [&](Handle) { ++used; });
     for (std::uint32_t slot = block.free; slot != no_slot && free <= block.high_water; ++free) {
-        if (slot >= block.high_water || !slots_[b * slots + slot].is_free())
+        if (slot >= block.high_water || !slots_[first_of(b) + slot].is_free())
             return "a chain of free slots leads astray";
-        slot = slots_[b * slots + slot].next_free();
+        slot = slots_[first_of(b) + slot].next_free();
     }
     if (used != block.count || used + free != block.high_water) return "slots are counted wrong";
     bool at_home = true;
@@ -187,13 +188,16 @@ template <class Owner, BlockDescription Type>
 const char *BlockCache<Owner, Type>::check_invariants(bool forged) const {
     if (!limbo_.empty()) return "limbo is not empty";
     std::size_t cached = 0, unused = 0, listed = 0;
-    for (BlockIndex b = 0; b < blocks_.size(); ++b) {
-        if (blocks_[b].state == Block::limbo) return "a block is in limbo";
-        cached += blocks_[b].state == Block::cached;
-        unused += blocks_[b].state == Block::unused;
-        if (blocks_[b].state != Block::cached) continue;
-        if (const char *fault = check_block(b, forged)) return fault;
+    const char *fault = nullptr;
+    for (const Block &block : blocks_) {
+        if (block.state == Block::limbo) return "a block is in limbo";
+        unused += block.state == Block::unused;
     }
+    for_each_cached([&](BlockIndex b) {
+        ++cached;
+        if (fault == nullptr) fault = check_block(b, forged);
+    });
+    if (fault != nullptr) return fault;
     for (Key key = first_key;; ++listed) {
         const BlockIndex b =
             directory_.contains(key) ? directory_.floor(key) : directory_.after(key);

@@ -78,8 +78,9 @@ template <class Owner, BlockDescription Type> void BlockCache<Owner, Type>::flus
         key = blocks_[b].upper;
     }
     Arena<BlockIndex> changed(host_);
-    for (BlockIndex b = 0; b < blocks_.size(); ++b)
-        if (blocks_[b].state == Block::cached && blocks_[b].dirty) changed.push_back(b);
+    for_each_cached([&](BlockIndex b) {
+        if (blocks_[b].dirty) changed.push_back(b);
+    });
     for (std::size_t i = 0; i < changed.size(); ++i) {
         ask_ahead(changed, i);
         write(changed[i], changed);

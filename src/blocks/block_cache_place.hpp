@@ -57,7 +57,7 @@ void BlockCache<Owner, Type>::bring_home(std::uint64_t code) {
     for (std::size_t i = 0; i < limbo_.size(); ++i) {
         const BlockIndex b = limbo_[i];
         for (std::uint32_t slot = 0; slot < blocks_[b].high_water; ++slot) {
-            const Handle h = b * slots + slot;
+            const Handle h = first_of(b) + slot;
             if (slots_[h].is_free()) continue;
             BlockIndex to = home(slots_[h]);
             while (to != no_block && blocks_[to].is_full()) {

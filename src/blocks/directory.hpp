@@ -12,22 +12,23 @@
 
 namespace abacus {
 
-class Directory {
+/// `Index`: what blocks are numbered by.
+template <class Index> class DirectoryOf {
 public:
-    static constexpr std::uint32_t none = 0xffffffffu;
+    static constexpr Index none{0xffffffffu};
 
-    explicit Directory(const Host &host) : entries_(host), pieces_(host), unused_(host) {}
+    explicit DirectoryOf(const Host &host) : entries_(host), pieces_(host), unused_(host) {}
 
     /// The block with the greatest lower key <= key, or none.
-    std::uint32_t floor(const Key &key) const {
+    Index floor(const Key &key) const {
         return at([&](const Key &lower) { return !(key < lower); });
     }
     /// The block with the greatest lower key < key, or none.
-    std::uint32_t before(const Key &key) const {
+    Index before(const Key &key) const {
         return at([&](const Key &lower) { return lower < key; });
     }
     /// The block with the least lower key > key, or none.
-    std::uint32_t after(const Key &key) const {
+    Index after(const Key &key) const {
         for (std::size_t p = piece_of(key); p < pieces_.size(); ++p) {
             const Entry *first = begin(p), *last = first + pieces_[p].count;
             const Entry *entry =
@@ -43,7 +44,7 @@ public:
         return entry != begin(p) + pieces_[p].count && entry->lower == lower;
     }
 
-    void insert(const Key &lower, std::uint32_t block) {
+    void insert(const Key &lower, Index block) {
         if (pieces_.empty()) add_piece(0, lower);
         std::size_t p = piece_of(lower);
         if (pieces_[p].count == piece_size) {
@@ -74,7 +75,7 @@ private:
 
     struct Entry {
         Key lower;
-        std::uint32_t block;
+        Index block;
     };
     struct Piece {
         Key first;
@@ -98,11 +99,11 @@ private:
                                     [&](const Entry &e) { return e.lower < lower; });
     }
     const Entry *find(std::size_t p, const Key &lower) const {
-        return const_cast<Directory *>(this)->find(p, lower);
+        return const_cast<DirectoryOf *>(this)->find(p, lower);
     }
 
     /// The last block whose lower key is `low`.
-    template <class Low> std::uint32_t at(Low low) const {
+    template <class Low> Index at(Low low) const {
         const Piece *piece = std::partition_point(pieces_.begin(), pieces_.end(),
                                                   [&](const Piece &p) { return low(p.first); });
         if (piece == pieces_.begin()) return none;
@@ -137,5 +138,8 @@ private:
     Arena<Piece> pieces_;
     Arena<std::uint32_t> unused_;
 };
+
+/// With numbers of the caller's.
+using Directory = DirectoryOf<std::uint32_t>;
 
 } // namespace abacus

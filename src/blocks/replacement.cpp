@@ -18,8 +18,8 @@ void Replacement::set_limit() {
     limit_ = std::min(limit_, bytes_before_pass_ > 0 ? bytes_before_pass_ + after_others : alone);
 }
 
-void Replacement::choose(const Arena<Block> &blocks, std::size_t cached, std::uint64_t clock,
-                         Arena<BlockIndex> &victims) {
+void Replacement::choose(const Arena<Block, BlockIndex> &blocks, std::size_t cached,
+                         std::uint64_t clock, Arena<BlockIndex> &victims) {
     const auto is_behind = [&](const Block &b) { return b.upper.code <= front_; };
     std::size_t behind = 0;
     for (const Block &b : blocks) behind += b.state == Block::cached && is_behind(b);
@@ -27,7 +27,8 @@ void Replacement::choose(const Arena<Block> &blocks, std::size_t cached, std::ui
     const bool along_the_curve = front_ != 0 && cached >= 2 * least_window;
     const bool window_is_full = behind > std::max(least_window, cached * window_share / 100);
     candidates_.clear();
-    for (BlockIndex b = 0; b < blocks.size(); ++b) {
+    for (std::uint32_t n = 0; n < blocks.size(); ++n) {
+        const BlockIndex b{n};
         const Block &block = blocks[b];
         if (block.state != Block::cached) continue;
         Candidate &c = *candidates_.extend(1);

@@ -59,7 +59,7 @@ public:
     }
     /// Lists the next blocks to leave, some of those cached, of which there are more than two: a
     /// tenth, but for a bound. `clock`: the number of the operation at hand.
-    void choose(const Arena<Block> &blocks, std::size_t cached, std::uint64_t clock,
+    void choose(const Arena<Block, BlockIndex> &blocks, std::size_t cached, std::uint64_t clock,
                 Arena<BlockIndex> &victims);
 
 private:

@@ -6,7 +6,7 @@ namespace {
 // Removals come in any order, so what lies before a vertex on the curve is not finished: a
 // block that is full after all is cut at its median, not at the vertex.
 constexpr std::uint64_t anywhere = 0;
-constexpr Link nowhere = 0xffffffffu;
+constexpr Link nowhere = unset;
 } // namespace
 
 template <int D> Link Removal<D>::find(const Point<D> &p) {

@@ -22,7 +22,8 @@
 
 namespace abacus {
 
-template <class T> class Arena {
+/// `Index`: what its elements are numbered by. A type of its own is taken for no other's.
+template <class T, class Index = std::size_t> class Arena {
     static_assert(std::is_trivially_copyable_v<T>);
 
 public:
@@ -35,8 +36,8 @@ public:
           capacity_(std::exchange(other.capacity_, 0)), ready_(std::exchange(other.ready_, 0)) {}
     ~Arena() { host_->release(block_); }
 
-    T &operator[](std::size_t i) { return data_[i]; }
-    const T &operator[](std::size_t i) const { return data_[i]; }
+    T &operator[](Index i) { return data_[static_cast<std::size_t>(i)]; }
+    const T &operator[](Index i) const { return data_[static_cast<std::size_t>(i)]; }
     T *data() { return data_; }
     const T *data() const { return data_; }
     T *begin() { return data_; }

@@ -194,7 +194,7 @@ public:
         for (int i = 0; i <= D; ++i) {
             const Link link = slots_[from].link[i];
             if (is_absent(link))
-                visible_[link & ~absent].owner = make_link(to, i);
+                visible_[visible_facet(link)].owner = make_link(to, i);
             else
                 slots_[link_simplex(link)].link[link_facet(link)] = make_link(to, i);
         }
@@ -210,7 +210,8 @@ public:
 private:
     friend Blocks;
     using Blocks::slots_, Blocks::blocks_, Blocks::notes_, Blocks::host_, Blocks::owner,
-        Blocks::cached_owner, Blocks::load, Blocks::for_each_record;
+        Blocks::cached_owner, Blocks::load, Blocks::for_each_record, Blocks::for_each_cached,
+        Blocks::first_of;
 
     /// What a page says of the facets on its border and its vertices, or a block does.
     struct Border {
@@ -229,7 +230,6 @@ private:
     }
     /// Of the facet, among those visible.
     std::uint32_t hash(Link link) const { return VisibleFacets<D>::hash(facet(link)); }
-    Handle first_of(BlockIndex b) const { return b * block_slots<D>; }
 
     // cache.cpp
     Handle closest_of_some(BlockIndex b, const Point<D> &p) const;

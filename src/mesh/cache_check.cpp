@@ -11,7 +11,7 @@ template <int D> const char *Cache<D>::check_links(Handle h) const {
         const Link here = make_link(h, i), there = s.link[i];
         if (there == unset) return "a link is unset";
         if (is_absent(there)) {
-            const std::uint32_t entry = there & ~absent;
+            const std::uint32_t entry = visible_facet(there);
             if (!visible_.has(entry)) return "an absent link names no visible facet";
             if (visible_[entry].owner != here) return "a visible facet has another owner";
             if (visible_[entry].hash != hash(here)) return "a visible facet has another hash";
@@ -40,11 +40,11 @@ template <int D> const char *Cache<D>::check_vertices() const {
     Arena<std::uint32_t> uses(host_);
     uses.resize(vertices_.end());
     std::fill(uses.begin(), uses.end(), 0);
-    for (BlockIndex b = 0; b < blocks_.size(); ++b)
-        if (blocks_[b].state == Block::cached)
-            for_each_record(b, [&](Handle h) {
-                for (const VertexIndex v : slots_[h].vertex) ++uses[v];
-            });
+    for_each_cached([&](BlockIndex b) {
+        for_each_record(b, [&](Handle h) {
+            for (const VertexIndex v : slots_[h].vertex) ++uses[v];
+        });
+    });
     for (VertexIndex v = 0; v < uses.size(); ++v)
         if (uses[v] != vertices_.references(v)) return "a vertex counts its simplices wrong";
     return nullptr;
@@ -54,12 +54,12 @@ template <int D> const char *Cache<D>::check_invariants(bool forged) const {
     if (const char *fault = Blocks::check_invariants(forged)) return fault;
     const char *fault = nullptr;
     std::size_t absents = 0;
-    for (BlockIndex b = 0; b < blocks_.size(); ++b)
-        if (blocks_[b].state == Block::cached)
-            for_each_record(b, [&](Handle h) {
-                if (fault == nullptr) fault = check_links(h);
-                for (const Link link : slots_[h].link) absents += is_absent(link);
-            });
+    for_each_cached([&](BlockIndex b) {
+        for_each_record(b, [&](Handle h) {
+            if (fault == nullptr) fault = check_links(h);
+            for (const Link link : slots_[h].link) absents += is_absent(link);
+        });
+    });
     if (fault != nullptr) return fault;
     if (absents != visible_.count()) return "a visible facet has no owner";
     return check_vertices();

@@ -12,7 +12,7 @@ namespace abacus {
 template <int D> Link Cache<D>::miss(Handle h, int facet) {
     ++counters.misses;
     host_.poll();
-    const Key beyond = visible_[slots_[h].link[facet] & ~absent].beyond;
+    const Key beyond = visible_[visible_facet(slots_[h].link[facet])].beyond;
     const bool known = options_.stored_links && beyond.code != unknown_code;
     if (!known)
         probe(h, facet);
@@ -145,7 +145,7 @@ template <int D> void Cache<D>::link_outside(Link link, std::uint32_t hash, cons
     const std::uint32_t number =
         visible_.find(hash, [&](Link owner) { return facet(owner).vertex == outer.vertex; });
     if (number == VisibleFacets<D>::none) {
-        slots_[h].link[link_facet(link)] = absent | visible_.add(hash, beyond, link);
+        slots_[h].link[link_facet(link)] = absent_link(visible_.add(hash, beyond, link));
         return;
     }
     const Link owner = visible_[number].owner;

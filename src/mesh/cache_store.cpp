@@ -23,7 +23,7 @@ template <int D> void Cache<D>::untie(BlockIndex b) {
         const Link link =
             slots_[link_simplex(border_.facets[i])].link[link_facet(border_.facets[i])];
         if (is_absent(link))
-            visible_.prefetch_entry(link & ~absent);
+            visible_.prefetch_entry(visible_facet(link));
         else if (blocks_[block_of(link_simplex(link))].leaving)
             continue;
         border_.hashes[i] = hash(border_.facets[i]);
@@ -33,7 +33,7 @@ template <int D> void Cache<D>::untie(BlockIndex b) {
         const Handle h = link_simplex(border_.facets[i]);
         const Link link = slots_[h].link[link_facet(border_.facets[i])];
         if (is_absent(link)) {
-            visible_.remove(link & ~absent);
+            visible_.remove(visible_facet(link));
             continue;
         }
         const Handle neighbour = link_simplex(link);
@@ -41,7 +41,7 @@ template <int D> void Cache<D>::untie(BlockIndex b) {
         const Simplex<D> &s = slots_[h];
         const Key key{code(s), blocks_[b].has_parts() ? part(s) : 0};
         slots_[neighbour].link[link_facet(link)] =
-            absent | visible_.add(border_.hashes[i], key, link);
+            absent_link(visible_.add(border_.hashes[i], key, link));
     }
     for_each_record(b, [&](Handle h) {
         for (const VertexIndex v : slots_[h].vertex) vertices_.release(v);
@@ -75,7 +75,7 @@ template <int D> void Cache<D>::end_eviction() {
 
 template <int D> Key Cache<D>::key_beyond(Handle h, int facet) const {
     const Link link = slots_[h].link[facet];
-    if (is_absent(link)) return visible_[link & ~absent].beyond;
+    if (is_absent(link)) return visible_[visible_facet(link)].beyond;
     const Handle neighbour = link_simplex(link);
     const Simplex<D> &s = slots_[neighbour];
     return {code(s), blocks_[block_of(neighbour)].has_parts() ? part(s) : 0};
@@ -113,7 +113,7 @@ template <int D> void Cache<D>::mark_border() {
         const Simplex<D> &s = slots_[link_simplex(inner)];
         const Link outer = s.link[link_facet(inner)];
         if (is_absent(outer))
-            visible_.prefetch_entry(outer & ~absent);
+            visible_.prefetch_entry(visible_facet(outer));
         else
             touch(&slots_[link_simplex(outer)]);
         for (int i = 0; i <= D; ++i)

@@ -20,10 +20,11 @@ void InnerLinks<D>::join_trees(const PageView<D> &page, Simplex<D> *slots, Handl
     const int simplices = page.simplices();
     for (int s = 0; s < simplices; ++s) slots[s].link.fill(unset);
     for (int s = 0; s < simplices; ++s) {
-        const Link parent = page.parent(s);
+        const PageLink parent = page.parent(s);
         if (parent == PageView<D>::no_link) [[unlikely]]
             continue;
-        join(slots, first, parent, make_link(static_cast<Handle>(s), page.facet_to_parent(s)));
+        join(slots, first, make_link(page_simplex(parent), page_facet(parent)),
+             make_link(static_cast<Handle>(s), page.facet_to_parent(s)));
     }
     // The facets still open, gathered without a branch: which they are is hard to foresee.
     open_.resize(std::size_t(simplices) * (D + 1) + 1); // one more, to be overwritten
@@ -47,26 +48,24 @@ void InnerLinks<D>::match_open(const PageView<D> &page, Simplex<D> *slots, Handl
     for (const Link link : open_) {
         const int s = static_cast<int>(link_simplex(link)), i = link_facet(link);
         if (is_loose_ridge<D>(linked_ghosts, page.is_ghost(s), i)) {
-            slots[s].link[i] = make_link(first, 0) + link; // its own neighbour
+            slots[s].link[i] = link_from(first, link); // its own neighbour
             continue;
         }
         const FacetVertices<D, std::uint32_t> facet(page.corners(s), i);
         std::uint64_t vertices = 0;
         for (const std::uint32_t v : facet.vertex) vertices = vertices << 16 | v;
-        const Link odd = facet.odd ? absent : 0;
         std::uint16_t &chain = chains_[shift == 64 ? 0 : vertices * 0x9e3779b97f4a7c15ull >> shift];
         std::uint16_t at = chain;
         while (at != no_facet && facets_[at].vertices != vertices) at = facets_[at].next;
         if (at == no_facet) {
-            facets_.push_back({vertices, link | odd, chain});
+            facets_.push_back({vertices, link, chain, facet.odd});
             chain = static_cast<std::uint16_t>(facets_.size() - 1);
             continue;
         }
         LocalFacet &other = facets_[at];
         if (other.link == unset) throw_corrupted("Three simplices share a facet.");
-        if ((other.link & absent) == odd)
-            throw_corrupted("Neighbours have different orientations.");
-        join(slots, first, other.link & ~absent, link);
+        if (other.odd == facet.odd) throw_corrupted("Neighbours have different orientations.");
+        join(slots, first, other.link, link);
         other.link = unset;
     }
 }
@@ -80,8 +79,8 @@ void InnerLinks<D>::list_border(const PageView<D> &page, Handle first, Arena<Lin
     std::fill(on_border.begin(), on_border.end(), false);
     for (const LocalFacet &facet : facets_) {
         if (facet.link == unset) continue;
-        const Link link = facet.link & ~absent;
-        border.push_back(make_link(first, 0) + link);
+        const Link link = facet.link;
+        border.push_back(link_from(first, link));
         const int s = static_cast<int>(link_simplex(link));
         for (int j = 0; j <= D; ++j)
             if (j != link_facet(link) && page.corner(s, j) < page.vertices())

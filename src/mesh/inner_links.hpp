@@ -29,14 +29,15 @@ private:
     // Links name simplices by their numbers in the page here.
     struct LocalFacet {
         std::uint64_t vertices;
-        Link link; // with `absent` for an odd facet; unset once it has found its partner
+        Link link; // unset once it has found its partner
         std::uint16_t next;
+        bool odd;
     };
     static constexpr std::uint16_t no_facet = 0xffff;
 
     static void join(Simplex<D> *slots, Handle first, Link a, Link b) {
-        slots[link_simplex(a)].link[link_facet(a)] = make_link(first, 0) + b;
-        slots[link_simplex(b)].link[link_facet(b)] = make_link(first, 0) + a;
+        slots[link_simplex(a)].link[link_facet(a)] = link_from(first, b);
+        slots[link_simplex(b)].link[link_facet(b)] = link_from(first, a);
     }
     /// Sets the links that are stored, and lists the facets that are still open.
     void join_trees(const PageView<D> &page, Simplex<D> *slots, Handle first);

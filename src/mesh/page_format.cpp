@@ -173,7 +173,7 @@ template <int D> void PageView<D>::read_patch(int patch) {
     const auto named_end = static_cast<std::size_t>(named_of(patch).end);
     int s = simplices_of(patch).begin;
     const int patch_end = simplices_of(patch).end;
-    std::uint16_t *reached = parents_.data() + s;
+    PageLink *reached = parents_.data() + s;
     Lanes repeated{}; // where an apex is, too
     // What comes next is as hard to foresee as a coin: branches only lead to errors, and those
     // that nothing of this loop relies on are told after it.
@@ -189,16 +189,16 @@ template <int D> void PageView<D>::read_patch(int patch) {
                 named += D + 1;
                 *reached++ = no_link;
             } else {
-                const std::uint16_t parent = parents_[s];
+                const PageLink parent = parents_[s];
                 const std::size_t is_new = bits & 1;
                 bits >>= 1;
                 const std::size_t number = numbers.narrow(named);
                 const std::size_t apex = number ^ ((number ^ fresh) & -is_new);
                 const std::size_t known = fresh + is_new;
-                const Lanes corners = corners_[link_simplex(parent)];
+                const Lanes corners = corners_[page_simplex(parent)];
                 const Lanes everywhere = Lanes{} + static_cast<std::uint16_t>(apex);
                 repeated |= corners == everywhere;
-                facet = link_facet(parent);
+                facet = page_facet(parent);
                 Lanes child = child_across(corners, facet, everywhere);
                 if (apex >= known) [[unlikely]] {
                     require(apex == infinity && is_new == 0, unknown_vertex);
@@ -210,7 +210,7 @@ template <int D> void PageView<D>::read_patch(int patch) {
                 named += 1 - is_new;
             }
             const Lanes parents =
-                children<D>.facets[facet][bits] + static_cast<std::uint16_t>(make_link(s, 0));
+                children<D>.facets[facet][bits] + page_link(static_cast<unsigned>(s), 0);
             std::memcpy(reached, &parents, sizeof parents);
             reached += children<D>.count[facet][bits];
             require(named <= named_end, wrong_size);

@@ -159,15 +159,16 @@ public:
     const Lanes &corners(int simplex) const { return corners_[simplex]; }
     bool is_ghost(int simplex) const { return corner(simplex, D) == vertices(); }
 
-    /// The facet across which a simplex was reached, as its parent sees it: simplices of the
-    /// page are its handles; `no_link` of a root.
-    static constexpr std::uint16_t no_link = 0xffff;
-    std::uint16_t parent(int simplex) const { return parents_[simplex]; }
+    /// The facet across which a simplex was reached, as its parent sees it: `no_link` of
+    /// a root.
+    static constexpr PageLink no_link = 0xffff;
+    PageLink parent(int simplex) const { return parents_[simplex]; }
     /// ... and as the simplex itself sees it.
     int facet_to_parent(int simplex) const {
-        const std::uint16_t up = parent(simplex);
-        const bool begins_ghosts = is_ghost(simplex) && !is_ghost(link_simplex(up));
-        return begins_ghosts ? D : facet_back(link_facet(up));
+        const PageLink up = parent(simplex);
+        const bool begins_ghosts =
+            is_ghost(simplex) && !is_ghost(static_cast<int>(page_simplex(up)));
+        return begins_ghosts ? D : facet_back(page_facet(up));
     }
 
 private:
@@ -195,7 +196,7 @@ private:
     std::array<Point<D>, page_vertices<D>> points_;
     std::array<Lanes, block_slots<D>> corners_;
     // The last ones are overwritten, until it is known that there are too many.
-    std::array<std::uint16_t, block_slots<D> + simplices_at_once *(D + 2) + lanes> parents_;
+    std::array<PageLink, block_slots<D> + simplices_at_once *(D + 2) + lanes> parents_;
 };
 
 } // namespace abacus

@@ -120,8 +120,7 @@ private:
         reached_[other] |= static_cast<std::uint8_t>(is_child);
         *cut_ = other;
         cut_ += is_open ^ is_child;
-        order_[count_] = {other, static_cast<std::uint16_t>(make_link(at, f)),
-                          static_cast<std::uint8_t>(link_facet(link)), 0};
+        order_[count_] = {other, page_link(at, f), static_cast<std::uint8_t>(link_facet(link)), 0};
         count_ += is_child;
         *to_border_ = make_link(first_ + slot, i);
         to_border_ += is_outside & (link != untold);
@@ -141,9 +140,9 @@ private:
     [[gnu::always_inline]] inline unsigned place_child(std::uint32_t at, const Placed &placed) {
         const Simplex<D> &s = slots_[placed.slot];
         const VertexIndex apex = s.vertex[placed.mirror];
-        const WideLanes parent = corners_[link_simplex(placed.parent)];
+        const WideLanes parent = corners_[page_simplex(placed.parent)];
         const WideLanes everywhere = WideLanes{} + apex;
-        const int facet = link_facet(placed.parent);
+        const int facet = page_facet(placed.parent);
         int entry = facet_back(facet);
         WideLanes child = child_across(parent, facet, everywhere);
         if (apex == infinite_vertex && facet != D) [[unlikely]] {

@@ -8,6 +8,14 @@
 
 namespace abacus {
 
+/// A facet of a simplex of a page, which is numbered by its place there.
+using PageLink = std::uint16_t;
+constexpr PageLink page_link(unsigned simplex, int facet) {
+    return static_cast<PageLink>(simplex << 2 | static_cast<unsigned>(facet));
+}
+constexpr unsigned page_simplex(PageLink link) { return link >> 2; }
+constexpr int page_facet(PageLink link) { return link & 3; }
+
 /// The facet towards the parent of a child across facet `f`, unless its apex alone is at infinity.
 constexpr int facet_back(int f) { return f ^ static_cast<int>(f < 2); }
 

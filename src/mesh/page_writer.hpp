@@ -61,8 +61,8 @@ private:
     // What comes out, in the page's order.
     struct Placed {
         std::uint32_t slot;
-        std::uint16_t parent; // no link for a root
-        std::uint8_t mirror;  // facet to the parent, in the slot
+        PageLink parent;     // no link for a root
+        std::uint8_t mirror; // facet to the parent, in the slot
         std::uint8_t step;
     };
     Arena<Placed> order_;

@@ -92,8 +92,7 @@ public:
     const char *check() const {
         if (const char *fault = check_invariants()) return fault;
         std::size_t cached = 0;
-        for (BlockIndex b = 0; b < blocks_.size(); ++b)
-            if (blocks_[b].state == Block::cached) cached += blocks_[b].count;
+        for_each_cached([&](BlockIndex b) { cached += blocks_[b].count; });
         if (cached != index_.size()) return "the index has other entries than the blocks";
         for (const auto &[h, key] : index_)
             if (!is_live(h) || !(record(h).key == key)) return "the index leads astray";
@@ -126,8 +125,8 @@ public:
         EXPECT_EQ(notes_[b].pages, 0u);
         notes_[b].pages = 1;
         for (std::uint32_t i = 0; i < head_.entries; ++i) {
-            slots_[b * slots + i] = read_[i];
-            index_[b * slots + i] = read_[i].key;
+            slots_[first_of(b) + i] = read_[i];
+            index_[first_of(b) + i] = read_[i].key;
         }
     }
     EncodedPage encode_page(BlockIndex b) {
