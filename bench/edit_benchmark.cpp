@@ -59,7 +59,7 @@ private:
         header.counters = {};
         std::uint64_t deleted;
         require(removes ? abacus_build_delete(build, stage, 0, &header, &deleted, &error)
-                        : abacus_build_insert(build, stage, &header, &error),
+                        : abacus_build_insert(build, stage, ABACUS_KEEP, &header, &error),
                 error);
         abacus_build_close(build);
         abacus_stage_close(stage);

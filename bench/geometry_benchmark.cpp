@@ -1,6 +1,6 @@
 // Predicates and locational codes, the innermost operations.
-#include "geometry/locational_code.hpp"
 #include "geometry/predicates.hpp"
+#include "keys/locational_code.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -13,8 +13,8 @@
 // last that read a page for it. The core polls its host at the start of every
 // miss: that is when the host here looks at the counters and judges the miss
 // before.
-#include "cache/domain_of.hpp"
 #include "delaunay/insertion.hpp"
+#include "keys/domain_of.hpp"
 #include "points/vertex_reader.hpp"
 #include "staged_file.hpp"
 #include "support/memory_host.hpp"

@@ -137,7 +137,7 @@ if [[ ! -x $oracle/oracle_compare ]] || [[ -z ${ABACUS_BUILT:-} ]]; then
     install_extension
 fi
 cluster_start acceptance
-run_psql -c "CREATE EXTENSION abacus" -c "CREATE EXTENSION cube"
+run_psql -c "CREATE EXTENSION abacus" -c "CREATE EXTENSION abacus_lab" -c "CREATE EXTENSION cube"
 mkdir -p "$folder"
 
 for set in "${sets[@]}"; do

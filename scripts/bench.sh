@@ -29,5 +29,5 @@ if [[ -z ${ABACUS_BUILT:-} ]]; then
     install_extension
 fi
 cluster_start bench
-run_psql -c "CREATE EXTENSION abacus"
+run_psql -c "CREATE EXTENSION abacus" -c "CREATE EXTENSION abacus_lab"
 python3 bench/suite "$mode" "$@"

@@ -22,18 +22,24 @@ fail() {
     exit 1
 }
 
-# Builds and installs the extension as a packager does, but in a folder of its
+# Builds, and installs, the extensions as a packager does, but in a folder of its
 # own, so that the source tree stays clean.
-install_extension() {
-    local make=(make -s -C "$ABACUS_BUILD/extension" -f "$ABACUS_ROOT/Makefile.pgxs"
-        PG_CONFIG="$PG_CONFIG")
+extension_make=(make -s -C "$ABACUS_BUILD/extension" -f "$ABACUS_ROOT/Makefile.pgxs"
+    PG_CONFIG="$PG_CONFIG")
+
+build_extension() {
     mkdir -p "$ABACUS_BUILD/extension"
-    "${make[@]}" -j"$ABACUS_JOBS" all && as_root "${make[@]}" install >/dev/null
+    "${extension_make[@]}" -j"$ABACUS_JOBS" all
 }
 
-# Builds the given CMake targets (all by default) in build/release.
+install_extension() {
+    build_extension && as_root "${extension_make[@]}" install >/dev/null
+}
+
+# Builds the given CMake targets (all by default) in build/release; warnings are errors where
+# ABACUS_WERROR says so.
 build_release() {
     local targets=("${@:-all}")
-    cmake -S . -B build/release >/dev/null
+    cmake -S . -B build/release ${ABACUS_WERROR:+-DABACUS_WERROR=ON} >/dev/null
     cmake --build build/release -j "$ABACUS_JOBS" --target "${targets[@]}"
 }

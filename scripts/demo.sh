@@ -113,7 +113,7 @@ heading "Building and installing the extension"
 timed "build and install the extension" install_extension
 mkdir -p "$pictures"
 cluster_start demo
-run_psql -c "CREATE EXTENSION abacus"
+run_psql -c "CREATE EXTENSION abacus" -c "CREATE EXTENSION abacus_lab"
 
 heading "The shorelines of the world"
 timed "load the shorelines with COPY" load_shorelines

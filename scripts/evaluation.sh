@@ -27,6 +27,6 @@ if [[ $mode != list && $mode != report ]]; then
         install_extension
     fi
     cluster_start evaluation
-    run_psql -c "CREATE EXTENSION abacus"
+    run_psql -c "CREATE EXTENSION abacus" -c "CREATE EXTENSION abacus_lab"
 fi
 PYTHONPATH=bench/suite python3 bench/evaluation "$mode" "$@"

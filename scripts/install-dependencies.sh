@@ -20,6 +20,7 @@ demo=(
 )
 test=(
     cmake clang libclang-rt-14-dev  # clang brings libFuzzer
+    clang-format clang-tidy
     libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
     libtet1.5-dev libqhull-dev      # TetGen and Qhull, to compare with
     gnuplot-nox                     # plots of docs/benchmarks.md

@@ -4,7 +4,8 @@
 A world is two meshes of one dimension and what they should hold. `mesh` is
 changed by abacus_insert, abacus_delete, abacus_stage, abacus_triangulate and
 abacus_build; the table `model` records its points by plain SQL, in the same
-transactions. `followed` follows the table `tracked` (abacus_track), which is
+transactions. `followed` follows the table `tracked` (abacus_track), at once, at
+commit, or as one with partitions; it is
 changed by INSERT, UPDATE, DELETE, MERGE, COPY and TRUNCATE. Changes are of one
 point or many, in transactions with savepoints, committed or rolled back, with
 large and small caches, and some are made to fail on the way.
@@ -181,10 +182,12 @@ class World:
         if fails:
             self.session.run(f"SET abacus.fail_host_call = {int(10 ** self.chance.uniform(0, 3.3))};")
         went = self.session.run(statements[-1], EXPECTED if fails else ()) is not None
+        if alone and went:
+            went = self.session.run("COMMIT;", EXPECTED if fails else ()) is not None
+        elif alone:
+            self.session.run("ROLLBACK;")
         self.done["changes" if went else "failures"] += 1
-        if alone:
-            self.session.run("COMMIT;" if went else "ROLLBACK;")
-        elif not went:
+        if not alone and not went:
             self.session.run("ROLLBACK TO change;")
         if fails:
             self.session.run("SET abacus.fail_host_call = 0;")
@@ -248,6 +251,10 @@ class World:
 
     def look(self):
         """Both meshes, as this session and as others see them."""
+        if self.savepoints is not None:  # where the mesh follows at commit, have it follow now
+            self.session.run("SET CONSTRAINTS ALL IMMEDIATE;")
+            if self.chance.random() < 0.7:
+                self.session.run("SET CONSTRAINTS ALL DEFERRED;")
         for mesh, table in (("mesh", "model"), ("followed", "tracked")):
             for session in (self.session, self.watcher):
                 found = session.run(self.differences(mesh, table),
@@ -299,7 +306,14 @@ class World:
             ones = ",".join(["1"] * self.dimension)
             domain = f", lower => '{{{ones.replace('1', '-1')}}}', upper => '{{{ones}}}'"
         create = [f"CREATE TABLE model (id bigint PRIMARY KEY, {coordinates}, h float8);",
-                  f"CREATE TABLE tracked (note text, id bigint PRIMARY KEY, {coordinates}, h float8);"]
+                  f"CREATE TABLE tracked (note text, id bigint PRIMARY KEY, {coordinates}, h float8)"]
+        follows = self.chance.choice(("at once", "at commit", "by partitions"))
+        self.done[f"worlds that follow {follows}"] += 1
+        if follows == "by partitions":
+            create[-1] += " PARTITION BY HASH (id)"
+            create += [f"CREATE TABLE tracked_{i} PARTITION OF tracked "
+                       f"FOR VALUES WITH (modulus 3, remainder {i})" for i in range(3)]
+        create = [statement.rstrip(";") + ";" for statement in create]
         for mesh in ("mesh", "followed"):
             create.append(f"SELECT abacus_create('{mesh}', {self.dimension}, '{{h}}'{domain});")
         self.session.run("DROP TABLE IF EXISTS model, tracked, mesh, followed;\n"
@@ -308,7 +322,8 @@ class World:
             count = self.chance.choice(BEGINNINGS) // (1 if self.dimension == 2 else 3)
             if count > 0:
                 self.session.run(self.copy(table, self.fresh(count)))
-        self.session.run("SELECT abacus_track('followed', 'tracked');")
+        track = f"SELECT abacus_track('followed', 'tracked', deferred => {follows == 'at commit'});"
+        self.session.run(track)
         self.session.run(f"SELECT abacus_insert('mesh', 'SELECT {self.columns} FROM model');")
         for _ in range(self.steps):
             if time.monotonic() > end:
@@ -319,7 +334,7 @@ class World:
             self.savepoints = None
         self.session.run("SELECT abacus_triangulate('mesh');")
         self.look()
-        self.session.run("SELECT abacus_track('followed', 'tracked');")  # verifies, too
+        self.session.run(track)  # verifies, too
         for mesh in ("mesh", "followed"):
             self.done["evictions"] += int(float(self.session.run(
                 f"SELECT value FROM abacus_stats('{mesh}') WHERE name = 'evictions';")))

@@ -1,4 +1,5 @@
 """A psql that stays open, for the scripts that drive a server: the environment says which one."""
+import os
 import subprocess
 
 SENTINEL = "---- done ----"
@@ -14,7 +15,9 @@ class Session:
     def __init__(self):
         self.psql = subprocess.Popen(
             ["psql", "-X", "-q", "-A", "-t"], text=True, bufsize=1,
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            # what is printed is an answer or an error
+            env=os.environ | {"PGOPTIONS": os.environ.get("PGOPTIONS", "") + " -c client_min_messages=warning"})
 
     def __enter__(self):
         return self

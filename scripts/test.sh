@@ -3,28 +3,89 @@
 # unit tests (plain and sanitized), a bounded fuzzing run, SQL tests, crashes, the
 # examples of the documentation, comparison with CGAL, random changes against a
 # model, reports of benchmarks, smoke runs of the benchmarks and the evaluation. Logs are left in build/test.
+#
+#   test.sh             all suites but tidy
+#   test.sh NAME...     these, after the builds that they need
+#   test.sh list        the names
 set -uo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh
+. scripts/suites.sh
 
 FUZZ_SECONDS=${FUZZ_SECONDS:-30}
 logs=$ABACUS_BUILD/test
 mkdir -p "$logs"
 passed=0 failed=0
 
-# suite NAME COMMAND...: runs it, output into a log that is shown on failure.
+# Each suite, and what runs it.
+declare -A command=(
+    [format]=format_check
+    [layout]=layout_check
+    [build-extension]=install_extension
+    [build]=build_release
+    [build-sanitized]="build_with_clang build/sanitize -DABACUS_SANITIZE=ON"
+    [build-fuzz]="build_with_clang build/fuzz -DABACUS_FUZZ=ON"
+    [tidy]=tidy_core
+    [unit]="unit_tests build/release"
+    [unit-sanitized]="unit_tests build/sanitize"
+    [fuzz]=fuzz
+    [regress]=regression_tests
+    [pgtap]=pgtap_tests
+    [docs]=documentation_examples
+    [tap]=tap_tests
+    [acceptance]="scripts/acceptance.sh quick"
+    [acceptance-goose]="scripts/acceptance.sh goose"
+    [model]="scripts/model_test.sh -t 30"
+    [reports]=report_tests
+    [bench]="scripts/bench.sh smoke"
+    [evaluation]="scripts/evaluation.sh smoke"
+)
+# The order. What the second line has runs beside the first: servers mostly wait, and few of
+# its suites use more than one processor.
+first_builds=(format layout build-extension build)
+first_line=(build-sanitized build-fuzz tidy unit unit-sanitized fuzz)
+second_line=(regress pgtap docs tap acceptance acceptance-goose model reports bench evaluation)
+# The builds that a suite needs.
+declare -A needs=([unit]=build [unit-sanitized]=build-sanitized [fuzz]=build-fuzz)
+for name in build regress pgtap docs tap; do needs[$name]=build-extension; done
+for name in acceptance acceptance-goose model bench evaluation; do needs[$name]=build; done
+
+# choose NAME...: leaves in the lists these, and what they need.
+declare -A chosen=()
+choose() {
+    local name
+    for name in "$@"; do
+        [[ -n ${command[$name]:-} ]] || fail "No suite $name. There are: ${first_builds[*]} ${first_line[*]} ${second_line[*]}"
+        while [[ -n $name ]]; do
+            chosen[$name]=1
+            name=${needs[$name]:-}
+        done
+    done
+    keep_chosen first_builds
+    keep_chosen first_line
+    keep_chosen second_line
+}
+
+keep_chosen() {
+    local -n line=$1
+    local name kept=()
+    for name in "${line[@]}"; do
+        if [[ -n ${chosen[$name]:-} ]]; then kept+=("$name"); fi
+    done
+    line=("${kept[@]}")
+}
+
+# suite NAME: runs it, output into a log that is shown on failure.
 suite() {
-    local name=$1 start=$SECONDS log
-    shift
-    log=$logs/${name// /-}.log
-    if ("$@") >"$log" 2>&1; then
+    local name=$1 start=$SECONDS log=$logs/$1.log
+    # shellcheck disable=SC2086 # the words of a command
+    if (${command[$name]}) >"$log" 2>&1; then
         passed=$((passed + 1))
-        printf 'ok      %-28s %4d s   %s\n' "$name" $((SECONDS - start)) "$(summary "$log")"
+        printf 'ok      %-18s %4d s   %s\n' "$name" $((SECONDS - start)) "$(summary "$log")"
     else
         failed=$((failed + 1))
-        printf 'FAILED  %-28s %4d s   (%s)\n' "$name" $((SECONDS - start)) "${log#"$ABACUS_ROOT"/}"
+        printf 'FAILED  %-18s %4d s   (%s)\n' "$name" $((SECONDS - start)) "${log#"$ABACUS_ROOT"/}"
         tail -n 40 "$log"
-        return 1
     fi
 }
 
@@ -38,14 +99,15 @@ summary() {
 # sanitized and what is fuzzed are compiled apart, for what the fuzzer needs makes all tests take
 # twice their time.
 build_with_clang() {
-    CC=clang CXX=clang++ cmake -S . -B "$1" "$2" >/dev/null &&
+    CC=clang CXX=clang++ cmake -S . -B "$1" "$2" -DABACUS_WERROR=ON >/dev/null &&
         cmake --build "$1" -j "$ABACUS_JOBS"
 }
 
-unit_tests() {
-    ctest --test-dir "$1" -j "$ABACUS_JOBS" --output-on-failure --no-tests=error &&
-        awk '/PASSED/ { n += $4 } END { print "All " n " tests passed" }' \
-            "$1/Testing/Temporary/LastTest.log"
+# The whole core; `dev.sh tidy` checks what has changed.
+tidy_core() {
+    local files
+    mapfile -t files < <(git ls-files 'src/*.cpp')
+    tidy_check "${files[@]}"
 }
 
 # All fuzz targets beside one another, FUZZ_SECONDS of processor time in all. What a target finds
@@ -69,93 +131,53 @@ fuzz_target() {
         -verbosity=1 "${folders[@]}"
 }
 
-regression_tests() {
-    make -s -C build/extension -f "$ABACUS_ROOT/Makefile.pgxs" PG_CONFIG="$PG_CONFIG" installcheck ||
-        { cat build/extension/regression.diffs; return 1; }
-}
-
-pgtap_tests() {
-    psql -X -q -c "DROP DATABASE IF EXISTS abacus_pgtap" -c "CREATE DATABASE abacus_pgtap" &&
-        psql -X -q -d abacus_pgtap -c "CREATE EXTENSION pgtap" -c "CREATE EXTENSION abacus" &&
-        pg_prove -d abacus_pgtap test/pgtap/*.sql
-}
-
-# Crashes, many sessions, dumps, replication, upgrades: in servers that the tests
-# start themselves, as the user who may. One that is interrupted dies, and ends its servers
-# at that. ABACUS_KILLS says how often to kill.
-tap_tests() {
-    local sources
-    sources=$(dirname "$("$PG_CONFIG" --pgxs)")/..
-    cluster_as_server env TESTDIR="$tap_folder" PG_REGRESS="$sources/test/regress/pg_regress" \
-        PERL5OPT=-Msigtrap=die,INT,TERM prove -j "$ABACUS_JOBS" -I "$sources/test/perl" "$tap_folder"/*.pl
-}
-
-# A second line of suites, those that need a server, beside all that is sanitized: servers mostly wait,
-# and few of the suites use more than one processor. It is a process group, which ends with
-# this script. A small file system of its own is a full disk soon; where it cannot be mounted, that
-# test is skipped.
-second_line_begin() {
-    tap_folder=$cluster_folder/tap
-    mkdir "$tap_folder" "$tap_folder/disk"
-    cp -r test/tap/*.p[lm] test/tap/meshes "$tap_folder"
-    if as_root mount -t tmpfs -o size=14m tmpfs "$tap_folder/disk" 2>/dev/null; then
-        tap_disk=$tap_folder/disk
-        mkdir "$tap_disk/space"
-        export ABACUS_SMALL_DISK=$tap_disk/space
-    fi
-    if ((EUID == 0)); then chown -R postgres: "$tap_folder"; fi
+# The second line is a process group, which ends with this script.
+second_begin() {
+    cluster_start test
+    if [[ -n ${chosen[tap]:-} ]]; then tap_begin; fi
     set -m
-    second_line 9>&- &
+    second_run 9>&- &
     second=$!
     set +m
-    trap 'kill -INT -- "-$second"; second_line_end; cluster_stop' EXIT
+    trap 'kill -INT -- "-$second"; second_end; cluster_stop' EXIT
 }
 
-second_suites=10
-second_line() {
-    trap 'exit "$second_suites"' INT # with none of what is left
+second_run() {
+    local name
+    trap 'exit "${#second_line[@]}"' INT # with none of what is left
     passed=0 failed=0
-    suite "pg_regress" regression_tests
-    suite "pgTAP" pgtap_tests
-    suite "documentation examples" documentation_examples
-    suite "TAP" tap_tests
-    suite "acceptance quick" scripts/acceptance.sh quick
-    suite "acceptance goose" scripts/acceptance.sh goose
-    suite "model test" scripts/model_test.sh -t 30
-    suite "benchmark reports" python3 -m unittest discover -s test/suite -p '*_test.py'
-    suite "bench smoke" scripts/bench.sh smoke
-    suite "evaluation smoke" scripts/evaluation.sh smoke
+    for name in "${second_line[@]}"; do suite "$name"; done
     exit "$failed"
 }
 
 # Waits for them, and counts them: it ends with the number of those that failed, broken off with
 # that of all.
-second_line_end() {
-    local lost=0
+second_end() {
+    local count=${#second_line[@]} lost=0
     wait "$second" || lost=$?
-    if ((lost > second_suites)); then lost=$second_suites; fi
-    passed=$((passed + second_suites - lost)) failed=$((failed + lost))
-    if [[ -n ${tap_disk:-} ]]; then as_root umount -l "$tap_disk"; fi
+    if ((lost > count)); then lost=$count; fi
+    passed=$((passed + count - lost)) failed=$((failed + lost))
+    tap_end
     trap cluster_stop EXIT
 }
 
-documentation_examples() {
-    scripts/doc_examples.py docs/sql.md docs/operations.md README.md
-}
-
+if [[ ${1:-} == list ]]; then
+    printf '%s\n' "${first_builds[@]}" "${first_line[@]}" "${second_line[@]}"
+    exit
+fi
+if ((!$#)); then
+    unset "command[tidy]" # takes five minutes of processor time: only where it is named
+    set -- "${!command[@]}"
+fi
+choose "$@"
 scripts/install-dependencies.sh test || fail "packages are missing"
 export ABACUS_BUILT=1 # tells the scripts below that all is built and installed
-suite "build extension" install_extension
-ABACUS_CORE_OBJECTS=$ABACUS_BUILD/extension suite "build" build_release
-
-cluster_start test
-second_line_begin
-suite "build sanitized" build_with_clang build/sanitize -DABACUS_SANITIZE=ON
-suite "build fuzz targets" build_with_clang build/fuzz -DABACUS_FUZZ=ON
-suite "unit tests" unit_tests build/release
-suite "unit tests sanitized" unit_tests build/sanitize
-suite "fuzz" fuzz
-second_line_end
+export ABACUS_CORE_OBJECTS=$ABACUS_BUILD/extension # what is tested is what is installed
+for name in "${first_builds[@]}"; do suite "$name"; done
+unset ABACUS_CORE_OBJECTS
+if ((${#second_line[@]})); then second_begin; fi
+for name in "${first_line[@]}"; do suite "$name"; done
+if ((${#second_line[@]})); then second_end; fi
 
 echo "$passed passed, $failed failed"
 ((failed == 0))

@@ -98,6 +98,41 @@ DELETE FROM field WHERE code = last('field');
 SELECT count(*) FROM abacus_locate('field', 'SELECT x + 1000 * y, x + 0.3, y + 0.6 FROM generate_series(0, 28) x, generate_series(0, 28) y');
 \echo :LAST_ERROR_SQLSTATE
 ROLLBACK;
+-- ... and whatever reads all pages, or those around, notices
+CREATE FUNCTION error_of(query text) RETURNS text LANGUAGE plpgsql AS $$
+BEGIN
+    EXECUTE query;
+    RETURN 'none';
+EXCEPTION WHEN OTHERS THEN
+    RETURN SQLSTATE;
+END $$;
+BEGIN;
+DELETE FROM field WHERE code = (SELECT code FROM field WHERE code > 0 ORDER BY code LIMIT 1);
+DELETE FROM solid WHERE code = (SELECT code FROM solid WHERE code > 0 ORDER BY code OFFSET 1 LIMIT 1);
+SELECT query, error_of(query) FROM (VALUES
+    ('SELECT count(*) FROM abacus_simplices(''field'')'),
+    ('SELECT count(*) FROM abacus_vertices(''field'')'),
+    ('SELECT abacus_draw(''field'', 10)'),
+    ('SELECT abacus_draw(''field'', 10, attribute => ''height'', lower => ''{5,5}'', upper => ''{25,25}'')'),
+    ('SELECT count(*) FROM abacus_simplices(''solid'')'),
+    ('SELECT count(*) FROM abacus_vertices(''solid'')'),
+    ('SELECT abacus_draw_section(''solid'', ''{3.5,3.5,3.5}'', ''{0,0,1}'', 10)')) AS t (query);
+ROLLBACK;
+-- all are gone: nothing is left but the count in the header
+BEGIN;
+DELETE FROM field WHERE code >= 0;
+SELECT query, error_of(query) FROM (VALUES
+    ('SELECT count(*) FROM abacus_simplices(''field'')'),
+    ('SELECT count(*) FROM abacus_vertices(''field'')'),
+    ('SELECT abacus_draw(''field'', 10)'),
+    ('SELECT abacus_draw(''field'', 10, lower => ''{5,5}'', upper => ''{6,6}'')')) AS t (query);
+ROLLBACK;
+-- a page too many
+BEGIN;
+INSERT INTO field SELECT code + 1, part, page FROM field WHERE code = last('field');
+SELECT error_of('SELECT count(*) FROM abacus_simplices(''field'')');
+ROLLBACK;
+DROP FUNCTION error_of;
 BEGIN;
 UPDATE field SET part = -1 WHERE code = last('field');
 \set VERBOSITY terse

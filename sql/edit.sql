@@ -101,5 +101,35 @@ SELECT abacus_delete('points', 'VALUES (1, 2, 3)');
 \echo :LAST_ERROR_SQLSTATE
 SELECT counts('q');
 
+-- vertices of high degree, whose removals cost more than a triangulation of the rest: the same mesh all the same
+TRUNCATE points;
+INSERT INTO points SELECT i, cos(i * 6.283185307179586 / 3000), sin(i * 6.283185307179586 / 3000), i % 3, i FROM generate_series(1, 3000) i;
+INSERT INTO points SELECT 3000 + i, x, y, z, -i FROM points, generate_series(1, 2) i WHERE id = 77;
+INSERT INTO points SELECT -i, cos(i) * 3, sin(i) * 3, i % 7, i FROM generate_series(100, 250) i;
+SELECT abacus_triangulate('hubs', 'SELECT id, x, y, height FROM points ORDER BY id');
+SELECT abacus_delete('hubs', 'SELECT id, x, y FROM points WHERE id < 0 OR id = 77');
+SELECT value < 151 AS some_at_once FROM abacus_stats('hubs') WHERE name = 'removals';
+DELETE FROM points WHERE id < 0 OR id = 77;
+SELECT is_mesh_of_points('hubs', 2), counts('hubs');
+-- a grid beside a line full of points; half of a moment curve
+TRUNCATE points;
+INSERT INTO points SELECT i, i % 9, i / 9 % 9, i / 81 % 9 FROM generate_series(0, 728) i;
+INSERT INTO points SELECT 100000 + i, i * 0.001, i * 0.002, i * 0.003 FROM generate_series(1, 1200) i;
+SELECT abacus_triangulate('lined', 'SELECT id, x, y, z, height FROM points ORDER BY id', dimension => 3);
+SELECT abacus_delete('lined', 'SELECT id, x, y, z FROM points WHERE id < 500');
+DELETE FROM points WHERE id < 500;
+SELECT is_mesh_of_points('lined', 3);
+TRUNCATE points;
+INSERT INTO points SELECT i, i, i * i, i::float8 * i * i FROM generate_series(0, 199) i;
+SELECT abacus_triangulate('moment', 'SELECT id, x, y, z, height FROM points ORDER BY id', dimension => 3);
+BEGIN;
+SELECT abacus_delete('moment', 'SELECT id, x, y, z FROM points WHERE id % 2 = 0');
+ROLLBACK;
+SELECT is_mesh_of_points('moment', 3);
+SELECT abacus_delete('moment', 'SELECT id, x, y, z FROM points WHERE id % 2 = 0');
+DELETE FROM points WHERE id % 2 = 0;
+SELECT is_mesh_of_points('moment', 3);
+DROP TABLE hubs, lined, moment;
+
 DROP TABLE points, m, s, q;
 DROP FUNCTION triangles, counts, is_mesh_of_points;

@@ -1,5 +1,6 @@
 -- abacus_goose: the same simplices as abacus_triangulate, from an R-tree.
 
+CREATE EXTENSION abacus_lab;
 CREATE SCHEMA goose;
 SET search_path = goose, public;
 CREATE FUNCTION counts(mesh text, query text, dimension integer DEFAULT 2)
@@ -120,4 +121,5 @@ SELECT tableowner FROM pg_tables WHERE tablename = 'own';
 
 SET client_min_messages = warning;
 DROP SCHEMA pond, goose, elsewhere CASCADE;
+DROP EXTENSION abacus_lab;
 DROP ROLE abacus_goose_user;

@@ -24,10 +24,10 @@ SELECT abacus_triangulate('anew', 'SELECT * FROM corner WHERE id <> 2 UNION ALL 
 UNION ALL
 (SELECT v0, v1, v2 FROM abacus_simplices('anew') EXCEPT SELECT v0, v1, v2 FROM abacus_simplices('square'));
 
--- With the other diagonal it is not: it can be read, not changed.
+-- With the other diagonal it is another one: it can be read, not changed.
 SELECT abacus_load('other', 'TABLE corner', 'VALUES (1, 2, 3), (1, 3, 4)', attributes => '{h}');
 SELECT * FROM abacus_check('other');
-SELECT value FROM abacus_stats('other') WHERE name = 'delaunay';
+SELECT name, value, description FROM abacus_stats('other') WHERE name IN ('delaunay', 'changeable') ORDER BY name;
 SELECT v0, v1, v2 FROM abacus_locate('other', 3, 1);
 SELECT n.v0, n.v1, n.v2 FROM abacus_locate('other', 3, 1) AS t, abacus_walk('other', t, 1) AS n;
 SELECT n IS NULL FROM abacus_locate('other', 3, 1) AS t, abacus_walk('other', t, 0) AS n;
@@ -50,6 +50,36 @@ DROP TABLE bound;
 SELECT to_regclass('restored_vertices') IS NULL AS gone;
 SELECT abacus_insert('other', 'SELECT 5, 2, 9, 1');
 SELECT abacus_delete('other', 'SELECT 1, 0, 0');
+
+-- A cube in five tetrahedra: all corners lie on one sphere. Then one moved into that, and one taken out.
+CREATE TABLE cube AS SELECT 4 * x + 2 * y + z AS id, x, y, z
+FROM generate_series(0, 1) AS x, generate_series(0, 1) AS y, generate_series(0, 1) AS z;
+CREATE TABLE five (v0 int, v1 int, v2 int, v3 int);
+INSERT INTO five VALUES (0, 3, 5, 6), (1, 0, 3, 5), (2, 0, 3, 6), (4, 0, 5, 6), (7, 3, 5, 6);
+SELECT abacus_load('weak', 'TABLE cube', 'TABLE five');
+SELECT abacus_load('inside', 'SELECT id, x, y, z - CASE id WHEN 7 THEN 1e-15 ELSE 0 END AS z FROM cube', 'TABLE five');
+SELECT abacus_load('notch', 'TABLE cube', 'SELECT * FROM five WHERE v0 > 0');
+SELECT mesh, name, value, description
+FROM unnest('{weak, inside, notch}'::text[]) AS mesh, abacus_stats(mesh::regclass)
+WHERE name IN ('delaunay', 'changeable') ORDER BY mesh, name;
+SELECT abacus_insert('weak', 'VALUES (9, 0.3, 0.4, 0.5)');
+SELECT abacus_insert('inside', 'VALUES (9, 0.3, 0.4, 0.5)');
+SELECT abacus_delete('notch', 'TABLE cube');
+-- Abacus' own triangulation of the same vertices can be changed.
+SELECT abacus_load('weak_anew', 'TABLE cube', 'TABLE five', retriangulate => true);
+SELECT abacus_load('inside_anew', 'SELECT id, x, y, z - CASE id WHEN 7 THEN 1e-15 ELSE 0 END AS z FROM cube', 'TABLE five', retriangulate => true);
+SELECT abacus_load('notch_anew', 'TABLE cube', 'SELECT * FROM five WHERE v0 > 0', retriangulate => true);
+SELECT abacus_load('own_anew', 'TABLE cube', 'SELECT v0, v1, v2, v3 FROM abacus_simplices(''weak_anew'')', retriangulate => true);
+SELECT mesh, value AS changeable, c.* FROM unnest('{weak_anew, inside_anew, notch_anew, own_anew}'::text[]) AS mesh,
+    abacus_stats(mesh::regclass) LEFT JOIN LATERAL abacus_check(mesh::regclass) AS c ON true
+WHERE name = 'changeable';
+SELECT abacus_triangulate('straight', 'TABLE cube', dimension => 3);
+SELECT abacus_insert('weak_anew', 'VALUES (9, 0.3, 0.4, 0.5)');
+SELECT abacus_delete('weak_anew', 'VALUES (9, 0.3, 0.4, 0.5)');
+SELECT v0, v1, v2, v3 FROM abacus_simplices('weak_anew') EXCEPT SELECT v0, v1, v2, v3 FROM abacus_simplices('straight');
+SELECT abacus_load('lone_anew', 'TABLE cube', 'VALUES (0, 1, 2, 4)', retriangulate => true);
+SELECT abacus_load('refused', 'TABLE cube', 'VALUES (0, 1, 2, 3)', retriangulate => true);
+SELECT abacus_load('refused', 'TABLE cube', 'TABLE five', retriangulate => NULL);
 
 -- A ring: a hole in the middle, found by walks that end there.
 CREATE TABLE ring_vertex AS
@@ -121,9 +151,21 @@ SELECT try_load(', (5, 3, 1), (6, 3, 2), (7, 9, 9)', ', (5, 6, 7)');
 SELECT try_load(', (5, 4, 2), (6, 6, 1), (7, 6, 3)', ', (5, 6, 7)');
 SELECT try_load(', (5, 4, -1)', ', (2, 3, 5)');
 SELECT try_load(', (5, 7, 7)', ', (2, 3, 5)');
+DROP TABLE bad;
+-- Several at once: all of a step, up to a hundred.
+SELECT try_load(', (5, 4, 4), (6, 0, 4), (7, 0, 0)', ', (2, 5, 4), (6, 7, 2)');
+SELECT try_load(', (1, 7, 7), (4, 7, 8)', ', (2, 3, 3), (2, 8, 9), (2, 8, 3)');
+SELECT try_load(', (5, 2, 2), (6, 1, 1), (7, 9, 9)', ', (1, 3, 5), (1, 5, 6), (4, 3, 7)');
+SELECT try_load(', (5, 0, 5), (6, 9, 9), (7, 8, 9)', ', (3, 2, 1), (1, 4, 3), (1, 3, 5), (2, 3, 6), (2, 3, 7), (3, 6, 7), (7, 3, 6)');
+SELECT try_load(', (5, 3, 1), (6, 3, 2), (7, 9, 9), (8, 2, 3), (9, -9, 3.5)', ', (5, 6, 7), (8, 4, 9)');
+SELECT string_agg(line, E'\n') FROM (SELECT line FROM regexp_split_to_table((SELECT try_load('', ', ' || string_agg(format('(%s, 2, 3)', i), ', ' ORDER BY i)) FROM generate_series(11, 260) AS i), E'\n') WITH ORDINALITY AS l (line, n)
+    WHERE n < 6 OR n > 98) AS ends;
+SELECT count(*), max(length(line)) FROM regexp_split_to_table((
+    SELECT try_load(', ' || string_agg(format('(%s, %s, 0.5), (%s, %s, 0.5), (%s, %s, 9)', -i * 10, i / 100.0, -i * 10 - 1, i / 100.0 + 0.005, -i * 10 - 2, i), ', ' ORDER BY i),
+                    ', ' || string_agg(format('(%s, %s, %s)', -i * 10, -i * 10 - 1, -i * 10 - 2), ', ' ORDER BY i))
+    FROM generate_series(1, 300) AS i), E'\n') AS line;
 \pset format aligned
 \pset tuples_only off
-DROP TABLE bad;
 
 -- Arguments.
 SELECT abacus_load('bad', 'TABLE corner', 'VALUES (1, 2)');
@@ -144,5 +186,6 @@ SELECT * FROM abacus_check('small');
 SELECT count(*), count(DISTINCT id), bool_and(id = vertex AND sequence IS NULL) AS inserted FROM abacus_vertices('small');
 RESET maintenance_work_mem;
 
+DROP TABLE cube, five, weak, inside, notch, weak_anew, inside_anew, notch_anew, own_anew, straight, lone_anew;
 DROP TABLE square, anew, other, ring, solid, grid, copy, nothing, lone, small, corner, triangle, ring_triangle, ring_vertex;
 DROP FUNCTION try_load;

@@ -88,6 +88,8 @@ SET abacus.fail_host_call = 1;
 SET abacus.cache_size = '2MB';
 SET abacus.no_such_setting = 1;
 RESET abacus.cache_size;
+-- to install the extension is a superuser's
+SELECT DISTINCT superuser, trusted FROM pg_available_extension_versions WHERE name = 'abacus';
 -- anyone may look at the progress of builds
 SET ROLE regress_abacus_reader;
 SELECT count(*) FROM abacus_progress;

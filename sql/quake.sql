@@ -1,4 +1,5 @@
 -- The points of the earthquake data sets.
+CREATE EXTENSION abacus_lab;
 SELECT count(*), min(id), max(id), count(DISTINCT (x, y, z)) AS places,
        min(x), max(x), min(y), max(y), min(z), max(z) FROM abacus_quake(0.02);
 SELECT id, x, y, z, round(vs::numeric, 6) AS vs, round(vp::numeric, 6) AS vp, round(density::numeric, 6) AS density
@@ -14,6 +15,8 @@ SELECT (SELECT count(*) FROM abacus_quake(0.01, 16)) AS finer,
        (SELECT count(*) FROM abacus_quake(0.02)) = (SELECT count(*) FROM abacus_quake(0.01, 16)) AS same;
 -- the coarsest
 SELECT count(*) FROM abacus_quake(1e-300);
+SELECT count(*) FROM abacus_quake(1e305, 1e-308);
+SELECT count(*) FROM abacus_quake(1e-308, 1e305);
 SELECT count(*) FROM abacus_quake(NULL);
 -- streams in the select list: an endless set, stopped early
 SELECT (abacus_quake(200)).* LIMIT 3;
@@ -51,3 +54,4 @@ SELECT * FROM abacus_check('basin');
 SELECT name, value FROM abacus_stats('basin') WHERE name IN ('points', 'vertices', 'duplicates', 'simplices') ORDER BY 1;
 SELECT count(*) FROM abacus_vertices('basin') v JOIN abacus_quake(0.02) p USING (id)
 WHERE ARRAY[v.x, v.y, v.z] = ARRAY[p.x, p.y, p.z] AND v.attributes = ARRAY[p.vs, p.vp, p.density];
+DROP EXTENSION abacus_lab;

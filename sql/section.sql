@@ -27,6 +27,8 @@ SELECT count(DISTINCT abacus_draw_section('grid', ARRAY[0, 0, z], '{0,0,1}', 60,
 FROM generate_series(0, 4) z;
 -- a plane that misses the mesh: an empty square
 SELECT size(abacus_draw_section('grid', '{3,2,9}', '{0,0,1}', 60));
+SELECT abacus_draw_section('grid', '{3,2,2}', '{0,0,1}', 60, attribute => 'vs', range => '{0,1e6}') =
+       abacus_draw_section('grid', '{3,2,2}', '{0,0,1}', 60, attribute => 'vs') AS same_picture;
 -- a mesh without tetrahedra
 SELECT abacus_create('none', 3);
 SELECT size(abacus_draw_section('none', '{0,0,0}', '{0,0,1}', 60));

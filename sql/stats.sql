@@ -58,6 +58,32 @@ DROP TABLE spots, followed;
 -- pictures
 SELECT substr(abacus_draw('field', 64), 1, 8) = '\x89504e470d0a1a0a' AS png;
 SELECT substr(abacus_draw('field', 64, 32, '{10,10}', '{20,20}', 'height', false, 2, 5), 1, 8) = '\x89504e470d0a1a0a' AS png;
+-- a range of colours: the same in every window; values beyond it get the last colour
+SELECT md5(abacus_draw('field', 64, attribute => 'height')) = md5(abacus_draw('field', 64, attribute => 'height', range => ARRAY[low, high])) AS same_picture
+FROM (SELECT min(attributes[1]), max(attributes[1]) FROM abacus_vertices('field')) AS t (low, high);
+SELECT md5(abacus_draw('field', 64, attribute => 'height')) = md5(abacus_draw('field', 64, attribute => 'height', range => '{0,1e9}')) AS same_picture;
+SELECT abacus_draw('field', 64, attribute => 'height', range => '{1e8,1e9}') = abacus_draw('field', 64, attribute => 'height', range => '{1e300,1e308}') AS same_picture;
+SELECT abacus_draw('field', 64, attribute => 'height', range => '{2,1}');
+\echo :LAST_ERROR_SQLSTATE
+SELECT abacus_draw('field', 64, attribute => 'height', range => '{0,Infinity}');
+SELECT abacus_draw('field', 64, attribute => 'height', range => '{1,2,3}');
+\echo :LAST_ERROR_SQLSTATE
+SELECT abacus_draw('field', 64, attribute => 'height', range => '{1,NULL}');
+-- what has no effect, and blank pictures
+SELECT length(abacus_draw('field', 64, range => '{1,2}', exaggeration => 2)) > 0 AS drawn;
+SELECT length(abacus_draw('field', 64, lower => '{-9,-9}', upper => '{-8,-8}')) > 0 AS drawn;
+SELECT length(abacus_draw('field', 64, max_edge => 1e-9)) > 0 AS drawn;
+SELECT abacus_create('blank', 2);
+SELECT length(abacus_draw('blank', 64)) > 0 AS drawn;
+SELECT abacus_stage('blank', 'VALUES (1, 0, 0), (2, 1, 1)');
+SELECT length(abacus_draw('blank', 64)) > 0 AS drawn;
+DROP TABLE blank;
+-- a long mesh is no line, and no tower of pixels
+SELECT abacus_triangulate('long', 'SELECT i, i * 1000, i % 2 FROM generate_series(0, 99) i'),
+       abacus_triangulate('tall', 'SELECT i, i % 2, i * 1000 FROM generate_series(0, 99) i');
+SELECT get_byte(png, 22) * 256 + get_byte(png, 23) AS height FROM abacus_draw('long', 800) AS png
+UNION ALL SELECT get_byte(png, 22) * 256 + get_byte(png, 23) FROM abacus_draw('tall', 800) AS png ORDER BY height;
+DROP TABLE long, tall;
 SELECT abacus_draw('field', attribute => 'depth');
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_draw('field', 0);

@@ -175,9 +175,8 @@ CREATE TABLE parted (id int, x int, y int) PARTITION BY LIST (id);
 CREATE TABLE part PARTITION OF parted DEFAULT;
 CREATE VIEW view_of_others AS SELECT id, x, y, z FROM others;
 SELECT abacus_create('flat', 2);
-SELECT abacus_track('flat', 'parted');
-\echo :LAST_ERROR_SQLSTATE
 SELECT abacus_track('flat', 'part');
+\echo :LAST_ERROR_SQLSTATE
 SELECT abacus_track('flat', 'view_of_others');
 SELECT abacus_track('others', 'others');
 \echo :LAST_ERROR_SQLSTATE

@@ -8,7 +8,7 @@ from points import PointSet
 BYTES_A_POINT = {2: 115, 3: 200}
 BYTES_BESIDES = 4 << 30
 
-# How many points abacus_quake has at the frequencies that are measured (docs/sql.md).
+# How many points abacus_quake has at the frequencies that are measured (docs/lab.md).
 QUAKE_POINTS = {0.05: 31916, 0.1: 131692, 0.25: 1016926, 0.5: 6027713, 0.75: 20214375, 1: 40131510,
                 1.5: 143764696, 1.85: 221962206}
 

@@ -56,11 +56,20 @@ ABACUS_API abacus_status abacus_build_open(const abacus_host *host, const abacus
  */
 ABACUS_API abacus_status abacus_build_run(abacus_build *build, uint64_t limit,
 										  abacus_header *header, abacus_error *error);
+/* What becomes of a point that comes to a place where there are others. */
+typedef enum abacus_on_duplicate
+{
+	ABACUS_KEEP = 0,  /* it stays beside them */
+	ABACUS_REPLACE,   /* it takes the place of all of them */
+	ABACUS_REFUSE     /* ABACUS_ERROR (duplicate) */
+} abacus_on_duplicate;
+
 /*
  * insert: inserts what waits, then the points of a stage that has ended, without
  * vertex pages between; they are staged after all if they span no simplex.
  */
 ABACUS_API abacus_status abacus_build_insert(abacus_build *build, abacus_stage *stage,
+											 abacus_on_duplicate on_duplicate,
 											 abacus_header *header, abacus_error *error);
 /*
  * delete: inserts what waits, then takes away a point for each point of a stage
@@ -77,9 +86,10 @@ ABACUS_API abacus_status abacus_build_delete(abacus_build *build, abacus_stage *
 ABACUS_API abacus_status abacus_build_clear(abacus_build *build, abacus_header *header,
 											uint64_t *deleted, abacus_error *error);
 /*
- * rekey: gives a mesh many of whose points came from outside its domain one around all of them,
- * and all its pages other keys, with `memory` bytes for sorting; *done is 0 if it had no need
- * to. The simplices are the same. The insertion of many points does so by itself.
+ * rekey: gives a mesh whose domain does not fit many of its points another one, and all its pages
+ * other keys, with `memory` bytes for sorting; *done is 0 if there is no better one, and header->outside
+ * is 0 then if that took a look at all points. The simplices are the same. The insertion of many
+ * points does so by itself.
  */
 ABACUS_API abacus_status abacus_build_rekey(abacus_build *build, size_t memory,
 											abacus_header *header, int *done,
@@ -106,12 +116,20 @@ ABACUS_API abacus_status abacus_load_vertices(abacus_load *load, const uint64_t 
 ABACUS_API abacus_status abacus_load_simplices(abacus_load *load, const int64_t *ids,
 											   size_t count, abacus_error *error);
 /*
- * Checks that the simplices form a complex, exactly, writes the pages and brings the
- * header up to date. ABACUS_ERROR (argument) names the first fault found: an unknown,
- * repeated or unused vertex, a flat simplex, a facet used too often, an overlap.
+ * No more simplices come: checks, exactly, that they form a complex, and how this is related to
+ * the Delaunay triangulation of its vertices. ABACUS_ERROR (argument) names what is wrong: an
+ * unknown or repeated vertex, a flat simplex, a facet used too often, an overlap.
  */
-ABACUS_API abacus_status abacus_load_finish(abacus_load *load, abacus_header *header,
-											abacus_error *error);
+ABACUS_API abacus_status abacus_load_check(abacus_load *load, abacus_delaunay *outcome,
+										   abacus_error *error);
+/* The error's detail in full: it lists up to a hundred faults. Valid as long as the load. */
+ABACUS_API const char *abacus_load_detail(const abacus_load *load);
+/* After the check: writes the pages and brings the header up to date. */
+ABACUS_API abacus_status abacus_load_write(abacus_load *load, abacus_header *header,
+										   abacus_error *error);
+/* Or instead: adds the vertices of the simplices to a stage, to be triangulated anew. */
+ABACUS_API abacus_status abacus_load_stage(abacus_load *load, abacus_stage *stage,
+										   abacus_error *error);
 ABACUS_API void abacus_load_close(abacus_load *load);
 
 #ifdef __cplusplus

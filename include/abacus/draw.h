@@ -21,15 +21,21 @@ typedef struct abacus_drawing
 	int32_t edges;             /* 1: draw the edges of the triangles, or of the section */
 	double exaggeration;       /* values are multiplied by this for the hill shading; 0 = no shading */
 	double max_edge;           /* leave out simplices with a longer edge; 0 = none */
+	double range[2];           /* values at the ends of the colours, which those beyond get, too;
+	                              empty ([0] >= [1]) = the least and the greatest that is seen */
 } abacus_drawing;
 
-/*
- * Draws a mesh of dimension 2 as a PNG. *png comes from host->resize(), which also
- * frees it.
- */
+typedef struct abacus_picture
+{
+	unsigned char *png; /* from host->resize(), which also frees it */
+	size_t size;        /* bytes */
+	int32_t is_blank;   /* 1: nothing of the mesh is seen */
+} abacus_picture;
+
+/* Draws a mesh of dimension 2 as a PNG. */
 ABACUS_API abacus_status abacus_draw(const abacus_host *host, const abacus_header *header,
-									 const abacus_drawing *drawing, unsigned char **png,
-									 size_t *size, abacus_error *error);
+									 const abacus_drawing *drawing, abacus_picture *picture,
+									 abacus_error *error);
 
 /*
  * A plane through a mesh of dimension 3. A picture of it has up upwards: z on planes
@@ -47,8 +53,8 @@ typedef struct abacus_section
 /* Draws the section of a mesh of dimension 3 by a plane, as abacus_draw does. */
 ABACUS_API abacus_status abacus_draw_section(const abacus_host *host, const abacus_header *header,
 											 const abacus_section *section,
-											 const abacus_drawing *drawing, unsigned char **png,
-											 size_t *size, abacus_error *error);
+											 const abacus_drawing *drawing, abacus_picture *picture,
+											 abacus_error *error);
 
 #ifdef __cplusplus
 }

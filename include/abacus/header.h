@@ -11,6 +11,18 @@
 extern "C" {
 #endif
 
+/* ---- Pages of a mesh ------------------------------------------------------ */
+
+enum
+{
+	/* Simplices: the interval of their keys from the page's key to that of the next. */
+	ABACUS_SIMPLEX_PAGES = 0,
+	/* Points that wait to be inserted, in insertion order: {sequence number of the first, 0}. */
+	ABACUS_STAGED_PAGES,
+	/* Points equal to a vertex: {code, serial number}, an interval as of simplices. */
+	ABACUS_REPEATED_PAGES
+};
+
 /* ---- Counters (chapter 5 of the dissertation) --------------------------- */
 
 typedef struct abacus_counters
@@ -44,6 +56,25 @@ typedef struct abacus_counters
 
 /* ---- Header of a mesh ----------------------------------------------------- */
 
+/*
+ * How a mesh is related to the Delaunay triangulation of its vertices: under the symbolic
+ * perturbation there is one, that which the core makes. What is another was loaded
+ * (abacus_load_open).
+ */
+typedef enum abacus_delaunay
+{
+	ABACUS_DELAUNAY = 0,    /* is it, and can be changed */
+	ABACUS_NOT_DELAUNAY,    /* a vertex lies inside the circumsphere of a simplex */
+	ABACUS_WEAKLY_DELAUNAY, /* all circumspheres are empty, but of cospherical vertices others
+							   were joined */
+	ABACUS_NOT_CONVEX       /* its boundary is not the convex hull of the vertices: there are
+							   holes, notches or pieces */
+} abacus_delaunay;
+
+/* The same in words: a clause about the mesh, and a sentence that says why; not of ABACUS_DELAUNAY. */
+ABACUS_API const char *abacus_delaunay_clause(abacus_delaunay delaunay);
+ABACUS_API const char *abacus_delaunay_reason(abacus_delaunay delaunay);
+
 typedef struct abacus_header
 {
 	uint32_t dimension;    /* 2 or 3 */
@@ -51,7 +82,8 @@ typedef struct abacus_header
 	uint32_t has_domain;   /* 0 until given or taken from the first points */
 	double lower[ABACUS_MAX_DIMENSION]; /* domain; used for clustering only */
 	double upper[ABACUS_MAX_DIMENSION];
-	uint64_t outside;      /* points that have come from outside the domain since it was set */
+	uint64_t outside;      /* points that came where the domain does not fit them, outside it or to a
+							  code that fills pages, since it was last chosen */
 	uint64_t stamp;        /* never repeats; set by the host at each change */
 	uint64_t staged;       /* sequence number of the next staged point */
 	uint64_t inserted;     /* ... of the first that waits; those before it are in the mesh */
@@ -60,8 +92,7 @@ typedef struct abacus_header
 	uint64_t serials;      /* serial number of the next such point */
 	uint64_t simplices;
 	uint64_t ghosts;       /* hull facets; facets of the boundary if not_delaunay */
-	uint32_t not_delaunay; /* 1: loaded from elsewhere (abacus_load_open), and not the Delaunay
-							  triangulation of its vertices: it is read, never changed. Its
+	uint32_t not_delaunay; /* an abacus_delaunay. Unless 0 the mesh is read, never changed; its
 							  vertices are listed in staged pages; staged = inserted = vertices */
 	abacus_counters counters; /* summed over all builds; peak_bytes: the largest */
 	char names[ABACUS_MAX_ATTRIBUTES][ABACUS_NAME_BYTES];

@@ -41,7 +41,8 @@ typedef enum abacus_error_kind
 	ABACUS_ERROR_MEMORY,    /* resize() returned NULL */
 	ABACUS_ERROR_ARGUMENT,  /* a value that the function does not take */
 	ABACUS_ERROR_STATE,     /* not possible in the mesh's present state */
-	ABACUS_ERROR_LIMIT      /* a limit of the format is exceeded */
+	ABACUS_ERROR_LIMIT,     /* a limit of the format is exceeded */
+	ABACUS_ERROR_DUPLICATE  /* a point equals one that is there */
 } abacus_error_kind;
 
 /* Zero-terminated texts in PostgreSQL's style; detail and hint may be empty. */
@@ -68,16 +69,14 @@ typedef struct abacus_key
 	uint64_t part;
 } abacus_key;
 
-/* What a page holds. Each kind has keys of its own. */
-typedef enum abacus_page_kind
-{
-	/* Simplices: the interval of their keys from the page's key to that of the next. */
-	ABACUS_SIMPLEX_PAGES,
-	/* Points that wait to be inserted, in insertion order: {sequence number of the first, 0}. */
-	ABACUS_STAGED_PAGES,
-	/* Points equal to a vertex: {code, serial number}, an interval as of simplices. */
-	ABACUS_REPEATED_PAGES
-} abacus_page_kind;
+/*
+ * What a page holds, as a number. A data type names its kinds where it describes its
+ * pages (header.h: those of meshes); the host is told of each before it is used. Each kind
+ * has keys of its own.
+ */
+typedef uint32_t abacus_page_kind;
+
+#define ABACUS_MAX_PAGE_KINDS 8
 
 /* One stored page. */
 typedef struct abacus_page
@@ -121,9 +120,13 @@ typedef enum abacus_host_status
 } abacus_host_status;
 
 /*
- * Every function gets `context` first. None may longjmp or throw. `bytes`
- * that a function hands out stay valid until the next call of a host function
- * other than resize().
+ * Four parts: memory, control, pages, spools. Every function gets `context`
+ * first. None may longjmp or throw. `bytes` that a function hands out stay valid
+ * until the next call of a host function other than resize().
+ *
+ * Threads: every function is for the session's thread alone. Another thread may
+ * read *interrupted, and use memory that the session's thread has reserved for it
+ * (src/host/thread_memory.hpp); nothing else here.
  */
 typedef struct abacus_host
 {

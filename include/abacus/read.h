@@ -101,6 +101,13 @@ ABACUS_API abacus_status abacus_vertex_scan_next(abacus_vertex_scan *scan, abacu
 												 abacus_error *error);
 ABACUS_API void abacus_vertex_scan_close(abacus_vertex_scan *scan);
 
+/*
+ * Whether the mesh's domain fits its points, by what the header counts and a look into a few pages;
+ * if not, abacus_build_rekey() helps.
+ */
+ABACUS_API abacus_status abacus_domain_fits(const abacus_host *host, const abacus_header *header,
+											int *fits, abacus_error *error);
+
 /* ---- Checking -------------------------------------------------------------------- */
 
 typedef struct abacus_fault

@@ -39,12 +39,12 @@ LANGUAGE C VOLATILE PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_triangulate(text, text, text[], integer, double precision[], double precision[]) IS
     'makes a mesh and triangulates the points of the query; attributes are named after the query''s columns unless given';
 
-CREATE FUNCTION abacus_insert(mesh regclass, query text)
+CREATE FUNCTION abacus_insert(mesh regclass, query text, on_duplicate text DEFAULT 'keep')
 RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_insert'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
-COMMENT ON FUNCTION abacus_insert(regclass, text) IS
-    'inserts the points of a query (id, x, y[, z][, attribute...]) into the Delaunay triangulation, after those that wait; returns how many';
+COMMENT ON FUNCTION abacus_insert(regclass, text, text) IS
+    'inserts the points of a query (id, x, y[, z][, attribute...]) into the Delaunay triangulation, after those that wait; returns how many; on_duplicate: keep, replace or error, what becomes of one at the place of another';
 
 CREATE FUNCTION abacus_delete(mesh regclass, query text)
 RETURNS bigint

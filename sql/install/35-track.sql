@@ -11,12 +11,13 @@ CREATE FUNCTION abacus_track(
     mesh regclass,
     "table" regclass,
     columns text[] DEFAULT NULL,
-    synchronize boolean DEFAULT false)
+    synchronize boolean DEFAULT false,
+    deferred boolean DEFAULT false)
 RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_track'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
-COMMENT ON FUNCTION abacus_track(regclass, regclass, text[], boolean) IS
-    'keeps the mesh in step with the table from now on, by triggers; columns: names of id, x, y[, z][, attribute...]; an empty mesh gets the rows of the table, another must have them or, with synchronize, is made equal; returns the number of points in the mesh';
+COMMENT ON FUNCTION abacus_track(regclass, regclass, text[], boolean, boolean) IS
+    'keeps the mesh in step with the table from now on, by triggers; columns: names of id, x, y[, z][, attribute...]; an empty mesh gets the rows of the table, another must have them or, with synchronize, is made equal; deferred: the mesh is changed once, at commit; returns the number of points in the mesh';
 
 CREATE FUNCTION abacus_untrack(mesh regclass, "table" regclass)
 RETURNS void

@@ -71,3 +71,23 @@ AS 'MODULE_PATHNAME', 'abacus_sql_vertices'
 LANGUAGE C STABLE STRICT PARALLEL SAFE ROWS 100000 SUPPORT abacus_vertices_rows;
 COMMENT ON FUNCTION abacus_vertices(regclass) IS
     'all points; vertex is the id of the vertex that stands for the point, its own unless an equal point came first; of points that wait to be inserted it is NULL, and sequence says when they will be';
+
+CREATE FUNCTION abacus_attributes(
+    mesh regclass,
+    OUT "position" integer,
+    OUT name text,
+    OUT "least" double precision,
+    OUT "greatest" double precision,
+    OUT nulls bigint)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_attributes'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100000 ROWS 4;
+COMMENT ON FUNCTION abacus_attributes(regclass) IS
+    'the attributes of a mesh: position in abacus_vertices().attributes, name, least and greatest value of all points, and how many have none';
+
+CREATE FUNCTION abacus_rename_attribute(mesh regclass, attribute text, name text)
+RETURNS void
+AS 'MODULE_PATHNAME', 'abacus_sql_rename_attribute'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_rename_attribute(regclass, text, text) IS
+    'gives an attribute of a mesh another name';

@@ -9,12 +9,13 @@ CREATE FUNCTION abacus_draw(
     attribute text DEFAULT NULL,
     edges boolean DEFAULT true,
     exaggeration double precision DEFAULT 0,
-    max_edge double precision DEFAULT NULL)
+    max_edge double precision DEFAULT NULL,
+    range double precision[] DEFAULT NULL)
 RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_draw'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
-COMMENT ON FUNCTION abacus_draw(regclass, integer, integer, double precision[], double precision[], text, boolean, double precision, double precision) IS
-    'a PNG of the mesh, or of the window from lower to upper; an attribute gives colour and, with exaggeration above 0, hill shading';
+COMMENT ON FUNCTION abacus_draw(regclass, integer, integer, double precision[], double precision[], text, boolean, double precision, double precision, double precision[]) IS
+    'a PNG of the mesh, or of the window from lower to upper; an attribute gives colour, from the first value of range to the second, and, with exaggeration above 0, hill shading';
 
 CREATE FUNCTION abacus_draw_section(
     mesh regclass,
@@ -27,9 +28,10 @@ CREATE FUNCTION abacus_draw_section(
     lower double precision[] DEFAULT NULL,
     upper double precision[] DEFAULT NULL,
     exaggeration double precision DEFAULT 1,
-    max_edge double precision DEFAULT NULL)
+    max_edge double precision DEFAULT NULL,
+    range double precision[] DEFAULT NULL)
 RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_draw_section'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
-COMMENT ON FUNCTION abacus_draw_section(regclass, double precision[], double precision[], integer, integer, text, boolean, double precision[], double precision[], double precision, double precision) IS
-    'a PNG of the section of a mesh of dimension 3 by the plane through a point with a normal, or of its part within the box from lower to upper; an attribute gives colour; heights are multiplied by exaggeration';
+COMMENT ON FUNCTION abacus_draw_section(regclass, double precision[], double precision[], integer, integer, text, boolean, double precision[], double precision[], double precision, double precision, double precision[]) IS
+    'a PNG of the section of a mesh of dimension 3 by the plane through a point with a normal, or of its part within the box from lower to upper; an attribute gives colour, from the first value of range to the second; heights are multiplied by exaggeration';

@@ -22,3 +22,24 @@ COMMENT ON COLUMN abacus_vertex_page.first IS
     'sequence number of the page''s first point; of points equal to a vertex the locational code, less 2^63';
 COMMENT ON COLUMN abacus_vertex_page.part IS 'continues the code: serial number of a point; 0 where points wait';
 COMMENT ON COLUMN abacus_vertex_page.page IS 'the page';
+
+-- The earthquake points are in the extension abacus_lab now. Views and the like that use them keep
+-- the function, and abacus_lab takes it up (sql/install_lab). A WARNING: less is not shown here.
+ALTER EXTENSION abacus DROP FUNCTION abacus_quake(double precision, double precision);
+DO $$
+DECLARE
+    users text;
+BEGIN
+    BEGIN
+        DROP FUNCTION abacus_quake(double precision, double precision);
+    EXCEPTION WHEN dependent_objects_still_exist THEN
+        GET STACKED DIAGNOSTICS users = PG_EXCEPTION_DETAIL;
+    END;
+    RAISE WARNING 'abacus_quake() is no longer in the extension abacus, but in abacus_lab'
+        USING DETAIL = CASE WHEN users IS NULL THEN 'No object uses it, so it was dropped.'
+                            ELSE 'It stays outside of any extension, since objects use it: ' || users END,
+              HINT = format('To have it, and abacus_goose(): CREATE EXTENSION abacus_lab SCHEMA %I;', current_schema());
+END $$;
+-- The drawing functions take the range of the colours, too.
+DROP FUNCTION abacus_draw(regclass, integer, integer, double precision[], double precision[], text, boolean, double precision, double precision);
+DROP FUNCTION abacus_draw_section(regclass, double precision[], double precision[], integer, integer, text, boolean, double precision[], double precision[], double precision, double precision);

@@ -52,10 +52,11 @@ abacus_status abacus_build_run(abacus_build *build, uint64_t limit, abacus_heade
                [&](auto &opened, abacus_header &changed) { opened.run(limit, changed); });
 }
 
-abacus_status abacus_build_insert(abacus_build *build, abacus_stage *stage, abacus_header *header,
+abacus_status abacus_build_insert(abacus_build *build, abacus_stage *stage,
+                                  abacus_on_duplicate on_duplicate, abacus_header *header,
                                   abacus_error *error) {
     return run(build, header, error, [&](auto &opened, abacus_header &changed) {
-        opened.insert(stage_for(opened, stage), changed);
+        opened.insert(stage_for(opened, stage), on_duplicate, changed);
     });
 }
 

@@ -12,30 +12,31 @@ void require_dimension(const abacus_header &header, unsigned dimension) {
         throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the mesh has another dimension");
 }
 
-abacus_status hand_over(abacus::Png picture, unsigned char **png, std::size_t *size) {
-    *size = picture.size();
-    *png = picture.release();
+abacus_status hand_over(abacus::Portrait portrait, abacus_picture *picture) {
+    picture->size = portrait.png.size();
+    picture->png = portrait.png.release();
+    picture->is_blank = portrait.is_blank;
     return ABACUS_OK;
 }
 
 } // namespace
 
 abacus_status abacus_draw(const abacus_host *host, const abacus_header *header,
-                          const abacus_drawing *drawing, unsigned char **png, size_t *size,
+                          const abacus_drawing *drawing, abacus_picture *picture,
                           abacus_error *error) {
     return abacus::guard(error, [&] {
         require_dimension(*header, 2);
         const abacus::Host wrapped(*host);
-        return hand_over(abacus::draw_mesh(wrapped, *header, *drawing), png, size);
+        return hand_over(abacus::draw_mesh(wrapped, *header, *drawing), picture);
     });
 }
 
 abacus_status abacus_draw_section(const abacus_host *host, const abacus_header *header,
                                   const abacus_section *section, const abacus_drawing *drawing,
-                                  unsigned char **png, size_t *size, abacus_error *error) {
+                                  abacus_picture *picture, abacus_error *error) {
     return abacus::guard(error, [&] {
         require_dimension(*header, 3);
         const abacus::Host wrapped(*host);
-        return hand_over(abacus::draw_section(wrapped, *header, *section, *drawing), png, size);
+        return hand_over(abacus::draw_section(wrapped, *header, *section, *drawing), picture);
     });
 }

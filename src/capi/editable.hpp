@@ -11,10 +11,12 @@ namespace abacus {
 /// empty circumspheres and a convex hull.
 inline void require_editable(const abacus_header &header) {
     if (header.not_delaunay == 0) return;
-    throw Error(ABACUS_ERROR_STATE, "the mesh is not a Delaunay triangulation",
-                "It was loaded by abacus_load() and can be read, not changed.",
-                "Triangulate its vertices anew, or load a changed triangulation under another "
-                "name.");
+    const auto delaunay = static_cast<abacus_delaunay>(header.not_delaunay);
+    throw Error(ABACUS_ERROR_STATE, abacus_delaunay_clause(delaunay),
+                std::string(abacus_delaunay_reason(delaunay)) +
+                    " The mesh was loaded by abacus_load() and can be read, not changed.",
+                "Triangulate its vertices anew, by abacus_load() with retriangulate => true or by "
+                "abacus_triangulate().");
 }
 
 } // namespace abacus

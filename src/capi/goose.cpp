@@ -1,6 +1,8 @@
 // Goose behind the C interface.
 #include "goose/goose.hpp"
 
+#include "keys/domain_of.hpp"
+
 #include "capi/guard.hpp"
 #include "capi/stage.hpp"
 
@@ -11,7 +13,9 @@ namespace {
 template <int D>
 void run(const abacus::Host &host, const abacus_rtree &rtree, abacus::Stage<D> &stage,
          const abacus_header &header, abacus_goose_figures &figures) {
-    abacus::Goose<D> goose(host, rtree, header, figures);
+    abacus_header bounded = header; // the domain may leave out a few points, goose none
+    abacus::set_domain(bounded, stage.spread().box());
+    abacus::Goose<D> goose(host, rtree, bounded, figures);
     stage.emit(goose, header);
 }
 

@@ -112,9 +112,10 @@ void check_counts(const abacus_header &header) {
         header.serials >= count_limit || header.duplicates > header.serials ||
         (header.vertices == 0 && header.duplicates > 0))
         throw_corrupted("The header's counts of points contradict each other.");
-    if (header.not_delaunay > 1 ||
-        (header.not_delaunay == 1 && (header.simplices == 0 || header.staged != header.vertices ||
-                                      header.inserted != header.vertices || header.serials > 0)))
+    if (header.not_delaunay > ABACUS_NOT_CONVEX ||
+        (header.not_delaunay != ABACUS_DELAUNAY &&
+         (header.simplices == 0 || header.staged != header.vertices ||
+          header.inserted != header.vertices || header.serials > 0)))
         throw_corrupted("The header's mark of a mesh that is not Delaunay is not valid.");
     if ((header.staged > 0 || header.vertices > 0) && header.has_domain == 0)
         throw_corrupted("The header has points but no domain.");

@@ -3,6 +3,7 @@
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
+#include "capi/stage.hpp"
 
 #include <abacus/change.h>
 
@@ -13,6 +14,7 @@ struct abacus_load {
 
     const abacus::Host host;
     abacus::ByDimension<abacus::Load> load;
+    std::string detail;
 };
 
 abacus_status abacus_load_open(const abacus_host *host, const abacus_header *header, size_t memory,
@@ -36,11 +38,31 @@ abacus_status abacus_load_simplices(abacus_load *load, const int64_t *ids, size_
     });
 }
 
-abacus_status abacus_load_finish(abacus_load *load, abacus_header *header, abacus_error *error) {
+abacus_status abacus_load_check(abacus_load *load, abacus_delaunay *outcome, abacus_error *error) {
+    return abacus::dispatch(load->load, error, [&](auto &loading) {
+        try {
+            *outcome = loading.check();
+        } catch (const abacus::Error &fault) {
+            load->detail = fault.detail;
+            throw;
+        }
+    });
+}
+
+const char *abacus_load_detail(const abacus_load *load) { return load->detail.c_str(); }
+
+abacus_status abacus_load_write(abacus_load *load, abacus_header *header, abacus_error *error) {
     return abacus::dispatch(load->load, error, [&](auto &loading) {
         abacus_header changed = *header; // the caller's stays as it is if this fails
-        loading.finish(changed);
+        loading.write(changed);
         *header = changed;
+    });
+}
+
+abacus_status abacus_load_stage(abacus_load *load, abacus_stage *stage, abacus_error *error) {
+    return abacus::dispatch(load->load, error, [&]<int D>(abacus::Load<D> &loading) {
+        abacus::Stage<D> &points = stage->stage.get<D>();
+        loading.give_vertices([&](const std::uint64_t *vertex) { points.add(vertex, 1); });
     });
 }
 

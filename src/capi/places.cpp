@@ -31,7 +31,13 @@ abacus_status abacus_places_add(abacus_places *places, const uint64_t *records, 
 
 abacus_status abacus_places_locate(abacus_places *places, abacus_place_report report, void *context,
                                    abacus_error *error) {
-    return abacus::dispatch(places->places, error, [&](auto &all) { all.locate(report, context); });
+    return abacus::dispatch(places->places, error, [&](auto &all) {
+        abacus_simplex simplex{};
+        all.each([&](auto &reader, std::int64_t id, const auto &place) {
+            const bool is_inside = reader.locate(place, simplex);
+            abacus::host::require(report(context, id, is_inside ? &simplex : nullptr));
+        });
+    });
 }
 
 void abacus_places_close(abacus_places *places) { abacus::destroy_handle(places); }

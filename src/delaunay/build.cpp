@@ -1,9 +1,12 @@
 #include "delaunay/build.hpp"
 
-#include "cache/domain_of.hpp"
-#include "cache/stopwatch.hpp"
+#include "delaunay/crowding.hpp"
+#include "delaunay/distinct.hpp"
 #include "delaunay/intake.hpp"
 #include "delaunay/outlet.hpp"
+#include "host/stopwatch.hpp"
+#include "keys/domain_of.hpp"
+#include "mesh/counters.hpp"
 #include "staging/rounds.hpp"
 
 #include <algorithm>
@@ -57,12 +60,28 @@ template <int D> void Build<D>::add(const std::uint64_t *records, std::size_t n)
             if (core_->insertion.insert(record_point<D>(records), codes[i], record_id(records),
                                         record_attributes<D>(records))) {
                 ++header_->vertices;
+                if (counts_crowded_) count_crowded();
             } else {
-                repeated_->add(header_->serials++, records);
-                ++header_->duplicates;
+                add_duplicate(records);
             }
         }
         n -= some;
+    }
+}
+
+template <int D> void Build<D>::add_duplicate(const std::uint64_t *record) {
+    const Point<D> p = record_point<D>(record);
+    switch (on_duplicate_) {
+    case ABACUS_KEEP:
+        repeated_->add(header_->serials++, record);
+        ++header_->duplicates;
+        return;
+    case ABACUS_REPLACE:
+        if (header_->duplicates > 0) forget_repeated(p);
+        core_->removal.rename(p, record_id(record), record_attributes<D>(record));
+        return;
+    case ABACUS_REFUSE:
+        throw_duplicate(record_id(record));
     }
 }
 
@@ -114,7 +133,7 @@ void Build<D>::change(abacus_header &header, Change change) {
     header.simplices = static_cast<std::uint64_t>(core_->mesh.simplices());
     header.ghosts = static_cast<std::uint64_t>(core_->mesh.ghosts());
     core_->cache.counters.total_ns = time;
-    add_counters(header.counters, core_->cache.counters);
+    header.counters += core_->cache.counters;
 }
 
 template <int D> void Build<D>::run(std::uint64_t limit, abacus_header &header) {
@@ -132,17 +151,38 @@ template <int D> void Build<D>::check_attributes(const Stage<D> &stage) const {
                     {});
 }
 
-template <int D> void Build<D>::insert(Stage<D> &stage, abacus_header &header) {
+template <int D> void Build<D>::take_in(Stage<D> &stage) {
+    Intake intake(*this);
+    stage.emit(intake, *header_);
+}
+
+template <int D> void Build<D>::take_in_distinct(Stage<D> &stage, bool refuses) {
+    Stage<D> distinct(host_, *header_, stage.memory());
+    Distinct filter(*this, distinct, refuses);
+    stage.emit(filter, *header_);
+    take_in(distinct);
+}
+
+template <int D>
+void Build<D>::insert(Stage<D> &stage, abacus_on_duplicate on_duplicate, abacus_header &header) {
     check_attributes(stage);
     change(header, [&] {
         const std::uint64_t points = stage.points();
         // Not for a few points: a single one would have to wait for all of a large mesh.
         const bool is_worth_it =
             header.vertices <= rekeyed_at_once || header.vertices / rekeyed_by_share <= points;
-        if (is_worth_it && has_outgrown_domain(points)) change_domain(stage.box(), stage.memory());
+        if (is_worth_it && has_outgrown_domain(points))
+            change_domain(stage.spread(), stage.memory());
         insert_waiting(0);
-        Intake intake(*this);
-        stage.emit(intake, header);
+        counts_crowded_ = has_simplices();
+        if (on_duplicate == ABACUS_KEEP || has_simplices()) {
+            on_duplicate_ = on_duplicate;
+            take_in(stage);
+            on_duplicate_ = ABACUS_KEEP;
+        } else {
+            take_in_distinct(stage, on_duplicate == ABACUS_REFUSE);
+        }
+        counts_crowded_ = false;
         insert_waiting(0); // if they had to be staged after all
         return points;
     });
@@ -155,8 +195,9 @@ std::uint64_t Build<D>::remove(Stage<D> &stage, bool exactly, abacus_header &hea
     change(header, [&] {
         const std::uint64_t points = stage.points();
         insert_waiting(0);
-        Outlet outlet(*this, exactly);
+        Outlet outlet(*this, stage, exactly);
         if (has_simplices() || has_waiting()) stage.emit(outlet, header, true);
+        if (rest_) triangulate_rest();
         taken = outlet.taken();
         return points;
     });
@@ -179,28 +220,20 @@ template <int D> std::uint64_t Build<D>::clear(abacus_header &header) {
 
 template <int D> bool Build<D>::rekey(std::size_t memory, abacus_header &header) {
     header_ = &header;
-    if (!has_outgrown_domain(0)) return false;
+    if (!has_outgrown_domain(0) && !looks_crowded<D>(host_, header)) return false;
+    bool is_changed = false;
     change(header, [&] {
         const std::uint64_t points = header.vertices + header.duplicates;
-        change_domain({}, memory);
+        is_changed = change_domain(Spread<D>(host_), memory);
         return points;
     });
-    return true;
+    return is_changed;
 }
 
 template <int D>
 void Build<D>::report(abacus_phase phase, std::uint64_t done, std::uint64_t total) {
     const abacus_counters &counters = core_->cache.counters;
     host_.progress({phase, done, total, counters.loads, counters.stores});
-}
-
-void add_counters(abacus_counters &sum, const abacus_counters &more) {
-    const std::uint64_t peak = std::max(sum.peak_bytes, more.peak_bytes);
-    // Fields of one type without gaps.
-    auto *to = reinterpret_cast<std::uint64_t *>(&sum);
-    const auto *from = reinterpret_cast<const std::uint64_t *>(&more);
-    for (std::size_t i = 0; i < sizeof sum / sizeof *to; ++i) to[i] += from[i];
-    sum.peak_bytes = peak;
 }
 
 template class Build<2>;

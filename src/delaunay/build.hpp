@@ -5,19 +5,22 @@
 // vertex of simplex pages, or, if it equals a vertex, is a repeated point
 // (repeated_points.hpp). While the points span no simplex all of them wait.
 //
-// A mesh much of which came from outside its domain is keyed anew (build_rekey.cpp).
+// A mesh whose domain does not fit many of its points is keyed anew (build_rekey.cpp). One that
+// loses so much that the rest costs less to triangulate is made anew, too (outlay.hpp, rest.hpp).
 //
 // Each change ends with all pages written and the header brought up to date.
 #pragma once
 
 #include "delaunay/first_simplex.hpp"
 #include "delaunay/insertion.hpp"
+#include "delaunay/outlay.hpp"
 #include "delaunay/removal.hpp"
+#include "delaunay/rest.hpp"
 #include "points/repeated_points.hpp"
 #include "points/vertex_reader.hpp"
 #include "staging/stage.hpp"
 
-#include <abacus/header.h>
+#include <abacus/change.h>
 #include <optional>
 
 namespace abacus {
@@ -29,18 +32,19 @@ public:
     /// Inserts at most `limit` of the points that wait (0 = all).
     void run(std::uint64_t limit, abacus_header &header);
     /// Inserts what waits, then the points of a stage.
-    void insert(Stage<D> &stage, abacus_header &header);
+    void insert(Stage<D> &stage, abacus_on_duplicate on_duplicate, abacus_header &header);
     /// Inserts what waits, then takes away a point for each of a stage, `exactly` only one
     /// that has its id and attributes; returns how many there were.
     std::uint64_t remove(Stage<D> &stage, bool exactly, abacus_header &header);
     /// Takes away all points, those that wait too; returns how many there were.
     std::uint64_t clear(abacus_header &header);
-    /// Gives a mesh that has outgrown its domain another one, with `memory` bytes for sorting;
-    /// false if it has not.
+    /// Gives a mesh whose domain does not fit its points another one, with `memory` bytes for
+    /// sorting; false if there is no better one.
     bool rekey(std::size_t memory, abacus_header &header);
 
 private:
     class Intake;
+    class Distinct;
     class Outlet;
 
     /// The triangulation in memory. All of it goes when the mesh collapses.
@@ -54,11 +58,23 @@ private:
 
     void check_attributes(const Stage<D> &stage) const;
     bool has_simplices() const { return header_->vertices > 0; }
+    /// Of all kinds.
+    std::uint64_t simplices() const {
+        return static_cast<std::uint64_t>(core_->mesh.simplices() + core_->mesh.ghosts());
+    }
     bool has_waiting() const { return header_->inserted < header_->staged; }
     VertexIndex create(const std::uint64_t *record);
     void start(const std::array<VertexIndex, D + 1> &vertices);
     void add(const std::uint64_t *records, std::size_t n);
+    /// Adds a point where there is a vertex.
+    void add_duplicate(const std::uint64_t *record);
+    /// Takes in the points of a stage.
+    void take_in(Stage<D> &stage);
+    /// The same where all points wait, one for each place, or refuses a second one there.
+    void take_in_distinct(Stage<D> &stage, bool refuses);
     void insert_waiting(std::uint64_t limit);
+    /// Takes the repeated points at p away.
+    void forget_repeated(const Point<D> &p);
     /// Takes points of the triangulation away, all at one place: those that leave. Returns
     /// how many there were.
     std::uint64_t erase(const Point<D> &p, Leaving &leaving);
@@ -70,16 +86,26 @@ private:
     std::uint64_t erase_vertex(const Point<D> &p, Leaving *want = nullptr);
     /// The points left, the neighbours of the vertex last found, span no simplex: they wait.
     void collapse();
+    /// From now on vertices that leave stay where they are, until the rest is triangulated.
+    void put_off_removals(std::size_t memory);
+    void triangulate_rest();
+    /// Moves the repeated points to vertex pages.
+    void make_repeated_wait(VertexPageWriter &pages);
     /// Erases all pages of a kind.
     void erase_pages(abacus_page_kind kind);
     /// Begins anew without a triangulation.
     void forget_simplices();
+    /// Counts a point as one that the domain does not fit if the simplices around it share one code
+    /// with more than a page takes. It has just been inserted.
+    void count_crowded();
     /// With so many points that come.
     bool has_outgrown_domain(std::uint64_t coming) const;
     using Record = std::array<std::uint64_t, record_words(D, ABACUS_MAX_ATTRIBUTES)>;
-    /// A new domain, around all points and this box; the triangulation made anew over it.
-    void change_domain(Box<D> box, std::size_t memory);
+    /// Another domain, for all points and those to come, and the triangulation made anew over it;
+    /// false if none serves them better by far.
+    bool change_domain(const Spread<D> &coming, std::size_t memory);
     void take_apart(Stage<D> &points, std::array<Record, D + 1> &corners);
+    void take_repeated(Stage<D> &points);
     /// Runs a change, which returns how many points it has dealt with, and ends it.
     template <class Change> void change(abacus_header &header, Change change);
     void report(abacus_phase phase, std::uint64_t done, std::uint64_t total);
@@ -90,10 +116,10 @@ private:
     Domain<D> domain_;
     std::optional<Core> core_;                  ///< always there; optional, to be made anew
     std::optional<RepeatedPoints<D>> repeated_; ///< as well
+    std::optional<Rest<D>> rest_;               ///< while removals are put off
     abacus_header *header_ = nullptr;           ///< of the change at hand
+    abacus_on_duplicate on_duplicate_ = ABACUS_KEEP;
+    bool counts_crowded_ = false; ///< the mesh had vertices before what comes
 };
-
-/// Adds up counters of several builds; peaks are maxima.
-void add_counters(abacus_counters &sum, const abacus_counters &more);
 
 } // namespace abacus

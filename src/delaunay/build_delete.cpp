@@ -1,11 +1,14 @@
 // Taking points away.
 #include "delaunay/build.hpp"
 
+#include "delaunay/intake.hpp"
 #include "points/vertex_page.hpp"
+#include "traverse/own_vertices.hpp"
 
 namespace abacus {
 
 template <int D> std::uint64_t Build<D>::erase(const Point<D> &p, Leaving &leaving) {
+    if (rest_ && rest_->has_left_out(p)) return 0;
     const bool is_repeated = header_->duplicates > 0 && repeated_->contains(p);
     if (!is_repeated && leaving.is_one()) return erase_vertex(p, &leaving);
     leaving.begin();
@@ -21,6 +24,13 @@ template <int D> std::uint64_t Build<D>::erase(const Point<D> &p, Leaving &leavi
     return taken + (leaving.has_first() ? pass_on(p) : 0);
 }
 
+template <int D> void Build<D>::forget_repeated(const Point<D> &p) {
+    const std::uint64_t taken = repeated_->take_all(p);
+    if (taken > header_->duplicates)
+        throw_corrupted("There are more repeated points than the header counts.");
+    header_->duplicates -= taken;
+}
+
 template <int D> std::uint64_t Build<D>::pass_on(const Point<D> &p) {
     const std::uint64_t *next = header_->duplicates > 0 ? repeated_->take_first(p) : nullptr;
     if (next == nullptr) return erase_vertex(p);
@@ -30,6 +40,11 @@ template <int D> std::uint64_t Build<D>::pass_on(const Point<D> &p) {
 }
 
 template <int D> std::uint64_t Build<D>::erase_vertex(const Point<D> &p, Leaving *want) {
+    if (rest_) {
+        if (!core_->removal.finds(p, want)) return 0;
+        rest_->leave_out(p);
+        return 1;
+    }
     switch (core_->removal.remove(p, want)) {
     case Removed::no_such_vertex:
         return 0;
@@ -53,13 +68,42 @@ template <int D> void Build<D>::collapse() {
                        attributes_);
         pages.add(record);
     });
+    make_repeated_wait(pages);
+    forget_simplices();
+}
+
+template <int D> void Build<D>::make_repeated_wait(VertexPageWriter &pages) {
     repeated_->flush();
     RepeatedReader<D> repeated(host_, domain_, attributes_, true);
     while (repeated.advance()) pages.add(repeated.record());
     repeated_->forget();
     pages.finish();
     header_->staged = pages.next();
+    header_->duplicates = 0;
+}
+
+template <int D> void Build<D>::put_off_removals(std::size_t memory) {
+    rest_.emplace(host_, *header_, memory);
+}
+
+template <int D> void Build<D>::triangulate_rest() {
+    std::uint64_t record[record_words(D, ABACUS_MAX_ATTRIBUTES)];
+    each_vertex(core_->cache, [&](VertexIndex v) {
+        const VertexHeap<D> &vertices = core_->cache.vertices();
+        fill_record<D>(record, vertices.id(v), vertices.point(v), vertices.attributes(v),
+                       attributes_);
+        rest_->add(record);
+    });
+    const std::uint64_t repeated = header_->duplicates;
     forget_simplices();
+    header_->duplicates = repeated; // their vertices come again, and their pages stay
+    Intake intake(*this);
+    rest_->emit(intake);
+    rest_.reset();
+    insert_waiting(0); // if they had to be staged after all
+    if (has_simplices() || repeated == 0) return;
+    VertexPageWriter pages(host_, D, attributes_, header_->staged);
+    make_repeated_wait(pages);
 }
 
 template <int D> void Build<D>::erase_pages(abacus_page_kind kind) {
@@ -81,11 +125,15 @@ template <int D> void Build<D>::forget_simplices() {
 
 template std::uint64_t Build<2>::erase(const Point<2> &, Leaving &);
 template std::uint64_t Build<3>::erase(const Point<3> &, Leaving &);
+template void Build<2>::forget_repeated(const Point<2> &);
+template void Build<3>::forget_repeated(const Point<3> &);
 template void Build<2>::erase_pages(abacus_page_kind);
 template void Build<3>::erase_pages(abacus_page_kind);
 template void Build<2>::forget_simplices();
 template void Build<3>::forget_simplices();
-template void Build<2>::collapse();
-template void Build<3>::collapse();
+template void Build<2>::put_off_removals(std::size_t);
+template void Build<3>::put_off_removals(std::size_t);
+template void Build<2>::triangulate_rest();
+template void Build<3>::triangulate_rest();
 
 } // namespace abacus

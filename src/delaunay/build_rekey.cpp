@@ -1,21 +1,28 @@
-// Another domain for a mesh that has outgrown its own.
+// Another domain for a mesh that its own does not fit.
 //
 // The domain is that of the first points, or a given one. Points outside have the codes of its
 // border: they are in the right mesh all the same, but what is near together in space is far
 // apart on the curve, and pages are found slowly. A few do no harm, and a domain around one far
 // away would do harm to all others. But a mesh may begin in one corner and grow, tile by tile or
-// row by row.
+// row by row. Or it begins with one point far away: then all others have the same code, and only
+// parts tell their simplices apart, in the order of the curve no more.
 //
-// So the header counts the points that came from outside. When they are many, the mesh is taken
-// apart and built again along the curve of a domain around all of them. Thus it is the same as if
-// they had come at once. There is room around that domain for the next ones, so that a mesh
-// that goes on growing is keyed anew when it is a few times as wide, and pays for all of that
-// no more than for a second build.
+// So the header counts the points that came from outside, and those that came where so many
+// simplices have one code that they fill pages. When they are many, the points of the mesh are
+// taken to a stage, which knows where they are (spread.hpp). If another domain serves them better
+// by far, the mesh is built again along its curve: thus it is the same as if they had come at once.
+// There is room around that domain for the next ones, so that a mesh that goes on growing is
+// keyed anew when it is a few times as wide, and pays for all of that no more than for a second
+// build. If none does, as where points crowd at places too far apart for any scale, the count
+// begins anew, so that each look is paid for by as many points as led to it.
+//
+// What was not counted, points deleted or a mesh built in batches, is found where somebody asks: a
+// few pages are looked into (crowding.hpp).
 #include "delaunay/build.hpp"
 
-#include "cache/domain_of.hpp"
 #include "delaunay/intake.hpp"
-#include "delaunay/own_vertices.hpp"
+#include "keys/domain_of.hpp"
+#include "traverse/own_vertices.hpp"
 
 #include <algorithm>
 
@@ -43,12 +50,13 @@ template <int D> bool Build<D>::has_outgrown_domain(std::uint64_t coming) const 
     return abacus::has_outgrown_domain(header_->outside, points);
 }
 
-template <int D> void Build<D>::change_domain(Box<D> box, std::size_t memory) {
-    VertexReader<D> waiting(host_, attributes_, header_->inserted, header_->staged);
-    while (waiting.advance()) box.extend(waiting.point());
-    box.extend(Point<D>(domain_.lower())); // what is known of a given one
-    box.extend(Point<D>(domain_.upper()));
+template <int D> void Build<D>::count_crowded() {
+    const Cache<D> &cache = core_->cache;
+    const Handle h = core_->mesh.recent()[0];
+    if (cache.is_live(h) && !cache.near(h, cache.code(cache.simplex(h)))) ++header_->outside;
+}
 
+template <int D> bool Build<D>::change_domain(const Spread<D> &coming, std::size_t memory) {
     abacus_header shape = *header_;
     shape.has_domain = 0; // nor vertices: there is no mesh yet where the points go
     shape.vertices = 0;
@@ -56,13 +64,32 @@ template <int D> void Build<D>::change_domain(Box<D> box, std::size_t memory) {
     std::array<Record, D + 1> corners;
     const bool is_mesh = has_simplices();
     if (is_mesh) take_apart(points, corners);
-    box.extend(points.box());
+
+    Spread<D> spread(host_);
+    spread.add(coming);
+    spread.add(points.spread());
+    if (is_mesh)
+        for (const Record &corner : corners) spread.add(record_point<D>(corner.data()));
+    VertexReader<D> waiting(host_, attributes_, header_->inserted, header_->staged);
+    while (waiting.advance()) spread.add(waiting.point());
+
+    const Box<D> old = domain_box<D>(*header_); // it may have been given for what comes
+    Box<D> box = spread.box();
+    box.extend(old);
+    box = spread.choose(box);
     widen(box);
+    header_->outside = 0;
+    if (!spread.is_better(box, old)) {
+        points.drop();
+        return false;
+    }
+
+    if (is_mesh) take_repeated(points);
     set_domain(*header_, box);
     forget_simplices();
     domain_ = domain_of<D>(*header_);
     repeated_.emplace(host_, domain_, attributes_);
-    if (!is_mesh) return;
+    if (!is_mesh) return true;
 
     set_domain(shape, box);
     std::array<VertexIndex, D + 1> vertices;
@@ -70,10 +97,11 @@ template <int D> void Build<D>::change_domain(Box<D> box, std::size_t memory) {
     start(vertices);
     Intake intake(*this);
     points.emit(intake, shape);
+    return true;
 }
 
-/// Moves all points of the triangulation to a stage, of equal ones the vertex first; but for the
-/// corners of one simplex, from which the next triangulation can begin.
+/// Copies all vertices to a stage, but for the corners of one simplex, from which the next
+/// triangulation can begin.
 template <int D> void Build<D>::take_apart(Stage<D> &points, std::array<Record, D + 1> &corners) {
     Cache<D> &cache = core_->cache;
     Record record;
@@ -104,14 +132,20 @@ template <int D> void Build<D>::take_apart(Stage<D> &points, std::array<Record, 
             points.add(record.data(), 1);
         }
     }
+}
+
+/// Moves the points equal to vertices to a stage that has these already.
+template <int D> void Build<D>::take_repeated(Stage<D> &points) {
     repeated_->flush();
     RepeatedReader<D> repeated(host_, domain_, attributes_, true);
     while (repeated.advance()) points.add(repeated.record(), 1);
 }
 
+template void Build<2>::count_crowded();
+template void Build<3>::count_crowded();
 template bool Build<2>::has_outgrown_domain(std::uint64_t) const;
 template bool Build<3>::has_outgrown_domain(std::uint64_t) const;
-template void Build<2>::change_domain(Box<2>, std::size_t);
-template void Build<3>::change_domain(Box<3>, std::size_t);
+template bool Build<2>::change_domain(const Spread<2> &, std::size_t);
+template bool Build<3>::change_domain(const Spread<3> &, std::size_t);
 
 } // namespace abacus

@@ -1,8 +1,8 @@
 // Whether a point conflicts with a simplex of the cache: see geometry/conflict.hpp.
 #pragma once
 
-#include "cache/cache.hpp"
 #include "geometry/conflict.hpp"
+#include "mesh/cache.hpp"
 
 namespace abacus {
 

@@ -71,13 +71,13 @@ inline std::size_t Cavity<3>::look_beyond(std::size_t at, Batch &batch) {
     const std::size_t facets = std::min(Batch::most, facets_.size() - at);
     // Links are asked for anew, since loading for an earlier facet may have set them.
     std::array<Link, Batch::most> outer;
-    Link all = 0;
+    std::uint32_t all = 0;
     for (std::size_t n = 0; n < facets; ++n) {
         const Link inner = facets_[at + n].inner;
         outer[n] = cache_.simplex(link_simplex(inner)).link[link_facet(inner)];
-        all |= outer[n];
+        all |= to_bits(outer[n]);
     }
-    if (is_absent(all)) [[unlikely]]
+    if (is_absent(Link{all})) [[unlikely]]
         load_beyond(at, facets, outer.data());
     else
         cache_.counters.steps += facets;

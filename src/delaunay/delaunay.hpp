@@ -3,9 +3,9 @@
 // way from there to the next point.
 #pragma once
 
-#include "cache/cache.hpp"
-#include "delaunay/marks.hpp"
-#include "delaunay/walk.hpp"
+#include "mesh/cache.hpp"
+#include "traverse/marks.hpp"
+#include "traverse/walk.hpp"
 
 namespace abacus {
 
@@ -81,7 +81,7 @@ public:
 
 private:
     Cache<D> &cache_;
-    Walk<D> walk_;
+    Walk<D, Cache<D>> walk_;
     std::array<Handle, recent_size> recent_;
     std::int64_t simplices_;
     std::int64_t ghosts_;

@@ -1,7 +1,6 @@
 #include "delaunay/hole.hpp"
 
 #include "delaunay/cached_conflict.hpp"
-#include "delaunay/link_mesh.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -40,17 +39,21 @@ bool are_apart(const Point<3> &a, const Point<3> &b, const Point<3> &p, const Po
 
 } // namespace
 
-template <int D> void Hole<D>::fill(const Star<D> &star) {
+template <int D> std::uint64_t Hole<D>::fill(const Star<D> &star) {
     created_ = ghosts_ = 0;
     mesh_.forget();
     for (const Rim<D> &rim : star.rim()) cache_.mark_dirty(link_simplex(rim.outer));
+    std::size_t tried = 0; // simplices that are none of the mesh
     if (star.link().size() >= large)
-        sew(star);
+        tried = 2 * sew(star);
     else if constexpr (D == 2)
         cut(star);
     else
         wrap(star);
     mesh_.count(static_cast<std::int64_t>(created_ - ghosts_), static_cast<std::int64_t>(ghosts_));
+    // Cut or wrapped, for each simplex some of the neighbours are looked at, or all.
+    constexpr std::size_t looks = D == 2 ? 4 : 2; // that cost what a simplex does
+    return created_ + (tried > 0 ? tried : created_ * star.link().size() / looks);
 }
 
 template <int D> Handle Hole<D>::create(const Vertices &vertices) {
@@ -209,7 +212,8 @@ typename Hole<D>::Vertices Hole<D>::best_on_infinite(const Facet &facet) const r
 
 // ---- Sewing ---------------------------------------------------------------------
 
-template <int D> void Hole<D>::sew(const Star<D> &star) {
+template <int D> std::size_t Hole<D>::sew(const Star<D> &star) {
+    std::size_t made = star.link().size();
     open_rim(star);
     std::array<VertexIndex, D + 1> independent;
     if (star.is_flat(independent)) {
@@ -219,15 +223,31 @@ template <int D> void Hole<D>::sew(const Star<D> &star) {
             if (facet.is_finite()) add(with_infinity<D>(facet.rim.vertex, facet.rim.facet));
         }
     } else {
-        LinkMesh<D> link(cache_, star.link(), independent);
-        const Arena<Vertices> &inside = link.inside(facets_);
-        for (const Vertices &vertices : inside) add(vertices);
+        made = link_.triangulate(cache_, star, independent);
+        filled_.resize(link_.cells());
+        for (Handle cell = 0; cell < link_.cells(); ++cell)
+            if (link_.is_inside(cell)) filled_[cell] = create(link_.vertices(cell));
+        for (Handle cell = 0; cell < link_.cells(); ++cell)
+            if (link_.is_inside(cell)) connect(cell);
     }
     require_filled();
+    return made;
+}
+
+/// Gives the simplex of a cell its neighbours, in the hole or beyond the rim.
+template <int D> void Hole<D>::connect(Handle cell) {
+    for (int i = 0; i <= D; ++i) {
+        const Link beyond = link_.beyond(cell, i);
+        const Handle other = link_simplex(beyond);
+        if (link_.is_inside(other))
+            cache_.point_at(filled_[cell], i, make_link(filled_[other], link_facet(beyond)));
+        else
+            facets_.meet(cache_, filled_[cell], i);
+    }
 }
 
 // Not the whole class: some members are for one dimension.
-template void Hole<2>::fill(const Star<2> &);
-template void Hole<3>::fill(const Star<3> &);
+template std::uint64_t Hole<2>::fill(const Star<2> &);
+template std::uint64_t Hole<3>::fill(const Star<3> &);
 
 } // namespace abacus

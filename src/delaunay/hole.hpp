@@ -13,12 +13,13 @@
 //          circumsphere has no vertex of the link inside. It meets open facets, or opens
 //          new ones.
 //   sew    Both take steps for each pair of a facet and a vertex: best for usual degrees,
-//          hopeless for the centre of a sphere. From some dozens of vertices on, the link
-//          is triangulated in a cache of its own, and the part inside the rim is copied
-//          (link_mesh.hpp). If the link is flat, the hole gets nothing but ghosts, one on
-//          each finite facet of the rim.
+//          hopeless for the centre of a sphere. From some dozens of vertices on, they are
+//          inserted one after the other into a mesh of their own (link_mesh.hpp), of which
+//          the part inside the rim is copied. If the link is flat, the hole gets nothing but
+//          ghosts, one on each finite facet of the rim.
 #pragma once
 
+#include "delaunay/link_mesh.hpp"
 #include "delaunay/open_facets.hpp"
 #include "delaunay/star.hpp"
 
@@ -28,16 +29,17 @@ template <int D> class Hole {
 public:
     explicit Hole(Delaunay<D> &mesh)
         : mesh_(mesh), cache_(mesh.cache()), facets_(cache_.host()), chains_(cache_.host()),
-          candidates_(cache_.host()) {}
+          candidates_(cache_.host()), link_(cache_.host()), filled_(cache_.host()) {}
 
-    /// Fills the hole that the star, destroyed by now, has left.
-    void fill(const Star<D> &star);
+    /// Fills the hole that the star, destroyed by now, has left. Returns what that has cost, in
+    /// simplices made or destroyed.
+    std::uint64_t fill(const Star<D> &star);
 
 private:
     using Vertices = std::array<VertexIndex, D + 1>;
 
     /// With this many neighbours, and more, the hole is sewn.
-    static constexpr std::size_t large = D == 2 ? 128 : 40;
+    static constexpr std::size_t large = D == 2 ? 64 : 24;
 
     Handle create(const Vertices &vertices);
     /// A simplex that finds its neighbours among the open facets.
@@ -66,7 +68,9 @@ private:
     Vertices best_on_finite(const Facet &facet) const requires(D == 3);
     Vertices best_on_infinite(const Facet &facet) const requires(D == 3);
 
-    void sew(const Star<D> &star);
+    /// Returns how many cells that has taken.
+    std::size_t sew(const Star<D> &star);
+    void connect(Handle cell);
 
     Delaunay<D> &mesh_;
     Cache<D> &cache_;
@@ -74,6 +78,8 @@ private:
     OpenFacets<D> facets_;
     Arena<Chain> chains_;
     Arena<Candidate> candidates_;
+    LinkMesh<D> link_;
+    Arena<Handle> filled_; // of the cells of this that are inside, the simplices
 };
 
 } // namespace abacus

@@ -1,10 +1,27 @@
-// The Delaunay triangulation of a vertex's neighbours by themselves, in a cache of its
-// own that nothing ever leaves: what lies inside the rim of the vertex's star fills the
-// hole. Its vertices have for ids their indices in the mesh.
+// What fills the hole that a vertex q leaves: the simplices that q is in conflict with, in the
+// Delaunay triangulation of its neighbours. Of that triangulation they may be a small part:
+// the neighbours of a vertex beside a line full of points, or on a moment curve, have many
+// times as many simplices as the hole. So only these are ever made (Buchin, Devillers, Mulzer,
+// Schrijvers and Shewchuk, "Vertex Deletion for 3D Delaunay Triangulations", 2013).
+//
+// The neighbours come one after the other. Of the triangulation of those so far, what q is
+// in conflict with is a ball around q, whose border has all of them. A cone joins each facet of
+// the border to q: these are the simplices around q if it is triangulated, too. Ball and cones
+// together are a closed mesh, in which a neighbour p is inserted as ever: what it is in conflict
+// with goes, and p is joined to the rim. For
+//
+//   - if p kills a simplex of the ball, not the one beyond a facet, the new simplex there has a
+//     circumsphere that contains what both of theirs have in common, hence q;
+//   - if p kills the cone on a facet, not the simplex on it, the facet is inside the next ball:
+//     the simplex that was beyond it, which is not known here, goes as well;
+//   - if p kills the simplex, not the cone, the facet remains one of the border.
+//
+// (Seen with q at infinity, by an inversion, this is the triangulation of the farthest point
+// and its convex hull.) Each neighbour stays one of q's, so the way to its conflict is a walk
+// through the cones alone, towards p as q sees it. All decisions are those of any insertion.
 #pragma once
 
-#include "delaunay/insertion.hpp"
-#include "delaunay/open_facets.hpp"
+#include "delaunay/star.hpp"
 
 namespace abacus {
 
@@ -12,22 +29,75 @@ template <int D> class LinkMesh {
 public:
     using Vertices = std::array<VertexIndex, D + 1>;
 
-    /// `independent`: vertices of the link that span a simplex.
-    LinkMesh(const Cache<D> &cache, const Arena<VertexIndex> &link, const Vertices &independent);
+    explicit LinkMesh(const Host &host)
+        : host_(host), points_(host), names_(host), order_(host), cells_(host), free_(host),
+          killed_(host), created_(host) {}
 
-    /// The simplices inside the rim, by vertices of the mesh.
-    const Arena<Vertices> &inside(const OpenFacets<D> &rim);
+    /// Triangulates the link of a star. `independent`: vertices of it that span a simplex.
+    /// Returns how many cells it has made, with those that have gone again.
+    std::size_t triangulate(const Cache<D> &cache, const Star<D> &star,
+                            const Vertices &independent);
+
+    /// Cells, of which those inside fill the hole.
+    std::size_t cells() const { return cells_.size(); }
+    bool is_inside(Handle h) const {
+        return !cells_[h].simplex.is_free() && apex_of(cells_[h].simplex) == none;
+    }
+    /// By vertices of the mesh.
+    Vertices vertices(Handle h) const {
+        Vertices result;
+        for (int i = 0; i <= D; ++i) result[i] = names_[cells_[h].simplex.vertex[i]];
+        return result;
+    }
+    Link beyond(Handle h, int facet) const { return cells_[h].simplex.link[facet]; }
 
 private:
-    static Domain<D> domain(const Cache<D> &cache, const Arena<VertexIndex> &link);
-    VertexIndex create(const Cache<D> &cache, VertexIndex v);
-    Vertices vertices(Handle h) const;
+    static constexpr int none = -1;
+    static constexpr VertexIndex apex = 1; // q; 0 is the point at infinity
+
+    struct Cell {
+        Simplex<D> simplex; // of a cone the mirror image
+        bool is_killed;
+    };
+    struct Place {
+        int round;
+        std::uint64_t code;
+        VertexIndex vertex;
+    };
+
+    /// Where q is in a simplex: not in those of the ball.
+    static int apex_of(const Simplex<D> &s) {
+        for (int i = 0; i <= D; ++i)
+            if (s.vertex[i] == apex) return i;
+        return none;
+    }
+    void list(const Cache<D> &cache, const Star<D> &star, const Vertices &independent);
+    void start();
+    void insert(VertexIndex p);
+    Handle locate(const Point<D> &p) const;
+    bool is_in_conflict(const Simplex<D> &s, const Point<D> &p) const;
+    void kill(Handle h) {
+        cells_[h].is_killed = true;
+        killed_.push_back(h);
+    }
+    /// Joins the rim of what has been killed to v.
+    void fill(VertexIndex v);
+    void join(Handle h, VertexIndex v);
+    void meet(Handle h, int rim, int facet);
+    Handle create(const Simplex<D> &s);
 
     const Host &host_;
-    Cache<D> own_;
-    Delaunay<D> mesh_;
-    Insertion<D> insertion_;
-    Arena<Vertices> inside_;
+    Arena<Point<D>> points_;   // those at 0 and of q first
+    Arena<VertexIndex> names_; // of each, in the mesh
+    Arena<Place> order_;       // in which they come
+    Arena<Cell> cells_;
+    Arena<Handle> free_, killed_, created_;
+    Handle cone_ = no_handle; // any, where the next way begins
+    std::size_t most_ = 0;    // cells that there can be
+    std::size_t made_ = 0;
 };
+
+extern template class LinkMesh<2>;
+extern template class LinkMesh<3>;
 
 } // namespace abacus

@@ -1,5 +1,6 @@
 // Where a stage hands on the points to be taken away: out of the triangulation, and once there
-// is none, many at a time out of those that wait.
+// is none, many at a time out of those that wait. When that gets too expensive, vertices that
+// leave are only noted from then on, and the rest is triangulated anew.
 //
 // Equal points come one after the other, in the order of the rows, and are taken out of the
 // triangulation together: one after the other each would have the pages of its place searched
@@ -13,8 +14,11 @@ namespace abacus {
 
 template <int D> class Build<D>::Outlet final : public RecordSink {
 public:
-    Outlet(Build &build, bool exactly)
-        : build_(build), leaving_(build.host_, build.cache_bytes_ / 16, exactly, build.attributes_),
+    Outlet(Build &build, const Stage<D> &stage, bool exactly)
+        : build_(build), memory_(stage.memory()),
+          outlay_(stage.points(), build.header_->vertices, build.simplices(),
+                  build.core_->removal.effort()),
+          leaving_(build.host_, build.cache_bytes_ / 16, exactly, build.attributes_),
           waiting_(build.host_, build.attributes_, exactly) {}
 
     void add(const std::uint64_t *record) override {
@@ -23,6 +27,7 @@ public:
         if (build_.has_simplices()) {
             place_ = p;
             leaving_.want(record_id(record), record_attributes<D>(record));
+            ++wanted_;
             if (++done_ % 256 == 0) build_.host_.poll();
         } else if (build_.has_waiting()) {
             waiting_.want(p, record_id(record), record_attributes<D>(record));
@@ -45,11 +50,18 @@ private:
     void leave() {
         taken_ += build_.erase(place_, leaving_);
         leaving_.clear();
+        if (!build_.rest_ && build_.has_simplices() &&
+            outlay_.is_too_much(build_.core_->removal.effort(), wanted_))
+            build_.put_off_removals(memory_);
+        wanted_ = 0;
     }
     void take() { taken_ += waiting_.take(build_.header_->inserted, build_.header_->staged); }
 
     Build &build_;
-    Leaving leaving_; // those of one place
+    const std::size_t memory_; // for sorting
+    Outlay<D> outlay_;
+    Leaving leaving_;          // those of one place
+    std::uint64_t wanted_ = 0; // how many
     Point<D> place_{};
     WaitingPoints<D> waiting_;
     std::uint64_t taken_ = 0;

@@ -6,7 +6,7 @@ namespace {
 // Removals come in any order, so what lies before a vertex on the curve is not finished: a
 // block that is full after all is cut at its median, not at the vertex.
 constexpr std::uint64_t anywhere = 0;
-constexpr Link nowhere = 0xffffffffu;
+constexpr Link nowhere = unset;
 } // namespace
 
 template <int D> Link Removal<D>::find(const Point<D> &p) {
@@ -30,12 +30,22 @@ template <int D> bool Removal<D>::collapses() const {
     return static_cast<std::int64_t>(finite) == mesh_.simplices() && star_.is_flat(independent);
 }
 
-template <int D> Removed Removal<D>::remove(const Point<D> &p, Leaving *want) {
+template <int D> Link Removal<D>::find(const Point<D> &p, Leaving *want) {
     const Link corner = find(p);
-    const auto suits = [&](VertexIndex v) {
-        return want->takes(cache_.vertices().id(v), cache_.vertices().attributes(v));
-    };
-    if (corner == nowhere || (want != nullptr && !suits(vertex_of(corner)))) {
+    if (corner == nowhere || want == nullptr) return corner;
+    const VertexIndex v = vertex_of(corner);
+    return want->takes(cache_.vertices().id(v), cache_.vertices().attributes(v)) ? corner : nowhere;
+}
+
+template <int D> bool Removal<D>::finds(const Point<D> &p, Leaving *want) {
+    const Link corner = find(p, want);
+    mesh_.finish(anywhere);
+    return corner != nowhere;
+}
+
+template <int D> Removed Removal<D>::remove(const Point<D> &p, Leaving *want) {
+    const Link corner = find(p, want);
+    if (corner == nowhere) {
         mesh_.finish(anywhere);
         return Removed::no_such_vertex;
     }
@@ -45,7 +55,7 @@ template <int D> Removed Removal<D>::remove(const Point<D> &p, Leaving *want) {
     const auto simplices = static_cast<std::int64_t>(star_.simplices().size()) - ghosts;
     for (const Handle h : star_.simplices()) cache_.destroy(h);
     mesh_.count(-simplices, -ghosts);
-    hole_.fill(star_);
+    effort_ += star_.simplices().size() + hole_.fill(star_);
     cache_.destroy_vertex(star_.vertex());
     ++cache_.counters.removals;
     mesh_.finish(anywhere);

@@ -26,6 +26,10 @@ public:
     /// Removes the vertex with exactly these coordinates (-0.0 equals 0.0); if a want is given,
     /// only one that it takes.
     Removed remove(const Point<D> &p, Leaving *want = nullptr);
+    /// Whether there is a vertex that it would remove.
+    bool finds(const Point<D> &p, Leaving *want = nullptr);
+    /// What removals have cost so far, in simplices made and destroyed (outlay.hpp).
+    std::uint64_t effort() const { return effort_; }
     /// Offers the vertex there as the first point that may leave; whether the others make a
     /// difference, nothing if there is none.
     std::optional<bool> offer(const Point<D> &p, Leaving &leaving);
@@ -44,6 +48,8 @@ private:
     /// A simplex with a vertex at p, and which of its corners that is, as a link; `nowhere`
     /// if there is none.
     Link find(const Point<D> &p);
+    /// The same, if a want is given only of a vertex that it takes.
+    Link find(const Point<D> &p, Leaving *want);
     VertexIndex vertex_of(Link corner) const {
         return cache_.simplex(link_simplex(corner)).vertex[link_facet(corner)];
     }
@@ -53,6 +59,7 @@ private:
     Cache<D> &cache_;
     Star<D> star_;
     Hole<D> hole_;
+    std::uint64_t effort_ = 0;
 };
 
 } // namespace abacus

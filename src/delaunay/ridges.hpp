@@ -10,9 +10,9 @@
 // empty at once for the next insertion: an entry counts only in the one that made it.
 #pragma once
 
-#include "cache/vertex_heap.hpp"
 #include "host/arena.hpp"
 #include "mesh/simplex.hpp"
+#include "mesh/vertex_heap.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -38,14 +38,14 @@ class Ridges {
             Entry &entry = find_(a, b);
             if ((entry ^ epoch_) >> 32 == 0) [[unlikely]]
                 refuse();
-            entry = epoch_ | link;
+            entry = epoch_ | to_bits(link);
         }
         /// What lies on the other side; throws when there is nothing.
         Link across(std::uint32_t a, std::uint32_t b) const {
             const Entry entry = find_(b, a);
             if ((entry ^ epoch_) >> 32 != 0) [[unlikely]]
                 refuse();
-            return static_cast<Link>(entry);
+            return Link{static_cast<std::uint32_t>(entry)};
         }
 
     private:

@@ -13,7 +13,7 @@ template <int D> void Star<D>::collect(Handle h, int corner) {
     if constexpr (D == 2)
         turn_around(h, corner);
     else
-        search_around(h, corner);
+        search_around(h);
     if (link_.size() <= D) throw_corrupted("The simplices around a point are not a triangulation.");
 }
 
@@ -51,21 +51,12 @@ template <int D> void Star<D>::turn_around(Handle first, int corner) {
     }
 }
 
-// In 3D by marks: across every facet that has the vertex.
-template <int D> void Star<D>::search_around(Handle first, int corner) {
-    add(first, corner);
-    mesh_.marks.set(first, Marks::inside);
-    for (std::size_t n = 0; n < simplices_.size(); ++n) {
-        const Handle h = simplices_[n];
-        for (int i = 0; i <= D; ++i) {
-            if (i == rim_[n].facet) continue;
-            const Handle neighbour = link_simplex(cache_.cross(h, i));
-            if (mesh_.marks.get(neighbour) == Marks::inside) continue;
-            mesh_.marks.set(neighbour, Marks::inside);
-            add(neighbour, cache_.simplex(neighbour).index_of(vertex_));
-        }
-    }
-    for (const Handle h : simplices_) mesh_.marks.set(h, Marks::none);
+// In 3D across every facet that has the vertex.
+template <int D> void Star<D>::search_around(Handle first) {
+    flood_.around(cache_, first, vertex_, [&](Handle h) {
+        add(h, cache_.simplex(h).index_of(vertex_));
+        return true;
+    });
     // Only now, since loading numbers vertices in its own way.
     numbering_.clear();
     for (const Rim<D> &rim : rim_)

@@ -4,14 +4,15 @@
 #pragma once
 
 #include "delaunay/delaunay.hpp"
+#include "traverse/flood.hpp"
 
 namespace abacus {
 
 template <int D> class Star {
 public:
     explicit Star(Delaunay<D> &mesh)
-        : mesh_(mesh), cache_(mesh.cache()), simplices_(cache_.host()), rim_(cache_.host()),
-          link_(cache_.host()), numbering_(cache_.host()) {}
+        : cache_(mesh.cache()), flood_(cache_.host()), simplices_(cache_.host()),
+          rim_(cache_.host()), link_(cache_.host()), numbering_(cache_.host()) {}
 
     /// Collects the star of the vertex that is this corner of the simplex.
     void collect(Handle h, int corner);
@@ -31,12 +32,12 @@ public:
 
 private:
     void turn_around(Handle h, int corner);
-    void search_around(Handle h, int corner);
+    void search_around(Handle h);
     /// Adds a simplex; returns it as it is after loading.
     void add(Handle h, int corner);
 
-    Delaunay<D> &mesh_;
     Cache<D> &cache_;
+    Flood<D> flood_; // 3D only
     VertexIndex vertex_ = infinite_vertex;
     std::size_t ghosts_ = 0;
     Arena<Handle> simplices_;

@@ -67,6 +67,9 @@ private:
     double start_[2], at_start_, slope_[2], low_, high_;
 };
 
+/// A value far beyond the range stays far, but differences and products stay finite.
+double bounded(double value) { return std::fmin(std::fmax(value, -1e30), 1e30); }
+
 // Shares below the resolution of the coverage must not be blown up to a patch.
 constexpr double most_density = 1e6;
 
@@ -75,13 +78,18 @@ constexpr double most_density = 1e6;
 Canvas::Canvas(const Host &host, const abacus_drawing &drawing, double low, double high)
     : host_(&host), drawing_(Extent(drawing).drawing()), low_(low), high_(high), frame_(drawing_),
       range_(low, high), raster_(host, drawing_.width, drawing_.height), pixels_(host) {
-    pixels_.resize(static_cast<std::size_t>(drawing_.width) * drawing_.height);
-    std::fill(pixels_.begin(), pixels_.end(), Pixel{});
+    // Row by row: to get memory for all of a large picture takes most of a second.
+    pixels_.reserve(static_cast<std::size_t>(drawing_.width) * drawing_.height);
+    for (std::int32_t y = 0; y < drawing_.height; ++y) {
+        host_->poll();
+        std::fill_n(pixels_.extend(drawing_.width), drawing_.width, Pixel{});
+    }
 }
 
 inline void Canvas::deposit(std::int32_t x, std::int32_t y, double covered, double count,
                             double value, double ink) {
     Pixel &pixel = pixels_[static_cast<std::size_t>(y) * drawing_.width + x];
+    value = std::clamp(value, 0.0, 1.0); // NaN stays
     pixel.covered += static_cast<float>(covered);
     pixel.count += static_cast<float>(count);
     if (value == value) {
@@ -92,6 +100,7 @@ inline void Canvas::deposit(std::int32_t x, std::int32_t y, double covered, doub
 }
 
 void Canvas::add(const Patch &patch) {
+    host_->poll(); // a page may have patches that cover the picture many times over by their edges
     Patch p = patch;
     double left = 1e30, right = -1e30, top = 1e30, bottom = -1e30;
     bool has_value = has_values();
@@ -108,7 +117,7 @@ void Canvas::add(const Patch &patch) {
 
     double mean = 0;
     for (int i = 0; i < p.corners; ++i) {
-        p.value[i] = !has_value ? NAN : low_ < high_ ? range_(patch.value[i]) : 0.5;
+        p.value[i] = !has_value ? NAN : low_ < high_ ? bounded(range_(patch.value[i])) : 0.5;
         mean += p.value[i] / p.corners;
     }
     const double area = area_of(p);
@@ -151,6 +160,11 @@ void Canvas::outline(const Patch &p, double width) {
     };
     for (int i = 0, j = p.corners - 1; i < p.corners; j = i++)
         raster_.line(p.corner[j], p.corner[i], width, ink);
+}
+
+bool Canvas::is_blank() const {
+    return std::none_of(pixels_.begin(), pixels_.end(),
+                        [](const Pixel &p) { return p.covered > 0; });
 }
 
 Png Canvas::png(const Palette &palette) const {

@@ -38,6 +38,8 @@ public:
     /// Corners outside the window are welcome, values may be NaN.
     void add(const Patch &patch);
 
+    /// Whether no patch so far covers anything of the picture.
+    bool is_blank() const;
     /// The picture of all patches so far; `palette` gives the colours of values.
     Png png(const Palette &palette) const;
 

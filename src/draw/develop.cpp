@@ -74,10 +74,14 @@ Picture Canvas::mesh() const {
     const Encoder encode;
     Picture picture(*host_, drawing_.width, drawing_.height);
     Exposure exposure;
-    for (const Pixel &pixel : pixels_)
-        if (pixel.covered > least_covered) exposure.add(pixel.count / pixel.covered);
-    exposure.fit();
     const Pixel *pixel = pixels_.begin();
+    for (std::int32_t y = 0; y < drawing_.height; ++y) {
+        host_->poll();
+        for (const Pixel *const end = pixel + drawing_.width; pixel != end; ++pixel)
+            if (pixel->covered > least_covered) exposure.add(pixel->count / pixel->covered);
+    }
+    exposure.fit();
+    pixel = pixels_.begin();
     for (std::int32_t y = 0; y < drawing_.height; ++y) {
         host_->poll();
         std::uint32_t *row = picture.row(y);
@@ -98,13 +102,15 @@ Picture Canvas::mesh() const {
 
 void Canvas::raise(Relief &relief) const {
     const Pixel *pixel = pixels_.begin();
-    for (std::int32_t y = 0; y < drawing_.height; ++y)
+    for (std::int32_t y = 0; y < drawing_.height; ++y) {
+        host_->poll();
         for (std::int32_t x = 0; x < drawing_.width; ++x, ++pixel) {
             const bool is_land = pixel->valued > least_covered;
             relief.height(x, y) = is_land ? pixel->value / pixel->valued : NAN;
             // Two triangles a vertex.
             relief.spacing(x, y) = is_land ? std::sqrt(2 * pixel->covered / pixel->count) : 0;
         }
+    }
     relief.smooth();
 }
 

@@ -1,11 +1,18 @@
 #include "draw/frame.hpp"
 
+#include "geometry/simplex_box.hpp"
+
 #include <algorithm>
 #include <limits>
 
 namespace abacus {
 
 namespace {
+
+// What a height from the window's shape is kept between, in widths: beyond that a picture is a
+// line, or takes many times the memory that its width lets expect.
+constexpr double flattest = 1.0 / 8;
+constexpr std::int64_t tallest = 8;
 
 [[noreturn]] void throw_argument(const std::string &message, std::string detail = {},
                                  std::string hint = {}) {
@@ -30,6 +37,8 @@ void check_drawing(const abacus_drawing &drawing) {
     for (int axis = 0; axis < 2; ++axis)
         if (!std::isfinite(drawing.lower[axis]) || !std::isfinite(drawing.upper[axis]))
             throw_argument("window of the picture is not finite");
+    if (!std::isfinite(drawing.range[0]) || !std::isfinite(drawing.range[1]))
+        throw_argument("range of the colours is not finite");
     if (!std::isfinite(drawing.exaggeration)) throw_argument("exaggeration is not finite");
     if (!(drawing.max_edge >= 0)) throw_argument("longest edge is negative or not a number");
 }
@@ -40,27 +49,36 @@ Extent::Extent(const abacus_drawing &drawing)
     : drawing_(drawing), whole_(shows_whole<2>(drawing)),
       low_(std::numeric_limits<double>::infinity()), high_(-low_) {
     check_drawing(drawing);
+    if (!has_range(drawing) || drawing.attribute < 0) return;
+    low_ = drawing.range[0];
+    high_ = drawing.range[1];
+}
+
+/// Whether a patch covers something of the window, or may if it is flat.
+static bool is_seen(const Patch &patch, const Box<2> &around, const Box<2> &window) {
+    bool is_within = true;
     for (int axis = 0; axis < 2; ++axis) {
-        lower_[axis] = low_;
-        upper_[axis] = high_;
+        if (!(around.lower[axis] < window.upper[axis] && window.lower[axis] < around.upper[axis]))
+            return false;
+        is_within = is_within && window.lower[axis] <= around.lower[axis] &&
+                    around.upper[axis] <= window.upper[axis];
     }
+    if (is_within) return true;
+    Point<2> corners[4];
+    for (int i = 0; i < patch.corners; ++i) corners[i] = {patch.corner[i][0], patch.corner[i][1]};
+    return !is_kept_apart(corners, patch.corners, window, false);
 }
 
 void Extent::add(const Patch &patch) {
-    double lower[2], upper[2];
-    for (int axis = 0; axis < 2; ++axis) {
-        lower[axis] = upper[axis] = patch.corner[0][axis];
-        for (int i = 1; i < patch.corners; ++i) {
-            lower[axis] = std::min(lower[axis], patch.corner[i][axis]);
-            upper[axis] = std::max(upper[axis], patch.corner[i][axis]);
-        }
-        if (!whole_ && !(lower[axis] < drawing_.upper[axis] && upper[axis] > drawing_.lower[axis]))
-            return;
-    }
-    for (int axis = 0; axis < 2; ++axis) {
-        lower_[axis] = std::min(lower_[axis], lower[axis]);
-        upper_[axis] = std::max(upper_[axis], upper[axis]);
-    }
+    Box<2> around;
+    for (int i = 0; i < patch.corners; ++i)
+        around.extend(Point<2>{patch.corner[i][0], patch.corner[i][1]});
+    if (!whole_ &&
+        !is_seen(patch, around,
+                 {{drawing_.lower[0], drawing_.lower[1]}, {drawing_.upper[0], drawing_.upper[1]}}))
+        return;
+    around_.extend(around);
+    if (has_range(drawing_)) return;
     const double *value = patch.value, *end = value + patch.corners;
     if (!std::all_of(value, end, [](double v) { return std::isfinite(v); })) return;
     low_ = std::min(low_, *std::min_element(value, end));
@@ -70,18 +88,19 @@ void Extent::add(const Patch &patch) {
 abacus_drawing Extent::drawing() const {
     abacus_drawing result = drawing_;
     for (int axis = 0; whole_ && axis < 2; ++axis) {
-        const bool any = lower_[axis] < upper_[axis];
-        result.lower[axis] = any ? lower_[axis] : 0;
-        result.upper[axis] = any ? upper_[axis] : 1;
+        const bool any = around_.lower[axis] < around_.upper[axis];
+        result.lower[axis] = any ? around_.lower[axis] : 0;
+        result.upper[axis] = any ? around_.upper[axis] : 1;
     }
     if (result.height == 0) {
         const double shape = (result.upper[1] * 0.5 - result.lower[1] * 0.5) /
                              (result.upper[0] * 0.5 - result.lower[0] * 0.5);
-        const auto most =
-            static_cast<double>(std::min<std::int64_t>(max_side, max_pixels / result.width));
+        const auto most = static_cast<double>(
+            std::min({std::int64_t{max_side}, max_pixels / result.width, result.width * tallest}));
+        const double least = std::max(1.0, std::floor(result.width * flattest));
         const double height = std::floor(result.width * shape + 0.5);
         // A window of the least double is nothing when halved, and has no shape.
-        result.height = static_cast<std::int32_t>(height >= 1 ? std::min(height, most) : 1);
+        result.height = static_cast<std::int32_t>(height >= least ? std::min(height, most) : least);
     }
     return result;
 }

@@ -6,6 +6,7 @@
 // files of this folder, grows with the number of triangles or tetrahedra.
 #pragma once
 
+#include "geometry/box.hpp"
 #include "host/host.hpp"
 
 #include <abacus/draw.h>
@@ -42,6 +43,9 @@ template <int D> bool shows_whole(const abacus_drawing &drawing) {
     return false;
 }
 
+/// True if it names the range of its colours.
+inline bool has_range(const abacus_drawing &drawing) { return drawing.range[0] < drawing.range[1]; }
+
 /// First pass: window and value range of the patches that the picture shows.
 class Extent {
 public:
@@ -50,23 +54,24 @@ public:
 
     /// False if the picture can be drawn without a first pass.
     static bool is_needed(const abacus_drawing &drawing) {
-        return shows_whole<2>(drawing) || drawing.attribute >= 0;
+        return shows_whole<2>(drawing) || (drawing.attribute >= 0 && !has_range(drawing));
     }
 
     void add(const Patch &patch);
 
     /// The drawing with window and height filled in: the window given or, if that is
     /// empty, the one that just holds the patches. A height from the window's shape
-    /// is kept within the limits, at the cost of the shape.
+    /// is kept within the limits, and from an eighth of the width to eight times, at the cost of
+    /// the shape.
     abacus_drawing drawing() const;
-    /// Range of the values; NaN if there are none.
+    /// Range of the colours: the one given or that of the values; NaN if there are none.
     double low() const { return low_ <= high_ ? low_ : NAN; }
     double high() const { return low_ <= high_ ? high_ : NAN; }
 
 private:
     abacus_drawing drawing_;
     bool whole_;
-    double lower_[2], upper_[2];
+    Box<2> around_;
     double low_, high_;
 };
 

@@ -81,6 +81,17 @@ Place Plane::place(const Point<3> &p) const {
     return {{bounded(dot(axis_[0], q)), bounded(dot(axis_[1], q))}, h, is_on ? 0 : h < 0 ? -1 : 1};
 }
 
+Point<3> Plane::point(const double (&at)[2]) const {
+    // The three directions are at right angles; only the first is of length 1.
+    const double right = at[0];
+    const double up = at[1] / dot(axis_[1], axis_[1]);
+    const double out = dot(normal_, through_) / dot(normal_, normal_);
+    Point<3> p;
+    for (int i = 0; i < 3; ++i)
+        p[i] = bounded((axis_[0][i] * right + axis_[1][i] * up + normal_[i] * out) / scale);
+    return p;
+}
+
 bool Plane::misses(const Point<3> &lower, const Point<3> &upper) const {
     Point<3> lowest, highest, farthest;
     for (int i = 0; i < 3; ++i) {

@@ -39,6 +39,8 @@ public:
     explicit Plane(const abacus_section &section);
 
     Place place(const Point<3> &p) const;
+    /// The point of the plane whose foot is there on the sheet, as near as rounding comes to it.
+    Point<3> point(const double (&at)[2]) const;
     /// True if all of the box lies on one side, and no point in it is on the plane.
     bool misses(const Point<3> &lower, const Point<3> &upper) const;
     /// The rectangle of the sheet that just holds its part within the box. Throws an

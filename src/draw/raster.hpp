@@ -58,7 +58,7 @@ private:
 class Raster {
 public:
     Raster(const Host &host, std::int32_t width, std::int32_t height)
-        : width_(width), height_(height), row_(host, width) {}
+        : host_(&host), width_(width), height_(height), row_(host, width) {}
 
     /// Calls sink(x, y, coverage) for every pixel that the patch, in pixels, covers.
     template <class Sink> void fill(const Patch &patch, Sink &&sink);
@@ -77,6 +77,7 @@ private:
     /// Cuts the line off a little outside of the picture; false if nothing is left.
     bool clip(double (&from)[2], double (&to)[2]) const;
 
+    const Host *host_;
     std::int32_t width_, height_;
     CoverageRow row_;
 };
@@ -105,6 +106,7 @@ template <class Sink> void Raster::fill(const Patch &patch, Sink &&sink) {
     const auto first = static_cast<std::int32_t>(std::max(top, 0.0));
     const auto end = static_cast<std::int32_t>(std::ceil(std::min<double>(bottom, height_)));
     for (std::int32_t y = first; y < end; ++y) {
+        host_->poll();
         for (int i = 0; i < count; ++i) {
             const Edge &e = edges[i];
             const double from = std::max<double>(y, e.y);

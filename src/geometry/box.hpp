@@ -35,6 +35,7 @@ template <int D> struct Box {
         for (int i = 0; i < D; ++i) contains &= lower[i] <= p[i] && p[i] <= upper[i];
         return contains;
     }
+    bool operator==(const Box &) const = default;
     bool is_point() const { return lower == upper; }
     bool meets(const Box &box) const {
         bool meets = true;

@@ -77,16 +77,6 @@ std::optional<int> integer_in_sphere(const Corners<3> &corners, const Point<3> &
     return -sign((lift(d) * abc - lift(c) * dab) + (lift(b) * cda - lift(a) * bcd));
 }
 
-template <int D> int unperturbed_in_sphere(const Corners<D> &c, const Point<D> &p) {
-    if (const auto sign = integer_in_sphere(c, p)) return *sign;
-    if constexpr (D == 2)
-        return Kernel().side_of_oriented_circle_2_object()(cgal(*c[0]), cgal(*c[1]), cgal(*c[2]),
-                                                           cgal(p));
-    else
-        return Kernel().side_of_oriented_sphere_3_object()(cgal(*c[0]), cgal(*c[1]), cgal(*c[2]),
-                                                           cgal(*c[3]), cgal(p));
-}
-
 /// Position of p to the sphere through the first N corners, on which it lies. The lifted
 /// points move up by infinitesimals, the lexicographically largest by the largest; the
 /// sign is that of the first coefficient, in this order, that is not zero: for p itself
@@ -130,6 +120,16 @@ int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c, const P
     return Kernel().orientation_3_object()(cgal(a), cgal(b), cgal(c), cgal(d));
 }
 
+template <int D> int unperturbed_in_sphere(const Corners<D> &c, const Point<D> &p) {
+    if (const auto sign = integer_in_sphere(c, p)) return *sign;
+    if constexpr (D == 2)
+        return Kernel().side_of_oriented_circle_2_object()(cgal(*c[0]), cgal(*c[1]), cgal(*c[2]),
+                                                           cgal(p));
+    else
+        return Kernel().side_of_oriented_sphere_3_object()(cgal(*c[0]), cgal(*c[1]), cgal(*c[2]),
+                                                           cgal(*c[3]), cgal(p));
+}
+
 template <int D> int in_sphere(const Corners<D> &corners, const Point<D> &p) {
     const int side = unperturbed_in_sphere<D>(corners, p);
     if (side != 0) return side;
@@ -159,6 +159,8 @@ int in_hull_facet(const Corners<3> &corners, const Point<3> &p) {
     });
 }
 
+template int unperturbed_in_sphere<2>(const Corners<2> &, const Point<2> &);
+template int unperturbed_in_sphere<3>(const Corners<3> &, const Point<3> &);
 template int in_sphere<2>(const Corners<2> &, const Point<2> &);
 template int in_sphere<3>(const Corners<3> &, const Point<3> &);
 

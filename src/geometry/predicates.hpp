@@ -42,6 +42,8 @@ int orientation(const Point<2> &a, const Point<2> &b, const Point<2> &c);
 int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c, const Point<3> &d);
 /// As in_sphere() below.
 template <int D> int in_sphere(const Corners<D> &corners, const Point<D> &p);
+/// The same without perturbation: 0 on the sphere.
+template <int D> int unperturbed_in_sphere(const Corners<D> &corners, const Point<D> &p);
 /// As in_hull_facet() below.
 int in_hull_facet(const Corners<3> &corners, const Point<3> &p);
 } // namespace exact

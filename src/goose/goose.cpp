@@ -1,7 +1,7 @@
 #include "goose/goose.hpp"
 
-#include "cache/stopwatch.hpp"
 #include "geometry/conflict.hpp"
+#include "host/stopwatch.hpp"
 #include "query/describe.hpp"
 
 namespace abacus {

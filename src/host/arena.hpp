@@ -1,4 +1,4 @@
-// A growing flat array in the host's memory. Elements are trivially copyable,
+// A growing flat array in memory of any kind (memory.hpp). Elements are trivially copyable,
 // so that growth is one resize(): for large arrays the C library moves pages,
 // not bytes, and nothing is ever held twice.
 //
@@ -22,21 +22,22 @@
 
 namespace abacus {
 
-template <class T> class Arena {
+/// `Index`: what its elements are numbered by. A type of its own is taken for no other's.
+template <class T, class Index = std::size_t> class Arena {
     static_assert(std::is_trivially_copyable_v<T>);
 
 public:
-    explicit Arena(const Host &host) : host_(&host) {}
+    explicit Arena(const Memory &memory) : memory_(memory) {}
     Arena(const Arena &) = delete;
     Arena &operator=(const Arena &) = delete;
     Arena(Arena &&other) noexcept
-        : host_(other.host_), block_(std::exchange(other.block_, nullptr)),
+        : memory_(other.memory_), block_(std::exchange(other.block_, nullptr)),
           data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)),
           capacity_(std::exchange(other.capacity_, 0)), ready_(std::exchange(other.ready_, 0)) {}
-    ~Arena() { host_->release(block_); }
+    ~Arena() { memory_.release(block_); }
 
-    T &operator[](std::size_t i) { return data_[i]; }
-    const T &operator[](std::size_t i) const { return data_[i]; }
+    T &operator[](Index i) { return data_[static_cast<std::size_t>(i)]; }
+    const T &operator[](Index i) const { return data_[static_cast<std::size_t>(i)]; }
     T *data() { return data_; }
     const T *data() const { return data_; }
     T *begin() { return data_; }
@@ -52,7 +53,7 @@ public:
     void reserve(std::size_t n) {
         if (n <= capacity_) return;
         const std::size_t offset = gap(block_);
-        block_ = static_cast<char *>(host_->resize(block_, n * sizeof(T) + cache_line));
+        block_ = static_cast<char *>(memory_.resize(block_, n * sizeof(T) + cache_line));
         char *const data = block_ + gap(block_);
         if (gap(block_) != offset) std::memmove(data, block_ + offset, capacity_ * sizeof(T));
         data_ = reinterpret_cast<T *>(data);
@@ -76,7 +77,7 @@ public:
     void clear() { size_ = 0; }
     /// Gives the memory back.
     void reset() {
-        host_->release(block_);
+        memory_.release(block_);
         block_ = nullptr;
         data_ = nullptr;
         size_ = capacity_ = ready_ = 0;
@@ -103,7 +104,7 @@ private:
         return -reinterpret_cast<std::uintptr_t>(block) % cache_line;
     }
 
-    const Host *host_;
+    Memory memory_;
     char *block_ = nullptr; // from the host
     T *data_ = nullptr;
     std::size_t size_ = 0;

@@ -24,7 +24,7 @@ template <std::uint32_t no_number> class HashSlots {
 public:
     static constexpr std::size_t slot_bytes = 2 * sizeof(std::uint32_t);
 
-    explicit HashSlots(const Host &host) : slots_(host) { add_slots(1024); }
+    explicit HashSlots(const Memory &memory) : slots_(memory) { add_slots(1024); }
 
     void add(std::uint32_t hash, std::uint32_t number) {
         if (2 * (count_ + 1) > slots_.size()) grow();

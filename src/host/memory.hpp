@@ -1,26 +1,35 @@
-// The host's memory for standard containers.
+// Memory, from wherever it comes: the session's (a memory context, for the session's thread
+// alone), or memory that any thread may use (thread_memory.hpp). Arrays and tables of the core ask
+// for no other.
 #pragma once
 
-#include "host/host.hpp"
+#include <abacus/host.h>
 
-#include <memory_resource>
+#include <cstddef>
+#include <new>
 
 namespace abacus {
 
-class HostMemory final : public std::pmr::memory_resource {
+class Memory {
 public:
-    explicit HostMemory(const Host &host) : host_(&host) {}
+    /// Like realloc(); size 0 frees and gives nullptr, as running out does.
+    using Resize = void *(*)(void *context, void *block, std::size_t size);
+
+    Memory(void *context, Resize resize) : context_(context), resize_(resize) {}
+
+    /// Throws std::bad_alloc.
+    void *resize(void *block, std::size_t size) const {
+        void *moved = resize_(context_, block, size);
+        if (moved == nullptr && size != 0) throw std::bad_alloc();
+        return moved;
+    }
+    void release(void *block) const noexcept {
+        if (block != nullptr) resize_(context_, block, 0);
+    }
 
 private:
-    void *do_allocate(std::size_t bytes, std::size_t) override {
-        return host_->resize(nullptr, bytes > 0 ? bytes : 1);
-    }
-    void do_deallocate(void *block, std::size_t, std::size_t) override { host_->release(block); }
-    bool do_is_equal(const std::pmr::memory_resource &other) const noexcept override {
-        return this == &other;
-    }
-
-    const Host *host_;
+    void *context_;
+    Resize resize_;
 };
 
 } // namespace abacus

@@ -8,9 +8,9 @@
 // all its pages are looked into then, from the last one back (cache_load.cpp).
 #pragma once
 
-#include "cache/cache.hpp"
 #include "load/record_sort.hpp"
 #include "load/records.hpp"
+#include "mesh/cache.hpp"
 
 #include <abacus/header.h>
 

@@ -1,6 +1,6 @@
 #include "load/load.hpp"
 
-#include "cache/domain_of.hpp"
+#include "keys/domain_of.hpp"
 #include "load/element_writer.hpp"
 #include "load/overlap.hpp"
 #include "points/canonical.hpp"
@@ -17,8 +17,9 @@ constexpr std::size_t sorts_at_once = 4;
 template <int D>
 Load<D>::Load(const Host &host, const abacus_header &header, std::size_t memory, bool reorient)
     : host_(host), attributes_(header.attributes), layout_(header.attributes), reorient_(reorient),
-      share_(memory / sorts_at_once), pacer_(host), used_(host, layout_.vertex),
-      ordered_(host, layout_.vertex), simplices_(host, layout_.simplex) {
+      unknown_(host), share_(memory / sorts_at_once), pacer_(host), spread_(host),
+      used_(host, layout_.vertex), ordered_(host, layout_.vertex),
+      simplices_(host, layout_.simplex) {
     if (header.staged > 0 || header.vertices > 0)
         throw Error(ABACUS_ERROR_STATE, "the mesh has points already", {},
                     "Load into an empty mesh.");
@@ -41,8 +42,8 @@ template <int D> void Load<D>::add_simplices(const Word *ids, std::size_t count)
     for (std::size_t i = 0; i < count; ++i, ids += D + 1, ++simplex_count_)
         for (int k = 0; k <= D; ++k) {
             if (std::find(ids, ids + k, ids[k]) != ids + k)
-                refuse("simplex " + name_of({ids, D + 1}) + " has the same vertex twice", {},
-                       "Leave out simplices that have collapsed.");
+                faults_.add("simplex " + name_of({ids, D + 1}) + " has the same vertex twice", {},
+                            "Leave out simplices that have collapsed.");
             Word *corner = corners_->add();
             corner[0] = ids[k];
             corner[1] = simplex_count_ << 2 | static_cast<Word>(k);
@@ -59,12 +60,18 @@ template <int D> void Load<D>::write_vertices() {
     ordered_.close();
 }
 
-template <int D> void Load<D>::finish(abacus_header &header) {
+template <int D> abacus_delaunay Load<D>::outcome() const {
+    if (!is_empty_) return ABACUS_NOT_DELAUNAY;
+    if (!is_convex_) return ABACUS_NOT_CONVEX;
+    return is_own_ ? ABACUS_DELAUNAY : ABACUS_WEAKLY_DELAUNAY;
+}
+
+template <int D> abacus_delaunay Load<D>::check() {
     pacer_.begin(ABACUS_PHASE_SORTING, 0);
     vertices_->finish();
     corners_->finish();
     find_corners();
-    if (simplex_count_ == 0) return;
+    if (simplex_count_ == 0) return ABACUS_DELAUNAY;
     choose_domain();
     order_vertices();
     assemble();
@@ -72,12 +79,18 @@ template <int D> void Load<D>::finish(abacus_header &header) {
     find_boundary();
 
     pacer_.begin(ABACUS_PHASE_CHECKING, 0);
-    Overlap<D>(host_, layout_, share_).check(*boundary_, simplices_);
+    Overlap<D>(host_, layout_, share_).check(*boundary_, simplices_, faults_);
     simplices_.close();
-    if (delaunay_) {
+    if (is_empty_) {
         link_ghosts();
-        if (delaunay_) check_hull();
+        if (is_convex_) check_hull();
     }
+    return outcome();
+}
+
+template <int D> void Load<D>::write(abacus_header &header) {
+    if (simplex_count_ == 0) return;
+    const bool is_delaunay = outcome() == ABACUS_DELAUNAY;
     add_ghosts();
     if (links_) end(links_);
     header.ghosts = boundary_->size();
@@ -85,10 +98,10 @@ template <int D> void Load<D>::finish(abacus_header &header) {
     elements_->finish();
 
     pacer_.begin(ABACUS_PHASE_FLUSHING, elements_->size());
-    ElementWriter<D> pages(host_, layout_, *domain_, attributes_, delaunay_);
+    ElementWriter<D> pages(host_, layout_, *domain_, attributes_, is_delaunay);
     pages.write(*elements_, pacer_);
     end(elements_);
-    if (delaunay_)
+    if (is_delaunay)
         ordered_.close();
     else
         write_vertices();
@@ -99,8 +112,8 @@ template <int D> void Load<D>::finish(abacus_header &header) {
         set_domain(header, box_);
     header.vertices = vertex_count_;
     header.simplices = simplex_count_;
-    header.not_delaunay = !delaunay_;
-    if (!delaunay_) header.staged = header.inserted = vertex_count_;
+    header.not_delaunay = outcome();
+    if (!is_delaunay) header.staged = header.inserted = vertex_count_;
     header.counters = pages.counters(); // nothing has been done with it before
 }
 

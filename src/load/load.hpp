@@ -16,7 +16,9 @@
 //
 // The mesh is the Delaunay triangulation of its vertices if and only if across every facet
 // the empty-sphere criterion holds under the perturbation, each ridge of the boundary joins
-// two facets and is convex, and it is in one piece (Delaunay 1934). What is convex at all
+// two facets and is convex, and it is in one piece (Delaunay 1934). If the criterion holds
+// without the perturbation alone it is weakly Delaunay: all spheres are empty, but of vertices
+// on one sphere others are joined. What is convex at all
 // ridges of a connected boundary is convex (Tietze, Nakajima). Of two convex pieces, one
 // would have the least or the greatest vertex of all beyond one of its facets: if both were
 // in both pieces, so would be all that lies between them, which overlap.hpp excludes but for
@@ -28,10 +30,12 @@
 #pragma once
 
 #include "geometry/box_tree.hpp"
-#include "geometry/locational_code.hpp"
+#include "keys/locational_code.hpp"
+#include "load/faults.hpp"
 #include "load/record_sort.hpp"
 #include "load/record_spool.hpp"
 #include "load/records.hpp"
+#include "points/spread.hpp"
 
 #include <abacus/header.h>
 #include <optional>
@@ -47,14 +51,29 @@ public:
     void add_vertices(const std::uint64_t *points, std::size_t count);
     /// Adds simplices: D + 1 vertex ids each.
     void add_simplices(const std::uint64_t *ids, std::size_t count);
-    /// Checks, writes the pages and brings the header of the empty mesh up to date.
-    void finish(abacus_header &header);
+    /// No more come: checks.
+    abacus_delaunay check();
+    /// Writes the pages and brings the header of the empty mesh up to date.
+    void write(abacus_header &header);
+    /// Or instead: calls add(vertex) with the record of each vertex of a simplex.
+    template <class Add> void give_vertices(Add add) {
+        for (auto *sort : {&links_, &boundary_, &elements_})
+            if (*sort) end(*sort); // whoever takes the vertices needs memory
+        while (const Word *vertex = ordered_.next()) add(vertex);
+        ordered_.close();
+    }
 
 private:
     // load_vertices.cpp
     void find_corners();
     void use_vertex(const Word *vertex);
-    [[noreturn]] void refuse_unknown(Word number, Word id);
+    /// A corner without a vertex, and the ids of its simplex, by which it is named.
+    struct Unknown {
+        Word simplex, id;
+        std::array<Word, D + 1> ids;
+    };
+    void add_unknown(const Word *corner);
+    void name_unknown();
     void choose_domain();
     void order_vertices();
 
@@ -71,6 +90,7 @@ private:
     void add_ghosts();
 
     // load.cpp
+    abacus_delaunay outcome() const;
     void write_vertices();
     void begin(std::optional<RecordSort> &sort, std::size_t stride, std::size_t key) {
         sort.emplace(host_, stride, key, share_);
@@ -84,11 +104,16 @@ private:
     const unsigned attributes_;
     const LoadLayout<D> layout_;
     const bool reorient_;
+    Faults faults_; // of one step: there is no next one if it has some
+    Arena<Unknown> unknown_;
     const std::size_t share_; // of memory, for one of the sorts that are open at once
     Pacer pacer_;
     std::optional<Domain<D>> domain_;
-    Box<D> box_;
-    bool delaunay_ = true;
+    Spread<D> spread_; // of the vertices
+    Box<D> box_;       // that the domain is chosen by
+    /// As far as it has been looked into: the circumspheres are empty, the boundary is the convex
+    /// hull, and of cospherical vertices those are joined that the perturbation joins.
+    bool is_empty_ = true, is_convex_ = true, is_own_ = true;
     Word vertex_count_ = 0, simplex_count_ = 0;
     Word outside_ = 0;              // vertices, of a given domain
     bool keeps_domain_ = false;     // the given one

@@ -18,8 +18,8 @@ template <int D> void Load<D>::link_ghosts() {
     flanks_->finish();
     begin(links_, LoadLayout<D>::link, 1);
     each_facet<D, D - 1>(*flanks_, [&](const auto &flanks, std::uint64_t n) {
-        if (n != 2) delaunay_ = false; // pinched
-        if (!delaunay_) return;
+        if (n != 2) is_convex_ = false; // pinched
+        if (!is_convex_) return;
         add_link(*links_, flanks[0], flanks[1]);
         add_link(*links_, flanks[1], flanks[0]);
     });
@@ -32,34 +32,37 @@ template <int D> void Load<D>::check_hull() {
     LinkReader<D> links(*links_);
     Word ghost = 0;
     for (; const Word *record = boundary_->next(); ++ghost) {
-        if (!delaunay_) return;
+        if (!is_convex_) return;
         Corners<D> corners;
         for (int i = 0; i < D; ++i) corners[i] = &point_in<D>(layout_.boundary_vertex(record, i));
         for (int i = 0; i < D; ++i) {
             const auto *link = links.of(ghost, i);
             corners[D] = &link->point;
             const int side = orientation<D>(corners);
-            if (side > 0 || (side == 0 && in_hull_facet(corners, link->point) > 0))
-                delaunay_ = false;
+            if (side > 0) is_convex_ = false;
+            if (side == 0 && in_hull_facet(corners, link->point) > 0) is_own_ = false;
         }
         for (const Point<D> *extreme : {&least_, &greatest_}) {
             corners[D] = extreme;
-            if (orientation<D>(corners) > 0) delaunay_ = false; // another piece's
+            if (orientation<D>(corners) > 0) is_convex_ = false; // another piece's
         }
     }
 }
 
 template <int D> void Load<D>::add_ghosts() {
     boundary_->rewind();
-    if (delaunay_) links_->rewind();
+    const bool is_linked = outcome() == ABACUS_DELAUNAY;
     std::optional<LinkReader<D>> links;
-    if (delaunay_) links.emplace(*links_);
+    if (is_linked) {
+        links_->rewind();
+        links.emplace(*links_);
+    }
     Word ghost = 0;
     for (; const Word *record = boundary_->next(); ++ghost) {
         Word *element = elements_->add();
         std::copy_n(record, 2, element);
         for (int i = 0; i < D; ++i) {
-            const Key beyond = delaunay_ ? links->of(ghost, i)->key : Key{};
+            const Key beyond = is_linked ? links->of(ghost, i)->key : Key{};
             element[2 + 2 * i] = beyond.code;
             element[3 + 2 * i] = beyond.part;
         }

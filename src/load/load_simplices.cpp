@@ -37,12 +37,12 @@ template <int D> void Load<D>::assemble() {
         }
         const int sign = orientation<D>(points);
         if (sign == 0)
-            refuse("simplex " + name_of(ids) + " is flat",
-                   D == 2 ? "Its vertices lie on one line." : "Its vertices lie in one plane.",
-                   "Leave flat simplices out, and join the simplices beside them.");
+            faults_.add("simplex " + name_of(ids) + " is flat",
+                        D == 2 ? "Its vertices lie on one line." : "Its vertices lie in one plane.",
+                        "Leave flat simplices out, and join the simplices beside them.");
         if (sign < 0 && !reorient_)
-            refuse("simplex " + name_of(ids) + " has negative orientation", {},
-                   "Exchange two of its vertices, or let reorient => true do it.");
+            faults_.add("simplex " + name_of(ids) + " has negative orientation", {},
+                        "Exchange two of its vertices, or let reorient => true do it.");
         if (sign < 0) std::swap(vertices[0], vertices[1]);
         const Key key = key_of(vertices, D + 1);
         Word *record = simplices_.add();
@@ -54,6 +54,7 @@ template <int D> void Load<D>::assemble() {
             Flank<D, D>(simplex, i, key, [&](int v) { return vertices[v]; }).write(flanks_->add());
         ++simplex;
     }
+    faults_.raise();
     end(placed_);
     simplices_.rewind();
     flanks_->finish();
@@ -64,23 +65,28 @@ template <int D> void Load<D>::link() {
     each_facet<D, D>(*flanks_, [&](const auto &flanks, std::uint64_t n) {
         const auto name = [&](int i) { return sorted_name(flanks[i].ids, flanks[i].opposite); };
         const auto facet = [&] { return sorted_name(flanks[0].ids); };
-        for (std::uint64_t i = 1; i < std::min<std::uint64_t>(n, 3); ++i)
-            for (std::uint64_t k = 0; k < i; ++k)
-                if (flanks[i].opposite == flanks[k].opposite)
-                    refuse("simplex " + name(static_cast<int>(i)) + " is given twice", {},
-                           "Take each simplex once: SELECT DISTINCT.");
-        if (n > 2)
-            refuse("facet " + facet() + " belongs to " + std::to_string(n) + " simplices",
-                   "Three of them are " + name(0) + ", " + name(1) + " and " + name(2) + ".",
-                   "A facet has two sides, and on each one simplex at most.");
         if (n < 2) return;
-        if (flanks[0].odd() == flanks[1].odd())
-            refuse(names_of(name(0), name(1)) + " overlap",
-                   "They lie on the same side of their common facet " + facet() + ".",
-                   "A facet has two sides, and on each one simplex at most.");
+        const int seen = static_cast<int>(std::min<std::uint64_t>(n, 3));
+        for (int i = 1; i < seen; ++i)
+            for (int k = 0; k < i; ++k) {
+                if (flanks[i].opposite != flanks[k].opposite) continue;
+                if (flanks[i].opposite < flanks[i].ids[0]) // at one of its facets
+                    faults_.add("simplex " + name(i) + " is given twice", {},
+                                "Take each simplex once: SELECT DISTINCT.");
+                return;
+            }
+        if (n > 2)
+            faults_.add("facet " + facet() + " belongs to " + std::to_string(n) + " simplices",
+                        "Three of them are " + name(0) + ", " + name(1) + " and " + name(2) + ".",
+                        "A facet has two sides, and on each one simplex at most.");
+        else if (flanks[0].odd() == flanks[1].odd())
+            faults_.add(names_of(name(0), name(1)) + " overlap",
+                        "They lie on the same side of their common facet " + facet() + ".",
+                        "A facet has two sides, and on each one simplex at most.");
         add_link(*links_, flanks[0], flanks[1]);
         add_link(*links_, flanks[1], flanks[0]);
     });
+    faults_.raise();
     end(flanks_);
     links_->finish();
 }
@@ -101,9 +107,11 @@ template <int D> void Load<D>::find_boundary() {
             if (const auto *link = links.of(simplex, i)) {
                 beyond = link->key;
                 // Each facet from one of its sides.
-                if (delaunay_ && layout_.simplex_vertex(record, i)[0] < link->opposite &&
-                    in_sphere(corners, link->point) > 0)
-                    delaunay_ = false;
+                if (is_empty_ && layout_.simplex_vertex(record, i)[0] < link->opposite &&
+                    in_sphere(corners, link->point) > 0) {
+                    is_own_ = false;
+                    is_empty_ = exact::unperturbed_in_sphere<D>(corners, link->point) <= 0;
+                }
             } else {
                 add_ghost(record, i, beyond);
             }

@@ -1,6 +1,6 @@
 // Vertices and corners: which vertices the simplices have, where they lie, and their order
 // along the curve.
-#include "cache/domain_of.hpp"
+#include "keys/domain_of.hpp"
 #include "load/load.hpp"
 
 #include <algorithm>
@@ -17,10 +17,11 @@ template <int D> void Load<D>::find_corners() {
     std::optional<Word> previous;
     while (const Word *vertex = vertices_->next()) {
         if (previous == vertex[0])
-            refuse("two vertices have the id " + number(vertex[0]), {},
-                   "Ids name the vertices of simplices: each must be given once.");
+            faults_.add("two vertices have the id " + number(vertex[0]), {},
+                        "Ids name the vertices of simplices: each must be given once.");
         previous = vertex[0];
-        if (corner != nullptr && corner[0] < vertex[0]) refuse_unknown(corner[1] >> 2, corner[0]);
+        for (; corner != nullptr && corner[0] < vertex[0]; corner = corners_->next())
+            add_unknown(corner);
         if (corner == nullptr || corner[0] != vertex[0]) continue; // in no simplex
         use_vertex(vertex);
         for (; corner != nullptr && corner[0] == vertex[0]; corner = corners_->next()) {
@@ -29,7 +30,9 @@ template <int D> void Load<D>::find_corners() {
             std::copy_n(vertex, layout_.vertex, placed + 1);
         }
     }
-    if (corner != nullptr) refuse_unknown(corner[1] >> 2, corner[0]);
+    for (; corner != nullptr; corner = corners_->next()) add_unknown(corner);
+    name_unknown();
+    faults_.raise();
     end(corners_);
     end(vertices_);
     placed_->finish();
@@ -37,35 +40,51 @@ template <int D> void Load<D>::find_corners() {
 
 template <int D> void Load<D>::use_vertex(const Word *vertex) {
     const Point<D> &p = point_in<D>(vertex);
-    const bool first = box_.lower[0] > box_.upper[0];
+    const bool first = vertex_count_ == 0;
     if (first || lexicographically_less<D>(p, least_)) least_ = p;
     if (first || lexicographically_less<D>(greatest_, p)) greatest_ = p;
-    box_.extend(p);
+    spread_.add(p);
     ++vertex_count_;
     outside_ += domain_ && !Box<D>(domain_->lower(), domain_->upper()).contains(p);
     std::copy_n(vertex, layout_.vertex, used_.add());
 }
 
-/// Looks for the other corners of the simplex, to name it.
-template <int D> void Load<D>::refuse_unknown(Word simplex, Word id) {
-    std::array<Word, D + 1> ids{};
-    corners_->rewind();
-    while (const Word *corner = corners_->next())
-        if (corner[1] >> 2 == simplex) ids[corner[1] & 3] = corner[0];
-    refuse("simplex " + name_of(ids) + " names vertex " + number(id) + ", which does not exist", {},
-           "The vertices query must return all vertices of the simplices.");
+template <int D> void Load<D>::add_unknown(const Word *corner) {
+    if (unknown_.size() < Faults::most)
+        unknown_.push_back({corner[1] >> 2, corner[0], {}});
+    else
+        faults_.add_unnamed(1);
 }
 
-/// A given domain that the vertices do not keep to is widened at once: a mesh that is not Delaunay
-/// is never keyed anew.
-template <int D> void Load<D>::choose_domain() {
-    keeps_domain_ = domain_ && !has_outgrown_domain(outside_, vertex_count_);
-    if (keeps_domain_) return;
-    if (domain_) {
-        box_.extend(domain_->lower());
-        box_.extend(domain_->upper());
+/// Looks for the other corners of the simplices, to name these.
+template <int D> void Load<D>::name_unknown() {
+    if (unknown_.empty()) return;
+    const auto before = [](const Unknown &a, const Unknown &b) { return a.simplex < b.simplex; };
+    std::stable_sort(unknown_.begin(), unknown_.end(), before);
+    corners_->rewind();
+    while (const Word *corner = corners_->next()) {
+        const auto [begin, end] = std::equal_range(unknown_.begin(), unknown_.end(),
+                                                   Unknown{corner[1] >> 2, 0, {}}, before);
+        for (auto *at = begin; at != end; ++at) at->ids[corner[1] & 3] = corner[0];
     }
-    domain_ = domain_around<D>(box_.lower, box_.upper);
+    for (const Unknown &unknown : unknown_)
+        faults_.add("simplex " + name_of(unknown.ids) + " names vertex " + number(unknown.id) +
+                        ", which does not exist",
+                    {}, "The vertices query must return all vertices of the simplices.");
+    unknown_.reset();
+}
+
+/// A given domain that does not fit the vertices gives way to another one at once: a mesh that is
+/// not Delaunay is never keyed anew.
+template <int D> void Load<D>::choose_domain() {
+    Box<D> all = spread_.box();
+    if (domain_) all.extend(Box<D>(domain_->lower(), domain_->upper()));
+    box_ = spread_.choose(all);
+    if (domain_ && !has_outgrown_domain(outside_, vertex_count_)) {
+        const Box<D> given(domain_->lower(), domain_->upper());
+        keeps_domain_ = box_ == all || spread_.choose(given) == given;
+    }
+    if (!keeps_domain_) domain_ = domain_around<D>(box_.lower, box_.upper);
 }
 
 template <int D> void Load<D>::order_vertices() {
@@ -89,9 +108,9 @@ template <int D> void Load<D>::order_vertices() {
         if (previous_point == p) {
             const auto [lesser, greater] =
                 std::minmax({static_cast<std::int64_t>(previous), static_cast<std::int64_t>(id)});
-            refuse("vertices " + std::to_string(lesser) + " and " + std::to_string(greater) +
-                       " have the same coordinates",
-                   {}, "Give the simplices one vertex for each place.");
+            faults_.add("vertices " + std::to_string(lesser) + " and " + std::to_string(greater) +
+                            " have the same coordinates",
+                        {}, "Give the simplices one vertex for each place.");
         }
         previous = id;
         previous_point = p;
@@ -100,6 +119,7 @@ template <int D> void Load<D>::order_vertices() {
         std::copy_n(place + 1, D, vertex + 1);
         std::copy_n(place + 2 + D, attributes_, vertex + 1 + D);
     }
+    faults_.raise();
     ordered_.rewind();
     places.close();
 }

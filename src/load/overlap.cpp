@@ -6,14 +6,18 @@ namespace abacus {
 
 namespace {
 
-[[noreturn]] void refuse_overlap(const std::string &a, const std::string &b) {
-    refuse(names_of(a, b) + " overlap", "Their interiors have points in common.",
-           "Simplices of a mesh meet in common faces only.");
+constexpr char common_faces[] = "Simplices of a mesh meet in common faces only.";
+
+std::string overlap_of(const std::string &a, const std::string &b) {
+    return names_of(a, b) + " overlap";
 }
-[[noreturn]] void refuse_contact(const std::string &a, const std::string &b,
-                                 const std::string &detail) {
-    refuse(names_of(a, b) + " meet in more than a common face", detail,
-           "Simplices of a mesh meet in common faces only.");
+void add_overlap(Faults &faults, const std::string &a, const std::string &b) {
+    faults.add(overlap_of(a, b), "Their interiors have points in common.", common_faces);
+}
+void add_contact(Faults &faults, const std::string &a, const std::string &b,
+                 const std::string &detail) {
+    if (faults.has(overlap_of(a, b))) return; // which says more
+    faults.add(names_of(a, b) + " meet in more than a common face", detail, common_faces);
 }
 
 constexpr std::size_t least_room = 64; // facets
@@ -56,18 +60,21 @@ template <int D> bool Overlap<D>::fill(RecordSort &boundary) {
     return !facets_.empty();
 }
 
-template <int D> void Overlap<D>::check(RecordSort &boundary, RecordSpool &simplices) {
-    while (fill(boundary)) {
-        check_simplices(simplices);
-        check_boundary(boundary);
+template <int D>
+void Overlap<D>::check(RecordSort &boundary, RecordSpool &simplices, Faults &faults) {
+    while (!faults.is_full() && fill(boundary)) {
+        check_simplices(simplices, faults);
+        check_boundary(boundary, faults);
         if (first_ + facets_.size() == boundary.size()) break;
     }
+    if (faults.is_full()) faults.stop();
+    faults.raise();
     facets_.reset();
 }
 
-template <int D> void Overlap<D>::check_simplices(RecordSpool &simplices) const {
+template <int D> void Overlap<D>::check_simplices(RecordSpool &simplices, Faults &faults) const {
     simplices.rewind();
-    while (const Word *simplex = simplices.next()) {
+    while (const Word *simplex = faults.is_full() ? nullptr : simplices.next()) {
         Corners<D> corners;
         Box<D> box;
         for (int i = 0; i <= D; ++i) {
@@ -80,10 +87,13 @@ template <int D> void Overlap<D>::check_simplices(RecordSpool &simplices) const 
             if (cover == Cover::none) return true;
             std::array<Word, D + 1> ids;
             for (int k = 0; k <= D; ++k) ids[k] = layout_.simplex_vertex(simplex, k)[0];
-            if (cover == Cover::inside) refuse_overlap(facets_[i].simplex(), sorted_name(ids));
-            refuse_contact(facets_[i].simplex(), sorted_name(ids),
-                           "Facet " + sorted_name(facets_[i].id) + " lies along " +
-                               sorted_name(ids) + ".");
+            if (cover == Cover::inside)
+                add_overlap(faults, facets_[i].simplex(), sorted_name(ids));
+            else
+                add_contact(faults, facets_[i].simplex(), sorted_name(ids),
+                            "Facet " + sorted_name(facets_[i].id) + " lies along " +
+                                sorted_name(ids) + ".");
+            return !faults.is_full();
         });
     }
 }
@@ -113,11 +123,11 @@ typename Overlap<D>::Cover Overlap<D>::covers(const Corners<D> &corners,
     return cover;
 }
 
-template <int D> void Overlap<D>::check_boundary(RecordSort &boundary) const {
+template <int D> void Overlap<D>::check_boundary(RecordSort &boundary, Faults &faults) const {
     boundary.rewind();
     for (std::uint64_t number = 0;; ++number) {
         const Word *record = boundary.next();
-        if (record == nullptr) return;
+        if (record == nullptr || faults.is_full()) return;
         if (number < first_) continue;
         const BoundaryFacet facet = read(record);
         tree_.visit(facet.box(), [&](std::size_t i) {
@@ -125,10 +135,10 @@ template <int D> void Overlap<D>::check_boundary(RecordSort &boundary) const {
             const BoundaryFacet &other = facets_[i];
             if (first_ + i >= number) return false; // itself and later ones: their turn comes
             if (meet_improperly(facet.vertices(), other.vertices()))
-                refuse_contact(other.simplex(), facet.simplex(),
-                               "Their facets " + sorted_name(other.id) + " and " +
-                                   sorted_name(facet.id) + " cross or touch.");
-            return true;
+                add_contact(faults, other.simplex(), facet.simplex(),
+                            "Their facets " + sorted_name(other.id) + " and " +
+                                sorted_name(facet.id) + " cross or touch.");
+            return !faults.is_full();
         });
     }
 }

@@ -30,6 +30,7 @@
 
 #include "geometry/box_tree.hpp"
 #include "geometry/contact.hpp"
+#include "load/faults.hpp"
 #include "load/record_sort.hpp"
 #include "load/record_spool.hpp"
 #include "load/records.hpp"
@@ -40,8 +41,8 @@ template <int D> class Overlap {
 public:
     Overlap(const Host &host, const LoadLayout<D> &layout, std::size_t memory);
 
-    /// `boundary` is sorted. Throws an Error (argument) that names two simplices.
-    void check(RecordSort &boundary, RecordSpool &simplices);
+    /// `boundary` is sorted. Throws an Error (argument) that names pairs of simplices.
+    void check(RecordSort &boundary, RecordSpool &simplices, Faults &faults);
 
 private:
     /// A facet of the boundary, its ghost's vertices, and the simplex behind it.
@@ -66,8 +67,8 @@ private:
 
     BoundaryFacet read(const Word *record) const;
     bool fill(RecordSort &boundary);
-    void check_simplices(RecordSpool &simplices) const;
-    void check_boundary(RecordSort &boundary) const;
+    void check_simplices(RecordSpool &simplices, Faults &faults) const;
+    void check_boundary(RecordSort &boundary, Faults &faults) const;
     /// Whether the simplex with these corners covers the place just outside the facet, which lies
     /// inside of it, or along one of its own facets: then the simplex behind is on the other side.
     enum class Cover { none, inside, along };

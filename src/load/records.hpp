@@ -13,9 +13,9 @@
 //             D+1 vertices, of a ghost D
 #pragma once
 
-#include "cache/key.hpp"
 #include "geometry/predicates.hpp"
 #include "host/host.hpp"
+#include "keys/key.hpp"
 
 #include <algorithm>
 #include <array>
@@ -81,12 +81,6 @@ template <std::size_t K> std::string sorted_name(const std::array<Word, K> &face
 /// "simplices (1, 2, 3) and (4, 5, 6)", in one order
 inline std::string names_of(const std::string &a, const std::string &b) {
     return "simplices " + std::min(a, b) + " and " + std::max(a, b);
-}
-
-/// Refuses the input.
-[[noreturn]] inline void refuse(const std::string &message, const std::string &detail,
-                                const std::string &hint) {
-    throw Error(ABACUS_ERROR_ARGUMENT, message, detail, hint);
 }
 
 } // namespace abacus

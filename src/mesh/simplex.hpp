@@ -11,6 +11,8 @@
 // the last one of its simplex.
 #pragma once
 
+#include "blocks/block.hpp"
+
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -18,32 +20,46 @@
 namespace abacus {
 
 using VertexIndex = std::uint32_t;
-using Handle = std::uint32_t;
-using Link = std::uint32_t;
+/// A facet of a simplex; a type of its own, for it is neither a number nor a handle.
+enum class Link : std::uint32_t {};
 
 inline constexpr VertexIndex infinite_vertex = 0;
 inline constexpr VertexIndex free_mark = 0xffffffffu; // vertex[0] of a free slot
-inline constexpr Handle no_handle = 0xffffffffu;
-inline constexpr Link absent = 0x80000000u;
-inline constexpr Link unset = 0xffffffffu;
+inline constexpr Link absent{0x80000000u};
+inline constexpr Link unset{0xffffffffu};
 
+constexpr std::uint32_t to_bits(Link link) { return static_cast<std::uint32_t>(link); }
 constexpr Link make_link(Handle simplex, int facet) {
-    return simplex << 2 | static_cast<Link>(facet);
+    return Link{simplex << 2 | static_cast<std::uint32_t>(facet)};
 }
-constexpr Handle link_simplex(Link link) { return link >> 2; }
-constexpr int link_facet(Link link) { return static_cast<int>(link & 3); }
-constexpr bool is_absent(Link link) { return (link & absent) != 0; }
+constexpr Handle link_simplex(Link link) { return to_bits(link) >> 2; }
+constexpr int link_facet(Link link) { return static_cast<int>(to_bits(link) & 3); }
+constexpr bool is_absent(Link link) { return (to_bits(link) & to_bits(absent)) != 0; }
+/// To an entry of the visible facets.
+constexpr Link absent_link(std::uint32_t entry) { return Link{to_bits(absent) | entry}; }
+constexpr std::uint32_t visible_facet(Link link) { return to_bits(link) & ~to_bits(absent); }
+/// A link among simplices that are numbered from 0 on, where their handles begin with `first`.
+constexpr Link link_from(Handle first, Link link) {
+    return Link{to_bits(make_link(first, 0)) + to_bits(link)};
+}
 
 /// Slots of a block: more than a page of simplices can fill.
 template <int D> inline constexpr std::uint32_t block_slots = D == 2 ? 1024 : 768;
-template <int D> constexpr std::uint32_t block_of(Handle h) { return h / block_slots<D>; }
 
 template <int D> struct Simplex {
     std::array<VertexIndex, D + 1> vertex;
     std::array<Link, D + 1> link;
 
     bool is_ghost() const { return vertex[D] == infinite_vertex; }
+    // A free slot, see blocks/data_type.hpp.
     bool is_free() const { return vertex[0] == free_mark; }
+    std::uint32_t next_free() const { return to_bits(link[0]); }
+    Handle moved_to() const { return to_bits(link[1]); }
+    void set_free(std::uint32_t next, Handle moved) {
+        vertex[0] = free_mark;
+        link[0] = Link{next};
+        link[1] = Link{moved};
+    }
     /// Vertices that are not at infinity.
     int finite_vertices() const { return is_ghost() ? D : D + 1; }
     int index_of(VertexIndex v) const {

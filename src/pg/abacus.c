@@ -5,10 +5,12 @@
 
 #include "utils/builtins.h"
 
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/settings.h"
 #include "pg/space/vacuum.h"
-#include "pg/sql/sql_function.h"
+#include "pg/track/tracking.h"
+#include "pg/track/pending.h"
 
 PG_MODULE_MAGIC;
 
@@ -22,6 +24,8 @@ _PG_init(void)
 	settings_define();
 	mesh_cache_init();
 	vacuum_init();
+	mesh_tell_of_restored(tracking_bind_restored);
+	pending_init();
 }
 
 /* Version of the module, which may differ from that of the extension's SQL objects. */

@@ -21,14 +21,15 @@ void Leaving::begin() {
     for (const std::int64_t id : wants_) wanted_.push_back({id, 1, 0, 0, none, none});
     std::sort(wanted_.begin(), wanted_.end(),
               [](const Wanted &a, const Wanted &b) { return a.id < b.id; });
-    unmet_ = 0; // so far the ids that are different
+    std::size_t different = 0;
     for (const Wanted &wanted : wanted_) {
-        if (unmet_ > 0 && wanted_[unmet_ - 1].id == wanted.id)
-            ++wanted_[unmet_ - 1].times;
+        if (different > 0 && wanted_[different - 1].id == wanted.id)
+            ++wanted_[different - 1].times;
         else
-            wanted_[unmet_++] = wanted;
+            wanted_[different++] = wanted;
     }
-    wanted_.resize(unmet_);
+    wanted_.resize(different);
+    unmet_ = different;
 }
 
 Leaving::Wanted *Leaving::find(std::int64_t id) {

@@ -194,6 +194,24 @@ template <int D> const std::uint64_t *RepeatedPoints<D>::take_first(const Point<
     return taken_.data();
 }
 
+template <int D> std::uint64_t RepeatedPoints<D>::take_all(const Point<D> &p) {
+    const Key from{domain_.code(p), 0};
+    std::uint64_t taken = 0;
+    if (!go_to(from)) return 0;
+    // One run: to look again from the beginning would mean to pass all pages that have been erased.
+    do {
+        for (std::size_t i = lower_bound(from); i < count() && key_of(entry(i)).code == from.code;)
+            if (record_point<D>(record_of(entry(i))) == p) {
+                remove(i);
+                ++taken;
+            } else {
+                ++i;
+            }
+        host_.poll();
+    } while (go_on(from.code));
+    return taken;
+}
+
 template <int D> void RepeatedPoints<D>::flush() {
     if (!dirty_) return;
     dirty_ = false;

@@ -14,11 +14,13 @@
 // curve, so the next one nearly always belongs to the page at hand.
 #pragma once
 
-#include "cache/key.hpp"
-#include "geometry/locational_code.hpp"
 #include "host/arena.hpp"
+#include "keys/key.hpp"
+#include "keys/locational_code.hpp"
 #include "points/leaving.hpp"
 #include "points/record.hpp"
+
+#include <abacus/header.h>
 
 namespace abacus {
 
@@ -38,6 +40,8 @@ public:
     /// Takes away the first point equal to p; its record, valid until the next call, or
     /// nullptr if there is none.
     const std::uint64_t *take_first(const Point<D> &p);
+    /// Takes away all points equal to p; returns how many there were.
+    std::uint64_t take_all(const Point<D> &p);
     /// Writes the page at hand.
     void flush();
     /// All pages have gone, or may lie elsewhere.

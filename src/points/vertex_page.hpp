@@ -12,6 +12,8 @@
 #include "points/record.hpp"
 #include "points/record_sink.hpp"
 
+#include <abacus/header.h>
+
 #include <cstdint>
 #include <cstring>
 

@@ -61,14 +61,15 @@ template <int D> void WaitingPoints<D>::choose() {
     std::sort(found_.begin(), found_.end());
 }
 
-template <int D> std::uint64_t WaitingPoints<D>::take(std::uint64_t &from, std::uint64_t &to) {
-    find_candidates(from, to);
-    choose();
+/// Writes those that do not leave behind the last page, and erases the pages it has read.
+template <int D>
+template <class Leaves>
+std::uint64_t WaitingPoints<D>::take_those(std::uint64_t &from, std::uint64_t &to, Leaves leaves) {
     std::uint64_t taken = 0;
     VertexReader<D> reader(host_, attributes_, from, to, true);
     VertexPageWriter left(host_, D, attributes_, to);
     while (reader.advance()) {
-        if (taken < found_.size() && found_[taken] == reader.sequence())
+        if (leaves(reader, taken))
             ++taken;
         else
             left.add(reader.record());
@@ -79,6 +80,25 @@ template <int D> std::uint64_t WaitingPoints<D>::take(std::uint64_t &from, std::
     wanted_.clear();
     identities_.clear();
     return taken;
+}
+
+template <int D> std::uint64_t WaitingPoints<D>::take(std::uint64_t &from, std::uint64_t &to) {
+    find_candidates(from, to);
+    choose();
+    return take_those(from, to, [&](const VertexReader<D> &reader, std::uint64_t taken) {
+        return taken < found_.size() && found_[taken] == reader.sequence();
+    });
+}
+
+template <int D> std::uint64_t WaitingPoints<D>::take_all(std::uint64_t &from, std::uint64_t &to) {
+    const auto is_before = [](const Wanted &a, const Wanted &b) { return a.point < b.point; };
+    std::sort(wanted_.begin(), wanted_.end(), is_before);
+    return take_those(from, to, [&](const VertexReader<D> &reader, std::uint64_t) {
+        const Wanted given{reader.point(), 0, 0, 0, 0};
+        const bool leaves = std::binary_search(wanted_.begin(), wanted_.end(), given, is_before);
+        if (leaves) last_taken_ = reader.id();
+        return leaves;
+    });
 }
 
 template class WaitingPoints<2>;

@@ -34,6 +34,10 @@ public:
     /// Takes them away from the points [from, to); `to` becomes the end of those that are
     /// left, `from` their beginning. Returns how many were taken.
     std::uint64_t take(std::uint64_t &from, std::uint64_t &to);
+    /// The same for all points at the places wanted, whatever their ids: in one run.
+    std::uint64_t take_all(std::uint64_t &from, std::uint64_t &to);
+    /// The id of the last point that take_all() has taken.
+    std::int64_t last_taken() const { return last_taken_; }
 
 private:
     static constexpr std::size_t bytes = 3 << 19; // for what is wanted
@@ -53,6 +57,8 @@ private:
     };
     void find_candidates(std::uint64_t from, std::uint64_t to);
     void choose();
+    template <class Leaves>
+    std::uint64_t take_those(std::uint64_t &from, std::uint64_t &to, Leaves leaves);
 
     const Host &host_;
     const unsigned attributes_;
@@ -63,6 +69,7 @@ private:
     Arena<Candidate> candidates_;
     Arena<std::uint64_t> found_; // sequence numbers of the points that leave
     Leaving leaving_;            // those of one place
+    std::int64_t last_taken_ = 0;
 };
 
 extern template class WaitingPoints<2>;

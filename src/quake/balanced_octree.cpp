@@ -47,8 +47,13 @@ BalancedOctree::BalancedOctree(double frequency, double points_per_wavelength) {
     };
     require_positive(frequency, "frequency");
     require_positive(points_per_wavelength, "points_per_wavelength");
+    // Mantissas and exponents apart: no product on the way overflows or underflows where the last
+    // one does not.
+    int frequency_exponent, points_exponent;
+    const double slowness = unit * std::frexp(frequency, &frequency_exponent) *
+                            std::frexp(points_per_wavelength, &points_exponent);
     for (int shift = 0; shift <= depth; ++shift)
-        resolved_[shift] = unit * (1u << shift) * frequency * points_per_wavelength;
+        resolved_[shift] = std::ldexp(slowness, shift + frequency_exponent + points_exponent);
     const double slowest = Basin::slowest();
     if (resolved_[0] > slowest)
         throw Error(ABACUS_ERROR_ARGUMENT, "frequency is too high for the depth of the octree",

@@ -1,7 +1,7 @@
 #include "query/check.hpp"
 
-#include "cache/domain_of.hpp"
 #include "delaunay/cached_conflict.hpp"
+#include "keys/domain_of.hpp"
 #include "query/page_simplex.hpp"
 
 #include <cstdio>
@@ -49,7 +49,9 @@ template <int D> template <class Pass> void Check<D>::run(const char *kind, Pass
 }
 
 template <int D> void Check<D>::report(std::uint64_t pages) {
-    if (pages % 64 == 0) host_.progress({ABACUS_PHASE_CHECKING, pages, pages_, pages, 0});
+    // Every page is read twice; how many there are is known after the first time.
+    const std::uint64_t total = is_counted_ ? 2 * pages_ : 0;
+    if (pages % 64 == 0) host_.progress({ABACUS_PHASE_CHECKING, pages, total, pages, 0});
 }
 
 /// What need not hold of a header that can be read; the rest capi/header.cpp has seen to.
@@ -63,7 +65,7 @@ template <int D> void Check<D>::check_header() {
 template <int D> void Check<D>::check_pages() {
     Key expected = first_key;
     bool expecting = true; // not after a page that tells nothing
-    PageScan<D> scan(host_, header_.attributes);
+    PageScan<D> scan(host_, header_);
     while (scan.fetch()) {
         at_key_ = scan.key();
         report(++pages_);
@@ -83,6 +85,7 @@ template <int D> void Check<D>::check_pages() {
         }
         expecting = sound;
     }
+    is_counted_ = true;
     if (pages_ > 0 && expecting && !(expected == end_key))
         fault("interval", at_key_, "The last page does not reach the end of the curve.");
     if (simplices_ != header_.simplices || ghosts_ != header_.ghosts)
@@ -152,7 +155,7 @@ template <int D> void Check<D>::check_topology() {
         key = next;
         cache.trim();
         host_.poll();
-        report(++pages);
+        report(pages_ + ++pages);
     }
     if (header_.not_delaunay == 0) check_whole(stars);
 }

@@ -36,7 +36,7 @@
 #include "query/reader.hpp"
 #include "query/stars.hpp"
 
-#include "host/memory.hpp"
+#include "host/memory_resource.hpp"
 
 #include <abacus/read.h>
 #include <memory_resource>
@@ -89,6 +89,7 @@ private:
     std::size_t at_ = 0;
     Key at_key_{}; // page at hand
     std::uint64_t pages_ = 0;
+    bool is_counted_ = false; // pages_ are all
     std::uint64_t simplices_ = 0, ghosts_ = 0;
     std::size_t contents_ = 0;        // of the faults so far, those of fault_of_content()
     std::uint64_t page_vertices_ = 0; // of all pages

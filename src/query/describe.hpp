@@ -20,7 +20,7 @@ public:
 
     constexpr EvenOrders() {
         Order order{};
-        for (std::uint8_t i = 0; i <= D; ++i) order[i] = i;
+        for (int i = 0; i <= D; ++i) order[i] = static_cast<std::uint8_t>(i);
         do {
             if (is_even(order)) orders_[order[0]][D == 2 ? 0 : order[1]] = order;
         } while (std::next_permutation(order.begin(), order.end()));
@@ -39,11 +39,13 @@ template <int D> struct DescribedCorners {
     std::array<const Point<D> *, D + 1> point;
 };
 
+/// Returns which of the corners is handed out first, second, and so on.
+///
 /// Which corner is the least is as hard to foresee as a die: it is found without branches, and
 /// corners are written where they belong at once.
 template <int D>
-void describe(const DescribedCorners<D> &corners, std::uint64_t code, bool ghost,
-              abacus_simplex &out) {
+const typename EvenOrders<D>::Order &describe(const DescribedCorners<D> &corners,
+                                              std::uint64_t code, bool ghost, abacus_simplex &out) {
     const auto lesser = [&](int i, int j) {
         bool is_less = corners.id[j] < corners.id[i];
         if (corners.id[i] == corners.id[j]) [[unlikely]]
@@ -68,6 +70,7 @@ void describe(const DescribedCorners<D> &corners, std::uint64_t code, bool ghost
         out.id[i] = corners.id[order[i]];
         std::copy_n(corners.point[order[i]]->begin(), D, out.corner[i]);
     }
+    return order;
 }
 
 /// Order among the simplices that contain one point: by code, then ids, then corners.

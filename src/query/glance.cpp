@@ -5,14 +5,14 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <limits>
 
 namespace abacus {
 
 // ---- Where to look --------------------------------------------------------------------
 
 template <int D>
-bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex) {
+bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex,
+                     CornerValues *values) {
     looks_ = 0;
     if (!in_order_) held_[0].upper = {}; // its bytes were the host's, for a while
     KnownPage own;                       // a copy: others will be added
@@ -22,7 +22,7 @@ bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &sim
         own = *known;
     } else { // then it is not known either how far to look around
         if (is_cached(code)) return false;
-        const Outcome outcome = look(code, nullptr, p, simplex);
+        const Outcome outcome = look(code, nullptr, p, simplex, values);
         if (outcome != Outcome::not_here) return outcome == Outcome::found;
         own = find_held(code)->page;
     }
@@ -44,7 +44,8 @@ bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &sim
         }
         for (const std::uint64_t c : codes) {
             if (c < own.lower || has_looked(c)) continue;
-            const Outcome outcome = look(c, c < own.upper ? &own : known_.find(c), p, simplex);
+            const Outcome outcome =
+                look(c, c < own.upper ? &own : known_.find(c), p, simplex, values);
             if (outcome != Outcome::not_here) return outcome == Outcome::found;
         }
     }
@@ -152,7 +153,8 @@ typename Glance<D>::Held &Glance<D>::hold(std::uint64_t code, const abacus_page 
 
 template <int D>
 typename Glance<D>::Outcome Glance<D>::look(std::uint64_t code, const KnownPage *known,
-                                            const Point<D> &p, abacus_simplex &simplex) {
+                                            const Point<D> &p, abacus_simplex &simplex,
+                                            CornerValues *values) {
     Held *held = find_held(code);
     if (held == nullptr) {
         abacus_page page{};
@@ -167,7 +169,7 @@ typename Glance<D>::Outcome Glance<D>::look(std::uint64_t code, const KnownPage 
     const int number = search(*held, p);
     if (number == nowhere) return Outcome::not_here;
     if (number == on_facet) return Outcome::not_now;
-    describe(held->view, number, cache_.domain(), simplex);
+    describe(held->view, number, cache_.domain(), simplex, values);
     return Outcome::found;
 }
 
@@ -184,8 +186,7 @@ template <int D> double Glance<D>::spacing(const PageView<D> &view) {
 // ---- In a page ------------------------------------------------------------------------
 
 template <int D> int Glance<D>::search(Held &held, const Point<D> &p) {
-    Prefixes own;
-    for (int axis = 0; axis < D; ++axis) own[axis] = held.view.ranks(axis).prefix(ordered(p[axis]));
+    const Prefixes own = SimplexBoxes<D>::place(held.view, p);
     return held.asked > worth_boxes ? search_boxes(held, p, own) : search_patches(held, p, own);
 }
 
@@ -255,50 +256,22 @@ template <int D> int Glance<D>::search_patches(Held &held, const Point<D> &p, co
 }
 
 template <int D> void Glance<D>::make_boxes(Held &held) {
-    constexpr auto most = std::numeric_limits<Prefix>::max(), least = Prefix(~most);
-    PageView<D> &view = held.view;
-    for (int patch = 0; patch < view.patches(); ++patch) read_patch(held, patch);
-    const int n = view.simplices();
-    for (int axis = 0; axis < D; ++axis) {
-        view.ranks(axis).prefixes(0, static_cast<std::size_t>(view.vertices()), prefixes_.data());
-        auto &lower = held.boxes.lower[axis], &upper = held.boxes.upper[axis];
-        for (int s = 0; s < n; ++s) {
-            const Lanes &corners = view.corners(s);
-            Prefix below = most, above = least;
-            for (int i = 0; i <= D && !view.is_ghost(s); ++i) {
-                below = std::min(below, prefixes_[corners[i]]);
-                above = std::max(above, prefixes_[corners[i]]);
-            }
-            lower[s] = below;
-            upper[s] = above;
-        }
-        std::fill_n(&lower[n], Boxes::at_once, most);
-        std::fill_n(&upper[n], Boxes::at_once, least);
+    for (int patch = 0; patch < held.view.patches(); ++patch) {
+        read_patch(held, patch);
+        held.boxes.make(held.view, patch);
     }
     held.has_boxes = true;
 }
 
 template <int D> int Glance<D>::search_boxes(Held &held, const Point<D> &p, const Prefixes &own) {
     if (!held.has_boxes) make_boxes(held);
-    const auto load = [](const Prefix *from) {
-        PrefixLanes lanes;
-        std::memcpy(&lanes, from, sizeof lanes);
-        return lanes;
-    };
-    for (int first = 0; first < held.view.simplices(); first += Boxes::at_once) {
-        PrefixLanes within = PrefixLanes{} - 1;
-        for (int axis = 0; axis < D; ++axis)
-            within &= (load(&held.boxes.lower[axis][first]) <= own[axis]) &
-                      (own[axis] <= load(&held.boxes.upper[axis][first]));
-        const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(within);
-        if ((halves[0] | halves[1]) == 0) continue;
-        for (int i = 0; i < Boxes::at_once; ++i) {
-            if (within[i] == 0) continue;
-            const int inside = position(held.view, first + i, p);
-            if (inside >= 0) return inside > 0 ? first + i : on_facet;
-        }
-    }
-    return nowhere;
+    int found = nowhere;
+    held.boxes.around(own, {0, held.view.simplices()}, [&](int simplex) {
+        const int inside = position(held.view, simplex, p);
+        if (inside >= 0) found = inside > 0 ? simplex : on_facet;
+        return inside < 0;
+    });
+    return found;
 }
 
 template class Glance<2>;

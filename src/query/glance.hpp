@@ -20,9 +20,11 @@
 // is among the last pages looked into and no longer held.
 #pragma once
 
-#include "cache/cache.hpp"
-#include "host/memory.hpp"
+#include "host/memory_resource.hpp"
+#include "mesh/cache.hpp"
+#include "query/corner_values.hpp"
 #include "query/known_pages.hpp"
+#include "query/simplex_boxes.hpp"
 
 #include <abacus/read.h>
 #include <algorithm>
@@ -47,7 +49,8 @@ public:
     /// Looks for a finite simplex with p strictly inside, in pages. False if there is none where
     /// it may be expected, or p is on a facet, or a page is in the cache, or to be loaded. The
     /// code is p's, and becomes that of where it may be expected first.
-    bool find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex);
+    bool find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex,
+              CornerValues *values);
 
     std::size_t bytes() const { return known_.bytes() + held_.size() * sizeof(Held); }
     std::uint64_t pages_read() const { return pages_read_; }
@@ -73,15 +76,6 @@ private:
     enum class Outcome { found, not_here, not_now };
 
     using Prefix = Column::Prefix;
-    using PrefixLanes = Prefix __attribute__((vector_size(16)));
-    /// The least and the greatest prefix of each simplex's vertices on each axis. A ghost
-    /// contains nothing, nor does what follows the last simplex.
-    struct Boxes {
-        static constexpr int at_once = 8;
-        using Bounds = std::array<Prefix, block_slots<D> + at_once>;
-        std::array<Bounds, D> lower, upper;
-    };
-
     /// A page that has been looked into. Its bytes are the host's, and gone with the next call;
     /// for places in order they are copied.
     struct Held {
@@ -94,7 +88,7 @@ private:
         std::uint64_t patches = 0; ///< those that have been read, a bit each
         bool has_boxes = false;
         PageView<D> view;
-        Boxes boxes;
+        SimplexBoxes<D> boxes;
         alignas(8) std::array<unsigned char, ABACUS_PAGE_BYTES> bytes;
     };
 
@@ -103,7 +97,7 @@ private:
     static void add_diagonally(const Cell<D> &cell, double distance, Codes &codes);
     /// Looks into the page that owns a code, which may be known.
     Outcome look(std::uint64_t code, const KnownPage *known, const Point<D> &p,
-                 abacus_simplex &simplex);
+                 abacus_simplex &simplex, CornerValues *values);
     bool fetch(std::uint64_t code, const KnownPage *known, abacus_page &page);
     /// The held page that owns a code, or null; of places in no order that looked into last.
     Held *find_held(std::uint64_t code);
@@ -115,12 +109,12 @@ private:
     /// What a search gives instead of a simplex's number: there is none, or p is on its border
     /// and so inside of no other.
     static constexpr int nowhere = -1, on_facet = -2;
-    using Prefixes = std::array<Prefix, D>;
+    using Prefixes = typename SimplexBoxes<D>::Place;
     int search(Held &held, const Point<D> &p);
     int search_patches(Held &held, const Point<D> &p, const Prefixes &own);
     int search_boxes(Held &held, const Point<D> &p, const Prefixes &own);
     static void read_patch(Held &held, int patch);
-    void make_boxes(Held &held);
+    static void make_boxes(Held &held);
     /// Sets the sides of a patch's vertices.
     void compare(const PageView<D> &view, int patch, const Prefixes &own);
     /// As in_simplex(); every point is outside of a ghost.

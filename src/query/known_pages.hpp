@@ -5,7 +5,7 @@
 // a hint, and the page there is asked for its key.
 #pragma once
 
-#include "cache/directory.hpp"
+#include "blocks/directory.hpp"
 
 #include <algorithm>
 

@@ -1,10 +1,16 @@
 // All pages of a mesh in key order, without a cache. The page at hand is a copy:
 // the host's bytes do not outlive its next call, and a scan may be held between
 // calls of its user.
+//
+// No page knows its neighbours on the curve, so a page that is lost leaves no trace in the others.
+// But their intervals follow one another without a gap from end to end, and the header counts
+// what is in them: advance() compares both.
 #pragma once
 
-#include "cache/page_format.hpp"
 #include "host/host.hpp"
+#include "mesh/page_format.hpp"
+
+#include <abacus/header.h>
 
 #include <algorithm>
 #include <cstring>
@@ -13,15 +19,22 @@ namespace abacus {
 
 template <int D> class PageScan {
 public:
-    PageScan(const Host &host, unsigned attributes) : host_(host), attributes_(attributes) {}
+    PageScan(const Host &host, const abacus_header &header)
+        : host_(host), attributes_(header.attributes), left_(header.simplices + header.ghosts) {}
 
-    /// Goes to the next page; false after the last. Throws if it is damaged.
+    /// Goes to the next page; false after the last. Throws if it is damaged or does not follow
+    /// the one before, and at the end if pages are missing.
     bool advance() {
-        if (!fetch()) return false;
+        if (!fetch()) {
+            require_end();
+            return false;
+        }
         parse();
+        follow();
         return true;
     }
-    /// The halves of advance(), for who wants to go on after a damaged page.
+    /// The halves of advance(), for callers that go on after a damaged page and compare the
+    /// intervals themselves.
     bool fetch() {
         host_.poll();
         abacus_page page{};
@@ -43,8 +56,28 @@ public:
     const PageView<D> &page() const { return view_; }
 
 private:
+    void follow() {
+        if (!(view_.lower() == key_)) throw_corrupted("A page is stored under another page's key.");
+        if (!(key_ == expected_))
+            throw_corrupted("The pages leave out or share a part of the curve.");
+        expected_ = view_.upper();
+        const auto here = static_cast<std::uint64_t>(view_.simplices());
+        if (here > left_) throw_corrupted(other_count);
+        left_ -= here;
+    }
+    void require_end() const {
+        if (started_ && !(expected_ == end_key))
+            throw_corrupted("The last page does not reach the end of the curve.");
+        if (left_ != 0) throw_corrupted(other_count);
+    }
+
+    static constexpr const char *other_count =
+        "The header counts other simplices than the pages hold.";
+
     const Host &host_;
     unsigned attributes_;
+    std::uint64_t left_; // simplices and ghosts that the header counts beyond the page at hand
+    Key expected_ = first_key;
     bool started_ = false;
     Key key_{};
     std::size_t size_ = 0;

@@ -1,9 +1,10 @@
 // The simplices of a stored page as the mesh and its users see them, without a cache.
 #pragma once
 
-#include "cache/page_format.hpp"
-#include "geometry/locational_code.hpp"
 #include "geometry/predicates.hpp"
+#include "keys/locational_code.hpp"
+#include "mesh/page_format.hpp"
+#include "query/corner_values.hpp"
 #include "query/describe.hpp"
 
 #include <abacus/read.h>
@@ -26,9 +27,10 @@ std::uint64_t code_of(const PageView<D> &page, int simplex, const Domain<D> &dom
     return greatest;
 }
 
+/// With what its corners carry, if `values` is not null.
 template <int D>
 void describe(const PageView<D> &page, int simplex, const Domain<D> &domain,
-              abacus_simplex &description) {
+              abacus_simplex &description, CornerValues *values = nullptr) {
     const bool ghost = page.is_ghost(simplex);
     DescribedCorners<D> corners;
     for (int i = 0; i < D + !ghost; ++i) {
@@ -36,7 +38,12 @@ void describe(const PageView<D> &page, int simplex, const Domain<D> &domain,
         corners.id[i] = page.id(vertex);
         corners.point[i] = &page.point(vertex);
     }
-    describe(corners, code_of(page, simplex, domain), ghost, description);
+    const auto &order = describe(corners, code_of(page, simplex, domain), ghost, description);
+    if (values == nullptr) return;
+    for (int i = 0; i < D + !ghost; ++i)
+        values->set(i, [&](int attribute) {
+            return page.attribute(page.corner(simplex, order[i]), attribute);
+        });
 }
 
 } // namespace abacus

@@ -1,7 +1,7 @@
 #include "query/portrait.hpp"
 
 #include "draw/section.hpp"
-#include "query/page_scan.hpp"
+#include "query/range_scan.hpp"
 
 #include <array>
 #include <cmath>
@@ -48,11 +48,7 @@ class FlatView : public MeshView<2> {
 public:
     explicit FlatView(const abacus_drawing &drawing) : MeshView(drawing) {}
 
-    /// False if nothing of the page is in the window.
-    bool enter(const PageView<2> &page, const abacus_drawing &window) {
-        return shows_whole<2>(window) ||
-               page.meets({window.lower[0], window.lower[1]}, {window.upper[0], window.upper[1]});
-    }
+    void enter(const PageView<2> &) {}
     bool show(const PageView<2> &page, int simplex, Patch &patch) const {
         if (page.is_ghost(simplex) || is_too_long(page, simplex, 3)) return false;
         for (int i = 0; i < 3; ++i) {
@@ -72,12 +68,8 @@ public:
     SectionView(const Plane &plane, const abacus_drawing &drawing)
         : MeshView(drawing), plane_(plane) {}
 
-    bool enter(const PageView<3> &page, const abacus_drawing &) {
-        if (plane_.misses({page.box(0), page.box(1), page.box(2)},
-                          {page.box(3), page.box(4), page.box(5)}))
-            return false;
+    void enter(const PageView<3> &page) {
         for (int v = 0; v < page.vertices(); ++v) places_[v] = plane_.place(page.point(v));
-        return true;
     }
     bool show(const PageView<3> &page, int simplex, Patch &patch) const {
         const int finite = page.is_ghost(simplex) ? 3 : 4;
@@ -121,41 +113,86 @@ private:
     std::array<Place, page_vertices<3>> places_;
 };
 
-/// Shows everything in the window to `picture`, an Extent or a Canvas.
-template <class View, class Picture>
-void stream(const Host &host, const abacus_header &header, const abacus_drawing &window, View &view,
-            Picture &picture) {
-    PageScan<View::dimension> scan(host, header.attributes);
+/// What of space a section shows: the plane, or what of it lies in a window of its sheet. Decided
+/// by the places of vertices, as what is drawn is.
+class SectionRegion : public Region<3> {
+public:
+    SectionRegion(const Plane &plane, const abacus_section &section, const abacus_drawing &sheet)
+        : plane_(plane), sheet_(sheet), has_window_(!shows_whole<2>(sheet)) {
+        std::copy_n(section.through, 3, through_.begin());
+    }
+
+    Point<3> inside(const Domain<3> &) const override {
+        if (!has_window_) return through_;
+        return plane_.point({sheet_.lower[0] * 0.5 + sheet_.upper[0] * 0.5,
+                             sheet_.lower[1] * 0.5 + sheet_.upper[1] * 0.5});
+    }
+    bool may_meet(const Point<3> *const *points, int n) const override {
+        int sides = 0;
+        double lower[2] = {INFINITY, INFINITY}, upper[2] = {-INFINITY, -INFINITY};
+        for (int i = 0; i < n; ++i) {
+            const Place place = plane_.place(*points[i]);
+            sides += place.side;
+            for (int axis = 0; axis < 2; ++axis) {
+                lower[axis] = std::min(lower[axis], place.at[axis]);
+                upper[axis] = std::max(upper[axis], place.at[axis]);
+            }
+        }
+        if (std::abs(sides) == n) return false;
+        for (int axis = 0; has_window_ && axis < 2; ++axis)
+            if (upper[axis] < sheet_.lower[axis] || sheet_.upper[axis] < lower[axis]) return false;
+        return true;
+    }
+    bool may_meet(const Box<3> &box) const override { return !plane_.misses(box.lower, box.upper); }
+
+private:
+    const Plane plane_;
+    const abacus_drawing sheet_;
+    const bool has_window_;
+    Point<3> through_;
+};
+
+/// Shows everything on the pages to `picture`, an Extent or a Canvas.
+template <int D, class View, class Picture>
+void stream(RangeScan<D> &pages, View &view, Picture &picture) {
     Patch patch;
-    while (scan.advance()) {
-        const auto &page = scan.page();
-        if (!view.enter(page, window)) continue;
+    while (pages.advance()) {
+        const PageView<D> &page = pages.page();
+        view.enter(page);
         for (int s = 0; s < page.simplices(); ++s)
             if (view.show(page, s, patch)) picture.add(patch);
     }
 }
 
-template <class View>
-Png draw(const Host &host, const abacus_header &header, const abacus_drawing &drawing, View &&view,
-         const Palette &palette) {
+template <int D, class View>
+Portrait draw(const Host &host, const abacus_header &header, const abacus_drawing &drawing,
+              const Region<D> *region, View &&view, const Palette &palette) {
     if (drawing.attribute >= static_cast<std::int32_t>(header.attributes))
         throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
     Extent extent(drawing);
-    if (Extent::is_needed(drawing)) stream(host, header, drawing, view, extent);
-    const abacus_drawing window = extent.drawing();
-    Canvas canvas(host, window, extent.low(), extent.high());
-    stream(host, header, window, view, canvas);
-    return canvas.png(palette);
+    RangeScan<D> pages(host, header, region);
+    if (Extent::is_needed(drawing)) {
+        stream(pages, view, extent);
+        pages.rewind();
+    }
+    Canvas canvas(host, extent.drawing(), extent.low(), extent.high());
+    stream(pages, view, canvas);
+    return {canvas.png(palette), canvas.is_blank()};
 }
 
 } // namespace
 
-Png draw_mesh(const Host &host, const abacus_header &header, const abacus_drawing &drawing) {
-    return draw(host, header, drawing, FlatView(drawing), Palette::terrain());
+Portrait draw_mesh(const Host &host, const abacus_header &header, const abacus_drawing &drawing) {
+    std::optional<BoxRegion<2>> window;
+    if (!shows_whole<2>(drawing))
+        window.emplace(
+            Box<2>({drawing.lower[0], drawing.lower[1]}, {drawing.upper[0], drawing.upper[1]}));
+    return draw<2>(host, header, drawing, window ? &*window : nullptr, FlatView(drawing),
+                   Palette::terrain());
 }
 
-Png draw_section(const Host &host, const abacus_header &header, const abacus_section &section,
-                 const abacus_drawing &drawing) {
+Portrait draw_section(const Host &host, const abacus_header &header, const abacus_section &section,
+                      const abacus_drawing &drawing) {
     const Plane plane(section);
     abacus_drawing sheet = drawing;
     const Window window = shows_whole<3>(drawing) ? Window{}
@@ -163,7 +200,8 @@ Png draw_section(const Host &host, const abacus_header &header, const abacus_sec
                                                                  std::to_array(drawing.upper));
     std::copy_n(window.lower, 2, sheet.lower);
     std::copy_n(window.upper, 2, sheet.upper);
-    return draw(host, header, sheet, SectionView(plane, drawing), Palette::strata());
+    const SectionRegion region(plane, section, sheet);
+    return draw<3>(host, header, sheet, &region, SectionView(plane, drawing), Palette::strata());
 }
 
 } // namespace abacus

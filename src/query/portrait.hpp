@@ -1,21 +1,26 @@
 // Draws a stored mesh: streams its pages to the canvas, twice when the window or the
-// range of values must be found first. Pages outside the window, or that the plane does
-// not meet, are skipped by their boxes.
+// range of values must be found first. Of a window, or of a plane, only the pages that have
+// something to show are read (range_scan.hpp).
 #pragma once
 
-#include "cache/page_format.hpp"
 #include "draw/canvas.hpp"
+#include "mesh/page_format.hpp"
 
 #include <abacus/draw.h>
 
 namespace abacus {
 
+struct Portrait {
+    Png png;
+    bool is_blank; // nothing of the mesh is seen
+};
+
 /// The picture of a mesh of dimension 2 as a PNG. Throws an Error (argument) if the
 /// drawing makes no sense for the mesh.
-Png draw_mesh(const Host &host, const abacus_header &header, const abacus_drawing &drawing);
+Portrait draw_mesh(const Host &host, const abacus_header &header, const abacus_drawing &drawing);
 
 /// The same of a plane section of a mesh of dimension 3.
-Png draw_section(const Host &host, const abacus_header &header, const abacus_section &section,
-                 const abacus_drawing &drawing);
+Portrait draw_section(const Host &host, const abacus_header &header, const abacus_section &section,
+                      const abacus_drawing &drawing);
 
 } // namespace abacus

@@ -7,7 +7,7 @@
 // far. If nobody has asked for those of the block at hand before, the same places do.
 #pragma once
 
-#include "cache/cache.hpp"
+#include "mesh/cache.hpp"
 
 namespace abacus {
 
@@ -17,7 +17,7 @@ public:
 
     /// Another place in the block of the simplex found last.
     void follow(Handle found) {
-        const BlockIndex here = block_of<D>(found);
+        const BlockIndex here = Cache<D>::block_of(found);
         if (here != here_) {
             is_new_ = here != next_;
             here_ = here;

@@ -1,14 +1,12 @@
 #include "query/reader.hpp"
 
-#include "cache/domain_of.hpp"
 #include "host/memory.hpp"
+#include "keys/domain_of.hpp"
 #include "points/record.hpp"
 #include "query/describe.hpp"
 
 #include <algorithm>
-#include <memory_resource>
 #include <string>
-#include <unordered_set>
 
 namespace abacus {
 
@@ -24,12 +22,13 @@ CacheOptions linked_as(const abacus_header &header, CacheOptions options) {
 template <int D>
 Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOptions &options,
                   bool in_order)
-    : size_(header.simplices == 0 ? 0 : header.simplices + header.ghosts),
+    : header_(header), size_(header.simplices == 0 ? 0 : header.simplices + header.ghosts),
       delaunay_(header.not_delaunay == 0), in_order_(in_order), budget_(options.budget),
       cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
              linked_as(header, options)),
       glance_(cache_, options.budget / 10, in_order), read_ahead_(cache_),
-      walk_(cache_, /*far=*/true) {}
+      walk_(cache_, /*far=*/true), around_(host),
+      pages_of_code_(host, static_cast<int>(header.attributes), options.budget / 16) {}
 
 template <int D> Handle Reader<D>::start(const Point<D> &p, std::uint64_t code) {
     if (size_ == 0) return no_handle;
@@ -70,7 +69,7 @@ template <int D>
 template <class Visit>
 void Reader<D>::search_pages(const Point<D> &p, Visit visit) {
     if (size_ == 0) return;
-    if (!boxes_) boxes_.emplace(cache_.host(), cache_.vertices().attribute_count(), budget_ / 8);
+    if (!boxes_) boxes_.emplace(cache_.host(), header_, budget_ / 8);
     boxes_->around(p, [&](Key key, const Key &end) {
         while (key < end) {
             cache_.trim();
@@ -118,82 +117,101 @@ template <int D> std::uint64_t Reader<D>::pages_with(const std::uint64_t *vertex
     return same ? pages : 0;
 }
 
-template <int D> bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex) {
+template <int D>
+bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values) {
+    if (!search_) {
+        search_.emplace(cache_.host(), cache_.vertices().attribute_count(), budget_ / 4);
+        cache_.set_budget(budget_ - std::min(budget_, search_->bytes()));
+    }
     bool found = false;
-    search(p, [&](Handle h) {
-        abacus_simplex other;
-        describe(h, other);
-        if (!found || comes_before<D>(other, simplex)) simplex = other;
-        found = true;
-        return true;
+    is_search_ = true;
+    search_pages(p, [&](const Key &page) -> std::optional<Key> {
+        return search_->around(page, p, [&](const PageView<D> &view, int number, int position) {
+            abacus_simplex other;
+            abacus::describe(view, number, cache_.domain(), other);
+            if (!found || comes_before<D>(other, simplex))
+                abacus::describe(view, number, cache_.domain(), simplex, values);
+            found = true;
+            if (position > 0) is_search_ = false;
+        });
     });
     return found;
 }
 
 // ---- All meshes ------------------------------------------------------------------------
 
-template <int D> void Reader<D>::describe(Handle h, abacus_simplex &simplex) const {
+template <int D>
+void Reader<D>::describe(Handle h, abacus_simplex &simplex, CornerValues *values) const {
     const Simplex<D> &s = cache_.simplex(h);
     DescribedCorners<D> corners;
     for (int i = 0; i < s.finite_vertices(); ++i) {
         corners.id[i] = cache_.vertices().id(s.vertex[i]);
         corners.point[i] = &cache_.point(s.vertex[i]);
     }
-    abacus::describe(corners, cache_.code(s), s.is_ghost(), simplex);
+    const auto &order = abacus::describe(corners, cache_.code(s), s.is_ghost(), simplex);
+    if (values == nullptr) return;
+    for (int i = 0; i < s.finite_vertices(); ++i) {
+        const double *attributes = cache_.vertices().attributes(s.vertex[order[i]]);
+        values->set(i, [&](int attribute) { return attributes[attribute]; });
+    }
 }
 
-template <int D> bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex) {
+template <int D>
+bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex, CornerValues *values) {
     if (!delaunay_) {
-        const Handle inside = walk_to_inside(p);
-        if (inside == no_handle) return search_first(p, simplex);
-        describe(inside, simplex);
+        // Of a cache that is full a walk needs pages that are evicted; a search keeps others.
+        const bool is_walk = !is_search_ && cache_.counters.evictions == 0;
+        const Handle inside = is_walk ? walk_to_inside(p) : no_handle;
+        if (inside == no_handle) return search_first(p, simplex, values);
+        describe(inside, simplex, values);
         return true;
     }
     std::uint64_t code = cache_.domain().code(p);
-    if (glance(p, code, simplex)) return true;
+    if (glance(p, code, simplex, values)) return true;
     const Handle h = find(p, code);
     const bool is_inside = h != no_handle && !cache_.simplex(h).is_ghost();
     is_no_glance_ = !is_inside || walk_.ends_on_facet();
     if (!is_inside) return false;
-    describe(h, simplex);
-    if (walk_.ends_on_facet()) first_around(p, h, simplex);
+    describe(h, simplex, values);
+    if (walk_.ends_on_facet()) first_around(p, h, simplex, values);
     return true;
 }
 
 template <int D>
-bool Reader<D>::glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex) {
+std::optional<typename Reader<D>::Around> Reader<D>::page_around(const Point<D> &p) {
+    const Handle h = find(p, cache_.domain().code(p));
+    if (h == no_handle) return std::nullopt;
+    return Around{cache_.lower(h), !cache_.simplex(h).is_ghost()};
+}
+
+template <int D>
+bool Reader<D>::glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex,
+                       CornerValues *values) {
     if (cache_.counters.evictions == 0 && !in_order_) return false; // the cache takes more
     if (size_ == 0) return false;
     // Of places in order those that no glance finds come together, too.
     if ((!in_order_ || is_no_glance_) && is_at_hand(code)) return false;
     cache_.poll();
-    const bool is_found = glance_.find(code, p, simplex);
+    const bool is_found = glance_.find(code, p, simplex, values);
     cache_.set_budget(budget_ - std::min(budget_, glance_.bytes()));
     return is_found;
 }
 
 template <int D>
-void Reader<D>::first_around(const Point<D> &p, Handle h, abacus_simplex &simplex) {
+void Reader<D>::first_around(const Point<D> &p, Handle h, abacus_simplex &simplex,
+                             CornerValues *values) {
     // Across every facet that p lies on there is another simplex that contains p.
-    HostMemory memory(cache_.host());
-    std::pmr::unordered_set<Handle> seen(&memory);
-    Arena<Handle> open(cache_.host());
-    for (Handle at = h;;) {
-        for (int i = 0; i <= D; ++i) {
-            if (facet_side<D>(cache_.corners(cache_.simplex(at)), i, p) != 0) continue;
-            if (seen.empty()) seen.insert(h);
-            const Handle next = link_simplex(cache_.cross(at, i));
-            if (cache_.simplex(next).is_ghost() || !seen.insert(next).second) continue;
-            open.push_back(next);
-            abacus_simplex other;
-            describe(next, other);
-            if (comes_before<D>(other, simplex)) simplex = other;
-        }
-        if (open.empty()) return;
-        at = open.back();
-        open.pop_back();
-        cache_.poll();
-    }
+    const auto has_p = [&](Handle at, int facet) {
+        const Simplex<D> &s = cache_.simplex(at);
+        return !s.is_ghost() && facet_side<D>(cache_.corners(s), facet, p) == 0;
+    };
+    around_.from(cache_, h, has_p, [&](Handle met) {
+        if (cache_.simplex(met).is_ghost()) return true;
+        abacus_simplex other;
+        describe(met, other);
+        if (comes_before<D>(other, simplex)) describe(met, simplex, values);
+        return true;
+    });
 }
 
 template <int D> bool Reader<D>::has_ids(Handle h, const std::int64_t *ids) const {
@@ -230,14 +248,20 @@ bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
         return cache_.is_live(candidate) && cache_.code(cache_.simplex(candidate)) == code &&
                has_ids(candidate, ids);
     };
-    if (size_ != 0 && facet >= 0 && facet <= D && code < key_word_end) {
+    const auto look = [&](const Key &key) {
         cache_.trim();
-        cache_.visit_code(code, [&](Handle candidate) {
-            if (!has_ids(candidate, ids)) return;
+        cache_.visit(key, [&](Handle candidate) {
+            if (!is_it(candidate)) return;
             is_unique = h == no_handle;
             h = candidate;
             page = cache_.lower(h);
         });
+    };
+    if (size_ != 0 && facet >= 0 && facet <= D && code < key_word_end) {
+        if (is_at_hand(code))
+            look({code, 0});
+        else
+            pages_of_code_.with_ids(code, ids, look);
     }
     if (h == no_handle)
         throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such simplex", {},

@@ -4,13 +4,17 @@
 // In a mesh that is not Delaunay a walk may miss a point that the mesh contains: at the
 // border of a hole it ends, and it may take too long. Then, and for a point on a facet,
 // around which not all simplices need be neighbours of one another, all pages are looked
-// into whose box contains the point (page_boxes.hpp).
+// into whose box contains the point (page_boxes.hpp, page_search.hpp). Places of this kind
+// come together; so after one the next is looked for in pages at once.
 #pragma once
 
-#include "delaunay/walk.hpp"
 #include "query/glance.hpp"
 #include "query/page_boxes.hpp"
+#include "query/page_search.hpp"
+#include "query/pages_of_code.hpp"
 #include "query/read_ahead.hpp"
+#include "traverse/flood.hpp"
+#include "traverse/walk.hpp"
 
 #include <abacus/read.h>
 #include <optional>
@@ -27,8 +31,8 @@ public:
            bool in_order = false);
 
     /// The simplex that contains p; of several, the first by comes_before(). False
-    /// outside the hull.
-    bool locate(const Point<D> &p, abacus_simplex &simplex);
+    /// outside the hull. `values` gets what its corners carry.
+    bool locate(const Point<D> &p, abacus_simplex &simplex, CornerValues *values = nullptr);
     /// The neighbour across facet `facet` of the simplex with this code and these ids.
     /// False at the hull; throws an Error (argument) if there is no such simplex, or several,
     /// as there may be where points have equal ids.
@@ -41,12 +45,22 @@ public:
     };
     std::optional<Found> vertex_at(const Point<D> &p);
 
+    /// In a Delaunay mesh: the page of the simplex around p or, outside the hull, of a ghost that
+    /// has p strictly beyond its facet. None if the mesh is empty.
+    struct Around {
+        Key page;
+        bool is_inside;
+    };
+    std::optional<Around> page_around(const Point<D> &p);
+
     /// In a mesh that is not Delaunay: how many pages have this vertex, with its id and
     /// attributes.
     std::uint64_t pages_with(const std::uint64_t *vertex);
 
     /// Pages loaded or looked into.
-    std::uint64_t pages_read() const { return cache_.counters.loads + glance_.pages_read(); }
+    std::uint64_t pages_read() const {
+        return cache_.counters.loads + glance_.pages_read() + (search_ ? search_->pages_read() : 0);
+    }
 
     const Cache<D> &cache() const { return cache_; }
     Cache<D> &cache() { return cache_; }
@@ -57,7 +71,8 @@ private:
     Handle find(const Point<D> &p, std::uint64_t code);
     /// Locates p in a page that is not in the cache, if that has been full, or places come in
     /// order, and it is worth while. Else says where a walk should begin.
-    bool glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex);
+    bool glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex,
+                CornerValues *values);
     /// Where a walk to p begins; no_handle in an empty mesh.
     Handle start(const Point<D> &p, std::uint64_t code);
     /// Whether the block of the simplex found last owns the code.
@@ -74,15 +89,17 @@ private:
     template <class Visit> void search(const Point<D> &p, Visit visit);
     /// As in_simplex(); every point is outside of a ghost.
     int position(Handle h, const Point<D> &p) const;
-    bool search_first(const Point<D> &p, abacus_simplex &simplex);
-    void describe(Handle h, abacus_simplex &simplex) const;
+    /// The first of all simplices that contain p, of those in the pages themselves.
+    bool search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values);
+    void describe(Handle h, abacus_simplex &simplex, CornerValues *values = nullptr) const;
     /// Whether these are the ids of the simplex's corners, in any order.
     bool has_ids(Handle h, const std::int64_t *ids) const;
     /// Which of its corners is then meant by corner `facet` of the ids.
     int named_corner(Handle h, const std::int64_t *ids, int facet) const;
     /// The first of all simplices around a point on a facet of h, which `simplex` describes.
-    void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex);
+    void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex, CornerValues *values);
 
+    const abacus_header header_;
     std::uint64_t size_; // simplices and ghosts
     bool delaunay_;
     const bool in_order_;
@@ -90,10 +107,16 @@ private:
     bool is_no_glance_ = false;
     std::size_t budget_;
     std::optional<PageBoxes<D>> boxes_; // once needed
+    std::optional<PageSearch<D>> search_;
+    /// The place that was looked for last was strictly inside of no simplex: nor will the next one
+    /// be, most likely, and a walk to it would be in vain.
+    bool is_search_ = false;
     Cache<D> cache_;
     Glance<D> glance_;
     ReadAhead<D> read_ahead_;
-    Walk<D> walk_;
+    Walk<D, Cache<D>> walk_;
+    Flood<D> around_;
+    PagesOfCode<D> pages_of_code_;
     Handle last_ = no_handle;
 };
 

@@ -1,13 +1,13 @@
 #include "query/simplex_scan.hpp"
 
-#include "cache/domain_of.hpp"
+#include "keys/domain_of.hpp"
 #include "query/page_simplex.hpp"
 
 namespace abacus {
 
 template <int D>
 SimplexScan<D>::SimplexScan(const Host &host, const abacus_header &header, bool ghosts)
-    : domain_(domain_of<D>(header)), pages_(host, header.attributes), ghosts_(ghosts) {}
+    : domain_(domain_of<D>(header)), pages_(host, header), ghosts_(ghosts) {}
 
 template <int D> bool SimplexScan<D>::next(abacus_simplex &simplex) {
     for (;;) {

@@ -1,7 +1,7 @@
 // The simplices of a mesh, in the order of their pages.
 #pragma once
 
-#include "geometry/locational_code.hpp"
+#include "keys/locational_code.hpp"
 #include "query/page_scan.hpp"
 
 #include <abacus/read.h>

@@ -24,8 +24,8 @@
 // covers no place twice (Tietze 1928; Nakajima 1928, for what is only immersed).
 #pragma once
 
-#include "delaunay/own_vertices.hpp"
 #include "geometry/predicates.hpp"
+#include "traverse/own_vertices.hpp"
 
 #include <algorithm>
 

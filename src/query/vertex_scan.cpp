@@ -1,6 +1,6 @@
 #include "query/vertex_scan.hpp"
 
-#include "cache/domain_of.hpp"
+#include "keys/domain_of.hpp"
 
 namespace abacus {
 namespace {
@@ -13,6 +13,8 @@ template <int D> void fill(abacus_vertex &vertex, const std::uint64_t *record) {
     vertex.attributes = record_attributes<D>(record);
 }
 
+constexpr const char *other_count = "The header counts other vertices than the pages hold.";
+
 } // namespace
 
 template <int D>
@@ -20,7 +22,8 @@ VertexScan<D>::VertexScan(const Host &host, const abacus_header &header, std::si
     : attributes_(header.attributes), listed_(header.not_delaunay != 0),
       mesh_(host, header, cache_bytes), own_(mesh_.cache()),
       page_(header.vertices > 0 ? first_key : end_key), records_(host),
-      repeated_(host, domain_of<D>(header), header.attributes), repeated_left_(header.duplicates),
+      vertices_left_(header.vertices), repeated_(host, domain_of<D>(header), header.attributes),
+      repeated_left_(header.duplicates),
       waiting_(host, header.attributes, listed_ ? 0 : header.inserted, header.staged) {}
 
 template <int D> void VertexScan<D>::collect() {
@@ -36,9 +39,14 @@ template <int D> void VertexScan<D>::collect() {
 
 template <int D> bool VertexScan<D>::next_vertex(abacus_vertex &vertex) {
     while (at_ == records_.size()) {
-        if (!(page_ < end_key)) return false;
+        if (!(page_ < end_key)) {
+            if (vertices_left_ != 0) throw_corrupted(other_count);
+            return false;
+        }
         collect();
     }
+    if (vertices_left_ == 0) throw_corrupted(other_count);
+    --vertices_left_;
     fill<D>(vertex, records_.data() + at_);
     at_ += record_words(D, attributes_);
     vertex.vertex = vertex.id;

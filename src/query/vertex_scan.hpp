@@ -1,10 +1,10 @@
 // All points: the vertices of the mesh page by page, those equal to one, those that wait.
 #pragma once
 
-#include "delaunay/own_vertices.hpp"
 #include "points/repeated_points.hpp"
 #include "points/vertex_reader.hpp"
 #include "query/reader.hpp"
+#include "traverse/own_vertices.hpp"
 
 #include <abacus/read.h>
 
@@ -32,6 +32,7 @@ private:
     Key page_;                     // the next one to take vertices from
     Arena<std::uint64_t> records_; // those of the page before: the cache may change between calls
     std::size_t at_ = 0;
+    std::uint64_t vertices_left_; // as the header counts them
     RepeatedReader<D> repeated_;
     bool more_repeated_ = true;
     std::uint64_t repeated_left_; // as the header counts them

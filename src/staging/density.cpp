@@ -1,6 +1,8 @@
 #include "staging/density.hpp"
 
-#include "cache/page_format.hpp"
+#include "mesh/page_format.hpp"
+
+#include <abacus/header.h>
 
 namespace abacus {
 

@@ -1,5 +1,7 @@
 #include "staging/external_sort.hpp"
 
+#include "points/spread.hpp"
+
 #include <algorithm>
 
 namespace abacus {
@@ -27,7 +29,8 @@ constexpr std::size_t gathered_at_once = 64;
 SortBudget::SortBudget(std::size_t memory, std::size_t record_bytes, std::size_t dimension) {
     // A sample takes three words beside its points while it is sorted.
     const std::size_t sample_bytes = 8 * dimension + 24;
-    std::size_t left = std::max(memory, least) - overhead;
+    std::size_t left = std::max(memory, least) - overhead -
+                       (dimension == 2 ? Spread<2>::most_bytes : Spread<3>::most_bytes);
     sampled = std::clamp<std::size_t>(left / 16 / sample_bytes, 256, 16384);
     left -= sampled * sample_bytes;
     // The spools that wait, at all depths, are at most twice as many as are written at

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "geometry/box.hpp"
-#include "geometry/locational_code.hpp"
+#include "keys/locational_code.hpp"
 #include "sort/radix_sort.hpp"
 #include "staging/rounds.hpp"
 

@@ -1,6 +1,6 @@
 #include "staging/stage.hpp"
 
-#include "cache/domain_of.hpp"
+#include "keys/domain_of.hpp"
 #include "points/canonical.hpp"
 #include "points/vertex_page.hpp"
 #include "staging/density.hpp"
@@ -19,7 +19,8 @@ template <int D>
 Stage<D>::Stage(const Host &host, const abacus_header &header, std::size_t memory, bool with_rounds)
     : host_(host), stride_(record_words(D, header.attributes)), memory_(memory),
       with_rounds_(with_rounds), budget_(memory, 8 * stride_, D), pacer_(host),
-      sample_(host, budget_.sampled), buffer_(host), room_(budget_.records), piles_(host) {
+      sample_(host, budget_.sampled), spread_(host), buffer_(host), room_(budget_.records),
+      piles_(host) {
     if (header.has_domain != 0) domain_ = domain_of<D>(header);
     pacer_.begin(ABACUS_PHASE_READING, 0);
 }
@@ -46,12 +47,12 @@ template <int D> void Stage<D>::copy(const std::uint64_t *points, std::size_t co
     for (std::size_t i = 0; i < count; ++i, points += stride_, to += stride_) {
         for (std::size_t word = 0; word < stride_; ++word) to[word] = points[word];
         make_canonical<D>(to);
-        box_.extend(record_point<D>(to));
+        spread_.add(record_point<D>(to));
     }
     buffered_ += count;
     if (!domain_) return;
     const Box<D> inside(domain_->lower(), domain_->upper());
-    if (inside.contains(box_.lower) && inside.contains(box_.upper)) return;
+    if (inside.contains(spread_.box().lower) && inside.contains(spread_.box().upper)) return;
     for (std::size_t i = 0; i < count; ++i)
         outside_ += !inside.contains(record_point<D>(to -= stride_));
 }
@@ -62,8 +63,8 @@ template <int D> void Stage<D>::spill() {
         sample_.add(record_point<D>(buffer_.data() + i * stride_));
     if (spilled_ == 0)
         begin_to_distribute();
-    else if (distributor_ && !domain_ &&
-             !is_distributed_over(domain_around<D>(box_.lower, box_.upper)))
+    else if (distributor_ && !domain_ && !(spread_.box() == distributed_) &&
+             !is_distributed_over(domain_so_far()))
         stop_distributing();
     for (std::size_t at = 0; at < buffered_;) {
         const std::size_t n = std::min(buffered_ - at, budget_.piece);
@@ -88,8 +89,7 @@ template <int D> void Stage<D>::begin_to_distribute() {
         rounds_.emplace(buffered_);
         if (rounds_->size() == 1) return;
     }
-    const Slice<D> slice{domain_ ? *domain_ : domain_around<D>(box_.lower, box_.upper),
-                         rounds_ ? &*rounds_ : nullptr};
+    const Slice<D> slice{domain_ ? *domain_ : domain_so_far(), rounds_ ? &*rounds_ : nullptr};
     distributor_.emplace(host_, stride_, budget_.piece, slice, sample_,
                          budget_.parts(rounds_ ? rounds_->size() : 0), with_rounds_);
 }
@@ -99,6 +99,12 @@ template <int D> void Stage<D>::stop_distributing() {
         if (part.spool.size() > 0) piles_.push_back(part.spool);
     distributor_.reset();
     piles_.push_back(Spool());
+}
+
+template <int D> Domain<D> Stage<D>::domain_so_far() {
+    distributed_ = spread_.box();
+    const Box<D> box = spread_.choose();
+    return domain_around<D>(box.lower, box.upper);
 }
 
 template <int D> bool Stage<D>::is_distributed_over(const Domain<D> &domain) const {
@@ -115,7 +121,7 @@ template <int D> void Stage<D>::end(abacus_header &header) {
     if (header.has_domain != 0)
         header.outside += outside_;
     else if (points() > 0)
-        set_domain(header, box_);
+        set_domain(header, spread_.choose());
 }
 
 /// Whether the mesh has vertices where the points are, at least as many as an earlier round
@@ -167,6 +173,14 @@ template <int D> void Stage<D>::emit(RecordSink &sink, const abacus_header &head
     }
     sink.finish();
     pacer_.end(n, sink.pages_moved());
+}
+
+template <int D> void Stage<D>::drop() {
+    if (distributor_) stop_distributing();
+    for (Spool &pile : piles_) pile.close(host_);
+    piles_.reset();
+    buffer_.reset();
+    buffered_ = spilled_ = 0;
 }
 
 template <int D> void Stage<D>::finish(abacus_header &header) {

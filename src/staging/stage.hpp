@@ -7,12 +7,13 @@
 // vertices near nearly all of them may come in one round (density.hpp).
 //
 // It depends on the domain, which is known for sure only with the last point. But a domain
-// is a coarse box around the points (domain_of.hpp): that of the first points, once they
-// are too many for memory, is most often that of all. So points are distributed over the
-// parts of the order as they come in; if the domain turns out to be another one, what has
-// been distributed is only a pile to be distributed anew.
+// is a coarse box around the points (domain_of.hpp), or nearly all of them (spread.hpp): that of
+// the first points, once they are too many for memory, is most often that of all. So points are
+// distributed over the parts of the order as they come in; if the domain turns out to be another
+// one, what has been distributed is only a pile to be distributed anew.
 #pragma once
 
+#include "points/spread.hpp"
 #include "staging/external_sort.hpp"
 
 #include <abacus/header.h>
@@ -37,14 +38,17 @@ public:
     /// Ends, writes the points to vertex pages and brings the header up to date.
     void finish(abacus_header &header);
 
+    /// Lets go of the points, which are not wanted after all.
+    void drop();
+
     /// Points so far.
     std::uint64_t points() const { return spilled_ + buffered_; }
     /// Whether its points have so many attributes.
     bool has_attributes(unsigned attributes) const {
         return stride_ == record_words(D, attributes);
     }
-    /// Around these.
-    const Box<D> &box() const { return box_; }
+    /// Where these are.
+    const Spread<D> &spread() const { return spread_; }
     /// What it may use, in bytes.
     std::size_t memory() const { return memory_; }
 
@@ -54,6 +58,8 @@ private:
     /// Begins to distribute what comes, if it is enough for several rounds.
     void begin_to_distribute();
     void stop_distributing();
+    /// What the points so far would have.
+    Domain<D> domain_so_far();
     bool is_distributed_over(const Domain<D> &domain) const;
     bool is_distributed_by(const Slice<D> &slice) const;
     bool mesh_stands_in(const abacus_header &header, const Domain<D> &domain);
@@ -65,7 +71,7 @@ private:
     const SortBudget budget_;
     Pacer pacer_;
     Sample<D> sample_;
-    Box<D> box_;
+    Spread<D> spread_;
     Arena<std::uint64_t> buffer_;
     std::size_t buffered_ = 0;        ///< records in the buffer
     std::size_t room_;                ///< records that may be in the buffer
@@ -74,6 +80,7 @@ private:
     std::uint64_t outside_ = 0;       ///< points that it does not contain
     std::optional<Rounds<D>> rounds_; ///< of the distributor's slice, if it has any
     std::optional<Distributor<D>> distributor_;
+    Box<D> distributed_; ///< box of the points when its domain was last looked at
     Arena<Spool> piles_; ///< what is in no distributor; the last one takes more
 };
 

@@ -3,7 +3,7 @@
 // call has to end with a clean status, in bounded time and without a leak.
 #pragma once
 
-#include "cache/page_format.hpp"
+#include "mesh/page_format.hpp"
 #include "support/memory_host.hpp"
 
 #include <abacus/abacus.h>
@@ -188,21 +188,27 @@ public:
         return faults;
     }
 
+    /// All of it, and a window.
     void draw() {
+        abacus_drawing drawing{};
+        drawing.width = drawing.height = 16;
+        drawing.edges = 1;
+        drawing.exaggeration = 1;
+        draw(drawing);
+        std::fill_n(drawing.lower, 3, 0.45);
+        std::fill_n(drawing.upper, 3, 0.55);
+        draw(drawing);
+    }
+    void draw(const abacus_drawing &drawing) {
         run([&](abacus_error &error) {
-            abacus_drawing drawing{};
-            drawing.width = drawing.height = 16;
-            drawing.edges = 1;
-            drawing.exaggeration = 1;
             const abacus_section section{{0.5, 0.5, 0.5}, {1, 2, 3}, 1};
-            unsigned char *png = nullptr;
-            std::size_t size = 0;
+            abacus_picture picture{};
             const abacus_status status =
                 header.dimension == 2
-                    ? abacus_draw(host.table(), &header, &drawing, &png, &size, &error)
-                    : abacus_draw_section(host.table(), &header, &section, &drawing, &png, &size,
+                    ? abacus_draw(host.table(), &header, &drawing, &picture, &error)
+                    : abacus_draw_section(host.table(), &header, &section, &drawing, &picture,
                                           &error);
-            if (status == ABACUS_OK) host.host().release(png);
+            if (status == ABACUS_OK) host.host().release(picture.png);
             return status;
         });
     }

@@ -2,6 +2,7 @@
 BEGIN;
 SELECT no_plan();
 CREATE EXTENSION IF NOT EXISTS cube;
+CREATE EXTENSION abacus_lab;
 
 SELECT has_function('abacus_goose', ARRAY['text', 'text', 'integer'], 'abacus_goose');
 SELECT volatility_is('abacus_goose', 'volatile', 'it makes a table');

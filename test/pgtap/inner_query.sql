@@ -37,7 +37,8 @@ SELECT is(pg_temp.try('SELECT NULL::bigint, 0, 0, 0'), '22004', 'id NULL');
 SELECT is(pg_temp.try('SELECT 1, NULL::float8, 0, 0'), '22004', 'x NULL');
 SELECT is(pg_temp.try('SELECT 1, 0, NULL::numeric, 0'), '22004', 'y NULL');
 SELECT is(pg_temp.try('SELECT 1, 0, 0, NULL::int'), '1', 'attribute NULL');
-SELECT is(pg_temp.try('SELECT 1, 0, 0, NULL'), '42804', 'attribute of no type');
+SELECT is(pg_temp.try('SELECT 1, 0, 0, NULL'), '1', 'attribute NULL without a type');
+SELECT is(pg_temp.try('SELECT 1, 0, 0, NULL UNION ALL SELECT 2, 0, 0, ''1'''), '42804', 'attribute of no type');
 
 -- shapes
 SELECT is(pg_temp.try('SELECT 1'), '42804', 'one column');
@@ -48,7 +49,7 @@ SELECT is(pg_temp.try('SELECT * FROM (VALUES (1, 2, 3, 4)) AS t WHERE false'), '
 
 -- statements
 SELECT is(pg_temp.try(q), s, q) FROM (VALUES
-    ('', '22023'), (';', '22023'), ('SELEC', '42601'), ('SELECT 1, 2, 3, 4;', '1'),
+    ('', '22023'), (';', '22023'), ('SELEC', '42601'), ('0101000000', '42601'), ('(1, 2)', '42601'), ('points', '42601'), (';;select 1, 2, 3, 4', '1'), ('SELECT 1, 2, 3, 4;', '1'),
     ('SELECT 1, 2, 3, 4; SELECT 1, 2, 3, 4', '22023'), ('VALUES (1, 2, 3, 4), (2, 3, 4, 5)', '2'),
     ('CREATE TABLE x ()', '22023'), ('SELECT 1, 2, 3, 4 INTO x', '22023'), ('SHOW ALL', '22023'),
     ('INSERT INTO types VALUES (''x'') RETURNING 1, 2, 3, 4', '22023'), ('COMMIT', '22023'),

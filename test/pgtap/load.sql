@@ -2,10 +2,10 @@
 BEGIN;
 SELECT no_plan();
 
-SELECT has_function('abacus_load', ARRAY['text', 'text', 'text', 'text[]', 'double precision[]', 'double precision[]', 'boolean'], 'abacus_load');
+SELECT has_function('abacus_load', ARRAY['text', 'text', 'text', 'text[]', 'double precision[]', 'double precision[]', 'boolean', 'boolean'], 'abacus_load');
 SELECT function_returns('abacus_load', 'bigint', 'it returns a number');
 SELECT volatility_is('abacus_load', 'volatile', 'it changes things');
-SELECT isnt(obj_description('abacus_load(text, text, text, text[], float8[], float8[], boolean)'::regprocedure), NULL, 'it has a comment');
+SELECT isnt(obj_description('abacus_load(text, text, text, text[], float8[], float8[], boolean, boolean)'::regprocedure), NULL, 'it has a comment');
 
 -- The same simplices and vertices, whatever the order of rows and corners.
 CREATE FUNCTION pg_temp.simplices(mesh regclass) RETURNS TABLE (ids bigint[]) LANGUAGE sql AS
@@ -58,6 +58,26 @@ SELECT is_empty($$
           CASE WHEN EXISTS (SELECT FROM left_over AS l WHERE (l.v0, l.v1, l.v2, l.v3) = (whole.v0, whole.v1, whole.v2, whole.v3))
                THEN (whole.v0, whole.v1, whole.v2, whole.v3) ELSE (NULL::bigint, NULL::bigint, NULL::bigint, NULL::bigint) END $$,
     'the same simplex as in the whole mesh, or none');
+
+-- A cavity, with places in it, around it, at its border and outside, on facets and vertices too: by all ways of asking.
+SELECT abacus_triangulate('block', 'SELECT 10000 * x + 100 * y + z, x, y, z FROM generate_series(0, 10) x, generate_series(0, 10) y, generate_series(0, 10) z', dimension => 3);
+CREATE TABLE block_vertex AS SELECT id, x, y, z FROM abacus_vertices('block');
+CREATE TABLE shell AS SELECT v0, v1, v2, v3 FROM abacus_simplices('block') AS s
+    WHERE EXISTS (SELECT FROM block_vertex WHERE id IN (v0, v1, v2, v3) AND NOT (x BETWEEN 3 AND 7 AND y BETWEEN 3 AND 7 AND z BETWEEN 3 AND 7));
+SELECT is(abacus_load('hollow', 'TABLE block_vertex', 'TABLE shell'), (SELECT count(*) FROM shell), 'a block with a cavity');
+CREATE TABLE place AS SELECT row_number() OVER () AS id, x, y, z
+    FROM generate_series(-0.5, 10.5, 0.5) x, generate_series(2, 10.5, 0.5) y, generate_series(2, 8, 0.75) z;
+CREATE TABLE expected_place AS
+    SELECT p.id, l.v0 IS NOT NULL AS inside FROM place p LEFT JOIN LATERAL (SELECT 1 AS v0 WHERE x BETWEEN 0 AND 10 AND y BETWEEN 0 AND 10 AND z BETWEEN 0 AND 10
+        AND NOT (x > 3 AND x < 7 AND y > 3 AND y < 7 AND z > 3 AND z < 7)) AS l ON true;
+CREATE FUNCTION pg_temp.places_one_by_one() RETURNS TABLE (id bigint, code bigint, v0 bigint, v1 bigint, v2 bigint, v3 bigint) LANGUAGE sql AS
+    $$ SELECT p.id, s.* FROM place p LEFT JOIN LATERAL abacus_locate('hollow', x, y, z) s ON true $$;
+SELECT bag_eq($$ SELECT id, v0 IS NOT NULL FROM pg_temp.places_one_by_one() $$, 'TABLE expected_place', 'in a simplex or not, one by one');
+SELECT bag_eq($$ SELECT * FROM abacus_locate('hollow', 'TABLE place') $$, $$ SELECT * FROM pg_temp.places_one_by_one() $$, 'the same in one call');
+SET LOCAL abacus.cache_size = '1MB';
+SELECT bag_eq($$ SELECT * FROM abacus_locate('hollow', 'TABLE place') $$, $$ SELECT * FROM pg_temp.places_one_by_one() $$, 'and with a small cache');
+RESET abacus.cache_size;
+SELECT is_empty($$ SELECT id, v0, v1, v2, v3 FROM abacus_locate('hollow', 'TABLE place') WHERE v0 IS NOT NULL AND NOT EXISTS (SELECT FROM shell AS s WHERE (s.v0, s.v1, s.v2, s.v3) = (abacus_locate.v0, abacus_locate.v1, abacus_locate.v2, abacus_locate.v3)) $$, 'only tetrahedra that there are');
 SELECT set_eq($$ SELECT id FROM abacus_vertices('holes') $$, $$ SELECT unnest(ARRAY[v0, v1, v2, v3]) FROM left_over $$, 'its vertices are listed');
 SELECT throws_ok(format('SELECT %s', f), '55000', NULL, f || ' is refused')
 FROM unnest(ARRAY[$$abacus_stage('holes', 'SELECT 0, 1, 2, 3')$$, $$abacus_triangulate('holes')$$,

@@ -85,7 +85,8 @@ SELECT is_empty($$ TABLE rest EXCEPT TABLE before $$, 'with what it began');
 
 -- what cannot be located
 SELECT throws_ok($$ SELECT abacus_locate('field', 'SELECT 1, 0.5') $$, '42804', 'source query returns 2 columns, but the mesh takes 3', 'a column is missing');
-SELECT throws_ok($$ SELECT abacus_locate('field', 'SELECT id, x, y, z FROM places') $$, '42804', NULL, 'attributes are not taken');
+SELECT set_eq($$ SELECT * FROM abacus_locate('field', 'SELECT id, x, y, z, NULL, places FROM places') $$,
+              $$ SELECT * FROM abacus_locate('field', 'SELECT id, x, y FROM places') $$, 'other columns make no difference');
 SELECT throws_ok($$ SELECT abacus_locate('solid', 'SELECT id, x, y FROM places') $$, '42804', NULL, 'z is missing');
 SELECT throws_ok($$ SELECT abacus_locate('field', 'SELECT 1, NULL::float8, 1') $$, '22004', 'x of point 1 is NULL', 'a coordinate that is NULL');
 SELECT throws_ok($$ SELECT abacus_locate('field', 'SELECT 1, 1, ''NaN''::float8') $$, '22023', 'y of point 1 is not finite', 'one that is no number');

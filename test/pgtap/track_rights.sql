@@ -1,7 +1,7 @@
 -- abacus_track: whose rights its triggers have, and which triggers are a mesh's, when they are
 -- bound to it (pg_depend) and when they only name it: made by hand, or restored from a dump.
 BEGIN;
-SELECT plan(36);
+SELECT plan(46);
 
 CREATE ROLE pgtap_owner;
 CREATE ROLE pgtap_guest;
@@ -171,6 +171,46 @@ SET ROLE pgtap_owner;
 SELECT throws_ok($$ SELECT abacus_track('own.field', 'own.notes') $$, '55006',
     'mesh "field" follows table "wells" already', 'a restored trigger of the owner''s table counts');
 RESET ROLE;
+DROP TRIGGER g ON own.wells;
+
+-- a constraint trigger depends on the table that it names after FROM, and is not bound by that
+SET ROLE pgtap_owner;
+SELECT abacus_create('own.lone', 2);
+CREATE TABLE own.points (id int, x float8, y float8);
+GRANT USAGE ON SCHEMA own TO pgtap_guest;
+GRANT TRIGGER ON own.lone, own.points, own.notes TO pgtap_guest;
+SET ROLE pgtap_guest;
+CREATE CONSTRAINT TRIGGER k AFTER INSERT ON guests.wells FROM own.lone FOR EACH ROW EXECUTE FUNCTION abacus_tracked();
+CREATE CONSTRAINT TRIGGER k AFTER INSERT ON own.points FROM own.lone FOR EACH ROW
+    EXECUTE FUNCTION abacus_tracked('lone', '2', 'id', 'x', 'y');
+SELECT is(bound('own.lone'), 2::bigint, 'two constraint triggers depend on a mesh');
+SET ROLE pgtap_owner;
+SELECT throws_ok(format('SELECT abacus_untrack(%s, %s)', 'own.lone'::regclass::oid, (SELECT oid FROM pg_class WHERE relname = 'wells' AND relnamespace = 'guests'::regnamespace)),
+    '42704', NULL, '... which does not follow their table by that');
+SELECT is(abacus_track('own.lone', 'own.points'), 0::bigint, '... and keep nobody from tracking another, nor the one they are on');
+SELECT is(triggers('own.points'), 4::bigint, '... of which they go');
+RESET ROLE;
+SELECT is(triggers('guests.wells'), 2::bigint, '... and not from that of somebody else');
+-- nor do triggers by hand on another table of the owner's, once the mesh has its own
+SET ROLE pgtap_guest;
+CREATE TRIGGER h AFTER TRUNCATE ON own.notes FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('lone', '2', 'id', 'x', 'y');
+SET ROLE pgtap_owner;
+SELECT is(abacus_track('own.lone', 'own.points'), 0::bigint, 'a trigger that names a mesh which follows another table');
+SELECT lives_ok($$ SELECT abacus_untrack('own.lone', 'own.notes') $$, '... and is dropped by the owner');
+
+-- deferred: the rights are the same, and missed at the statement
+SET ROLE pgtap_owner;
+SELECT abacus_track('own.lone', 'own.points', deferred => true);
+GRANT INSERT ON own.points TO pgtap_guest;
+SET ROLE pgtap_guest;
+SELECT lives_ok('INSERT INTO own.points VALUES (1, 2, 3)', 'deferred: noted by a guest, with the rights of the owner');
+CREATE TABLE guests.deferred (id int, x float8, y float8);
+CREATE TRIGGER d AFTER INSERT ON guests.deferred REFERENCING NEW TABLE AS n FOR EACH STATEMENT
+    EXECUTE FUNCTION abacus_tracked('own.lone', '2 deferred', 'id', 'x', 'y');
+SELECT throws_ok('INSERT INTO guests.deferred VALUES (9, 9, 9)', '42501', 'permission denied for table lone', 'made by hand: no rights but the writer''s');
+SET CONSTRAINTS ALL IMMEDIATE;
+RESET ROLE;
+SELECT is(apart('own.lone', 'own.points'), 0::bigint, '... in step');
 
 SELECT * FROM finish();
 ROLLBACK;

@@ -4,8 +4,10 @@
 // abacus/host.h and lists every breach in `violations`.
 #pragma once
 
-#include "cache/key.hpp"
 #include "host/host.hpp"
+#include "keys/key.hpp"
+
+#include <abacus/header.h>
 
 #include <cstdint>
 #include <functional>
@@ -18,7 +20,7 @@
 namespace abacus {
 
 /// abacus_key is a C type of the global namespace, where std::less would not find the
-/// operators of cache/key.hpp.
+/// operators of keys/key.hpp.
 struct KeyLess {
     bool operator()(const abacus_key &a, const abacus_key &b) const { return a < b; }
 };

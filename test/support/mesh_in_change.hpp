@@ -2,9 +2,9 @@
 // own, beside the points that it should have.
 #pragma once
 
-#include "cache/domain_of.hpp"
 #include "delaunay/insertion.hpp"
 #include "delaunay/removal.hpp"
+#include "keys/domain_of.hpp"
 #include "support/oracle.hpp"
 
 #include <abacus/header.h>
@@ -63,6 +63,7 @@ public:
     /// Stores a mesh of so many vertices; what is wrong with it.
     std::vector<std::string> check(std::size_t vertices) {
         cache.flush();
+        if (const char *fault = cache.check_invariants()) return {fault};
         mesh_.header.vertices = vertices;
         mesh_.header.simplices = static_cast<std::uint64_t>(delaunay.simplices());
         mesh_.header.ghosts = static_cast<std::uint64_t>(delaunay.ghosts());

@@ -81,7 +81,7 @@ abacus_status MeshOf<D>::with_stage(const std::vector<InputOf<D>> &points, std::
 template <int D>
 abacus_status MeshOf<D>::load(const std::vector<InputOf<D>> &vertices,
                               const std::vector<std::array<std::int64_t, D + 1>> &simplices,
-                              std::size_t memory, bool reorient) {
+                              std::size_t memory, bool reorient, bool retriangulate) {
     abacus_load *load = nullptr;
     abacus_status status = abacus_load_open(host.table(), &header, memory, reorient, &load, &error);
     if (status != ABACUS_OK) return status;
@@ -93,7 +93,14 @@ abacus_status MeshOf<D>::load(const std::vector<InputOf<D>> &vertices,
     for (std::size_t at = 0; status == ABACUS_OK && at < simplices.size(); at += 100)
         status = abacus_load_simplices(load, simplices[at].data(),
                                        std::min<std::size_t>(100, simplices.size() - at), &error);
-    if (status == ABACUS_OK) status = abacus_load_finish(load, &header, &error);
+    if (status == ABACUS_OK) status = abacus_load_check(load, &loaded_as, &error);
+    if (status == ABACUS_OK && retriangulate && loaded_as != ABACUS_DELAUNAY)
+        status = with_stage({}, memory, [&](abacus_stage *stage) {
+            const abacus_status staged = abacus_load_stage(load, stage, &error);
+            return staged == ABACUS_OK ? abacus_stage_finish(stage, &header, &error) : staged;
+        });
+    else if (status == ABACUS_OK)
+        status = abacus_load_write(load, &header, &error);
     abacus_load_close(load);
     return status;
 }
@@ -120,13 +127,14 @@ template <int D> abacus_status MeshOf<D>::build() {
 }
 
 template <int D>
-abacus_status MeshOf<D>::insert(const std::vector<InputOf<D>> &points, std::size_t memory) {
+abacus_status MeshOf<D>::insert(const std::vector<InputOf<D>> &points, std::size_t memory,
+                                abacus_on_duplicate on_duplicate) {
     const abacus_header before = header;
     const abacus_status status = with_stage(points, memory, [&](abacus_stage *stage) {
         const abacus_status ended = abacus_stage_end(stage, &header, &error);
         if (ended != ABACUS_OK) return ended;
         return with_build([&](abacus_build *build) {
-            return abacus_build_insert(build, stage, &header, &error);
+            return abacus_build_insert(build, stage, on_duplicate, &header, &error);
         });
     });
     if (status != ABACUS_OK) header = before;

@@ -38,14 +38,17 @@ template <int D> struct MeshOf {
     abacus_status stage(const std::vector<InputOf<D>> &points, std::size_t memory = 16 << 20);
     abacus_status build();
     /// Without vertex pages between.
-    abacus_status insert(const std::vector<InputOf<D>> &points, std::size_t memory = 16 << 20);
+    abacus_status insert(const std::vector<InputOf<D>> &points, std::size_t memory = 16 << 20,
+                         abacus_on_duplicate on_duplicate = ABACUS_KEEP);
     /// `deleted` becomes the number of points that there were.
     abacus_status remove(const std::vector<InputOf<D>> &points, std::uint64_t &deleted,
                          std::size_t memory = 16 << 20, bool exactly = false);
     /// Loads a triangulation; simplices are named by the ids of their vertices.
     abacus_status load(const std::vector<InputOf<D>> &vertices,
                        const std::vector<std::array<std::int64_t, D + 1>> &simplices,
-                       std::size_t memory = 16 << 20, bool reorient = true);
+                       std::size_t memory = 16 << 20, bool reorient = true,
+                       bool retriangulate = false);
+    abacus_delaunay loaded_as = ABACUS_DELAUNAY; ///< what load() has found
     /// Where all simplices are, sorted.
     std::vector<Positions<D>> positions();
     /// What a scan gives; fails the test if it does not end well.

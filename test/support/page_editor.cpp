@@ -1,7 +1,7 @@
 #include "support/page_editor.hpp"
 
-#include "cache/domain_of.hpp"
-#include "cache/page_writer.hpp"
+#include "keys/domain_of.hpp"
+#include "mesh/page_writer.hpp"
 
 #include <algorithm>
 #include <map>

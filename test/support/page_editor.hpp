@@ -2,8 +2,8 @@
 // mesh in ways that leave the page itself well-formed.
 #pragma once
 
-#include "cache/page_format.hpp"
-#include "geometry/locational_code.hpp"
+#include "keys/locational_code.hpp"
+#include "mesh/page_format.hpp"
 #include "mesh/simplex.hpp"
 #include "support/memory_host.hpp"
 

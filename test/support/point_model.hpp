@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace abacus::test {
@@ -16,6 +17,18 @@ public:
     void insert(const std::vector<InputOf<D>> &points) {
         for (const InputOf<D> &p : points) places_[p.point].push_back(p);
         waiting_ = false;
+    }
+    /// Each takes the place of all points there.
+    void replace(const std::vector<InputOf<D>> &points) {
+        for (const InputOf<D> &p : points) places_[p.point] = {p};
+        waiting_ = false;
+    }
+    /// Whether each is at a place of its own.
+    bool are_apart(const std::vector<InputOf<D>> &points) const {
+        std::set<Point<D>> here;
+        return std::all_of(points.begin(), points.end(), [&](const InputOf<D> &p) {
+            return !places_.contains(p.point) && here.insert(p.point).second;
+        });
     }
     void stage(const std::vector<InputOf<D>> &points) {
         insert(points);

@@ -82,14 +82,14 @@ protected:
         return drawing;
     }
     abacus_status try_draw(const abacus_section &section, const abacus_drawing &drawing) {
-        unsigned char *png = nullptr;
-        std::size_t size = 0;
+        abacus_picture picture{};
         error = {};
         const abacus_status status =
-            abacus_draw_section(host.table(), &header, &section, &drawing, &png, &size, &error);
+            abacus_draw_section(host.table(), &header, &section, &drawing, &picture, &error);
         if (status == ABACUS_OK) {
-            image = decode(png, size);
-            host.host().release(png);
+            image = decode(picture.png, picture.size);
+            host.host().release(picture.png);
+            is_blank = picture.is_blank != 0;
         }
         return status;
     }
@@ -134,6 +134,7 @@ protected:
     abacus_header header{};
     abacus_error error{};
     Image image;
+    bool is_blank = false;
     const Encoder encode;
     const std::uint32_t ground = 0xf4f1ea;
     const std::uint32_t full = encode(Palette::strata()(0.5f));

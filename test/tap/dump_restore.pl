@@ -194,6 +194,40 @@ $node->command_ok([ 'pg_restore', '-e', '-d', $node->connstr('in_utf8'), "$folde
 attribute_works('in_utf8');
 is($node->safe_psql('in_utf8', q{SELECT count(*) FROM abacus_check('heights')}), 0, 'sound there');
 
+# characters that the encoding of a database lacks: read there as escapes, and still stored
+sub characters_of
+{
+	my ($database) = @_;
+	return $node->safe_psql($database, q{SELECT string_agg(name, '|' ORDER BY position) FROM abacus_attributes('kinds')});
+}
+my $kinds = "h\xc3\xb6he|\xe9\xab\x98\xe3\x81\x95|\xf0\x9f\x9c\x81x|" . "\xe9\xab\x98" x 20;
+my $escaped = "h\xc3\xb6he|\\9AD8\\3055|\\+01F701x|" . '\9AD8' x 12 . '~4';
+sub copy_kinds
+{
+	my ($from, $to) = @_;
+	foreach my $table ('kinds', 'kinds_vertices')
+	{
+		$node->command_ok([ 'psql', '-Xq', '-d', $node->connstr($from), '-c', "COPY $table TO '$folder/$table'" ], "$table out of $from");
+		$node->safe_psql($to, "DROP TABLE IF EXISTS $table; CREATE TABLE $table OF abacus_" . ($table eq 'kinds' ? 'simplex_page (page WITH OPTIONS NOT NULL, PRIMARY KEY (code, part))' : 'vertex_page (page WITH OPTIONS NOT NULL, PRIMARY KEY (first, part))'));
+		$node->command_ok([ 'psql', '-Xq', '-d', $node->connstr($to), '-c', "COPY $table FROM '$folder/$table'" ], "$table into $to");
+	}
+	return;
+}
+$node->safe_psql('in_utf8', q{SELECT abacus_create('kinds', 2, ARRAY[U&'h\00f6he', U&'\9AD8\3055', U&'\+01F701x', repeat(U&'\9AD8', 20)])});
+$node->safe_psql('in_utf8', q{SELECT abacus_insert('kinds', 'VALUES (1, 0, 0, 1, 1, 1, 1), (2, 1, 0, 2, 2, 2, 2), (3, 0, 1, 3, 3, 3, 3)')});
+is(characters_of('in_utf8'), $kinds, 'names of many characters');
+copy_kinds('in_utf8', 'in_latin1');
+is(characters_of('in_latin1'), $escaped, '... escaped where the encoding lacks them');
+is($node->safe_psql('in_latin1', q{SELECT count(*) FROM abacus_check('kinds')}), 0, '... in a mesh that is sound');
+is($node->safe_psql('in_latin1', q{SELECT substr(abacus_draw('kinds', attribute => '\9AD8\3055'), 2, 3) = 'PNG'}), 't', '... and that knows them so');
+is($node->safe_psql('in_latin1', q{SELECT abacus_insert('kinds', 'VALUES (4, 1, 1, 4, 4, 4, 4)')}), 1, '... and is changed');
+copy_kinds('in_latin1', 'in_utf8');
+is(characters_of('in_utf8'), $kinds, '... which keeps what was stored');
+$node->safe_psql('in_latin1', q{SELECT abacus_rename_attribute('kinds', '\9AD8\3055', U&'H\00f6he')});
+like(characters_of('in_latin1'), qr/^h\xc3\xb6he\|H\xc3\xb6he\|\\\+01F701x\|/, 'another name');
+copy_kinds('in_latin1', 'in_utf8');
+like(characters_of('in_utf8'), qr/^h\xc3\xb6he\|H\xc3\xb6he\|\xf0\x9f\x9c\x81x\|/, '... and the others as they were');
+
 # what is no text is no name, except where nobody knows
 $node->safe_psql('in_utf8', q{UPDATE heights SET page = replace(page::text, 'c3b6', '66f6')::abacus_page WHERE code = -1});
 ($status, $out, $err) = $node->psql('in_utf8', q{SELECT abacus_locate('heights', 1, 1)});

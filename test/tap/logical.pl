@@ -105,6 +105,15 @@ is(join("\n", keys %wrong), '', "$looks looks during the build, each at one whol
 cmp_ok(scalar(keys %seen), '>=', 2, scalar(keys %seen) . ' states seen');
 is_same('after the build');
 
+# many changes in one transaction, which takes the space of its own old pages
+$publisher->safe_psql('postgres', <<'SQL');
+DO $$ BEGIN FOR i IN 1 .. 150 LOOP
+	PERFORM abacus_insert('field', format('SELECT %s, %s, %s', 300000 + i, i * 0.7548 % 1, i * 0.5698 % 1));
+END LOOP; END $$;
+SELECT sum(abacus_insert('field', format('SELECT %s, %s, %s', 310000 + i, i * 0.3247 % 1, i * 0.4301 % 1))) FROM generate_series(1, 150) AS i;
+SQL
+is_same('many small changes in one transaction');
+
 # TRUNCATE and what fills the tables again
 $publisher->safe_psql('postgres', <<'SQL');
 CREATE TABLE saved AS TABLE field;

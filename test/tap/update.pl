@@ -1,6 +1,7 @@
-# ALTER EXTENSION abacus UPDATE: from every version that was released. What it
-# leads to is what CREATE EXTENSION makes. A mesh made by that version
-# (meshes/<version>.sql, from pg_dump) goes on, or it is said that it cannot.
+# ALTER EXTENSION UPDATE of abacus and abacus_lab: from every version that was
+# released. What it leads to is what CREATE EXTENSION makes. A mesh made by that
+# version (meshes/<version>.sql, from pg_dump) goes on, or it is said that it cannot.
+# What has gone from abacus to abacus_lab goes on as well where it is used.
 use strict;
 use warnings;
 
@@ -13,20 +14,22 @@ use Test::More;
 
 # Versions whose meshes are not read any more. The others' must go on.
 my %unread = map { $_ => 1 } '0.1.0';
+# Versions in which abacus_quake belonged to abacus.
+my %without_lab = map { $_ => 1 } '0.1.0';
 
 my $node = PostgreSQL::Test::Cluster->new('update');
 $node->init;
 $node->append_conf('postgresql.conf', 'fsync = off');
 $node->start;
 
-# All that the extension is made of, as the catalogues have it.
+# All that an extension is made of, as the catalogues have it.
 sub catalogue
 {
-	my ($database) = @_;
-	return $node->safe_psql($database, <<'SQL');
+	my ($database, $extension) = @_;
+	return $node->safe_psql($database, <<"SQL");
 CREATE TEMP VIEW member AS
 SELECT classid, objid, pg_describe_object(classid, objid, 0) AS name FROM pg_depend
-WHERE deptype = 'e' AND refobjid = (SELECT oid FROM pg_extension WHERE extname = 'abacus');
+WHERE deptype = 'e' AND refobjid = (SELECT oid FROM pg_extension WHERE extname = '$extension');
 SELECT m.name, obj_description(objid, classid::regclass::name) FROM member m ORDER BY 1;
 SELECT m.name, pg_get_function_arguments(objid), pg_get_function_result(objid), prokind, proisstrict, provolatile,
 	proparallel, procost, prorows, prosupport, prosecdef, proleakproof, prosrc, probin, proacl, proconfig, prolang
@@ -41,30 +44,43 @@ SELECT m.name, relkind, relacl, pg_get_viewdef(c.oid), attnum, attname, atttypid
 FROM member m JOIN pg_class c ON c.oid = objid AND classid = 'pg_class'::regclass
 	JOIN pg_attribute a ON a.attrelid = c.oid WHERE attnum > 0 ORDER BY 1, attnum;
 SELECT m.name, castcontext, castmethod FROM member m JOIN pg_cast c ON c.oid = objid AND classid = 'pg_cast'::regclass ORDER BY 1;
-SELECT extversion FROM pg_extension WHERE extname = 'abacus';
+SELECT extversion, extrelocatable FROM pg_extension WHERE extname = '$extension';
 SQL
+}
+
+# Its released versions, from which the way must lead straight here.
+sub released
+{
+	my ($extension, $version) = @_;
+	my @released = split /\n/, $node->safe_psql('fresh',
+		"SELECT version FROM pg_available_extension_versions WHERE name = '$extension' AND NOT installed ORDER BY 1");
+	is( $node->safe_psql('fresh',
+			"SELECT path FROM pg_extension_update_paths('$extension') WHERE source = '$_' AND target = '$version'"),
+		"$_--$version", "$extension $_: the way leads straight here")
+	  for @released;
+	return @released;
 }
 
 $node->safe_psql('postgres', "CREATE DATABASE $_") for 'fresh', 'elsewhere';
 $node->safe_psql('fresh', 'CREATE EXTENSION abacus');
-my $fresh = catalogue('fresh');
+$node->safe_psql('fresh', 'CREATE EXTENSION abacus_lab');
+my %fresh = map { $_ => catalogue('fresh', $_) } 'abacus', 'abacus_lab';
 my $version = $node->safe_psql('fresh', 'SELECT abacus_version()');
-is($node->safe_psql('fresh', "SELECT extversion FROM pg_extension WHERE extname = 'abacus'"),
-	$version, 'module and SQL objects have one version');
-cmp_ok(length($fresh), '>', 5000, 'the catalogues are read');
+is($node->safe_psql('fresh', "SELECT string_agg(extversion, ' ') FROM pg_extension WHERE extname ~ '^abacus'"),
+	"$version $version", 'module and SQL objects have one version');
+cmp_ok(length($fresh{abacus}), '>', 5000, 'the catalogues are read');
+cmp_ok(length($fresh{abacus_lab}), '>', 500, 'those of abacus_lab, too');
 
-my @released = split /\n/, $node->safe_psql('fresh',
-	"SELECT version FROM pg_available_extension_versions WHERE name = 'abacus' AND NOT installed ORDER BY 1");
+my @released = released('abacus', $version);
 ok(scalar(grep { $_ eq '0.1.0' } @released), 'earlier versions: ' . join ', ', @released);
+my %lab_released = map { $_ => 1 } released('abacus_lab', $version);
 for my $old (@released)
 {
-	is( $node->safe_psql('fresh',
-			"SELECT path FROM pg_extension_update_paths('abacus') WHERE source = '$old' AND target = '$version'"),
-		"$old--$version", "$old: the way leads straight here");
 	my $database = 'from_' . $old =~ tr/./_/r;
 	$node->safe_psql('postgres', "CREATE DATABASE $database");
 	$node->safe_psql($database, "CREATE EXTENSION abacus VERSION '$old'");
-	isnt(catalogue($database), $fresh, "$old: differs");
+	$node->safe_psql($database, "CREATE EXTENSION abacus_lab VERSION '$old'") if $lab_released{$old};
+	isnt(catalogue($database, 'abacus'), $fresh{abacus}, "$old: differs");
 
 	# a mesh that it made
 	$node->safe_psql($database, slurp_file("$FindBin::RealBin/meshes/$old.sql"));
@@ -82,10 +98,18 @@ for my $old (@released)
 		$node->safe_psql($database, 'DROP TABLE field, field_vertices');
 	}
 	my $session = $node->background_psql($database);
+	$session->query('SET client_min_messages = warning');
 	my $locate = "SELECT v0, v1, v2 FROM abacus_locate('field', 1, 0.5)";
 	my $located = $unread{$old} ? $session->query('SELECT 1') : $session->query($locate);
-	$node->safe_psql($database, 'ALTER EXTENSION abacus UPDATE');
-	is(catalogue($database), $fresh, "$old: after the update all is as new");
+	my ($status, $out, $err) = $node->psql($database, 'ALTER EXTENSION abacus UPDATE');
+	like($err, qr/WARNING:  abacus_quake\(\) .*so it was dropped.*HINT: .*CREATE EXTENSION abacus_lab/s, "$old: what has gone is said")
+	  if $without_lab{$old};
+	is(catalogue($database, 'abacus'), $fresh{abacus}, "$old: after the update all is as new");
+	is($node->safe_psql($database, "SELECT to_regproc('abacus_quake')"), '', "$old: without what is in abacus_lab")
+	  if $without_lab{$old};
+	$node->safe_psql($database,
+		$lab_released{$old} ? 'ALTER EXTENSION abacus_lab UPDATE' : 'CREATE EXTENSION abacus_lab');
+	is(catalogue($database, 'abacus_lab'), $fresh{abacus_lab}, "$old: abacus_lab as well");
 	$session->query_safe("SELECT abacus_triangulate('field', 'VALUES (1, 0, 0, 10), (2, 4, 0, 12), (3, 4, 3, 20), (4, 0, 3, 14), (5, 1, 1, 11), (6, 1, 1, 12)', '{height}')")
 	  if $unread{$old};
 	is($session->query($locate), $unread{$old} ? '1|2|5' : $located, "$old: a session that was there goes on");
@@ -94,7 +118,7 @@ for my $old (@released)
 	is($node->safe_psql($database, "SELECT string_agg(id || ':' || vertex, ' ' ORDER BY id) FROM abacus_vertices('field')"),
 		'1:1 2:2 3:3 4:4 5:5 6:5 7:7', "$old: a mesh, changed");
 	is_sound($node, $database, 'field', "$old: changed");
-	$node->safe_psql($database, 'DROP TABLE field; DROP EXTENSION abacus');
+	$node->safe_psql($database, 'DROP TABLE field; DROP EXTENSION abacus_lab; DROP EXTENSION abacus');
 	is($node->safe_psql($database, "SELECT count(*) FROM pg_proc WHERE proname ~ '^abacus'"), 0, "$old: nothing is left behind");
 }
 
@@ -106,7 +130,33 @@ ALTER EXTENSION abacus SET SCHEMA b;
 ALTER EXTENSION abacus UPDATE;
 ALTER EXTENSION abacus SET SCHEMA public;
 SQL
-is(catalogue('elsewhere'), $fresh, 'updated in another schema, and moved');
+is(catalogue('elsewhere', 'abacus'), $fresh{abacus}, 'updated in another schema, and moved');
+
+# objects that use what has gone to abacus_lab: they go on, and abacus_lab takes it up
+for my $old (sort keys %without_lab)
+{
+	my $database = 'used_' . $old =~ tr/./_/r;
+	$node->safe_psql('postgres', "CREATE DATABASE $database");
+	$node->safe_psql($database, <<"SQL");
+CREATE SCHEMA "My tools";
+CREATE EXTENSION abacus SCHEMA "My tools" VERSION '$old';
+SET search_path = "My tools";
+CREATE VIEW public.ground AS SELECT * FROM abacus_quake(1e-6, 1);
+CREATE FUNCTION public.coarsest() RETURNS bigint RETURN (SELECT count(*) FROM abacus_quake(1e-6, 1));
+SQL
+	my $used = 'SELECT count(*), coarsest() FROM ground';
+	my ($status, $out, $err) = $node->psql($database, 'ALTER EXTENSION abacus UPDATE');
+	like($err, qr/WARNING:  abacus_quake\(\) is no longer .* in abacus_lab\nDETAIL:  It stays .*function public\.coarsest\(\) depends on .*HINT: .*CREATE EXTENSION abacus_lab SCHEMA "My tools";/s,
+		"$old: who uses it is told what to do");
+	is($node->safe_psql($database, $used), '324|324', "$old: what uses it goes on");
+	$node->safe_psql($database, <<'SQL');
+CREATE EXTENSION abacus_lab SCHEMA "My tools";
+ALTER EXTENSION abacus SET SCHEMA public;
+ALTER EXTENSION abacus_lab SET SCHEMA public;
+SQL
+	is($node->safe_psql($database, $used), '324|324', "$old: with abacus_lab, too");
+	is(catalogue($database, $_), $fresh{$_}, "$old: $_ is as new") for sort keys %fresh;
+}
 
 $node->stop;
 done_testing();

@@ -1,6 +1,6 @@
 // The computational cache: probing, parts, attributes, budget, handles, counters.
-#include "cache/cache.hpp"
 #include "delaunay/insertion.hpp"
+#include "mesh/cache.hpp"
 #include "support/oracle.hpp"
 #include "support/page_editor.hpp"
 #include "support/sanitized.hpp"

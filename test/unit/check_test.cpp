@@ -33,6 +33,28 @@ bool flip(const PageEditor &page, int s, int i, std::array<int, 3> &first,
     return area(first) > 0 && area(second) > 0;
 }
 
+TEST(Check, KnowsHowMuchIsLeftOnceThePagesAreCounted) {
+    Mesh mesh;
+    ASSERT_EQ(mesh.insert(number(unit_square_points(60000, 1))), ABACUS_OK);
+    const std::uint64_t pages = mesh.host.pages.size();
+    ASSERT_GT(pages, 128u);
+    std::vector<abacus_progress> reports;
+    mesh.host.on_progress = [&](const abacus_progress &p) {
+        if (p.phase == ABACUS_PHASE_CHECKING) reports.push_back(p);
+    };
+    EXPECT_TRUE(mesh.check().empty());
+    ASSERT_GE(reports.size(), 4u);
+    EXPECT_EQ(reports.front().total, 0u);
+    EXPECT_EQ(reports.back().total, 2 * pages);
+    std::uint64_t before = 0;
+    for (const abacus_progress &p : reports) {
+        EXPECT_GT(p.done, before);
+        EXPECT_EQ(p.total, p.done <= pages ? 0 : 2 * pages);
+        EXPECT_LE(p.done, 2 * pages);
+        before = p.done;
+    }
+}
+
 TEST(Check, FindsGeometricDamageInsideAPage) {
     Patient small(60, 0);
     ASSERT_EQ(small.mesh.host.pages.size(), 1u);

@@ -1,6 +1,6 @@
 // Meshes that grow out of their domain get another one, when it is worth it; and stay the mesh
 // of their points.
-#include "cache/domain_of.hpp"
+#include "keys/domain_of.hpp"
 #include "support/point_model.hpp"
 
 #include <gtest/gtest.h>
@@ -33,6 +33,23 @@ protected:
     static Domain<D> domain(const MeshOf<D> &mesh) { return domain_of<D>(mesh.header); }
     static double edge(const MeshOf<D> &mesh) {
         return domain(mesh).upper()[0] - domain(mesh).lower()[0];
+    }
+    static InputOf<D> at(double x) {
+        Point<D> p;
+        p.fill(x);
+        return {-1, p, {0.5}};
+    }
+    bool fits(MeshOf<D> &mesh) {
+        int fits = -1;
+        EXPECT_EQ(abacus_domain_fits(mesh.host.table(), &mesh.header, &fits, &mesh.error),
+                  ABACUS_OK);
+        return fits == 1;
+    }
+    /// Pages that begin inside of a code.
+    static std::size_t crowded(const MeshOf<D> &mesh) {
+        return static_cast<std::size_t>(
+            std::count_if(mesh.host.pages.begin(), mesh.host.pages.end(),
+                          [](const auto &page) { return page.first.part != 0; }));
     }
     abacus_status rekey(MeshOf<D> &mesh, int &done) {
         return mesh.with_build([&](abacus_build *build) {
@@ -209,6 +226,101 @@ TYPED_TEST(OtherDomain, OfALargeMeshNotForAFewPoints) {
     EXPECT_GE(this->edge(mesh), 3);
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
     EXPECT_EQ(mesh.header.vertices + mesh.header.duplicates, 90000u);
+}
+
+// One garbage coordinate among many points: the domain is that of the others.
+TYPED_TEST(OtherDomain, NotAroundOnePointFarAway) {
+    constexpr int D = TypeParam::value;
+    for (const double far : {-3.4028234663852886e38, 1e15}) {
+        auto points = this->fresh(4000, 5e5, 1000);
+        MeshOf<D> mesh(1, little), plain(1, little);
+        PointModel<D> model;
+        ASSERT_EQ(plain.insert(points, std::size_t(1)), ABACUS_OK);
+        points.insert(points.begin() + 1000, this->at(far));
+        model.insert(points);
+        ASSERT_EQ(mesh.insert(points, std::size_t(1)), ABACUS_OK) << mesh.error.detail;
+        EXPECT_LE(this->edge(mesh), 3000);
+        EXPECT_EQ(mesh.header.outside, 0u);
+        EXPECT_EQ(this->crowded(mesh), 0u);
+        EXPECT_LE(double(mesh.host.pages.size()), 1.1 * double(plain.host.pages.size()) + 2);
+        EXPECT_TRUE(this->fits(mesh));
+        model.expect(mesh);
+    }
+}
+
+// A mesh that begins with it recovers by itself when it is small.
+TYPED_TEST(OtherDomain, AfterPointsThatCameToOneCode) {
+    constexpr int D = TypeParam::value;
+    MeshOf<D> mesh(1);
+    PointModel<D> model;
+    std::vector<InputOf<D>> points{this->at(-3.4e38)};
+    for (const auto &p : this->fresh(1, 0, 1)) points.push_back(p); // which of them is garbage?
+    model.insert(points);
+    ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+    EXPECT_GE(this->edge(mesh), 1e38);
+    for (int i = 0; i < 400; ++i) {
+        points = this->fresh(2, 0, 1);
+        model.insert(points);
+        ASSERT_EQ(mesh.insert(points), ABACUS_OK) << mesh.error.detail;
+    }
+    EXPECT_LE(this->edge(mesh), 16);
+    EXPECT_EQ(this->crowded(mesh), 0u);
+    model.expect(mesh);
+}
+
+// A given domain that does not fit is found by a look into a few pages; so is that of a mesh whose
+// point far away has gone.
+TYPED_TEST(OtherDomain, OnDemandWhereItHasNeverFitted) {
+    constexpr int D = TypeParam::value;
+    MeshOf<D> mesh(1);
+    PointModel<D> model;
+    mesh.header.has_domain = 1;
+    for (int i = 0; i < D; ++i) mesh.header.lower[i] = -1e30, mesh.header.upper[i] = 1e30;
+    auto points = this->fresh(3000, 0, 1);
+    points.push_back(this->at(1e29));
+    model.insert(points);
+    ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+    EXPECT_GT(this->crowded(mesh), 5u);
+    EXPECT_FALSE(this->fits(mesh));
+    model.remove({points.back()});
+    std::uint64_t deleted = 0;
+    ASSERT_EQ(mesh.remove({points.back()}, deleted), ABACUS_OK);
+    EXPECT_FALSE(this->fits(mesh));
+    int done = 0;
+    ASSERT_EQ(this->rekey(mesh, done), ABACUS_OK);
+    EXPECT_EQ(done, 1);
+    EXPECT_LE(this->edge(mesh), 16);
+    EXPECT_EQ(this->crowded(mesh), 0u);
+    EXPECT_TRUE(this->fits(mesh));
+    model.expect(mesh);
+    ASSERT_EQ(this->rekey(mesh, done), ABACUS_OK);
+    EXPECT_EQ(done, 0);
+}
+
+// Where no scale would do, none is tried again and again.
+TYPED_TEST(OtherDomain, NotWhereNoneIsBetter) {
+    constexpr int D = TypeParam::value;
+    MeshOf<D> mesh(1);
+    PointModel<D> model;
+    for (int round = 0; round < 3; ++round) {
+        std::vector<InputOf<D>> points;
+        for (int cluster = 0; cluster < 5; ++cluster)
+            for (const auto &p : this->fresh(400, 1e15 * cluster, 256)) points.push_back(p);
+        model.insert(points);
+        ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+    }
+    const Domain<D> before = this->domain(mesh);
+    int done = 1;
+    ASSERT_EQ(this->rekey(mesh, done), ABACUS_OK);
+    EXPECT_EQ(done, 0);
+    EXPECT_EQ(mesh.header.outside, 0u);
+    EXPECT_EQ(this->domain(mesh).upper(), before.upper());
+    EXPECT_TRUE(this->fits(mesh));
+    const std::uint64_t found = mesh.host.calls.find, spools = mesh.host.calls.spool_create;
+    ASSERT_EQ(this->rekey(mesh, done), ABACUS_OK);
+    EXPECT_LE(mesh.host.calls.find - found, 40u);
+    EXPECT_EQ(mesh.host.calls.spool_create, spools);
+    model.expect(mesh);
 }
 
 } // namespace

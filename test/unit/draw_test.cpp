@@ -71,10 +71,16 @@ TEST_F(Draw, TakesTheHeightFromTheWindow) {
     drawing.height = 0;
     drawing.upper[1] = 0.5;
     EXPECT_EQ(draw(drawing, {}).height, 20);
+    // A long or narrow window is stretched.
     drawing.upper[1] = 1e-9;
-    EXPECT_EQ(draw(drawing, {}).height, 1);
+    EXPECT_EQ(draw(drawing, {}).height, 5);
     drawing.upper[1] = 1e9;
-    EXPECT_EQ(Extent(drawing).drawing().height, max_side);
+    EXPECT_EQ(Extent(drawing).drawing().height, 320);
+    drawing.width = 3;
+    EXPECT_EQ(Extent(drawing).drawing().height, 24);
+    drawing.upper[1] = 1e-9;
+    EXPECT_EQ(Extent(drawing).drawing().height, 1);
+    drawing.upper[1] = 1e9;
     drawing.width = max_side;
     EXPECT_EQ(Extent(drawing).drawing().height, max_pixels / max_side);
 }
@@ -105,6 +111,50 @@ TEST_F(Draw, TakesTheRangeFromTheWindow) {
     extent.add({{{0.5, 0}, {3, 0}, {2, 1}}, {1, 2, 3}});
     EXPECT_EQ(extent.low(), 1);
     EXPECT_EQ(extent.high(), 3);
+}
+
+TEST_F(Draw, TakesTheRangeOfWhatIsSeen) {
+    // The box of this triangle meets the window, its corner reaches it, and it has nothing inside.
+    Extent extent(square_drawing(10));
+    extent.add({{{2, 0}, {2, 2}, {0, 2}}, {7, 7, 7}});
+    EXPECT_TRUE(std::isnan(extent.low()));
+    extent.add({{{2, -0.5}, {2, 2}, {-0.5, 2}}, {1, 2, 3}});
+    EXPECT_EQ(extent.high(), 3);
+}
+
+TEST_F(Draw, GivesAPlaceOneColourInAllWindowsOfARange) {
+    const auto triangles = grid(7, [](double x, double y) { return 100 * x * y * y; });
+    abacus_drawing whole = square_drawing(64);
+    whole.range[0] = 20;
+    whole.range[1] = 70;
+    EXPECT_FALSE(Extent::is_needed(whole));
+    const Image all = draw(whole, triangles);
+    for (const int right : {0, 1}) {
+        abacus_drawing tile = whole;
+        tile.width = 32;
+        tile.lower[0] = 0.5 * right;
+        tile.upper[0] = 0.5 + 0.5 * right;
+        const Image part = draw(tile, triangles);
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 32; ++x) ASSERT_EQ(part(x, y), all(x + 32 * right, y));
+    }
+    // What lies beyond has the last colour, however far.
+    const Palette palette = Palette::terrain();
+    EXPECT_EQ(all(0, 60), encode(palette(0)));
+    const double most = std::numeric_limits<double>::max();
+    const Image far = draw(whole, grid(7, [&](double x, double) { return x > 0 ? most : -most; }));
+    EXPECT_EQ(far(63, 30), encode(palette(1)));
+    EXPECT_EQ(far(0, 63), encode(palette(0)));
+}
+
+TEST_F(Draw, KnowsWhetherAnythingIsSeen) {
+    abacus_drawing drawing = square_drawing(10);
+    Canvas canvas(host, drawing, NAN, NAN);
+    EXPECT_TRUE(canvas.is_blank());
+    canvas.add({{{2, 0}, {2, 2}, {1.2, 2}}, {7, 7, 7}});
+    EXPECT_TRUE(canvas.is_blank());
+    canvas.add({{{0.5, 0.5}, {0.51, 0.5}, {0.5, 0.51}}, {7, 7, 7}});
+    EXPECT_FALSE(canvas.is_blank());
 }
 
 TEST_F(Draw, TintsByHeightWithNorthUp) {
@@ -295,15 +345,57 @@ TEST_F(Draw, LeavesOutLongTriangles) {
         drawing.width = 100;
         drawing.attribute = -1;
         drawing.max_edge = max_edge;
-        unsigned char *png = nullptr;
-        std::size_t size = 0;
-        ASSERT_EQ(abacus_draw(memory.table(), &header, &drawing, &png, &size, &error), ABACUS_OK);
-        const Image image = decode(png, size);
-        host.release(png);
+        abacus_picture picture{};
+        ASSERT_EQ(abacus_draw(memory.table(), &header, &drawing, &picture, &error), ABACUS_OK);
+        const Image image = decode(picture.png, picture.size);
+        host.release(picture.png);
+        EXPECT_EQ(picture.is_blank, 0);
         EXPECT_EQ(image.height, 20);
         EXPECT_EQ(image(50, 10) == 0x03060f, max_edge > 0);
         EXPECT_NE(image(10, 10), 0x03060fu);
     }
+}
+
+// A large window is read page by page, and the pages of a small one are searched for.
+TEST_F(Draw, HasInAWindowWhatIsThereInALargerOne) {
+    Input<2> input = with_ids<2>(points<2>(Kind::uniform, 20000));
+    for (auto &p : input) p.attributes = {std::bit_cast<std::uint64_t>(p.point[0] * p.point[1])};
+    abacus_header header = empty_header<2>(1);
+    abacus_error error{};
+    ASSERT_EQ(stage<2>(memory, header, input, ample, error), ABACUS_OK);
+    abacus_build *build = nullptr;
+    ASSERT_EQ(abacus_build_open(memory.table(), &header, ample, &build, &error), ABACUS_OK);
+    ASSERT_EQ(abacus_build_run(build, 0, &header, &error), ABACUS_OK);
+    abacus_build_close(build);
+    const auto shown = [&](const abacus_drawing &drawing, bool &is_blank) {
+        abacus_picture picture{};
+        EXPECT_EQ(abacus_draw(memory.table(), &header, &drawing, &picture, &error), ABACUS_OK);
+        const Image image = decode(picture.png, picture.size);
+        host.release(picture.png);
+        is_blank = picture.is_blank != 0;
+        return image;
+    };
+    abacus_drawing drawing = square_drawing(256);
+    std::fill_n(drawing.lower, 2, -0.5);
+    std::fill_n(drawing.upper, 2, 1.5);
+    drawing.range[1] = 1;
+    bool is_blank;
+    const Image all = shown(drawing, is_blank);
+    EXPECT_FALSE(is_blank);
+    drawing.width = drawing.height = 32;
+    int blank = 0;
+    for (int i = 0; i < 8; ++i)
+        for (int j = 0; j < 8; ++j) {
+            drawing.lower[0] = -0.5 + 0.25 * i;
+            drawing.lower[1] = -0.5 + 0.25 * j;
+            for (int axis = 0; axis < 2; ++axis) drawing.upper[axis] = drawing.lower[axis] + 0.25;
+            const Image part = shown(drawing, is_blank);
+            blank += is_blank;
+            for (int y = 0; y < 32; ++y)
+                for (int x = 0; x < 32; ++x)
+                    ASSERT_LE(difference(part(x, y), all(32 * i + x, 32 * (7 - j) + y)), 1);
+        }
+    EXPECT_EQ(blank, 48);
 }
 
 TEST_F(Draw, LightComesFromTheNorthWest) {

@@ -98,6 +98,70 @@ TYPED_TEST(Edit, KeepsTheMeshOfThePointsThereAre) {
         }
 }
 
+TYPED_TEST(Edit, PutsPointsInThePlaceOfOthers) {
+    // Beside points that are kept, that wait, and that go; also where all are on a line or plane.
+    constexpr int D = TypeParam::value;
+    const std::size_t sizes[] = {1, 2, 10, 100, 5000};
+    int refused = 0, taken = 0;
+    for (const int kind : {0, 1, 2, 3, 4})
+        for (const std::size_t cache_bytes : {std::size_t(40) << 10, std::size_t(1) << 20}) {
+            SCOPED_TRACE(kind);
+            MeshOf<D> mesh(1, cache_bytes);
+            PointModel<D> model;
+            const std::size_t memory = cache_bytes == 1 << 20 ? 16 << 20 : 64 << 10;
+            for (int step = 0; step < (sanitized ? 15 : 40); ++step) {
+                const std::size_t n = sizes[this->random() % (step % 10 == 0 ? 5 : 4)];
+                auto points = this->fresh(n, kind == 4 ? 1 : kind);
+                if (kind == 4) // many on a line or plane
+                    for (auto &p : points) p.point[D - 1] = 2 * (p.point[0] += double(p.id % 600));
+                switch (this->random() % 6) {
+                case 0:
+                    model.insert(points);
+                    ASSERT_EQ(mesh.insert(points, memory), ABACUS_OK) << mesh.error.detail;
+                    break;
+                case 1:
+                    model.stage(points);
+                    ASSERT_EQ(mesh.stage(points), ABACUS_OK) << mesh.error.detail;
+                    break;
+                case 2: {
+                    auto gone = this->some(model, n);
+                    std::uint64_t deleted = 0;
+                    const std::uint64_t expected = model.remove(gone);
+                    ASSERT_EQ(mesh.remove(gone, deleted), ABACUS_OK) << mesh.error.detail;
+                    ASSERT_EQ(deleted, expected);
+                    break;
+                }
+                case 3: {
+                    if (this->random() % 2 == 0) points = this->fresh(2, 0);
+                    MeshOf<D> tried(1, cache_bytes);
+                    tried.host.restore(mesh.host);
+                    tried.header = mesh.header;
+                    if (model.are_apart(points)) {
+                        ++taken;
+                        model.insert(points);
+                        ASSERT_EQ(mesh.insert(points, memory, ABACUS_REFUSE), ABACUS_OK)
+                            << mesh.error.message;
+                    } else {
+                        ++refused;
+                        ASSERT_EQ(tried.insert(points, memory, ABACUS_REFUSE), ABACUS_ERROR);
+                        ASSERT_EQ(tried.error.kind, ABACUS_ERROR_DUPLICATE);
+                        ASSERT_EQ(tried.host.bytes, 0u);
+                    }
+                    break;
+                }
+                default:
+                    model.replace(points);
+                    ASSERT_EQ(mesh.insert(points, memory, ABACUS_REPLACE), ABACUS_OK)
+                        << mesh.error.detail;
+                }
+                model.expect(mesh);
+                if (this->HasFatalFailure()) return;
+            }
+        }
+    EXPECT_GT(refused, 0);
+    EXPECT_GT(taken, 0);
+}
+
 TYPED_TEST(Edit, CollapsesAndGrowsAgain) {
     // Many points in a plane or on a line, and one beside it that comes and goes.
     constexpr int D = TypeParam::value;
@@ -291,22 +355,38 @@ TYPED_TEST(Edit, EveryHostCallMayFail) {
         model.insert(points);
         ASSERT_EQ(sound.insert(points), ABACUS_OK);
     }
-    const auto gone = model.points(); // all: it collapses on the way
-    bool done = false;
-    for (std::uint64_t n = 1; !done; n += 1 + n / 8) {
-        MeshOf<D> mesh(1, 40 << 10);
-        mesh.host.restore(sound.host);
-        mesh.header = sound.header;
-        mesh.host.on_progress = [&](const abacus_progress &) { mesh.host.interrupted = 1; };
-        mesh.host.fail_at(n);
+    const auto all = model.points();
+    std::vector<InputOf<D>> flat = all; // and as many as span nothing
+    for (auto &p : flat) p.point[D - 1] = p.point[0];
+    MeshOf<D> waiting(1, 40 << 10);
+    ASSERT_EQ(waiting.insert(flat), ABACUS_OK);
+    const auto replace = [](MeshOf<D> &mesh, const std::vector<InputOf<D>> &points) {
+        return mesh.insert(points, 16 << 10, ABACUS_REPLACE);
+    };
+    const auto remove = [](MeshOf<D> &mesh, const std::vector<InputOf<D>> &points) {
         std::uint64_t deleted = 0;
-        const abacus_status status = mesh.remove(gone, deleted);
-        done = !mesh.host.failed;
-        ASSERT_EQ(status, done ? ABACUS_OK : ABACUS_HOST_ERROR);
-        ASSERT_EQ(mesh.host.bytes, 0u);
-        ASSERT_EQ(mesh.host.violations, std::vector<std::string>{});
-        ASSERT_EQ(std::memcmp(&mesh.header, &sound.header, sizeof sound.header) == 0, !done);
-    }
+        return mesh.remove(points, deleted);
+    };
+    const auto expect_undone = [](MeshOf<D> &before, auto change,
+                                  const std::vector<InputOf<D>> &points) {
+        bool done = false;
+        for (std::uint64_t n = 1; !done; n += 1 + n / 8) {
+            MeshOf<D> mesh(1, 40 << 10);
+            mesh.host.restore(before.host);
+            mesh.header = before.header;
+            mesh.host.on_progress = [&](const abacus_progress &) { mesh.host.interrupted = 1; };
+            mesh.host.fail_at(n);
+            const abacus_status status = change(mesh, points);
+            done = !mesh.host.failed;
+            ASSERT_EQ(status, done ? ABACUS_OK : ABACUS_HOST_ERROR);
+            ASSERT_EQ(mesh.host.bytes, 0u);
+            ASSERT_EQ(mesh.host.violations, std::vector<std::string>{});
+            ASSERT_EQ(std::memcmp(&mesh.header, &before.header, sizeof before.header) == 0, !done);
+        }
+    };
+    expect_undone(sound, remove, all); // it collapses on the way
+    expect_undone(sound, replace, all);
+    expect_undone(waiting, replace, flat);
 }
 
 } // namespace

@@ -34,11 +34,10 @@ abacus_status draw(Mesh &mesh) {
     drawing.width = 40;
     drawing.edges = 1;
     drawing.exaggeration = 1;
-    unsigned char *png = nullptr;
-    std::size_t size = 0;
+    abacus_picture picture{};
     const abacus_status status =
-        abacus_draw(mesh.host.table(), &mesh.header, &drawing, &png, &size, &mesh.error);
-    if (status == ABACUS_OK) mesh.host.host().release(png);
+        abacus_draw(mesh.host.table(), &mesh.header, &drawing, &picture, &mesh.error);
+    if (status == ABACUS_OK) mesh.host.host().release(picture.png);
     return status;
 }
 

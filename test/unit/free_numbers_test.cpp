@@ -1,5 +1,5 @@
 // Numbers given back against a set, many and few, near each other and far; and their order.
-#include "cache/free_numbers.hpp"
+#include "host/free_numbers.hpp"
 #include "support/memory_host.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Places located in the bytes of pages: the same answers as by a walk in memory, with few
 // searches of the host, wherever that has moved its pages.
-#include "cache/page_writer.hpp"
+#include "mesh/page_writer.hpp"
 #include "support/containment.hpp"
 #include "support/large_mesh.hpp"
 

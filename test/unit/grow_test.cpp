@@ -1,6 +1,6 @@
 // Meshes that are changed all over: each page is loaded and stored about once, and pages
 // stay as full as those of a mesh that is built of the same points.
-#include "cache/domain_of.hpp"
+#include "keys/domain_of.hpp"
 #include "points/vertex_reader.hpp"
 #include "staging/density.hpp"
 #include "support/oracle.hpp"

@@ -159,8 +159,9 @@ TEST(Header, OfAMeshThatIsNotDelaunay) {
         abacus_header decoded;
         return decodes(encode(header), &decoded) && decoded.not_delaunay == header.not_delaunay;
     };
-    EXPECT_TRUE(taken([](abacus_header &) {}));
-    EXPECT_FALSE(taken([](abacus_header &h) { h.not_delaunay = 2; }));
+    for (const std::uint32_t why : {ABACUS_NOT_DELAUNAY, ABACUS_WEAKLY_DELAUNAY, ABACUS_NOT_CONVEX})
+        EXPECT_TRUE(taken([&](abacus_header &h) { h.not_delaunay = why; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.not_delaunay = ABACUS_NOT_CONVEX + 1; }));
     EXPECT_FALSE(taken([](abacus_header &h) { h.inserted = 0; }));
     EXPECT_FALSE(taken([](abacus_header &h) { ++h.staged; }));
     EXPECT_FALSE(taken([](abacus_header &h) { h.serials = 1; }));

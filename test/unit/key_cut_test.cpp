@@ -1,5 +1,5 @@
 // Where a block is cut: near the number wanted, and never between equal keys.
-#include "cache/key_cut.hpp"
+#include "blocks/key_cut.hpp"
 
 #include "support/memory_host.hpp"
 

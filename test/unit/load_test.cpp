@@ -46,12 +46,13 @@ template <int D> std::vector<Ids<D>> stored(MeshOf<D> &mesh) {
 
 /// Loads in another order; all that is given must be there again and sound.
 template <int D>
-void expect_loads(MeshOf<D> &mesh, Triangulation<D> t, bool is_delaunay,
+void expect_loads(MeshOf<D> &mesh, Triangulation<D> t, abacus_delaunay delaunay,
                   std::size_t memory = ample) {
     t.shuffle(3);
     ASSERT_EQ(mesh.load(t.vertices, t.simplices, memory), ABACUS_OK)
         << mesh.error.message << ' ' << mesh.error.detail;
-    EXPECT_EQ(mesh.header.not_delaunay, is_delaunay ? 0u : 1u);
+    EXPECT_EQ(mesh.loaded_as, delaunay);
+    EXPECT_EQ(mesh.header.not_delaunay, static_cast<std::uint32_t>(delaunay));
     EXPECT_EQ(mesh.header.simplices, t.simplices.size());
     EXPECT_EQ(mesh.header.vertices, t.vertices.size());
     EXPECT_EQ(stored<D>(mesh), sorted<D>(t.simplices));
@@ -73,7 +74,7 @@ TYPED_TEST(Load, DelaunayTriangulationsBecomeFullMeshes) {
     for (const auto &points : {random_points<D>(3000, 1), grid<D>(D == 2 ? 40 : 10)})
         for (const std::size_t memory : {tiny, ample}) {
             MeshOf<D> mesh(0, little);
-            expect_loads<D>(mesh, delaunay<D>(points), true, memory);
+            expect_loads<D>(mesh, delaunay<D>(points), ABACUS_DELAUNAY, memory);
             MeshOf<D> built(0, little);
             ASSERT_EQ(built.stage(number<D>(points)), ABACUS_OK);
             ASSERT_EQ(built.build(), ABACUS_OK);
@@ -93,7 +94,7 @@ TYPED_TEST(Load, DelaunayTriangulationsBecomeFullMeshes) {
 TYPED_TEST(Load, PagesAreWellFilled) {
     constexpr int D = TestFixture::D;
     MeshOf<D> mesh;
-    expect_loads<D>(mesh, delaunay<D>(random_points<D>(D == 2 ? 15000 : 3000, 5)), true);
+    expect_loads<D>(mesh, delaunay<D>(random_points<D>(D == 2 ? 15000 : 3000, 5)), ABACUS_DELAUNAY);
     std::size_t bytes = 0;
     for (const auto &[key, page] : mesh.host.pages) bytes += page.size;
     EXPECT_GT(bytes, mesh.host.pages.size() * ABACUS_PAGE_BYTES * 75 / 100);
@@ -105,7 +106,7 @@ TYPED_TEST(Load, OtherTriangulationsAreMarked) {
     flip(t, 300, 5);
     for (const std::size_t memory : {tiny, ample}) {
         MeshOf<D> mesh(0, little);
-        expect_loads<D>(mesh, t, false, memory);
+        expect_loads<D>(mesh, t, ABACUS_NOT_DELAUNAY, memory);
         for (const abacus_status status :
              {mesh.stage(number<D>(random_points<D>(5, 1))), mesh.build()}) {
             EXPECT_EQ(status, ABACUS_ERROR);
@@ -120,9 +121,75 @@ TYPED_TEST(Load, CosphericalPointsMustBeTriangulatedAsAbacusWould) {
     // One cell of a grid, mirrored: Delaunay without the perturbation, but another one.
     auto t = delaunay<D>(grid<D>(2));
     MeshOf<D> same(0), mirrored(0);
-    expect_loads<D>(same, t, true);
+    expect_loads<D>(same, t, ABACUS_DELAUNAY);
     for (auto &v : t.vertices) v.point[0] = 1 - v.point[0];
-    expect_loads<D>(mirrored, t, false);
+    expect_loads<D>(mirrored, t, ABACUS_WEAKLY_DELAUNAY);
+}
+
+/// Five tetrahedra in each cube, whose inner ones alternate so that they fit together.
+Triangulation<3> cubes_in_five(int n) {
+    const auto id = [n](int x, int y, int z) {
+        return static_cast<std::int64_t>((x * (n + 1) + y) * (n + 1) + z);
+    };
+    Triangulation<3> t;
+    for (int x = 0; x <= n; ++x)
+        for (int y = 0; y <= n; ++y)
+            for (int z = 0; z <= n; ++z)
+                t.vertices.push_back({id(x, y, z), {double(x), double(y), double(z)}});
+    for (int x = 0; x < n; ++x)
+        for (int y = 0; y < n; ++y)
+            for (int z = 0; z < n; ++z) {
+                const int odd = (x + y + z) % 2;
+                const auto corner = [&](int i) {
+                    return id(x + ((i & 1) ^ odd), y + (i >> 1 & 1), z + (i >> 2 & 1));
+                };
+                for (const auto &s : {Ids<3>{0, 3, 5, 6}, Ids<3>{1, 0, 3, 5}, Ids<3>{2, 0, 3, 6},
+                                      Ids<3>{4, 0, 5, 6}, Ids<3>{7, 3, 5, 6}}) {
+                    Ids<3> named;
+                    for (int i = 0; i < 4; ++i) named[i] = corner(static_cast<int>(s[i]));
+                    t.simplices.push_back(named);
+                }
+            }
+    return t;
+}
+
+TEST(LoadInSpace, GridsOfOtherProgramsAreWeaklyDelaunay) {
+    for (const int n : {1, 4}) {
+        MeshOf<3> mesh(0, little);
+        expect_loads<3>(mesh, cubes_in_five(n), ABACUS_WEAKLY_DELAUNAY);
+    }
+    // A vertex moved by a bit.
+    for (const double to : {4 - 0x1p-50, 4 + 0x1p-50}) {
+        auto t = cubes_in_five(4);
+        t.vertices.back().point = {4, 4, to};
+        MeshOf<3> mesh(0, little);
+        expect_loads<3>(mesh, t, ABACUS_NOT_DELAUNAY);
+    }
+}
+
+TYPED_TEST(Load, VerticesAreTriangulatedAnewIfThatIsWanted) {
+    constexpr int D = TestFixture::D;
+    auto mirrored = delaunay<D>(grid<D>(4));
+    for (auto &v : mirrored.vertices) v.point[0] = -v.point[0];
+    auto flipped = delaunay<D>(random_points<D>(500, 4));
+    flip(flipped, 100, 5);
+    const auto hollow =
+        keeping<D>(delaunay<D>(grid<D>(6)), [](const auto &c) { return c[0] > 3 || c[1] > 2; });
+    const auto same = delaunay<D>(random_points<D>(300, 6));
+    for (const auto &t : {mirrored, flipped, hollow, same})
+        for (const std::size_t memory : {tiny, ample}) {
+            MeshOf<D> mesh(0, little);
+            ASSERT_EQ(mesh.load(t.vertices, t.simplices, memory, true, true), ABACUS_OK)
+                << mesh.error.message;
+            ASSERT_EQ(mesh.build(), ABACUS_OK);
+            std::vector<Point<D>> points;
+            for (const auto &v : t.vertices) points.push_back(v.point);
+            EXPECT_EQ(mesh.positions(), cgal_simplices<D>(points));
+            EXPECT_EQ(mesh.header.not_delaunay, 0u);
+            EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+            EXPECT_TRUE(mesh.host.spools.empty());
+            EXPECT_EQ(mesh.host.bytes, 0u);
+        }
 }
 
 TYPED_TEST(Load, HolesPiecesAndPinches) {
@@ -170,7 +237,7 @@ TYPED_TEST(Load, HolesPiecesAndPinches) {
         for (const std::size_t memory : {tiny, ample}) {
             SCOPED_TRACE("case " + std::to_string(i));
             MeshOf<D> mesh(0, little);
-            expect_loads<D>(mesh, cases[i], false, memory);
+            expect_loads<D>(mesh, cases[i], ABACUS_NOT_CONVEX, memory);
         }
 }
 
@@ -179,7 +246,7 @@ TYPED_TEST(Load, AttributesAndIdsStay) {
     auto t = delaunay<D>(random_points<D>(800, 11));
     for (auto &v : t.vertices) v.attributes = {v.point[0] * 2, v.point[1] - 1};
     MeshOf<D> mesh(2, little);
-    expect_loads<D>(mesh, t, true);
+    expect_loads<D>(mesh, t, ABACUS_DELAUNAY);
 }
 
 TYPED_TEST(Load, NothingAtAll) {
@@ -193,14 +260,12 @@ TYPED_TEST(Load, NothingAtAll) {
 TYPED_TEST(Load, TightClustersSpreadOverPages) {
     constexpr int D = TestFixture::D;
     auto points = random_points<D>(1200, 12);
-    for (auto &p : points)
-        for (double &x : p) x *= 1e-13;
-    Point<D> corner;
-    corner.fill(1);
-    points.push_back(corner);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (double &x : points[i]) x = static_cast<double>(i % 3) + x * 1e-12;
     MeshOf<D> mesh(0, little);
-    expect_loads<D>(mesh, delaunay<D>(points), true);
+    expect_loads<D>(mesh, delaunay<D>(points), ABACUS_DELAUNAY);
     EXPECT_GT(mesh.host.pages.size(), 5u);
+    EXPECT_NE(mesh.host.pages.rbegin()->first.part, 0u);
 }
 
 // ---- Faults ----------------------------------------------------------------------------

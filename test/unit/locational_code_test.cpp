@@ -1,5 +1,5 @@
 // Positions on the curve.
-#include "geometry/locational_code.hpp"
+#include "keys/locational_code.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What pages tell of how many simplices fit into one.
-#include "cache/page_capacity.hpp"
+#include "mesh/simplex_blocks.hpp"
 #include "support/oracle.hpp"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TYPED_TEST(PageCapacities, AreTheSameOfFullPagesAndOfHalfFullOnes) {
         const double share = double(page.size) / ABACUS_PAGE_BYTES;
         const bool is_full = share > 0.8, is_half = share > 0.35 && share < 0.6;
         if (!is_full && !is_half) continue;
-        sum[is_full] += PageCapacity<D>(0).learn(header.simplices, page.size);
+        sum[is_full] += PageCapacity(simplex_pages<D>(0)).learn(header.simplices, page.size);
         ++count[is_full];
     }
     ASSERT_GE(count[false], 5);
@@ -56,7 +56,7 @@ TYPED_TEST(PageCapacities, AreTheSameOfFullPagesAndOfHalfFullOnes) {
 
 TYPED_TEST(PageCapacities, AreLearnedFromTheFirstPageAndNotLostByCrumbs) {
     constexpr int D = TypeParam::value;
-    PageCapacity<D> capacity(0);
+    PageCapacity capacity(simplex_pages<D>(0));
     const int guess = capacity.usual();
     EXPECT_GT(guess, 100);
     EXPECT_EQ(capacity.learn(0, 200), guess); // an empty page tells nothing

@@ -1,5 +1,5 @@
 // The simplex page: what is written is read again, and what was not written is refused.
-#include "cache/page_writer.hpp"
+#include "mesh/page_writer.hpp"
 #include "support/memory_host.hpp"
 #include "support/patient.hpp"
 
@@ -231,7 +231,7 @@ TEST_F(Square, IsReadAsItWasWritten) {
                       0);
         }
         EXPECT_EQ(page.parent(0), PageView<2>::no_link);
-        EXPECT_EQ(page.parent(1), told ? make_link(0, 1) : PageView<2>::no_link);
+        EXPECT_EQ(page.parent(1), told ? page_link(0, 1) : PageView<2>::no_link);
         // Two links lead to codes of vertices in the page, two to others.
         ASSERT_EQ(page.links(), 4);
         std::vector<std::uint64_t> codes;

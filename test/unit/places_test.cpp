@@ -1,5 +1,5 @@
 // Many places located at once: the same answers as one by one, each page read about once.
-#include "cache/page_writer.hpp"
+#include "mesh/page_writer.hpp"
 #include "support/containment.hpp"
 #include "support/large_mesh.hpp"
 #include "support/located_places.hpp"

@@ -1,7 +1,7 @@
 // The earthquake data sets against an octree made the plain way: leaves in a map,
 // split until the wavelength is resolved, then until no leaf presses another.
-#include "geometry/locational_code.hpp"
 #include "host/host.hpp"
+#include "keys/locational_code.hpp"
 #include "quake/quake_points.hpp"
 
 #include <gtest/gtest.h>
@@ -158,6 +158,25 @@ INSTANTIATE_TEST_SUITE_P(Frequencies, QuakeSet,
                          testing::Values(Case{1e-6, 8}, Case{0.003, 8}, Case{0.01, 8},
                                          Case{0.02, 8}, Case{0.03, 5}, Case{0.05, 8},
                                          Case{0.05, 10}, Case{0.075, 8}));
+
+// Only the product of the two counts, however far they lie apart.
+TEST(QuakeSet, TakesFactorsOfAnySize) {
+    const double greatest = std::numeric_limits<double>::max();
+    const double least = std::numeric_limits<double>::denorm_min();
+    for (const auto &[frequency, points_per_wavelength] :
+         {Case{0x1p1000, 0x1p-1003}, Case{0x1p-1003, 0x1p1000}, Case{0x1p-1074, 0x1p1023},
+          Case{0x1p1023, 0x1p-1074}, Case{greatest, least}, Case{least, least}, Case{0x1p-7, 16}}) {
+        const double product = frequency * points_per_wavelength;
+        auto points = std::make_unique<QuakePoints>(frequency, points_per_wavelength);
+        auto same = std::make_unique<QuakePoints>(std::max(product, 1e-300), 1);
+        QuakePoint point, expected;
+        while (same->next(expected)) {
+            ASSERT_TRUE(points->next(point)) << frequency << ", " << points_per_wavelength;
+            ASSERT_EQ(code_of(point), code_of(expected));
+        }
+        EXPECT_FALSE(points->next(point)) << frequency << ", " << points_per_wavelength;
+    }
+}
 
 // What the bound of a box promises, and the refinement with it.
 TEST(QuakeSet, LeavesResolveTheWavelength) {

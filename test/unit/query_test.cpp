@@ -250,13 +250,13 @@ TEST(Walk, LeavesOutTheCornerAskedForWhereIdsAreEqual) {
 }
 
 TEST(Walk, KeepsToItsMemoryWhereManyPagesShareACode) {
-    // All but the corners of the domain lie far below the resolution of the codes.
+    // They lie far below the resolution of the codes, in a domain that was given.
     std::vector<Input> points = number(unit_square_points(40000, 3));
     for (Input &p : points)
         for (double &x : p.point) x = 0.3 + x * 1e-11;
-    for (const double corner : {0., 1.})
-        points.push_back({std::int64_t(points.size()), {corner, corner}});
     Mesh mesh(0, ample);
+    mesh.header.has_domain = 1;
+    mesh.header.upper[0] = mesh.header.upper[1] = 1;
     build(mesh, points);
     const auto all = mesh.simplices(false);
     const auto peak = [&](std::size_t cache_bytes) {
@@ -277,6 +277,28 @@ TEST(Walk, KeepsToItsMemoryWhereManyPagesShareACode) {
         return mesh.host.peak_bytes;
     };
     EXPECT_LT(peak(little), peak(ample) / 2);
+}
+
+TEST(Walk, LooksIntoFewOfThePagesThatShareACode) {
+    std::vector<Input> points = number(unit_square_points(40000, 3));
+    for (Input &p : points)
+        for (double &x : p.point) x = 0.3 + x * 1e-11;
+    for (int i = 0; i < 40000; ++i) // most are elsewhere: the domain is theirs
+        points.push_back({std::int64_t(points.size()), {0.001 * (i % 200), 0.001 * (i / 200)}});
+    Mesh mesh(0, ample);
+    build(mesh, points);
+    std::uint64_t crowded = 0;
+    for (const auto &[key, page] : mesh.host.pages) crowded += key.part != 0;
+    ASSERT_GT(crowded, 150u);
+    const auto all = mesh.simplices(false);
+    OpenMesh open(mesh, ample);
+    abacus_simplex neighbour;
+    EXPECT_EQ(open.walk(all[all.size() / 2], 0, neighbour), ABACUS_OK) << open.error.message;
+    const std::uint64_t found = mesh.host.calls.find;
+    int walks = 0;
+    for (std::size_t i = 0; i < all.size(); i += all.size() / 50, ++walks)
+        ASSERT_EQ(open.walk(all[i], 0, neighbour) == ABACUS_ERROR, false) << open.error.message;
+    EXPECT_LE(mesh.host.calls.find - found, 8u * static_cast<unsigned>(walks) + crowded + 10);
 }
 
 TEST(Scan, IsTheSameForEveryOrderOfTheInput) {

@@ -48,6 +48,7 @@ template <int D> void insert_and_remove(int grid, int steps, int verified_every)
                 points.erase(p) > 0 ? Removed::removed : Removed::no_such_vertex;
             ASSERT_EQ(mesh.removal.remove(p), expected);
         }
+        ASSERT_EQ(mesh.cache.check_invariants(), nullptr) << "step " << step;
         if (step % verified_every == 0) {
             mesh.verify({points.begin(), points.end()});
             if (testing::Test::HasFatalFailure()) return;
@@ -116,6 +117,53 @@ TEST(RemovalOfAHub, ApexOverABumpyGrid) {
         points.push_back({x, y, -0.01 * ((x - side) * (x - side) + y * y)});
     }
     remove_hub<3>(points, {side / 2.0, side / 2.0, 1e6});
+}
+
+/// On the moment curve, where all are neighbours of all.
+Point<3> on_moment_curve(double t) { return {t, t * t, t * t * t}; }
+
+TEST(RemovalOfAHub, OfAMomentCurve) {
+    std::vector<Point<3>> points;
+    for (int i = 0; i < 200 / (scale > 1 ? 4 : 1); ++i) points.push_back(on_moment_curve(i));
+    remove_hub<3>(points, on_moment_curve(20.5));
+    remove_hub<3>(points, on_moment_curve(-1));
+}
+TEST(RemovalOfAHub, BesideALineFullOfPoints) {
+    std::vector<Point<3>> points;
+    for (int i = 0; i < 3000 / scale; ++i) points.push_back({i * 1.0, i * 2.0, i * 3.0});
+    for (int i = 0; i < 60; ++i)
+        points.push_back({i % 4 * 1000.0 / scale, i / 4 % 4 * 999.0, i / 16 * 1001.0});
+    points = distinct(points);
+    remove_hub<3>(points, {500.5, 1000, 1500});
+}
+TEST(RemovalOfAHub, BetweenTwoSkewLines) {
+    std::vector<Point<3>> points;
+    for (int i = -100 / scale; i < 100 / scale; ++i) {
+        points.push_back({i + 0.5, 0, -50});
+        points.push_back({0, i + 0.25, 50});
+    }
+    remove_hub<3>(points, {0, 0, 0});
+    remove_hub<3>(points, {0.75, 0, -50});
+}
+
+/// The mesh of a hub's neighbours stays as small as the hole, where their triangulation has a
+/// simplex for every pair of them.
+TEST(LinkMesh, HasNoMoreThanTheHole) {
+    constexpr int n = 400;
+    std::vector<Point<3>> points;
+    for (int i = 0; i < n; ++i) points.push_back(on_moment_curve(i));
+    MeshInChange<3> mesh(box_around<3>(points), ample);
+    ASSERT_TRUE(mesh.build(points));
+    Star<3> star(mesh.delaunay);
+    const Handle h = mesh.delaunay.locate(points[n / 2], 0, no_handle);
+    star.collect(h, mesh.delaunay.corner_at(h, points[n / 2]));
+    EXPECT_GE(star.link().size(), n - 1u);
+    std::array<VertexIndex, 4> independent;
+    ASSERT_FALSE(star.is_flat(independent));
+    LinkMesh<3> link(mesh.host());
+    link.triangulate(mesh.cache, star, independent);
+    EXPECT_GT(mesh.delaunay.simplices(), n * n / 3);
+    EXPECT_LT(link.cells(), 12u * n);
 }
 
 // ---- The end of a mesh ------------------------------------------------------------

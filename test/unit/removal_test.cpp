@@ -36,6 +36,7 @@ template <int D> void remove_all(std::vector<Point<D>> points, std::size_t cache
             break;
         }
         ASSERT_EQ(removed, Removed::removed);
+        ASSERT_EQ(mesh.cache.check_invariants(), nullptr) << points.size() << " points are left";
         if (points.size() == half || points.size() == tenth || points.size() < 24) {
             mesh.verify(points);
             if (testing::Test::HasFatalFailure()) return;

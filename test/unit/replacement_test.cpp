@@ -1,5 +1,5 @@
 // Which blocks leave: those behind the front, then the farthest ahead, never what is in use.
-#include "cache/replacement.hpp"
+#include "blocks/replacement.hpp"
 
 #include "support/memory_host.hpp"
 
@@ -15,11 +15,12 @@ class Blocks {
 public:
     explicit Blocks(std::size_t n) : list(host_), count(n) {
         list.resize(n);
-        for (BlockIndex b = 0; b < n; ++b) {
-            list[b] = Block{};
-            list[b].state = Block::cached;
-            list[b].own({b * 10, 0}, {b * 10 + 10, 0});
-            list[b].used_at = b < n / 2 ? 5000 + b : b; // those behind have been used last
+        for (std::uint32_t b = 0; b < n; ++b) {
+            Block &block = list[BlockIndex{b}];
+            block = Block{};
+            block.state = Block::cached;
+            block.own({b * 10, 0}, {b * 10 + 10, 0});
+            block.used_at = b < n / 2 ? 5000 + b : b; // those behind have been used last
         }
     }
     /// The next to leave, when the front is at the middle.
@@ -37,13 +38,13 @@ private:
     const Host host_ = memory_.host();
 
 public:
-    Arena<Block> list;
+    Arena<Block, BlockIndex> list;
     const std::size_t count;
 };
 
-std::vector<BlockIndex> range(BlockIndex from, BlockIndex to) {
+std::vector<BlockIndex> range(std::uint32_t from, std::uint32_t to) {
     std::vector<BlockIndex> blocks;
-    for (BlockIndex b = from; b < to; ++b) blocks.push_back(b);
+    for (std::uint32_t b = from; b < to; ++b) blocks.push_back(BlockIndex{b});
     return blocks;
 }
 
@@ -60,7 +61,7 @@ TEST(Replacement, TakesTheFarthestAheadWhileTheWindowIsNotFull) {
     replacement.reached(250 * 10);
     EXPECT_EQ(blocks.next(replacement), range(2000 - 64, 2000));
     // ... but none that is in use
-    for (BlockIndex b = 1900; b < 2000; ++b) blocks.list[b].used_at = 9999;
+    for (std::uint32_t b = 1900; b < 2000; ++b) blocks.list[BlockIndex{b}].used_at = 9999;
     EXPECT_EQ(blocks.next(replacement), range(1900 - 64, 1900));
 }
 

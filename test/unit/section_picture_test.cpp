@@ -26,12 +26,44 @@ TEST_F(Section, ShowsTheWindow) {
     EXPECT_EQ(slanted.height, 141); // 1 by half the root of 2
 }
 
+// The pages of a small window are found on another way than those of a large one; what is drawn of
+// them is the same, inside of the mesh, across its hull and beside it.
+TEST_F(Section, HasInAWindowWhatIsThereInALargerOne) {
+    build(full_cube(4000), [](const Point<3> &p) { return p[0] + 2 * p[1] + 3 * p[2]; });
+    ASSERT_GT(host.pages.size(), 30u);
+    for (const Order &order : {Order({0.4, 0.5, 0.3}, {0, 0, 1}), Order({0, 0.7, 0}, {0, 1, 0}),
+                               Order({9, 0, 0.6}, {0, 0, 1})}) {
+        const bool is_map = order.normal[2] != 0;
+        abacus_drawing d = boxed(drawing(256), {-0.5, -0.5, -0.5}, {1.5, 1.5, 1.5});
+        d.range[1] = 6;
+        const Image all = draw(order, d);
+        ASSERT_EQ(all.height, 256);
+        d.width = 32;
+        int blank = 0;
+        for (int i = 0; i < 8; ++i)
+            for (int j = 0; j < 8; ++j) {
+                d.lower[0] = -0.5 + 0.25 * i;
+                d.upper[0] = d.lower[0] + 0.25;
+                const int up = is_map ? 1 : 2;
+                d.lower[up] = -0.5 + 0.25 * j;
+                d.upper[up] = d.lower[up] + 0.25;
+                const Image part = draw(order, d);
+                blank += is_blank;
+                for (int y = 0; y < 32; ++y)
+                    for (int x = 0; x < 32; ++x)
+                        ASSERT_LE(difference(part(x, y), all(32 * i + x, 32 * (7 - j) + y)), 1);
+            }
+        EXPECT_EQ(blank, 48);
+    }
+}
+
 TEST_F(Section, IsBlankWhereThePlaneMisses) {
     build(cube(2));
     for (const int attribute : {-1, 0}) {
         const Image image = draw(Order({0, 0, 2.25}, {0, 0, 1}), drawing(30, attribute));
         EXPECT_EQ(image.height, 30);
         for (const std::uint32_t pixel : image.pixels) ASSERT_EQ(pixel, image(0, 0));
+        EXPECT_TRUE(is_blank);
     }
     EXPECT_EQ(draw(Order({-1, 0, 0}, {1, 0, 0}), drawing(3))(1, 1), ground);
     // Nor is there more to see where it touches a corner or an edge.
@@ -167,10 +199,9 @@ TEST_F(Section, RefusesWhatCannotBeDrawn) {
     EXPECT_FALSE(refused([](O &, D &d) { d = boxed(d, {0, 0, 0}, {1, 1, 0.5}); }));
     EXPECT_TRUE(refused([](O &, D &d) { d = boxed(d, {-infinity, 0, 0}, {1, 1, 1}); }));
     // Each mesh has its own kind of picture.
-    unsigned char *png = nullptr;
-    std::size_t size = 0;
+    abacus_picture picture{};
     const D flat = drawing(10);
-    EXPECT_EQ(abacus_draw(host.table(), &header, &flat, &png, &size, &error), ABACUS_ERROR);
+    EXPECT_EQ(abacus_draw(host.table(), &header, &flat, &picture, &error), ABACUS_ERROR);
     header.dimension = 2;
     EXPECT_TRUE(refused([](O &, D &) {}));
 }
@@ -185,7 +216,7 @@ TEST_F(Section, MemoryDependsOnThePictureAlone) {
 }
 
 TEST_F(Section, EveryWayOutIsClean) {
-    build(full_cube(1000));
+    build(full_cube(2000));
     const Order order({0.5, 0.5, 0.5}, {0, 1, 0});
     const abacus_drawing drawing = this->drawing(100);
     int failures = 0;
@@ -209,7 +240,7 @@ TEST_F(Section, EveryWayOutIsClean) {
     host.cancel();
     EXPECT_EQ(try_draw(order, drawing), ABACUS_HOST_ERROR);
     host.recover();
-    // A damaged page is reported, whether or not the plane meets it.
+    // A damaged page that the plane meets is reported.
     std::prev(host.pages.end())->second.bytes()[0] ^= 1;
     EXPECT_EQ(try_draw(order, drawing), ABACUS_ERROR);
     EXPECT_EQ(error.kind, ABACUS_ERROR_CORRUPTED);

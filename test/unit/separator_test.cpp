@@ -1,6 +1,6 @@
 // The facet that separates a simplex from a point, along walks: against the orientations of all
 // facets of each simplex, wherever the point lies.
-#include "delaunay/separator.hpp"
+#include "traverse/separator.hpp"
 
 #include "support/mesh_in_change.hpp"
 #include "support/point_sets.hpp"
@@ -37,7 +37,7 @@ std::array<int, D + 1> sides(const Cache<D> &cache, const Simplex<D> &s, const P
 /// Walks to p, and checks each answer on the way; what it found at the end.
 template <int D>
 int expect_right_facets(Cache<D> &cache, Handle h, const Point<D> &p, Random &random) {
-    Separator<D> separator(cache, p);
+    Separator<D, Cache<D>> separator(cache, p);
     int entered = separator.none;
     while (!cache.simplex(h).is_ghost()) {
         const Simplex<D> &s = cache.simplex(h);

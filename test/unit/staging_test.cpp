@@ -142,12 +142,12 @@ TYPED_TEST(Staging, FewPointsAreOneRound) {
 
 TYPED_TEST(Staging, ClustersBelowTheResolutionAreInCurveOrder) {
     constexpr int D = TypeParam::value;
-    // One cluster of spread 1e-12 in a domain of extent 1: all of it has one code.
+    // One cluster of spread 1e-12 in a domain of extent 1: all of it has one code. The domain is
+    // that of as many others.
     std::vector<Point<D>> cluster = points<D>(Kind::uniform, 5000);
     for (auto &p : cluster)
         for (double &x : p) x = 0.3 + 1e-12 * x;
-    cluster[0].fill(0);
-    cluster[1].fill(1);
+    for (const auto &p : points<D>(Kind::uniform, 10000)) cluster.push_back(p);
     const Input<D> order = order_of<D>(with_ids<D>(cluster));
     double length = 0;
     for (std::size_t i = 1; i < order.size(); ++i) {

@@ -12,8 +12,8 @@
 #include "catalog/pg_type.h"
 #include "commands/extension.h"
 
+#include "pg/base/location.h"
 #include "pg/goose/goose_row.h"
-#include "pg/store/location.h"
 
 /* The type of boxes: PostgreSQL's own in the plane, that of an extension in space. */
 Oid

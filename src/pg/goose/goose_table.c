@@ -44,12 +44,12 @@
 #include "utils/snapmgr.h"
 #include "utils/varlena.h"
 
+#include "pg/base/location.h"
+#include "pg/base/utility.h"
 #include "pg/goose/goose_row.h"
 #include "pg/goose/goose_table.h"
-#include "pg/guard.h"
+#include "pg/host/guard.h"
 #include "pg/mesh/new_table.h"
-#include "pg/store/location.h"
-#include "pg/utility.h"
 
 /* ---- The table -------------------------------------------------------------- */
 

@@ -5,13 +5,14 @@
 #ifndef ABACUS_GOOSE_TABLE_H
 #define ABACUS_GOOSE_TABLE_H
 
+#include "access/genam.h"
 #include "access/skey.h"
 #include "executor/tuptable.h"
 #include "nodes/execnodes.h"
 #include "utils/rel.h"
 
 #include "abacus/goose.h"
-#include "pg/host.h"
+#include "pg/host/host.h"
 
 typedef struct GooseTable
 {

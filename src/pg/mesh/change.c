@@ -8,8 +8,9 @@
  */
 #include "postgres.h"
 
+#include "pg/base/settings.h"
 #include "pg/mesh/change.h"
-#include "pg/settings.h"
+#include "pg/mesh/notices.h"
 
 /* The handles go when the host does. */
 static void
@@ -20,6 +21,16 @@ close_handles(void *handle)
 	abacus_build_close(change->build);
 	abacus_stage_close(change->stage);
 	abacus_stage_close(change->put_aside);
+	abacus_load_close(change->load);
+}
+
+/* What a change begins with, once its writer has. */
+static Change *
+begun(Change *change)
+{
+	change->duplicates = change->writer.header->duplicates;
+	host_own(change->writer.host, change, close_handles);
+	return change;
 }
 
 /* Opens a mesh for changing; `command` names the function for messages. */
@@ -29,8 +40,17 @@ change_begin(Oid mesh, const char *command)
 	Change	   *change = palloc0(sizeof(Change));
 
 	writer_begin(&change->writer, mesh, MESH_WRITE, command);
-	host_own(change->writer.host, change, close_handles);
-	return change;
+	return begun(change);
+}
+
+/* The same in a function that is called as a trigger. */
+Change *
+change_begin_in_trigger(Oid mesh, const char *command)
+{
+	Change	   *change = palloc0(sizeof(Change));
+
+	writer_begin_in_trigger(&change->writer, mesh, command);
+	return begun(change);
 }
 
 /* Opens an empty stage for points of the shape that a header describes. */
@@ -42,8 +62,7 @@ change_open_stage(Change *change, const abacus_header *shape)
 	abacus_stage_close(change->stage);
 	change->stage = NULL;
 	change->points = 0;
-	host_run(host, abacus_stage_open(&host->table, shape, setting_sort_bytes(), &change->stage,
-									 &host->failure));
+	host_run(host, abacus_stage_open, &host->table, shape, setting_sort_bytes(), &change->stage);
 }
 
 /* Adds points to the stage. */
@@ -52,7 +71,7 @@ change_add(Change *change, const uint64 *points, size_t count)
 {
 	Host	   *host = change->writer.host;
 
-	host_run(host, abacus_stage_add(change->stage, points, count, &host->failure));
+	host_run(host, abacus_stage_add, change->stage, points, count);
 	change->points += count;
 }
 
@@ -90,8 +109,8 @@ change_open_build(Change *change)
 	Host	   *host = change->writer.host;
 
 	if (change->build == NULL)
-		host_run(host, abacus_build_open(&host->table, change->writer.header,
-										 setting_cache_bytes(), &change->build, &host->failure));
+		host_run(host, abacus_build_open, &host->table, change->writer.header,
+				 setting_cache_bytes(), &change->build);
 }
 
 /* Inserts the points of the stage. */
@@ -101,9 +120,11 @@ change_insert(Change *change)
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
 
-	host_run(host, abacus_stage_end(change->stage, header, &host->failure));
+	host_run(host, abacus_stage_end, change->stage, header);
 	change_open_build(change);
-	host_run(host, abacus_build_insert(change->build, change->stage, header, &host->failure));
+	host_run(host, abacus_build_insert, change->build, change->stage, change->on_duplicate,
+			 header);
+	change->inserts = true;
 }
 
 /*
@@ -117,8 +138,8 @@ change_delete(Change *change, bool exactly)
 	uint64		deleted;
 
 	change_open_build(change);
-	host_run(host, abacus_build_delete(change->build, change->stage, exactly, change->writer.header,
-									   &deleted, &host->failure));
+	host_run(host, abacus_build_delete, change->build, change->stage, exactly,
+			 change->writer.header, &deleted);
 	return deleted;
 }
 
@@ -130,8 +151,7 @@ change_clear(Change *change)
 	uint64		deleted;
 
 	change_open_build(change);
-	host_run(host, abacus_build_clear(change->build, change->writer.header, &deleted,
-									  &host->failure));
+	host_run(host, abacus_build_clear, change->build, change->writer.header, &deleted);
 }
 
 /* Closes the mesh, which has not been changed. */
@@ -146,6 +166,9 @@ change_abandon(Change *change)
 void
 change_end(Change *change)
 {
+	notice_duplicates(&change->writer, change->duplicates, change->may_replace);
+	if (change->inserts)
+		notice_waiting(&change->writer);
 	writer_end(&change->writer);
 	pfree(change);
 }

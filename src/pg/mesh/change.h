@@ -5,8 +5,8 @@
 #define ABACUS_CHANGE_OF_MESH_H
 
 #include "abacus/change.h"
+#include "pg/input/source.h"
 #include "pg/mesh/writer.h"
-#include "pg/sql/source.h"
 
 typedef struct Change
 {
@@ -15,9 +15,15 @@ typedef struct Change
 	abacus_build *build;
 	uint64		points;			/* how many it holds */
 	abacus_stage *put_aside;	/* another one */
+	abacus_on_duplicate on_duplicate;
+	uint64		duplicates;		/* of the mesh before the change */
+	bool		may_replace;	/* the user can choose that */
+	bool		inserts;
+	abacus_load *load;			/* a triangulation made elsewhere */
 } Change;
 
 extern Change *change_begin(Oid mesh, const char *command);
+extern Change *change_begin_in_trigger(Oid mesh, const char *command);
 extern void change_open_stage(Change *change, const abacus_header *shape);
 extern void change_add(Change *change, const uint64 *points, size_t count);
 extern void change_read(Change *change, Source *source, const abacus_header *shape);

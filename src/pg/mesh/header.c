@@ -9,6 +9,8 @@
  */
 #include "postgres.h"
 
+#include "lib/stringinfo.h"
+
 #include "pg/mesh/header.h"
 #include "pg/mesh/names.h"
 
@@ -23,11 +25,12 @@ new_stamp(abacus_header *header)
 }
 
 static size_t
-encode(const abacus_header *header, unsigned char *bytes)
+encode(Host *host, const abacus_header *header, unsigned char *bytes)
 {
 	abacus_header stored = *header;
 
-	names_to_storage(&stored);
+	if (names_are_converted())
+		names_to_storage(&stored, host->names);
 	return abacus_header_encode(&stored, bytes);
 }
 
@@ -40,17 +43,17 @@ header_insert(Host *host, abacus_header *header)
 	size_t		size;
 
 	new_stamp(header);
-	size = encode(header, bytes);
-	page_table_insert(&host->store.simplices, header_key, bytes, size, &tid);
+	size = encode(host, header, bytes);
+	page_table_insert(&mesh_pages(host)->simplices, header_key, bytes, size, &tid);
 }
 
 /* The header row as the active snapshot sees it. */
 bool
 header_find(Host *host, StoredPage *row)
 {
-	if (page_table_get(&host->store.simplices, header_key, row))
+	if (page_table_get(&mesh_pages(host)->simplices, header_key, row))
 		return true;
-	page_table_refuse_newer(&host->store.simplices);
+	page_table_refuse_newer(&mesh_pages(host)->simplices);
 	return false;
 }
 
@@ -61,18 +64,16 @@ header_find(Host *host, StoredPage *row)
 void
 header_open_vertices(Host *host, const abacus_header *header)
 {
-	PageStore  *store = &host->store;
-	abacus_key	last = {UINT64_MAX, UINT64_MAX};
-	abacus_page page;
+	MeshPages  *pages = mesh_pages(host);
 	bool		found = true;
 
-	page_store_vertex_table(store);
+	mesh_pages_vertex_table(pages);
 	if (header->duplicates > 0)
-		found = page_store_find(store, ABACUS_REPEATED_PAGES, last, &page);
+		found = mesh_pages_any(pages, ABACUS_REPEATED_PAGES);
 	else if (header->inserted < header->staged || header->not_delaunay)
-		found = page_store_find(store, ABACUS_STAGED_PAGES, last, &page);
+		found = mesh_pages_any(pages, ABACUS_STAGED_PAGES);
 	if (!found)
-		page_table_refuse_newer(&store->vertices);
+		page_table_refuse_newer(&pages->vertices);
 }
 
 /* Decodes the header; what is wrong with it goes to host->failure. */
@@ -93,15 +94,19 @@ header_try_decode(Host *host, const StoredPage *row, abacus_header *header)
 				sizeof(host->failure.hint));
 		return ABACUS_ERROR;
 	}
-	if (status == ABACUS_OK)
-		names_to_database(header);
+	if (status == ABACUS_OK && names_are_converted())
+	{
+		if (host->names == NULL)
+			host->names = MemoryContextAlloc(host->home, sizeof(StoredNames));
+		names_to_database(header, host->names);
+	}
 	return status;
 }
 
 void
 header_decode(Host *host, const StoredPage *row, abacus_header *header)
 {
-	host_run(host, header_try_decode(host, row, header));
+	host_check(host, header_try_decode(host, row, header));
 }
 
 /* Finds and decodes the header, which must be there; its place goes to *tid unless NULL. */
@@ -114,7 +119,7 @@ header_read(Host *host, abacus_header *header, ItemPointer tid)
 		ereport(ERROR,
 				(errcode(ERRCODE_DATA_CORRUPTED),
 				 errmsg("mesh \"%s\" has no header",
-						RelationGetRelationName(host->store.simplices.heap)),
+						RelationGetRelationName(mesh_pages(host)->simplices.heap)),
 				 errdetail("The row (%d, %d) of the table is missing.", (int) header_key[0],
 						   (int) header_key[1]),
 				 errhint("Restore the mesh from a backup, or drop it and make it anew.")));
@@ -132,9 +137,9 @@ void
 header_rewrite(Host *host, const abacus_header *header, ItemPointer tid)
 {
 	unsigned char bytes[ABACUS_PAGE_BYTES];
-	size_t		size = encode(header, bytes);
+	size_t		size = encode(host, header, bytes);
 
-	page_table_update(&host->store.simplices, header_key, bytes, size, tid);
+	page_table_update(&mesh_pages(host)->simplices, header_key, bytes, size, tid);
 }
 
 /* Replaces the header at *tid, which the caller has locked. */
@@ -153,4 +158,31 @@ header_attribute(const abacus_header *header, const char *name)
 		if (strcmp(header->names[i], name) == 0)
 			return (int) i;
 	return -1;
+}
+
+/* What attributes there are, for messages. */
+static char *
+list_attributes(const abacus_header *header)
+{
+	StringInfoData names;
+
+	initStringInfo(&names);
+	for (uint32 i = 0; i < header->attributes; i++)
+		appendStringInfo(&names, "%s\"%s\"", i > 0 ? ", " : "", header->names[i]);
+	return names.data;
+}
+
+/* Number of the attribute with this name, which must be there. */
+int
+header_find_attribute(const abacus_header *header, const char *name)
+{
+	int			number = header_attribute(header, name);
+
+	if (number < 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_COLUMN),
+				 errmsg("mesh has no attribute \"%s\"", name),
+				 header->attributes == 0 ? errdetail("It has no attributes.")
+				 : errdetail("Its attributes are %s.", list_attributes(header))));
+	return number;
 }

@@ -5,7 +5,7 @@
 #define ABACUS_HEADER_H
 
 #include "abacus/header.h"
-#include "pg/host.h"
+#include "pg/mesh/mesh_pages.h"
 
 /* Of its row. */
 extern const int64 header_key[PAGE_TABLE_KEYS];
@@ -20,5 +20,6 @@ extern void header_rewrite(Host *host, const abacus_header *header, ItemPointer 
 extern void header_update(Host *host, abacus_header *header, ItemPointer tid);
 
 extern int	header_attribute(const abacus_header *header, const char *name);
+extern int	header_find_attribute(const abacus_header *header, const char *name);
 
 #endif

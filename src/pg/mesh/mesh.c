@@ -33,7 +33,6 @@
 
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/mesh_access.h"
-#include "pg/track/tracking.h"
 
 /* Whether `type` is this extension's row type of that name; remembers the last yes. */
 static bool
@@ -56,6 +55,9 @@ is_row_type(Oid type, const char *name, Oid *known)
 	*known = type;
 	return true;
 }
+
+/* Told of a mesh whose owner writes to it for the first time since it was restored. */
+static void (*on_restored) (Relation mesh) = NULL;
 
 static Oid	simplex_row_type = InvalidOid;
 static Oid	vertex_row_type = InvalidOid;
@@ -291,7 +293,8 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 		pg_class_ownercheck(RelationGetRelid(mesh), GetUserId()))
 	{
 		mesh_bind_vertex_table(RelationGetRelid(mesh), relid);
-		tracking_bind_restored(mesh);
+		if (on_restored != NULL)
+			on_restored(mesh);
 	}
 	relation_close(rel, NoLock);
 	return relid;
@@ -326,4 +329,11 @@ void
 mesh_bind_trigger(Oid mesh, Oid trigger)
 {
 	bind(TriggerRelationId, trigger, mesh);
+}
+
+/* Who stands above, and binds things of its own to meshes, is told of restored ones. */
+void
+mesh_tell_of_restored(void (*tell) (Relation mesh))
+{
+	on_restored = tell;
 }

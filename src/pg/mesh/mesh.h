@@ -38,5 +38,6 @@ extern Oid	mesh_vertex_table(Relation mesh, MeshAccess access);
 extern void mesh_bind_vertex_table(Oid mesh, Oid vertices);
 extern Oid	mesh_of_trigger(Oid trigger);
 extern void mesh_bind_trigger(Oid mesh, Oid trigger);
+extern void mesh_tell_of_restored(void (*tell) (Relation mesh));
 
 #endif

@@ -27,8 +27,8 @@
 #include "utils/memutils.h"
 #include "utils/snapmgr.h"
 
+#include "pg/base/settings.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/settings.h"
 
 #define MESHES_KEPT 4
 
@@ -165,7 +165,7 @@ open_mesh(Entry *entry, const abacus_header *header)
 	abacus_mesh *mesh = NULL;
 
 	entry->bytes = setting_cache_bytes();
-	host_run(host, abacus_mesh_open(&host->table, header, entry->bytes, &mesh, &host->failure));
+	host_run(host, abacus_mesh_open, &host->table, header, entry->bytes, &mesh);
 	host_own(host, mesh, (void (*) (void *)) abacus_mesh_close);
 	entry->cached.mesh = mesh;
 	entry->cached.dimension = header->dimension;
@@ -194,12 +194,12 @@ validate(Oid relid, Entry *entry)
 	{
 		entry = take_entry(relid);
 		entry->node = rel->rd_node;
-		entry->cached.host = host_create(TopMemoryContext, relid, MESH_READ);
+		entry->cached.host = mesh_host_create(TopMemoryContext, relid, MESH_READ);
 	}
 	host = entry->cached.host;
 	host->busy = true;			/* until all went well */
 	header_read(host, &header, NULL);
-	page_store_expect_moves(&host->store);
+	mesh_pages_expect_moves(mesh_pages(host));
 	host->busy = true;
 	if (entry->cached.mesh == NULL || entry->stamp != header.stamp)
 	{

@@ -5,9 +5,17 @@
  * but no bytes of pages. So names are stored in UTF-8, whatever the database
  * has. Only in one of SQL_ASCII, where nobody knows what bytes mean, they are
  * left as they are.
+ *
+ * A mesh may have come from a database with other characters. Those that this one
+ * lacks are escaped, as in a string U&'...'; a name too long for that, or in this
+ * encoding, is cut and ends with the number of the attribute. Such a name does not say
+ * what is stored, so what is stored is kept, and is stored again unless the attribute
+ * gets another name.
  */
 #include "postgres.h"
 
+#include "catalog/namespace.h"
+#include "lib/stringinfo.h"
 #include "mb/pg_wchar.h"
 
 #include "pg/mesh/names.h"
@@ -24,16 +32,85 @@ names_find_invalid(const abacus_header *header)
 	return -1;
 }
 
-static bool
-is_converted(void)
+/* Whether the database has them in another encoding than they are stored in. */
+bool
+names_are_converted(void)
 {
 	return GetDatabaseEncoding() != PG_UTF8 && GetDatabaseEncoding() != PG_SQL_ASCII;
 }
 
-/* Puts a converted name in the place of the one that it was made of. */
-static void
-replace(char *name, const char *converted)
+/* Appends some characters in the encoding of the database; false if it lacks one of them. */
+static bool
+append_converted(StringInfo name, Oid conversion, const char *text, int length)
 {
+	unsigned char converted[ABACUS_NAME_BYTES * MAX_CONVERSION_GROWTH + 1];
+	bool		whole;
+
+	whole = OidIsValid(conversion) &&
+		pg_do_encoding_conversion_buf(conversion, PG_UTF8, GetDatabaseEncoding(),
+									  (unsigned char *) unconstify(char *, text), length,
+									  converted, sizeof(converted), true) == length;
+	if (whole)
+		appendStringInfoString(name, (char *) converted);
+	return whole;
+}
+
+static void
+append_escaped(StringInfo name, Oid conversion, const char *character, int length)
+{
+	pg_wchar	code = utf8_to_unicode((const unsigned char *) character);
+
+	if (code < 0x80)
+		appendStringInfoChar(name, *character);
+	else if (!append_converted(name, conversion, character, length))
+		appendStringInfo(name, code < 0x10000 ? "\\%04X" : "\\+%06X", code);
+}
+
+/* What the database calls the attribute of that number whose name is stored so. */
+static void
+to_database(const char *stored, uint32 number, char *name)
+{
+	Oid			conversion = FindDefaultConversionProc(PG_UTF8, GetDatabaseEncoding());
+	char	   *end = psprintf("~%u", number);
+	int			room = ABACUS_NAME_BYTES - 1 - (int) strlen(end);
+	int			fits = -1;		/* of what is converted one by one */
+	StringInfoData converted;
+
+	initStringInfo(&converted);
+	if (!append_converted(&converted, conversion, stored, strlen(stored)))
+		for (int length; *stored != '\0'; stored += length)
+		{
+			length = pg_utf_mblen((const unsigned char *) stored);
+			append_escaped(&converted, conversion, stored, length);
+			if (converted.len <= room)
+				fits = converted.len;
+		}
+	if (converted.len >= ABACUS_NAME_BYTES)
+	{
+		converted.len = fits >= 0 ? fits : pg_mbcliplen(converted.data, converted.len, room);
+		appendStringInfoString(&converted, end);
+	}
+	strlcpy(name, converted.data, ABACUS_NAME_BYTES);
+	pfree(converted.data);
+}
+
+/* Names that are valid as stored become those that the database has for them. */
+void
+names_to_database(abacus_header *header, StoredNames *stored)
+{
+	for (uint32 i = 0; i < header->attributes; i++)
+	{
+		strlcpy(stored->names[i], header->names[i], ABACUS_NAME_BYTES);
+		to_database(stored->names[i], i + 1, header->names[i]);
+	}
+	stored->count = header->attributes;
+}
+
+static void
+to_storage(char *name)
+{
+	const char *converted = pg_server_to_any(name, strlen(name), PG_UTF8);
+
 	if (strlen(converted) >= ABACUS_NAME_BYTES)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_NAME),
@@ -44,24 +121,23 @@ replace(char *name, const char *converted)
 		strlcpy(name, converted, ABACUS_NAME_BYTES);
 }
 
-/* Names that are valid as stored become those that the database has for them. */
+/* And back: those that were stored, if any, and are the same, as they were. */
 void
-names_to_database(abacus_header *header)
+names_to_storage(abacus_header *header, const StoredNames *stored)
 {
-	if (!is_converted())
-		return;
-	for (uint32 i = 0; i < header->attributes; i++)
-		replace(header->names[i],
-				pg_any_to_server(header->names[i], strlen(header->names[i]), PG_UTF8));
-}
+	char		known[ABACUS_NAME_BYTES];
 
-/* And back. */
-void
-names_to_storage(abacus_header *header)
-{
-	if (!is_converted())
-		return;
 	for (uint32 i = 0; i < header->attributes; i++)
-		replace(header->names[i],
-				pg_server_to_any(header->names[i], strlen(header->names[i]), PG_UTF8));
+	{
+		if (stored != NULL && i < stored->count)
+		{
+			to_database(stored->names[i], i + 1, known);
+			if (strcmp(known, header->names[i]) == 0)
+			{
+				strlcpy(header->names[i], stored->names[i], ABACUS_NAME_BYTES);
+				continue;
+			}
+		}
+		to_storage(header->names[i]);
+	}
 }

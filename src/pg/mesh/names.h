@@ -6,8 +6,16 @@
 
 #include "abacus/header.h"
 
+/* Names as the header of a mesh has them. */
+typedef struct StoredNames
+{
+	uint32		count;
+	char		names[ABACUS_MAX_ATTRIBUTES][ABACUS_NAME_BYTES];
+} StoredNames;
+
 extern int	names_find_invalid(const abacus_header *header);
-extern void names_to_database(abacus_header *header);
-extern void names_to_storage(abacus_header *header);
+extern bool names_are_converted(void);
+extern void names_to_database(abacus_header *header, StoredNames *stored);
+extern void names_to_storage(abacus_header *header, const StoredNames *stored);
 
 #endif

@@ -4,16 +4,15 @@
 #include "postgres.h"
 
 #include "access/xact.h"
-#include "catalog/namespace.h"
+#include "catalog/pg_class.h"
+#include "commands/comment.h"
 #include "miscadmin.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
-#include "utils/varlena.h"
 
 #include "pg/mesh/header.h"
 #include "pg/mesh/new_mesh.h"
 #include "pg/mesh/new_table.h"
-#include "pg/utility.h"
 
 /* CREATE TABLE of one of the extension's row types, through the usual utility path. */
 static void
@@ -23,10 +22,23 @@ create_table(Oid namespace, const char *name, Oid type_namespace, const char *ty
 	char	   *schema = get_namespace_name(namespace);
 	char	   *type_schema = get_namespace_name(type_namespace);
 
-	utility_run(psprintf("CREATE TABLE %s OF %s (page WITH OPTIONS NOT NULL, PRIMARY KEY (%s)) "
-						 "USING heap",
-						 quote_qualified_identifier(schema, name),
-						 quote_qualified_identifier(type_schema, type), primary_key));
+	new_table_create(psprintf("CREATE TABLE %s OF %s (page WITH OPTIONS NOT NULL, PRIMARY KEY (%s)) "
+							  "USING heap",
+							  quote_qualified_identifier(schema, name),
+							  quote_qualified_identifier(type_schema, type), primary_key),
+					 name);
+}
+
+/* Says on a table what it is, and on its columns what its row type says of them. */
+static void
+describe_table(Oid table, const char *what, Oid type_namespace, const char *type)
+{
+	Oid			row = get_relname_relid(type, type_namespace);
+
+	CreateComments(table, RelationRelationId, 0, what);
+	for (int32 column = 1; column <= PAGE_TABLE_KEYS + 1; column++)
+		CreateComments(table, RelationRelationId, column,
+					   GetComment(row, RelationRelationId, column));
 }
 
 /*
@@ -37,10 +49,11 @@ create_table(Oid namespace, const char *name, Oid type_namespace, const char *ty
 Oid
 new_mesh(text *name, Oid extension_namespace, abacus_header *header, const char *command)
 {
-	RangeVar   *range = makeRangeVarFromNameList(textToQualifiedNameList(name));
+	RangeVar   *range = new_table_name(name);
 	char	   *vertices_name = psprintf("%s" VERTEX_TABLE_SUFFIX, range->relname);
 	Oid			namespace;
 	Oid			mesh;
+	Oid			vertices;
 	Host	   *host;
 
 	PreventCommandIfReadOnly(command);
@@ -52,14 +65,21 @@ new_mesh(text *name, Oid extension_namespace, abacus_header *header, const char 
 				 errdetail("The table \"%s\" stands beside it; names have at most %d bytes.",
 						   vertices_name, NAMEDATALEN - 1)));
 	namespace = new_table_schema(range);
+	new_table_check_name(namespace, range->relname);
+	new_table_check_name(namespace, vertices_name);
 
 	create_table(namespace, range->relname, extension_namespace, SIMPLEX_PAGE_TYPE, "code, part");
 	create_table(namespace, vertices_name, extension_namespace, VERTEX_PAGE_TYPE, "first, part");
 	mesh = new_table_id(namespace, range->relname);
-	mesh_bind_vertex_table(mesh, new_table_id(namespace, vertices_name));
+	vertices = new_table_id(namespace, vertices_name);
+	describe_table(mesh, "pages of a mesh: see abacus_simplices()", extension_namespace,
+				   SIMPLEX_PAGE_TYPE);
+	describe_table(vertices, "points of a mesh that wait or are repeated: see abacus_vertices()",
+				   extension_namespace, VERTEX_PAGE_TYPE);
+	mesh_bind_vertex_table(mesh, vertices);
 	CommandCounterIncrement();
 
-	host = host_create(CurrentMemoryContext, mesh, MESH_WRITE);
+	host = mesh_host_create(CurrentMemoryContext, mesh, MESH_WRITE);
 	header_insert(host, header);
 	host_release(host);
 	host_destroy(host);

@@ -1,19 +1,99 @@
 /*
  * new_table.c: what others may do to a table while CREATE TABLE makes it, as a
- * statement of ours: drop its schema before, or itself after, by an event trigger.
+ * statement of ours: drop its schema before, or itself after, by an event trigger; or
+ * make another one of that name.
  */
 #include "postgres.h"
 
 #include "catalog/namespace.h"
+#include "utils/builtins.h"
 #include "utils/lsyscache.h"
+#include "utils/varlena.h"
 
+#include "pg/base/utility.h"
+#include "pg/mesh/mesh.h"
 #include "pg/mesh/new_table.h"
+
+/* A name as in SQL, maybe with that of a schema. */
+RangeVar *
+new_table_name(text *name)
+{
+	char	   *given = text_to_cstring(name);
+	List	   *parts;
+
+	if (!SplitIdentifierString(pstrdup(given), '.', &parts) || parts == NIL)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_NAME),
+				 errmsg("invalid name of a mesh: \"%s\"", given),
+				 strpbrk(given, ".\"") != NULL || given[0] == '\0'
+				 ? errhint("It is written as in SQL: schema.name, each in double quotes if it is no "
+						   "plain identifier.")
+				 : errhint("It is written as in SQL, in double quotes if it is no plain identifier: "
+						   "'\"%s\"'.", given)));
+	return makeRangeVarFromNameList(textToQualifiedNameList(name));
+}
 
 /* The schema in which it will be, locked: it is still there when a statement names it. */
 Oid
 new_table_schema(RangeVar *name)
 {
 	return RangeVarGetAndCheckCreationNamespace(name, NoLock, NULL);
+}
+
+/* That the name is free: CREATE TABLE would say so, too, but not what to do. */
+void
+new_table_check_name(Oid schema, const char *name)
+{
+	Oid			other = get_relname_relid(name, schema);
+	bool		is_mesh;
+
+	if (!OidIsValid(other))
+		return;
+	is_mesh = mesh_of_table(other) == other;
+	ereport(ERROR,
+			(errcode(ERRCODE_DUPLICATE_TABLE),
+			 is_mesh ? errmsg("mesh \"%s\" exists already", name)
+			 : errmsg("relation \"%s\" exists already", name),
+			 is_mesh ? errhint("Drop it with DROP TABLE, add points to it with abacus_insert(), or "
+							   "choose another name.")
+			 : errhint("Choose another name for the mesh, or drop the relation.")));
+}
+
+/* Whether the error tells of two rows of one name in the catalogue. */
+static bool
+is_name_taken(const ErrorData *error)
+{
+	return error->sqlerrcode == ERRCODE_UNIQUE_VIOLATION && error->constraint_name != NULL &&
+		(strcmp(error->constraint_name, "pg_type_typname_nsp_index") == 0 ||
+		 strcmp(error->constraint_name, "pg_class_relname_nsp_index") == 0);
+}
+
+/* CREATE TABLE; the name may be taken meanwhile, by a session that has just committed. */
+void
+new_table_create(const char *command, const char *name)
+{
+	MemoryContext memory = CurrentMemoryContext;
+
+	PG_TRY();
+	{
+		utility_run(command);
+	}
+	PG_CATCH();
+	{
+		ErrorData  *error;
+
+		MemoryContextSwitchTo(memory);
+		error = CopyErrorData();
+		if (!is_name_taken(error))
+			PG_RE_THROW();
+		FlushErrorState();
+		ereport(ERROR,
+				(errcode(ERRCODE_DUPLICATE_TABLE),
+				 errmsg("relation \"%s\" exists already", name),
+				 errdetail("Another session has made it at the same time."),
+				 errhint("Choose another name, or use the one that is there.")));
+	}
+	PG_END_TRY();
 }
 
 /* The table that has just been made there. */

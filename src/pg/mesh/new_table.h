@@ -4,7 +4,10 @@
 
 #include "nodes/primnodes.h"
 
+extern RangeVar *new_table_name(text *name);
 extern Oid	new_table_schema(RangeVar *name);
+extern void new_table_check_name(Oid schema, const char *name);
+extern void new_table_create(const char *command, const char *name);
 extern Oid	new_table_id(Oid schema, const char *name);
 
 #endif

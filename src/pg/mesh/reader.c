@@ -19,7 +19,7 @@ reader_open(Oid mesh, MemoryContext memory)
 	Relation	table = mesh_table_open(mesh, MESH_READ);
 	Reader	   *reader = MemoryContextAllocZero(memory, sizeof(Reader));
 
-	reader->host = host_create(memory, mesh, MESH_READ);
+	reader->host = mesh_host_create(memory, mesh, MESH_READ);
 	header_read(reader->host, &reader->header, NULL);
 	table_close(table, NoLock);
 	return reader;

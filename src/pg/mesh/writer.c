@@ -30,7 +30,7 @@
 static bool
 lock_header(Host *host, ItemPointer tid)
 {
-	Relation	heap = host->store.simplices.heap;
+	Relation	heap = mesh_pages(host)->simplices.heap;
 	TupleTableSlot *slot = table_slot_create(heap, NULL);
 	TM_FailureData failure;
 	TM_Result	result;
@@ -65,11 +65,11 @@ lock_header(Host *host, ItemPointer tid)
  * query does that gives the points.
  */
 static void
-open_tables(PageStore *store)
+open_tables(MeshPages *pages)
 {
-	page_table_open(&store->simplices);
-	page_store_vertex_table(store);
-	page_table_open(&store->vertices);
+	page_table_open(&pages->simplices);
+	mesh_pages_vertex_table(pages);
+	page_table_open(&pages->vertices);
 }
 
 /*
@@ -77,16 +77,19 @@ open_tables(PageStore *store)
  * snapshot that sees it.
  */
 static void
-open_and_lock(Writer *writer)
+open_and_lock(Writer *writer, bool in_trigger)
 {
 	Host	   *host = writer->host;
-	Relation	table = mesh_table_open(host->store.mesh, host->store.access);
+	Relation	table = mesh_table_open(mesh_pages(host)->mesh, mesh_pages(host)->access);
+	OwnSight	sight;
 
 	/* also refuses a second writer inside the first one's source query */
 	CheckTableNotInUse(table, "change mesh");
-	open_tables(&host->store);
+	open_tables(mesh_pages(host));
 	table_close(table, NoLock);
 
+	/* before there is a snapshot of ours, which would be in nobody's way */
+	own_sight_take(&sight, in_trigger);
 	for (;;)
 	{
 		CommandCounterIncrement();
@@ -96,14 +99,14 @@ open_and_lock(Writer *writer)
 			break;
 		host_release(host);
 		PopActiveSnapshot();
-		open_tables(&host->store);
+		open_tables(mesh_pages(host));
 	}
 	/* otherwise the snapshot is newer than our lock on the vertex table */
 	if (IsolationUsesXactSnapshot())
 		header_open_vertices(host, writer->header);
-	if (host->store.simplices.superseded == NULL)
-		host->store.simplices.superseded = superseded_of_session(host->store.simplices.heap);
-	superseded_reclaim_earlier(host->store.simplices.superseded, host->store.simplices.heap);
+	if (mesh_pages(host)->simplices.superseded == NULL)
+		mesh_pages(host)->simplices.superseded = superseded_of_session(mesh_pages(host)->simplices.heap);
+	superseded_reclaim_earlier(mesh_pages(host)->simplices.superseded, mesh_pages(host)->simplices.heap, &sight);
 }
 
 /* What is temporary may be changed in a read-only transaction, as by INSERT. */
@@ -114,6 +117,18 @@ writer_prevent_read_only(Oid mesh, const char *command)
 		PreventCommandIfReadOnly(command);
 }
 
+static void
+begin(Writer *writer, Oid mesh, MeshAccess access, const char *command, bool in_trigger)
+{
+	writer_prevent_read_only(mesh, command);
+	PreventCommandIfParallelMode(command);
+
+	writer->host = mesh_host_create(CurrentMemoryContext, mesh, access);
+	writer->header = MemoryContextAlloc(writer->host->home, sizeof(abacus_header));
+	open_and_lock(writer, in_trigger);
+	progress_begin(&writer->host->progress, mesh);
+}
+
 /*
  * Opens a mesh for changing, or for moving its rows, with its header locked and
  * an active snapshot that sees it. `command` names the function for messages.
@@ -122,13 +137,14 @@ writer_prevent_read_only(Oid mesh, const char *command)
 void
 writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command)
 {
-	writer_prevent_read_only(mesh, command);
-	PreventCommandIfParallelMode(command);
+	begin(writer, mesh, access, command, false);
+}
 
-	writer->host = host_create(CurrentMemoryContext, mesh, access);
-	writer->header = MemoryContextAlloc(writer->host->home, sizeof(abacus_header));
-	open_and_lock(writer);
-	progress_begin(&writer->host->progress, mesh);
+/* The same for changing, in a function that is called as a trigger: more is known of snapshots. */
+void
+writer_begin_in_trigger(Writer *writer, Oid mesh, const char *command)
+{
+	begin(writer, mesh, MESH_WRITE, command, true);
 }
 
 /*
@@ -158,8 +174,8 @@ writer_store(Writer *writer)
 void
 writer_continue(Writer *writer)
 {
-	writer->host->store.vertices.relid = InvalidOid;	/* may have gone: look again */
-	open_and_lock(writer);
+	mesh_pages(writer->host)->vertices.relid = InvalidOid;	/* may have gone: look again */
+	open_and_lock(writer, false);
 }
 
 static void

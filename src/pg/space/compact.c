@@ -159,17 +159,17 @@ compact_table(Writer *writer, PageTable *table)
 uint64
 compact(Writer *writer, bool simplices, bool vertices)
 {
-	PageStore  *store = &writer->host->store;
+	MeshPages  *pages = mesh_pages(writer->host);
 	const abacus_header *header = writer->header;
 	uint64		moved = 0;
 
 	if (simplices)
-		moved += compact_table(writer, &store->simplices);
+		moved += compact_table(writer, &pages->simplices);
 	/* without such points all rows of the vertex table are dead, and it is truncated */
 	if (vertices && (header->duplicates > 0 || header->inserted < header->staged))
 	{
-		page_store_vertex_table(store);
-		moved += compact_table(writer, &store->vertices);
+		mesh_pages_vertex_table(pages);
+		moved += compact_table(writer, &pages->vertices);
 	}
 	return moved;
 }

@@ -38,8 +38,8 @@
 #include "utils/memutils.h"
 #include "utils/snapmgr.h"
 
+#include "pg/base/settings.h"
 #include "pg/mesh/mesh.h"
-#include "pg/settings.h"
 #include "pg/space/vacuum.h"
 #include "pg/space/vacuum_moves.h"
 

@@ -22,13 +22,16 @@
 #include "miscadmin.h"
 #include "nodes/parsenodes.h"
 #include "storage/lmgr.h"
+#include "utils/lsyscache.h"
 
 #include "abacus/change.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
+#include "pg/mesh/notices.h"
 #include "pg/mesh/writer.h"
-#include "pg/settings.h"
 #include "pg/space/compact.h"
 #include "pg/space/truncate.h"
-#include "pg/sql/sql_function.h"
+#include "pg/track/pending.h"
 
 SQL_FUNCTION(abacus_sql_build);
 
@@ -57,7 +60,7 @@ insert_batch(Writer *writer, abacus_build *build, uint64 limit)
 	uint64		inserted = header->inserted;
 	abacus_counters before = header->counters;
 
-	host_run(host, abacus_build_run(build, limit, header, &host->failure));
+	host_run(host, abacus_build_run, build, limit, header);
 	if (header->inserted == inserted)
 		return false;			/* the points span no simplex yet */
 	progress_batch_done(&host->progress, header->inserted - inserted,
@@ -66,23 +69,31 @@ insert_batch(Writer *writer, abacus_build *build, uint64 limit)
 	return true;
 }
 
-/* A change by itself, where it is due: other keys for a mesh that has outgrown its domain. */
+/*
+ * A change by itself, where it is due: other keys for a mesh whose domain does not fit its points.
+ * Returns whether there is something to commit.
+ */
 static bool
 rekey(Writer *writer, abacus_build *build)
 {
 	Host	   *host = writer->host;
+	abacus_header *header = writer->header;
+	uint64		outside = header->outside;
 	int			done;
 
-	host_run(host, abacus_build_rekey(build, setting_sort_bytes(), writer->header, &done,
-									  &host->failure));
-	return done;
+	host_run(host, abacus_build_rekey, build, setting_sort_bytes(), header, &done);
+	if (done)
+		ereport(NOTICE,
+				(errmsg("mesh \"%s\" has another domain", get_rel_name(mesh_pages(host)->mesh)),
+				 errdetail("The one before did not fit its points; the simplices are the same.")));
+	return done || header->outside != outside;
 }
 
 /* Ends a change and goes on with the next one. */
 static void
 commit(Writer *writer)
 {
-	PageTable  *simplices = &writer->host->store.simplices;
+	PageTable  *simplices = &mesh_pages(writer->host)->simplices;
 
 	writer_store(writer);
 	SPI_commit();
@@ -96,15 +107,17 @@ insert_all(Writer *writer, uint64 batch)
 {
 	Host	   *host = writer->host;
 	abacus_header *header = writer->header;
+	uint64		duplicates = header->duplicates;
 	abacus_build *build = NULL;
 
-	host_run(host, abacus_build_open(&host->table, header, setting_cache_bytes(), &build,
-									 &host->failure));
+	host_run(host, abacus_build_open, &host->table, header, setting_cache_bytes(), &build);
 	host_own(host, build, (void (*) (void *)) abacus_build_close);
 	if (rekey(writer, build))
 		commit(writer);
 	while (header->inserted < header->staged && insert_batch(writer, build, batch))
 		commit(writer);
+	notice_duplicates(writer, duplicates, false);
+	notice_waiting(writer);
 	host_own(host, NULL, NULL);	/* the core would look for pages where they were */
 }
 
@@ -135,18 +148,19 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 	writer_prevent_read_only(mesh, "abacus_build()");	/* before the lock, which a standby has not */
 
 	SPI_connect_ext(SPI_OPT_NONATOMIC); /* its memory outlives transactions */
+	pending_settle(mesh);		/* not in the middle of it, by a commit */
 	lock = mesh_lock_for_session(mesh);
 	writer_begin(&writer, mesh, MESH_WRITE, "abacus_build()");
 	host = writer.host;
 	header = writer.header;
-	simplices = &host->store.simplices;
+	simplices = &mesh_pages(host)->simplices;
 	simplices->superseded = superseded_create(host->home);
 	progress_in_batches(&host->progress, header->staged - header->inserted);
 	/* what is no Delaunay triangulation has no points that wait, and may yet have to be bound */
 	if (!header->not_delaunay)
 		insert_all(&writer, (uint64) batch);
 	compact(&writer, true, true);
-	vertices = page_store_vertex_table(&host->store);
+	vertices = mesh_pages_vertex_table(mesh_pages(host));
 	writer_close(&writer);
 	if (truncate_if_empty(vertices))
 		SPI_commit();			/* lets readers at it */

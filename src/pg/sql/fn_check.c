@@ -14,17 +14,17 @@
 #include "utils/builtins.h"
 
 #include "abacus/read.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
 #include "pg/mesh/header.h"
-#include "pg/settings.h"
 #include "pg/sql/result.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_check);
 
 typedef struct Checking
 {
 	Host	   *host;
-	bool		has_fault;		/* one that the core does not see, and comes first */
+	bool		has_fault;		/* `fault`, before those that the core still has */
 	abacus_fault fault;
 	int64		code;			/* of its row */
 } Checking;
@@ -58,7 +58,7 @@ read_header(Checking *checking, abacus_header *header)
 static void
 look_before_pages(Checking *checking)
 {
-	PageTable  *table = &checking->host->store.simplices;
+	PageTable  *table = &mesh_pages(checking->host)->simplices;
 	StoredPage	row;
 	bool		found = page_table_next(table, NULL, &row);
 
@@ -77,10 +77,20 @@ check_pages(Checking *checking, Oid mesh, const abacus_header *header, int32 lim
 
 	header_open_vertices(host, header);
 	progress_begin(&host->progress, mesh);
-	host_run(host, abacus_check_open(&host->table, header, setting_cache_bytes(), limit, &check,
-									 &host->failure));
+	host_run(host, abacus_check_open, &host->table, header, setting_cache_bytes(), limit, &check);
 	progress_end(&host->progress);
 	host_own(host, check, (void (*) (void *)) abacus_check_close);
+}
+
+/* What the core has found first, if anything. */
+static void
+look_for_first_fault(Checking *checking)
+{
+	Host	   *host = checking->host;
+
+	checking->has_fault = host->handle != NULL &&
+		host_check(host, abacus_check_next(host->handle, &checking->fault)) == ABACUS_OK;
+	checking->code = (int64) checking->fault.key.code;
 }
 
 static Checking *
@@ -90,7 +100,7 @@ begin_check(Oid mesh, int32 limit, MemoryContext memory)
 	Checking   *checking = MemoryContextAllocZero(memory, sizeof(Checking));
 	abacus_header header;
 
-	checking->host = host_create(memory, mesh, MESH_READ);
+	checking->host = mesh_host_create(memory, mesh, MESH_READ);
 	if (read_header(checking, &header))
 	{
 		look_before_pages(checking);
@@ -98,6 +108,10 @@ begin_check(Oid mesh, int32 limit, MemoryContext memory)
 		if (limit > 0)
 			check_pages(checking, mesh, &header, limit);
 	}
+	if (!checking->has_fault)
+		look_for_first_fault(checking);
+	if (checking->has_fault)
+		host_doubt_pages(checking->host);
 	host_release(checking->host);
 	table_close(table, NoLock);
 	return checking;
@@ -115,7 +129,7 @@ next_fault(Checking *checking, abacus_fault *fault, int64 *code)
 		return true;
 	}
 	if (checking->host->handle == NULL ||
-		host_run(checking->host, abacus_check_next(checking->host->handle, fault)) == ABACUS_END)
+		host_check(checking->host, abacus_check_next(checking->host->handle, fault)) == ABACUS_END)
 		return false;
 	*code = (int64) fault->key.code;
 	return true;

@@ -5,9 +5,9 @@
 
 #include "utils/lsyscache.h"
 
+#include "pg/base/sql_function.h"
 #include "pg/mesh/new_mesh.h"
-#include "pg/sql/shape.h"
-#include "pg/sql/sql_function.h"
+#include "pg/mesh/shape.h"
 
 SQL_FUNCTION(abacus_sql_create);
 

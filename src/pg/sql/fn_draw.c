@@ -6,12 +6,13 @@
 #include <math.h>
 
 #include "utils/builtins.h"
+#include "utils/lsyscache.h"
 #include "utils/memutils.h"
 
 #include "abacus/draw.h"
+#include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
-#include "pg/sql/shape.h"
-#include "pg/sql/sql_function.h"
+#include "pg/mesh/shape.h"
 
 SQL_FUNCTION(abacus_sql_draw);
 SQL_FUNCTION(abacus_sql_draw_section);
@@ -29,7 +30,8 @@ enum
 	DRAW_ATTRIBUTE,
 	DRAW_EDGES,
 	DRAW_EXAGGERATION,
-	DRAW_MAX_EDGE
+	DRAW_MAX_EDGE,
+	DRAW_RANGE
 };
 
 /* Arguments of abacus_draw_section */
@@ -45,7 +47,8 @@ enum
 	SECTION_LOWER,
 	SECTION_UPPER,
 	SECTION_EXAGGERATION,
-	SECTION_MAX_EDGE
+	SECTION_MAX_EDGE,
+	SECTION_RANGE
 };
 
 static int32
@@ -78,18 +81,9 @@ factor(FunctionCallInfo fcinfo, int argument, const char *name)
 static int
 attribute(FunctionCallInfo fcinfo, int argument, const abacus_header *header)
 {
-	char	   *name;
-	int			number;
-
 	if (PG_ARGISNULL(argument))
 		return -1;
-	name = text_to_cstring(PG_GETARG_TEXT_PP(argument));
-	number = header_attribute(header, name);
-	if (number < 0)
-		ereport(ERROR,
-				(errcode(ERRCODE_UNDEFINED_COLUMN),
-				 errmsg("mesh has no attribute \"%s\"", name)));
-	return number;
+	return header_find_attribute(header, text_to_cstring(PG_GETARG_TEXT_PP(argument)));
 }
 
 static ArrayType *
@@ -121,10 +115,40 @@ require_dimension(const abacus_header *header, uint32 dimension, const char *hin
 				 errhint("%s", hint)));
 }
 
+/* The values at the ends of the colours, if given. */
+static void
+range(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing)
+{
+	if (PG_ARGISNULL(argument))
+		return;
+	shape_range(PG_GETARG_ARRAYTYPE_P(argument), "range", drawing->range);
+	if (drawing->attribute < 0)
+		ereport(NOTICE, (errmsg("range has no effect without an attribute")));
+}
+
+/* Tells why a picture shows nothing; `place` is where nothing is. */
+static void
+tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cells,
+		   const char *place)
+{
+	const abacus_header *header = &reader->header;
+	uint64		waiting = header->staged - header->inserted;
+
+	ereport(NOTICE,
+			(errmsg("the picture of mesh \"%s\" is blank", get_rel_name(mesh_pages(reader->host)->mesh)),
+			 header->simplices > 0 ? errdetail("None of its %s is %s.", cells, place) :
+			 waiting == 0 ? errdetail("It has no %s.", cells) :
+			 errdetail("It has no %s. %llu points wait: they are staged only, or span none.", cells,
+					   (unsigned long long) waiting),
+			 header->simplices > 0 && drawing->max_edge > 0 ?
+			 errhint("Those with an edge longer than max_edge are left out.") : 0));
+}
+
 /* Ends the reading; the picture becomes a bytea. */
 static bytea *
-finish(Host *host, unsigned char *png, size_t size)
+finish(Host *host, const abacus_picture *picture)
 {
+	size_t		size = picture->size;
 	bytea	   *result;
 
 	if (size > MaxAllocSize - VARHDRSZ)
@@ -133,8 +157,8 @@ finish(Host *host, unsigned char *png, size_t size)
 				 errhint("Draw fewer pixels.")));
 	result = palloc(VARHDRSZ + size);
 	SET_VARSIZE(result, VARHDRSZ + size);
-	memcpy(VARDATA(result), png, size);
-	host->table.resize(host, png, 0);
+	memcpy(VARDATA(result), picture->png, size);
+	host->table.resize(host, picture->png, 0);
 	host_release(host);
 	host_destroy(host);
 	return result;
@@ -143,7 +167,7 @@ finish(Host *host, unsigned char *png, size_t size)
 /*
  * abacus_draw(mesh regclass, width int, height int, lower float8[],
  * upper float8[], attribute text, edges boolean, exaggeration float8,
- * max_edge float8) -> bytea
+ * max_edge float8, range float8[]) -> bytea
  */
 Datum
 abacus_sql_draw(PG_FUNCTION_ARGS)
@@ -151,8 +175,7 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	Reader	   *reader;
 	Host	   *host;
 	abacus_drawing drawing = {0};
-	unsigned char *png = NULL;
-	size_t		size = 0;
+	abacus_picture picture = {0};
 
 	if (PG_ARGISNULL(DRAW_MESH))
 		PG_RETURN_NULL();
@@ -165,17 +188,21 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	drawing.edges = PG_ARGISNULL(DRAW_EDGES) || PG_GETARG_BOOL(DRAW_EDGES);
 	drawing.exaggeration = factor(fcinfo, DRAW_EXAGGERATION, "exaggeration");
 	drawing.max_edge = factor(fcinfo, DRAW_MAX_EDGE, "max_edge");
+	range(fcinfo, DRAW_RANGE, &drawing);
+	if (drawing.exaggeration > 0 && drawing.attribute < 0)
+		ereport(NOTICE, (errmsg("exaggeration has no effect without an attribute")));
 	window(&reader->header, array(fcinfo, DRAW_LOWER), array(fcinfo, DRAW_UPPER), &drawing);
 
-	host_run(host, abacus_draw(&host->table, &reader->header, &drawing, &png, &size,
-							   &host->failure));
-	PG_RETURN_BYTEA_P(finish(host, png, size));
+	host_run(host, abacus_draw, &host->table, &reader->header, &drawing, &picture);
+	if (picture.is_blank)
+		tell_blank(reader, &drawing, "triangles", "in the window");
+	PG_RETURN_BYTEA_P(finish(host, &picture));
 }
 
 /*
  * abacus_draw_section(mesh regclass, through float8[], normal float8[],
  * width int, height int, attribute text, edges boolean, lower float8[],
- * upper float8[], exaggeration float8, max_edge float8) -> bytea
+ * upper float8[], exaggeration float8, max_edge float8, range float8[]) -> bytea
  */
 Datum
 abacus_sql_draw_section(PG_FUNCTION_ARGS)
@@ -184,8 +211,7 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 	Host	   *host;
 	abacus_section section;
 	abacus_drawing drawing = {0};
-	unsigned char *png = NULL;
-	size_t		size = 0;
+	abacus_picture picture = {0};
 
 	if (PG_ARGISNULL(SECTION_MESH) || PG_ARGISNULL(SECTION_THROUGH) ||
 		PG_ARGISNULL(SECTION_NORMAL))
@@ -202,9 +228,14 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 	drawing.attribute = attribute(fcinfo, SECTION_ATTRIBUTE, &reader->header);
 	drawing.edges = PG_ARGISNULL(SECTION_EDGES) || PG_GETARG_BOOL(SECTION_EDGES);
 	drawing.max_edge = factor(fcinfo, SECTION_MAX_EDGE, "max_edge");
+	range(fcinfo, SECTION_RANGE, &drawing);
 	window(&reader->header, array(fcinfo, SECTION_LOWER), array(fcinfo, SECTION_UPPER), &drawing);
 
-	host_run(host, abacus_draw_section(&host->table, &reader->header, &section, &drawing, &png,
-									   &size, &host->failure));
-	PG_RETURN_BYTEA_P(finish(host, png, size));
+	host_run(host, abacus_draw_section, &host->table, &reader->header, &section, &drawing,
+			 &picture);
+	if (picture.is_blank)
+		tell_blank(reader, &drawing, "tetrahedra",
+				   PG_ARGISNULL(SECTION_LOWER) ? "cut by the plane" :
+				   "cut by the plane in the window");
+	PG_RETURN_BYTEA_P(finish(host, &picture));
 }

@@ -10,22 +10,57 @@
 
 #include "utils/builtins.h"
 
+#include "pg/base/sql_function.h"
 #include "pg/mesh/change.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_insert);
 SQL_FUNCTION(abacus_sql_delete);
 
-/* abacus_insert(mesh regclass, query text) -> bigint */
+/* What an argument says is to become of a point at the place of another. */
+static abacus_on_duplicate
+on_duplicate(text *given)
+{
+	static const char *const names[] = {
+		[ABACUS_KEEP] = "keep", [ABACUS_REPLACE] = "replace", [ABACUS_REFUSE] = "error"
+	};
+	char	   *name = text_to_cstring(given);
+
+	for (int i = 0; i < lengthof(names); i++)
+		if (strcmp(name, names[i]) == 0)
+			return (abacus_on_duplicate) i;
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("on_duplicate must not be \"%s\"", name),
+			 errhint("It is 'keep', 'replace' or 'error'.")));
+	return ABACUS_KEEP;			/* not reached */
+}
+
+/* Inserts the points of a prepared query; returns how many there were. */
+static uint64
+insert_query(Oid mesh, Source *source, abacus_on_duplicate how)
+{
+	Change	   *change = change_begin(mesh, "abacus_insert()");
+	uint64		points;
+
+	change->on_duplicate = how;
+	change->may_replace = true;
+	change_read(change, source, change->writer.header);
+	change_insert(change);
+	points = change->points;
+	change_end(change);
+	return points;
+}
+
+/* abacus_insert(mesh regclass, query text, on_duplicate text) -> bigint */
 Datum
 abacus_sql_insert(PG_FUNCTION_ARGS)
 {
-	abacus_header *header = palloc(sizeof(abacus_header));
+	abacus_on_duplicate how = on_duplicate(PG_GETARG_TEXT_PP(2));
 	Source		source;
 	uint64		points;
 
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	points = change_insert_query(PG_GETARG_OID(0), &source, "abacus_insert()", header);
+	points = insert_query(PG_GETARG_OID(0), &source, how);
 	source_finish(&source);
 	PG_RETURN_INT64((int64) points);
 }

@@ -20,8 +20,8 @@
 #include "optimizer/optimizer.h"
 #include "storage/bufmgr.h"
 
+#include "pg/base/sql_function.h"
 #include "pg/mesh/mesh.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_simplices_rows);
 SQL_FUNCTION(abacus_sql_vertices_rows);

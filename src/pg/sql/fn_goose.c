@@ -8,12 +8,12 @@
 #include "miscadmin.h"
 #include "utils/builtins.h"
 
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
 #include "pg/goose/goose_table.h"
-#include "pg/settings.h"
+#include "pg/input/source.h"
+#include "pg/mesh/shape.h"
 #include "pg/sql/result.h"
-#include "pg/sql/shape.h"
-#include "pg/sql/source.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_goose);
 
@@ -94,23 +94,21 @@ static void
 triangulate(GooseTable *table, Source *source, abacus_header *header,
 			abacus_goose_figures *figures)
 {
-	Host	   *host = host_create(CurrentMemoryContext, table->relid, MESH_WRITE);
+	Host	   *host = host_create(CurrentMemoryContext);
 	abacus_stage *stage = NULL;
 	const uint64 *points;
 	size_t		count;
 
 	goose_table_own(table, host);
 	progress_begin(&host->progress, table->relid);
-	host_run(host, abacus_stage_open(&host->table, header, setting_sort_bytes(),
-									 &stage, &host->failure));
+	host_run(host, abacus_stage_open, &host->table, header, setting_sort_bytes(), &stage);
 	host_own(host, stage, (void (*) (void *)) abacus_stage_close);
 	source_open(source, header);
 	while ((count = source_fetch(source, &points)) > 0)
-		host_run(host, abacus_stage_add(stage, points, count, &host->failure));
+		host_run(host, abacus_stage_add, stage, points, count);
 	source_close(source);
-	host_run(host, abacus_stage_end(stage, header, &host->failure));
-	host_run(host, abacus_goose_run(&host->table, &table->rtree, stage, header, figures,
-									&host->failure));
+	host_run(host, abacus_stage_end, stage, header);
+	host_run(host, abacus_goose_run, &host->table, &table->rtree, stage, header, figures);
 	progress_end(&host->progress);
 	host_destroy(host);
 }

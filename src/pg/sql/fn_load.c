@@ -3,20 +3,19 @@
  *
  * The vertices are read first, then the simplices; the core keeps both, sorts
  * and checks them within maintenance_work_mem (beyond it in temporary files)
- * and writes the pages.
+ * and writes the pages; or, if that is wanted, it triangulates the vertices of
+ * what is not Abacus' own Delaunay triangulation.
  */
 #include "postgres.h"
 
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
-#include "abacus/change.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
+#include "pg/mesh/change.h"
 #include "pg/mesh/new_mesh.h"
-#include "pg/mesh/writer.h"
-#include "pg/settings.h"
-#include "pg/sql/shape.h"
-#include "pg/sql/source.h"
-#include "pg/sql/sql_function.h"
+#include "pg/mesh/shape.h"
 
 SQL_FUNCTION(abacus_sql_load);
 
@@ -35,40 +34,85 @@ dimension_of(const Source *simplices)
 	return columns - 1;
 }
 
-/* Loads the rows of two prepared queries into an empty mesh; returns the number of simplices. */
-static uint64
-load(Oid mesh, Source *vertices, Source *simplices, bool reorient)
+/* Checks what has been read; of an error's detail, which may have many lines, all of them are told. */
+static abacus_delaunay
+check(Host *host, abacus_load *load)
 {
-	Writer		writer;
-	Host	   *host;
-	abacus_load *loading = NULL;
+	abacus_delaunay delaunay = ABACUS_DELAUNAY;
+	abacus_status status;
+
+	host_enter(host);
+	status = abacus_load_check(load, &delaunay, &host->failure);
+	if (status != ABACUS_ERROR || host->failure.kind != ABACUS_ERROR_ARGUMENT)
+	{
+		host_leave(host, status);
+		return delaunay;
+	}
+	host_leave(host, ABACUS_OK);
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg_internal("%s", host->failure.message),
+			 abacus_load_detail(load)[0] != '\0' ?
+			 errdetail_internal("%s", abacus_load_detail(load)) : 0,
+			 errhint("%s", host->failure.hint)));
+}
+
+/* Gives the rows of two prepared queries to the core, which checks them. */
+static abacus_delaunay
+read_triangulation(Change *change, Source *vertices, Source *simplices, bool reorient)
+{
+	Host	   *host = change->writer.host;
+	abacus_header *header = change->writer.header;
 	const uint64 *records;
 	size_t		count;
-	uint64		loaded;
 
-	writer_begin(&writer, mesh, MESH_WRITE, "abacus_load()");
-	host = writer.host;
-	host_run(host, abacus_load_open(&host->table, writer.header, setting_sort_bytes(), reorient,
-									&loading, &host->failure));
-	host_own(host, loading, (void (*) (void *)) abacus_load_close);
-	source_open(vertices, writer.header);
+	host_run(host, abacus_load_open, &host->table, header, setting_sort_bytes(), reorient,
+			 &change->load);
+	source_open(vertices, header);
 	while ((count = source_fetch(vertices, &records)) > 0)
-		host_run(host, abacus_load_vertices(loading, records, count, &host->failure));
+		host_run(host, abacus_load_vertices, change->load, records, count);
 	source_close(vertices);
-	source_open_simplices(simplices, writer.header);
+	source_open_simplices(simplices, header);
 	while ((count = source_fetch(simplices, &records)) > 0)
-		host_run(host, abacus_load_simplices(loading, (const int64_t *) records, count,
-											 &host->failure));
+		host_run(host, abacus_load_simplices, change->load, (const int64_t *) records, count);
 	source_close(simplices);
-	host_run(host, abacus_load_finish(loading, writer.header, &host->failure));
-	loaded = writer.header->simplices;
-	writer_end(&writer);
-	return loaded;
+	return check(host, change->load);
+}
+
+/* Says of a triangulation that is not Abacus' own what it is. */
+static void
+tell(abacus_delaunay delaunay, bool retriangulated)
+{
+	const char *reason = abacus_delaunay_reason(delaunay);
+
+	if (retriangulated)
+		ereport(NOTICE,
+				(errmsg("the vertices have been triangulated anew"),
+				 errdetail("Of the triangulation that was given: %s", reason)));
+	else
+		ereport(NOTICE,
+				(errmsg("%s", abacus_delaunay_clause(delaunay)),
+				 errdetail("%s The mesh can be read, not changed.", reason),
+				 errhint("With retriangulate => true it is Abacus' own triangulation of the "
+						 "vertices, which can be changed.")));
+}
+
+/* Triangulates the vertices that were loaded. */
+static void
+triangulate_vertices(Change *change)
+{
+	Host	   *host = change->writer.host;
+
+	change_open_stage(change, change->writer.header);
+	host_run(host, abacus_load_stage, change->load, change->stage);
+	abacus_load_close(change->load);
+	change->load = NULL;
+	change_insert(change);
 }
 
 /*
  * abacus_load(mesh text, vertices text, simplices text, attributes text[],
- * lower float8[], upper float8[], reorient boolean) -> bigint
+ * lower float8[], upper float8[], reorient boolean, retriangulate boolean) -> bigint
  */
 Datum
 abacus_sql_load(PG_FUNCTION_ARGS)
@@ -77,12 +121,16 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 	Source		vertices;
 	Source		simplices;
 	Oid			mesh;
+	Change	   *change;
+	Host	   *host;
+	abacus_delaunay delaunay;
+	bool		retriangulate;
 	uint64		loaded;
 
-	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(2) || PG_ARGISNULL(6))
+	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(2) || PG_ARGISNULL(6) || PG_ARGISNULL(7))
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
-				 errmsg("mesh, vertices, simplices and reorient must not be NULL")));
+				 errmsg("mesh, vertices, simplices, reorient and retriangulate must not be NULL")));
 	source_prepare(&vertices, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	source_prepare(&simplices, text_to_cstring(PG_GETARG_TEXT_PP(2)));
 	shape_dimension(header, dimension_of(&simplices));
@@ -96,7 +144,18 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 
 	mesh = new_mesh(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid), header,
 					"abacus_load()");
-	loaded = load(mesh, &vertices, &simplices, PG_GETARG_BOOL(6));
+	change = change_begin(mesh, "abacus_load()");
+	host = change->writer.host;
+	delaunay = read_triangulation(change, &vertices, &simplices, PG_GETARG_BOOL(6));
+	retriangulate = PG_GETARG_BOOL(7) && delaunay != ABACUS_DELAUNAY;
+	if (retriangulate)
+		triangulate_vertices(change);
+	else
+		host_run(host, abacus_load_write, change->load, change->writer.header);
+	loaded = change->writer.header->simplices;
+	change_end(change);
+	if (delaunay != ABACUS_DELAUNAY)
+		tell(delaunay, retriangulate);
 	source_finish(&simplices);
 	source_finish(&vertices);
 	PG_RETURN_INT64((int64) loaded);

@@ -8,9 +8,9 @@
 
 #include <math.h>
 
+#include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/sql/simplex_row.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_locate);
 SQL_FUNCTION(abacus_sql_walk);
@@ -53,7 +53,7 @@ abacus_sql_locate(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();		/* outside of any hull */
 
 	host = cached->host;
-	status = host_run(host, abacus_mesh_locate(cached->mesh, point, &simplex, &host->failure));
+	status = host_run(host, abacus_mesh_locate, cached->mesh, point, &simplex);
 	host_release(host);
 	if (status == ABACUS_END)
 		PG_RETURN_NULL();
@@ -81,8 +81,7 @@ abacus_sql_walk(PG_FUNCTION_ARGS)
 						 cached->dimension)));
 	if (!simplex_from_row(PG_GETARG_DATUM(1), rows->row_type, cached->dimension, &code, ids))
 		PG_RETURN_NULL();
-	status = host_run(host, abacus_mesh_walk(cached->mesh, code, ids, facet, &simplex,
-											 &host->failure));
+	status = host_run(host, abacus_mesh_walk, cached->mesh, code, ids, facet, &simplex);
 	host_release(host);
 	if (status == ABACUS_END)
 		PG_RETURN_NULL();

@@ -12,12 +12,12 @@
 #include "utils/builtins.h"
 
 #include "abacus/read.h"
-#include "pg/guard.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
+#include "pg/host/guard.h"
+#include "pg/input/source.h"
 #include "pg/mesh/reader.h"
-#include "pg/settings.h"
 #include "pg/sql/simplex_row.h"
-#include "pg/sql/source.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_locate_places);
 
@@ -58,14 +58,14 @@ put_answer(void *context, int64_t id, const abacus_simplex *simplex)
 
 /* Reads the places of a query. */
 static void
-read_places(Host *host, Source *source, const abacus_header *shape)
+read_places(Host *host, Source *source, const abacus_header *header)
 {
 	const uint64 *records;
 	size_t		count;
 
-	source_open(source, shape);
+	source_open_places(source, header);
 	while ((count = source_fetch(source, &records)) > 0)
-		host_run(host, abacus_places_add(host->handle, records, count, &host->failure));
+		host_run(host, abacus_places_add, host->handle, records, count);
 	source_close(source);
 }
 
@@ -80,7 +80,6 @@ abacus_sql_locate_places(PG_FUNCTION_ARGS)
 	Source		source;
 	Reader	   *reader;
 	Host	   *host;
-	abacus_header *shape = palloc(sizeof(abacus_header));
 	abacus_places *places = NULL;
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
@@ -89,15 +88,13 @@ abacus_sql_locate_places(PG_FUNCTION_ARGS)
 	reader = reader_open(mesh, CurrentMemoryContext);
 	answers.host = host = reader->host;
 	answers.dimension = reader->header.dimension;
-	*shape = reader->header;
-	shape->attributes = 0;
 
 	progress_begin(&host->progress, mesh);
-	host_run(host, abacus_places_open(&host->table, &reader->header, setting_query_sort_bytes(),
-									  setting_cache_bytes(), &places, &host->failure));
+	host_run(host, abacus_places_open, &host->table, &reader->header, setting_query_sort_bytes(),
+			 setting_cache_bytes(), &places);
 	host_own(host, places, (void (*) (void *)) abacus_places_close);
-	read_places(host, &source, shape);
-	host_run(host, abacus_places_locate(places, put_answer, &answers, &host->failure));
+	read_places(host, &source, &reader->header);
+	host_run(host, abacus_places_locate, places, put_answer, &answers);
 	progress_end(&host->progress);
 	host_release(host);
 	host_destroy(host);

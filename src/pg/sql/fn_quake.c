@@ -11,9 +11,9 @@
 #include "funcapi.h"
 
 #include "abacus/quake.h"
-#include "pg/host.h"
+#include "pg/base/sql_function.h"
+#include "pg/host/host.h"
 #include "pg/sql/result.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_quake);
 
@@ -35,15 +35,15 @@ abacus_sql_quake(PG_FUNCTION_ARGS)
 		set = SRF_FIRSTCALL_INIT();
 		old = MemoryContextSwitchTo(set->multi_call_memory_ctx);
 		set->tuple_desc = result_row_type(fcinfo);
-		set->user_fctx = host = host_create(set->multi_call_memory_ctx, InvalidOid, MESH_READ);
-		host_run(host, abacus_quake_open(&host->table, PG_GETARG_FLOAT8(0), PG_GETARG_FLOAT8(1),
-										 &quake, &host->failure));
+		set->user_fctx = host = host_create(set->multi_call_memory_ctx);
+		host_run(host, abacus_quake_open, &host->table, PG_GETARG_FLOAT8(0), PG_GETARG_FLOAT8(1),
+				 &quake);
 		host_own(host, quake, (void (*) (void *)) abacus_quake_close);
 		MemoryContextSwitchTo(old);
 	}
 	set = SRF_PERCALL_SETUP();
 	host = set->user_fctx;
-	if (host_run(host, abacus_quake_next(host->handle, &point, &host->failure)) == ABACUS_END)
+	if (host_run(host, abacus_quake_next, host->handle, &point) == ABACUS_END)
 		SRF_RETURN_DONE(set);
 	values[0] = Int64GetDatum(point.id);
 	for (int i = 0; i < 3; i++)

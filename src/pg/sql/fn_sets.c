@@ -16,11 +16,11 @@
 #include "utils/array.h"
 
 #include "abacus/read.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
-#include "pg/settings.h"
 #include "pg/sql/result.h"
 #include "pg/sql/simplex_row.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_simplices);
 SQL_FUNCTION(abacus_sql_vertices);
@@ -56,13 +56,13 @@ abacus_sql_simplices(PG_FUNCTION_ARGS)
 		set = SRF_FIRSTCALL_INIT();
 		reader = begin_set(fcinfo, set, simplex_row_type);
 		host = reader->host;
-		host_run(host, abacus_scan_open(&host->table, &reader->header, 0, &scan, &host->failure));
+		host_run(host, abacus_scan_open, &host->table, &reader->header, 0, &scan);
 		host_own(host, scan, (void (*) (void *)) abacus_scan_close);
 	}
 	set = SRF_PERCALL_SETUP();
 	reader = set->user_fctx;
 	host = reader->host;
-	status = host_run(host, abacus_scan_next(host->handle, &simplex, &host->failure));
+	status = host_run(host, abacus_scan_next, host->handle, &simplex);
 	host_release(host);
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);
@@ -137,14 +137,14 @@ abacus_sql_vertices(PG_FUNCTION_ARGS)
 		reader = begin_set(fcinfo, set, result_row_type);
 		host = reader->host;
 		header_open_vertices(host, &reader->header);
-		host_run(host, abacus_vertex_scan_open(&host->table, &reader->header,
-											   setting_cache_bytes(), &scan, &host->failure));
+		host_run(host, abacus_vertex_scan_open, &host->table, &reader->header,
+				 setting_cache_bytes(), &scan);
 		host_own(host, scan, (void (*) (void *)) abacus_vertex_scan_close);
 	}
 	set = SRF_PERCALL_SETUP();
 	reader = set->user_fctx;
 	host = reader->host;
-	status = host_run(host, abacus_vertex_scan_next(host->handle, &vertex, &host->failure));
+	status = host_run(host, abacus_vertex_scan_next, host->handle, &vertex);
 	host_release(host);
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);

@@ -6,8 +6,8 @@
 
 #include "utils/builtins.h"
 
+#include "pg/base/sql_function.h"
 #include "pg/mesh/change.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_stage);
 
@@ -24,7 +24,7 @@ abacus_sql_stage(PG_FUNCTION_ARGS)
 	change = change_begin(PG_GETARG_OID(0), "abacus_stage()");
 	host = change->writer.host;
 	change_read(change, &source, change->writer.header);
-	host_run(host, abacus_stage_finish(change->stage, change->writer.header, &host->failure));
+	host_run(host, abacus_stage_finish, change->stage, change->writer.header);
 	points = change->points;
 	change_end(change);
 	source_finish(&source);

@@ -9,11 +9,13 @@
 #include "access/table.h"
 #include "funcapi.h"
 #include "utils/fmgrprotos.h"
+#include "utils/lsyscache.h"
 
+#include "abacus/read.h"
+#include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/mesh/reader.h"
 #include "pg/sql/result.h"
-#include "pg/sql/sql_function.h"
 
 SQL_FUNCTION(abacus_sql_stats);
 
@@ -69,7 +71,7 @@ put_counters(Figures *figures, const abacus_counters *counters, bool reading)
 static void
 put_sizes(Figures *figures, const Reader *reader, Oid vertices)
 {
-	Oid			mesh = reader->host->store.mesh;
+	Oid			mesh = mesh_pages(reader->host)->mesh;
 	double		table = bytes_of(pg_table_size, mesh);
 	double		index = bytes_of(pg_indexes_size, mesh);
 
@@ -82,6 +84,21 @@ put_sizes(Figures *figures, const Reader *reader, Oid vertices)
 	if (reader->header.simplices > 0)
 		put_figure(figures, "bytes_per_simplex", (table + index) / reader->header.simplices,
 				   "simplex table and index, per simplex");
+}
+
+/* What a mesh is that is not Abacus' own was found out when it was loaded. */
+static void
+put_delaunay(Figures *figures, abacus_delaunay delaunay)
+{
+	bool		is_own = delaunay == ABACUS_DELAUNAY;
+
+	put_figure(figures, "delaunay", is_own || delaunay == ABACUS_WEAKLY_DELAUNAY ? 1 : 0,
+			   is_own ? "1: a Delaunay triangulation; 0: none" :
+			   psprintf("1: a Delaunay triangulation; 0: none. %s",
+						abacus_delaunay_reason(delaunay)));
+	put_figure(figures, "changeable", is_own ? 1 : 0,
+			   "1: the Delaunay triangulation that Abacus makes, which can be changed; 0: loaded, "
+			   "and another one");
 }
 
 static void
@@ -103,9 +120,31 @@ put_counts(Figures *figures, const abacus_header *header)
 	put_figure(figures, "hull_facets", (double) header->ghosts,
 			   header->not_delaunay ? "facets of its boundary" : "facets of its convex hull");
 	put_figure(figures, "outside", (double) header->outside,
-			   "points that came from outside the domain since it was set");
-	put_figure(figures, "delaunay", header->not_delaunay ? 0 : 1,
-			   "1: a Delaunay triangulation, which can be changed; 0: loaded, and another one");
+			   "points that the domain does not fit, since it was last chosen");
+	put_delaunay(figures, header->not_delaunay);
+}
+
+/*
+ * Says so where the domain of a mesh no longer fits its points, and abacus_build() would choose
+ * another one; not for a mesh that is never changed.
+ */
+static void
+report_domain(Reader *reader)
+{
+	Host	   *host = reader->host;
+	const abacus_header *header = &reader->header;
+	int			fits;
+
+	if (header->not_delaunay)
+		return;
+	host_run(host, abacus_domain_fits, &host->table, header, &fits);
+	if (!fits)
+		ereport(NOTICE,
+				(errmsg("the domain of mesh \"%s\" does not fit its points",
+						get_rel_name(mesh_pages(host)->mesh)),
+				 errdetail("Pages are found more slowly than need be."),
+				 errhint("CALL abacus_build for the mesh: it gets another domain, and its pages other "
+						 "keys. That takes as long as building it did.")));
 }
 
 /* abacus_stats(mesh regclass) -> name, value, description */
@@ -115,9 +154,10 @@ abacus_sql_stats(PG_FUNCTION_ARGS)
 	Oid			mesh = PG_GETARG_OID(0);
 	Figures		figures = {(ReturnSetInfo *) fcinfo->resultinfo, ""};
 	Reader	   *reader = reader_open(mesh, CurrentMemoryContext);
-	Oid			vertices = page_store_vertex_table(&reader->host->store);
+	Oid			vertices = mesh_pages_vertex_table(mesh_pages(reader->host));
 	const CachedMesh *cached = mesh_cache_peek(mesh);
 
+	report_domain(reader);
 	host_release(reader->host);
 	InitMaterializedSRF(fcinfo, 0);
 	put_counts(&figures, &reader->header);

@@ -22,8 +22,9 @@
 #include "utils/rls.h"
 #include "utils/syscache.h"
 
+#include "pg/base/sql_function.h"
 #include "pg/mesh/change.h"
-#include "pg/sql/sql_function.h"
+#include "pg/track/pending.h"
 #include "pg/track/tracked_points.h"
 #include "pg/track/tracking.h"
 
@@ -52,6 +53,53 @@ open_table(Oid relid, LOCKMODE mode)
 	return table;
 }
 
+/* A partition or child is followed through its topmost parent; nothing but tables is. */
+static void
+check_kind(Relation table)
+{
+	char		kind = table->rd_rel->relkind;
+	Oid			root = tracking_root(RelationGetRelid(table));
+
+	if (kind != RELKIND_RELATION && kind != RELKIND_PARTITIONED_TABLE)
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 errmsg("cannot track \"%s\"", RelationGetRelationName(table)),
+				 errdetail("Triggers that tell of all changes are for tables.")));
+	if (root != RelationGetRelid(table))
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 errmsg("cannot track \"%s\"", RelationGetRelationName(table)),
+				 errdetail("It is a partition or child of table \"%s\".", get_rel_name(root)),
+				 errhint("Track that table: the mesh follows all of its partitions and children.")));
+}
+
+/* Partitions and children must be tables of the same owner. */
+static void
+check_family(Relation table, List *family)
+{
+	ListCell   *cell;
+
+	foreach(cell, family)
+	{
+		Relation	member = table_open(lfirst_oid(cell), NoLock);
+		char		kind = member->rd_rel->relkind;
+
+		if (kind != RELKIND_RELATION && kind != RELKIND_PARTITIONED_TABLE)
+			ereport(ERROR,
+					(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+					 errmsg("cannot track \"%s\"", RelationGetRelationName(table)),
+					 errdetail("Its partition or child \"%s\" is not a table of this database.",
+							   RelationGetRelationName(member))));
+		if (member->rd_rel->relowner != table->rd_rel->relowner)
+			ereport(ERROR,
+					(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+					 errmsg("cannot track \"%s\"", RelationGetRelationName(table)),
+					 errdetail("Its partition or child \"%s\" has another owner.",
+							   RelationGetRelationName(member))));
+		table_close(member, NoLock);
+	}
+}
+
 /* What cannot be tracked is refused. */
 static void
 check_table(Relation table)
@@ -59,17 +107,7 @@ check_table(Relation table)
 	Oid			relid = RelationGetRelid(table);
 	const char *name = RelationGetRelationName(table);
 
-	if (table->rd_rel->relkind != RELKIND_RELATION || table->rd_rel->relispartition ||
-		has_superclass(relid) || find_inheritance_children(relid, NoLock) != NIL)
-		ereport(ERROR,
-				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
-				 errmsg("cannot track \"%s\"", name),
-				 errdetail(table->rd_rel->relkind == RELKIND_RELATION ||
-						   table->rd_rel->relkind == RELKIND_PARTITIONED_TABLE
-						   ? "A statement on a partition or child table fires no statement trigger of "
-						   "its parent, nor the reverse."
-						   : "Statement triggers with transition tables are for tables."),
-				 errhint("Track an ordinary table without partitions, parents and children.")));
+	check_kind(table);
 	if (!pg_class_ownercheck(relid, GetUserId()))	/* another one since */
 		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, name);
 	if (check_enable_rls(relid, InvalidOid, true) == RLS_ENABLED)
@@ -107,8 +145,9 @@ check_persistence(Relation table, char of_mesh)
 
 /* The mesh is written as the owner of the table later, in any session: may he? */
 static void
-check_mesh(Relation table, Oid mesh)
+check_mesh(Relation table, List *family, Oid mesh)
 {
+	ListCell   *cell;
 	Oid			user;
 	int			security;
 	Relation	simplices;
@@ -119,23 +158,51 @@ check_mesh(Relation table, Oid mesh)
 	simplices = mesh_table_open(mesh, MESH_WRITE);
 	vertices = mesh_vertex_table(simplices, MESH_WRITE);
 	SetUserIdAndSecContext(user, security);
-	check_persistence(table, simplices->rd_rel->relpersistence);
-	check_persistence(table, get_rel_persistence(vertices));
+	foreach(cell, family)
+	{
+		Relation	member = table_open(lfirst_oid(cell), NoLock);
+
+		check_persistence(member, simplices->rd_rel->relpersistence);
+		check_persistence(member, get_rel_persistence(vertices));
+		table_close(member, NoLock);
+	}
 	table_close(simplices, NoLock);
 }
 
-/* A mesh follows one table; returns its triggers if it is this one. */
-static List *
-present_triggers(Oid function, Oid mesh, Relation table)
+/* Whether the mesh is bound to the table, so that triggers that name it alone are none of its own. */
+static bool
+is_bound_to(List *triggers, Oid table)
 {
-	List	   *triggers = tracking_triggers(function, mesh, RelationGetRelid(table));
 	ListCell   *cell;
 
 	foreach(cell, triggers)
 	{
 		TrackingTrigger *trigger = lfirst(cell);
 
-		if (trigger->table != RelationGetRelid(table))
+		if (trigger->bound && tracking_root(trigger->table) == table)
+			return true;
+	}
+	return false;
+}
+
+/* A mesh follows one table; returns its triggers on this one, its partitions and children. */
+static List *
+present_triggers(Oid function, Oid mesh, Relation table)
+{
+	List	   *triggers = tracking_triggers(function, mesh, RelationGetRelid(table));
+	bool		is_bound = is_bound_to(triggers, RelationGetRelid(table));
+	List	   *present = NIL;
+	ListCell   *cell;
+
+	foreach(cell, triggers)
+	{
+		TrackingTrigger *trigger = lfirst(cell);
+
+		/* of a partition that was detached the auxiliary one is left */
+		if (tracking_root(trigger->table) == RelationGetRelid(table) ||
+			(trigger->auxiliary && pg_class_ownercheck(trigger->table, GetUserId())))
+			present = lappend(present, trigger);
+		else if (!trigger->auxiliary && (trigger->bound || !is_bound))
 			ereport(ERROR,
 					(errcode(ERRCODE_OBJECT_IN_USE),
 					 errmsg("mesh \"%s\" follows table \"%s\" already", get_rel_name(mesh),
@@ -143,7 +210,7 @@ present_triggers(Oid function, Oid mesh, Relation table)
 					 errdetail("A mesh follows one table; a table may be followed by many meshes."),
 					 errhint("Call abacus_untrack() first, or make another mesh.")));
 	}
-	return triggers;
+	return present;
 }
 
 /* Reads the points of a query into the stage; returns how many. */
@@ -191,7 +258,10 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 	return missing + surplus > 0;
 }
 
-/* abacus_track(mesh regclass, table regclass, columns text[], synchronize bool) -> bigint */
+/*
+ * abacus_track(mesh regclass, table regclass, columns text[], synchronize bool, deferred bool)
+ * -> bigint
+ */
 Datum
 abacus_sql_track(PG_FUNCTION_ARGS)
 {
@@ -200,6 +270,7 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 	Oid			mesh;
 	Relation	simplices;
 	Relation	table;
+	List	   *family;
 	List	   *present;
 	List	   *columns;
 	ListCell   *cell;
@@ -208,10 +279,10 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 	uint64		points;
 	bool		changed = true;
 
-	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(3))
+	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(3) || PG_ARGISNULL(4))
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
-				 errmsg("mesh, table and synchronize must not be NULL")));
+				 errmsg("mesh, table, synchronize and deferred must not be NULL")));
 	PreventCommandIfReadOnly("abacus_track()");	/* before the lock, which a standby has not */
 	if (IsolationUsesXactSnapshot())
 		ereport(ERROR,
@@ -222,8 +293,11 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 	check_owner(PG_GETARG_OID(1));
 	table = open_table(PG_GETARG_OID(1), ShareRowExclusiveLock);
 	check_table(table);
-	check_mesh(table, mesh);
+	family = find_all_inheritors(RelationGetRelid(table), ShareRowExclusiveLock, NULL);
+	check_family(table, family);
+	check_mesh(table, family, mesh);
 
+	pending_settle(mesh);
 	change = change_begin(mesh, "abacus_track()");
 	present = present_triggers(function, mesh, table);
 	header = *change->writer.header;
@@ -251,7 +325,7 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 			tracking_drop(lfirst(cell));
 		table = open_table(PG_GETARG_OID(1), NoLock);
 	}
-	tracking_create(function, mesh, header.dimension, table, columns, present);
+	tracking_create(function, mesh, header.dimension, PG_GETARG_BOOL(4), table, columns, present);
 	table_close(table, NoLock);
 	table_close(simplices, NoLock);
 	PG_RETURN_INT64((int64) points);
@@ -269,11 +343,13 @@ abacus_sql_untrack(PG_FUNCTION_ARGS)
 	bool		found = false;
 
 	PreventCommandIfReadOnly("abacus_untrack()");
+	pending_settle(mesh);
 	foreach(cell, triggers)
 	{
 		TrackingTrigger *trigger = lfirst(cell);
 
-		if (trigger->table != table)
+		/* a partition's auxiliary one goes with those of the table that the mesh follows */
+		if (tracking_root(trigger->table) != table && (trigger->table != table || trigger->auxiliary))
 			continue;
 		tracking_drop(trigger);
 		found = true;

@@ -6,7 +6,12 @@
  * first, what it takes away is deleted then: so a vertex whose attributes alone
  * change is renamed (the new point waits beside the old one and takes over),
  * and the triangulation stays as it is. A statement that changes no point does
- * not touch the mesh, nor wait for its other writers.
+ * not touch the mesh, nor wait for its other writers. Or the points are noted, and the mesh
+ * follows at commit (pending.c).
+ *
+ * A statement may come to a table by way of its parent or not, and fires the statement triggers of the one
+ * it names. So tables with partitions or children have triggers for each row, which
+ * PostgreSQL gives to partitions that are attached, too. These note points.
  *
  * The mesh is written as the owner of the table, as for foreign keys: whoever
  * may write the table need have no privileges on the mesh, and without the
@@ -17,28 +22,40 @@
  */
 #include "postgres.h"
 
+#include "access/xact.h"
 #include "miscadmin.h"
 
-#include "pg/sql/sql_function.h"
+#include "pg/base/sql_function.h"
+#include "pg/track/in_step.h"
+#include "pg/track/pending.h"
+#include "pg/track/tracked_points.h"
 #include "pg/track/tracking.h"
-#include "pg/track/transition.h"
 
 SQL_FUNCTION(abacus_sql_tracked);
+
+/* Whether a trigger for a statement has what the event gives: its transition tables. */
+static bool
+fits_statement(const TriggerData *trigger)
+{
+	if (TRIGGER_FIRED_BY_TRUNCATE(trigger->tg_event))
+		return true;
+	if (!TRIGGER_FIRED_AFTER(trigger->tg_event))
+		return false;
+	return (trigger->tg_newtable != NULL || TRIGGER_FIRED_BY_DELETE(trigger->tg_event)) &&
+		(trigger->tg_oldtable != NULL || TRIGGER_FIRED_BY_INSERT(trigger->tg_event));
+}
 
 static void
 check_protocol(FunctionCallInfo fcinfo)
 {
 	TriggerData *trigger = (TriggerData *) fcinfo->context;
-	bool		fits = CALLED_AS_TRIGGER(fcinfo) && TRIGGER_FIRED_AFTER(trigger->tg_event) &&
-		TRIGGER_FIRED_FOR_STATEMENT(trigger->tg_event) &&
+	bool		fits = CALLED_AS_TRIGGER(fcinfo) &&
 		trigger->tg_trigger->tgnargs > TRACKING_ARGUMENT_COLUMNS;
 
-	if (fits && (TRIGGER_FIRED_BY_INSERT(trigger->tg_event) ||
-				 TRIGGER_FIRED_BY_UPDATE(trigger->tg_event)))
-		fits = trigger->tg_newtable != NULL;
-	if (fits && (TRIGGER_FIRED_BY_DELETE(trigger->tg_event) ||
-				 TRIGGER_FIRED_BY_UPDATE(trigger->tg_event)))
-		fits = trigger->tg_oldtable != NULL;
+	if (fits && TRIGGER_FIRED_FOR_ROW(trigger->tg_event))
+		fits = TRIGGER_FIRED_AFTER(trigger->tg_event) && !OidIsValid(trigger->tg_trigger->tgconstraint);
+	else if (fits)
+		fits = fits_statement(trigger);
 	if (!fits)
 		ereport(ERROR,
 				(errcode(ERRCODE_E_R_I_E_TRIGGER_PROTOCOL_VIOLATED),
@@ -47,17 +64,20 @@ check_protocol(FunctionCallInfo fcinfo)
 				 errhint("Make the triggers with abacus_track().")));
 }
 
+/* ---- Now ------------------------------------------------------------------- */
+
 static void
-check_shape(const abacus_header *header, const Transition *transition, const char *trigger)
+to_stage(void *context, const uint64 *points, size_t count)
 {
-	if ((int) header->dimension != transition->dimension ||
-		(int) (1 + header->dimension + header->attributes) != transition->columns)
-		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("trigger \"%s\" was made for another mesh", trigger),
-				 errdetail("The mesh has dimension %u and %u attributes.", header->dimension,
-						   header->attributes),
-				 errhint("Drop the trigger, and call abacus_track().")));
+	change_add(context, points, count);
+}
+
+/* Stages the points that are new, or those that are no more; returns how many. */
+static uint64
+stage(Transition *transition, bool new, Change *change)
+{
+	change_open_stage(change, change->writer.header);
+	return transition_send(transition, new, to_stage, change);
 }
 
 /* What the statement has added and taken away, into the mesh. */
@@ -65,26 +85,16 @@ static void
 follow(const TriggerData *trigger, Transition *transition, Change *change)
 {
 	uint64		gone;
-	uint64		deleted;
 
-	check_shape(change->writer.header, transition, trigger->tg_trigger->tgname);
-	if (transition->new.rows != NULL && transition_stage(transition, true, change) > 0)
+	in_step_check_shape(change->writer.header, transition->dimension, transition->columns,
+						trigger->tg_trigger->tgname);
+	if (transition->new.rows != NULL && stage(transition, true, change) > 0)
 		change_insert(change);
-	if (transition->old.rows == NULL || (gone = transition_stage(transition, false, change)) == 0)
+	if (transition->old.rows == NULL || (gone = stage(transition, false, change)) == 0)
 		return;
 	/* another row's point at the place must not go for one that is missing */
-	deleted = change_delete(change, true);
-	if (deleted != gone)
-		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("mesh \"%s\" is not in step with table \"%s\"",
-						RelationGetRelationName(change->writer.host->store.simplices.heap),
-						RelationGetRelationName(trigger->tg_relation)),
-				 errdetail("Points to delete: " UINT64_FORMAT "; found: " UINT64_FORMAT ".", gone,
-						   deleted),
-				 errhint("Bring it in step with abacus_track(mesh, table, synchronize => true). If "
-						 "an AFTER trigger changes the rows of its own statement again, make it a "
-						 "BEFORE trigger: such changes cannot be followed.")));
+	in_step_check_deleted(change, RelationGetRelationName(trigger->tg_relation), gone,
+						  change_delete(change, true));
 }
 
 /* Changes the mesh as the statement has changed the table; no transition: it has emptied it. */
@@ -93,21 +103,134 @@ change_mesh(const TriggerData *trigger, Transition *transition)
 {
 	Oid			user;
 	int			security;
-	bool		bound;
-	Oid			mesh = tracking_mesh(trigger, &bound);
+	Oid			writer;
+	Oid			mesh = tracking_mesh(trigger, &writer);
 	Change	   *change;
 
 	GetUserIdAndSecContext(&user, &security);
-	if (bound)
-		SetUserIdAndSecContext(trigger->tg_relation->rd_rel->relowner,
-							   security | SECURITY_LOCAL_USERID_CHANGE);
-	change = change_begin(mesh, "abacus_track()");
+	if (writer != user)
+		SetUserIdAndSecContext(writer, security | SECURITY_LOCAL_USERID_CHANGE);
+	change = change_begin_in_trigger(mesh, "abacus_track()");
 	if (transition == NULL)
 		change_clear(change);
 	else
 		follow(trigger, transition, change);
 	change_end(change);
 	SetUserIdAndSecContext(user, security);
+	if (transition == NULL)
+		pending_forget(mesh);
+}
+
+/* ---- At commit ------------------------------------------------------------- */
+
+static void
+note_new(void *pending, const uint64 *points, size_t count)
+{
+	pending_add(pending, false, points, count);
+}
+
+static void
+note_gone(void *pending, const uint64 *points, size_t count)
+{
+	pending_add(pending, true, points, count);
+}
+
+static Pending *
+open_pending(const TriggerData *trigger, const Transition *transition)
+{
+	Oid			writer;
+	Oid			mesh = tracking_mesh(trigger, &writer);
+
+	return pending_open(mesh, writer, trigger, transition);
+}
+
+static void
+note_statement(const TriggerData *trigger, Transition *transition)
+{
+	Pending    *pending = open_pending(trigger, transition);
+
+	transition_send(transition, true, note_new, pending);
+	transition_send(transition, false, note_gone, pending);
+}
+
+/* What is kept from row to row of a statement. */
+typedef struct RowNotes
+{
+	Transition *transition;
+	Pending    *pending;
+} RowNotes;
+
+static void
+note_row(FunctionCallInfo fcinfo)
+{
+	TriggerData *trigger = (TriggerData *) fcinfo->context;
+	RowNotes   *notes = fcinfo->flinfo->fn_extra;
+
+	if (notes == NULL)
+	{
+		MemoryContext old = MemoryContextSwitchTo(fcinfo->flinfo->fn_mcxt);
+
+		notes = palloc(sizeof(RowNotes));
+		notes->transition = transition_open(trigger);
+		notes->pending = open_pending(trigger, notes->transition);
+		fcinfo->flinfo->fn_extra = notes;
+		MemoryContextSwitchTo(old);
+	}
+	transition_send_row(notes->transition, trigger, true, note_new, notes->pending);
+	transition_send_row(notes->transition, trigger, false, note_gone, notes->pending);
+}
+
+/* Notes that the rows of a partition or child are gone, which is going to be truncated. */
+static void
+note_all_gone(const TriggerData *trigger, const Transition *transition)
+{
+	Oid			writer;
+	Oid			mesh = tracking_mesh(trigger, &writer);
+	Pending    *pending = pending_open(mesh, writer, trigger, transition);
+	List	   *columns = NIL;
+	Source		source;
+	const uint64 *points;
+	size_t		count;
+	Oid			user;
+	int			security;
+
+	for (int i = 0; i < transition->columns; i++)
+		columns = lappend(columns, transition->names[i]);
+	GetUserIdAndSecContext(&user, &security);
+	/* who may truncate it need not be allowed to read it */
+	SetUserIdAndSecContext(writer, security | SECURITY_LOCAL_USERID_CHANGE);
+	source_prepare(&source, tracked_points_of_one_table(trigger->tg_relation, columns,
+														transition->dimension));
+	source_open(&source, transition_shape(transition));
+	while ((count = source_fetch(&source, &points)) > 0)
+		pending_add(pending, true, points, count);
+	source_close(&source);
+	source_finish(&source);
+	SetUserIdAndSecContext(user, security);
+}
+
+static void
+truncated(const TriggerData *trigger)
+{
+	if (TRIGGER_FIRED_AFTER(trigger->tg_event))
+		change_mesh(trigger, NULL);
+	else if (tracking_is_followed(trigger))
+		note_all_gone(trigger, transition_open(trigger));
+}
+
+static void
+changed(const TriggerData *trigger)
+{
+	Transition *transition = transition_open(trigger);
+
+	if (transition_changes(transition))
+	{
+		if (transition->deferred && !pending_is_immediate())
+			note_statement(trigger, transition);
+		else
+			change_mesh(trigger, transition);
+	}
+	transition_close(transition);
 }
 
 /* abacus_tracked() -> trigger; arguments: mesh, dimension, columns of a point */
@@ -115,17 +238,13 @@ Datum
 abacus_sql_tracked(PG_FUNCTION_ARGS)
 {
 	TriggerData *trigger = (TriggerData *) fcinfo->context;
-	Transition *transition;
 
 	check_protocol(fcinfo);
 	if (TRIGGER_FIRED_BY_TRUNCATE(trigger->tg_event))
-	{
-		change_mesh(trigger, NULL);
-		return PointerGetDatum(NULL);
-	}
-	transition = transition_open(trigger);
-	if (transition_changes(transition))
-		change_mesh(trigger, transition);
-	transition_close(transition);
+		truncated(trigger);
+	else if (TRIGGER_FIRED_FOR_ROW(trigger->tg_event))
+		note_row(fcinfo);
+	else
+		changed(trigger);
 	return PointerGetDatum(NULL);
 }

@@ -7,11 +7,11 @@
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
 #include "pg/mesh/change.h"
 #include "pg/mesh/new_mesh.h"
-#include "pg/settings.h"
-#include "pg/sql/shape.h"
-#include "pg/sql/sql_function.h"
+#include "pg/mesh/shape.h"
 
 SQL_FUNCTION(abacus_sql_triangulate);
 SQL_FUNCTION(abacus_sql_triangulate_query);
@@ -27,10 +27,10 @@ abacus_sql_triangulate(PG_FUNCTION_ARGS)
 	int			rekeyed;
 
 	change_open_build(change);
-	host_run(host, abacus_build_rekey(change->build, setting_sort_bytes(), header,
-									  &rekeyed, &host->failure));
-	host_run(host, abacus_build_run(change->build, 0, header, &host->failure));
+	host_run(host, abacus_build_rekey, change->build, setting_sort_bytes(), header, &rekeyed);
+	host_run(host, abacus_build_run, change->build, 0, header);
 	simplices = header->simplices;
+	change->inserts = true;
 	change_end(change);
 	PG_RETURN_INT64((int64) simplices);
 }

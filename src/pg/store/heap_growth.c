@@ -2,7 +2,7 @@
  * heap_growth.c: a table of pages grows by many heap pages at a time.
  *
  * PostgreSQL 15 adds a heap page by writing zeros to the end of the file, which takes
- * 15 microseconds (docs/design.md), and writes the page itself later. Who stores more
+ * 15 microseconds (docs/design/postgresql.md), and writes the page itself later. Who stores more
  * than a few rows has the file system give room to many at once instead, much as
  * PostgreSQL does from 16 on: a full disk is noticed now and not when buffers are
  * written, and nothing is written twice. Where a file system cannot, pages are

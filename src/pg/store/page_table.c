@@ -25,7 +25,6 @@
 #include "utils/memutils.h"
 #include "utils/snapmgr.h"
 
-#include "pg/mesh/mesh.h"
 #include "pg/store/page_table.h"
 #include "pg/store/page_type.h"
 
@@ -258,9 +257,38 @@ page_table_next(PageTable *table, const int64 *key, StoredPage *page)
 }
 
 /*
+ * Called when something does not fit together: an error if our snapshot is older than
+ * the index by which we search. An index that REINDEX CONCURRENTLY has built lacks the
+ * versions that were dead by then. On the primary it waits for all who might need them;
+ * on a standby nobody does, and PostgreSQL itself would give an answer without these
+ * rows. The index is as young as the last change of its row in pg_index, which made
+ * it valid. Not for our own changes: they wait for nobody.
+ */
+void
+page_table_refuse_newer_index(PageTable *table)
+{
+	TransactionId changed;
+
+	page_table_open(table);
+	if (table->index == NULL)
+		table->index = page_index_open_primary(table->heap, lock_mode(table));
+	changed = HeapTupleHeaderGetXmin(table->index->rd_indextuple->t_data);
+	if (!TransactionIdIsNormal(changed) || TransactionIdIsCurrentTransactionId(changed) ||
+		!XidInMVCCSnapshot(changed, GetActiveSnapshot()))
+		return;
+	ereport(ERROR,
+			(errcode(ERRCODE_T_R_SERIALIZATION_FAILURE),
+			 errmsg("index \"%s\" of a mesh was built after this snapshot was taken",
+					RelationGetRelationName(table->index)),
+			 errdetail("It lacks pages that the snapshot would have to see."),
+			 errhint("The transaction might succeed if retried.")));
+}
+
+/*
  * Called when rows are missed: an error if our snapshot sees none and newer ones
  * would. Then the table has been made since, or an ALTER TABLE has written all of its
- * rows anew, for which it takes no account of older snapshots.
+ * rows anew, for which it takes no account of older snapshots. An error also if the
+ * snapshot is older than the index.
  */
 void
 page_table_refuse_newer(PageTable *table)
@@ -271,7 +299,10 @@ page_table_refuse_newer(PageTable *table)
 	bool		is_newer;
 
 	if (page_table_next(table, NULL, &page))
+	{
+		page_table_refuse_newer_index(table);
 		return;
+	}
 	slot = table_slot_create(table->heap, NULL);
 	scan = table_beginscan(table->heap, SnapshotSelf, 0, NULL);
 	is_newer = table_scan_getnextslot(scan, ForwardScanDirection, slot);

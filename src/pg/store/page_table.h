@@ -60,6 +60,7 @@ extern void page_table_init(PageTable *table, Oid relid, bool writable, MemoryCo
 extern void page_table_open(PageTable *table);
 extern void page_table_close(PageTable *table);
 extern void page_table_see_own_changes(PageTable *table);
+extern void page_table_refuse_newer_index(PageTable *table);
 extern void page_table_refuse_newer(PageTable *table);
 
 extern bool page_table_get(PageTable *table, const int64 *key, StoredPage *page);

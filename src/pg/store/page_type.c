@@ -10,7 +10,7 @@
 #include "libpq/pqformat.h"
 #include "utils/builtins.h"
 
-#include "pg/sql/sql_function.h"
+#include "pg/base/sql_function.h"
 #include "pg/store/page_type.h"
 
 SQL_FUNCTION(abacus_sql_page_in);

@@ -16,6 +16,7 @@
 
 #include "pg/store/buffer_map.h"
 #include "pg/store/heap_room.h"
+#include "pg/store/own_versions.h"
 #include "pg/store/page_table.h"
 #include "pg/store/page_type.h"
 
@@ -74,6 +75,19 @@ page_table_leave_target(PageTable *table)
 	if (table->superseded != NULL)
 		superseded_give_back(table->superseded, table->target, table->room);
 	table->target = InvalidBlockNumber;
+}
+
+/* Before the row at *tid is replaced, or removed. */
+static void
+note_superseded(PageTable *table, ItemPointer tid)
+{
+	BlockNumber block = ItemPointerGetBlockNumber(tid);
+
+	if (table->superseded == NULL)
+		return;
+	if (own_versions_has(table->heap, tid))
+		superseded_add_own(table->superseded, block);
+	superseded_add(table->superseded, block);
 }
 
 /* After a row has been written that was on the heap page `from`, or on none. */
@@ -139,9 +153,8 @@ page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes
 	page_table_see_own_changes(table);
 	tuple = form_row(table, key, bytes, size, values, isnull);
 	choose_heap_page(table, tuple, true);
+	note_superseded(table, tid);
 	simple_heap_update(table->heap, tid, tuple);
-	if (table->superseded != NULL)
-		superseded_add(table->superseded, ItemPointerGetBlockNumber(tid));
 	if (!HeapTupleIsHeapOnly(tuple))
 		page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self, true);
 	note_stored(table, tuple, ItemPointerGetBlockNumber(tid), tid);
@@ -153,9 +166,8 @@ page_table_delete(PageTable *table, ItemPointer tid)
 {
 	page_table_open(table);
 	page_table_see_own_changes(table);
+	note_superseded(table, tid);
 	simple_heap_delete(table->heap, tid);
-	if (table->superseded != NULL)
-		superseded_add(table->superseded, ItemPointerGetBlockNumber(tid));
 	table->wrote = true;
 }
 

@@ -10,6 +10,11 @@
  * the map: abacus_build after each batch, every other change at the session's
  * next change of the mesh. Else each single point would leave pages behind.
  *
+ * Those that the transaction at hand has made itself need no commit: what nobody can
+ * see any more goes at the transaction's next change (own_versions.c). Their heap pages are
+ * remembered apart, each for one try, so that a change costs no more than the one before it; a few
+ * that are seen still, as by a statement that makes several changes, are tried again.
+ *
  * Old versions that some transaction still sees stay, and are tried again the
  * next time. What remains in any case, until VACUUM, are a line pointer of
  * four bytes and the index entry.
@@ -37,6 +42,7 @@
 #include "utils/rel.h"
 
 #include "pg/store/heap_room.h"
+#include "pg/store/own_versions.h"
 #include "pg/store/superseded.h"
 
 #define FIRST_BYTES 1024
@@ -49,6 +55,8 @@
 #define EMPTY_BYTES (BLCKSZ - BLCKSZ / 8)
 /* Heap pages; a row that is nearer than these to the beginning is left where it lies. */
 #define NEAR_PAGES 4
+/* Heap pages with versions of our own that are tried again, at most. */
+#define OWN_TRIED_AGAIN 16
 
 struct Superseded
 {
@@ -59,6 +67,10 @@ struct Superseded
 	Size		first_free;		/* no bit is set in the bytes before */
 	LocalTransactionId last;	/* that added one */
 	TransactionId horizon;		/* what somebody still saw when not all could be pruned */
+	BlockNumber *own;			/* heap pages where the transaction at hand has replaced its own rows */
+	uint32		own_count;
+	uint32		own_room;
+	LocalTransactionId own_of;	/* that transaction */
 };
 
 /* Lives in `memory`. */
@@ -70,6 +82,8 @@ superseded_create(MemoryContext memory)
 	superseded->bytes = FIRST_BYTES;
 	superseded->bits = MemoryContextAllocZero(memory, FIRST_BYTES);
 	superseded->free = MemoryContextAllocZero(memory, FIRST_BYTES);
+	superseded->own_room = FIRST_BYTES / sizeof(BlockNumber);
+	superseded->own = MemoryContextAlloc(memory, FIRST_BYTES);
 	return superseded;
 }
 
@@ -78,6 +92,7 @@ superseded_forget(Superseded *superseded)
 {
 	pfree(superseded->bits);
 	pfree(superseded->free);
+	pfree(superseded->own);
 	pfree(superseded);
 }
 
@@ -108,6 +123,25 @@ superseded_add(Superseded *superseded, BlockNumber block)
 		superseded->count++;
 	superseded->bits[byte] |= 1 << (block % BITS_PER_BYTE);
 	superseded->last = MyProc->lxid;
+}
+
+/* Remembers that the transaction at hand has replaced a row of its own on this heap page. */
+void
+superseded_add_own(Superseded *superseded, BlockNumber block)
+{
+	if (superseded->own_of != MyProc->lxid)
+	{
+		superseded->own_of = MyProc->lxid;
+		superseded->own_count = 0;
+	}
+	if (superseded->own_count > 0 && superseded->own[superseded->own_count - 1] == block)
+		return;
+	if (superseded->own_count == superseded->own_room)
+	{
+		superseded->own_room *= 2;
+		superseded->own = repalloc_huge(superseded->own, superseded->own_room * sizeof(BlockNumber));
+	}
+	superseded->own[superseded->own_count++] = block;
 }
 
 /* An empty heap page is the next to be written, if none before it is. */
@@ -290,15 +324,41 @@ superseded_reclaim(Superseded *superseded, Relation heap)
 		FreeSpaceMapVacuumRange(heap, first, last + 1);
 }
 
+/* The same for what earlier changes of the transaction at hand have left of its own. */
+static void
+reclaim_own(Superseded *superseded, Relation heap, const OwnSight *sight)
+{
+	uint32		again = 0;
+
+	for (uint32 i = 0; i < superseded->own_count; i++)
+	{
+		BlockNumber block = superseded->own[i];
+		Size		room;
+
+		CHECK_FOR_INTERRUPTS();
+		if (own_versions_prune(heap, block, sight, &room))
+		{
+			RecordPageWithFreeSpace(heap, block, room);
+			superseded_give_back(superseded, block, room);
+		}
+		else if (again < OWN_TRIED_AGAIN)
+			superseded->own[again++] = block;
+	}
+	superseded->own_count = again;
+}
+
 /*
- * The same for what earlier transactions of the session have left. What cannot
- * be reclaimed yet is tried again when whoever saw it has ended.
+ * The same for what earlier transactions of the session have left, or earlier changes of
+ * this one. What cannot be reclaimed yet is tried again when whoever saw it has ended.
  */
 void
-superseded_reclaim_earlier(Superseded *superseded, Relation heap)
+superseded_reclaim_earlier(Superseded *superseded, Relation heap, const OwnSight *sight)
 {
 	TransactionId horizon;
 
+	/* events of a user's own triggers on the table may wait for rows */
+	if (superseded->own_of == MyProc->lxid && superseded->own_count > 0 && heap->trigdesc == NULL)
+		reclaim_own(superseded, heap, sight);
 	if (superseded->count == 0 || superseded->last == MyProc->lxid)
 		return;
 	horizon = GetOldestNonRemovableTransactionId(heap);

@@ -9,8 +9,8 @@
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
-#include "pg/sql/row_packer.h"
-#include "pg/sql/shape.h"
+#include "pg/input/row_packer.h"
+#include "pg/mesh/shape.h"
 #include "pg/track/tracked_points.h"
 
 /* Names of the columns of a point: as given, or as the mesh names its own. */
@@ -101,9 +101,8 @@ as_packed(Relation table, const char *column)
 		: psprintf("%s::pg_catalog.float8", value);
 }
 
-/* SELECT of the points of the table; `packed`: as the mesh has them, an attribute NaN as NULL. */
-char *
-tracked_points_of_table(Relation table, List *columns, int dimension, bool packed)
+static char *
+select_points(Relation table, List *columns, int dimension, bool packed, const char *from)
 {
 	StringInfoData query;
 	ListCell   *cell;
@@ -125,13 +124,30 @@ tracked_points_of_table(Relation table, List *columns, int dimension, bool packe
 			appendStringInfo(&query, "CASE WHEN (%1$s) OPERATOR(pg_catalog.<>) "
 							 "'NaN'::pg_catalog.float8 THEN %1$s END", as_packed(table, name));
 	}
-	appendStringInfo(&query, " FROM %s AS t WHERE ",
+	appendStringInfo(&query, " %s %s AS t WHERE ", from,
 					 quote_qualified_identifier(get_namespace_name(RelationGetNamespace(table)),
 												RelationGetRelationName(table)));
 	for (int i = 1; i <= dimension; i++)
 		appendStringInfo(&query, "%st.%s IS NOT NULL", i > 1 ? " AND " : "",
 						 quote_identifier(list_nth(columns, i)));
 	return query.data;
+}
+
+/*
+ * SELECT of the points of the table, its partitions and children; `packed`: as the mesh has
+ * them, an attribute NaN as NULL.
+ */
+char *
+tracked_points_of_table(Relation table, List *columns, int dimension, bool packed)
+{
+	return select_points(table, columns, dimension, packed, "FROM");
+}
+
+/* SELECT of the points in the table alone. */
+char *
+tracked_points_of_one_table(Relation table, List *columns, int dimension)
+{
+	return select_points(table, columns, dimension, false, "FROM ONLY");
 }
 
 /* SELECT of the points of the mesh. */

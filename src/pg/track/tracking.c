@@ -2,8 +2,12 @@
  * tracking.c: the triggers by which a mesh follows a table.
  *
  * They are ordinary triggers of the table, four of them, one an event, since a
- * trigger with transition tables has only one. Their arguments are the name of
- * the mesh, its dimension and the names of the columns. What counts is not the name, though,
+ * trigger with transition tables has only one. A table with partitions has two, one for
+ * each row and one for TRUNCATE, and each of its partitions an auxiliary one for TRUNCATE of that alone; of
+ * the former PostgreSQL itself makes a clone for each partition, and drops it when that is detached. A
+ * table with children has the same as a partition, and so have these, but for the clone. Their
+ * arguments are the name of the mesh, its dimension, with a word if it follows at commit, and the
+ * names of the columns. What counts is not the name, though,
  * but an automatic dependency of the trigger on the mesh: so the mesh may be
  * renamed and moved, and dropping it drops the triggers.
  *
@@ -27,9 +31,9 @@
 #include "catalog/namespace.h"
 #include "catalog/pg_class.h"
 #include "catalog/pg_depend.h"
+#include "catalog/pg_inherits.h"
 #include "catalog/pg_proc.h"
 #include "catalog/pg_trigger.h"
-#include "commands/defrem.h"
 #include "miscadmin.h"
 #include "storage/lmgr.h"
 #include "utils/acl.h"
@@ -41,7 +45,6 @@
 
 #include "pg/mesh/mesh.h"
 #include "pg/track/tracking.h"
-#include "pg/utility.h"
 
 /* The function TRACKING_FUNCTION of the extension; InvalidOid if it has none. */
 Oid
@@ -72,14 +75,49 @@ mesh_by_name(const char *name, Oid namespace)
 	return OidIsValid(namespace) ? get_relname_relid(llast(names), namespace) : InvalidOid;
 }
 
-/* The mesh that a trigger of the table is bound to; InvalidOid if none. */
+/*
+ * The mesh that a trigger of the table is bound to; InvalidOid if none. `from` is the table
+ * that a constraint trigger names after FROM, or InvalidOid.
+ */
 static Oid
-bound_mesh(Oid trigger, Oid table)
+bound_mesh(Oid trigger, Oid table, Oid from)
 {
-	Oid			mesh = mesh_of_trigger(trigger);
+	/*
+	 * Every trigger depends on its own table, which may be a mesh's, and one with FROM on that
+	 * table, too: whoever has the privilege TRIGGER on a mesh can make such. abacus_track() does not.
+	 */
+	Oid			mesh = OidIsValid(from) ? InvalidOid : mesh_of_trigger(trigger);
 
-	/* every trigger depends on its own table, which may be a mesh's */
 	return mesh == table ? InvalidOid : mesh;
+}
+
+/* The parent of a table, the first one if there are several; InvalidOid if there is none. */
+static Oid
+parent_of(Oid table)
+{
+	Relation	inherits = table_open(InheritsRelationId, AccessShareLock);
+	Oid			parent = InvalidOid;
+	ScanKeyData key;
+	SysScanDesc scan;
+	HeapTuple	tuple;
+
+	ScanKeyInit(&key, Anum_pg_inherits_inhrelid, BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(table));
+	scan = systable_beginscan(inherits, InheritsRelidSeqnoIndexId, true, NULL, 1, &key);
+	tuple = systable_getnext(scan);
+	if (HeapTupleIsValid(tuple))
+		parent = ((Form_pg_inherits) GETSTRUCT(tuple))->inhparent;
+	systable_endscan(scan);
+	table_close(inherits, AccessShareLock);
+	return parent;
+}
+
+/* The table that a mesh follows if it follows this one: its topmost parent, or itself. */
+Oid
+tracking_root(Oid table)
+{
+	Oid			parent = parent_of(table);
+
+	return OidIsValid(parent) ? tracking_root(parent) : table;
 }
 
 /* The first argument of a trigger, as it stands in the catalogue. */
@@ -93,7 +131,7 @@ first_argument(HeapTuple tuple, Relation triggers)
 	return VARDATA_ANY(DatumGetByteaPP(arguments));
 }
 
-/* A trigger from the catalogue; NULL if it has gone. */
+/* A trigger from the catalogue; NULL if it has gone, or is a clone. */
 static TrackingTrigger *
 read_trigger(Oid oid)
 {
@@ -106,7 +144,8 @@ read_trigger(Oid oid)
 	ScanKeyInit(&key, Anum_pg_trigger_oid, BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(oid));
 	scan = systable_beginscan(triggers, TriggerOidIndexId, true, NULL, 1, &key);
 	tuple = systable_getnext(scan);
-	if (HeapTupleIsValid(tuple))
+	/* a clone comes and goes with the one of which it is */
+	if (HeapTupleIsValid(tuple) && !OidIsValid(((Form_pg_trigger) GETSTRUCT(tuple))->tgparentid))
 	{
 		Form_pg_trigger form = (Form_pg_trigger) GETSTRUCT(tuple);
 
@@ -114,9 +153,10 @@ read_trigger(Oid oid)
 		trigger->oid = oid;
 		trigger->name = pstrdup(NameStr(form->tgname));
 		trigger->table = form->tgrelid;
-		trigger->mesh = bound_mesh(oid, form->tgrelid);
+		trigger->mesh = bound_mesh(oid, form->tgrelid, form->tgconstrrelid);
 		trigger->bound = OidIsValid(trigger->mesh);
 		trigger->event = form->tgtype & TRIGGER_TYPE_EVENT_MASK;
+		trigger->auxiliary = TRIGGER_FOR_BEFORE(form->tgtype);
 		trigger->fires = form->tgenabled;
 		if (!trigger->bound && form->tgnargs > 0)
 			trigger->mesh = mesh_by_name(first_argument(tuple, triggers),
@@ -149,13 +189,14 @@ belongs(const TrackingTrigger *trigger, Oid mesh, Oid table)
 		return false;
 	/* what others write into triggers of their tables must be in nobody's way */
 	return trigger->bound || trigger->table == table ||
+		(OidIsValid(table) && tracking_root(trigger->table) == table) ||
 		owner_of_table(trigger->table) == owner_of_table(mesh);
 }
 
 /*
  * The triggers that call the function, TRACKING_FUNCTION, for this mesh: those
  * bound to it, and of those that only name it the ones of `table` (which may be
- * InvalidOid) and of tables that the mesh's owner has.
+ * InvalidOid), its partitions and children, and of tables that the mesh's owner has.
  */
 List *
 tracking_triggers(Oid function, Oid mesh, Oid table)
@@ -185,7 +226,7 @@ tracking_triggers(Oid function, Oid mesh, Oid table)
 	return found;
 }
 
-/* The table of all these triggers; InvalidOid if there is none, or several. */
+/* The table of all these triggers, with its children; InvalidOid if there is none, or several. */
 static Oid
 only_table(List *triggers)
 {
@@ -194,22 +235,23 @@ only_table(List *triggers)
 
 	foreach(cell, triggers)
 	{
-		TrackingTrigger *trigger = lfirst(cell);
+		Oid			root = tracking_root(((TrackingTrigger *) lfirst(cell))->table);
 
-		if (OidIsValid(table) && trigger->table != table)
+		if (OidIsValid(table) && root != table)
 			return InvalidOid;
-		table = trigger->table;
+		table = root;
 	}
 	return table;
 }
 
-/* Binds all triggers of the table that name the mesh, if the user may; returns whether he may. */
+/* Binds all triggers of the table, and its children, that name the mesh, if the user may; returns whether he may. */
 static bool
 bind_triggers(Oid function, Oid mesh, Oid table)
 {
 	List	   *triggers;
 	ListCell   *cell;
 
+	table = tracking_root(table);
 	if (mesh_of_table(mesh) != mesh || !pg_class_ownercheck(mesh, GetUserId()) ||
 		!pg_class_ownercheck(table, GetUserId()))
 		return false;
@@ -218,14 +260,14 @@ bind_triggers(Oid function, Oid mesh, Oid table)
 	{
 		TrackingTrigger *trigger = lfirst(cell);
 
-		if (trigger->bound && trigger->table != table)
+		if (trigger->bound && !trigger->auxiliary && tracking_root(trigger->table) != table)
 			return false;		/* a mesh follows one table */
 	}
 	foreach(cell, triggers)
 	{
 		TrackingTrigger *trigger = lfirst(cell);
 
-		if (!trigger->bound && trigger->table == table)
+		if (!trigger->bound && tracking_root(trigger->table) == table)
 			mesh_bind_trigger(mesh, trigger->oid);
 	}
 	CommandCounterIncrement();	/* who looks again in this command must see it */
@@ -265,137 +307,105 @@ check_schema(Oid mesh, Oid table)
 		aclcheck_error(result, OBJECT_SCHEMA, get_namespace_name(namespace));
 }
 
+/* A trigger that fires, or the one of which it is a clone. */
+typedef struct FiringTrigger
+{
+	Oid			oid;
+	Oid			table;
+	Oid			from;			/* as bound_mesh() takes it */
+} FiringTrigger;
+
+/* Reads a trigger from the catalogue; returns the one of which it is a clone, or InvalidOid. */
+static Oid
+read_firing(Oid oid, FiringTrigger *trigger)
+{
+	Relation	triggers = table_open(TriggerRelationId, AccessShareLock);
+	Oid			original = InvalidOid;
+	ScanKeyData key;
+	SysScanDesc scan;
+	HeapTuple	tuple;
+
+	ScanKeyInit(&key, Anum_pg_trigger_oid, BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(oid));
+	scan = systable_beginscan(triggers, TriggerOidIndexId, true, NULL, 1, &key);
+	tuple = systable_getnext(scan);
+	if (HeapTupleIsValid(tuple))
+	{
+		Form_pg_trigger form = (Form_pg_trigger) GETSTRUCT(tuple);
+
+		trigger->oid = oid;
+		trigger->table = form->tgrelid;
+		trigger->from = form->tgconstrrelid;
+		original = form->tgparentid;
+	}
+	systable_endscan(scan);
+	table_close(triggers, AccessShareLock);
+	return original;
+}
+
+/* The trigger that counts for one of a table: itself, or the one of which it is a clone. */
+static FiringTrigger
+original_trigger(const Trigger *trigger, Oid table)
+{
+	FiringTrigger original = {trigger->tgoid, table, trigger->tgconstrrelid};
+	Oid			next = trigger->tgisclone ? trigger->tgoid : InvalidOid;
+
+	while (OidIsValid(next))
+		next = read_firing(next, &original);
+	return original;
+}
+
 /*
- * The mesh that a trigger, now firing, keeps in step with its table. *bound: it
- * is the one of abacus_track(), to be changed with the rights of the table's
- * owner; otherwise a user has named it, and has no rights but his own.
+ * The mesh that a trigger, now firing, keeps in step with its table, and the user
+ * with whose rights it is to be changed. Those of the table's owner, if it is the one of
+ * abacus_track(); otherwise a user has named it, and has no rights but his own.
  */
 Oid
-tracking_mesh(const TriggerData *data, bool *bound)
+tracking_mesh(const TriggerData *data, Oid *user)
 {
 	const Trigger *trigger = data->tg_trigger;
-	Oid			table = RelationGetRelid(data->tg_relation);
-	Oid			mesh = bound_mesh(trigger->tgoid, table);
+	FiringTrigger original = original_trigger(trigger, RelationGetRelid(data->tg_relation));
+	Oid			mesh = bound_mesh(original.oid, original.table, original.from);
 
-	*bound = OidIsValid(mesh);
-	if (*bound)
+	*user = owner_of_table(original.table);
+	if (OidIsValid(mesh))
 		return mesh;
-	mesh = mesh_by_name(trigger->tgargs[0], get_rel_namespace(table));
+	mesh = mesh_by_name(trigger->tgargs[0], get_rel_namespace(original.table));
 	if (!OidIsValid(mesh))
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_TABLE),
 				 errmsg("mesh \"%s\", which follows table \"%s\", does not exist",
-						trigger->tgargs[0], RelationGetRelationName(data->tg_relation)),
+						trigger->tgargs[0], get_rel_name(original.table)),
 				 errhint("Restore the mesh under that name, or drop the trigger \"%s\" and those "
 						 "like it.", trigger->tgname)));
-	check_schema(mesh, table);
-	*bound = bind_triggers(trigger->tgfoid, mesh, table);
+	check_schema(mesh, original.table);
+	if (!bind_triggers(trigger->tgfoid, mesh, original.table) ||
+		bound_mesh(original.oid, original.table, original.from) != mesh)
+		*user = GetUserId();
 	return mesh;
 }
 
 /*
- * A name for a trigger of the table that none of its triggers has. Triggers fire in the
- * order of their names: that of the meshes which follow a table must be the same for all
- * events, or an INSERT could wait for a DELETE that waits for it. So the mesh comes last.
+ * Whether the table of an auxiliary trigger, now firing, still belongs to one that the mesh
+ * follows: then it has a trigger for each row that leads to the same mesh.
  */
-static char *
-choose_name(Oid mesh, Oid table, const char *event)
+bool
+tracking_is_followed(const TriggerData *data)
 {
-	char	   *stem = psprintf("abacus_track_%s", event);
-	char	   *name = makeObjectName(stem, get_rel_name(mesh), NULL);
+	Oid			table = RelationGetRelid(data->tg_relation);
+	FiringTrigger original = original_trigger(data->tg_trigger, table);
+	Oid			mesh = bound_mesh(original.oid, original.table, original.from);
+	const TriggerDesc *triggers = data->tg_relation->trigdesc;
 
-	for (int i = 1; OidIsValid(get_trigger_oid(table, name, true)); i++)
-		name = makeObjectName(stem, get_rel_name(mesh), psprintf("%d", i));
-	return name;
-}
-
-/* The arguments: 'mesh', '2', 'id', 'x', 'y', ... */
-static char *
-arguments(Oid mesh, int dimension, Relation table, List *columns)
-{
-	Oid			namespace = get_rel_namespace(mesh);
-	const char *schema = namespace == RelationGetNamespace(table) ? NULL
-		: get_namespace_name(namespace);
-	StringInfoData list;
-	ListCell   *cell;
-
-	initStringInfo(&list);
-	appendStringInfoString(&list, quote_literal_cstr(
-							   quote_qualified_identifier(schema, get_rel_name(mesh))));
-	appendStringInfo(&list, ", '%d'", dimension);
-	foreach(cell, columns)
-		appendStringInfo(&list, ", %s", quote_literal_cstr(lfirst(cell)));
-	return list.data;
-}
-
-/*
- * Makes a trigger fire where its table is written as a replica, always or there only, if the
- * former one of its event did.
- */
-static void
-fire_as_before(Relation table, const char *name, int16 event, List *former)
-{
-	ListCell   *cell;
-
-	foreach(cell, former)
+	for (int i = 0; triggers != NULL && i < triggers->numtriggers; i++)
 	{
-		TrackingTrigger *trigger = lfirst(cell);
+		const Trigger *trigger = &triggers->triggers[i];
 
-		if (trigger->event != event || (trigger->fires != TRIGGER_FIRES_ALWAYS &&
-										trigger->fires != TRIGGER_FIRES_ON_REPLICA))
+		if (!TRIGGER_FOR_ROW(trigger->tgtype) || trigger->tgfoid != data->tg_trigger->tgfoid)
 			continue;
-		EnableDisableTrigger(table, name, trigger->fires, false, ShareRowExclusiveLock);
-		CommandCounterIncrement();
+		original = original_trigger(trigger, table);
+		if (bound_mesh(original.oid, original.table, original.from) == mesh &&
+			(OidIsValid(mesh) || strcmp(trigger->tgargs[0], data->tg_trigger->tgargs[0]) == 0))
+			return true;
 	}
-}
-
-/*
- * Makes the triggers, as the caller, through CREATE TRIGGER with all its checks.
- * They fire as the former ones did; where those were disabled, these are not.
- */
-void
-tracking_create(Oid function, Oid mesh, int dimension, Relation table, List *columns, List *former)
-{
-	static const struct
-	{
-		const char *name;
-		int16		type;
-		const char *referencing;
-	}			events[] = {
-		{"insert", TRIGGER_TYPE_INSERT, "REFERENCING NEW TABLE AS abacus_new"},
-		{"update", TRIGGER_TYPE_UPDATE, "REFERENCING OLD TABLE AS abacus_old NEW TABLE AS abacus_new"},
-		{"delete", TRIGGER_TYPE_DELETE, "REFERENCING OLD TABLE AS abacus_old"},
-		{"truncate", TRIGGER_TYPE_TRUNCATE, ""}
-	};
-	char	   *table_schema = get_namespace_name(RelationGetNamespace(table));
-	char	   *table_name = quote_qualified_identifier(table_schema,
-														RelationGetRelationName(table));
-	char	   *function_schema = get_namespace_name(get_func_namespace(function));
-	char	   *function_name = quote_qualified_identifier(function_schema,
-														   get_func_name(function));
-
-	for (int i = 0; i < lengthof(events); i++)
-	{
-		char	   *name = choose_name(mesh, RelationGetRelid(table), events[i].name);
-
-		utility_run(psprintf("CREATE TRIGGER %s AFTER %s ON %s %s FOR EACH STATEMENT "
-							 "EXECUTE FUNCTION %s(%s)",
-							 quote_identifier(name), events[i].name, table_name,
-							 events[i].referencing, function_name,
-							 arguments(mesh, dimension, table, columns)));
-		mesh_bind_trigger(mesh, get_trigger_oid(RelationGetRelid(table), name, false));
-		fire_as_before(table, name, events[i].type, former);
-	}
-}
-
-/* Who has not locked the table may find it gone, and the trigger with it. */
-void
-tracking_drop(const TrackingTrigger *trigger)
-{
-	char	   *schema = get_namespace_name(get_rel_namespace(trigger->table));
-	char	   *table = get_rel_name(trigger->table);
-
-	if (schema != NULL && table != NULL)
-		utility_run(psprintf("DROP TRIGGER %s ON %s", quote_identifier(trigger->name),
-							 quote_qualified_identifier(schema, table)));
+	return false;
 }

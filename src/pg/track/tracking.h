@@ -18,15 +18,18 @@ typedef struct TrackingTrigger
 	Oid			table;
 	Oid			mesh;			/* InvalidOid: not found */
 	bool		bound;			/* to the mesh, which otherwise is known by name alone */
-	int16		event;			/* TRIGGER_TYPE_... */
+	int16		event;			/* TRIGGER_TYPE_..., one or several */
+	bool		auxiliary;		/* on a partition or child: tells that it is truncated */
 	char		fires;			/* as pg_trigger.tgenabled says */
 } TrackingTrigger;
 
 extern Oid	tracking_function(Oid extension_namespace);
-extern Oid	tracking_mesh(const TriggerData *data, bool *bound);
+extern Oid	tracking_mesh(const TriggerData *data, Oid *user);
+extern bool tracking_is_followed(const TriggerData *data);
+extern Oid	tracking_root(Oid table);
 extern void tracking_bind_restored(Relation mesh);
 extern List *tracking_triggers(Oid function, Oid mesh, Oid table);
-extern void tracking_create(Oid function, Oid mesh, int dimension, Relation table,
+extern void tracking_create(Oid function, Oid mesh, int dimension, bool deferred, Relation table,
 							List *columns, List *former);
 extern void tracking_drop(const TrackingTrigger *trigger);
 

@@ -19,7 +19,6 @@
 #include "executor/executor.h"
 #include "executor/tuptable.h"
 #include "miscadmin.h"
-#include "utils/builtins.h"
 #include "utils/datum.h"
 #include "utils/lsyscache.h"
 #include "utils/rel.h"
@@ -28,6 +27,34 @@
 #include "pg/track/transition.h"
 
 #define POINTS_A_BATCH 1024
+
+/* The dimension, and how the mesh follows; 0: arguments are what whoever made the trigger has written. */
+static int
+read_dimension(const char *argument, bool *deferred)
+{
+	for (int dimension = 2; dimension <= ABACUS_MAX_DIMENSION; dimension++)
+	{
+		char	   *plain = psprintf("%d", dimension);
+
+		*deferred = strcmp(argument, psprintf("%s" TRACKING_DEFERRED, plain)) == 0;
+		if (*deferred || strcmp(argument, plain) == 0)
+			return dimension;
+	}
+	return 0;
+}
+
+/* What the mesh should be like. */
+const abacus_header *
+transition_shape(const Transition *transition)
+{
+	abacus_header *shape = palloc0(sizeof(abacus_header));
+
+	shape->dimension = transition->dimension;
+	shape->attributes = transition->columns - 1 - transition->dimension;
+	for (uint32 i = 0; i < shape->attributes; i++)
+		strlcpy(shape->names[i], transition->names[1 + transition->dimension + i], ABACUS_NAME_BYTES);
+	return shape;
+}
 
 static void
 open_rows(TransitionRows *rows, Tuplestorestate *store, TupleDesc desc)
@@ -69,11 +96,10 @@ transition_open(const TriggerData *trigger)
 	char	  **names = trigger->tg_trigger->tgargs + TRACKING_ARGUMENT_COLUMNS;
 
 	transition->columns = trigger->tg_trigger->tgnargs - TRACKING_ARGUMENT_COLUMNS;
-	transition->dimension =
-		pg_strtoint32(trigger->tg_trigger->tgargs[TRACKING_ARGUMENT_DIMENSION]);
-	/* arguments are what whoever made the trigger has written */
-	if (transition->dimension < 2 || transition->dimension > ABACUS_MAX_DIMENSION ||
-		transition->columns < 1 + transition->dimension)
+	transition->dimension = read_dimension(trigger->tg_trigger->tgargs[TRACKING_ARGUMENT_DIMENSION],
+										   &transition->deferred);
+	if (transition->dimension == 0 || transition->columns < 1 + transition->dimension ||
+		transition->columns > 1 + transition->dimension + ABACUS_MAX_ATTRIBUTES)
 		ereport(ERROR,
 				(errcode(ERRCODE_E_R_I_E_TRIGGER_PROTOCOL_VIOLATED),
 				 errmsg("trigger \"%s\" has wrong arguments", trigger->tg_trigger->tgname),
@@ -95,6 +121,7 @@ transition_open(const TriggerData *trigger)
 		TupleDescCopyEntry(transition->points, i + 1, desc, number);
 	}
 	transition->point = MakeSingleTupleTableSlot(transition->points, &TTSOpsVirtual);
+	transition->names = names;
 	open_rows(&transition->old, trigger->tg_oldtable, desc);
 	open_rows(&transition->new, trigger->tg_newtable, desc);
 	return transition;
@@ -163,11 +190,21 @@ transition_changes(Transition *transition)
 	return false;
 }
 
+/* Has room for so many points that are packed. */
+static void
+open_packer(Transition *transition, size_t batch)
+{
+	if (transition->packer == NULL)
+		transition->packer = row_packer_create_tracked(transition->points,
+													   transition_shape(transition), batch);
+}
+
 /* The point of a row to the packer. */
 static void
-pack(const Transition *transition, TupleTableSlot *row, RowPacker *packer)
+pack(const Transition *transition, TupleTableSlot *row)
 {
 	TupleTableSlot *point = transition->point;
+	RowPacker  *packer = transition->packer;
 
 	ExecClearTuple(point);
 	for (int i = 0; i < transition->columns; i++)
@@ -176,30 +213,55 @@ pack(const Transition *transition, TupleTableSlot *row, RowPacker *packer)
 	packer->receiver.receiveSlot(point, &packer->receiver);
 }
 
-/* Stages the points that are new, or those that are no more; returns how many. */
+/* Sends on the points that are new, or those that are no more; returns how many. */
 uint64
-transition_stage(Transition *transition, bool new, Change *change)
+transition_send(Transition *transition, bool new, PointSink sink, void *context)
 {
-	const abacus_header *header = change->writer.header;
 	TransitionRows *rows = new ? &transition->new : &transition->old;
-	RowPacker  *packer = row_packer_create_tracked(transition->points, header, POINTS_A_BATCH);
+	RowPacker  *packer;
+	uint64		sent = 0;
 
-	change_open_stage(change, header);
+	open_packer(transition, POINTS_A_BATCH);
+	packer = transition->packer;
+	packer->row = 0;
 	rewind_all(transition);
 	while (advance(transition))
 	{
 		if (!rows->counts)
 			continue;
-		pack(transition, rows->slot, packer);
+		pack(transition, rows->slot);
+		sent++;
 		if (packer->count == POINTS_A_BATCH)
 		{
-			change_add(change, packer->points, packer->count);
+			sink(context, packer->points, packer->count);
 			row_packer_reset(packer);
 		}
 	}
 	if (packer->count > 0)
-		change_add(change, packer->points, packer->count);
-	return change->points;
+		sink(context, packer->points, packer->count);
+	row_packer_reset(packer);
+	return sent;
+}
+
+/* Sends on the point of the row with which a trigger for each row is called, if it counts. */
+void
+transition_send_row(Transition *transition, const TriggerData *trigger, bool new, PointSink sink,
+					void *context)
+{
+	bool		is_update = TRIGGER_FIRED_BY_UPDATE(trigger->tg_event);
+	TransitionRows *rows = new ? &transition->new : &transition->old;
+
+	transition->new.slot = is_update ? trigger->tg_newslot
+		: TRIGGER_FIRED_BY_INSERT(trigger->tg_event) ? trigger->tg_trigslot : NULL;
+	transition->old.slot = TRIGGER_FIRED_BY_INSERT(trigger->tg_event) ? NULL : trigger->tg_trigslot;
+	if (rows->slot == NULL || !is_point(transition, rows->slot) ||
+		(is_update && is_point(transition, transition->old.slot) &&
+		 is_point(transition, transition->new.slot) && is_same_point(transition)))
+		return;
+	open_packer(transition, 1);
+	pack(transition, rows->slot);
+	sink(context, transition->packer->points, 1);
+	row_packer_reset(transition->packer);
 }
 
 static void

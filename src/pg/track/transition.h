@@ -1,5 +1,6 @@
 /*
- * transition.h: the points in the transition tables of a trigger.
+ * transition.h: the points that a statement has added and taken away, in the transition tables
+ * of its trigger; or, of a trigger for each row, in its rows.
  */
 #ifndef ABACUS_TRANSITION_H
 #define ABACUS_TRANSITION_H
@@ -8,10 +9,10 @@
 
 #include "pg/mesh/change.h"
 
-/* A transition table while it is read. */
+/* A transition table while it is read, or a row. */
 typedef struct TransitionRows
 {
-	Tuplestorestate *rows;		/* NULL: the event has none */
+	Tuplestorestate *rows;		/* NULL: the event has none, or the slot is given */
 	int			pointer;
 	TupleTableSlot *slot;
 	bool		counts;			/* the row in the slot is a point to be added, or taken away */
@@ -23,18 +24,28 @@ typedef struct Transition
 	TransitionRows new;
 	int			columns;
 	int			dimension;
-	AttrNumber *numbers;		/* of the columns of points, in the table */
+	bool		deferred;		/* the mesh follows at commit */
+	char	  **names;			/* of the columns of points */
+	AttrNumber *numbers;		/* of these columns, in the table */
 	TupleDesc	points;			/* what a point's row looks like */
 	TupleTableSlot *point;
+	RowPacker  *packer;
 } Transition;
 
-/* Arguments of the trigger: name of the mesh, its dimension, columns of a point. */
+/* Takes points. */
+typedef void (*PointSink) (void *context, const uint64 *points, size_t count);
+
+/* Arguments of the trigger: name of the mesh, its dimension (and how it follows), columns of a point. */
 #define TRACKING_ARGUMENT_DIMENSION 1
+#define TRACKING_DEFERRED " deferred"
 #define TRACKING_ARGUMENT_COLUMNS 2
 
 extern Transition *transition_open(const TriggerData *trigger);
+extern const abacus_header *transition_shape(const Transition *transition);
 extern bool transition_changes(Transition *transition);
-extern uint64 transition_stage(Transition *transition, bool new, Change *change);
+extern uint64 transition_send(Transition *transition, bool new, PointSink sink, void *context);
+extern void transition_send_row(Transition *transition, const TriggerData *trigger, bool new,
+								PointSink sink, void *context);
 extern void transition_close(Transition *transition);
 
 #endif

@@ -1,0 +1,96 @@
+# Sourced after cluster.sh: how each kind of test is run. scripts/test.sh runs all of a kind,
+# scripts/dev.sh a few, so most take the names of what to run. What needs a server takes the one
+# that the environment names; cluster_start makes it.
+
+# Warnings are errors in what the tests build; with ABACUS_WERROR= (empty) they are not, for a compiler
+# that warns of something else.
+export ABACUS_WERROR=${ABACUS_WERROR-1}
+
+# All C++ is as clang-format writes it.
+format_check() {
+    git ls-files -z '*.cpp' '*.hpp' | xargs -0 clang-format --dry-run -Werror
+}
+
+# The tree is as docs/architecture.md says, and documents name files that there are.
+layout_check() {
+    python3 -m unittest discover -s test/layout -p '*_test.py'
+}
+
+# .clang-tidy over some files: tidy_check FILE.... Nothing is compiled in build/tidy, which tells
+# how each would be.
+tidy_check() {
+    CC=clang CXX=clang++ cmake -S . -B build/tidy -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null &&
+        printf '%s\0' "$@" | xargs -0 -n 1 -P "$ABACUS_JOBS" clang-tidy --quiet -p build/tidy
+}
+
+# What unit tests need, of the core as it is compiled for the extension.
+build_unit_tests() {
+    build_extension &&
+        ABACUS_CORE_OBJECTS=$ABACUS_BUILD/extension build_release abacus_unit_tests
+}
+
+# Unit tests of a build, in shards: unit_tests FOLDER.
+unit_tests() {
+    ctest --test-dir "$1" -j "$ABACUS_JOBS" --output-on-failure --no-tests=error &&
+        awk '/PASSED/ { n += $4 } END { print "All " n " tests passed" }' \
+            "$1/Testing/Temporary/LastTest.log"
+}
+
+# Regression and isolation tests: regression_tests ["SQL TEST..." ["ISOLATION TEST..."]]; all without
+# arguments.
+regression_tests() {
+    local chosen=()
+    if (($#)); then chosen=(REGRESS="$1" ISOLATION="${2:-}"); fi
+    "${extension_make[@]}" installcheck "${chosen[@]}" && return
+    cat build/extension/regression.diffs build/extension/output_iso/regression.diffs 2>/dev/null
+    return 1
+}
+
+# pgTAP files; all without arguments.
+pgtap_tests() {
+    if ((!$#)); then set -- test/pgtap/*.sql; fi
+    run_psql -c "DROP DATABASE IF EXISTS abacus_pgtap" -c "CREATE DATABASE abacus_pgtap" &&
+        run_psql -d abacus_pgtap -c "CREATE EXTENSION pgtap" -c "CREATE EXTENSION abacus" &&
+        pg_prove -d abacus_pgtap "$@"
+}
+
+# The TAP files are copied to where the server's user may write; a small file system of its own is
+# a full disk soon, and where it cannot be mounted, that test is skipped. Call tap_end afterwards.
+tap_begin() {
+    tap_folder=$cluster_folder/tap
+    mkdir "$tap_folder" "$tap_folder/disk"
+    cp -r test/tap/*.p[lm] test/tap/meshes "$tap_folder"
+    if as_root mount -t tmpfs -o size=14m tmpfs "$tap_folder/disk" 2>/dev/null; then
+        tap_disk=$tap_folder/disk
+        mkdir "$tap_disk/space"
+        export ABACUS_SMALL_DISK=$tap_disk/space
+    fi
+    if ((EUID == 0)); then chown -R postgres: "$tap_folder"; fi
+}
+
+tap_end() {
+    if [[ -n ${tap_disk:-} ]]; then as_root umount -l "$tap_disk"; fi
+    tap_disk=
+}
+
+# Crashes, many sessions, dumps, replication, upgrades: in servers that the tests
+# start themselves, as the user who may. One that is interrupted dies, and ends its servers
+# at that. ABACUS_KILLS says how often to kill. Names of files in test/tap; all without arguments.
+tap_tests() {
+    local sources
+    if ((!$#)); then set -- "$tap_folder"/*.pl; else set -- "${@/#/"$tap_folder/"}"; fi
+    sources=$(dirname "$("$PG_CONFIG" --pgxs)")/..
+    cluster_as_server env TESTDIR="$tap_folder" PG_REGRESS="$sources/test/regress/pg_regress" \
+        PERL5OPT=-Msigtrap=die,INT,TERM prove -j "$ABACUS_JOBS" -I "$sources/test/perl" "$@"
+}
+
+# The examples of pages.
+documentation_examples() {
+    if ((!$#)); then set -- docs/sql.md docs/lab.md docs/operations.md README.md; fi
+    scripts/doc_examples.py "$@"
+}
+
+# Python tests of the reports that benchmarks make, and of the scripts; names of files in test/suite.
+report_tests() {
+    python3 -m unittest discover -s test/suite -p "${1:-*_test.py}"
+}

@@ -1,0 +1,1 @@
+\echo Use "CREATE EXTENSION abacus_lab" to load this file. \quit

@@ -1,0 +1,73 @@
+// Points on their way to others that wait, one for each place.
+//
+// Of equal ones, which come one after the other, the last goes on to another stage, and those that
+// wait at its place make room: many at a time, since they are in no order. Or the second point
+// at a place is refused. Only while there is no triangulation: with one, each point meets the
+// vertex it equals.
+#pragma once
+
+#include "delaunay/intake.hpp"
+#include "points/waiting_points.hpp"
+
+namespace abacus {
+
+[[noreturn]] inline void throw_duplicate(const std::string &message) {
+    throw Error(
+        ABACUS_ERROR_DUPLICATE, message, {},
+        "With on_duplicate => 'replace' a point takes the place of those that are there, with "
+        "'keep' it stays beside them.");
+}
+[[noreturn]] inline void throw_duplicate(std::int64_t id) {
+    throw_duplicate("point " + std::to_string(id) + " is at the place of another point");
+}
+
+template <int D> class Build<D>::Distinct final : public RecordSink {
+public:
+    Distinct(Build &build, Stage<D> &onward, bool refuses)
+        : build_(build), stride_(record_words(D, build.attributes_)), onward_(onward),
+          refuses_(refuses), last_(build.host_), waiting_(build.host_, build.attributes_, false) {}
+
+    void add(const std::uint64_t *record) override {
+        if (!last_.empty()) {
+            const bool is_same = record_point<D>(last_.data()) == record_point<D>(record);
+            if (is_same && refuses_) throw_duplicate(record_id(record));
+            if (!is_same) pass_on();
+            last_.clear();
+        }
+        std::copy_n(record, stride_, last_.extend(stride_));
+    }
+    void finish() override {
+        if (!last_.empty()) pass_on();
+        displace();
+    }
+
+    abacus_phase phase() const override { return ABACUS_PHASE_STAGING; }
+    PagesMoved pages_moved() const override {
+        return {build_.core_->cache.counters.loads, build_.core_->cache.counters.stores};
+    }
+
+private:
+    void pass_on() {
+        onward_.add(last_.data(), 1);
+        if (!build_.has_waiting()) return;
+        waiting_.want(record_point<D>(last_.data()), 0, nullptr);
+        if (waiting_.is_full()) displace();
+    }
+    void displace() {
+        if (!build_.has_waiting()) return;
+        const std::uint64_t displaced =
+            waiting_.take_all(build_.header_->inserted, build_.header_->staged);
+        if (displaced > 0 && refuses_)
+            throw_duplicate("a point is at the place of point " +
+                            std::to_string(waiting_.last_taken()) + ", which waits");
+    }
+
+    Build &build_;
+    const std::size_t stride_;
+    Stage<D> &onward_;
+    const bool refuses_;
+    Arena<std::uint64_t> last_; // the record that came last, if any
+    WaitingPoints<D> waiting_;
+};
+
+} // namespace abacus

@@ -1,0 +1,56 @@
+// When taking points out one by one costs more than triangulating those that are left.
+//
+// A removal costs what its star and the hole have of simplices: a few hundred nanoseconds in
+// the plane, but a second where a vertex has a million neighbours, and then its neighbours
+// inherit them. Nobody knows in advance. So what removals have cost so far is counted, in
+// simplices made and destroyed, and what the others will cost is guessed from the last ones.
+// A triangulation anew of n points makes D + 1 times as many simplices as it ends with, or
+// fewer, and destroys most of them; the mesh at hand tells how many those will be.
+//
+// If s has been spent, r is expected of the rest, and b is what the triangulation costs, it
+// is worth it as soon as 4 s r > b². For removals that all cost the same this is never the case
+// if all of them cost less than b, and the later the more they cost beyond that: no more than
+// 1.5 times what would have been best is spent, 1.1 times where there is much to win. The more
+// has been spent, the less is needed to give up.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace abacus {
+
+template <int D> class Outlay {
+public:
+    /// So many points are to be taken away from a mesh of so many vertices and simplices; `effort`
+    /// is what removals have cost before.
+    Outlay(std::uint64_t points, std::uint64_t vertices, std::uint64_t simplices,
+           std::uint64_t effort)
+        : begin_(effort), last_(effort), left_(static_cast<double>(points)) {
+        const auto n = static_cast<double>(vertices);
+        const double a_vertex = 2 * (D + 1) * static_cast<double>(simplices) / std::max(n, 1.0);
+        anew_ = std::max(0.0, n - left_) * a_vertex + n * to_read + left_ * to_look_up;
+    }
+
+    /// With so many more of them done. Whether the others had better be left out of a mesh made
+    /// anew.
+    bool is_too_much(std::uint64_t effort, std::uint64_t done) {
+        const auto each = static_cast<double>(effort - last_) / static_cast<double>(done);
+        last_ = effort;
+        left_ -= static_cast<double>(done);
+        recent_ = recent_ < 0 ? each : recent_ + (each - recent_) / memory;
+        return 4 * static_cast<double>(effort - begin_) * left_ * recent_ > anew_ * anew_;
+    }
+
+private:
+    static constexpr double memory = 16; // points that count as the last ones
+    /// What it costs to read a vertex from the mesh and sort it, to find one that leaves.
+    static constexpr double to_read = D == 2 ? 12 : 50, to_look_up = D == 2 ? 11 : 20;
+
+    const std::uint64_t begin_;
+    std::uint64_t last_;
+    double left_;        // points that are still to be taken away
+    double anew_;        // the cost of a mesh made anew
+    double recent_ = -1; // the cost of one of the last points; negative: of none yet
+};
+
+} // namespace abacus

@@ -1,0 +1,91 @@
+// The points that are left when many leave, to be triangulated anew. Of those that leave the
+// places are noted, and once all are known, the vertices follow. Both go into one stage, which
+// brings points of one place together: who comes in a pair is not of the rest. So it may be larger
+// than memory, as any points to be triangulated.
+#pragma once
+
+#include "points/record.hpp"
+#include "points/record_sink.hpp"
+#include "staging/stage.hpp"
+
+#include <abacus/header.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace abacus {
+
+template <int D> class Rest {
+public:
+    /// Of a mesh with this header.
+    Rest(const Host &host, const abacus_header &header, std::size_t memory)
+        : host_(host), header_(without_vertices(header)), points_(host, header_, memory) {}
+
+    /// The vertex at p leaves.
+    void leave_out(const Point<D> &p) {
+        std::array<std::uint64_t, record_words(D, ABACUS_MAX_ATTRIBUTES)> record{};
+        fill_record<D>(record.data(), 0, p, nullptr, 0);
+        points_.add(record.data(), 1);
+        last_ = p;
+    }
+    /// Whether it is the last one that left.
+    bool has_left_out(const Point<D> &p) const { return last_ == p; }
+    /// A vertex of the mesh; after all that leave.
+    void add(const std::uint64_t *record) { points_.add(record, 1); }
+    /// Hands on the rest.
+    void emit(RecordSink &sink) {
+        Unpaired unpaired(host_, sink, record_words(D, header_.attributes));
+        points_.emit(unpaired, header_);
+    }
+
+private:
+    /// Hands on records that have a place of their own.
+    class Unpaired final : public RecordSink {
+    public:
+        Unpaired(const Host &host, RecordSink &sink, std::size_t stride)
+            : sink_(sink), stride_(stride), held_(host) {}
+
+        void add(const std::uint64_t *record) override {
+            if (held() > 0 && record_point<D>(last()) == record_point<D>(record)) {
+                held_.resize(held_.size() - stride_);
+                return;
+            }
+            if (held() == most) pass_on();
+            std::copy_n(record, stride_, held_.extend(stride_));
+        }
+        void finish() override {
+            pass_on();
+            sink_.finish();
+        }
+        abacus_phase phase() const override { return sink_.phase(); }
+        PagesMoved pages_moved() const override { return sink_.pages_moved(); }
+
+    private:
+        static constexpr std::size_t most = 256;
+
+        std::size_t held() const { return held_.size() / stride_; }
+        const std::uint64_t *last() const { return held_.end() - stride_; }
+        void pass_on() {
+            if (held() > 0) sink_.add(held_.data(), held(), stride_);
+            held_.clear();
+        }
+
+        RecordSink &sink_;
+        const std::size_t stride_;
+        Arena<std::uint64_t> held_;
+    };
+
+    /// None are where the points go.
+    static abacus_header without_vertices(abacus_header header) {
+        header.vertices = 0;
+        return header;
+    }
+
+    const Host &host_;
+    const abacus_header header_;
+    Stage<D> points_;
+    std::optional<Point<D>> last_;
+};
+
+} // namespace abacus

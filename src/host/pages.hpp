@@ -1,0 +1,36 @@
+// Pages of bytes under keys, by kind. For the session's thread.
+#pragma once
+
+#include "host/error.hpp"
+
+namespace abacus {
+
+class Pages {
+public:
+    explicit Pages(const abacus_host &table) : table_(&table) {}
+
+    /// The page with the greatest key that is not above this one; false when there is none.
+    bool find(abacus_page_kind kind, abacus_key key, abacus_page &page) const {
+        return host::found(table_->find(table_->context, kind, key, &page));
+    }
+    /// The page at page.location; false when it is no longer there.
+    bool fetch(abacus_page_kind kind, abacus_page &page) const {
+        return host::found(table_->fetch(table_->context, kind, &page));
+    }
+    /// The page with the least key above this one, the first if it is null.
+    bool next(abacus_page_kind kind, const abacus_key *key, abacus_page &page) const {
+        return host::found(table_->next(table_->context, kind, key, &page));
+    }
+    /// Stores the page, in place of the version at page.location unless that is 0.
+    void put(abacus_page_kind kind, abacus_page &page) const {
+        host::require(table_->put(table_->context, kind, &page));
+    }
+    void erase(abacus_page_kind kind, const abacus_page &page) const {
+        host::require(table_->erase(table_->context, kind, &page));
+    }
+
+private:
+    const abacus_host *table_;
+};
+
+} // namespace abacus

@@ -1,0 +1,49 @@
+// Appending: pages of a mesh that comes in the order of keys, as when it is loaded. Each is
+// put together as a block like any other, so that there is one way only to make a page.
+#include "mesh/cache.hpp"
+
+namespace abacus {
+
+template <int D> VertexIndex Cache<D>::appended_vertex(const std::uint64_t *record) {
+    if (record == nullptr) return infinite_vertex;
+    Point<D> p;
+    std::memcpy(p.data(), record + 1, sizeof p);
+    VertexIndex v = vertices_.find_shared(p);
+    if (v == infinite_vertex) {
+        std::int64_t id;
+        std::memcpy(&id, record, sizeof id);
+        v = vertices_.create(p, domain_.code(p), id,
+                             reinterpret_cast<const double *>(record + 1 + D));
+        vertices_.share(v);
+    }
+    return v;
+}
+
+template <int D>
+bool Cache<D>::append(const Key &lower, const Key &upper, const LooseSimplex<D> *simplices,
+                      std::size_t n) {
+    const BlockIndex b = this->begin_appended(lower, upper, n);
+    const Handle first = first_of(b);
+    for (std::size_t s = 0; s < n; ++s) {
+        Simplex<D> &simplex = slots_[first + s];
+        for (int i = 0; i <= D; ++i) {
+            simplex.vertex[i] = appended_vertex(simplices[s].vertex[i]);
+            vertices_.acquire(simplex.vertex[i]);
+        }
+    }
+    for (std::size_t s = 0; s < n; ++s)
+        for (int i = 0; i <= D; ++i) {
+            const Link link = make_link(first + static_cast<Handle>(s), i);
+            Simplex<D> &simplex = slots_[first + s];
+            if (is_loose_ridge<D>(options_.linked_ghosts, simplex.is_ghost(), i))
+                simplex.link[i] = link;
+            else
+                link_outside(link, hash(link), simplices[s].beyond[i]);
+        }
+    return this->end_appended(b);
+}
+
+template class Cache<2>;
+template class Cache<3>;
+
+} // namespace abacus

@@ -1,0 +1,72 @@
+/*
+ * settings.c: the extension's settings.
+ */
+#include "postgres.h"
+
+#include <limits.h>
+
+#include "miscadmin.h"
+#include "utils/guc.h"
+
+#include "pg/base/settings.h"
+
+static int	cache_size_mb = 128;
+static int	fail_host_call = 0;
+static bool vacuum_moves_rows = true;
+
+int			setting_calls_to_failure = 0;
+
+static void
+assign_fail_host_call(int value, void *extra)
+{
+	setting_calls_to_failure = value;
+}
+
+void
+settings_define(void)
+{
+	DefineCustomIntVariable("abacus.cache_size",
+							"Sets the size of the computational cache of a mesh.",
+							"A build has one; a session keeps one for each of the last four "
+							"meshes it has read.",
+							&cache_size_mb, 128, 1, 16 * 1024 * 1024, PGC_USERSET, GUC_UNIT_MB,
+							NULL, NULL, NULL);
+	DefineCustomIntVariable("abacus.fail_host_call",
+							"Makes the core's n-th call of the database fail, once.",
+							"Counted from the moment of setting; 0 means none. For tests.",
+							&fail_host_call, 0, 0, INT_MAX, PGC_SUSET,
+							GUC_NOT_IN_SAMPLE, NULL, assign_fail_host_call, NULL);
+	DefineCustomBoolVariable("abacus.vacuum_moves_rows",
+							 "Lets VACUUM move the rows of meshes to the beginning of their tables.",
+							 "So it can cut the files.",
+							 &vacuum_moves_rows, true, PGC_USERSET, 0, NULL, NULL, NULL);
+	MarkGUCPrefixReserved("abacus");
+}
+
+/* Bytes that a computational cache may take. */
+size_t
+setting_cache_bytes(void)
+{
+	return (size_t) cache_size_mb * 1024 * 1024;
+}
+
+/* Bytes that bringing points into order may take, for a change of a mesh. */
+size_t
+setting_sort_bytes(void)
+{
+	return (size_t) maintenance_work_mem * 1024;
+}
+
+/* The same for a query. */
+size_t
+setting_query_sort_bytes(void)
+{
+	return (size_t) work_mem * 1024;
+}
+
+/* Whether VACUUM moves the rows of meshes before it cuts their files. */
+bool
+setting_vacuum_moves_rows(void)
+{
+	return vacuum_moves_rows;
+}

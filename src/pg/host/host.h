@@ -1,0 +1,78 @@
+/*
+ * host.h: the database as the core sees it, and the way errors go between
+ * the two.
+ *
+ * A Host joins one abacus_host table and one core handle. Its parts have files
+ * of their own: memory (host_memory.c), control (host_control.c: interrupts and
+ * progress), pages (host_pages.c) and spools (host_spools.c). Every call of the
+ * core goes through host_run(), which gives the place for the core's own error
+ * as the last argument:
+ *
+ *     status = host_run(host, abacus_scan_next, scan, &simplex);
+ *
+ * It returns only ABACUS_OK or ABACUS_END; a failure is raised as an ERROR once
+ * the core has returned and no C++ frame is left.
+ *
+ * Pages are of kinds. Who knows how the pages of a kind are stored registers
+ * functions for it; a host without any has memory, control and spools.
+ */
+#ifndef ABACUS_HOST_H
+#define ABACUS_HOST_H
+
+#include "abacus/host.h"
+
+#include "pg/host/progress.h"
+
+/* How the pages of a kind are found and stored: as in abacus_host, but by PostgreSQL's errors. */
+typedef struct HostPageFunctions
+{
+	bool		(*find) (void *owner, abacus_page_kind kind, abacus_key key, abacus_page *page);
+	bool		(*fetch) (void *owner, abacus_page_kind kind, abacus_page *page);
+	bool		(*next) (void *owner, abacus_page_kind kind, const abacus_key *key,
+						 abacus_page *page);
+	void		(*put) (void *owner, abacus_page_kind kind, abacus_page *page);
+	void		(*erase) (void *owner, abacus_page_kind kind, const abacus_page *page);
+	void		(*doubt) (void *owner); /* pages do not fit together: an error if our snapshot is why */
+	void		(*release) (void *owner);	/* relations, scans, pins; more than once does no harm */
+} HostPageFunctions;
+
+typedef struct HostPageKind
+{
+	const HostPageFunctions *functions;
+	void	   *owner;
+} HostPageKind;
+
+typedef struct Host
+{
+	abacus_host table;			/* what the core is given; its context is this Host */
+	abacus_error failure;		/* the core's own error */
+	ErrorData  *error;			/* PostgreSQL's error, kept until the core has returned */
+	bool		busy;			/* in a core call, or left in one by an error */
+	HostPageKind pages[ABACUS_MAX_PAGE_KINDS];
+	Progress	progress;
+	struct StoredNames *names;	/* of attributes, where they are converted: header.c */
+	MemoryContext home;			/* of this struct and the open tables */
+	MemoryContext core;			/* of the core's handle */
+	MemoryContext errors;		/* of `error` */
+	void	   *handle;			/* the core handle, if one is open */
+	void		(*close) (void *handle);
+} Host;
+
+extern Host *host_create(MemoryContext parent);
+extern void host_register_pages(Host *host, abacus_page_kind kind,
+								const HostPageFunctions *functions, void *owner);
+extern void host_own(Host *host, void *handle, void (*close) (void *handle));
+extern void host_doubt_pages(Host *host);
+extern void host_release(Host *host);
+extern void host_destroy(Host *host);
+
+extern void host_enter(Host *host);
+extern abacus_status host_leave(Host *host, abacus_status status);
+
+#define host_run(host, function, ...) \
+	host_check((host), function(__VA_ARGS__, &(host)->failure))
+
+/* The same around a call that says by itself where its error goes. */
+#define host_check(host, call) (host_enter(host), host_leave((host), (call)))
+
+#endif

@@ -1,0 +1,101 @@
+/*
+ * progress.c: live figures of a build, or of other long work, that other sessions can read.
+ *
+ * Every backend has progress slots in shared memory, but only for core
+ * commands. We report as CREATE INDEX, which also builds something ordered
+ * out of a scan: pg_stat_progress_create_index shows "building index" with
+ * tuples done and in all. What it has no name for goes into slots it does not
+ * use, and a magic value in the last of them tells the view abacus_progress
+ * (sql/install/80-progress.sql, which knows the numbers below) that the row
+ * is ours. An aborting transaction clears the slots by itself.
+ */
+#include "postgres.h"
+
+#include "commands/progress.h"
+#include "utils/backend_progress.h"
+#include "utils/backend_status.h"
+#include "utils/timestamp.h"
+
+#include "pg/host/progress.h"
+
+/* Slots that CREATE INDEX leaves free; the view's param numbers are one higher. */
+#define PROGRESS_ABACUS_PAGES_READ 1
+#define PROGRESS_ABACUS_PAGES_WRITTEN 2
+#define PROGRESS_ABACUS_PHASE_START 17	/* microseconds since 2000-01-01 */
+#define PROGRESS_ABACUS_START 18
+#define PROGRESS_ABACUS_MAGIC 19
+
+#define PROGRESS_MAGIC INT64CONST(0x616261637573)	/* "abacus" */
+
+/*
+ * Nothing, where this is part of a command that reports progress of its own: COPY of
+ * our rows or into a table that a mesh follows, or a function of ours whose source
+ * query this is.
+ */
+void
+progress_begin(Progress *state, Oid mesh)
+{
+	static const int slots[] = {
+		PROGRESS_CREATEIDX_PHASE, PROGRESS_ABACUS_START, PROGRESS_ABACUS_PHASE_START,
+		PROGRESS_ABACUS_MAGIC
+	};
+	int64		now = GetCurrentTimestamp();
+	int64		values[] = {PROGRESS_CREATEIDX_PHASE_BUILD, now, now, PROGRESS_MAGIC};
+
+	MemSet(state, 0, sizeof(*state));
+	if (MyBEEntry == NULL || MyBEEntry->st_progress_command != PROGRESS_COMMAND_INVALID)
+		return;
+	pgstat_progress_start_command(PROGRESS_COMMAND_CREATE_INDEX, mesh);
+	pgstat_progress_update_multi_param(lengthof(slots), slots, values);
+	state->active = true;
+}
+
+/* The figures shall be those of all batches together, of `total` points. */
+void
+progress_in_batches(Progress *state, uint64 total)
+{
+	state->total = total;
+}
+
+/* What the batch that has ended did. */
+void
+progress_batch_done(Progress *state, uint64 done, uint64 pages_read, uint64 pages_written)
+{
+	state->earlier_done += done;
+	state->earlier_read += pages_read;
+	state->earlier_written += pages_written;
+}
+
+void
+progress_report(Progress *state, const abacus_progress *progress)
+{
+	static const int slots[] = {
+		PROGRESS_CREATEIDX_SUBPHASE, PROGRESS_CREATEIDX_TUPLES_TOTAL,
+		PROGRESS_CREATEIDX_TUPLES_DONE, PROGRESS_ABACUS_PAGES_READ, PROGRESS_ABACUS_PAGES_WRITTEN
+	};
+	int64		values[] = {
+		progress->phase, (int64) (state->total != 0 ? state->total : progress->total),
+		(int64) (state->earlier_done + progress->done),
+		(int64) (state->earlier_read + progress->pages_read),
+		(int64) (state->earlier_written + progress->pages_written)
+	};
+
+	if (!state->active)
+		return;
+	if (progress->phase != state->phase)
+	{
+		/* phases that return with each batch are one: the rate is that of all batches */
+		if (state->total == 0 || state->phase == 0)
+			pgstat_progress_update_param(PROGRESS_ABACUS_PHASE_START, GetCurrentTimestamp());
+		state->phase = progress->phase;
+	}
+	pgstat_progress_update_multi_param(lengthof(slots), slots, values);
+}
+
+void
+progress_end(Progress *state)
+{
+	if (state->active)
+		pgstat_progress_end_command();
+	state->active = false;
+}

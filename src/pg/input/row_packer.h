@@ -1,0 +1,61 @@
+/*
+ * row_packer.h: rows from the executor into the core's records of points, or of
+ * simplices.
+ */
+#ifndef ABACUS_ROW_PACKER_H
+#define ABACUS_ROW_PACKER_H
+
+#include "abacus/header.h"
+
+#include "tcop/dest.h"
+
+/* How a column's Datum becomes an eight-byte word. */
+typedef enum PackKind
+{
+	PACK_FLOAT8,
+	PACK_FLOAT4,
+	PACK_INT2,
+	PACK_INT4,
+	PACK_INT8,
+	PACK_NUMERIC,
+	PACK_NULL					/* of no type that can be read: NULLs only */
+} PackKind;
+
+/* Where rows come from, for messages. */
+typedef struct RowOrigin
+{
+	const char *columns_of;
+	const char *rows_of;
+	const char *type_hint;		/* what to do about a type that cannot be read */
+	const char *geometry_hint;	/* ... that is a geometry: begins a sentence, or NULL */
+	const char *value_hint;		/* ... and a row that cannot be placed */
+	bool		bare_nulls;		/* an attribute may be NULL without a cast */
+} RowOrigin;
+
+typedef struct RowPacker
+{
+	DestReceiver receiver;
+	const RowOrigin *origin;
+	const abacus_header *header;
+	int			columns;		/* id, coordinates, attributes; or ids */
+	int			ids;			/* columns of ids: 1, or all */
+	PackKind   *kinds;
+	bool		any_numeric;
+	bool		any_null;		/* of kind PACK_NULL */
+	uint64	   *points;			/* records: room for a batch */
+	size_t		count;
+	uint64		row;			/* rows seen, for messages */
+	MemoryContext scratch;		/* of conversions; emptied at each batch */
+} RowPacker;
+
+extern const char *row_packer_column(const abacus_header *header, int column);
+extern RowPacker *row_packer_create(TupleDesc desc, const abacus_header *header, size_t batch);
+extern RowPacker *row_packer_create_places(TupleDesc desc, const abacus_header *header,
+										   size_t batch);
+extern RowPacker *row_packer_create_tracked(TupleDesc desc, const abacus_header *header,
+											size_t batch);
+extern RowPacker *row_packer_create_simplices(TupleDesc desc, const abacus_header *header,
+											  size_t batch);
+extern void row_packer_reset(RowPacker *packer);
+
+#endif

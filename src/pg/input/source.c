@@ -1,0 +1,214 @@
+/*
+ * source.c: the user's query, read through a portal in batches.
+ *
+ * SPI parses, plans and opens it as the caller, read-only; the rows then go
+ * from the executor straight into a DestReceiver (row_packer.c), so no row is
+ * ever copied into a tuple table and the result is never held as a whole.
+ *
+ * From source_prepare() to source_finish() SPI is connected.
+ */
+#include "postgres.h"
+
+#include <ctype.h>
+
+#include "common/keywords.h"
+#include "mb/pg_wchar.h"
+#include "nodes/nodeFuncs.h"
+#include "nodes/parsenodes.h"
+#include "tcop/pquery.h"
+#include "utils/memutils.h"
+#include "utils/plancache.h"
+#include "utils/portal.h"
+
+#include "pg/input/source.h"
+
+#define ROWS_A_BATCH 1024
+
+static CachedPlanSource *
+plan_source(const Source *source)
+{
+	return linitial(SPI_plan_get_plan_sources(source->plan));
+}
+
+/* Whether a query, or one within it, locks rows. */
+static bool
+locks_rows(Node *node, void *context)
+{
+	if (node == NULL)
+		return false;
+	if (!IsA(node, Query))
+		return expression_tree_walker(node, locks_rows, context);
+	return ((Query *) node)->rowMarks != NIL ||
+		query_tree_walker((Query *) node, locks_rows, context, 0);
+}
+
+/* Past a comment, which may have others in it; what is no comment is left as it is. */
+static const char *
+skip_comment(const char *text)
+{
+	int			depth = 0;
+
+	if (strncmp(text, "--", 2) == 0)
+		return text + strcspn(text, "\r\n");
+	do
+	{
+		int			change = strncmp(text, "/*", 2) == 0 ? 1 : strncmp(text, "*/", 2) == 0 ? -1 : 0;
+
+		if (depth == 0 && change <= 0)
+			return text;
+		depth += change;
+		text += change != 0 ? 2 : 1;
+	} while (depth > 0 && *text != '\0');
+	return text;
+}
+
+/* Past all that may come before the first word: white space, comments, parentheses. */
+static const char *
+skip_to_word(const char *text)
+{
+	const char *from;
+
+	do
+	{
+		from = text;
+		text = skip_comment(text + strspn(text, " \t\n\r\f\v(;"));
+	} while (text != from);
+	return text;
+}
+
+static bool
+is_word_of_sql(const char *text)
+{
+	char		word[NAMEDATALEN];
+	int			length = 0;
+
+	for (; length < NAMEDATALEN - 1 && (isalnum((unsigned char) *text) || *text == '_'); text++)
+		word[length++] = pg_ascii_tolower((unsigned char) *text);
+	word[length] = '\0';
+	return ScanKeywordLookup(word, &ScanKeywords) >= 0;
+}
+
+/*
+ * What begins with no word of SQL is no query, but most often a value that was cast to text
+ * without being asked: a geometry has an implicit cast.
+ */
+static void
+check_is_query(const char *query)
+{
+	const int	most = 40;
+	const char *word = skip_to_word(query);
+	int			length = pg_mbcliplen(query, strlen(query), most);
+
+	if (*word == '\0' || is_word_of_sql(word))
+		return;
+	ereport(ERROR,
+			(errcode(ERRCODE_SYNTAX_ERROR),
+			 errmsg("this is no query: \"%.*s%s\"", length, query,
+					query[length] == '\0' ? "" : "..."),
+			 errdetail("A query begins with SELECT, VALUES, TABLE or WITH."),
+			 errhint("Of a geometry give the coordinates, ST_X(geom) and ST_Y(geom), or use the "
+					 "functions of the extension abacus_postgis.")));
+}
+
+/* Parses the query; anything but one plain SELECT is refused. */
+void
+source_prepare(Source *source, const char *query)
+{
+	List	   *sources;
+	bool		selects;
+
+	MemSet(source, 0, sizeof(*source));
+	source->query = query;
+	check_is_query(query);
+	SPI_connect();
+	source->plan = SPI_prepare_cursor(query, 0, NULL, CURSOR_OPT_NO_SCROLL);
+	if (source->plan == NULL)
+		elog(ERROR, "could not prepare the query: %s", SPI_result_code_string(SPI_result));
+
+	sources = SPI_plan_get_plan_sources(source->plan);
+	selects = list_length(sources) == 1;
+	if (selects)
+	{
+		List	   *queries = plan_source(source)->query_list;
+		Query	   *parsed = list_length(queries) == 1 ? linitial_node(Query, queries) : NULL;
+
+		selects = parsed != NULL && parsed->commandType == CMD_SELECT &&
+			!parsed->hasModifyingCTE && !locks_rows((Node *) parsed, NULL);
+	}
+	if (!selects)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("source query must be a single SELECT that changes and locks nothing"),
+				 errhint("For example: SELECT id, x, y FROM points.")));
+}
+
+int
+source_columns(const Source *source)
+{
+	return plan_source(source)->resultDesc->natts;
+}
+
+const char *
+source_column_name(const Source *source, int column)
+{
+	return NameStr(TupleDescAttr(plan_source(source)->resultDesc, column)->attname);
+}
+
+/* Starts reading points for a mesh with this header. */
+void
+source_open(Source *source, const abacus_header *header)
+{
+	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
+	source->packer = row_packer_create(source->portal->tupDesc, header, ROWS_A_BATCH);
+}
+
+/* Starts reading places: points without attributes, whatever other columns there are. */
+void
+source_open_places(Source *source, const abacus_header *header)
+{
+	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
+	source->packer = row_packer_create_places(source->portal->tupDesc, header, ROWS_A_BATCH);
+}
+
+/* Starts reading simplices, by the ids of their vertices. */
+void
+source_open_simplices(Source *source, const abacus_header *header)
+{
+	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
+	source->packer = row_packer_create_simplices(source->portal->tupDesc, header, ROWS_A_BATCH);
+}
+
+/* Errors while reading say which query they come from, as SPI's do. */
+static void
+describe_query(void *query)
+{
+	errcontext("SQL statement \"%s\"", (const char *) query);
+}
+
+/* Reads on; the records stay valid until the next call. 0 at the end. */
+size_t
+source_fetch(Source *source, const uint64 **points)
+{
+	ErrorContextCallback context = {error_context_stack, describe_query,
+									unconstify(char *, source->query)};
+
+	error_context_stack = &context;
+	row_packer_reset(source->packer);
+	PortalRunFetch(source->portal, FETCH_FORWARD, ROWS_A_BATCH, &source->packer->receiver);
+	error_context_stack = context.previous;
+	*points = source->packer->points;
+	return source->packer->count;
+}
+
+void
+source_close(Source *source)
+{
+	SPI_cursor_close(source->portal);
+	source->portal = NULL;
+}
+
+void
+source_finish(Source *source)
+{
+	SPI_finish();
+}

@@ -1,0 +1,30 @@
+/*
+ * source.h: the user's query that yields points (id, x, y[, z][, attribute...]), or
+ * simplices (v0, v1, v2[, v3]).
+ */
+#ifndef ABACUS_SOURCE_H
+#define ABACUS_SOURCE_H
+
+#include "executor/spi.h"
+
+#include "pg/input/row_packer.h"
+
+typedef struct Source
+{
+	const char *query;
+	SPIPlanPtr	plan;
+	Portal		portal;			/* NULL while not reading */
+	RowPacker  *packer;
+} Source;
+
+extern void source_prepare(Source *source, const char *query);
+extern int	source_columns(const Source *source);
+extern const char *source_column_name(const Source *source, int column);
+extern void source_open(Source *source, const abacus_header *header);
+extern void source_open_places(Source *source, const abacus_header *header);
+extern void source_open_simplices(Source *source, const abacus_header *header);
+extern size_t source_fetch(Source *source, const uint64 **points);
+extern void source_close(Source *source);
+extern void source_finish(Source *source);
+
+#endif

@@ -1,0 +1,34 @@
+/*
+ * page_store.h: the two tables of a mesh as the core's page operations.
+ */
+#ifndef ABACUS_PAGE_STORE_H
+#define ABACUS_PAGE_STORE_H
+
+#include "abacus/header.h"
+
+#include "pg/host/host.h"
+#include "pg/mesh/mesh.h"
+#include "pg/store/page_table.h"
+
+typedef struct MeshPages
+{
+	Oid			mesh;
+	MeshAccess	access;
+	PageTable	simplices;
+	PageTable	vertices;		/* its OID is looked up when first needed */
+} MeshPages;
+
+extern Host *mesh_host_create(MemoryContext parent, Oid mesh, MeshAccess access);
+extern Oid	mesh_pages_vertex_table(MeshPages *pages);
+
+extern bool mesh_pages_any(MeshPages *pages, abacus_page_kind kind);
+extern void mesh_pages_expect_moves(MeshPages *pages);
+
+/* Those of a host that mesh_host_create() has made. */
+static inline MeshPages *
+mesh_pages(const Host *host)
+{
+	return host->pages[ABACUS_SIMPLEX_PAGES].owner;
+}
+
+#endif

@@ -1,0 +1,12 @@
+/*
+ * notices.h: what is no error, but what nobody expects of a change.
+ */
+#ifndef ABACUS_NOTICES_H
+#define ABACUS_NOTICES_H
+
+#include "pg/mesh/writer.h"
+
+extern void notice_duplicates(const Writer *writer, uint64 before, bool hint);
+extern void notice_waiting(const Writer *writer);
+
+#endif

@@ -1,0 +1,143 @@
+/*
+ * shape.c: what a new mesh is to be: dimension, attributes, domain.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "catalog/pg_type.h"
+#include "utils/builtins.h"
+
+#include "pg/mesh/header.h"
+#include "pg/mesh/shape.h"
+
+void
+shape_dimension(abacus_header *header, int32 dimension)
+{
+	if (dimension < 2 || dimension > ABACUS_MAX_DIMENSION)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("dimension must be 2 or 3, not %d", dimension)));
+	header->dimension = (uint32) dimension;
+}
+
+void
+shape_check_name(const char *name)
+{
+	if (name[0] == '\0' || strlen(name) >= ABACUS_NAME_BYTES)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_NAME),
+				 errmsg("invalid attribute name \"%s\"", name),
+				 errhint("A name has 1 to %d bytes.", ABACUS_NAME_BYTES - 1)));
+}
+
+/* Adds one attribute. */
+void
+shape_attribute(abacus_header *header, const char *name)
+{
+	if (header->attributes == ABACUS_MAX_ATTRIBUTES)
+		ereport(ERROR,
+				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
+				 errmsg("a mesh can have at most %d attributes", ABACUS_MAX_ATTRIBUTES)));
+	shape_check_name(name);
+	if (header_attribute(header, name) >= 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_DUPLICATE_COLUMN),
+				 errmsg("attribute \"%s\" is named twice", name),
+				 errhint("Attributes taken from a query have the names of its columns; "
+						 "give each its own with AS.")));
+	strlcpy(header->names[header->attributes++], name, ABACUS_NAME_BYTES);
+}
+
+/* Elements of a one-dimensional array without NULLs; `what` names it for messages. */
+static Datum *
+plain_elements(ArrayType *array, const char *what, Oid type, int16 length, bool by_value,
+			   char align, int *count)
+{
+	Datum	   *elements;
+
+	if (ARR_NDIM(array) > 1 || array_contains_nulls(array))
+		ereport(ERROR,
+				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
+				 errmsg("%s must be a one-dimensional array without NULLs", what)));
+	deconstruct_array(array, type, length, by_value, align, &elements, NULL, count);
+	return elements;
+}
+
+/* Elements of a text[]. */
+Datum *
+shape_names(ArrayType *names, const char *what, int *count)
+{
+	return plain_elements(names, what, TEXTOID, -1, false, TYPALIGN_INT, count);
+}
+
+/* Adds all attributes of a text[]. */
+void
+shape_attributes(abacus_header *header, ArrayType *names)
+{
+	int			count;
+	Datum	   *elements = shape_names(names, "attributes", &count);
+
+	for (int i = 0; i < count; i++)
+		shape_attribute(header, TextDatumGetCString(elements[i]));
+}
+
+/* Reads a float8[] with as many elements as the mesh has dimensions. */
+void
+shape_point(const abacus_header *header, ArrayType *point, const char *what, double *values)
+{
+	int			count;
+	Datum	   *elements = plain_elements(point, what, FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
+										  TYPALIGN_DOUBLE, &count);
+
+	if (count != (int) header->dimension)
+		ereport(ERROR,
+				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
+				 errmsg("%s has %d elements, but the mesh has dimension %u", what, count,
+						header->dimension)));
+	for (int i = 0; i < count; i++)
+		values[i] = DatumGetFloat8(elements[i]);
+}
+
+/* Reads a float8[] of two finite values, the lesser one first. */
+void
+shape_range(ArrayType *range, const char *what, double *values)
+{
+	int			count;
+	Datum	   *elements = plain_elements(range, what, FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
+										  TYPALIGN_DOUBLE, &count);
+
+	if (count != 2)
+		ereport(ERROR,
+				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
+				 errmsg("%s has %d elements, not 2", what, count)));
+	for (int i = 0; i < count; i++)
+		values[i] = DatumGetFloat8(elements[i]);
+	if (!isfinite(values[0]) || !isfinite(values[1]) || !(values[0] < values[1]))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("%s must be two finite values, the lesser one first", what)));
+}
+
+/* The domain, if both corners are given; else it comes from the first points. */
+void
+shape_domain(abacus_header *header, ArrayType *lower, ArrayType *upper)
+{
+	if (lower == NULL && upper == NULL)
+		return;
+	if (lower == NULL || upper == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("lower and upper must be given together"),
+				 errhint("Leave both out to take them from the points.")));
+	shape_point(header, lower, "lower", header->lower);
+	shape_point(header, upper, "upper", header->upper);
+	for (uint32 i = 0; i < header->dimension; i++)
+		if (!isfinite(header->lower[i]) || !isfinite(header->upper[i]) ||
+			!(header->lower[i] < header->upper[i]))
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("lower must be less than upper, and both finite, on axis %c",
+							"xyz"[i])));
+	header->has_domain = 1;
+}

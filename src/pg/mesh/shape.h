@@ -1,0 +1,21 @@
+/*
+ * shape.h: what a new mesh is to be, by the arguments of an SQL function.
+ */
+#ifndef ABACUS_SHAPE_H
+#define ABACUS_SHAPE_H
+
+#include "utils/array.h"
+
+#include "abacus/header.h"
+
+extern void shape_dimension(abacus_header *header, int32 dimension);
+extern void shape_check_name(const char *name);
+extern void shape_attribute(abacus_header *header, const char *name);
+extern Datum *shape_names(ArrayType *names, const char *what, int *count);
+extern void shape_attributes(abacus_header *header, ArrayType *names);
+extern void shape_point(const abacus_header *header, ArrayType *point, const char *what,
+						double *values);
+extern void shape_range(ArrayType *range, const char *what, double *values);
+extern void shape_domain(abacus_header *header, ArrayType *lower, ArrayType *upper);
+
+#endif

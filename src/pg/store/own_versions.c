@@ -1,0 +1,193 @@
+/*
+ * own_versions.c: rows that a transaction has both made and replaced, pruned before it ends.
+ *
+ * PostgreSQL prunes what is dead to everybody, and nothing of a transaction in progress. But
+ * a row that nobody can see any more (own_sight.c) is as dead now as it will be after the
+ * commit, or the rollback; and who changes a mesh point by point in one transaction leaves
+ * thousands of them.
+ *
+ * This does to a heap page what PostgreSQL's pruning does, by the same function and the same record of the
+ * write-ahead log, under the same lock: nobody else has the page pinned. Line pointers stay, as dead ones,
+ * until VACUUM has removed what the index has of them; a chain of versions on one page (HOT) keeps its first
+ * line pointer, which leads to the first version that is left. A standby replays it
+ * as any pruning, and has no snapshot that could be in its way: none ever saw the rows.
+ *
+ * The version before, of another transaction, points to one that is gone. Who follows it, as only
+ * a row lock of a user's own on a mesh's table does, finds what he would after a DELETE.
+ */
+#include "postgres.h"
+
+#include "access/heapam.h"
+#include "access/heapam_xlog.h"
+#include "access/htup_details.h"
+#include "access/xact.h"
+#include "access/xloginsert.h"
+#include "miscadmin.h"
+#include "storage/bufmgr.h"
+
+#include "pg/store/heap_room.h"
+#include "pg/store/own_versions.h"
+
+/* What is to be done to the line pointers of a heap page. */
+typedef struct Pruning
+{
+	int			redirected_count;
+	int			dead_count;
+	int			unused_count;
+	OffsetNumber redirected[MaxHeapTuplesPerPage * 2];	/* from, to */
+	OffsetNumber dead[MaxHeapTuplesPerPage];
+	OffsetNumber unused[MaxHeapTuplesPerPage];
+} Pruning;
+
+/* Whether our own transaction has made the row at *tid. */
+bool
+own_versions_has(Relation heap, ItemPointer tid)
+{
+	Buffer		buffer = ReadBuffer(heap, ItemPointerGetBlockNumber(tid));
+	Page		page = BufferGetPage(buffer);
+	bool		has = false;
+
+	LockBuffer(buffer, BUFFER_LOCK_SHARE);
+	if (ItemPointerGetOffsetNumber(tid) <= PageGetMaxOffsetNumber(page))
+	{
+		ItemId		item = PageGetItemId(page, ItemPointerGetOffsetNumber(tid));
+
+		has = ItemIdIsNormal(item) &&
+			TransactionIdIsCurrentTransactionId(HeapTupleHeaderGetXmin((HeapTupleHeader) PageGetItem(page, item)));
+	}
+	UnlockReleaseBuffer(buffer);
+	return has;
+}
+
+/* The row at a line pointer, or NULL. */
+static HeapTupleHeader
+row_at(Page page, OffsetNumber offset)
+{
+	ItemId		item;
+
+	if (offset < FirstOffsetNumber || offset > PageGetMaxOffsetNumber(page))
+		return NULL;
+	item = PageGetItemId(page, offset);
+	return ItemIdIsNormal(item) ? (HeapTupleHeader) PageGetItem(page, item) : NULL;
+}
+
+/*
+ * Goes along the chain of versions that begins at a line pointer, as long as they are
+ * past. Those lose their places, all but the first, to which an index leads.
+ */
+static void
+judge_chain(Page page, OffsetNumber first, const OwnSight *sight, Pruning *pruning)
+{
+	ItemId		item = PageGetItemId(page, first);
+	OffsetNumber at = ItemIdIsRedirected(item) ? ItemIdGetRedirect(item) : first;
+	int			unused_before = pruning->unused_count;
+	int			past = 0;
+	bool		has_more = true;
+	TransactionId replaced_by = InvalidTransactionId;
+
+	while (has_more)
+	{
+		HeapTupleHeader row = row_at(page, at);
+
+		if (row == NULL || (past > 0 && HeapTupleHeaderGetRawXmin(row) != replaced_by))
+		{
+			pruning->unused_count = unused_before;	/* nothing that we understand */
+			return;
+		}
+		if (!own_sight_is_past(sight, row))
+			break;
+		past++;
+		if (at != first)
+			pruning->unused[pruning->unused_count++] = at;
+		replaced_by = HeapTupleHeaderGetRawXmax(row);
+		has_more = HeapTupleHeaderIsHotUpdated(row);
+		if (has_more)
+			at = ItemPointerGetOffsetNumber(&row->t_ctid);
+	}
+	if (past == 0)
+		return;
+	if (!has_more)
+		pruning->dead[pruning->dead_count++] = first;
+	else
+	{
+		pruning->redirected[pruning->redirected_count * 2] = first;
+		pruning->redirected[pruning->redirected_count * 2 + 1] = at;
+		pruning->redirected_count++;
+	}
+}
+
+static void
+judge_page(Page page, const OwnSight *sight, Pruning *pruning)
+{
+	pruning->redirected_count = pruning->dead_count = pruning->unused_count = 0;
+	for (OffsetNumber offset = FirstOffsetNumber; offset <= PageGetMaxOffsetNumber(page); offset++)
+	{
+		HeapTupleHeader row = row_at(page, offset);
+
+		if (ItemIdIsRedirected(PageGetItemId(page, offset)) || (row != NULL && !HeapTupleHeaderIsHeapOnly(row)))
+			judge_chain(page, offset, sight, pruning);
+	}
+}
+
+/* Does what heap_page_prune() does in the end. */
+static void
+execute(Relation heap, Buffer buffer, Pruning *pruning)
+{
+	Page		page = BufferGetPage(buffer);
+
+	START_CRIT_SECTION();
+	heap_page_prune_execute(buffer, pruning->redirected, pruning->redirected_count, pruning->dead,
+							pruning->dead_count, pruning->unused, pruning->unused_count);
+	PageClearFull(page);
+	MarkBufferDirty(buffer);
+	if (RelationNeedsWAL(heap))
+	{
+		xl_heap_prune record;
+		XLogRecPtr	end;
+
+		record.latestRemovedXid = InvalidTransactionId;
+		record.nredirected = pruning->redirected_count;
+		record.ndead = pruning->dead_count;
+		XLogBeginInsert();
+		XLogRegisterData((char *) &record, SizeOfHeapPrune);
+		XLogRegisterBuffer(0, buffer, REGBUF_STANDARD);
+		if (pruning->redirected_count > 0)
+			XLogRegisterBufData(0, (char *) pruning->redirected,
+								pruning->redirected_count * sizeof(OffsetNumber) * 2);
+		if (pruning->dead_count > 0)
+			XLogRegisterBufData(0, (char *) pruning->dead, pruning->dead_count * sizeof(OffsetNumber));
+		if (pruning->unused_count > 0)
+			XLogRegisterBufData(0, (char *) pruning->unused,
+								pruning->unused_count * sizeof(OffsetNumber));
+		end = XLogInsert(RM_HEAP2_ID, XLOG_HEAP2_PRUNE);
+		PageSetLSN(page, end);
+	}
+	END_CRIT_SECTION();
+}
+
+/*
+ * Prunes what is past on a heap page; false if there is nothing, or the page is in use. Its room
+ * goes to *room.
+ */
+bool
+own_versions_prune(Relation heap, BlockNumber block, const OwnSight *sight, Size *room)
+{
+	Buffer		buffer = ReadBuffer(heap, block);
+	Pruning		pruning;
+	bool		any = false;
+
+	if (!ConditionalLockBufferForCleanup(buffer))
+	{
+		ReleaseBuffer(buffer);
+		return false;
+	}
+	judge_page(BufferGetPage(buffer), sight, &pruning);
+	any = pruning.dead_count + pruning.redirected_count > 0;
+	if (any)
+	{
+		execute(heap, buffer, &pruning);
+		*room = heap_room_on(buffer);
+	}
+	UnlockReleaseBuffer(buffer);
+	return any;
+}

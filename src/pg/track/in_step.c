@@ -1,0 +1,36 @@
+/*
+ * in_step.c: whether a mesh is what its triggers take it for.
+ */
+#include "postgres.h"
+
+#include "pg/track/in_step.h"
+
+/* Whether points of the mesh have so many coordinates and, with id and attributes, columns. */
+void
+in_step_check_shape(const abacus_header *header, int dimension, int columns, const char *trigger)
+{
+	if ((int) header->dimension != dimension ||
+		(int) (1 + header->dimension + header->attributes) != columns)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("trigger \"%s\" was made for another mesh", trigger),
+				 errdetail("The mesh has dimension %u and %u attributes.", header->dimension,
+						   header->attributes),
+				 errhint("Drop the trigger, and call abacus_track().")));
+}
+
+/* Whether all points have been deleted that are gone from the table. */
+void
+in_step_check_deleted(const Change *change, const char *table, uint64 gone, uint64 deleted)
+{
+	if (deleted != gone)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("mesh \"%s\" is not in step with table \"%s\"",
+						RelationGetRelationName(mesh_pages(change->writer.host)->simplices.heap), table),
+				 errdetail("Points to delete: " UINT64_FORMAT "; found: " UINT64_FORMAT ".", gone,
+						   deleted),
+				 errhint("Bring it in step with abacus_track(mesh, table, synchronize => true). If "
+						 "an AFTER trigger changes the rows of its own statement again, make it a "
+						 "BEFORE trigger: such changes cannot be followed.")));
+}

@@ -1,0 +1,14 @@
+/*
+ * in_step.h: whether a mesh is what its triggers take it for.
+ */
+#ifndef ABACUS_IN_STEP_H
+#define ABACUS_IN_STEP_H
+
+#include "pg/mesh/change.h"
+
+extern void in_step_check_shape(const abacus_header *header, int dimension, int columns,
+								const char *trigger);
+extern void in_step_check_deleted(const Change *change, const char *table, uint64 gone,
+								  uint64 deleted);
+
+#endif

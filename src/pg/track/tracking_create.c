@@ -1,0 +1,198 @@
+/*
+ * tracking_create.c: the triggers by which a mesh follows a table are made and dropped.
+ *
+ * By CREATE TRIGGER and DROP TRIGGER, as the caller, with all their checks. What they are is told
+ * in tracking.c.
+ */
+#include "postgres.h"
+
+#include "access/table.h"
+#include "access/xact.h"
+#include "catalog/pg_class.h"
+#include "catalog/pg_inherits.h"
+#include "catalog/pg_trigger.h"
+#include "commands/defrem.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+
+#include "pg/base/utility.h"
+#include "pg/mesh/mesh.h"
+#include "pg/track/tracking.h"
+#include "pg/track/transition.h"
+
+/*
+ * A name for a trigger of the table that none of its triggers has. Triggers fire in the
+ * order of their names: that of the meshes which follow a table must be the same for all
+ * events, or an INSERT could wait for a DELETE that waits for it. So the mesh comes last.
+ */
+static char *
+choose_name(Oid mesh, Oid table, const char *event)
+{
+	char	   *stem = psprintf("abacus_track_%s", event);
+	char	   *name = makeObjectName(stem, get_rel_name(mesh), NULL);
+
+	for (int i = 1; OidIsValid(get_trigger_oid(table, name, true)); i++)
+		name = makeObjectName(stem, get_rel_name(mesh), psprintf("%d", i));
+	return name;
+}
+
+/* The arguments: 'mesh', '2', 'id', 'x', 'y', ... */
+static char *
+arguments(Oid mesh, int dimension, bool deferred, Relation table, List *columns)
+{
+	Oid			namespace = get_rel_namespace(mesh);
+	const char *schema = namespace == RelationGetNamespace(table) ? NULL
+		: get_namespace_name(namespace);
+	StringInfoData list;
+	ListCell   *cell;
+
+	initStringInfo(&list);
+	appendStringInfoString(&list, quote_literal_cstr(
+							   quote_qualified_identifier(schema, get_rel_name(mesh))));
+	appendStringInfo(&list, ", '%d%s'", dimension, deferred ? TRACKING_DEFERRED : "");
+	foreach(cell, columns)
+		appendStringInfo(&list, ", %s", quote_literal_cstr(lfirst(cell)));
+	return list.data;
+}
+
+/*
+ * Makes a trigger fire where its table is written as a replica, always or there only, if the
+ * former one of its event did.
+ */
+static void
+fire_as_before(Relation table, const char *name, int16 event, List *former)
+{
+	ListCell   *cell;
+
+	foreach(cell, former)
+	{
+		TrackingTrigger *trigger = lfirst(cell);
+
+		if (trigger->event != event || (trigger->fires != TRIGGER_FIRES_ALWAYS &&
+										trigger->fires != TRIGGER_FIRES_ON_REPLICA))
+			continue;
+		EnableDisableTrigger(table, name, trigger->fires, false, ShareRowExclusiveLock);
+		CommandCounterIncrement();
+	}
+}
+
+/* What a trigger is like. */
+typedef struct TriggerKind
+{
+	const char *name;
+	int16		type;
+	const char *when;
+	const char *then;
+} TriggerKind;
+
+#define EACH_STATEMENT " FOR EACH STATEMENT"
+#define EACH_ROW " FOR EACH ROW"
+
+static const TriggerKind of_plain_table[] = {
+	{"insert", TRIGGER_TYPE_INSERT, "AFTER INSERT", "REFERENCING NEW TABLE AS abacus_new" EACH_STATEMENT},
+	{"update", TRIGGER_TYPE_UPDATE, "AFTER UPDATE",
+		"REFERENCING OLD TABLE AS abacus_old NEW TABLE AS abacus_new" EACH_STATEMENT},
+	{"delete", TRIGGER_TYPE_DELETE, "AFTER DELETE", "REFERENCING OLD TABLE AS abacus_old" EACH_STATEMENT},
+	{"truncate", TRIGGER_TYPE_TRUNCATE, "AFTER TRUNCATE", EACH_STATEMENT}
+};
+
+/* PostgreSQL gives the partitions that there are, and will be, the first. */
+static const TriggerKind of_partitioned_table[] = {
+	{"rows", TRIGGER_TYPE_INSERT | TRIGGER_TYPE_UPDATE | TRIGGER_TYPE_DELETE,
+		"AFTER INSERT OR UPDATE OR DELETE", EACH_ROW},
+	{"truncate", TRIGGER_TYPE_TRUNCATE, "AFTER TRUNCATE", EACH_STATEMENT}
+};
+
+static const TriggerKind of_partition[] = {
+	{"part", TRIGGER_TYPE_TRUNCATE, "BEFORE TRUNCATE", EACH_STATEMENT}
+};
+
+static const TriggerKind of_parent_or_child[] = {
+	{"rows", TRIGGER_TYPE_INSERT | TRIGGER_TYPE_UPDATE | TRIGGER_TYPE_DELETE,
+		"AFTER INSERT OR UPDATE OR DELETE", EACH_ROW},
+	{"part", TRIGGER_TYPE_TRUNCATE, "BEFORE TRUNCATE", EACH_STATEMENT}
+};
+
+/* What all triggers of a mesh call. */
+typedef struct TriggerCall
+{
+	Oid			function;
+	Oid			mesh;
+	int			dimension;
+	bool		deferred;
+	List	   *columns;
+	List	   *former;
+} TriggerCall;
+
+static void
+create_triggers(const TriggerCall *call, Relation table, const TriggerKind *kinds, int count)
+{
+	Oid			relid = RelationGetRelid(table);
+	char	   *table_name = quote_qualified_identifier(get_namespace_name(RelationGetNamespace(table)),
+														RelationGetRelationName(table));
+	char	   *function_name = quote_qualified_identifier(get_namespace_name(get_func_namespace(call->function)),
+														   get_func_name(call->function));
+
+	for (int i = 0; i < count; i++)
+	{
+		char	   *name = choose_name(call->mesh, relid, kinds[i].name);
+
+		utility_run(psprintf("CREATE TRIGGER %s %s ON %s %s EXECUTE FUNCTION %s(%s)",
+							 quote_identifier(name), kinds[i].when, table_name, kinds[i].then,
+							 function_name, arguments(call->mesh, call->dimension, call->deferred,
+													  table, call->columns)));
+		mesh_bind_trigger(call->mesh, get_trigger_oid(relid, name, false));
+		fire_as_before(table, name, kinds[i].type, call->former);
+	}
+}
+
+/* The triggers of a table with partitions or children, and of these. */
+static void
+create_in_family(const TriggerCall *call, Relation root, List *family)
+{
+	bool		is_partitioned = root->rd_rel->relkind == RELKIND_PARTITIONED_TABLE;
+	ListCell   *cell;
+
+	if (is_partitioned)
+		create_triggers(call, root, of_partitioned_table, lengthof(of_partitioned_table));
+	foreach(cell, family)
+	{
+		Relation	member = table_open(lfirst_oid(cell), NoLock);
+
+		if (!is_partitioned)
+			create_triggers(call, member, of_parent_or_child, lengthof(of_parent_or_child));
+		else if (member->rd_rel->relkind == RELKIND_RELATION)
+			create_triggers(call, member, of_partition, lengthof(of_partition));
+		table_close(member, NoLock);
+	}
+}
+
+/*
+ * Makes the triggers, as the caller, through CREATE TRIGGER with all its checks.
+ * They fire as the former ones did; where those were disabled, these are not. Partitions and
+ * children are locked as the table is.
+ */
+void
+tracking_create(Oid function, Oid mesh, int dimension, bool deferred, Relation table, List *columns,
+				List *former)
+{
+	List	   *family = find_all_inheritors(RelationGetRelid(table), NoLock, NULL);
+	TriggerCall call = {function, mesh, dimension, deferred, columns, former};
+
+	if (list_length(family) > 1 || table->rd_rel->relkind == RELKIND_PARTITIONED_TABLE)
+		create_in_family(&call, table, family);
+	else
+		create_triggers(&call, table, of_plain_table, lengthof(of_plain_table));
+}
+
+/* Who has not locked the table may find it gone, and the trigger with it. */
+void
+tracking_drop(const TrackingTrigger *trigger)
+{
+	char	   *schema = get_namespace_name(get_rel_namespace(trigger->table));
+	char	   *table = get_rel_name(trigger->table);
+
+	if (schema != NULL && table != NULL)
+		utility_run(psprintf("DROP TRIGGER %s ON %s", quote_identifier(trigger->name),
+							 quote_qualified_identifier(schema, table)));
+}

@@ -1,0 +1,91 @@
+// Where points are: what a domain is chosen by.
+//
+// The box of all points will not do. One garbage coordinate, a "no data" of -3.4e38 among metres,
+// and all other points lie in one cell of the curve, where nothing but parts tells their simplices
+// apart (locational_code.hpp). What lies outside of a domain, on the other hand, is clamped to its
+// border, which does no harm as long as it is little.
+//
+// So besides the box there is a sample of the distinct points: those with the least hashes. It is a
+// function of the set of points, whatever their order, and of two sets it comes from the samples of
+// both. A point of it is misplaced by a domain if it lies outside, or has one code with so many
+// others that they take a good part of a page, as far as the sample tells. The box is taken if it
+// misplaces few. If not, boxes compete that leave out more and more of the sample: on each axis the
+// shortest interval that has all but a few of the points, with room for those not in the sample.
+// One wins if it misplaces less than half as many. So outliers on any side lose to the others, but
+// of two clusters that one domain can resolve neither does, and where no linear scale would do
+// (points at all magnitudes, ten clusters too far apart) the box stays.
+#pragma once
+
+#include "geometry/box.hpp"
+#include "host/arena.hpp"
+
+#include <bit>
+#include <cstdint>
+
+namespace abacus {
+
+template <int D> class Spread {
+public:
+    explicit Spread(const Host &host) : host_(host), sample_(host) {}
+
+    /// With canonical coordinates (no -0.0).
+    void add(const Point<D> &p) {
+        box_.extend(p);
+        const std::uint64_t hash = hash_of(p);
+        if (hash < least_excluded_) add({hash, p});
+    }
+    void add(const Spread &other) {
+        box_.extend(other.box_);
+        for (const Drawn &drawn : other.sample_)
+            if (drawn.hash < least_excluded_) add(drawn);
+    }
+
+    /// Around all points.
+    const Box<D> &box() const { return box_; }
+    /// The box for a domain: `first`, unless another one serves the points better by far.
+    Box<D> choose(const Box<D> &first);
+    Box<D> choose() { return choose(box_); }
+    /// Whether a domain around the first box places the points better by far than one around the
+    /// second.
+    bool is_better(const Box<D> &box, const Box<D> &than);
+
+    /// Memory that it takes at most, but while it chooses.
+    static constexpr std::size_t most_bytes = 2048 * sizeof(std::uint64_t) * (1 + D);
+
+private:
+    struct Drawn {
+        std::uint64_t hash;
+        Point<D> point;
+    };
+    /// Points of the sample; twice as many are held until it is cut.
+    static constexpr std::size_t most = 1024;
+    static_assert(most_bytes == 2 * most * sizeof(Drawn));
+
+    void add(const Drawn &drawn) {
+        if (sample_.size() == 2 * most) cut();
+        if (drawn.hash < least_excluded_) sample_.push_back(drawn);
+    }
+    void cut();
+    std::size_t misplaced_by(const Box<D> &box);
+    Box<D> all_but(std::size_t few, const Arena<double> &sorted) const;
+
+    static std::uint64_t hash_of(const Point<D> &p) {
+        std::uint64_t h = 0x13198a2e03707344; // digits of pi
+        for (int i = 0; i < D; ++i) {
+            h = (h ^ std::bit_cast<std::uint64_t>(p[i])) * 0x9e3779b97f4a7c15;
+            h ^= h >> 32;
+        }
+        h *= 0xd6e8feb86659fd93;
+        return h ^ h >> 32;
+    }
+
+    const Host &host_;
+    Box<D> box_;
+    Arena<Drawn> sample_;
+    std::uint64_t least_excluded_ = UINT64_MAX; // hash
+};
+
+extern template class Spread<2>;
+extern template class Spread<3>;
+
+} // namespace abacus

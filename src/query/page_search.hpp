@@ -1,0 +1,89 @@
+// All simplices around a place, in pages that are held in memory, patch by patch.
+//
+// Where a walk does not settle a place, every page is looked into whose box has it
+// (page_boxes.hpp): two or three pages in a cavity, more at a vertex. Nearly all of their simplices
+// are somewhere else. So a page says by the boxes of its patches which of these to read, and each
+// patch by the boxes of its simplices which of these to test, eight at once. What has been read of
+// a page is kept; the page used longest ago makes room for another one.
+#pragma once
+
+#include "host/host.hpp"
+#include "host/memory_resource.hpp"
+#include "query/page_simplex.hpp"
+#include "query/simplex_boxes.hpp"
+
+#include <algorithm>
+#include <memory_resource>
+#include <vector>
+
+namespace abacus {
+
+template <int D> class PageSearch {
+public:
+    /// Holds pages in about so many bytes, two at least.
+    PageSearch(const Host &host, int attributes, std::size_t bytes)
+        : host_(host), attributes_(attributes), memory_(host),
+          pages_(std::clamp<std::size_t>(bytes / sizeof(Held), 2, most_held), &memory_) {}
+
+    /// Calls visit(page, simplex, position) for each finite simplex of the page that owns the key
+    /// in whose closure p lies; `position` is that of in_simplex(). Returns the next page's key.
+    template <class Visit> Key around(const Key &key, const Point<D> &p, Visit visit) {
+        Held &held = page(key);
+        PageView<D> &view = held.view;
+        const auto place = SimplexBoxes<D>::place(view, p);
+        for (int patch = 0; patch < view.patches(); ++patch) {
+            if (!has(view.patch(patch), place)) continue;
+            read(held, patch);
+            held.boxes.around(place, view.simplices_of(patch), [&](int simplex) {
+                for (int i = 0; i <= D; ++i) view.read_point(view.corner(simplex, i));
+                const int position = in_simplex<D>(corners_of(view, simplex), p);
+                if (position >= 0) visit(view, simplex, position);
+                return true;
+            });
+        }
+        return view.upper();
+    }
+
+    std::size_t bytes() const { return pages_.size() * sizeof(Held); }
+    std::uint64_t pages_read() const { return pages_read_; }
+
+private:
+    static constexpr std::size_t most_held = 64;
+
+    struct Held {
+        Held() {} // the arrays get their content with the page
+
+        Key lower{}, upper{}; ///< what it owns; nothing at first
+        std::uint64_t last_use = 0;
+        std::uint64_t patches = 0; ///< those that have been read, a bit each
+        PageView<D> view;
+        SimplexBoxes<D> boxes;
+        alignas(8) std::array<unsigned char, ABACUS_PAGE_BYTES> bytes;
+    };
+
+    static bool has(const PagePatch<D> &patch, const typename SimplexBoxes<D>::Place &place) {
+        bool has = true;
+        for (int axis = 0; axis < D; ++axis)
+            has = has && patch.least[axis] <= place[axis] && place[axis] <= patch.greatest[axis];
+        return has;
+    }
+    static void read(Held &held, int patch) {
+        if ((held.patches >> patch & 1) != 0) return;
+        held.view.read_patch(patch);
+        held.boxes.make(held.view, patch);
+        held.patches |= std::uint64_t{1} << patch;
+    }
+    /// The page that owns the key, in place of the one used longest ago if it is not held.
+    Held &page(const Key &key);
+
+    const Host &host_;
+    const int attributes_;
+    HostMemory memory_;
+    std::pmr::vector<Held> pages_;
+    std::uint64_t uses_ = 0, pages_read_ = 0;
+};
+
+extern template class PageSearch<2>;
+extern template class PageSearch<3>;
+
+} // namespace abacus

@@ -1,0 +1,58 @@
+// Breadth first from a simplex, across the facets that are asked for: the star of a vertex, all
+// simplices around a place, what lies within a window. Each simplex is met once.
+//
+// Memory grows with the handles of the mesh, a byte each, and with the answer.
+#pragma once
+
+#include "traverse/marks.hpp"
+#include "traverse/topology.hpp"
+
+namespace abacus {
+
+template <int D> class Flood {
+public:
+    explicit Flood(const Memory &memory) : marks_(memory), met_(memory) {}
+
+    /// Calls visit(h) for each simplex when it is met, the first one too, until that returns
+    /// false; returns whether it never did. crosses(h, facet) tells whether the flood goes on
+    /// there.
+    template <Topology<D> Mesh, class Crosses, class Visit>
+    bool from(Mesh &mesh, Handle first, Crosses crosses, Visit visit) {
+        met_.clear();
+        bool goes_on = meet(first, visit);
+        for (std::size_t n = 0; goes_on && n < met_.size(); ++n) {
+            if (n % 4096 == 4095) mesh.poll();
+            for (int i = 0; goes_on && i <= D; ++i) {
+                const Handle h = met_[n];
+                if (!crosses(h, i)) continue;
+                const Handle beyond = link_simplex(mesh.cross(h, i));
+                if (marks_.get(beyond) == Marks::none) goes_on = meet(beyond, visit);
+            }
+        }
+        for (const Handle h : met_) marks_.set(h, Marks::none);
+        return goes_on;
+    }
+    /// The star of a vertex: from a simplex that has it across all facets that do.
+    template <Topology<D> Mesh, class Visit>
+    bool around(Mesh &mesh, Handle first, VertexIndex v, Visit visit) {
+        const auto has_vertex = [&](Handle h, int facet) {
+            return mesh.simplex(h).vertex[facet] != v;
+        };
+        return from(mesh, first, has_vertex, visit);
+    }
+
+    /// What the last flood met, in its order.
+    const Arena<Handle> &met() const { return met_; }
+
+private:
+    template <class Visit> bool meet(Handle h, Visit &visit) {
+        marks_.set(h, Marks::inside);
+        met_.push_back(h);
+        return visit(h);
+    }
+
+    Marks marks_;
+    Arena<Handle> met_;
+};
+
+} // namespace abacus

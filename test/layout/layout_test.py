@@ -1,0 +1,104 @@
+"""Does the tree look as docs/architecture.md says?
+
+The table of rooms in that page is the only list of what a room may use. Here it is compared with
+the includes of every file below src, and the names of files in the documents with the files that
+there are.
+"""
+import pathlib
+import re
+import subprocess
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MAP = ROOT / "docs/architecture.md"
+ROW = re.compile(r"^\| `(src[\w/]*)` \|[^|]*\|([^|]*)\|$", re.MULTILINE)
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+SOURCES = {".c", ".h", ".cpp", ".hpp"}
+SERVER = re.compile(r"^(postgres|fmgr|miscadmin|pgstat|port|access/|catalog/|commands/|executor/|"
+                    r"lib/|libpq/|nodes/|optimizer/|parser/|storage/|tcop/|utils/)")
+DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/evaluation.md",
+             "docs/sql.md", "docs/operations.md", *(f"docs/design/{page.name}"
+                                                   for page in (ROOT / "docs/design").glob("*.md"))]
+
+
+def rooms():
+    """{room: rooms that it may use, itself included}, as the map has it."""
+    region = MAP.read_text().split("<!-- begin rooms -->")[1].split("<!-- end rooms -->")[0]
+    table = {room: set(re.findall(r"`(src[\w/]*)`", uses)) for room, uses in ROW.findall(region)}
+    below = {}
+
+    def all_below(room, path=()):
+        if room in path:
+            raise AssertionError("a circle of rooms: " + " → ".join([*path, room]))
+        if room not in below:
+            below[room] = {room}.union(*(all_below(use, (*path, room)) for use in table[room]))
+        return below[room]
+
+    for room in table:
+        all_below(room)
+    return below
+
+
+def tracked(*patterns):
+    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard",
+                             *patterns], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True)
+    return [pathlib.Path(line) for line in listed.stdout.splitlines() if (ROOT / line).exists()]
+
+
+def sources():
+    return [path for path in tracked("src", "include") if path.suffix in SOURCES]
+
+
+def includes(path):
+    return INCLUDE.findall((ROOT / path).read_text())
+
+
+class Layout(unittest.TestCase):
+    def test_every_file_has_a_room(self):
+        known = rooms()
+        for path in sources():
+            if path.parts[0] == "src":
+                self.assertIn(path.parent.as_posix(), known, f"{path} is in no room of the map")
+
+    def test_rooms_use_only_rooms_below(self):
+        below = rooms()
+        wrong = []
+        for path in sources():
+            if path.parts[0] != "src":
+                continue
+            room = path.parent.as_posix()
+            for _, name in includes(path):
+                if not (ROOT / "src" / name).exists():
+                    continue
+                used = (pathlib.Path("src") / name).parent.as_posix()
+                if used not in below.get(room, ()):
+                    wrong.append(f"{path}: {name}")
+        self.assertEqual(wrong, [])
+
+    def test_the_core_knows_no_server(self):
+        wrong = [f"{path}: {name}" for path in sources() if path.parts[:2] != ("src", "pg")
+                 for mark, name in includes(path)
+                 if SERVER.match(name) and not (ROOT / "src" / name).exists()]
+        self.assertEqual(wrong, [])
+
+    def test_server_code_knows_the_bridge_alone(self):
+        wrong = [f"{path}: {name}" for path in sources() if path.parts[:2] == ("src", "pg")
+                 for _, name in includes(path)
+                 if (ROOT / "src" / name).exists() and not name.startswith("pg/")]
+        self.assertEqual(wrong, [])
+
+    def test_documents_name_files_that_exist(self):
+        wrong = []
+        for name in DOCUMENTS:
+            text = (ROOT / name).read_text()
+            for path in re.findall(r"`((?:src|include|test|scripts|sql|bench|docs)/[\w./-]*\w)`", text):
+                if not list(ROOT.glob(path)) and not list(ROOT.glob(path + ".*")):
+                    wrong.append(f"{name}: {path}")
+            for path in re.findall(r"\]\((?!https?:)([^)#\s]+)", text):
+                if not ((ROOT / name).parent / path).exists():
+                    wrong.append(f"{name}: {path}")
+        self.assertEqual(wrong, [])
+
+
+if __name__ == "__main__":
+    unittest.main()
