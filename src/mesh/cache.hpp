@@ -71,8 +71,7 @@ template <int D> class Cache : public BlockCache<Cache<D>, SimplexBlocks<D>> {
 public:
     Cache(const Host &host, const Domain<D> &domain, int attributes, const CacheOptions &options);
 
-    using Blocks::allot, Blocks::block_of, Blocks::counters, Blocks::is_cached, Blocks::near,
-        Blocks::poll;
+    using Blocks::allot, Blocks::block_of, Blocks::counters;
 
     // ---- Topology ----------------------------------------------------------
 
@@ -208,17 +207,16 @@ public:
     void end_eviction();
 
 private:
-    friend Blocks;
     using Blocks::slots_, Blocks::blocks_, Blocks::notes_, Blocks::host_, Blocks::owner,
         Blocks::cached_owner, Blocks::load, Blocks::for_each_record, Blocks::for_each_cached,
         Blocks::first_of;
 
-    /// What a page says of the facets on its border and its vertices, or a block does.
+    /// The border of a block and its vertices: of the one that was tied, encoded or surveyed last.
     struct Border {
         explicit Border(const Host &host)
             : facets(host), hashes(host), vertices(host), has_vertex(host) {}
 
-        BlockIndex block = no_block; // of which the rest is said
+        BlockIndex block = no_block; // whose border it is
         Arena<Link> facets;          // whose neighbours are in other blocks, from inside
         Arena<std::uint32_t> hashes; // of these facets, among those visible
         typename VertexHeap<D>::Numbering vertices; // all of the block, by local number
