@@ -203,7 +203,7 @@ TYPED_TEST(Range, HasAllSimplicesOfLoadedMeshes) {
     });
     MeshOf<D> mesh;
     ASSERT_EQ(mesh.load(shells.vertices, shells.simplices), ABACUS_OK) << mesh.error.message;
-    ASSERT_EQ(mesh.header.not_delaunay, 1u);
+    ASSERT_EQ(mesh.header.not_delaunay, ABACUS_NOT_CONVEX);
     expect_all<D>(mesh, boxes<D>(points, random));
 }
 
