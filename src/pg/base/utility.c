@@ -1,9 +1,9 @@
 /*
  * utility.c: CREATE and DROP of what belongs to a mesh.
  *
- * They go the way that all statements go, as the caller: with PostgreSQL's own checks of
- * privileges and names, event triggers, and hooks of other modules. But they are not what
- * the user has written, so errors do not quote them.
+ * They run as any statement of the caller does, with PostgreSQL's own checks of
+ * privileges and names, event triggers, and hooks of other modules. The user has not
+ * written them, so errors do not quote them.
  */
 #include "postgres.h"
 
@@ -14,7 +14,7 @@
 
 #include "pg/base/utility.h"
 
-/* A position in the statement would be shown as one in the user's. */
+/* An error's position in this statement would be shown as one in the user's. */
 static void
 forget_position(void *unused)
 {

@@ -1,8 +1,8 @@
 /*
  * goose_row.c: a simplex with its box as a row, and back.
  *
- * A ghost is a row without its last corner, whose columns are NULL. What is read
- * is not trusted: in the time between anything can have been written there.
+ * A ghost is a row without its last corner, whose columns are NULL. What is read is not
+ * trusted: anything may have been written there meanwhile.
  */
 #include "postgres.h"
 
@@ -112,7 +112,7 @@ goose_row_encode(int dimension, const abacus_boxed_simplex *row, Datum *values, 
 	isnull[box] = false;
 }
 
-/* Takes a row apart; false if it is none that goose_row_encode() makes. */
+/* Decodes a row; false if goose_row_encode() cannot have made it. */
 bool
 goose_row_decode(int dimension, TupleTableSlot *slot, abacus_boxed_simplex *row)
 {

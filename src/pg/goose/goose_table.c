@@ -5,24 +5,22 @@
  * by heap_insert(), index_insert() and simple_heap_delete(): no SPI and no
  * executor once the table is made.
  *
- * Two of three simplices that an insertion makes are removed by later ones, all
- * in one command. To PostgreSQL their index entries stay, since a rollback to
- * a savepoint or an older snapshot might need them; searches would go through
- * three times the entries, and visit a dead row for each that they hit. But this
- * table is made by the very command that fills it: nobody else sees it, and if
- * the command is undone the table goes as a whole. So a removed row's entry is
- * marked dead at once, by the means that index scans have for rows that are dead
- * to all (kill_prior_tuple): further scans step over it, and its room is used
- * again when its page is full. Since GiST has no other call for that, removing
- * means searching for the row's box: just as in the dissertation's R-tree, whose
- * deletions are searches for 98 % of their time. The rows themselves stay in
- * the heap until VACUUM.
+ * Two of three simplices that an insertion makes are removed by later ones, all in one
+ * command. PostgreSQL keeps their index entries, since a rollback to a savepoint or an
+ * older snapshot might need them. Searches would go through three times the entries,
+ * and visit a dead row for each that they hit. But the same command makes and fills
+ * this table: nobody else sees it, and a rollback of the command drops the whole table.
+ * So the entry of a removed row is marked dead at once, as index scans mark rows that
+ * are dead to all (kill_prior_tuple). Further scans step over it, and its room is used
+ * again when its page is full. GiST has no other call for that, so a removal is a
+ * search for the row's box. So it is in the dissertation's R-tree, whose deletions
+ * spend 98 % of their time searching. The rows themselves stay in the heap until
+ * VACUUM.
  *
- * All rows are inserted under the command id before the one under which they
- * are removed. A row can only be removed by a later command than it was inserted
- * by; with an id for each step every removed row would leave a pair of ids
- * in the backend's memory (combocid.c), so they leave one in all. Scans use
- * SnapshotSelf, to which all these changes are visible at once.
+ * All rows are inserted under one command id and removed under the next. PostgreSQL
+ * lets only a later command remove a row. With an id for each step, every removed row
+ * would leave a pair of ids in the backend's memory (combocid.c); with two ids there is
+ * one pair in all. Scans use SnapshotSelf, which sees all these changes at once.
  */
 #include "postgres.h"
 
@@ -175,8 +173,8 @@ insert_row(GooseTable *table, const abacus_boxed_simplex *row)
 /* ---- Searches -------------------------------------------------------------------- */
 
 /*
- * The efficiency of a search is that of the boxes it looks at: GiST calls the
- * operator class once for each, so the call is counted on its way.
+ * The efficiency of a search is measured by the boxes that it looks at. GiST calls the
+ * operator class once for each box, so these calls are counted.
  */
 static uint64 boxes_looked_at;
 static PGFunction look_at_box;

@@ -1,13 +1,12 @@
 /*
  * host.c: the life of a host, and the hand-over of errors.
  *
- * PostgreSQL reports errors with longjmp, C++ with exceptions; neither may
- * cross the other's frames. So every host function runs its PostgreSQL calls
- * under PG_TRY, keeps a copy of the error and returns ABACUS_HOST_FAILED. The
- * core unwinds its own frames, its outermost function returns
- * ABACUS_HOST_ERROR, and host_leave() re-throws the kept error with SQLSTATE,
- * detail and hint as they were. Between the catch and the re-throw nothing of
- * PostgreSQL is called except to free memory: locks and pins may still be
+ * PostgreSQL reports errors with longjmp, C++ with exceptions; neither may cross the
+ * other's frames. So every host function runs its PostgreSQL calls under PG_TRY, keeps
+ * a copy of the error and returns ABACUS_HOST_FAILED. The core unwinds its own frames,
+ * and its outermost function returns ABACUS_HOST_ERROR. Then host_leave() re-throws the
+ * kept error with its SQLSTATE, detail and hint. Between the catch and the re-throw
+ * nothing of PostgreSQL is called except to free memory: locks and pins may still be
  * held until the transaction has aborted.
  *
  * A guard costs about 5 ns; the core calls the host on a miss, never on a hit.

@@ -13,8 +13,9 @@
  * It returns only ABACUS_OK or ABACUS_END; a failure is raised as an ERROR once
  * the core has returned and no C++ frame is left.
  *
- * Pages are of kinds. Who knows how the pages of a kind are stored registers
- * functions for it; a host without any has memory, control and spools.
+ * Each page is of a kind. The code that knows how the pages of a kind are stored
+ * registers functions for it. A host without such functions has memory, control and
+ * spools.
  */
 #ifndef ABACUS_HOST_H
 #define ABACUS_HOST_H
@@ -23,7 +24,7 @@
 
 #include "pg/host/progress.h"
 
-/* How the pages of a kind are found and stored: as in abacus_host, but by PostgreSQL's errors. */
+/* How the pages of a kind are found and stored: as in abacus_host, but with PostgreSQL's errors. */
 typedef struct HostPageFunctions
 {
 	bool		(*find) (void *owner, abacus_page_kind kind, abacus_key key, abacus_page *page);

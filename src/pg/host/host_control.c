@@ -1,6 +1,6 @@
 /*
- * host_control.c: what the session wants of the core, and the world of it: interrupts
- * and progress.
+ * host_control.c: what the core hears from the session, and what others hear of its
+ * work: interrupts and progress.
  */
 #include "postgres.h"
 

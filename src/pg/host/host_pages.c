@@ -144,7 +144,10 @@ host_register_pages(Host *host, abacus_page_kind kind, const HostPageFunctions *
 	host->pages[kind].owner = owner;
 }
 
-/* The core has found pages that do not fit together: an error of their store's, if it knows why. */
+/*
+ * The core has found pages that do not fit together. If their store knows why, it
+ * raises the error.
+ */
 void
 host_doubt_pages(Host *host)
 {
@@ -152,7 +155,7 @@ host_doubt_pages(Host *host)
 		host->pages[kind].functions->doubt(host->pages[kind].owner);
 }
 
-/* Gives up relations, scans and pins: nothing of them outlives an SQL call. */
+/* Gives up relations, scans and pins, none of which may outlive an SQL call. */
 void
 host_release(Host *host)
 {

@@ -1,13 +1,13 @@
 /*
  * progress.c: live figures of a build, or of other long work, that other sessions can read.
  *
- * Every backend has progress slots in shared memory, but only for core
- * commands. We report as CREATE INDEX, which also builds something ordered
- * out of a scan: pg_stat_progress_create_index shows "building index" with
- * tuples done and in all. What it has no name for goes into slots it does not
- * use, and a magic value in the last of them tells the view abacus_progress
- * (sql/install/80-progress.sql, which knows the numbers below) that the row
- * is ours. An aborting transaction clears the slots by itself.
+ * Every backend has progress slots in shared memory, but only for core commands. We
+ * report as CREATE INDEX, which also builds something ordered out of a scan:
+ * pg_stat_progress_create_index shows "building index" with tuples done and in all.
+ * Figures that it has no name for go into slots that it does not use. A magic value in
+ * the last of these tells the view abacus_progress that the row is ours
+ * (sql/install/80-progress.sql, which knows the numbers below). An aborting transaction
+ * clears the slots by itself.
  */
 #include "postgres.h"
 
@@ -28,9 +28,9 @@
 #define PROGRESS_MAGIC INT64CONST(0x616261637573)	/* "abacus" */
 
 /*
- * Nothing, where this is part of a command that reports progress of its own: COPY of
- * our rows or into a table that a mesh follows, or a function of ours whose source
- * query this is.
+ * Does nothing where this is part of a command that reports progress of its own: COPY
+ * of our rows, COPY into a table that a mesh follows, or a function of ours whose
+ * source query this is.
  */
 void
 progress_begin(Progress *state, Oid mesh)

@@ -2,10 +2,10 @@
  * row_packer.c: rows from the executor into the core's records of points, or
  * of simplices.
  *
- * A DestReceiver that deforms each slot in place and packs (id, coordinates,
- * attributes), or the ids of a simplex's vertices, into eight-byte words. Columns go by position, as in every
- * function that takes a source query. This is the hot path of staging: a few
- * tens of nanoseconds a row beside the scan itself.
+ * A DestReceiver that deforms each slot in place. It packs id, coordinates and attributes, or the
+ * ids of a simplex's vertices, into eight-byte words. Columns go by position, as in every function
+ * that takes a source query. This is the hot path of staging: it takes a few tens of nanoseconds a
+ * row, besides the scan itself.
  */
 #include "postgres.h"
 
@@ -157,7 +157,7 @@ pack_kind(const RowPacker *packer, int column, Form_pg_attribute attribute)
 	return PACK_INT8;			/* not reached */
 }
 
-/* NULL and what is no number cannot be placed; says which point it was. */
+/* A NULL, and what is not a number, has no place; the error says which point it was. */
 static void
 refuse_value(const RowPacker *packer, const uint64 *point, int column, bool isnull)
 {
@@ -216,7 +216,7 @@ bits(double value)
 	return word;
 }
 
-/* What is of no type that can be read may be NULL, and nothing else. */
+/* A column of a type that cannot be read may only hold NULLs. */
 static void
 check_nulls(const RowPacker *packer, const TupleTableSlot *slot)
 {

@@ -1,9 +1,9 @@
 /*
  * source.c: the user's query, read through a portal in batches.
  *
- * SPI parses, plans and opens it as the caller, read-only; the rows then go
- * from the executor straight into a DestReceiver (row_packer.c), so no row is
- * ever copied into a tuple table and the result is never held as a whole.
+ * SPI parses, plans and opens it with the caller's rights, read-only. The rows go from
+ * the executor straight into a DestReceiver (row_packer.c). So no row is copied into a
+ * tuple table, and the result is never held as a whole.
  *
  * From source_prepare() to source_finish() SPI is connected.
  */
@@ -30,7 +30,7 @@ plan_source(const Source *source)
 	return linitial(SPI_plan_get_plan_sources(source->plan));
 }
 
-/* Whether a query, or one within it, locks rows. */
+/* Whether a query, or one inside it, locks rows. */
 static bool
 locks_rows(Node *node, void *context)
 {
@@ -42,7 +42,7 @@ locks_rows(Node *node, void *context)
 		query_tree_walker((Query *) node, locks_rows, context, 0);
 }
 
-/* Past a comment, which may have others in it; what is no comment is left as it is. */
+/* Skips a comment, with those nested in it; returns the text unchanged where there is none. */
 static const char *
 skip_comment(const char *text)
 {
@@ -62,7 +62,7 @@ skip_comment(const char *text)
 	return text;
 }
 
-/* Past all that may come before the first word: white space, comments, parentheses. */
+/* Skips all that may come before the first word: white space, comments, parentheses. */
 static const char *
 skip_to_word(const char *text)
 {
@@ -89,8 +89,8 @@ is_word_of_sql(const char *text)
 }
 
 /*
- * What begins with no word of SQL is no query, but most often a value that was cast to text
- * without being asked: a geometry has an implicit cast.
+ * What begins with no word of SQL is no query. Most often it is a value that PostgreSQL has
+ * cast to text unasked: a geometry has an implicit cast.
  */
 static void
 check_is_query(const char *query)

@@ -1,10 +1,9 @@
 /*
  * change.c: a change of a mesh with the points of a query.
  *
- * Rows go from the executor in batches of a thousand into the core's stage,
- * which brings them into order within maintenance_work_mem (beyond it in
- * temporary files). From there they go to vertex pages, or into the
- * triangulation, or are taken out of it.
+ * Rows go from the executor in batches of a thousand into the core's stage. It sorts
+ * them within maintenance_work_mem, and beyond that in temporary files. From there the
+ * points go to vertex pages or into the triangulation, or they are taken out of it.
  */
 #include "postgres.h"
 
@@ -89,7 +88,7 @@ change_read(Change *change, Source *source, const abacus_header *shape)
 	source_close(source);
 }
 
-/* Puts the stage aside, and takes the one that was; the first time that is none. */
+/* Swaps the stage with the one put aside before; the first time there is none. */
 void
 change_swap_stages(Change *change)
 {
@@ -100,8 +99,8 @@ change_swap_stages(Change *change)
 }
 
 /*
- * Opens the triangulation for changes, unless it is open. The header must have
- * its domain by then, if the points to come shall give it one.
+ * Opens the triangulation for changes, unless it is open. If the points to come are to
+ * choose the domain, the header must have it by then.
  */
 void
 change_open_build(Change *change)
@@ -128,8 +127,8 @@ change_insert(Change *change)
 }
 
 /*
- * Takes the points of the stage away, `exactly` only those with the same id and attributes;
- * returns how many there were.
+ * Takes the points of the stage away; with `exactly`, only points with the same id and
+ * attributes. Returns how many there were.
  */
 uint64
 change_delete(Change *change, bool exactly)

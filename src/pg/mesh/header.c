@@ -1,11 +1,10 @@
 /*
  * header.c: the header of a mesh, a row of its simplex table.
  *
- * It stands under the key (-1, 0), below every page. Each change of a mesh
- * rewrites it with a new random stamp; so a stamp names one state of the mesh
- * for ever, also when the transaction that made it is rolled back, and a
- * session's cache is good exactly as long as the header it sees has the stamp
- * it was filled under.
+ * It stands under the key (-1, 0), below every page. Each change of a mesh rewrites it
+ * with a new random stamp. So a stamp names one state of the mesh for ever, even if the
+ * transaction that made it is rolled back. A session's cache is good exactly as long as
+ * the header that it sees has the stamp it was filled under.
  */
 #include "postgres.h"
 
@@ -76,7 +75,7 @@ header_open_vertices(Host *host, const abacus_header *header)
 		page_table_refuse_newer(&pages->vertices);
 }
 
-/* Decodes the header; what is wrong with it goes to host->failure. */
+/* Decodes the header; an error goes to host->failure. */
 abacus_status
 header_try_decode(Host *host, const StoredPage *row, abacus_header *header)
 {
@@ -129,9 +128,9 @@ header_read(Host *host, abacus_header *header, ItemPointer tid)
 }
 
 /*
- * Writes the header at *tid anew, which the caller has locked: the mesh is the
- * same, its rows lie elsewhere. Sessions may keep what they have of it; a writer
- * whose snapshot is older cannot go by that.
+ * Rewrites the header at *tid, which the caller has locked: the mesh is the same, but
+ * its rows lie elsewhere. Sessions may keep what they have cached of the mesh. A writer
+ * with an older snapshot finds the header changed, and cannot go on.
  */
 void
 header_rewrite(Host *host, const abacus_header *header, ItemPointer tid)

@@ -1,13 +1,13 @@
 /*
  * mesh.c: what a mesh is in the database.
  *
- * A mesh is an ordinary table of the type abacus_simplex_page together with
- * one of the type abacus_vertex_page. No catalogue lists them: the row type
- * in pg_class says what a table is, and an automatic dependency in pg_depend
- * ties the vertex table to its mesh, so that either may be renamed or moved
- * to another schema and DROP TABLE of the mesh drops both. A dump does not
- * carry that entry; a restored mesh is found by name (<mesh>_vertices) until
- * its owner changes it, which writes the entry again.
+ * A mesh is an ordinary table of the type abacus_simplex_page together with one of the
+ * type abacus_vertex_page. No catalogue of ours lists them: the row type in pg_class
+ * says what a table is. An automatic dependency in pg_depend ties the vertex table to
+ * its mesh. So either table may be renamed or moved to another schema, and DROP TABLE
+ * of the mesh drops both. A dump does not carry that entry. A restored vertex table is
+ * found by its name (<mesh>_vertices) until the owner changes the mesh, which writes
+ * the entry again.
  */
 #include "postgres.h"
 
@@ -56,7 +56,7 @@ is_row_type(Oid type, const char *name, Oid *known)
 	return true;
 }
 
-/* Told of a mesh whose owner writes to it for the first time since it was restored. */
+/* Called when the owner of a restored mesh writes to it for the first time. */
 static void (*on_restored) (Relation mesh) = NULL;
 
 static Oid	simplex_row_type = InvalidOid;
@@ -118,12 +118,12 @@ mesh_table_open(Oid relid, MeshAccess access)
 }
 
 /*
- * Keeps everybody else from changing the mesh, its definition included, over
- * several transactions: readers alone go on, and VACUUM stays away. The caller
- * unlocks; an error unlocks by itself.
+ * Keeps everybody else from changing the mesh and its definition, over several
+ * transactions. Only readers go on; VACUUM stays away. The caller unlocks; an error
+ * unlocks by itself.
  *
- * What is locked first and only for the checks, ACCESS SHARE, is in nobody's
- * way: two that got there with a writer's lock would wait for each other.
+ * The first lock, only for the checks, is ACCESS SHARE, which is in nobody's way. Two
+ * sessions that came with a writer's lock would wait for each other.
  */
 LockRelId
 mesh_lock_for_session(Oid relid)
@@ -171,7 +171,7 @@ find_bound_table(Oid class, Oid object, bool dependent, bool (*wanted) (Oid))
 	return found;
 }
 
-/* The vertex table of a mesh, which its name alone tells of; InvalidOid if there is none. */
+/* The vertex table of a mesh, found by its name alone; InvalidOid if there is none. */
 static Oid
 find_named_vertex_table(Oid mesh)
 {
@@ -233,9 +233,9 @@ try_lock_for_session(Oid relid, LOCKMODE mode, LockRelId *lock)
 
 /*
  * Does what mesh_lock_for_session() does if nobody has the mesh locked for more than reading;
- * else returns false. EXCLUSIVE, so that nobody holds a row lock either for which a writer would
- * wait. The vertex table is locked as a writer does, or, if its rows will be written, likewise.
- * The caller unlocks; an error unlocks by itself.
+ * else returns false. The lock is EXCLUSIVE, so that nobody holds a row lock for which a writer
+ * would wait. The vertex table is locked as a writer does, or, if its rows will be written,
+ * likewise. The caller unlocks; an error unlocks by itself.
  */
 bool
 mesh_try_lock_for_session(Oid relid, bool vertices, MeshLocks *locks)
@@ -331,7 +331,10 @@ mesh_bind_trigger(Oid mesh, Oid trigger)
 	bind(TriggerRelationId, trigger, mesh);
 }
 
-/* Who stands above, and binds things of its own to meshes, is told of restored ones. */
+/*
+ * Registers a function of a room above that binds things of its own to meshes; it is
+ * called for restored ones.
+ */
 void
 mesh_tell_of_restored(void (*tell) (Relation mesh))
 {

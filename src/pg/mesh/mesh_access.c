@@ -1,9 +1,9 @@
 /*
  * mesh_access.c: who may use a table of a mesh, and where it can be used.
  *
- * The store reads and writes pages without planner and executor. What these would
- * have checked is checked here: privileges, row-level security, temporary
- * tables of other sessions, unlogged ones on a standby, what is published.
+ * The store reads and writes pages without planner and executor. So the checks that
+ * these would make are made here: privileges, row-level security, temporary tables of
+ * other sessions, unlogged tables on a standby, publications.
  */
 #include "postgres.h"
 
@@ -20,9 +20,9 @@
 #include "pg/store/page_index.h"
 
 /*
- * What more is to be said where a privilege is missing: of which mesh this is the vertex
- * table, and whose privilege it is, if not that of the user who has asked, as where a
- * table is followed.
+ * The detail of an error about a missing privilege: which mesh this is the vertex table
+ * of, and which user lacks the privilege. That may be another user than the caller,
+ * where the mesh follows a table.
  */
 static const char *
 describe_denied(Relation mesh)
@@ -68,8 +68,8 @@ check_privileges(Relation rel, MeshAccess access, Relation mesh)
 }
 
 /*
- * That a publication can tell its subscribers which rows are updated and deleted, whoever
- * writes them; else the changes would not arrive there, or not as a whole.
+ * Checks that a publication can tell its subscribers which rows are updated and deleted.
+ * Otherwise the changes would not arrive there, or only in part.
  */
 static void
 check_publications(Relation rel)
@@ -79,9 +79,9 @@ check_publications(Relation rel)
 }
 
 /*
- * That the table is of a row type tells what its columns are, but not where they lie: a
- * table made with another column, which was dropped before ALTER TABLE ... OF, keeps its
- * place. Rows are read and written without names, so all columns must be the type's.
+ * The row type of a table tells which columns it has, but not where they lie: a column
+ * that was dropped before ALTER TABLE ... OF keeps its place. Rows are read and written
+ * without names, so all columns must be the type's.
  */
 static void
 check_columns(Relation rel)
@@ -107,13 +107,13 @@ check_columns(Relation rel)
 }
 
 /*
- * Whether the user may do that to a table of a mesh, and we can: else an error.
+ * Raises an error unless the user may do that to a table of a mesh, and it is possible.
  * `mesh` is the one whose vertex table this is, or NULL.
  */
 void
 mesh_check_access(Relation rel, MeshAccess access, Relation mesh)
 {
-	/* who moves rows sees nothing of them: as with VACUUM FULL, the owner's rights are enough */
+	/* moving rows shows nothing of them: as with VACUUM FULL, the owner's rights are enough */
 	if (access != MESH_MOVE)
 		check_privileges(rel, access, mesh);
 	if (rel->rd_rel->relam != HEAP_TABLE_AM_OID)

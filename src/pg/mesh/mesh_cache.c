@@ -1,22 +1,19 @@
 /*
  * mesh_cache.c: what a session keeps of the meshes it reads.
  *
- * A core handle for locating and walking holds simplices in memory; it is
- * worth keeping between calls and between statements. It is valid for one
- * (relfilenode, stamp): the header row that the active snapshot sees decides.
+ * A core handle for locating and walking holds simplices in memory, so it is worth
+ * keeping between calls and between statements. It is valid for one (relfilenode,
+ * stamp); the header row that the active snapshot sees tells which.
  *
- * Reading that row for every call would cost more than locating the point, so
- * an entry remembers under which snapshot it was found valid, and until then
- * also that the lock is held and, in the same statement, that the privileges
- * were checked. Within one transaction an equal snapshot sees the same header;
- * a subtransaction that aborts is the exception (it takes changes and locks
- * back without any trace in the snapshot), so aborts and ends of transactions
- * make entries forget.
- * The callbacks touch memory only.
+ * Reading that row for every call would cost more than locating the point. So an entry
+ * remembers the snapshot under which it was found valid. It also remembers that the
+ * lock is held and, within a statement, that the privileges were checked. In one
+ * transaction an equal snapshot sees the same header. A subtransaction that aborts is
+ * the exception: it takes changes and locks back without any trace in the snapshot. So
+ * aborts and ends of transactions make entries forget. The callbacks touch memory only.
  *
- * An entry is busy while the core runs on it. One found busy by an abort or
- * by the next call was left by an error and is dropped: a failed handle may
- * only be closed.
+ * An entry is busy while the core runs on it. If an abort or the next call finds it
+ * busy, an error has left it so, and it is dropped: a failed handle may only be closed.
  */
 #include "postgres.h"
 
@@ -64,9 +61,8 @@ static Entry entries[MESHES_KEPT];
 static uint64 uses = 0;
 
 /*
- * memcmp() of nothing is not for nothing: a snapshot without transactions has
- * no array, and the vector instructions that read none of what is at NULL take
- * as long as some hundred others.
+ * memcmp() of no bytes is not free: a snapshot without transactions has no array, and
+ * vector instructions at NULL that read nothing take as long as some hundred others.
  */
 static inline bool
 same_xids(const TransactionId *a, const TransactionId *b, uint32 count)

@@ -1,5 +1,5 @@
 /*
- * page_store.h: the two tables of a mesh as the core's page operations.
+ * mesh_pages.h: the two tables of a mesh as the core's page operations.
  */
 #ifndef ABACUS_PAGE_STORE_H
 #define ABACUS_PAGE_STORE_H

@@ -1,16 +1,15 @@
 /*
  * names.c: names of attributes in the encoding in which they are stored.
  *
- * A dump converts texts from the encoding of one database to that of another,
- * but no bytes of pages. So names are stored in UTF-8, whatever the database
- * has. Only in one of SQL_ASCII, where nobody knows what bytes mean, they are
- * left as they are.
+ * A dump converts texts to the encoding of another database, but not the bytes of
+ * pages. So names are stored in UTF-8, whatever encoding the database has. Only in a
+ * database of SQL_ASCII, where nobody knows what bytes mean, they are stored as they
+ * are.
  *
- * A mesh may have come from a database with other characters. Those that this one
- * lacks are escaped, as in a string U&'...'; a name too long for that, or in this
- * encoding, is cut and ends with the number of the attribute. Such a name does not say
- * what is stored, so what is stored is kept, and is stored again unless the attribute
- * gets another name.
+ * A mesh may come from a database with other characters. Characters that this one lacks
+ * are escaped, as in a string U&'...'. A name that becomes too long is cut and ends
+ * with the number of the attribute. Such a name does not say what is stored. So the
+ * stored name is kept, and is stored again unless the attribute gets another name.
  */
 #include "postgres.h"
 

@@ -1,7 +1,7 @@
 /*
- * new_table.c: what others may do to a table while CREATE TABLE makes it, as a
- * statement of ours: drop its schema before, or itself after, by an event trigger; or
- * make another one of that name.
+ * new_table.c: guards a table against what others may do while a CREATE TABLE of ours
+ * makes it. They may drop its schema before, drop the table after, by an event trigger,
+ * or make another one of that name.
  */
 #include "postgres.h"
 
@@ -33,14 +33,14 @@ new_table_name(text *name)
 	return makeRangeVarFromNameList(textToQualifiedNameList(name));
 }
 
-/* The schema in which it will be, locked: it is still there when a statement names it. */
+/* The schema of the new table, locked, so that it is still there when a statement names it. */
 Oid
 new_table_schema(RangeVar *name)
 {
 	return RangeVarGetAndCheckCreationNamespace(name, NoLock, NULL);
 }
 
-/* That the name is free: CREATE TABLE would say so, too, but not what to do. */
+/* Checks that the name is free. CREATE TABLE would too, but it would not say what to do. */
 void
 new_table_check_name(Oid schema, const char *name)
 {
@@ -68,7 +68,7 @@ is_name_taken(const ErrorData *error)
 		 strcmp(error->constraint_name, "pg_class_relname_nsp_index") == 0);
 }
 
-/* CREATE TABLE; the name may be taken meanwhile, by a session that has just committed. */
+/* CREATE TABLE. A session that has just committed may have taken the name meanwhile. */
 void
 new_table_create(const char *command, const char *name)
 {

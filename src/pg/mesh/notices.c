@@ -1,6 +1,6 @@
 /*
- * notices.c: what is no error, but what nobody expects of a change: points that equal a
- * vertex, and points that span no simplex.
+ * notices.c: notices of what is no error, but unexpected: points that equal a vertex,
+ * and points that span no simplex.
  */
 #include "postgres.h"
 

@@ -1,5 +1,5 @@
 /*
- * notices.h: what is no error, but what nobody expects of a change.
+ * notices.h: notices of what is no error, but unexpected.
  */
 #ifndef ABACUS_NOTICES_H
 #define ABACUS_NOTICES_H

@@ -1,17 +1,16 @@
 /*
  * writer.c: one change of a mesh.
  *
- * Writers of a mesh take turns by locking its header row; readers are never
- * blocked. The whole change happens inside one SQL call: when it returns,
- * every page and the new header are in the tables under the command's own
- * transaction, so that savepoints, rollback and crash recovery need nothing
- * of ours. A writer that commits in between (abacus_build) makes each of its
- * changes in that way.
+ * Writers of a mesh take turns by locking its header row; readers are never blocked.
+ * The whole change happens inside one SQL call. When it returns, every page and the new
+ * header are in the tables, under the command's own transaction. So savepoints,
+ * rollback and crash recovery need no code of ours. A writer that commits in between
+ * (abacus_build) makes each of its changes in this way.
  *
- * Waiting for another writer means that the snapshot taken before is too old
- * to see what that writer did. Under READ COMMITTED we then take a new one and
- * start again, as a second statement would; under the stricter levels it is a
- * serialization failure.
+ * Waiting for another writer means that the snapshot taken before is too old to see
+ * what that writer did. Under READ COMMITTED we then take a new snapshot and start
+ * again, as a second statement would. Under the stricter levels it is a serialization
+ * failure.
  */
 #include "postgres.h"
 
@@ -61,8 +60,8 @@ lock_header(Host *host, ItemPointer tid)
 
 /*
  * Opens both tables, the second with all checks. While they are open PostgreSQL refuses
- * to alter or drop them in this session: so they stay what was checked, whatever the
- * query does that gives the points.
+ * to alter or drop them in this session. So the checks stay true, whatever the query
+ * that gives the points does.
  */
 static void
 open_tables(MeshPages *pages)
@@ -109,7 +108,10 @@ open_and_lock(Writer *writer, bool in_trigger)
 	superseded_reclaim_earlier(mesh_pages(host)->simplices.superseded, mesh_pages(host)->simplices.heap, &sight);
 }
 
-/* What is temporary may be changed in a read-only transaction, as by INSERT. */
+/*
+ * A temporary mesh may be changed in a read-only transaction, as INSERT may change a
+ * temporary table.
+ */
 void
 writer_prevent_read_only(Oid mesh, const char *command)
 {
@@ -140,7 +142,10 @@ writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command)
 	begin(writer, mesh, access, command, false);
 }
 
-/* The same for changing, in a function that is called as a trigger: more is known of snapshots. */
+/*
+ * Opens a mesh for changing in a function that is called as a trigger, where more is
+ * known about snapshots.
+ */
 void
 writer_begin_in_trigger(Writer *writer, Oid mesh, const char *command)
 {
@@ -148,8 +153,8 @@ writer_begin_in_trigger(Writer *writer, Oid mesh, const char *command)
 }
 
 /*
- * Gives up the tables and the snapshot, as long as which are held no transaction
- * ends. Nothing has changed, or the header has been written.
+ * Gives up the tables and the snapshot, which must be done before a transaction can
+ * end. Either nothing has changed, or the header has been written.
  */
 void
 writer_release(Writer *writer)
@@ -167,9 +172,9 @@ writer_store(Writer *writer)
 }
 
 /*
- * After writer_store() or writer_release(), and a commit: opens the mesh for
- * the next change. What the core holds of it is still so if the caller has kept
- * others from changing it meanwhile, by a lock of the session (mesh.h).
+ * After writer_store() or writer_release(), and a commit: opens the mesh for the next
+ * change. What the core holds of it is still true if the caller has kept others from
+ * changing it meanwhile, by a lock of the session (mesh.h).
  */
 void
 writer_continue(Writer *writer)

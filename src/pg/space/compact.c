@@ -1,29 +1,28 @@
 /*
  * compact.c: the rows of a mesh moved to the beginning of their tables.
  *
- * A page of a mesh fills a heap page. A statement that changes pages all over
- * the mesh writes all of them anew, and the old versions are free only when it
- * has committed: so the table becomes twice as large. From then on half of it
- * is empty, each time another half, and there are always rows near its end,
- * where VACUUM could cut it. Nothing that happens inside one transaction helps.
- * abacus_build and VACUUM (vacuum.c) commit as they like: so it is there that
- * the rows at the end are moved to the empty heap pages at the beginning, until
- * these meet; each once, as a rule. Other writers are kept away meanwhile. In the
- * vertex table the points that were staged leave such a beginning, and the pages
- * of repeated points lie behind it.
+ * A page of a mesh fills a heap page. A statement that changes pages all over the mesh
+ * writes all of them anew, and the old versions are free only after its commit. So the
+ * table becomes twice as large. From then on half of it is empty, each time another
+ * half, and some rows always lie near its end, which VACUUM could otherwise cut off.
+ * Nothing inside one transaction helps. But abacus_build and VACUUM (vacuum.c) may
+ * commit in between. So they move the rows at the end to the empty heap pages at the
+ * beginning, until the two meet. As a rule each row moves once. Other writers are kept
+ * away meanwhile. The vertex table has such an empty beginning where staged points
+ * were, and the pages of repeated points lie behind it.
  *
- * A move is a deletion and an insertion of the same row: an update would leave
- * a small row on its heap page. Readers see the one or the other, by their
- * snapshots, and what sessions have of the mesh in memory stays good, for the
- * stamp of the header does. But each batch of moves writes the header, as
- * every change does: a writer whose snapshot is older would look for pages
- * where they were, and is told so by the header.
+ * A move is a deletion and an insertion of the same row: an update would leave a small
+ * row on its heap page. Readers see the one or the other, by their snapshots. What
+ * sessions hold of the mesh in memory stays valid, since the stamp of the header stays.
+ * But each batch of moves writes the header, as every change does. A writer with an
+ * older snapshot would look for pages where they were, and learns from the header that
+ * it must not.
  *
- * Rows that somebody's snapshot still sees keep their heap pages; the rest is
- * done, and another call goes on.
+ * Rows that somebody's snapshot still sees keep their heap pages. The others are moved,
+ * and a later call goes on.
  *
- * The file is left as long as it is. Index entries point to what the moved rows
- * have left, and only VACUUM removes these; then it cuts the file by itself.
+ * The file keeps its length. Index entries still point to the old places of the moved
+ * rows. Only VACUUM removes these entries, and then it cuts the file by itself.
  */
 #include "postgres.h"
 
@@ -55,8 +54,8 @@ is_worthwhile(Superseded *superseded, Relation heap)
 }
 
 /*
- * Whether compact() would do something, as far as the table tells, which any
- * lock keeps; a snapshot must be active.
+ * Whether compact() would do something, judged by the table alone. The caller has any
+ * lock on it, and a snapshot must be active.
  */
 bool
 compact_is_worthwhile(Relation heap)

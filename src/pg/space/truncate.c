@@ -1,18 +1,16 @@
 /*
  * truncate.c: the file of a table whose rows are all dead.
  *
- * A build in batches takes its points from vertex pages and erases them, each
- * batch in a transaction of its own. At the end the vertex table holds nothing
- * but dead rows, and its file is as large as ever, until VACUUM comes and cuts
- * it. That can be done here and now if nobody is in the way: no transaction
- * that may still see a row, nobody who has the table open. On a standby somebody
- * may have, and is cancelled when the truncation gets there, as after VACUUM's;
- * the table's setting vacuum_truncate forbids both.
+ * A build in batches takes its points from vertex pages and erases them, each batch in
+ * a transaction of its own. At the end the vertex table holds nothing but dead rows,
+ * and its file keeps its size until VACUUM cuts it. The file can be cut at once if no
+ * transaction may still see a row and nobody has the table open. A session on a standby
+ * may have it open. It is cancelled when the truncation arrives there, as after
+ * VACUUM's; the table's setting vacuum_truncate forbids both.
  *
- * As TRUNCATE does it, table and index get new files, and the old ones go at
- * commit. Cutting the files where they are is not for tables that must survive
- * a crash: between the cut of the table and the new index there are moments
- * when one does not fit the other.
+ * As with TRUNCATE, table and index get new files, and the old ones go at commit.
+ * Cutting the files in place would not survive a crash: for a moment the cut table and
+ * its index do not fit each other.
  */
 #include "postgres.h"
 

@@ -1,23 +1,22 @@
 /*
  * vacuum.c: VACUUM of a mesh gives its space back.
  *
- * VACUUM cuts a file behind the last row, and a mesh that was changed all over
- * has rows everywhere (compact.c). So in a session that has this module loaded,
- * VACUUM is followed by what abacus_build does at its end, where that is worth
- * it: rows are moved to the beginning of their tables (vacuum_moves.c). Then
- * these tables are vacuumed again, which removes what the moves have left from
- * the indexes, and cuts the files. What is still seen by somebody keeps its place
- * until a later one.
+ * VACUUM cuts a file behind the last row, and a mesh that was changed all over has rows
+ * everywhere (compact.c). So in a session that has this module loaded, more follows a
+ * VACUUM where it is worth it. Rows are moved to the beginning of their tables
+ * (vacuum_moves.c), as at the end of abacus_build. Then these tables are vacuumed
+ * again, which removes the old index entries of the moved rows and cuts the files. Rows
+ * that somebody still sees keep their places until a later VACUUM.
  *
- * Not before VACUUM, once, for two reasons. Statements that change few points
- * leave a hundred and more dead line pointers on each heap page, so that no row
- * fits, and to remove them is VACUUM's alone. And nothing that happens here can
- * keep VACUUM from its work: what it refuses it has refused.
+ * Moving rows before a single VACUUM would not do, for two reasons. Statements that
+ * change few points leave a hundred and more dead line pointers on each heap page, so
+ * that no row fits. Only VACUUM removes them. And a failure here cannot keep VACUUM
+ * from its work, which is done by then.
  *
- * VACUUM ends in a fresh transaction, and so do we. The statement may belong to a
- * plan that an aborted transaction lets go; so it is copied.
+ * VACUUM ends in a fresh transaction, and so do we. An aborted transaction may release
+ * the plan to which the statement belongs, so the statement is copied.
  *
- * The workers of autovacuum run no statement, so they do not come by here.
+ * The workers of autovacuum run no statement, so they do not come here.
  */
 #include "postgres.h"
 
@@ -55,7 +54,7 @@ is_index_cleanup_on(DefElem *option)
 		defGetBoolean(option);
 }
 
-/* Reads the options of a VACUUM that went well; false if it cannot cut files, or has no need to. */
+/* Reads the options of a VACUUM that has succeeded; false if it cannot cut files, or need not. */
 static bool
 read_options(const VacuumStmt *statement, VacuumOptions *options)
 {
@@ -176,7 +175,7 @@ find_jobs(const VacuumStmt *statement)
 
 /* ---- The hook ------------------------------------------------------------- */
 
-/* After a VACUUM that went well. */
+/* After a VACUUM that has succeeded. */
 static void
 after_vacuum(const VacuumStmt *statement, const char *query)
 {

@@ -2,16 +2,16 @@
  * vacuum_moves.c: the rows of meshes that have been vacuumed, moved to the
  * beginning of their tables.
  *
- * Only where the file will be cut, so not if the table's settings keep VACUUM
- * from it. Who may vacuum a table may have its rows moved: nobody sees or changes
- * anything of them, and no function of a user is called.
+ * Rows are moved only where the file will be cut, so not if the table's settings keep
+ * VACUUM from cutting it. Users who may vacuum a table may have its rows moved: that
+ * shows and changes nothing of the rows, and calls no function of a user.
  *
- * Nothing is waited for: a mesh that somebody is changing stays as it is. Of one
- * without much empty space no more is seen than a sample of its heap pages.
+ * The moves wait for nobody: a mesh that somebody is changing stays as it is. A mesh
+ * without much empty space costs a look at a sample of its heap pages.
  *
- * The moves are transactions of their own. One that fails is taken back whole, as
- * autovacuum does it, and the failure becomes a warning; a cancel is an error. We
- * are at the outermost level, so that nobody's transaction is aborted but ours.
+ * The moves are transactions of their own. One that fails is rolled back, as autovacuum
+ * does it, and the failure becomes a warning. A cancel stays an error. We are at the
+ * outermost level, so only our own transaction is aborted.
  */
 #include "postgres.h"
 

@@ -2,8 +2,8 @@
  * fn_attributes.c: abacus_attributes and abacus_rename_attribute, the attributes
  * of a mesh and their names.
  *
- * Names are in the header; what values there are only the points tell, all of
- * which are read.
+ * The names are in the header. The values are only in the points, so all points are
+ * read.
  */
 #include "postgres.h"
 

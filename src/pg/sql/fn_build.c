@@ -2,18 +2,18 @@
  * fn_build.c: abacus_build, staged points into the mesh in batches, each
  * committed.
  *
- * A batch is a change like that of abacus_triangulate: all its pages and the
- * new header under one transaction. So whatever stops the build, the mesh is
- * that of the last batch, and the header says where to go on.
+ * A batch is a change like that of abacus_triangulate: all its pages and the new header
+ * under one transaction. So whatever stops the build, the mesh has the points up to the
+ * last batch, and the header says where to go on.
  *
  * At the end rows are moved to the beginning of their tables, if more than a
  * little of these is empty (compact.c), so that VACUUM can cut them. The vertex
  * table has only dead rows, as a rule, and is truncated.
  *
- * From one batch to the next the core keeps its cache. What it holds of the
- * mesh, the places of stored pages included, stays true because a lock of the
- * session keeps other writers, VACUUM FULL and the like away until the end. Of
- * the vertex table, which that lock is not on, nothing is kept.
+ * From one batch to the next the core keeps its cache. What it holds of the mesh, the
+ * places of stored pages included, stays true: a lock of the session keeps other
+ * writers, VACUUM FULL and the like away until the end. That lock is not on the vertex
+ * table, so nothing of that is kept.
  */
 #include "postgres.h"
 
@@ -70,8 +70,8 @@ insert_batch(Writer *writer, abacus_build *build, uint64 limit)
 }
 
 /*
- * A change by itself, where it is due: other keys for a mesh whose domain does not fit its points.
- * Returns whether there is something to commit.
+ * A change of its own, where it is due: a mesh whose domain does not fit its points gets other
+ * keys. Returns whether there is something to commit.
  */
 static bool
 rekey(Writer *writer, abacus_build *build)

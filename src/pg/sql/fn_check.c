@@ -1,10 +1,9 @@
 /*
  * fn_check.c: abacus_check, the exact verification of a mesh.
  *
- * The core verifies everything in the first call and keeps the faults. What
- * keeps it from being asked at all (a header that is missing or cannot be
- * read) is a fault as well, not an error; so is a row where the core has no
- * keys.
+ * The core verifies everything in the first call and keeps the faults. Without a
+ * readable header the core cannot be asked. That is also a fault and not an error, and
+ * so is a row under a key that the core does not have.
  */
 #include "postgres.h"
 
@@ -68,7 +67,7 @@ look_before_pages(Checking *checking)
 		note_fault(checking, "interval", row.key, "A row lies before the beginning of the curve.");
 }
 
-/* Has the core verify everything; it keeps at most so many faults. */
+/* Lets the core verify everything; it keeps at most so many faults. */
 static void
 check_pages(Checking *checking, Oid mesh, const abacus_header *header, int32 limit)
 {

@@ -2,9 +2,8 @@
  * fn_edit.c: abacus_insert and abacus_delete, points into a mesh and out of it,
  * without vertex pages between.
  *
- * All pages are written before the function returns, once each: a point costs
- * the pages that its cavity or star touches, many points in one call share
- * them.
+ * All pages are written before the function returns, once each. A point costs the pages
+ * that its cavity or star touches; many points in one call share them.
  */
 #include "postgres.h"
 
@@ -16,7 +15,7 @@
 SQL_FUNCTION(abacus_sql_insert);
 SQL_FUNCTION(abacus_sql_delete);
 
-/* What an argument says is to become of a point at the place of another. */
+/* What becomes of a point at the place of another, as an argument says. */
 static abacus_on_duplicate
 on_duplicate(text *given)
 {

@@ -2,14 +2,15 @@
  * fn_estimate.c: how many rows abacus_simplices and abacus_vertices return, told
  * to the planner by their support functions.
  *
- * As PostgreSQL does of any table, the size of the file is asked for, which costs a
- * system call, and how full it is by the last VACUUM or ANALYZE: 0 to 1 page of a mesh
- * in a page of the file, since old versions lie beside the new ones. What a page holds
- * is a constant. The header would tell exactly, but it is a row, with privileges and
- * a snapshot of its own; who plans a query need not be who may run it.
+ * As for any table of PostgreSQL, the size of the file is asked for, which costs a
+ * system call. The last VACUUM or ANALYZE tells how full the file is: a page of it
+ * holds 0 to 1 page of a mesh, since old versions lie beside the new ones. What a page
+ * of a mesh holds is taken as a constant. The header would tell exactly, but it is a
+ * row, with privileges and a snapshot of its own, and the user who plans a query may
+ * lack the right to run it.
  *
  * A relation that is no mesh, or is not known yet, gets the estimate of CREATE FUNCTION.
- * What is wrong with it is told when the function runs.
+ * The function reports such errors when it runs.
  */
 #include "postgres.h"
 
@@ -34,8 +35,8 @@ SQL_FUNCTION(abacus_sql_vertices_rows);
 #define BYTES_PER_WAITING_POINT 32.0
 
 /*
- * Whether a table has a file here: an unlogged one has none on a standby, and of a temporary
- * one of another session some pages may never have reached it.
+ * Whether a table has a file here that can be read. An unlogged table has none on a standby.
+ * Pages of a temporary table of another session may never have reached its file.
  */
 static bool
 has_readable_file(Relation rel)
@@ -47,8 +48,8 @@ has_readable_file(Relation rel)
 
 /*
  * Bytes of a table's live pages; negative if there is no such table any more or nothing of it
- * can be read. It is not kept locked, as pg_relation_size() does not: who may not read it
- * should not hold up others.
+ * can be read. As in pg_relation_size() it does not stay locked: users who may not read the
+ * table should not hold up others.
  */
 static double
 live_bytes(Oid relid)

@@ -1,10 +1,10 @@
 /*
  * fn_load.c: abacus_load, a triangulation made elsewhere into a new mesh.
  *
- * The vertices are read first, then the simplices; the core keeps both, sorts
- * and checks them within maintenance_work_mem (beyond it in temporary files)
- * and writes the pages; or, if that is wanted, it triangulates the vertices of
- * what is not Abacus' own Delaunay triangulation.
+ * The vertices are read first, then the simplices. The core sorts and checks both
+ * within maintenance_work_mem, beyond that in temporary files, and writes the pages. If
+ * the caller wants that, it triangulates the vertices instead where the simplices are
+ * not Abacus' own Delaunay triangulation.
  */
 #include "postgres.h"
 
@@ -34,7 +34,10 @@ dimension_of(const Source *simplices)
 	return columns - 1;
 }
 
-/* Checks what has been read; of an error's detail, which may have many lines, all of them are told. */
+/*
+ * Checks what has been read. The detail of an error may have many lines, and all of
+ * them are reported.
+ */
 static abacus_delaunay
 check(Host *host, abacus_load *load)
 {

@@ -1,10 +1,10 @@
 /*
  * fn_places.c: abacus_locate for the places of a query, many at once.
  *
- * All places are read before the first is located, for they are brought into
- * the order of the curve; so the rows go into a tuplestore, as those of a
- * function in FROM do anyway. The session's cache has no part in it: the core
- * looks for all places of a page together, and keeps none.
+ * All places are read before the first is located, since they are sorted along the
+ * curve. So the rows go into a tuplestore, as those of a function in FROM do anyway.
+ * The session's cache is not used: the core looks for all places of a page together,
+ * and keeps no page.
  */
 #include "postgres.h"
 

@@ -2,9 +2,9 @@
  * fn_sets.c: abacus_simplices and abacus_vertices, the content of a mesh as
  * rows.
  *
- * One row a call. Between calls only the core's scan is kept, which holds one
- * decoded page in memory and nothing of PostgreSQL; so a query that stops
- * early (LIMIT, a closed cursor) leaves nothing behind.
+ * One row a call. Between calls only the core's scan is kept. It holds one decoded page
+ * in memory and nothing of PostgreSQL, so a query that stops early (LIMIT, a closed
+ * cursor) leaves nothing behind.
  */
 #include "postgres.h"
 

@@ -86,7 +86,7 @@ put_sizes(Figures *figures, const Reader *reader, Oid vertices)
 				   "simplex table and index, per simplex");
 }
 
-/* What a mesh is that is not Abacus' own was found out when it was loaded. */
+/* For a mesh that is not Abacus' own, abacus_load() has found out what it is. */
 static void
 put_delaunay(Figures *figures, abacus_delaunay delaunay)
 {
@@ -125,8 +125,8 @@ put_counts(Figures *figures, const abacus_header *header)
 }
 
 /*
- * Says so where the domain of a mesh no longer fits its points, and abacus_build() would choose
- * another one; not for a mesh that is never changed.
+ * A notice where the domain of a mesh does not fit its points and abacus_build() would choose
+ * another one. There is none for a mesh that cannot be changed.
  */
 static void
 report_domain(Reader *reader)

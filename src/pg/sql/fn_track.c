@@ -2,11 +2,10 @@
  * fn_track.c: abacus_track and abacus_untrack: a mesh begins to follow a table,
  * and ends.
  *
- * The table is locked against writers first, so no row is missed: what is
- * committed by then is read here, what comes later meets the triggers. Then an
- * empty mesh gets the rows there are. One that has points must have just
- * those; the difference of the two multisets says so, and is made good if the
- * caller wishes.
+ * The table is locked against writers first, so no row is missed: rows committed by
+ * then are read here, and later ones meet the triggers. Then an empty mesh gets the
+ * points of all rows. A mesh that has points must have exactly those. The difference of
+ * the two multisets tells, and it is made good if the caller wishes.
  */
 #include "postgres.h"
 
@@ -31,7 +30,10 @@
 SQL_FUNCTION(abacus_sql_track);
 SQL_FUNCTION(abacus_sql_untrack);
 
-/* Who may not track the table must not keep others from writing it, so this comes before the lock. */
+/*
+ * Users who may not track the table must not keep others from writing it, so this comes
+ * before the lock.
+ */
 static void
 check_owner(Oid relid)
 {
@@ -40,7 +42,7 @@ check_owner(Oid relid)
 		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, get_rel_name(relid));
 }
 
-/* The table to be tracked, locked; while it is open nobody drops it, an event trigger neither. */
+/* The table to be tracked, locked. While it is open nobody drops it, not even an event trigger. */
 static Relation
 open_table(Oid relid, LOCKMODE mode)
 {
@@ -119,7 +121,7 @@ check_table(Relation table)
 				 errhint("Use ALTER TABLE ... NO FORCE ROW LEVEL SECURITY.")));
 }
 
-/* What is emptied or gone at some time that no trigger tells the other of. */
+/* Refuses a pair of which one can be emptied or vanish without a trigger that tells the other. */
 static void
 check_persistence(Relation table, char of_mesh)
 {
@@ -143,7 +145,7 @@ check_persistence(Relation table, char of_mesh)
 				 errhint("Use ALTER TABLE ... SET LOGGED or SET UNLOGGED; a mesh has two tables.")));
 }
 
-/* The mesh is written as the owner of the table later, in any session: may he? */
+/* Checks the rights of the table's owner, with which any session will later write the mesh. */
 static void
 check_mesh(Relation table, List *family, Oid mesh)
 {
@@ -169,7 +171,7 @@ check_mesh(Relation table, List *family, Oid mesh)
 	table_close(simplices, NoLock);
 }
 
-/* Whether the mesh is bound to the table, so that triggers that name it alone are none of its own. */
+/* Whether the mesh is bound to the table, so that triggers which only name it do not count. */
 static bool
 is_bound_to(List *triggers, Oid table)
 {
@@ -198,7 +200,7 @@ present_triggers(Oid function, Oid mesh, Relation table)
 	{
 		TrackingTrigger *trigger = lfirst(cell);
 
-		/* of a partition that was detached the auxiliary one is left */
+		/* a partition that was detached still has its auxiliary trigger */
 		if (tracking_root(trigger->table) == RelationGetRelid(table) ||
 			(trigger->auxiliary && pg_class_ownercheck(trigger->table, GetUserId())))
 			present = lappend(present, trigger);
@@ -236,7 +238,7 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 	uint64		missing;
 	uint64		surplus;
 
-	/* both are read before the mesh changes, for a query would see it half changed */
+	/* both are read before the mesh changes, since a query would see it half changed */
 	missing = read_points(change, psprintf("%s EXCEPT ALL %s", here, there));
 	change_swap_stages(change);
 	surplus = read_points(change, psprintf("%s EXCEPT ALL %s", there, here));

@@ -2,23 +2,23 @@
  * fn_tracked.c: abacus_tracked, the trigger function that keeps a mesh in step
  * with a table.
  *
- * It is called once after each statement. What a statement adds is inserted
- * first, what it takes away is deleted then: so a vertex whose attributes alone
- * change is renamed (the new point waits beside the old one and takes over),
- * and the triangulation stays as it is. A statement that changes no point does
- * not touch the mesh, nor wait for its other writers. Or the points are noted, and the mesh
- * follows at commit (pending.c).
+ * It is called once after each statement. Points that a statement adds are inserted first,
+ * then those that it takes away are deleted. So a vertex of which only attributes change is
+ * renamed: the new point waits beside the old one and takes over, and the triangulation
+ * stays as it is. A statement that changes no point does not touch the mesh, nor wait for
+ * its other writers. In a mesh that follows at commit the points are only noted
+ * (pending.c).
  *
- * A statement may come to a table by way of its parent or not, and fires the statement triggers of the one
- * it names. So tables with partitions or children have triggers for each row, which
- * PostgreSQL gives to partitions that are attached, too. These note points.
+ * A statement may reach a table through its parent, and it fires the statement triggers only of the
+ * table that it names. So tables with partitions or children have triggers for each row, which
+ * PostgreSQL also gives to partitions that are attached later. These triggers note points.
  *
- * The mesh is written as the owner of the table, as for foreign keys: whoever
- * may write the table need have no privileges on the mesh, and without the
- * owner's nobody reaches it. Nothing that a user has written runs meanwhile.
- * That holds for triggers bound to their mesh (tracking.c), which the owner has
- * made by abacus_track(). Others may name any mesh, and change it with the rights
- * of the user only, as any function of a trigger does.
+ * The mesh is written with the rights of the table's owner, as for foreign keys: users
+ * who may write the table need no privileges on the mesh, and the owner's are checked.
+ * No code of a user runs meanwhile. That holds for triggers bound to their mesh
+ * (tracking.c), which the owner has made by abacus_track(). Other triggers may name any
+ * mesh. They change it with the rights of the user only, as any function of a trigger
+ * does.
  */
 #include "postgres.h"
 
@@ -72,7 +72,7 @@ to_stage(void *context, const uint64 *points, size_t count)
 	change_add(context, points, count);
 }
 
-/* Stages the points that are new, or those that are no more; returns how many. */
+/* Stages the points that are new, or those that are gone; returns how many. */
 static uint64
 stage(Transition *transition, bool new, Change *change)
 {
@@ -92,12 +92,15 @@ follow(const TriggerData *trigger, Transition *transition, Change *change)
 		change_insert(change);
 	if (transition->old.rows == NULL || (gone = stage(transition, false, change)) == 0)
 		return;
-	/* another row's point at the place must not go for one that is missing */
+	/* the point of another row at the place must not be taken for one that is missing */
 	in_step_check_deleted(change, RelationGetRelationName(trigger->tg_relation), gone,
 						  change_delete(change, true));
 }
 
-/* Changes the mesh as the statement has changed the table; no transition: it has emptied it. */
+/*
+ * Changes the mesh as the statement has changed the table. Without a transition the
+ * statement has emptied it.
+ */
 static void
 change_mesh(const TriggerData *trigger, Transition *transition)
 {
@@ -180,7 +183,7 @@ note_row(FunctionCallInfo fcinfo)
 	transition_send_row(notes->transition, trigger, false, note_gone, notes->pending);
 }
 
-/* Notes that the rows of a partition or child are gone, which is going to be truncated. */
+/* Notes that the rows of a partition or child, which is going to be truncated, are gone. */
 static void
 note_all_gone(const TriggerData *trigger, const Transition *transition)
 {
@@ -197,7 +200,7 @@ note_all_gone(const TriggerData *trigger, const Transition *transition)
 	for (int i = 0; i < transition->columns; i++)
 		columns = lappend(columns, transition->names[i]);
 	GetUserIdAndSecContext(&user, &security);
-	/* who may truncate it need not be allowed to read it */
+	/* a user who may truncate it may lack the right to read it */
 	SetUserIdAndSecContext(writer, security | SECURITY_LOCAL_USERID_CHANGE);
 	source_prepare(&source, tracked_points_of_one_table(trigger->tg_relation, columns,
 														transition->dimension));

@@ -1,6 +1,6 @@
 /*
- * fn_triangulate.c: abacus_triangulate, from staged points to simplex pages,
- * or from a query to a finished mesh at once.
+ * fn_triangulate.c: abacus_triangulate, staged points become simplex pages, or a query
+ * becomes a finished mesh at once.
  */
 #include "postgres.h"
 

@@ -13,7 +13,7 @@
 
 /*
  * Row type of a function that returns simplices, blessed, in the current memory context. Its
- * columns are those of the type: whoever owns it may have added some.
+ * columns are those of the type, whose owner may have added some.
  */
 TupleDesc
 simplex_row_type(FunctionCallInfo fcinfo)
@@ -56,7 +56,7 @@ simplex_row(TupleDesc row_type, const abacus_simplex *simplex, uint32 dimension)
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
 }
 
-/* The rows of a function that is called for many: looked up once. */
+/* What a function that is called for many rows needs for them, looked up once. */
 SimplexRows *
 simplex_rows(FunctionCallInfo fcinfo)
 {
@@ -76,8 +76,8 @@ simplex_rows(FunctionCallInfo fcinfo)
 }
 
 /*
- * simplex_row() for many: rows of one dimension differ in values only, which
- * are bigints, so each is a copy of the first with its own.
+ * simplex_row() for many rows. Rows of one dimension differ only in their values, which
+ * are bigints. So each row is a copy of the first with its own values.
  */
 Datum
 simplex_row_again(SimplexRows *rows, const abacus_simplex *simplex, uint32 dimension)

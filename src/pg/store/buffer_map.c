@@ -1,11 +1,11 @@
 /*
  * buffer_map.c: shared buffers come into this process's address space many at a time.
  *
- * All processes share the buffers, but each has to be shown them by the kernel,
- * which takes it two page faults for each buffer that it writes to. Who stores
- * pages by the thousand takes buffers as the server hands them out, and that
- * is nearly in a row. So around each one that has got a new page a stretch of
- * them is asked for at once (populate.h), and each stretch once.
+ * All processes share the buffers, but the kernel has to map each one into each
+ * process: two page faults for each buffer that the process writes to. A writer of
+ * thousands of pages gets buffers as the server hands them out, nearly in a row. So
+ * around each buffer with a new page a stretch of them is mapped at once (populate.h),
+ * and each stretch only once.
  */
 #include "postgres.h"
 
@@ -18,7 +18,7 @@
 
 #define STRETCH 32				/* buffers */
 
-/* By stretches of this process: whether they were asked for. */
+/* For each stretch, whether this process has asked for it. */
 static bool *mapped = NULL;
 
 /* Asks for the buffers around this one, unless it is InvalidBuffer or a temporary table's. */

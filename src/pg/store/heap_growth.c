@@ -1,19 +1,17 @@
 /*
  * heap_growth.c: a table of pages grows by many heap pages at a time.
  *
- * PostgreSQL 15 adds a heap page by writing zeros to the end of the file, which takes
- * 15 microseconds (docs/design/postgresql.md), and writes the page itself later. Who stores more
- * than a few rows has the file system give room to many at once instead, much as
- * PostgreSQL does from 16 on: a full disk is noticed now and not when buffers are
- * written, and nothing is written twice. Where a file system cannot, pages are
- * added one by one as ever.
+ * PostgreSQL 15 adds a heap page by writing zeros to the end of the file, which takes 15
+ * microseconds, and writes the page itself later. A writer of more than a few rows lets the file
+ * system reserve room for many pages at once, as PostgreSQL does from 16 on
+ * (docs/design/postgresql.md). A full disk is noticed at once and not when buffers are written,
+ * and nothing is written twice. Where a file system cannot do that, pages are added one by one.
  *
- * Buffers get the pages, as zeros, before the file has them: nothing has to be
- * read then, and as nobody can ask for a page beyond the end of the file, nobody
- * can have written them yet. From the moment when the file has grown they are what
- * a crash may leave too: pages that scans skip, that whoever inserts a row
- * initializes, and that VACUUM enters into the free space map. What is not
- * used in the end is entered at once.
+ * Buffers get the pages, as zeros, before the file has them. So nothing has to be read.
+ * Nobody can ask for a page beyond the end of the file, so nobody can have written
+ * them. Once the file has grown, they are pages as a crash may also leave them: scans
+ * skip them, an insertion initializes them, and VACUUM enters them into the free space
+ * map. Pages that stay unused are entered there at once.
  */
 #include "postgres.h"
 
@@ -33,13 +31,13 @@
 #define ROWS_A_PAGE 16
 /* ... and by no more than these, */
 #define MOST_PAGES 32
-/* ... nor by more than this share of the shared buffers, from which some would be driven out again. */
+/* ... nor by more than this share of the shared buffers, which would evict some of them again. */
 #define BUFFERS_A_PAGE 8
 
 /*
- * Room in the file for pages from `first` on, all of one segment; false if that cannot be had.
- * Not posix_fallocate(): where the file system has no such thing, that takes longer than
- * PostgreSQL, by two small writes a page.
+ * Room in the file for pages from `first` on, all of one segment; false if there is none.
+ * posix_fallocate() will not do: where the file system lacks the call, it makes two small
+ * writes a page, which takes longer than PostgreSQL does.
  */
 static bool
 reserve(Relation heap, BlockNumber first, int pages)
@@ -67,8 +65,9 @@ reserve(Relation heap, BlockNumber first, int pages)
 }
 
 /*
- * Buffers of zeros for pages that the file does not have. They may be there, if somebody
- * failed to add them before; false if one is not zeros, which whoever adds it will report.
+ * Buffers of zeros for pages that the file does not have. They may exist, if somebody
+ * failed to add them before. False if one is not zeros, which the next session that adds
+ * it will report.
  */
 static bool
 take_buffers(Relation heap, BlockNumber first, int pages)

@@ -1,5 +1,5 @@
 /*
- * heap_room.c: for how large a row a heap page has room.
+ * heap_room.c: how large a row a heap page has room for.
  */
 #include "postgres.h"
 

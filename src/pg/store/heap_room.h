@@ -1,5 +1,5 @@
 /*
- * heap_room.h: for how large a row a heap page has room.
+ * heap_room.h: how large a row a heap page has room for.
  */
 #ifndef ABACUS_HEAP_ROOM_H
 #define ABACUS_HEAP_ROOM_H

@@ -1,19 +1,19 @@
 /*
  * own_sight.c: what a session's snapshots see of the changes of its own transaction.
  *
- * A row that a transaction has made and replaced again is seen by no other session, ever. In
- * its own it is seen by a snapshot that was taken between the two commands: that of a
- * cursor, of a loop over a query, of the statement from which this one is called. And it
- * comes back with a rollback to a savepoint between the two. Otherwise nobody can see it any more.
+ * No other session ever sees a row that a transaction has made and replaced again. In its own
+ * session a snapshot sees it that was taken between the two commands: that of a cursor, of a loop
+ * over a query, or of the statement from which this one is called. And a rollback to a savepoint
+ * between the two brings it back. Otherwise nobody can see it.
  *
- * PostgreSQL does not tell which snapshots there are. Registered ones lie in one heap of pairs,
- * whose nodes are part of the snapshots and lead from one to all others. Active ones are a stack:
- * each can be had when those above are taken off, and these are put back. With each goes the
- * nested transaction that has put it there, which is not to be seen, but outside of all nested ones
- * there is no doubt. In a nested transaction the first and the last can be had, and, in a
- * trigger, the last but one. So all are known there if there are no more than that: in
- * statements that a client sends, and in those of a DO block, of a procedure, or of a function that such
- * a statement calls. Where they are not known, nothing is past.
+ * PostgreSQL does not tell which snapshots there are. The registered ones lie in a pairing heap,
+ * whose nodes are part of the snapshots and lead from one to all others. The active ones are a
+ * stack: to reach one, those above it are popped and pushed again. Each belongs to the nested
+ * transaction that has pushed it, which cannot be seen. Outside all nested transactions there is no
+ * doubt. In a nested transaction the first and the last can be reached, and, in a trigger, the last
+ * but one. So all are known there if there are no more than these: in statements that a client
+ * sends, and in those of a DO block, of a procedure, or of a function that such a statement calls.
+ * Where they are not known, no row counts as past.
  */
 #include "postgres.h"
 
@@ -51,7 +51,7 @@ add_all_registered(OwnSight *sight)
 	pairingheap_node *root;
 
 	InvalidateCatalogSnapshot();	/* taken anew when needed */
-	/* sees all that was done before, so it is in nobody's way; in the heap it leads to the others */
+	/* sees all that was done before, so it does no harm; in the heap it leads to the others */
 	mine = RegisterSnapshot(GetTransactionSnapshot());
 	for (root = &mine->ph_node; root->prev_or_parent != NULL;)
 		root = root->prev_or_parent;
@@ -59,7 +59,7 @@ add_all_registered(OwnSight *sight)
 	UnregisterSnapshot(mine);
 }
 
-/* Adds all active snapshots, where none was put there by a nested transaction. */
+/* Adds all active snapshots, where no nested transaction has pushed one. */
 static void
 add_all_active(OwnSight *sight)
 {
@@ -82,8 +82,8 @@ add_all_active(OwnSight *sight)
 }
 
 /*
- * The last but one active snapshot. The last must have been put there in the innermost
- * transaction, for there it is put again.
+ * The last but one active snapshot. The last must have been pushed in the innermost
+ * transaction, since it is pushed there again.
  */
 static Snapshot
 last_but_one(void)
@@ -99,8 +99,8 @@ last_but_one(void)
 }
 
 /*
- * Looks at what snapshots there are. `in_trigger`: we are called as a trigger; then the
- * active snapshot is that of the statement, put there in the innermost transaction.
+ * Finds the snapshots that there are. `in_trigger`: we are called as a trigger. Then
+ * the active snapshot is that of the statement, pushed in the innermost transaction.
  */
 void
 own_sight_take(OwnSight *sight, bool in_trigger)
@@ -129,8 +129,9 @@ own_sight_take(OwnSight *sight, bool in_trigger)
 
 /*
  * Whether two of our transactions, which have not been rolled back, will stay or be rolled back
- * together. A nested one that has ended belongs to the one that encloses it. Numbers grow: what is not
- * less than that of the innermost open one belongs to it. Of those between it and the outermost we do not know.
+ * together. A nested one that has ended belongs to the one around it. Numbers grow: a transaction
+ * whose number is not less than that of the innermost open one belongs to that. About those between
+ * it and the outermost one nothing is known.
  */
 static bool
 share_fate(const OwnSight *sight, TransactionId one, TransactionId other)

@@ -3,17 +3,18 @@
  *
  * PostgreSQL prunes what is dead to everybody, and nothing of a transaction in progress. But
  * a row that nobody can see any more (own_sight.c) is as dead now as it will be after the
- * commit, or the rollback; and who changes a mesh point by point in one transaction leaves
- * thousands of them.
+ * commit or the rollback. A transaction that changes a mesh point by point leaves thousands
+ * of them.
  *
- * This does to a heap page what PostgreSQL's pruning does, by the same function and the same record of the
- * write-ahead log, under the same lock: nobody else has the page pinned. Line pointers stay, as dead ones,
- * until VACUUM has removed what the index has of them; a chain of versions on one page (HOT) keeps its first
- * line pointer, which leads to the first version that is left. A standby replays it
- * as any pruning, and has no snapshot that could be in its way: none ever saw the rows.
+ * This does to a heap page what PostgreSQL's pruning does, with the same function and the same
+ * record of the write-ahead log, under the same lock: nobody else has the page pinned. Line
+ * pointers stay, as dead ones, until VACUUM has removed their index entries. A chain of versions on
+ * one page (HOT) keeps its first line pointer, which leads to the first version that is left. A
+ * standby replays it as any pruning. No snapshot there can be in its way, since none ever saw the
+ * rows.
  *
- * The version before, of another transaction, points to one that is gone. Who follows it, as only
- * a row lock of a user's own on a mesh's table does, finds what he would after a DELETE.
+ * The version before, of another transaction, points to one that is gone. Only a row lock that a
+ * user takes on a mesh's table follows that pointer. It finds what it would find after a DELETE.
  */
 #include "postgres.h"
 
@@ -72,8 +73,8 @@ row_at(Page page, OffsetNumber offset)
 }
 
 /*
- * Goes along the chain of versions that begins at a line pointer, as long as they are
- * past. Those lose their places, all but the first, to which an index leads.
+ * Follows the chain of versions that begins at a line pointer, as long as they are
+ * past. All but the first lose their places; an index leads to the first.
  */
 static void
 judge_chain(Page page, OffsetNumber first, const OwnSight *sight, Pruning *pruning)
@@ -91,7 +92,7 @@ judge_chain(Page page, OffsetNumber first, const OwnSight *sight, Pruning *pruni
 
 		if (row == NULL || (past > 0 && HeapTupleHeaderGetRawXmin(row) != replaced_by))
 		{
-			pruning->unused_count = unused_before;	/* nothing that we understand */
+			pruning->unused_count = unused_before;	/* a state that we do not know */
 			return;
 		}
 		if (!own_sight_is_past(sight, row))

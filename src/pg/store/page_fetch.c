@@ -1,17 +1,16 @@
 /*
- * page_fetch.c: a row of a table of pages by its place, which a search gave.
+ * page_fetch.c: a row of a table of pages by its place, which a search has returned
+ * before.
  *
- * The index is not asked. Rows that have been moved are not there any more, and
- * VACUUM may have cut the file. That takes a lock which ours excludes: so the
- * length of the file is asked for once for each time that
- * page_table_expect_moves() is called.
+ * The index is not asked. Rows may have moved, and VACUUM may have cut the file. It
+ * needs a lock for that which ours excludes, so the length of the file is asked for
+ * only once after each call of page_table_expect_moves().
  *
- * Mostly the heap page still is in the buffer where it was. Then the shared
- * table of buffers, in cold memory as a rule, need not be asked either. But that
- * does not count as a use of the buffer; so it is done with buffers that have
- * uses in stock only, else what is needed all the time would be the first to be
- * replaced. The bytes that will be read are asked for before it is known whether
- * they are still there.
+ * Mostly the heap page is still in the same buffer. Then the shared table of buffers,
+ * which as a rule lies in cold memory, need not be asked either. But such an access
+ * does not count as a use of the buffer. So it is done only with buffers that have a
+ * usage count to spare; otherwise the pages needed most would be replaced first. The
+ * bytes to be read are prefetched before it is known whether they are still there.
  */
 #include "postgres.h"
 
@@ -30,7 +29,10 @@ page_table_expect_moves(PageTable *table)
 	table->blocks = 0;
 }
 
-/* Loads nobody waits for: prefetch instructions may be dropped in cold memory. */
+/*
+ * Loads whose values nobody waits for: a processor may drop prefetch instructions to
+ * cold memory.
+ */
 static void
 ask_for(const unsigned char *bytes, size_t size)
 {

@@ -1,13 +1,12 @@
 /*
  * page_index.c: the indexes of a table of pages.
  *
- * Pages are found through the primary key. There may be other indexes: REINDEX
- * CONCURRENTLY builds the new one while writers go on, and it is they who bring
- * into it what it has missed, as soon as it is ready for that; so they do for
- * the old one until nobody reads it any more. So a writer keeps every index on
- * the key columns, whoever has made it. Indexes with expressions or predicates
- * would need the executor, and those on the page itself have no use: with one
- * of them the mesh can only be read.
+ * Pages are found through the primary key. There may be other indexes. REINDEX
+ * CONCURRENTLY builds a new one while writers go on. As soon as it is ready for that,
+ * the writers add the entries that it would miss. They also keep the old one until
+ * nobody reads it. So a writer keeps every index on the key columns, whoever has made
+ * it. Indexes with expressions or predicates would need the executor, and indexes on
+ * the page itself have no use: with one of them the mesh can only be read.
  */
 #include "postgres.h"
 
@@ -24,12 +23,11 @@ typedef struct PageIndex
 } PageIndex;
 
 /*
- * The primary key, which must be what we search by. The table's list of indexes
- * names it only while it is valid; what the index says of itself may be newer or
- * older than the list, since a transaction is seen to have committed before
- * others hear what it has changed. Then REINDEX CONCURRENTLY has just put one
- * index in the other's place. Both are whole, and stay so while we keep our lock
- * on the table, which it waits for.
+ * The primary key, which must be what we search by. The table's list of indexes names
+ * it only while it is valid. What the index says of itself may be newer or older than
+ * the list, since others see that a transaction has committed before they hear what it
+ * has changed. Then REINDEX CONCURRENTLY has just put one index in the other's place.
+ * Both are whole, and stay so while we keep our lock on the table, which it waits for.
  */
 Relation
 page_index_open_primary(Relation heap, LOCKMODE lock)
@@ -93,9 +91,9 @@ page_index_open_all(Relation heap)
 }
 
 /*
- * Makes the entries of a new row, or of a new version of a row with the same
- * key. That is as unique as it was: to look would mean to visit all versions
- * that this transaction has left, thousands in a loop of small changes.
+ * Makes the entries of a new row, or of a new version of a row with the same key. The
+ * key stays unique without a check. A check would visit all versions that this
+ * transaction has left, thousands in a loop of small changes.
  */
 void
 page_index_insert(List *indexes, Relation heap, const Datum *values, const bool *isnull,

@@ -9,8 +9,8 @@
  * measured.)
  *
  * A writer sees its own changes because its active snapshot is a private copy whose
- * command id follows each change, one CommandCounterIncrement between a change and
- * the next search or update.
+ * command id follows each change. There is one CommandCounterIncrement between a change
+ * and the next search or update.
  */
 #include "postgres.h"
 
@@ -46,9 +46,9 @@ lock_mode(const PageTable *table)
 
 /*
  * Others cannot rewrite a table that we have locked, but our own transaction can,
- * between two rows of a cursor. Readers have places of the old file in memory, and
- * a snapshot that need not see the new one. Where relations stay open between two
- * rows, PostgreSQL refuses the rewriting itself.
+ * between two rows of a cursor. Readers hold places of the old file in memory, and
+ * their snapshot need not see the new one. Where relations stay open between two rows,
+ * PostgreSQL itself refuses the rewriting.
  */
 static void
 check_node(PageTable *table)
@@ -182,8 +182,8 @@ bound_key(PageTable *table, PageScan *scan, ScanKey bound, StrategyNumber strate
 }
 
 /*
- * The row with exactly this key. Backwards: of versions that a transaction has
- * left in great number, all with this key, the last ones are the nearest.
+ * The row with exactly this key. The search goes backwards: a transaction may have left
+ * very many versions with this key, and the last ones are the nearest.
  */
 bool
 page_table_get(PageTable *table, const int64 *key, StoredPage *page)
@@ -259,10 +259,10 @@ page_table_next(PageTable *table, const int64 *key, StoredPage *page)
 /*
  * Called when something does not fit together: an error if our snapshot is older than
  * the index by which we search. An index that REINDEX CONCURRENTLY has built lacks the
- * versions that were dead by then. On the primary it waits for all who might need them;
- * on a standby nobody does, and PostgreSQL itself would give an answer without these
- * rows. The index is as young as the last change of its row in pg_index, which made
- * it valid. Not for our own changes: they wait for nobody.
+ * versions that were dead by then. On the primary it waits for all transactions that
+ * might need them. On a standby nothing waits, and PostgreSQL itself would answer
+ * without these rows. The index is as young as the last change of its row in pg_index,
+ * which made it valid. Not for our own changes: they wait for nobody.
  */
 void
 page_table_refuse_newer_index(PageTable *table)
@@ -285,10 +285,10 @@ page_table_refuse_newer_index(PageTable *table)
 }
 
 /*
- * Called when rows are missed: an error if our snapshot sees none and newer ones
- * would. Then the table has been made since, or an ALTER TABLE has written all of its
- * rows anew, for which it takes no account of older snapshots. An error also if the
- * snapshot is older than the index.
+ * Called when rows are missed: an error if our snapshot sees none and newer ones would.
+ * Then the table has been made since, or an ALTER TABLE has rewritten all of its rows,
+ * which disregards older snapshots. An error also if the snapshot is older than the
+ * index.
  */
 void
 page_table_refuse_newer(PageTable *table)

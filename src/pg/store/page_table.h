@@ -46,7 +46,7 @@ typedef struct PageTable
 	TupleTableSlot *fetched;	/* NULL while none is */
 	BlockNumber blocks;			/* of the heap, at least; 0: not known */
 
-	bool		wrote;			/* changes that our snapshot does not see yet */
+	bool		wrote;			/* changes that our snapshot does not yet see */
 	uint64		stored;			/* rows so far */
 	MemoryContext memory;		/* of what is open */
 	struct varlena *datum;		/* writers: room for one page */

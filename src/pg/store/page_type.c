@@ -35,7 +35,7 @@ make_page(const void *bytes, size_t size)
 	return PointerGetDatum(page);
 }
 
-/* A page as SQL hands it over; its length is checked, for it may come from anywhere. */
+/* A page as SQL hands it over. Its length is checked, since it may come from anywhere. */
 static struct varlena *
 get_page(Datum datum)
 {

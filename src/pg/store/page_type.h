@@ -1,9 +1,9 @@
 /*
  * page_type.h: the base type abacus_page, the bytes of one page.
  *
- * A varlena stored plain (never compressed, shortened or moved out of line)
- * with alignment of double: four bytes of length, four of zero, then the
- * page, which so stands at a multiple of eight and is read in place.
+ * A varlena stored plain (never compressed, shortened or moved out of line) with the
+ * alignment of double: four bytes of length, four zero bytes, then the page. So the
+ * page lies at a multiple of eight and is read in place.
  */
 #ifndef ABACUS_PAGE_TYPE_H
 #define ABACUS_PAGE_TYPE_H

@@ -1,11 +1,11 @@
 /*
  * page_write.c: rows of a table of pages are added, replaced, removed and moved.
  *
- * By heap_insert and index_insert, as the executor does it. No
- * BulkInsertState (its ring would evict the pages that are about to be read
- * again) and no SKIP_FSM (freed pages must be found; those that this session
- * has freed are taken from the beginning of the table on). Where none is free,
- * the table grows by many heap pages at a time.
+ * It calls heap_insert and index_insert, as the executor does. It uses no
+ * BulkInsertState, whose ring would evict pages that are about to be read again. It
+ * uses no SKIP_FSM, since freed pages must be found; those that this session has freed
+ * are taken from the beginning of the table on. Where none is free, the table grows by
+ * many heap pages at a time.
  */
 #include "postgres.h"
 
@@ -20,7 +20,7 @@
 #include "pg/store/page_table.h"
 #include "pg/store/page_type.h"
 
-/* Rows from which on a writer is one of very many. */
+/* From so many rows on, a writer counts as one of very many. */
 #define MANY_ROWS 16
 
 /* Forms the tuple of a row in the current memory context. */
@@ -40,9 +40,9 @@ form_row(PageTable *table, const int64 *key, const unsigned char *bytes, size_t 
 }
 
 /*
- * Has the next row go to the heap page that is being filled; or to one that has become
- * empty, the first one in the table; or else to a new one of many, if the table may
- * grow. Returns it, or InvalidBlockNumber: then the heap looks for a page by itself.
+ * Chooses the heap page of the next row: the one that is being filled; or the first one
+ * in the table that has become empty; or a new one of many, if the table may grow.
+ * Returns it, or InvalidBlockNumber: then the heap looks for a page by itself.
  */
 static BlockNumber
 choose_heap_page(PageTable *table, HeapTuple tuple, bool may_grow)
@@ -65,7 +65,7 @@ choose_heap_page(PageTable *table, HeapTuple tuple, bool may_grow)
 	return table->target;
 }
 
-/* Turns away from the heap page that is being filled, if one is; what is left on it can be had. */
+/* Leaves the heap page that is being filled, if there is one; others may use the rest of it. */
 void
 page_table_leave_target(PageTable *table)
 {

@@ -7,9 +7,9 @@
 #include "pg/store/stored_page.h"
 
 /*
- * A row in a table can be anything. What cannot be a page is handed to the core
- * as one without bytes, which it refuses like all others that it cannot read:
- * an error, or a fault for abacus_check.
+ * A row in a table can be anything. A value that cannot be a page is handed to the core
+ * as a page without bytes. The core refuses it as any page that it cannot read, with an
+ * error or a fault for abacus_check.
  */
 void
 stored_page_read(TupleTableSlot *slot, StoredPage *page)

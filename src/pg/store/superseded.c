@@ -1,31 +1,31 @@
 /*
  * superseded.c: the space of rows that were replaced.
  *
- * A page of a mesh fills a heap page, so the new version of a row goes
- * elsewhere and the old one keeps its heap page. PostgreSQL would prune that
- * when somebody comes by, but nobody does: no search leads to a dead row, and
- * an insertion goes where the free space map sends it, which pruning does not
- * tell. So a writer remembers the heap pages that it left, has them pruned
- * when the commit has made the old versions dead, and enters their space into
- * the map: abacus_build after each batch, every other change at the session's
- * next change of the mesh. Else each single point would leave pages behind.
+ * A page of a mesh fills a heap page, so the new version of a row goes elsewhere and
+ * the old one keeps its heap page. PostgreSQL would prune that page when somebody
+ * visits it, but nobody does. No search leads to a dead row, and an insertion goes
+ * where the free space map sends it, which pruning does not update. So a writer
+ * remembers the heap pages that it left. When the commit has made the old versions
+ * dead, it prunes these pages and enters their space into the map. abacus_build does so
+ * after each batch, every other change at the session's next change of the mesh.
+ * Otherwise each single point would leave pages behind.
  *
- * Those that the transaction at hand has made itself need no commit: what nobody can
- * see any more goes at the transaction's next change (own_versions.c). Their heap pages are
- * remembered apart, each for one try, so that a change costs no more than the one before it; a few
- * that are seen still, as by a statement that makes several changes, are tried again.
+ * Versions that the current transaction has made itself need no commit: those that nobody can see
+ * any more go at the transaction's next change (own_versions.c). Their heap pages are remembered
+ * apart, each for one try, so that a change costs no more than the one before it. A few that are
+ * still seen, as by a statement that makes several changes, are tried again.
  *
- * Old versions that some transaction still sees stay, and are tried again the
- * next time. What remains in any case, until VACUUM, are a line pointer of
- * four bytes and the index entry.
+ * Old versions that some transaction still sees stay, and are tried again the next
+ * time. In any case a line pointer of four bytes and the index entry remain until
+ * VACUUM.
  *
- * What has become free is handed out from the beginning of the table on. The
- * free space map goes round and round, so that a table that has grown once,
- * because somebody saw the old versions for a while, would have pages in use up
- * to its end for ever, and VACUUM could not cut it.
+ * What has become free is handed out from the beginning of the table on. The free space
+ * map goes round and round. A table that has once grown, because somebody saw the old
+ * versions for a while, would then have pages in use up to its end for ever, and VACUUM
+ * could not cut it.
  *
- * What other sessions have left, and what was rolled back, is looked for only
- * when rows are moved anyway (compact.c): that takes a look at every heap page.
+ * Versions that other sessions have left, or that were rolled back, are looked for only
+ * when rows are moved anyway (compact.c), since that takes a look at every heap page.
  *
  * The heap pages are remembered in bitmaps: 2 MB for 64 GB of table.
  */
@@ -46,11 +46,11 @@
 #include "pg/store/superseded.h"
 
 #define FIRST_BYTES 1024
-/* Heap pages that one page of the free space map is about, and fewer. */
+/* Heap pages that one page of the free space map covers, rounded down. */
 #define MAP_STRIDE 4000
 /*
- * Of a heap page without rows. Until VACUUM each row that it had takes a line
- * pointer; full pages of a mesh fit for long, since most leave some room.
+ * The least room of a heap page without rows. Until VACUUM each row that it had takes a
+ * line pointer. Full pages of a mesh still fit for long, since most leave some room.
  */
 #define EMPTY_BYTES (BLCKSZ - BLCKSZ / 8)
 /* Heap pages; a row that is nearer than these to the beginning is left where it lies. */
@@ -144,7 +144,7 @@ superseded_add_own(Superseded *superseded, BlockNumber block)
 	superseded->own[superseded->own_count++] = block;
 }
 
-/* An empty heap page is the next to be written, if none before it is. */
+/* An empty heap page is the next to be written, if there is none before it. */
 static void
 hand_out(Superseded *superseded, BlockNumber block)
 {
@@ -170,9 +170,9 @@ first_empty(Superseded *superseded)
 }
 
 /*
- * Takes the first heap page that has become empty and has room for `size`
- * bytes, now: another session may have written it meanwhile. Its room goes to
- * *room. InvalidBlockNumber if there is none, and *room is left as it was.
+ * Takes the first heap page that has become empty and still has room for `size` bytes,
+ * since another session may have written it meanwhile. Its room goes to *room.
+ * InvalidBlockNumber if there is none, and *room is left as it was.
  */
 BlockNumber
 superseded_take_empty(Superseded *superseded, Relation heap, Size size, Size *room)
@@ -196,7 +196,7 @@ superseded_take_empty(Superseded *superseded, Relation heap, Size size, Size *ro
 	return InvalidBlockNumber;
 }
 
-/* Takes back a heap page on which so much room is left, if it still is as good as empty. */
+/* Takes back a heap page on which so much room is left, if it is still almost empty. */
 void
 superseded_give_back(Superseded *superseded, BlockNumber block, Size room)
 {
@@ -205,9 +205,9 @@ superseded_give_back(Superseded *superseded, BlockNumber block, Size room)
 }
 
 /*
- * Whether a row lies far behind the first empty heap page. A row of less than half
- * a heap page is updated where it lies, the header above all, and the table
- * could not be cut before it.
+ * Whether a row lies far behind the first empty heap page. A row of less than half a
+ * heap page, the header above all, is updated where it lies, and the table could not be
+ * cut before it.
  */
 bool
 superseded_is_far(Superseded *superseded, BlockNumber block)
@@ -249,9 +249,9 @@ has_rolled_back(Relation heap, Buffer buffer)
 }
 
 /*
- * Prunes a heap page and tells the free space map what room it has; *is_empty
- * is whether it has become empty. Returns false if there is more to prune, but
- * not now: a row is seen by somebody still, or the page is being read.
+ * Prunes a heap page and tells the free space map what room it has; *is_empty is
+ * whether it has become empty. Returns false if there is more to prune, but not now,
+ * since somebody still sees a row or is reading the page.
  */
 static bool
 reclaim(Superseded *superseded, Relation heap, BlockNumber block, bool *is_empty)
@@ -262,7 +262,7 @@ reclaim(Superseded *superseded, Relation heap, BlockNumber block, bool *is_empty
 	bool		done;
 
 	LockBuffer(buffer, BUFFER_LOCK_EXCLUSIVE);
-	/* a transaction long ended: what was rolled back has been dead since ever */
+	/* a transaction that ended long ago: rolled-back rows are dead to everybody */
 	if (!TransactionIdIsValid(((PageHeader) page)->pd_prune_xid) && has_rolled_back(heap, buffer))
 		PageSetPrunable(page, heap->rd_rel->relfrozenxid);
 	/* a page that a row was deleted from, and that has room, would not be pruned for long */
@@ -282,9 +282,9 @@ reclaim(Superseded *superseded, Relation heap, BlockNumber block, bool *is_empty
 }
 
 /*
- * Gives the space back. The replacing transactions must have committed, and
- * a snapshot taken since be active: it is what tells this backend that nobody
- * else needs the old versions.
+ * Gives the space back. The replacing transactions must have committed, and a snapshot
+ * taken since must be active: it tells this backend that nobody else needs the old
+ * versions.
  */
 void
 superseded_reclaim(Superseded *superseded, Relation heap)
@@ -324,7 +324,7 @@ superseded_reclaim(Superseded *superseded, Relation heap)
 		FreeSpaceMapVacuumRange(heap, first, last + 1);
 }
 
-/* The same for what earlier changes of the transaction at hand have left of its own. */
+/* The same for versions that the current transaction has made and replaced. */
 static void
 reclaim_own(Superseded *superseded, Relation heap, const OwnSight *sight)
 {
@@ -348,8 +348,9 @@ reclaim_own(Superseded *superseded, Relation heap, const OwnSight *sight)
 }
 
 /*
- * The same for what earlier transactions of the session have left, or earlier changes of
- * this one. What cannot be reclaimed yet is tried again when whoever saw it has ended.
+ * The same for what transactions of the session before this one have left, or the
+ * changes of this one so far. What cannot be reclaimed yet is tried again when no
+ * transaction sees it.
  */
 void
 superseded_reclaim_earlier(Superseded *superseded, Relation heap, const OwnSight *sight)
@@ -369,9 +370,9 @@ superseded_reclaim_earlier(Superseded *superseded, Relation heap, const OwnSight
 }
 
 /*
- * Looks at one of so many heap pages, from *block to before `end`, until so many
- * are found to be empty; these are handed out now. Whoever has left dead rows
- * there, their space is reclaimed. Returns how many are empty.
+ * Looks at every n-th heap page, from *block to before `end`, until enough are found to
+ * be empty; these are handed out from now on. The space of dead rows there is
+ * reclaimed, whichever session has left them. Returns how many are empty.
  */
 uint64
 superseded_survey(Superseded *superseded, Relation heap, uint64 *block, uint64 end,

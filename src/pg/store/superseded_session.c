@@ -1,9 +1,10 @@
 /*
- * superseded_session.c: what a session has left in the meshes that it changed lately.
+ * superseded_session.c: what a session has left behind in the meshes that it changed
+ * lately.
  *
- * The query that gives points to one mesh may change others, any number of them. So
- * what the transaction at hand has asked for may be in use, and is not forgotten for
- * another mesh; when there are too many, the last ones are not kept.
+ * The query that gives points to one mesh may change any number of other meshes. So an
+ * entry that the current transaction has asked for may be in use, and does not make way
+ * for another mesh. When there are too many meshes, the last ones get no entry.
  */
 #include "postgres.h"
 

@@ -1,20 +1,21 @@
 /*
  * pending.c: what meshes that follow their tables at commit have to catch up with.
  *
- * Statements leave the points that they have added and taken away in a log, one for each mesh. Before
- * the transaction commits, or is prepared, each mesh is changed once: first all points that came
- * are inserted, then those that went are deleted. In that order every point that went is there,
- * whether it was before or has come in the same transaction. This is where checks of deferred
- * constraints and deferred triggers have been done, so that these may still change tables; and
- * an error ends the transaction as one of theirs does. The meshes come in the order of their OIDs, and
- * whoever has locked one of them waits for no row any more.
+ * Statements note the points that they have added and taken away in a log, one for each mesh.
+ * Before the transaction commits, or is prepared, each mesh is changed once: first all new points
+ * are inserted, then those that are gone are deleted. In that order every deleted point is there,
+ * whether it is old or from the same transaction. By then deferred constraints have been checked
+ * and deferred triggers have fired, so these may still change tables. An error ends the transaction
+ * as one of theirs does. The meshes are changed in the order of their OIDs, and a transaction that
+ * has locked one of them no longer waits for rows.
  *
- * A rollback to a savepoint takes back what came since: the first time that a nested transaction
- * changes what is noted of a mesh, it notes what was before. A nested transaction that ends well leaves that to the
- * one around it, unless that has its own.
+ * A rollback to a savepoint takes back what came since. When a nested transaction first changes the
+ * notes of a mesh, it saves the state before. A nested transaction that commits leaves this saved
+ * state to the one around it, unless that has saved its own.
  *
- * SET CONSTRAINTS ALL IMMEDIATE has all meshes catch up, and those that follow be changed by
- * each statement, to the end of the transaction or SET CONSTRAINTS ALL DEFERRED.
+ * After SET CONSTRAINTS ALL IMMEDIATE all meshes catch up. From then on each statement
+ * changes the meshes that follow, until the end of the transaction or SET CONSTRAINTS ALL
+ * DEFERRED.
  */
 #include "postgres.h"
 
@@ -72,8 +73,9 @@ static bool immediate = false;
 /* ---- Notes of statements ------------------------------------------------- */
 
 /*
- * Whether the mesh can be changed with the rights of this user, who learns it now and not at commit. It
- * stays locked as by any writer: else DROP TABLE would have it, and wait for the table, which we have.
+ * Raises an error now, and not at commit, if the mesh cannot be changed with the rights of this
+ * user. It stays locked as by any writer. Otherwise DROP TABLE could lock it, and then wait for the
+ * table, which we have locked.
  */
 static void
 check_mesh(Oid mesh, Oid user)
@@ -87,7 +89,7 @@ check_mesh(Oid mesh, Oid user)
 	SetUserIdAndSecContext(current, security);
 }
 
-/* What is noted of a mesh that is changed with the rights of this user. */
+/* The notes of a mesh that is changed with the rights of this user. */
 Pending *
 pending_open(Oid mesh, Oid user, const TriggerData *trigger, const Transition *transition)
 {
@@ -172,7 +174,7 @@ pending_forget(Oid mesh)
 
 /* ---- Catching up --------------------------------------------------------- */
 
-/* Stages the points that came, or those that are gone. */
+/* Stages the points that are new, or those that are gone. */
 static void
 stage(Pending *pending, bool gone, Change *change)
 {
@@ -243,7 +245,10 @@ catch_up(Pending *pending)
 	MemoryContextDelete(memory);
 }
 
-/* The one with the least OID that has something to catch up with; `mesh` alone if it is valid. */
+/*
+ * The mesh with the least OID that has something to catch up with; only `mesh` counts
+ * if it is valid.
+ */
 static Pending *
 next_behind(Oid mesh)
 {
@@ -257,7 +262,7 @@ next_behind(Oid mesh)
 	return found;
 }
 
-/* Has the mesh catch up with its table now, or, given InvalidOid, all of them. */
+/* Lets the mesh catch up with its table now; given InvalidOid, all meshes. */
 void
 pending_settle(Oid mesh)
 {

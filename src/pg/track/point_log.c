@@ -1,10 +1,10 @@
 /*
  * point_log.c: points in the order in which they came, cut off again at any place.
  *
- * The first ones are kept in memory, as many as a few statements bring; then all go to a temporary
- * file. It belongs to the transaction, not to the nested one that happens to make it. The caller
- * knows where the log ends, and writes there: what a rollback to a savepoint has cut off is
- * written over.
+ * As many points as a few statements bring are kept in memory; then all go to a temporary file.
+ * The file belongs to the whole transaction, not to the nested one that happens to make it. The
+ * caller knows where the log ends and writes there, over what a rollback to a savepoint has cut
+ * off.
  */
 #include "postgres.h"
 

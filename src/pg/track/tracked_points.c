@@ -1,6 +1,6 @@
 /*
- * tracked_points.c: the points of a table that a mesh follows, and those of the
- * mesh: which columns they have, and queries for them.
+ * tracked_points.c: the points of a table that a mesh follows, and those of the mesh:
+ * their columns, and queries for them.
  */
 #include "postgres.h"
 
@@ -50,7 +50,7 @@ column_names(ArrayType *given, const abacus_header *header, Relation table)
 	return names;
 }
 
-/* Types that the triggers would refuse are refused before there are any. */
+/* Refuses types that the triggers would refuse, before there are triggers. */
 static void
 check_types(List *columns, const abacus_header *header, Relation table)
 {
@@ -74,9 +74,9 @@ tracked_columns(ArrayType *given, const abacus_header *header, Relation table)
 }
 
 /*
- * A numeric as the row packer reads it (numeric_float8_no_overflow): what rounds
- * to zero or infinity is that, where the cast would be an error. Both bounds are
- * exact: half the least double, and the greatest with half a step more.
+ * A numeric as the row packer reads it (numeric_float8_no_overflow): numbers that round
+ * to zero or infinity become that, where the cast would fail. Both bounds are exact:
+ * half the least double, and the greatest double with half a step more.
  */
 #define NUMERIC_AS_PACKED \
 	"CASE WHEN %1$s OPERATOR(pg_catalog.=) 'NaN'::pg_catalog.numeric THEN 'NaN'::pg_catalog.float8 " \

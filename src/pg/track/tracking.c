@@ -1,25 +1,25 @@
 /*
  * tracking.c: the triggers by which a mesh follows a table.
  *
- * They are ordinary triggers of the table, four of them, one an event, since a
- * trigger with transition tables has only one. A table with partitions has two, one for
- * each row and one for TRUNCATE, and each of its partitions an auxiliary one for TRUNCATE of that alone; of
- * the former PostgreSQL itself makes a clone for each partition, and drops it when that is detached. A
- * table with children has the same as a partition, and so have these, but for the clone. Their
- * arguments are the name of the mesh, its dimension, with a word if it follows at commit, and the
- * names of the columns. What counts is not the name, though,
- * but an automatic dependency of the trigger on the mesh: so the mesh may be
- * renamed and moved, and dropping it drops the triggers.
+ * They are ordinary triggers of the table, four of them, one for each event, since a trigger with
+ * transition tables can have only one event. A table with partitions has two: one for each row, and
+ * one for TRUNCATE. Each of its partitions has an auxiliary trigger for TRUNCATE of the partition
+ * alone. PostgreSQL itself makes a clone of the row trigger for each partition, and drops it when
+ * the partition is detached. A table with children, and each of its children, has one for each row
+ * and an auxiliary one. The arguments of the triggers are the name of the mesh, its dimension, with
+ * a word if it follows at commit, and the names of the columns. What counts is not the name but an
+ * automatic dependency of the trigger on the mesh. So the mesh may be renamed and moved, and
+ * dropping it drops the triggers.
  *
- * Only bound triggers run with the rights of the table's owner, for anybody who
- * may make a trigger can name any mesh.
+ * Only bound triggers run with the rights of the table's owner, since everybody who may
+ * make a trigger can name any mesh.
  *
  * A dump carries the triggers and their arguments, but not the dependency. In a
- * restored database the mesh is found by its name, with the rights of the user.
- * All its triggers are bound again when somebody with the rights of both owners
- * first writes the table, or changes the mesh so that its vertex table is bound.
- * The name has no schema if the mesh lies in that of the table, so that both can
- * be restored into another.
+ * restored database the mesh is found by its name, with the rights of the user. All its
+ * triggers are bound again when somebody with the rights of both owners first writes
+ * the table, or changes the mesh so that its vertex table is bound. The name has no
+ * schema if mesh and table lie in the same one, so that both can be restored into
+ * another schema.
  */
 #include "postgres.h"
 
@@ -57,9 +57,9 @@ tracking_function(Oid extension_namespace)
 }
 
 /*
- * The mesh of this name, which without a schema is one of `namespace`. Names are
- * what somebody has written who need not be the one who asks: so nothing is an
- * error, and no privilege is asked for.
+ * The mesh of this name, which without a schema is one of `namespace`. Another user
+ * than the caller may have written the name. So nothing is an error, and no privilege
+ * is asked for.
  */
 static Oid
 mesh_by_name(const char *name, Oid namespace)
@@ -83,8 +83,9 @@ static Oid
 bound_mesh(Oid trigger, Oid table, Oid from)
 {
 	/*
-	 * Every trigger depends on its own table, which may be a mesh's, and one with FROM on that
-	 * table, too: whoever has the privilege TRIGGER on a mesh can make such. abacus_track() does not.
+	 * Every trigger depends on its own table, which may be a mesh's, and a trigger with FROM also
+	 * depends on that table. Users with the privilege TRIGGER on a mesh can make such triggers.
+	 * abacus_track() does not.
 	 */
 	Oid			mesh = OidIsValid(from) ? InvalidOid : mesh_of_trigger(trigger);
 
@@ -144,7 +145,7 @@ read_trigger(Oid oid)
 	ScanKeyInit(&key, Anum_pg_trigger_oid, BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(oid));
 	scan = systable_beginscan(triggers, TriggerOidIndexId, true, NULL, 1, &key);
 	tuple = systable_getnext(scan);
-	/* a clone comes and goes with the one of which it is */
+	/* a clone comes and goes with its original */
 	if (HeapTupleIsValid(tuple) && !OidIsValid(((Form_pg_trigger) GETSTRUCT(tuple))->tgparentid))
 	{
 		Form_pg_trigger form = (Form_pg_trigger) GETSTRUCT(tuple);
@@ -187,16 +188,17 @@ belongs(const TrackingTrigger *trigger, Oid mesh, Oid table)
 {
 	if (trigger == NULL || trigger->mesh != mesh)
 		return false;
-	/* what others write into triggers of their tables must be in nobody's way */
+	/* what others write into the triggers of their tables must not disturb anybody */
 	return trigger->bound || trigger->table == table ||
 		(OidIsValid(table) && tracking_root(trigger->table) == table) ||
 		owner_of_table(trigger->table) == owner_of_table(mesh);
 }
 
 /*
- * The triggers that call the function, TRACKING_FUNCTION, for this mesh: those
- * bound to it, and of those that only name it the ones of `table` (which may be
- * InvalidOid), its partitions and children, and of tables that the mesh's owner has.
+ * The triggers that call the function, TRACKING_FUNCTION, for this mesh: those bound to
+ * it, and some that only name it. Of these count the triggers of `table` (which may be
+ * InvalidOid), of its partitions and children, and of tables that the mesh's owner
+ * owns.
  */
 List *
 tracking_triggers(Oid function, Oid mesh, Oid table)
@@ -270,14 +272,14 @@ bind_triggers(Oid function, Oid mesh, Oid table)
 		if (!trigger->bound && tracking_root(trigger->table) == table)
 			mesh_bind_trigger(mesh, trigger->oid);
 	}
-	CommandCounterIncrement();	/* who looks again in this command must see it */
+	CommandCounterIncrement();	/* a second look in this command must see it */
 	return true;
 }
 
 /*
- * After a restore: binds the triggers of the mesh, if there is no doubt which
- * table it follows. Waits for nobody; what is not bound here the first write of
- * the table binds.
+ * After a restore: binds the triggers of the mesh, if there is no doubt which table it
+ * follows. It waits for nobody. Triggers that are not bound here are bound by the first
+ * write of the table.
  */
 void
 tracking_bind_restored(Relation mesh)
@@ -293,7 +295,10 @@ tracking_bind_restored(Relation mesh)
 		bind_triggers(function, relid, table);
 }
 
-/* Who may not use the schema of a mesh does not reach it through a trigger that is not bound. */
+/*
+ * A user who may not use the schema of a mesh does not reach it through a trigger that
+ * is not bound.
+ */
 static void
 check_schema(Oid mesh, Oid table)
 {
@@ -307,7 +312,7 @@ check_schema(Oid mesh, Oid table)
 		aclcheck_error(result, OBJECT_SCHEMA, get_namespace_name(namespace));
 }
 
-/* A trigger that fires, or the one of which it is a clone. */
+/* A trigger that fires, or its original if it is a clone. */
 typedef struct FiringTrigger
 {
 	Oid			oid;
@@ -315,7 +320,7 @@ typedef struct FiringTrigger
 	Oid			from;			/* as bound_mesh() takes it */
 } FiringTrigger;
 
-/* Reads a trigger from the catalogue; returns the one of which it is a clone, or InvalidOid. */
+/* Reads a trigger from the catalogue; returns its original if it is a clone, else InvalidOid. */
 static Oid
 read_firing(Oid oid, FiringTrigger *trigger)
 {
@@ -342,7 +347,7 @@ read_firing(Oid oid, FiringTrigger *trigger)
 	return original;
 }
 
-/* The trigger that counts for one of a table: itself, or the one of which it is a clone. */
+/* The trigger that counts for a trigger of a table: itself, or its original if it is a clone. */
 static FiringTrigger
 original_trigger(const Trigger *trigger, Oid table)
 {
@@ -355,9 +360,10 @@ original_trigger(const Trigger *trigger, Oid table)
 }
 
 /*
- * The mesh that a trigger, now firing, keeps in step with its table, and the user
- * with whose rights it is to be changed. Those of the table's owner, if it is the one of
- * abacus_track(); otherwise a user has named it, and has no rights but his own.
+ * The mesh that a trigger, now firing, keeps in step with its table, and the user with
+ * whose rights it is changed. For the mesh of a trigger that abacus_track() has made
+ * this is the table's owner. Otherwise a user has named the mesh, and has no rights but
+ * his own.
  */
 Oid
 tracking_mesh(const TriggerData *data, Oid *user)

@@ -1,8 +1,8 @@
 /*
  * tracking_create.c: the triggers by which a mesh follows a table are made and dropped.
  *
- * By CREATE TRIGGER and DROP TRIGGER, as the caller, with all their checks. What they are is told
- * in tracking.c.
+ * It uses CREATE TRIGGER and DROP TRIGGER, as the caller, with all their checks. The essay in
+ * tracking.c describes the triggers.
  */
 #include "postgres.h"
 
@@ -21,9 +21,10 @@
 #include "pg/track/transition.h"
 
 /*
- * A name for a trigger of the table that none of its triggers has. Triggers fire in the
- * order of their names: that of the meshes which follow a table must be the same for all
- * events, or an INSERT could wait for a DELETE that waits for it. So the mesh comes last.
+ * A name for a trigger that no other trigger of the table has. Triggers fire in the order
+ * of their names. The meshes that follow a table must come in the same order for all
+ * events, or an INSERT could wait for a DELETE that waits for it. So the mesh comes last
+ * in the name.
  */
 static char *
 choose_name(Oid mesh, Oid table, const char *event)
@@ -56,8 +57,8 @@ arguments(Oid mesh, int dimension, bool deferred, Relation table, List *columns)
 }
 
 /*
- * Makes a trigger fire where its table is written as a replica, always or there only, if the
- * former one of its event did.
+ * Makes a trigger fire where its table is written as a replica, always or only there, if the
+ * former trigger of its event did.
  */
 static void
 fire_as_before(Relation table, const char *name, int16 event, List *former)
@@ -168,9 +169,9 @@ create_in_family(const TriggerCall *call, Relation root, List *family)
 }
 
 /*
- * Makes the triggers, as the caller, through CREATE TRIGGER with all its checks.
- * They fire as the former ones did; where those were disabled, these are not. Partitions and
- * children are locked as the table is.
+ * Makes the triggers, as the caller, through CREATE TRIGGER with all its checks. They fire
+ * as the former ones did, but where the former ones were disabled, these are enabled.
+ * Partitions and children are locked as the table is.
  */
 void
 tracking_create(Oid function, Oid mesh, int dimension, bool deferred, Relation table, List *columns,
@@ -185,7 +186,7 @@ tracking_create(Oid function, Oid mesh, int dimension, bool deferred, Relation t
 		create_triggers(&call, table, of_plain_table, lengthof(of_plain_table));
 }
 
-/* Who has not locked the table may find it gone, and the trigger with it. */
+/* A caller that has not locked the table may find it gone, and the trigger with it. */
 void
 tracking_drop(const TrackingTrigger *trigger)
 {

@@ -1,17 +1,16 @@
 /*
  * transition.c: the points in the transition tables of a trigger.
  *
- * An UPDATE has two of them, rows as they were and as they are; rows of the
- * same number are those of one row of the table. Where they give the same
- * point there is nothing to do. That is all that is compared, and it needs no
- * sort: taking equal rows out of two lists, one for one, leaves the same
- * difference whichever pairs are found.
+ * An UPDATE has two of them, rows as they were and as they are; rows of the same number
+ * are those of one row of the table. Where they give the same point there is nothing to
+ * do. No other rows are compared, and no sort is needed: taking equal rows out of two
+ * lists, one for one, leaves the same difference whichever pairs are found.
  *
- * Rows with a NULL among the coordinates are no points. They become points
- * when they get coordinates, and are none any more when they lose them.
+ * Rows with a NULL among the coordinates are no points. They become points when they
+ * get coordinates, and cease to be points when they lose them.
  *
- * The rows are read straight out of the tuplestores, which costs less than
- * planning a query on them, and so a statement that changes one row is quick.
+ * The rows are read straight out of the tuplestores. That costs less than planning a
+ * query on them, so a statement that changes one row is quick.
  */
 #include "postgres.h"
 
@@ -213,7 +212,7 @@ pack(const Transition *transition, TupleTableSlot *row)
 	packer->receiver.receiveSlot(point, &packer->receiver);
 }
 
-/* Sends on the points that are new, or those that are no more; returns how many. */
+/* Sends on the points that are new, or those that are gone; returns how many. */
 uint64
 transition_send(Transition *transition, bool new, PointSink sink, void *context)
 {
