@@ -48,7 +48,7 @@ template <int D> void Build<D>::start(const std::array<VertexIndex, D + 1> &vert
 
 template <int D> void Build<D>::add(const std::uint64_t *records, std::size_t n) {
     const std::size_t stride = record_words(D, attributes_);
-    // Each is a chain of table look-ups, and in a loop of their own many are under way at once.
+    // Each code is a chain of table look-ups. In a loop of their own many of these run at once.
     std::array<std::uint64_t, 64> codes;
     while (n > 0) {
         const std::size_t some = std::min(n, codes.size());

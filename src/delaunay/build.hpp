@@ -5,8 +5,9 @@
 // vertex of simplex pages, or, if it equals a vertex, is a repeated point
 // (repeated_points.hpp). While the points span no simplex all of them wait.
 //
-// A mesh whose domain does not fit many of its points is keyed anew (build_rekey.cpp). One that
-// loses so much that the rest costs less to triangulate is made anew, too (outlay.hpp, rest.hpp).
+// A mesh whose domain does not fit many of its points gets other keys (build_rekey.cpp). A mesh
+// that loses so many points that triangulating the rest costs less is also made anew (outlay.hpp,
+// rest.hpp).
 //
 // Each change ends with all pages written and the header brought up to date.
 #pragma once
@@ -33,10 +34,10 @@ public:
     void run(std::uint64_t limit, abacus_header &header);
     /// Inserts what waits, then the points of a stage.
     void insert(Stage<D> &stage, abacus_on_duplicate on_duplicate, abacus_header &header);
-    /// Inserts what waits, then takes away a point for each of a stage, `exactly` only one
-    /// that has its id and attributes; returns how many there were.
+    /// Inserts what waits, then takes away a point for each point of a stage; with
+    /// `exactly`, only one that has its id and attributes. Returns how many there were.
     std::uint64_t remove(Stage<D> &stage, bool exactly, abacus_header &header);
-    /// Takes away all points, those that wait too; returns how many there were.
+    /// Takes away all points, waiting ones included; returns how many there were.
     std::uint64_t clear(abacus_header &header);
     /// Gives a mesh whose domain does not fit its points another one, with `memory` bytes for
     /// sorting; false if there is no better one.
@@ -70,21 +71,23 @@ private:
     void add_duplicate(const std::uint64_t *record);
     /// Takes in the points of a stage.
     void take_in(Stage<D> &stage);
-    /// The same where all points wait, one for each place, or refuses a second one there.
+    /// The same where all points wait, one for each place; or refuses a second point at a
+    /// place.
     void take_in_distinct(Stage<D> &stage, bool refuses);
     void insert_waiting(std::uint64_t limit);
     /// Takes the repeated points at p away.
     void forget_repeated(const Point<D> &p);
-    /// Takes points of the triangulation away, all at one place: those that leave. Returns
-    /// how many there were.
+    /// Takes points away that are all at one place of the triangulation. Returns how many
+    /// there were.
     std::uint64_t erase(const Point<D> &p, Leaving &leaving);
     /// Takes the first point away: the next one gives the vertex id and attributes, or else
     /// the vertex goes. Returns 1.
     std::uint64_t pass_on(const Point<D> &p);
-    /// Takes the vertex away, if a want is given only one that it takes; returns whether there
-    /// was one.
+    /// Takes the vertex away; if a want is given, only a vertex that it takes. Returns whether
+    /// there was one.
     std::uint64_t erase_vertex(const Point<D> &p, Leaving *want = nullptr);
-    /// The points left, the neighbours of the vertex last found, span no simplex: they wait.
+    /// The points that are left, the neighbours of the vertex last found, span no simplex:
+    /// they become waiting points.
     void collapse();
     /// From now on vertices that leave stay where they are, until the rest is triangulated.
     void put_off_removals(std::size_t memory);
@@ -101,8 +104,8 @@ private:
     /// With so many points that come.
     bool has_outgrown_domain(std::uint64_t coming) const;
     using Record = std::array<std::uint64_t, record_words(D, ABACUS_MAX_ATTRIBUTES)>;
-    /// Another domain, for all points and those to come, and the triangulation made anew over it;
-    /// false if none serves them better by far.
+    /// Chooses another domain, for all points and those to come, and makes the triangulation anew
+    /// over it. False if no domain serves them far better.
     bool change_domain(const Spread<D> &coming, std::size_t memory);
     void take_apart(Stage<D> &points, std::array<Record, D + 1> &corners);
     void take_repeated(Stage<D> &points);

@@ -1,23 +1,23 @@
-// Another domain for a mesh that its own does not fit.
+// Another domain for a mesh that has outgrown its own.
 //
 // The domain is that of the first points, or a given one. Points outside have the codes of its
-// border: they are in the right mesh all the same, but what is near together in space is far
-// apart on the curve, and pages are found slowly. A few do no harm, and a domain around one far
-// away would do harm to all others. But a mesh may begin in one corner and grow, tile by tile or
-// row by row. Or it begins with one point far away: then all others have the same code, and only
-// parts tell their simplices apart, in the order of the curve no more.
+// border. The mesh is right all the same, but neighbours in space are far apart on the curve,
+// and pages are found slowly. A few such points do no harm, and a domain around one far point
+// would harm all others. But a mesh may begin in one corner and grow, tile by tile or row by
+// row. Or it begins with one point far away. Then all others have the same code, and only parts
+// tell their simplices apart, no longer in the order of the curve.
 //
 // So the header counts the points that came from outside, and those that came where so many
 // simplices have one code that they fill pages. When they are many, the points of the mesh are
-// taken to a stage, which knows where they are (spread.hpp). If another domain serves them better
-// by far, the mesh is built again along its curve: thus it is the same as if they had come at once.
-// There is room around that domain for the next ones, so that a mesh that goes on growing is
-// keyed anew when it is a few times as wide, and pays for all of that no more than for a second
-// build. If none does, as where points crowd at places too far apart for any scale, the count
-// begins anew, so that each look is paid for by as many points as led to it.
+// copied to a stage, which knows where they are (spread.hpp). If another domain serves them far
+// better, the mesh is built again along its curve, as if all points had come at once. That domain
+// leaves room for more points. So a growing mesh is built again only when it is a few times as
+// wide, and all rebuilds together cost no more than a second build. If no domain is better, as
+// where points crowd at places too far apart for any scale, the count begins anew. So the cost of
+// each look is spread over as many points as led to it.
 //
-// What was not counted, points deleted or a mesh built in batches, is found where somebody asks: a
-// few pages are looked into (crowding.hpp).
+// Deleted points and meshes built in batches are not counted. For these a look into a few pages
+// answers when somebody asks (crowding.hpp).
 #include "delaunay/build.hpp"
 
 #include "delaunay/intake.hpp"
@@ -58,7 +58,7 @@ template <int D> void Build<D>::count_crowded() {
 
 template <int D> bool Build<D>::change_domain(const Spread<D> &coming, std::size_t memory) {
     abacus_header shape = *header_;
-    shape.has_domain = 0; // nor vertices: there is no mesh yet where the points go
+    shape.has_domain = 0; // there are no vertices either: the points go where there is no mesh yet
     shape.vertices = 0;
     Stage<D> points(host_, shape, memory);
     std::array<Record, D + 1> corners;

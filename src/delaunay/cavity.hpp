@@ -3,21 +3,21 @@
 // hull facet. It is star-shaped around the point, and is replaced by the simplices that join
 // the facets of its rim to the point.
 //
-// A test of a simplex beyond a facet goes on from what those before have computed of the
+// A test of a simplex beyond a facet reuses what earlier tests have computed from the
 // facet's corners, and reads one vertex, the apex (geometry/in_sphere.hpp).
 //
-// In the plane the triangles form a tree (the polygon has no vertex inside), so a depth-first
-// search that keeps the order of the edges around each triangle visits each once and lists
-// the rim as a cycle: an edge ends where the next one begins. Nothing is searched for or
-// looked up: the new triangle on an edge meets that on the next.
+// In the plane the triangles form a tree, since the polygon has no vertex inside. A
+// depth-first search that keeps the order of the edges around each triangle visits each
+// triangle once. It lists the rim as a cycle: an edge ends where the next one begins. Nothing
+// is looked up: the new triangle on an edge meets the one on the next edge.
 //
 // In space the search may come back to a tetrahedron, so it marks what it has seen, and
-// numbers the corners. It goes breadth first, and tests what lies beyond several facets
-// together: the outcome of a test, about a coin's toss, is nothing that a processor could
-// foresee, and a branch upon it would stop the next test, not only the next step. So links and
-// vertices are fetched side by side, the determinants are computed side by side, and what
-// follows is sorted out without branches. The new tetrahedra find one another by their ridges,
-// the edges of the rim, in small tables (ridges.hpp).
+// numbers the corners. It goes breadth first, and tests the tetrahedra beyond several facets
+// together. No processor can predict the outcome of a test, which is about a coin's toss. A
+// branch on it would stop the following tests too, not only the next step. So links and
+// vertices are fetched side by side, determinants are computed side by side, and the results
+// are sorted out without branches. The new tetrahedra find one another by their ridges, the
+// edges of the rim, in small tables (ridges.hpp).
 #pragma once
 
 #include "delaunay/delaunay.hpp"
@@ -43,7 +43,7 @@ protected:
     std::int64_t hollow_out() {
         std::int64_t ghosts = 0;
         for (const Handle h : inside_) {
-            // Only where the triangulation is no Delaunay one can the search come back.
+            // The search can come back only where the triangulation is not Delaunay.
             if (cache_.simplex(h).is_free()) refuse();
             ghosts += cache_.simplex(h).is_ghost();
             cache_.destroy(h);
@@ -92,8 +92,9 @@ private:
 
     /// Tests the triangle beyond an edge whose begin is known.
     void look_beyond(Edge &edge, Link inner, const SeenPoint<2> &end, const Point<2> &p);
-    /// Where in_circle() is not sure: above all of ghosts, whose point at infinity has no
-    /// coordinates. Apart, so that the loop around the test is small.
+    /// The test where in_circle() is not sure: above all for ghosts, whose point at
+    /// infinity has no coordinates. It is a function of its own to keep the loop around
+    /// the test small.
     [[gnu::noinline]] bool is_exactly_inside(Handle h, const Point<2> &p) const;
     /// Room for more; returns where the top is now.
     Edge *deepen(const Edge *top);
@@ -115,8 +116,9 @@ public:
     void fill(VertexIndex v);
 
 private:
-    /// Of a tetrahedron inside, which sees its corners s, t, u counterclockwise. They are
-    /// numbers of corners, and those of its edges st, su, tu numbers of cross products.
+    /// A facet of a tetrahedron inside, which sees its corners s, t, u counterclockwise.
+    /// These are numbers of corners; those of its edges st, su, tu are numbers of cross
+    /// products.
     struct Facet {
         Link inner;
         std::array<std::uint8_t, 3> slot; // of the corners in the tetrahedron
@@ -149,10 +151,11 @@ private:
     /// Gathers what lies beyond the facets from `at` on and is not known to be inside; returns
     /// how many facets that were.
     std::size_t look_beyond(std::size_t at, Batch &batch);
-    /// The same links where pages have to be loaded, which may number their vertices.
+    /// The same links, where pages have to be loaded; loading may number their
+    /// vertices.
     [[gnu::noinline]] void load_beyond(std::size_t at, std::size_t facets, Link *outer);
     void test(Batch &batch, const Point<3> &p);
-    /// Decides where that was not sure.
+    /// Decides the tests that were not sure.
     [[gnu::noinline]] void test_exactly(Batch &batch, const Point<3> &p);
     /// Marks them; those outside go to the rim, the others are to be entered.
     void sort_out(Batch &batch);

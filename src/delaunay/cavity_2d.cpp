@@ -43,7 +43,7 @@ void Cavity<2>::find(const Point<2> &p, Handle first) {
         top[0].begin = top->apex;
         top[0].cross = top->cross_cb;
         top[0].vertex = cache_.simplex(h).vertex[facet];
-        // Neither waits for the other, and what is found is known by the time it is asked for.
+        // Neither waits for the other, and the results are known by the time they are needed.
         look_beyond(top[1], make_link(h, next), top[0].begin, p);
         look_beyond(top[0], make_link(h, last), top[-1].begin, p);
         ++top;

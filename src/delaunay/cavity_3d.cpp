@@ -8,8 +8,8 @@ namespace abacus {
 namespace {
 
 /// Where corners a, b, c, u are in a tetrahedron whose corner u is in slot [u] and a in the
-/// first, second or third slot, as u sees them counterclockwise, of the others. Whoever
-/// enters across a, b, c sees these counterclockwise, so u sees them clockwise.
+/// first, second or third slot, as u sees them counterclockwise, of the others. From
+/// outside, across a, b, c, these are counterclockwise, so u sees them clockwise.
 constexpr std::array<std::array<std::array<std::uint8_t, 4>, 3>, 4> slots_beyond = [] {
     constexpr std::uint8_t others[4][3] = {{2, 1, 3}, {0, 2, 3}, {1, 0, 3}, {0, 1, 2}};
     std::array<std::array<std::array<std::uint8_t, 4>, 3>, 4> slots{};
@@ -36,7 +36,7 @@ void Cavity<3>::make_room() {
 }
 
 inline std::uint32_t Cavity<3>::add_corner(VertexIndex v, const SeenPoint<3> &point) {
-    // New or not is hard to foresee: it is written in either case.
+    // Whether it is new is hard to predict, so it is written in either case.
     const std::uint32_t number = cache_.number_in_room(corners_, v);
     if (number >= seen_.capacity()) [[unlikely]]
         make_room();
@@ -69,7 +69,7 @@ void Cavity<3>::find(const Point<3> &p, Handle first) {
 
 inline std::size_t Cavity<3>::look_beyond(std::size_t at, Batch &batch) {
     const std::size_t facets = std::min(Batch::most, facets_.size() - at);
-    // Links are asked for anew, since loading for an earlier facet may have set them.
+    // Links are read again, since loading for another facet may have set them.
     std::array<Link, Batch::most> outer;
     std::uint32_t all = 0;
     for (std::size_t n = 0; n < facets; ++n) {
@@ -119,8 +119,8 @@ void Cavity<3>::test_exactly(Batch &batch, const Point<3> &p) {
     for (std::size_t n = 0; n < batch.size; ++n) {
         Beyond &beyond = batch.beyond[n];
         if (beyond.test.is_sure) continue;
-        // Several facets may lead to it, of this batch and of those before; so dear a test is
-        // not to be made twice.
+        // Several facets of this batch and of those before may lead to it. So expensive a
+        // test is not made twice.
         const Handle h = link_simplex(beyond.outer);
         const Beyond *same = batch.beyond.data();
         while (link_simplex(same->outer) != h) ++same;

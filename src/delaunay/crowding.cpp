@@ -77,7 +77,7 @@ template <int D> bool looks_crowded(const Host &host, const abacus_header &heade
         return Look<D>(host, header).at_crowds();
     } catch (const Error &error) {
         if (error.kind != ABACUS_ERROR_CORRUPTED) throw;
-        return false; // whoever needs the page says what is wrong with it
+        return false; // the next reader of the page says what is wrong with it
     }
 }
 

@@ -1,11 +1,11 @@
 // Whether the domain of a stored mesh fits its points, by a look into a few pages.
 //
-// Where it does not, most pages lie inside of one code, which their keys tell. Of such pages the
-// vertices say whether another domain would serve them better by far: there may be none.
+// Where it does not, most pages lie inside one code, which their keys tell. The vertices of such
+// pages tell whether another domain would serve them far better. There may be none.
 //
-// Pages are found by their keys. Any distribution of codes is possible, so the next key is always
-// in the middle of the widest stretch of the curve that no page looked into owns. What is empty
-// has few pages, and is soon done with.
+// Pages are found by their keys. Any distribution of codes is possible. So the next key is always
+// in the middle of the widest stretch of the curve that no page seen so far owns. Empty regions
+// have few pages, so the search soon leaves them.
 #pragma once
 
 #include "host/host.hpp"

@@ -1,6 +1,6 @@
-// A Delaunay mesh in change: what insertion and removal share, so that both can work on
-// one mesh in turns. How many simplices there are, where the last change was, and the
-// way from there to the next point.
+// A Delaunay mesh that is being changed: what insertion and removal share, so that both
+// can work on one mesh in turns. It knows how many simplices there are, where the last
+// change was, and the way from there to the next point.
 #pragma once
 
 #include "mesh/cache.hpp"
@@ -9,9 +9,9 @@
 
 namespace abacus {
 
-/// A facet between simplices that are replaced and one that stays: the side of that one,
-/// and the vertices of the simplex inside. The vertex opposite the facet, put in the place
-/// of the old one, gives the new simplex its orientation.
+/// A facet between simplices that are replaced and one that stays: the side of the one
+/// that stays, and the vertices of the simplex inside. The new simplex gets its
+/// orientation when the new vertex takes the place of the old one opposite the facet.
 template <int D> struct Rim {
     Link outer;
     int facet; // of the simplex inside

@@ -1,9 +1,9 @@
-// Points on their way to others that wait, one for each place.
+// Points on their way to the waiting ones, one for each place.
 //
-// Of equal ones, which come one after the other, the last goes on to another stage, and those that
-// wait at its place make room: many at a time, since they are in no order. Or the second point
-// at a place is refused. Only while there is no triangulation: with one, each point meets the
-// vertex it equals.
+// Equal points come one after the other. The last one goes on to another stage, and points that
+// wait at its place are taken away, many at a time, since they are in no order. Or the second
+// point at a place is refused. All this is only needed while there is no triangulation; with one,
+// each point meets the vertex it equals.
 #pragma once
 
 #include "delaunay/intake.hpp"

@@ -1,5 +1,5 @@
-// The points a mesh starts with: the first affinely independent ones, since no mesh of
-// fewer dimensions is kept. Depends on the order of the points alone.
+// The points that a mesh starts with: the first affinely independent ones, since no
+// mesh of fewer dimensions is kept. They depend on the order of the points alone.
 #pragma once
 
 #include "geometry/predicates.hpp"

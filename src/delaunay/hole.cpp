@@ -26,7 +26,7 @@ std::array<VertexIndex, D + 1> with_infinity(std::array<VertexIndex, D + 1> vert
 }
 
 /// Whether p and q, in one plane with a and b, lie on different sides of the line through
-/// these. p does not lie on it.
+/// a and b. p does not lie on it.
 bool are_apart(const Point<3> &a, const Point<3> &b, const Point<3> &p, const Point<3> &q) {
     for (int i = 0; i < 3; ++i) { // where the projection of the plane is not a line
         const int j = (i + 1) % 3;
@@ -51,7 +51,7 @@ template <int D> std::uint64_t Hole<D>::fill(const Star<D> &star) {
     else
         wrap(star);
     mesh_.count(static_cast<std::int64_t>(created_ - ghosts_), static_cast<std::int64_t>(ghosts_));
-    // Cut or wrapped, for each simplex some of the neighbours are looked at, or all.
+    // Cutting looks at some of the neighbours for each simplex, wrapping at all.
     constexpr std::size_t looks = D == 2 ? 4 : 2; // that cost what a simplex does
     return created_ + (tried > 0 ? tried : created_ * star.link().size() / looks);
 }
@@ -145,7 +145,7 @@ template <int D> void Hole<D>::wrap(const Star<D> &star) requires(D == 3) {
     for (const VertexIndex v : star.link())
         if (v != infinite_vertex) candidates_.push_back({cache_.point(v), v});
     open_rim(star);
-    // More simplices than pairs of vertices there are not.
+    // There are not more simplices than pairs of vertices.
     const std::size_t most = star.link().size() * star.link().size();
     for (std::size_t n = 0; n < facets_.size(); ++n) {
         if (!facets_[n].open) continue;
@@ -180,9 +180,9 @@ typename Hole<D>::Vertices Hole<D>::best_on_finite(const Facet &facet) const req
     return vertices;
 }
 
-// Around an edge of the hull the candidates have an order, as long as they lie in less
-// than a half turn; those in the plane of the hull facet beyond the edge, on its own side,
-// are a half turn away.
+// Around an edge of the hull the candidates have an order, as long as they lie within less
+// than a half turn. Candidates in the plane of the hull facet beyond the edge, on its own
+// side, are a half turn away.
 template <int D>
 typename Hole<D>::Vertices Hole<D>::best_on_infinite(const Facet &facet) const requires(D == 3) {
     const Rim<D> &rim = facet.rim;
@@ -246,7 +246,7 @@ template <int D> void Hole<D>::connect(Handle cell) {
     }
 }
 
-// Not the whole class: some members are for one dimension.
+// Not the whole class, since some members exist for one dimension only.
 template std::uint64_t Hole<2>::fill(const Star<2> &);
 template std::uint64_t Hole<3>::fill(const Star<3> &);
 

@@ -1,10 +1,10 @@
 // The hole that a removed vertex leaves, and three ways to fill it.
 //
-// The perturbation of the predicates depends on the coordinates alone, so the mesh without
-// the vertex is the unique Delaunay triangulation of the other points; and what lies in
-// the hole has corners in the vertex's link only, since every other simplex was there
-// before. So it is the part of the Delaunay triangulation of the link that lies inside the
-// rim, ghosts included.
+// The perturbation of the predicates depends on the coordinates alone. So the mesh without
+// the vertex is the unique Delaunay triangulation of the other points. The simplices in
+// the hole have corners in the vertex's link only, since every other simplex was there
+// before. So they are the part of the Delaunay triangulation of the link that lies inside
+// the rim, ghosts included.
 //
 //   cut    In 2D the link is a polygon. On its closing edge stands the one triangle whose
 //          circumcircle has none of the polygon's other vertices inside; it leaves two
@@ -31,14 +31,14 @@ public:
         : mesh_(mesh), cache_(mesh.cache()), facets_(cache_.host()), chains_(cache_.host()),
           candidates_(cache_.host()), link_(cache_.host()), filled_(cache_.host()) {}
 
-    /// Fills the hole that the star, destroyed by now, has left. Returns what that has cost, in
-    /// simplices made or destroyed.
+    /// Fills the hole that the star, already destroyed, has left. Returns the cost in simplices
+    /// made or destroyed.
     std::uint64_t fill(const Star<D> &star);
 
 private:
     using Vertices = std::array<VertexIndex, D + 1>;
 
-    /// With this many neighbours, and more, the hole is sewn.
+    /// From this many neighbours on the hole is sewn.
     static constexpr std::size_t large = D == 2 ? 64 : 24;
 
     Handle create(const Vertices &vertices);

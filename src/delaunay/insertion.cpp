@@ -33,7 +33,7 @@ bool Insertion<D>::insert(const Point<D> &p, std::uint64_t code, std::int64_t id
                           const double *attributes) {
     const Handle first = find_conflict(p, code);
     if (first == no_handle) {
-        mesh_.finish(code); // what was loaded on the way there counts, too
+        mesh_.finish(code); // what was loaded on the way also counts
         return false;
     }
     cavity_.find(p, first);

@@ -1,8 +1,8 @@
 // Where a stage hands its points on to be inserted at once.
 //
 // Until the points span a simplex there is no mesh to insert them into. A few are held
-// for so long; more go to vertex pages, as all do where others wait already, and are
-// inserted from there.
+// in memory until then. If there are more, or others wait already, all go to vertex
+// pages and are inserted from there.
 #pragma once
 
 #include "delaunay/build.hpp"

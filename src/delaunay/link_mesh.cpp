@@ -9,14 +9,14 @@ namespace abacus {
 
 namespace {
 
-/// Below so many neighbours their order does not matter.
+/// With fewer neighbours their order does not matter.
 constexpr std::size_t few = 24;
 
 [[noreturn]] void throw_no_triangulation() {
     throw_corrupted("The simplices around a point are not a triangulation.");
 }
 
-/// Half of all numbers are of round 0, the last one, a fourth of round -1, and so on.
+/// Half of all numbers are in round 0, the last one, a fourth in round -1, and so on.
 int round_of(std::uint64_t n) {
     const std::uint64_t draw = (n + 1) * 0x9e3779b97f4a7c15ull;
     return -std::countl_zero((draw ^ (draw << 32)) | 1);

@@ -1,14 +1,15 @@
 // What fills the hole that a vertex q leaves: the simplices that q is in conflict with, in the
-// Delaunay triangulation of its neighbours. Of that triangulation they may be a small part:
+// Delaunay triangulation of its neighbours. They may be a small part of that triangulation:
 // the neighbours of a vertex beside a line full of points, or on a moment curve, have many
-// times as many simplices as the hole. So only these are ever made (Buchin, Devillers, Mulzer,
-// Schrijvers and Shewchuk, "Vertex Deletion for 3D Delaunay Triangulations", 2013).
+// times as many simplices as the hole. So only those in conflict with q are ever made (Buchin,
+// Devillers, Mulzer, Schrijvers and Shewchuk, "Vertex Deletion for 3D Delaunay
+// Triangulations", 2013).
 //
-// The neighbours come one after the other. Of the triangulation of those so far, what q is
-// in conflict with is a ball around q, whose border has all of them. A cone joins each facet of
-// the border to q: these are the simplices around q if it is triangulated, too. Ball and cones
-// together are a closed mesh, in which a neighbour p is inserted as ever: what it is in conflict
-// with goes, and p is joined to the rim. For
+// The neighbours come one after the other. In the triangulation of those so far, the simplices
+// in conflict with q form a ball around q. All these neighbours are on its border. A cone joins
+// each facet of the border to q; if q is also triangulated, the cones are the simplices around
+// q. Ball and cones together are a closed mesh. A neighbour p is inserted there as into any
+// mesh: the simplices in conflict with it go, and p is joined to the rim. For
 //
 //   - if p kills a simplex of the ball, not the one beyond a facet, the new simplex there has a
 //     circumsphere that contains what both of theirs have in common, hence q;
@@ -17,8 +18,9 @@
 //   - if p kills the simplex, not the cone, the facet remains one of the border.
 //
 // (Seen with q at infinity, by an inversion, this is the triangulation of the farthest point
-// and its convex hull.) Each neighbour stays one of q's, so the way to its conflict is a walk
-// through the cones alone, towards p as q sees it. All decisions are those of any insertion.
+// and its convex hull.) Each neighbour stays a neighbour of q. So the way to the conflict of
+// p is a walk through the cones alone, towards p as q sees it. All decisions are those of any
+// insertion.
 #pragma once
 
 #include "delaunay/star.hpp"

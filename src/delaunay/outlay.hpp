@@ -1,17 +1,19 @@
-// When taking points out one by one costs more than triangulating those that are left.
+// Tells when taking points out one by one costs more than triangulating those that are
+// left.
 //
-// A removal costs what its star and the hole have of simplices: a few hundred nanoseconds in
-// the plane, but a second where a vertex has a million neighbours, and then its neighbours
-// inherit them. Nobody knows in advance. So what removals have cost so far is counted, in
-// simplices made and destroyed, and what the others will cost is guessed from the last ones.
-// A triangulation anew of n points makes D + 1 times as many simplices as it ends with, or
-// fewer, and destroys most of them; the mesh at hand tells how many those will be.
+// The cost of a removal is the number of simplices in its star and in the hole. That is a
+// few hundred nanoseconds in the plane, but a second where a vertex has a million
+// neighbours, and its neighbours then inherit them. The cost is not known in advance. So the
+// cost of removals so far is counted, in simplices made and destroyed, and that of the
+// others is guessed from the last ones. A new triangulation of n points makes at most D + 1
+// times as many simplices as it ends with, and destroys most of them. The present mesh tells
+// how many it will end with.
 //
-// If s has been spent, r is expected of the rest, and b is what the triangulation costs, it
-// is worth it as soon as 4 s r > b². For removals that all cost the same this is never the case
-// if all of them cost less than b, and the later the more they cost beyond that: no more than
-// 1.5 times what would have been best is spent, 1.1 times where there is much to win. The more
-// has been spent, the less is needed to give up.
+// Let s be the cost so far, r the expected cost of the rest, and b that of the new
+// triangulation. The triangulation is worth it as soon as 4 s r > b². For removals that all
+// cost the same, this never holds if all of them cost less than b; otherwise, the more they
+// cost, the sooner it holds. At most 1.5 times the best possible cost is spent, 1.1 times
+// where there is much to win. The more has been spent, the less it takes to give up.
 #pragma once
 
 #include <algorithm>
@@ -31,8 +33,8 @@ public:
         anew_ = std::max(0.0, n - left_) * a_vertex + n * to_read + left_ * to_look_up;
     }
 
-    /// With so many more of them done. Whether the others had better be left out of a mesh made
-    /// anew.
+    /// Notes that so many more are done. Returns whether a new mesh without the others is
+    /// cheaper.
     bool is_too_much(std::uint64_t effort, std::uint64_t done) {
         const auto each = static_cast<double>(effort - last_) / static_cast<double>(done);
         last_ = effort;

@@ -1,10 +1,11 @@
-// Where a stage hands on the points to be taken away: out of the triangulation, and once there
-// is none, many at a time out of those that wait. When that gets too expensive, vertices that
-// leave are only noted from then on, and the rest is triangulated anew.
+// Where a stage hands on the points to be taken away. They are taken out of the triangulation;
+// once there is none, out of the waiting points, many at a time. When removals get too
+// expensive, vertices that leave are only noted from then on, and the rest is triangulated
+// anew.
 //
 // Equal points come one after the other, in the order of the rows, and are taken out of the
-// triangulation together: one after the other each would have the pages of its place searched
-// and written anew.
+// triangulation together. If they were taken out singly, the pages of their place would be
+// searched and written for each of them.
 #pragma once
 
 #include "delaunay/build.hpp"

@@ -3,8 +3,8 @@
 namespace abacus {
 
 namespace {
-// Removals come in any order, so what lies before a vertex on the curve is not finished: a
-// block that is full after all is cut at its median, not at the vertex.
+// Removals come in any order, so what lies before a vertex on the curve is not finished. A
+// block that becomes full is cut at its median, not at the vertex.
 constexpr std::uint64_t anywhere = 0;
 constexpr Link nowhere = unset;
 } // namespace

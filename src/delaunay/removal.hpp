@@ -1,6 +1,6 @@
-// Removal: a vertex out of the mesh, which is then the Delaunay triangulation of the
-// points that are left, the same as if the point had never been inserted. (The
-// dissertation adds points only.)
+// Removal takes a vertex out of the mesh. What is left is the Delaunay triangulation of
+// the other points, as if this one had never been inserted. (The dissertation adds
+// points only.)
 //
 // The vertex's star leaves and the hole is filled again: star.hpp, hole.hpp.
 #pragma once
@@ -30,8 +30,8 @@ public:
     bool finds(const Point<D> &p, Leaving *want = nullptr);
     /// What removals have cost so far, in simplices made and destroyed (outlay.hpp).
     std::uint64_t effort() const { return effort_; }
-    /// Offers the vertex there as the first point that may leave; whether the others make a
-    /// difference, nothing if there is none.
+    /// Offers the vertex there as the first point that may leave. Returns whether the
+    /// others make a difference; nothing if there is no vertex.
     std::optional<bool> offer(const Point<D> &p, Leaving &leaving);
     /// Gives the vertex there another id and other attributes (null if there are none).
     /// Returns false if there is no vertex.

@@ -1,7 +1,7 @@
-// The points that are left when many leave, to be triangulated anew. Of those that leave the
-// places are noted, and once all are known, the vertices follow. Both go into one stage, which
-// brings points of one place together: who comes in a pair is not of the rest. So it may be larger
-// than memory, as any points to be triangulated.
+// The points that are left when many leave, to be triangulated anew. The places of the points that
+// leave are noted first; the vertices follow when all places are known. Both go into one stage,
+// which brings points of one place together. A vertex that comes in a pair does not belong to the
+// rest. So the rest may be larger than memory, as any points to be triangulated.
 #pragma once
 
 #include "points/record.hpp"

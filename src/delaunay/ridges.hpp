@@ -1,13 +1,13 @@
 // Finds the two new tetrahedra around each edge of a cavity's rim.
 //
-// Of the two facets that meet there one sees the edge from a to b, the other from b to a.
-// So every facet leaves its links under its edges, and then takes those under the edges
-// turned around: which of two comes first, a coin's toss, does not matter.
+// Of the two facets that meet there, one sees the edge from a to b, the other from b to
+// a. Every facet first stores its links under its edges, and then takes those under the
+// reversed edges. Which of the two comes first is unpredictable, and does not matter.
 //
-// The rim's vertices are numbered as they come. Most cavities have some twenty: the edges
-// between those have places of their own in a small table. Where there are more than it has
-// room for, as around a vertex with thousands of tetrahedra, edges are hashed. Both tables are
-// empty at once for the next insertion: an entry counts only in the one that made it.
+// The rim's vertices are numbered as they come. Most cavities have some twenty, and each edge
+// between these has its own place in a small table. Where the small table lacks room, as
+// around a vertex with thousands of tetrahedra, edges are hashed. An entry counts only in the
+// insertion that made it, so both tables are empty at once for the next one.
 #pragma once
 
 #include "host/arena.hpp"

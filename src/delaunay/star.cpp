@@ -41,8 +41,8 @@ template <int D> void Star<D>::turn_around(Handle first, int corner) {
         link_.push_back(neighbour);
         const Link next = cache_.cross(h, begin);
         h = link_simplex(next);
-        // In the next triangle the edge is opposite the neighbour after the next, and
-        // after that comes the vertex again.
+        // In the next triangle the neighbour after the next lies opposite the edge, and
+        // the vertex follows it.
         corner = link_facet(next) == D ? 0 : link_facet(next) + 1;
     } while (h != first);
     if (infinity > 0) {

@@ -1,6 +1,6 @@
-// The star of a vertex: the simplices around it, all of them loaded, and those beyond
-// its rim too. So whatever is done to the star, both sides of each facet are cached, and
-// no page outside the cache knows the vertex.
+// The star of a vertex: the simplices around it. All of them are loaded, and so are
+// those beyond its rim. So both sides of each facet are cached, whatever is done to the
+// star, and no page outside the cache knows the vertex.
 #pragma once
 
 #include "delaunay/delaunay.hpp"

@@ -1,8 +1,8 @@
 // Boxes found by where they are: a packed R-tree in flat arrays.
 //
 // Boxes come in the order of a space-filling curve, so that neighbours in the list are
-// neighbours in space; then each node is the box of `fan` consecutive ones below it, and
-// no pointers are needed (Kamel and Faloutsos, "On Packing R-trees", 1993).
+// neighbours in space. Each node is the box of `fan` consecutive ones below it, and no
+// pointers are needed (Kamel and Faloutsos, "On Packing R-trees", 1993).
 #pragma once
 
 #include "geometry/box.hpp"

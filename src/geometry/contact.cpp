@@ -1,8 +1,9 @@
-// In the plane two edges, decided by orientations. In space two triangles: what is left
-// to decide depends on how many vertices they share. Sharing an edge, they meet in more
-// if and only if they are coplanar and on the same side of it. Sharing one vertex, any
-// further common point lies on a ray from that vertex through both opposite edges'
-// triangles; the ray leaves one of them first, so the opposite edge of one meets the other.
+// In the plane these are two edges, and orientations decide. In space these are two
+// triangles, and the question depends on how many vertices they share. If they share an
+// edge, they meet in more if and only if they are coplanar and on the same side of it. If
+// they share one vertex, any further common point lies on a ray from that vertex through
+// both triangles. The ray leaves one of them first, so the opposite edge of one meets the
+// other.
 #include "geometry/contact.hpp"
 
 #include "geometry/predicates.hpp"
@@ -47,7 +48,7 @@ bool between(const Point<2> &a, const Point<2> &b, const Point<2> &p) {
 bool meet_improperly(Facet<2> a, Facet<2> b) {
     const int common = align<2>(a, b);
     const Point<2> &p = *a[0], &q = *a[1], &r = *b[0], &s = *b[1];
-    if (common == 1) // in more than p if and only if both run the same way
+    if (common == 1) // they meet in more than p if and only if both run the same way
         return orientation(p, q, s) == 0 &&
                lexicographically_less<2>(p, q) == lexicographically_less<2>(p, s);
     const int r_side = orientation(p, q, r), s_side = orientation(p, q, s);

@@ -1,15 +1,15 @@
 // The filter of the in-sphere test, in parts. A search that goes from simplex to simplex
-// has tested the one before, with which the next shares a facet: what the test needs of
-// the facet's corners has been computed. in_sphere() of predicates.hpp puts the parts
-// together for a simplex by itself, and says what is done where they are not sure.
+// has already tested the simplex that shares a facet with the next one. So what the test
+// needs of the facet's corners is already computed. in_sphere() of predicates.hpp puts
+// the parts together for a single simplex, and says what is done where they are not
+// sure.
 //
 // In the plane the parts are those of an edge: its ends and their cross product.
 //
 // In space, seen from the point that is tested, the determinant for corners s, t, u and e
-// is |e|^2 [s t u] - e . n, with [s t u] the triple product and
-// n = |s|^2 t x u + |t|^2 u x s + |u|^2 s x t. So of a facet all is known with three cross
-// products; and of the next one's, two of the three are new, or in other words three for
-// each simplex that is entered.
+// is |e|^2 [s t u] - e . n, with [s t u] the triple product and n = |s|^2 t x u + |t|^2 u
+// x s + |u|^2 s x t. So three cross products tell all about a facet. Of those of the next
+// facet two are new, in other words three for each simplex that is entered.
 #pragma once
 
 #include "geometry/pair.hpp"

@@ -1,5 +1,6 @@
-// Two doubles in one register: each operation works on both, rounded as alone, so
-// that a determinant takes half the instructions and has the same bound on its error.
+// Two doubles in one register. Each operation works on both and rounds each as if it
+// were alone. So a determinant takes half the instructions and has the same bound on
+// its error.
 #pragma once
 
 #include "geometry/point.hpp"

@@ -1,7 +1,7 @@
 // The exact ends of the predicates.
 //
-// Points of grids and octrees, on which the filters fail most often since so many of
-// them are cospherical, differ by small multiples of one unit. Then 128-bit integers
+// The filters fail most often on grids and octrees, since so many of their points are
+// cospherical. These points differ by small multiples of one unit, so 128-bit integers
 // hold the determinant. All others go to CGAL's filtered kernel (LGPL): interval
 // arithmetic first, then exact numbers.
 #include "geometry/predicates.hpp"

@@ -1,18 +1,18 @@
 // Exact predicates: orientation, and what follows from it; in-sphere under symbolic
 // perturbation.
 //
-// Each predicate first evaluates the determinant in doubles and compares it with
-// a bound on the rounding error; only when that does not decide does it call the
-// exact form in predicates.cpp: 128-bit integers where they hold the determinant, else
-// CGAL's filtered kernel. The bounds are
-// Shewchuk's ("Adaptive Precision Floating-Point Arithmetic and Fast Robust
-// Geometric Predicates", 1997, the A estimates) for the very expressions below; the
-// in-sphere tests take instead of the permanent in them what is no less and quicker to
-// compute, and a constant rounded up far enough for the roundings of that. They hold
-// while nothing underflows or overflows. An overflow makes the bound infinite, which
-// nothing exceeds. An underflow takes at most the least double from a product, which
-// then grows by what that is multiplied with: where this could count beside what the
-// constants are rounded up by, the exact form decides too.
+// Each predicate first evaluates the determinant in doubles and compares it with a
+// bound on the rounding error; only when that does not decide does it call the exact
+// form in predicates.cpp: 128-bit integers where they hold the determinant, else CGAL's
+// filtered kernel. The bounds are Shewchuk's ("Adaptive Precision Floating-Point
+// Arithmetic and Fast Robust Geometric Predicates", 1997, the A estimates) for the very
+// expressions below. The in-sphere tests replace the permanent in them by a value that
+// is no less and quicker to compute; their constant is rounded up far enough for the
+// roundings of that value. The bounds hold while nothing underflows or overflows. An
+// overflow makes the bound infinite, which nothing exceeds. An underflow changes a
+// product by at most the least double, and this error grows with the factors that
+// follow. Where it could exceed what the constants are rounded up by, the exact form
+// decides.
 //
 // Degeneracy: cospherical points are resolved by perturbing the lifting to the
 // paraboloid symbolically, in the lexicographic order of the points (Devillers
@@ -48,8 +48,8 @@ template <int D> int unperturbed_in_sphere(const Corners<D> &corners, const Poin
 int in_hull_facet(const Corners<3> &corners, const Point<3> &p);
 } // namespace exact
 
-/// Twice the signed area of a triangle, and what its rounding error is less than; the latter is
-/// infinite where that is not known.
+/// Twice the signed area of a triangle, and a bound on its rounding error, which is infinite
+/// where none is known.
 struct SignedArea {
     double value, error;
 

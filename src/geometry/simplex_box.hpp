@@ -5,7 +5,7 @@
 // compared by coordinates. For a facet of the simplex the orientation predicate tells on which
 // side each corner of the box lies. A plane along an edge of the box is a line where one axis is
 // left out: so in space the edges are those of three flat pictures, and the predicate is that of
-// the plane. No coordinate is computed, so nothing is rounded.
+// the plane. No coordinate is computed, so no rounding occurs.
 #pragma once
 
 #include "geometry/box.hpp"

@@ -1,12 +1,13 @@
 // A growing flat array in memory of any kind (memory.hpp). Elements are trivially copyable,
-// so that growth is one resize(): for large arrays the C library moves pages,
-// not bytes, and nothing is ever held twice.
+// so growth is one resize(). For large arrays the C library moves pages, not bytes, and
+// nothing is ever held twice.
 //
-// Memory is asked for as the array fills, some pages at a time (populate.h): neither page by
-// page, by a fault each, nor for all there is room for.
+// Memory is asked for as the array fills, some pages at a time (populate.h). Page by page it
+// would take a fault for each; for all the room at once it would take memory that is never
+// used.
 //
-// It begins with a line of the processor's cache, wherever the host's memory
-// does: so an element of a size that divides a line's is never in two of them.
+// The array begins at a line of the processor's cache, wherever the host's memory
+// begins. So an element whose size divides that of a line never lies in two lines.
 #pragma once
 
 #include "host/host.hpp"

@@ -1,5 +1,5 @@
-// What the session wants of the core, and the world of it: interrupts and progress. For the
-// session's thread; another one may ask is_interrupted().
+// What the core hears from the session, and what others hear of its work: interrupts and
+// progress. It is for the session's thread; another thread may call is_interrupted().
 #pragma once
 
 #include "host/error.hpp"

@@ -1,11 +1,11 @@
-// Numbers that were given back, to be taken again: the lowest one from where the last was taken on,
-// and around.
+// Numbers that were given back, to be taken again. The next one is the lowest from where the last
+// was taken on; the search then goes around.
 //
-// What is evicted together was made together, so its numbers are many in a row. Taken again in that
-// order, they lead to memory that lies in a row as well: the processor fetches it in advance, and
-// what is then made together lies together in turn. Last in, first out would shuffle them more with
-// each round: in a build of 10 M points in the plane with 64 MB, a tenth of the time went on
-// waiting for the places of new vertices.
+// Things that are evicted together were made together, so many of their numbers are in a row. Taken
+// again in that order, they lead to memory in a row, which the processor fetches in advance. And
+// things that are then made together lie together in turn. Last in, first out would shuffle them
+// more with each round. In a build of 10 M points in the plane with 64 MB, a tenth of the time
+// would go on waiting for the places of new vertices.
 #pragma once
 
 #include "host/arena.hpp"
@@ -47,7 +47,7 @@ public:
 private:
     static std::uint64_t bit(std::size_t i) { return std::uint64_t{1} << i % 64; }
 
-    /// The first word behind the one at hand, which is empty, that is not.
+    /// The first word behind the current one, which is empty, that is not empty.
     std::size_t next_word() const {
         std::size_t i = at_ / 64;
         std::uint64_t words = summary_[i] & ~std::uint64_t{0} << at_ % 64;

@@ -1,16 +1,15 @@
-// A hash table of numbers: what has a number, and is looked for by something else, lies in an
-// array of its owner's.
+// A hash table of numbers. The things that have these numbers, and are looked for by
+// something else, lie in an array of the owner.
 //
-// A slot holds the number and its hash, 8 bytes: nearly always the hash tells apart what the
-// owner would have to look up in cold memory. Numbers that have the same hash lie in one run of
-// slots with all that came there by linear probing; so what is looked for is where the hash
-// says, or right behind, and one prefetch in advance gets it. At most half of the slots are
-// taken, and runs stay short: when one is emptied, the later ones of its run move up, since
-// tombstones would make them long.
+// A slot holds the number and its hash, 8 bytes. Nearly always the hash tells apart what the
+// owner would otherwise have to look up in cold memory. Linear probing puts numbers of one hash
+// into one run of slots. So a number is where its hash says, or right behind, and one prefetch
+// gets it in advance. At most half of the slots are taken, so runs stay short. When a slot is
+// emptied, the later ones of its run move up, since tombstones would make runs long.
 //
-// The table grows where it is. What was at home in slot i of n is then at home in i or i + n;
-// moved in the order of its run, it never comes farther than where it was, or n behind that,
-// so it meets nothing that is still to be moved.
+// The table grows in place. An entry whose home was slot i of n then has the home i or i + n.
+// Entries move in the order of their run. None comes farther than where it was, or n behind
+// that, so it meets no entry that is still to be moved.
 #pragma once
 
 #include "host/arena.hpp"

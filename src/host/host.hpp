@@ -1,9 +1,10 @@
-// The database as the core sees it: abacus_host with failures turned into exceptions, in four
-// parts. Every floor above takes a Host&, or the part it needs; none calls the C table itself.
+// The database as the core sees it, in four parts: abacus_host with failures turned into
+// exceptions. Every floor above takes a Host&, or the part it needs. None calls the C table
+// itself.
 //
-// Threads. A Host is for the session's thread alone: its functions end in PostgreSQL. Another
-// thread may ask Control::is_interrupted(), and use memory of a ThreadMemory that the session's
-// thread has made; nothing else of the host.
+// Threads. A Host is for the session's thread alone, since its functions end in PostgreSQL.
+// Another thread may call Control::is_interrupted(), and may use memory of a ThreadMemory that
+// the session's thread has made. It may use nothing else of the host.
 #pragma once
 
 #include "host/control.hpp"

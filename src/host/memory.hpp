@@ -1,6 +1,6 @@
-// Memory, from wherever it comes: the session's (a memory context, for the session's thread
-// alone), or memory that any thread may use (thread_memory.hpp). Arrays and tables of the core ask
-// for no other.
+// Memory, wherever it comes from: the session's (a memory context, for the session's thread
+// alone), or memory that any thread may use (thread_memory.hpp). Arrays and tables of the core use
+// no other.
 #pragma once
 
 #include <abacus/host.h>

@@ -1,10 +1,10 @@
-// What of the processor's cache matters to the core: how long its lines are, and how to ask for
-// memory that will be read soon, so that many places come at once.
+// What matters to the core about the processor's cache: the length of its lines, and how to ask
+// for memory that will be read soon, so that many places come at once.
 //
-// touch() is a load whose value nobody waits for, and not a prefetch instruction: that may be
-// dropped where the processor has not the translation of the address at hand, as in cold memory
-// nearly always. With loads a page is made of vertices that nobody used for long in half of the
-// time. Where prefetch instructions stand, loads were measured to gain nothing.
+// touch() is a load whose value nobody waits for. It is no prefetch instruction, since the
+// processor may drop that where it lacks the translation of the address, as nearly always in
+// cold memory. With loads, making a page of vertices that were not used for long takes half the
+// time. Where prefetch instructions stand, loads gain nothing.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,8 @@
-// Memory that any thread may use. The session's thread reserves it and counts it; what is left of
-// it goes when the ThreadMemory goes, whatever became of the threads.
+// Memory that any thread may use. The session's thread reserves it and counts it. What is left of
+// it is freed with the ThreadMemory, whatever became of the threads.
 //
 // Invariants
-//   1. used() never exceeds reserved(): what would, is refused as if memory had run out.
+//   1. used() never exceeds reserved(): a request for more is refused as if memory had run out.
 //   2. Every block handed out is on the list, so the destructor finds it.
 //
 // The blocks come from the C library, whose large ones grow without being copied and whose small

@@ -9,16 +9,17 @@
 
 namespace abacus {
 
-/// A domain with room for all points of a box: a square or cube on a grid, whose step is the
-/// power of two between an eighth and a quarter of the box's greatest extent. So the box of
-/// some of the points, drawn at random, nearly always gives the domain of all.
+/// A domain with room for all points of a box: a square or cube on a grid. The step of the
+/// grid is the power of two between an eighth and a quarter of the box's greatest extent. So
+/// the box of some points, drawn at random, nearly always gives the domain of all.
 template <int D> Domain<D> domain_around(Point<D> lower, Point<D> upper) {
     double extent = 0;
     for (int i = 0; i < D; ++i) extent = std::max(extent, upper[i] - lower[i]);
     int exponent = 0;
     if (extent < std::numeric_limits<double>::infinity()) std::frexp(extent, &exponent);
     const double step = std::ldexp(1.0, exponent - 3);
-    // Not where a coordinate or the step would overflow or vanish, nor around one point.
+    // There is no such domain where a coordinate or the step would overflow or vanish,
+    // nor around one point.
     if (!(extent > 1e-290 && extent < 1e290)) return {lower, upper};
     double side = 0;
     for (int i = 0; i < D; ++i) {

@@ -1,6 +1,6 @@
 // The Hilbert curve: a path through the cells of a grid that steps from each cell to a
-// neighbour, so that what is near on the curve is near in space, without the jumps of
-// the Z-order. The cells of any octant are one stretch of it.
+// neighbour. So what is near on the curve is near in space, and the curve lacks the
+// jumps of the Z-order. The cells of any octant are one stretch of it.
 //
 // A cell's place is found from the top level down. On each level the curve visits the
 // 2^D octants in the order of a Gray code, reflected and rotated according to a state

@@ -1,13 +1,13 @@
 // Parts of keys: computed only where a block lies inside one code.
 //
-// No fixed number of bits below the code would do for every cluster: doubles have places
-// a thousand octaves apart. But what shares a page should lie near one another as
-// measured by its own size. The greatest vertex does not count in this, since it may be
-// all that very many simplices have in common: a hub. So a part is the place of the
-// simplex's least vertex, on a grid of the size of the facet opposite the greatest, in
-// steps of 512: first the coarse place, hashed, whose stretch of the curve holds many
-// pages' worth of simplices, then the place inside it. A hash of the vertices tells apart
-// what is left.
+// No fixed number of bits below the code would do for every cluster, since doubles
+// resolve places over a thousand octaves. But simplices that share a page should be near
+// one another, measured by their own size. The greatest vertex does not count in this,
+// since very many simplices may have only that in common: a hub. So a part is the place
+// of the simplex's least vertex on a grid. The grid has the size of the facet opposite
+// the greatest vertex, in steps of 512. First comes the coarse place, hashed, whose
+// stretch of the curve holds many pages' worth of simplices, then the place inside it. A
+// hash of the vertices tells apart what is left.
 #include "keys/locational_code.hpp"
 
 namespace abacus {
@@ -17,8 +17,8 @@ namespace {
 /// Bits of a part.
 constexpr int coarse_bits = 16;
 template <int D> constexpr int place_bits = D == 2 ? 16 : 12; // an axis
-/// Cells of the grid along the size of a simplex, as a power of two: neighbours that differ
-/// from one another by much less than their size, as around an edge, still come in order.
+/// Cells of the grid along the size of a simplex, as a power of two. So neighbours that
+/// differ by much less than their size, as around an edge, still come in order.
 template <int D> constexpr int fine_bits = D == 2 ? 3 : 0;
 template <int D> constexpr int hash_bits = 63 - coarse_bits - D *place_bits<D>;
 
@@ -73,7 +73,7 @@ std::uint64_t Domain<D>::part(const std::array<const Point<D> *, D + 1> &corners
         hash += h.value(); // a sum: the same for every order of the corners
     }
 
-    // Not the greatest vertex; but of a ghost's edge nothing else is left.
+    // The greatest vertex does not count, except where a ghost's edge has no other.
     const auto counts = [&](int i) { return i != greatest || n == 2; };
     // A quarter of the coordinates, so that no difference overflows; or, where they are so small
     // that steps might be no normal numbers, whose inverses overflow, a whole number of nine

@@ -4,12 +4,13 @@
 // A coordinate is first quantized to `code_bits` bits. The code of a simplex is the
 // greatest of its vertices' codes: no arithmetic, and the same for every writer and
 // reader, whatever the order of the vertices. When points are inserted along the curve,
-// every new simplex has a code no less than the point's, so what lies behind is finished.
+// every new simplex has a code no less than the point's. So what lies behind the point is
+// finished.
 //
-// Codes serve for clustering only: no geometric decision depends on them, and
-// points outside the domain clamp to its border. Where many simplices share one
-// code (the star of one vertex, a tight cluster, coordinates of very different
-// magnitude), the key goes on in a second word, `part`: see part().
+// Codes serve for clustering only. No geometric decision depends on them, and points
+// outside the domain are clamped to its border. Where many simplices share one code
+// (the star of one vertex, a tight cluster, coordinates of very different magnitude),
+// the key goes on in a second word, `part`: see part().
 #pragma once
 
 #include "geometry/point.hpp"
@@ -60,7 +61,7 @@ template <int D> constexpr std::uint64_t curve_code(const Cell<D> &cell) {
     return Hilbert<D>::template place<code_bits<D>>(cell);
 }
 
-/// Box over which the codes of a mesh are taken.
+/// The box over which the codes of a mesh are computed.
 template <int D> class Domain {
 public:
     Domain() : Domain(Point<D>{}, Point<D>{}) {}

@@ -1,11 +1,11 @@
 // Simplices in the order of their keys, cut into pages.
 //
-// The pages are made by the cache, which is the only place that knows how: each is put
-// together as a block, written and dropped again. A page is cut where the code changes, so
-// that parts of keys need not be stored, unless one code has more simplices than half a
-// page: then links into it carry parts. What a page costs in bytes is known when it is
-// made; one that turns out too large is cut shorter, if need be inside of a code without parts:
-// all its pages are looked into then, from the last one back (cache_load.cpp).
+// The cache makes the pages, since only it knows how: each is put together as a block, written
+// and dropped again. A page is cut where the code changes, so that parts of keys need not be
+// stored. Only where one code has more simplices than half a page, links into it carry parts.
+// The size of a page in bytes is known when it is made. A page that turns out too large is cut
+// shorter, if need be inside a code without parts. A reader then looks into all pages of that
+// code, from the last one back (cache_load.cpp).
 #pragma once
 
 #include "load/record_sort.hpp"
@@ -30,8 +30,8 @@ public:
 private:
     void find_crowded(RecordSort &elements);
     bool is_crowded(std::uint64_t code) const;
-    /// Elements of a page. Only more than at first: a code that is not crowded must leave a
-    /// change of code where a page is cut.
+    /// Elements of a page. It can only grow: a code that is not crowded must leave a change
+    /// of code where a page is cut.
     std::size_t capacity() const {
         return std::max<std::size_t>(least_capacity_, cache_.capacity());
     }

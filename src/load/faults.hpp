@@ -1,6 +1,6 @@
-// What is wrong with a triangulation that is loaded. Who mends one wants to see more than the
-// first fault: a step goes on to its end, and then its faults are told together. What would follow
-// from them is left to the next call.
+// What is wrong with a triangulation that is loaded. Users who mend one want to see more than the
+// first fault. So a step goes on to its end, and then its faults are reported together. Faults
+// that would only follow from them are left to the next call.
 #pragma once
 
 #include "host/host.hpp"
@@ -15,12 +15,12 @@ class Faults {
 public:
     static constexpr std::size_t most = 100; // that are listed
 
-    /// What has been listed already is not a fault of its own.
+    /// A fault that is listed already does not count again.
     void add(const std::string &message, const std::string &detail, const std::string &hint);
     bool has(const std::string &message) const;
     /// So many further ones, which are not named.
     void add_unnamed(std::uint64_t count) { count_ += count; }
-    /// As many are listed as will be. Who stops then says so.
+    /// Whether as many are listed as ever will be. A step that stops then says so.
     bool is_full() const { return messages_.size() == most; }
     void stop() { is_whole_ = false; }
 

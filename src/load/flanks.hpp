@@ -1,4 +1,4 @@
-// Neighbours found by sorting: the two sides of a facet come to lie next to one another.
+// Neighbours found by sorting, which brings the two sides of a facet next to each other.
 #pragma once
 
 #include "load/record_sort.hpp"

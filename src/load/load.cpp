@@ -51,8 +51,8 @@ template <int D> void Load<D>::add_simplices(const Word *ids, std::size_t count)
     pacer_.reached(vertices_->size() + simplex_count_);
 }
 
-/// Lists the vertices beside a mesh that is not Delaunay: the simplices around one need not be
-/// neighbours of one another there, so that a reader of pages could not tell which it has seen.
+/// Lists the vertices beside a mesh that is not Delaunay. The simplices around a vertex need
+/// not be connected there, so a reader of pages could not tell which vertices it has seen.
 template <int D> void Load<D>::write_vertices() {
     VertexPageWriter pages(host_, D, attributes_, 0);
     while (const Word *vertex = ordered_.next()) pages.add(vertex);

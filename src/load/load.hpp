@@ -1,8 +1,8 @@
 // Loading a triangulation made elsewhere: vertices and simplices, from two queries, into
 // pages; Delaunay or not, checked, within a bound of memory.
 //
-// There is no cache and no search: everything that belongs together is brought together by
-// sorting (record_sort.hpp).
+// There is no cache and no search: sorting brings together what belongs together
+// (record_sort.hpp).
 //
 //   vertices by id       two of one id are found; merged with
 //   corners by id        unknown ids are found; vertices without simplices are left out
@@ -25,8 +25,8 @@
 // an edge, and at such an edge four facets meet.
 //
 // In a mesh that is not Delaunay, a ghost knows the simplex behind it, and is its own
-// neighbour across its ridges: at a pinched ridge four or more would be, and nobody follows
-// them in a mesh that is not changed.
+// neighbour across its ridges. At a pinched ridge four or more ghosts would meet. Nothing
+// follows these links in a mesh that does not change.
 #pragma once
 
 #include "geometry/box_tree.hpp"

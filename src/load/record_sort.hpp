@@ -1,14 +1,14 @@
 // An external merge sort of records of words, read back as a stream.
 //
-// The external sort of staging distributes points along the curve and refines what
-// shares a code by the points' own box: an order that is found while sorting. Here the
-// order is known, the words at the head of the records, and what is wanted is a stream
-// that can be joined with others and read again: so sorted runs, merged when read. Runs
-// are sorted by the same radix sort, on words that hold 33 bits of a key above a number;
-// what these bits do not tell apart is refined with the next ones.
+// The external sort of staging finds its order while sorting: it distributes points
+// along the curve and refines points that share a code by their own box. Here the order
+// is known: the words at the head of the records. The result must be a stream that can
+// be joined with others and read again. So there are sorted runs, which are merged when
+// they are read. Runs are sorted by the same radix sort, on words that hold 33 bits of a
+// key above a number; what these bits do not tell apart is refined with the next ones.
 //
-// A sort takes no more than its share of memory: runs go to spools, and as many of one
-// level as are merged at once become one of the next.
+// A sort takes no more than its share of memory. Runs go to spools. As many runs of one
+// level as can be merged at once become one of the next level.
 #pragma once
 
 #include "host/arena.hpp"

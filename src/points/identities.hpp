@@ -1,12 +1,12 @@
-// By what points at one place are told apart: the id, or id and attributes.
+// What tells points at one place apart: the id, or id and attributes.
 //
-// The latter is what a mesh that follows a table needs. There may be rows that agree in id
-// and place, and an attribute that the mesh has missed must not go unnoticed: as long as one
-// only that agrees in both is taken for what is wanted, it is missing.
+// A mesh that follows a table needs the latter. Rows may agree in id and place, and a change
+// of an attribute that the mesh has missed must be noticed. So a point only counts as the
+// wanted one if id and attributes agree; otherwise the wanted point is missing.
 //
-// Whoever compares points compares numbers: without attributes the ids themselves, else those
-// under which the identities that are wanted have been entered here. Attributes agree as SQL
-// has it: 0 equals -0, and a NaN every other one.
+// Points are compared by numbers. Without attributes these are the ids themselves; with
+// attributes, the numbers under which the wanted identities have been entered here.
+// Attributes agree as in SQL: 0 equals -0, and a NaN equals every other NaN.
 #pragma once
 
 #include "host/arena.hpp"
@@ -28,7 +28,7 @@ public:
     Identities(const Host &host, unsigned attributes)
         : attributes_(attributes), stride_(1 + std::size_t(attributes)), words_(host),
           hashes_(host) {
-        if (attributes_ > 0) slots_.emplace(host); // a first table that most have no use for
+        if (attributes_ > 0) slots_.emplace(host); // a first table, which most never need
     }
 
     /// The number of a point that is wanted.

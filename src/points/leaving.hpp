@@ -1,15 +1,16 @@
-// Which of the equal points at one place leave, when some are taken away one after the other.
+// Tells which of the equal points at one place leave, when some are taken away one after the
+// other.
 //
-// Each time the first point with the id wanted leaves, or if none has it the first of all;
-// `exactly`, only one that has the id and the attributes wanted (points/identities.hpp, which
-// makes numbers of both; what is said of ids here holds for these). So what an id takes depends
-// on what went before, but not on what a search after each of them would have to read: all are
-// found in one run over the points of the place.
+// Each time the first point with the wanted id leaves, or, if none has it, the first of all.
+// With `exactly`, only a point leaves that has the wanted id and attributes;
+// points/identities.hpp makes numbers of these, and what is said of ids here holds for them.
+// What an id takes depends on the points that have left before. Still one run over the points
+// of the place finds all of them.
 //
-// A point that leaves for want of its id is the first one left: all before it have gone. Of n
-// wants at most n - 1 have been met by then, so it is one of the first n points of the place.
-// Of those behind them only points with an id that is wanted count, of each id as many as
-// are wanted. That is all that is kept of a place, however many points it has.
+// A point that leaves because no point has the wanted id is the first one left: all before it
+// have gone. Of n wants at most n - 1 have been met by then, so it is one of the first n
+// points of the place. Of the points behind those, only points with a wanted id count, of
+// each id as many as are wanted. No more is kept of a place, however many points it has.
 #pragma once
 
 #include "host/arena.hpp"
@@ -22,7 +23,7 @@ namespace abacus {
 class Leaving {
 public:
     /// For as many wants as take about so many bytes. `exactly`: a point leaves only if it has
-    /// the id and the attributes, of which there are so many, of one that is wanted.
+    /// the id and all of so many attributes of a wanted one.
     Leaving(const Host &host, std::size_t bytes, bool exactly, unsigned attributes);
 
     /// Wants the next point taken away.
@@ -32,7 +33,7 @@ public:
     bool is_full() const { return wants_.size() >= most_; }
     bool empty() const { return wants_.empty(); }
     bool is_one() const { return wants_.size() == 1; }
-    /// Whether the one want takes this point, if there is no other at the place.
+    /// Whether the only want takes this point, if there is no other at the place.
     bool takes(std::int64_t id, const double *attributes) {
         return !exactly_ || identities_.find(id, attributes) == wants_[0];
     }

@@ -1,5 +1,5 @@
-// Where points go, one after the other, once they are in order: vertex pages, the triangulation
-// itself, or who looks for them there.
+// Where points go, one after the other, once they are in order: to vertex pages, into the
+// triangulation itself, or to a search for them there.
 #pragma once
 
 #include "sort/pacer.hpp"
@@ -16,7 +16,7 @@ public:
     }
     /// After the last point.
     virtual void finish() = 0;
-    /// What its work is called, and what pages it has moved so far.
+    /// The name of its work, and the pages that it has moved so far.
     virtual abacus_phase phase() const = 0;
     virtual PagesMoved pages_moved() const = 0;
 

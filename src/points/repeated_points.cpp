@@ -74,7 +74,7 @@ template <int D> bool RepeatedPoints<D>::go_to(Key key) {
     lower_ = page.key;
     location_ = page.location;
     upper_ = host_.next(ABACUS_REPEATED_PAGES, &lower_, page) ? page.key : end_key;
-    // Who looks for a point of the page would look in the next one.
+    // A search for a point of this page would look in the next one.
     if (count() > 0 && upper_ <= key_of(entry(count() - 1)))
         throw_bad_page("has points that the next page owns");
     return true;
@@ -198,7 +198,7 @@ template <int D> std::uint64_t RepeatedPoints<D>::take_all(const Point<D> &p) {
     const Key from{domain_.code(p), 0};
     std::uint64_t taken = 0;
     if (!go_to(from)) return 0;
-    // One run: to look again from the beginning would mean to pass all pages that have been erased.
+    // In one run: a search from the beginning would pass all pages that have been erased.
     do {
         for (std::size_t i = lower_bound(from); i < count() && key_of(entry(i)).code == from.code;)
             if (record_point<D>(record_of(entry(i))) == p) {
@@ -216,7 +216,7 @@ template <int D> void RepeatedPoints<D>::flush() {
     if (!dirty_) return;
     dirty_ = false;
     if (count() == 0 && (!(lower_ == first_key) || upper_ == end_key)) {
-        // The interval goes to the page before, if there is one, or else to nobody.
+        // The page before, if there is one, gets the interval.
         at_page_ = false;
         if (location_ != 0) host_.erase(ABACUS_REPEATED_PAGES, {lower_, nullptr, 0, location_});
         return;

@@ -1,8 +1,8 @@
 // The points that equal a vertex of the mesh.
 //
 // Equal points are one vertex, with the id and attributes of the first. The others are
-// kept beside the mesh, so that none is lost, each can be traced to its vertex, and the
-// next one takes over when the first is deleted.
+// kept beside the mesh. So none is lost, each can be traced to its vertex, and the next
+// one takes over when the first is deleted.
 //
 // Their pages partition the order (code, serial number) as simplex pages do that of
 // keys: the first page begins at (0, 0), a full one is cut in two. A page is
@@ -10,8 +10,8 @@
 //   header    what is in it
 //   records   in order; each a serial number, then the record of the point
 //
-// One page is held and written back when another is needed: points come along the
-// curve, so the next one nearly always belongs to the page at hand.
+// One page is held in memory, and written back when another is needed. Points come
+// along the curve, so the next one nearly always belongs to the same page.
 #pragma once
 
 #include "host/arena.hpp"
@@ -34,8 +34,8 @@ public:
     bool contains(const Point<D> &p);
     /// Offers the points equal to p, until the others make no difference.
     void offer(const Point<D> &p, Leaving &leaving);
-    /// Takes away those that leave: in the order of their pages, each of which is read and
-    /// written once. Returns how many they were.
+    /// Takes away those that leave, in the order of their pages; each page is read and
+    /// written once. Returns how many there were.
     std::uint64_t take(const Point<D> &p, const Leaving &leaving);
     /// Takes away the first point equal to p; its record, valid until the next call, or
     /// nullptr if there is none.

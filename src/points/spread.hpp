@@ -1,19 +1,19 @@
-// Where points are: what a domain is chosen by.
+// Where points are, by which a domain is chosen.
 //
 // The box of all points will not do. One garbage coordinate, a "no data" of -3.4e38 among metres,
-// and all other points lie in one cell of the curve, where nothing but parts tells their simplices
-// apart (locational_code.hpp). What lies outside of a domain, on the other hand, is clamped to its
-// border, which does no harm as long as it is little.
+// puts all other points into one cell of the curve, where only parts tell their simplices apart
+// (locational_code.hpp). Points outside a domain, on the other hand, are clamped to its border,
+// which does no harm as long as they are few.
 //
 // So besides the box there is a sample of the distinct points: those with the least hashes. It is a
-// function of the set of points, whatever their order, and of two sets it comes from the samples of
-// both. A point of it is misplaced by a domain if it lies outside, or has one code with so many
-// others that they take a good part of a page, as far as the sample tells. The box is taken if it
-// misplaces few. If not, boxes compete that leave out more and more of the sample: on each axis the
-// shortest interval that has all but a few of the points, with room for those not in the sample.
-// One wins if it misplaces less than half as many. So outliers on any side lose to the others, but
-// of two clusters that one domain can resolve neither does, and where no linear scale would do
-// (points at all magnitudes, ten clusters too far apart) the box stays.
+// function of the set of points, whatever their order. The sample of two sets together follows from
+// their two samples. A domain misplaces a point of the sample if the point lies outside, or shares
+// its code with so many others that they take a good part of a page, as far as the sample tells.
+// The box is taken if it misplaces few. Otherwise boxes compete that leave out more and more of the
+// sample: on each axis the shortest interval that has all but a few of the points, with room for
+// points not in the sample. A box wins if it misplaces less than half as many. So outliers on any
+// side lose. Of two clusters that one domain can resolve, none loses. And where no linear scale
+// would do (points at all magnitudes, ten clusters too far apart) the box stays.
 #pragma once
 
 #include "geometry/box.hpp"
@@ -42,10 +42,10 @@ public:
 
     /// Around all points.
     const Box<D> &box() const { return box_; }
-    /// The box for a domain: `first`, unless another one serves the points better by far.
+    /// The box for a domain: `first`, unless another one serves the points far better.
     Box<D> choose(const Box<D> &first);
     Box<D> choose() { return choose(box_); }
-    /// Whether a domain around the first box places the points better by far than one around the
+    /// Whether a domain around the first box places the points far better than one around the
     /// second.
     bool is_better(const Box<D> &box, const Box<D> &than);
 

@@ -4,8 +4,8 @@
 //   header    what is in it, and the sequence number of its first record
 //   records   packed; each as in abacus_stage_add: id, coordinates, attributes
 //
-// Little-endian words. Pages are ordinary column values that any writer of the
-// table can change, so the view checks sizes, counts and coordinates.
+// Little-endian words. Pages are ordinary column values, which any writer of the table
+// can change. So the view checks sizes, counts and coordinates.
 #pragma once
 
 #include "host/host.hpp"

@@ -4,8 +4,8 @@
 
 namespace abacus {
 
-/// Those that a place's wants can take: as many first points as there are wants, and behind them
-/// of each identity as many as are wanted.
+/// The points that the wants of a place can take: as many first points as there are wants, and
+/// behind them, of each identity, as many as are wanted.
 template <int D> void WaitingPoints<D>::find_candidates(std::uint64_t from, std::uint64_t to) {
     const auto at_place = [](const Wanted &a, const Wanted &b) { return a.point < b.point; };
     const auto by_identity = [](const Wanted &a, const Wanted &b) {

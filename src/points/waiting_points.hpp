@@ -1,10 +1,11 @@
 // Taking points away from those that wait.
 //
-// They are in no order in which one could be found, so many are looked for at once, in
-// two runs over all of them: the first finds the points that may leave, of which each place
-// then chooses as it does in the triangulation (leaving.hpp); the second writes the others anew
-// behind the last page and erases the pages it has read. All may be at one place, so no point is
-// compared with all wants for its place, and no more are kept than these can take.
+// Waiting points are in no order in which one could be found. So many are looked for at once, in
+// two runs over all of them. The first run finds the points that may leave; each place then
+// chooses among them as it does in the triangulation (leaving.hpp). The second run writes the
+// other points behind the last page and erases the pages it has read. All points may be at one
+// place. So no point is compared with all wants for its place, and no more are kept than the
+// wants can take.
 #pragma once
 
 #include "host/arena.hpp"
@@ -23,8 +24,9 @@ public:
           most_(bytes / (sizeof(Wanted) + identities_.bytes_each())), wanted_(host),
           candidates_(host), found_(host), leaving_(host, bytes, exactly, 0) {}
 
-    /// Wants a point taken away: one with these coordinates, and of several the one with
-    /// this id, or else (unless exactly) the first; one want after the other.
+    /// Wants a point taken away: a point with these coordinates. Of several it is the
+    /// one with this id, or else (unless exactly) the first. Wants are met one after the
+    /// other.
     void want(const Point<D> &p, std::int64_t id, const double *attributes) {
         const auto order = static_cast<std::uint32_t>(wanted_.size());
         wanted_.push_back({p, identities_.enter(id, attributes), order, 0, 0});

@@ -1,7 +1,6 @@
-// Sorts 64-bit words that hold a key in their upper bits and the number of a
-// record in the lower ones, below the key. No two words are equal, so "sorted"
-// is one order only, and records with equal keys stay in the order of their
-// numbers.
+// Sorts 64-bit words that hold a key in their upper bits and the number of a record in
+// the lower ones, below the key. No two words are equal, so there is only one sorted
+// order, and records with equal keys stay in the order of their numbers.
 #pragma once
 
 #include "sort/pacer.hpp"

@@ -1,6 +1,5 @@
-// Spools of records. A spool is closed by close() only: after a failure the
-// core may not call the host any more, and open spools go away with the
-// transaction.
+// Spools of records. Only close() closes a spool. After a failure the core may not call
+// the host, and open spools go away with the transaction.
 #pragma once
 
 #include "host/host.hpp"

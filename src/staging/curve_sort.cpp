@@ -9,7 +9,8 @@ template <int D>
 const std::uint64_t *CurveSort<D>::sort(const std::uint64_t *records, std::size_t n,
                                         const Slice<D> &slice, Pacer &pacer) {
     records_ = records;
-    // It may be much: what asks for it all at once cannot be interrupted.
+    // It may be much memory, and a single request for all of it could not be
+    // interrupted.
     memory_.reserve(2 * n);
     pacer.each_piece(2 * n, [&](std::size_t, std::size_t end) { memory_.resize(end); });
     words_ = memory_.data();

@@ -1,12 +1,11 @@
 // Insertion order of records in memory: by round, then along the Hilbert curve.
 //
-// What is sorted is one word a record: a piece of the record's code above the
-// record's number. The first 33 bits of the order separate nearly all points;
-// the few that share them get the next bits in the same words, and points that
-// share a whole code get codes of their own bounding box, again and again,
-// until the box is a single point. So clusters far below the resolution of the
-// codes are in the order of the curve as well, and equal points end up adjacent,
-// in the order of their numbers.
+// Each record is sorted by one word: a piece of its code above its number. The first 33
+// bits of the order separate nearly all points. The few that share them get the next
+// bits in the same words. Points that share a whole code get codes of their own
+// bounding box, again and again, until the box is a single point. So clusters far below
+// the resolution of the codes are also in the order of the curve, and equal points end
+// up adjacent, in the order of their numbers.
 #pragma once
 
 #include "host/arena.hpp"

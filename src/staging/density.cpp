@@ -19,7 +19,7 @@ bool is_dense(const Host &host, Arena<std::uint64_t> &codes, double vertices_eac
         abacus_page page;
         PageHeader header;
         if (!host.find(ABACUS_SIMPLEX_PAGES, {*code, 0}, page) || page.size < sizeof header)
-            return false; // whoever loads the page will say what is wrong
+            return false; // the next load of the page says what is wrong
         std::memcpy(&header, page.bytes, sizeof header);
         const auto *const next = std::lower_bound(code + 1, end, header.upper.code);
         const auto points = static_cast<std::size_t>(next - code);

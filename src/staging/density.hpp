@@ -1,9 +1,10 @@
 // Whether a mesh can stand in for the first rounds of an insertion (rounds.hpp).
 //
-// These are there so that a point comes into a mesh of some of its neighbours-to-be, drawn
-// at random. A mesh that has a good many vertices wherever the new points are does that as
-// well. Then all points are one round: each page is loaded once, changed, and stored once,
-// and no sparse round cuts full pages before the points come that fill the halves.
+// The first rounds exist so that a point comes into a mesh of some of its future
+// neighbours, drawn at random. A mesh that has enough vertices wherever the new points are
+// serves as well. Then all points make one round. Each page is loaded once, changed, and
+// stored once, and no sparse round cuts full pages before the points come that fill the
+// halves.
 #pragma once
 
 #include "geometry/point.hpp"

@@ -9,7 +9,7 @@ namespace {
 
 /// What an open spool costs the host: a database buffers a page of each file.
 constexpr std::size_t host_bytes_per_spool = 8192;
-/// More spools at once would only make the writes smaller.
+/// With more spools at once the writes would only become smaller.
 constexpr unsigned most_spools = 256;
 constexpr std::size_t least_piece_bytes = 8192, most_piece_bytes = 16384;
 /// Page being filled, handle, lists of parts.
@@ -18,10 +18,11 @@ constexpr std::size_t overhead = 65536;
 /// of the sample.
 constexpr double fill = 0.75;
 /// A part that is sorted in the processor's cache: its records come to the sink without
-/// misses. Smaller ones than memory holds, then, where spools can be had for them.
+/// misses. So parts are smaller than memory where there are spools for them.
 constexpr std::size_t cached_part_bytes = std::size_t{1} << 20;
-/// Records that are copied together from where they lie in memory. Each is a miss of all
-/// caches, that of page addresses included; in a loop of its own many are under way at once.
+/// Records that are copied together from their places in memory. Each copy misses all
+/// caches, that of page addresses included. In a loop of their own many of these misses
+/// overlap.
 constexpr std::size_t gathered_at_once = 64;
 
 } // namespace
@@ -119,8 +120,8 @@ template <int D> Box<D> ExternalSort<D>::survey(Spool &spool) {
     return box;
 }
 
-/// How many parts a slice is cut into. Spools that wait at the depths above
-/// leave fewer and fewer to the depths below.
+/// How many parts a slice is cut into. Spools that wait at upper depths leave fewer to
+/// the depths below.
 template <int D>
 unsigned ExternalSort<D>::parts_for(std::uint64_t records, const Slice<D> &slice) const {
     const unsigned rounds = slice.rounds == nullptr ? 0 : slice.rounds->size();

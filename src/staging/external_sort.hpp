@@ -1,10 +1,10 @@
 // Brings any number of records into insertion order within a bound of memory.
 //
-// A slice of the order that fits in memory is sorted there (curve_sort.hpp) and
-// goes to the sink. One that does not is distributed over spools, one for
-// each of the parts into which it is cut (splitters.hpp), and the parts are taken
-// in their order in the same way. Points that share one code are cut by the codes
-// of their bounding box; when that is a single point they are in order already.
+// A slice of the order that fits in memory is sorted there (curve_sort.hpp) and goes to
+// the sink. A larger slice is cut into parts (splitters.hpp) and distributed over
+// spools, one for each part. The parts are then treated in their order in the same way.
+// Points that share one code are cut by the codes of their bounding box. If that is a
+// single point they are in order already.
 #pragma once
 
 #include "points/record_sink.hpp"
@@ -25,7 +25,7 @@ struct SortBudget {
     unsigned spools;     ///< written at once
     std::size_t piece;   ///< records that are read or written at once
 
-    /// Parts for records of which nobody knows yet how many come.
+    /// The number of parts while it is unknown how many records will come.
     unsigned parts(unsigned rounds) const {
         return std::max(3u, spools - std::min(spools, rounds));
     }

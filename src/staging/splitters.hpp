@@ -1,10 +1,10 @@
 // Where to cut a slice of the insertion order so that each part fits in memory.
 //
-// The cuts are quantiles of a sample. Where the cuts fall never shows in the
-// order of the points, only in how evenly the parts are filled; a part that
-// comes out too full is cut again. That ends, since a cut leaves either fewer
-// points or a narrower range of codes in each part: a code that is at several
-// quantiles, or the least of the range, becomes a part of its own.
+// The cuts are quantiles of a sample. They never affect the order of the points, only
+// how evenly the parts are filled. A part that comes out too full is cut again. This
+// ends, since a cut leaves either fewer points or a narrower range of codes in each
+// part: a code that is at several quantiles, or is the least of the range, becomes a
+// part of its own.
 #pragma once
 
 #include "staging/sample.hpp"

@@ -11,7 +11,8 @@
 namespace abacus {
 
 namespace {
-// Of a mesh, for each point that is looked up there: a page has a hundred or more.
+// Vertices of a mesh for each point that is looked up there; a page has a hundred or
+// more.
 constexpr double vertices_a_sample = 32;
 } // namespace
 

@@ -1,16 +1,16 @@
-// Staging (dissertation §4.12.2): takes points in any order and hands them on in the
-// order in which they are to be inserted, to vertex pages or at once; places to be located in the
-// order of the curve.
+// Staging (dissertation §4.12.2) takes points in any order and hands them on in insertion order,
+// to vertex pages or straight into the mesh. It hands on places to be located in the order of the
+// curve.
 //
-// The order is a function of the set of points (and of the input order of equal ones) alone,
-// not of the memory, nor of how the points came in; except that points for a mesh which has
-// vertices near nearly all of them may come in one round (density.hpp).
+// The order depends on the set of points alone, and on the input order of equal ones. It
+// does not depend on the memory, nor on how the points came in. One exception: points for a
+// mesh that has vertices near nearly all of them may come in one round (density.hpp).
 //
-// It depends on the domain, which is known for sure only with the last point. But a domain
-// is a coarse box around the points (domain_of.hpp), or nearly all of them (spread.hpp): that of
-// the first points, once they are too many for memory, is most often that of all. So points are
-// distributed over the parts of the order as they come in; if the domain turns out to be another
-// one, what has been distributed is only a pile to be distributed anew.
+// The order depends on the domain, which is certain only with the last point. But a domain is a
+// coarse box around the points (domain_of.hpp), or around nearly all of them (spread.hpp). Once
+// the points are too many for memory, the domain of those so far is most often that of all. So
+// points are distributed over the parts of the order as they come in. If the domain turns out to
+// be another one, they are distributed anew.
 #pragma once
 
 #include "points/spread.hpp"
@@ -29,8 +29,8 @@ public:
 
     /// Adds records as in abacus_stage_add.
     void add(const std::uint64_t *points, std::size_t count);
-    /// No more points come: a header without a domain gets theirs, another one counts those
-    /// outside its domain.
+    /// No more points come. A header without a domain gets theirs; any other header counts
+    /// the points outside its domain.
     void end(abacus_header &header);
     /// Hands the points on: in insertion order, or with the rounds in reverse order, in which
     /// points are best taken away. Once, with the header that end() has seen.
@@ -38,7 +38,7 @@ public:
     /// Ends, writes the points to vertex pages and brings the header up to date.
     void finish(abacus_header &header);
 
-    /// Lets go of the points, which are not wanted after all.
+    /// Frees the points, which are not needed after all.
     void drop();
 
     /// Points so far.
@@ -55,7 +55,8 @@ public:
 private:
     void copy(const std::uint64_t *points, std::size_t count);
     void spill();
-    /// Begins to distribute what comes, if it is enough for several rounds.
+    /// Begins to distribute the points that come, if they are enough for several
+    /// rounds.
     void begin_to_distribute();
     void stop_distributing();
     /// What the points so far would have.

@@ -1,5 +1,5 @@
-// Breadth first from a simplex, across the facets that are asked for: the star of a vertex, all
-// simplices around a place, what lies within a window. Each simplex is met once.
+// A breadth-first search from a simplex, across the facets that the caller allows: the star of
+// a vertex, all simplices around a place, those within a window. Each simplex is met once.
 //
 // Memory grows with the handles of the mesh, a byte each, and with the answer.
 #pragma once

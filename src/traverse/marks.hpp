@@ -5,7 +5,7 @@
 
 namespace abacus {
 
-/// What a search has found of simplices, by handle. All marks are `none` between
+/// What a search has found out about simplices, by handle. All marks are `none` between
 /// searches: a search takes its own away.
 class Marks {
 public:

@@ -1,8 +1,8 @@
-// Every vertex once. A vertex is in all pages with a simplex around it; it belongs to
-// the first of them.
+// Visits every vertex once. A vertex is in all pages that have a simplex around it; it
+// belongs to the first of them.
 //
-// All that is loaded around a vertex may be wanted again for the next one, which has a good
-// part of its star in the same pages where both are corners of many simplices.
+// What is loaded around a vertex may be needed again for the next one: where both are
+// corners of many simplices, much of its star lies in the same pages.
 #pragma once
 
 #include "mesh/cache.hpp"
@@ -59,8 +59,8 @@ private:
     Flood<D> star_;
 };
 
-/// Calls visit(vertex) for every vertex of the mesh; what is not needed for it any more may leave
-/// the cache.
+/// Calls visit(vertex) for every vertex of the mesh. What is no longer needed may leave the cache
+/// meanwhile.
 template <int D, class Visit> void each_vertex(Cache<D> &cache, Visit visit) {
     OwnVertices<D> own(cache);
     for (Key page = first_key; page < end_key;) {

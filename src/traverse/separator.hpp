@@ -1,10 +1,11 @@
-// Which facet of a simplex separates it from a point: asked along a walk, of one simplex after
-// the other.
+// Tells which facet of a simplex separates it from a point, along a walk from one simplex to
+// the next.
 //
-// What a walk in the plane waits for is which of two edges no processor can foresee. So both are
-// tested, and one is chosen, without a branch; and of each triangle only the vertex is read that
-// the one before it did not have: the others go along, as they are seen from the point. In space
-// the facets are tested in turns, beginning with any, until one separates.
+// A walk in the plane would mostly wait for the choice between two edges, which no processor can
+// predict. So both edges are tested, and one is chosen without a branch. Of each triangle only
+// the vertex is read that the triangle before lacks; the walk carries the others along, as
+// differences from the point. In space the facets are tested in turn, beginning with any, until
+// one separates.
 #pragma once
 
 #include "geometry/predicates.hpp"
@@ -28,8 +29,8 @@ public:
 
     static constexpr int none = -1;
     /// A facet of a finite simplex that has p strictly beyond it, or `none`. `entered` is the facet
-    /// across which the walk came from the simplex asked for before, which has p on this side;
-    /// `none` of the first. `random` decides which, if there are several.
+    /// across which the walk came from the simplex before, so p is on this side of it; `none` for
+    /// the first simplex. If several facets separate, `random` decides which is returned.
     int find(const Simplex<D> &s, int entered, std::uint32_t random);
     /// Whether p is on a facet of the last simplex, which none separated.
     bool is_on_facet() const { return is_on_facet_; }

@@ -1,5 +1,5 @@
-// What can be walked over: simplices that know their neighbours, and points that know where
-// they are. The cache is one; so is, in tests, a triangulation of CGAL's.
+// What a walk needs: simplices that know their neighbours, and points that know where they
+// are. The cache is such a topology, and so is, in tests, a triangulation of CGAL.
 //
 // A reference to a simplex or point is good until the next cross(), which may load pages.
 #pragma once

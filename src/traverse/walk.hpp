@@ -1,10 +1,10 @@
-// Point location by a remembering stochastic walk (Devillers, Pion, Teillaud,
-// "Walking in a Triangulation", 2002; dissertation §4.11.3): from simplex to
-// simplex across a facet that separates it from the target, never back through
-// the one it came in by, the first facet tried drawn at random. In a Delaunay
-// triangulation no such walk visits a simplex twice, so one that is longer than the
-// mesh has simplices shows that the mesh is damaged. In others it may go round in circles
-// for a while, and end at a boundary that is not the hull: within() says so.
+// Point location by a remembering stochastic walk (Devillers, Pion, Teillaud, "Walking in
+// a Triangulation", 2002; dissertation §4.11.3): from simplex to simplex across a facet
+// that separates it from the target, never back through the one it came in by, the first
+// facet tried drawn at random. In a Delaunay triangulation no such walk visits a simplex
+// twice. So a walk with more steps than the mesh has simplices shows that the mesh is
+// damaged. In other meshes it may go round in circles for a while, and end at a boundary
+// that is not the hull; within() tells.
 #pragma once
 
 #include "traverse/separator.hpp"
@@ -18,7 +18,8 @@ public:
     explicit Walk(Mesh &mesh, bool far = false) : mesh_(mesh), far_(far) {}
 
     /// Whether p is so close to a simplex, measured by the simplex's own size, that a walk
-    /// from there is short, thin simplices included. No more than a guess, whatever overflows.
+    /// from there is short, thin simplices included. It is only a guess, so overflows do no
+    /// harm.
     bool is_close(Handle h, const Point<D> &p) const {
         const Simplex<D> &s = mesh_.simplex(h);
         const Point<D> &a = mesh_.point(s.vertex[0]), &b = mesh_.point(s.vertex[1]);
