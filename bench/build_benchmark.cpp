@@ -1,6 +1,5 @@
-// The core from end to end over an in-memory store: staging, building with
-// caches of several sizes, locating. What PostgreSQL adds is measured by
-// scripts/bench.sh.
+// The core from end to end over an in-memory store: staging, building with caches of
+// several sizes, locating. scripts/bench.sh measures what PostgreSQL adds.
 #include "support/memory_host.hpp"
 
 #include <abacus/change.h>

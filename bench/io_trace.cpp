@@ -12,7 +12,7 @@
 // BLOCK is where a table's heap would have the page: within one transaction no space is used
 // again, so each version of a page gets the next block. PLACE is where the page begins: of
 // simplices on the curve, of vertices in the order of insertion; both from 0 to 1. SECONDS are
-// those of the CPU, of the core alone: what becomes of a request, below, is up to the server and
+// CPU time of the core alone. What happens to a request below the core is up to the server and
 // the file system.
 #include "staged_file.hpp"
 #include "support/memory_host.hpp"

@@ -9,10 +9,9 @@
 // served by quick, ray-casting and concentric probing, and the pages read for them by
 // each.
 //
-// The counters tell the pages read by each kind. Which kind served a miss is the
-// last that read a page for it. The core polls its host at the start of every
-// miss: that is when the host here looks at the counters and judges the miss
-// before.
+// The counters tell the pages read by each kind. A miss was served by the last kind
+// that read a page for it. The core polls its host at the start of every miss. Then
+// this host looks at the counters and judges the miss before.
 #include "delaunay/insertion.hpp"
 #include "keys/domain_of.hpp"
 #include "points/vertex_reader.hpp"

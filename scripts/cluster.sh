@@ -6,11 +6,11 @@
 #   cluster_stop         stops it; also done when the script ends
 #   cluster_restart      for the children of that script: settings that need a new start
 #
-# PostgreSQL refuses to run as root, so root runs the server as user postgres,
-# who may not be able to reach a checkout below /root: then the cluster lies in
-# a folder of /tmp, and build/cluster/NAME leads there. Clients run as the
-# caller; the folder is closed to everybody else, so the socket needs no
-# password. A lock keeps two runs from sharing a cluster.
+# PostgreSQL refuses to run as root, so root runs the server as user postgres. That user
+# may not reach a checkout below /root. Then the cluster lies in a folder of /tmp, and
+# build/cluster/NAME is a link to it. Clients run as the caller; the folder is closed to
+# everybody else, so the socket needs no password. A lock keeps two runs from sharing a
+# cluster.
 
 cluster_as_server() {
     if ((EUID == 0)); then
@@ -68,7 +68,7 @@ cluster_restart() {
         -l "$PGHOST/log"
 }
 
-# What an earlier run, or a killed one, left behind.
+# Removes what a killed run has left behind.
 cluster_remove() {
     [[ -e $cluster_link || -L $cluster_link ]] || return 0
     cluster_folder=$(readlink -f "$cluster_link")

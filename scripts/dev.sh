@@ -25,7 +25,7 @@ unit() {
     if (($#)); then unit_filter "$1"; else unit_tests build/release; fi
 }
 
-# A filter that no test passes is an error, too.
+# A filter that matches no test is also an error.
 unit_filter() {
     local tests=build/release/test/abacus_unit_tests listed
     listed=$("$tests" --gtest_filter="$1" --gtest_list_tests)

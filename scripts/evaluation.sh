@@ -7,8 +7,8 @@
 #   evaluation.sh report             docs/evaluation.md anew from the results that are there
 #   evaluation.sh list               the parts, and about how long each takes
 #
-# Each part leaves a file of results when it has ended, so a run that was broken off goes on
-# with the parts named that are left. What has no room on the disk is left out, and said.
+# Each part leaves a file of results when it has ended. So after an interrupted run, name
+# the parts that are left. Parts that have no room on the disk are left out, with a message.
 # Groups of limited memory are made by root (or sudo).
 set -euo pipefail
 . "$(dirname "$0")/common.sh"

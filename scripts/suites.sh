@@ -73,9 +73,9 @@ tap_end() {
     tap_disk=
 }
 
-# Crashes, many sessions, dumps, replication, upgrades: in servers that the tests
-# start themselves, as the user who may. One that is interrupted dies, and ends its servers
-# at that. ABACUS_KILLS says how often to kill. Names of files in test/tap; all without arguments.
+# Crashes, many sessions, dumps, replication, upgrades: in servers that the tests start
+# themselves, as a user that may. An interrupted test dies and ends its servers. ABACUS_KILLS says
+# how often to kill. Names of files in test/tap; all without arguments.
 tap_tests() {
     local sources
     if ((!$#)); then set -- "$tap_folder"/*.pl; else set -- "${@/#/"$tap_folder/"}"; fi

@@ -1,4 +1,4 @@
--- The attributes of a mesh: what they are called, what values there are.
+-- The attributes of a mesh: their names and their values.
 CREATE SCHEMA regress_attributes;
 SET search_path = regress_attributes, public;
 SELECT abacus_create('field', 2, '{height,"Depth, m",none}');
@@ -49,7 +49,7 @@ SELECT abacus_load('loaded', 'VALUES (1, 0, 0, 1), (2, 4, 0, 2), (3, 4, 1, 3), (
                    'VALUES (1, 2, 5), (2, 3, 5), (3, 4, 5), (4, 1, 5)', '{h}');
 SELECT abacus_rename_attribute('loaded', 'h', 'height');
 SELECT * FROM abacus_attributes('loaded');
--- whoever may change the mesh may do so, whoever may read it may ask
+-- users who may change the mesh may rename; users who may read it may ask
 CREATE ROLE regress_attributes_user;
 GRANT USAGE ON SCHEMA regress_attributes TO regress_attributes_user;
 SET ROLE regress_attributes_user;

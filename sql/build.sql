@@ -80,7 +80,7 @@ EXCEPTION WHEN invalid_transaction_termination THEN
     RAISE NOTICE 'not in a block with an exception clause';
 END $$;
 SELECT abacus_stage('once', 'SELECT 10000, 2000, 2000');
--- in procedures and blocks that may commit themselves it may, too
+-- it may also commit in procedures and blocks that may commit themselves
 DO $$
 DECLARE
     mesh regclass;

@@ -141,7 +141,7 @@ SELECT count(*) FROM abacus_simplices('field');
 \echo :LAST_ERROR_SQLSTATE
 ROLLBACK;
 
--- planted faults of every kind; where things lie in a page is in docs/design.md, the page format
+-- planted faults of every kind; where things lie in a page is in docs/design/format.md
 CREATE FUNCTION flipped(page abacus_page, at int) RETURNS abacus_page LANGUAGE sql AS
     $$ SELECT set_byte(page::bytea, at, get_byte(page::bytea, at) # 1)::abacus_page $$;
 CREATE FUNCTION number_at(page bytea, at int) RETURNS int LANGUAGE sql AS
@@ -309,7 +309,7 @@ SELECT abacus_triangulate('field');
 \echo :LAST_ERROR_SQLSTATE
 ROLLBACK;
 
--- columns that lie elsewhere than those of the type, since one was dropped before the table got it
+-- columns that lie at other places than those of the type, since one was dropped before the table got the type
 CREATE TABLE shifted (code bigint, part bigint, other bigint, page abacus_page, PRIMARY KEY (code, part));
 INSERT INTO shifted SELECT code, part, 4611686018427387904, page FROM field;
 ALTER TABLE shifted DROP COLUMN other;

@@ -1,4 +1,4 @@
--- Points at the place of others, and points that span no simplex: what is told, and what can be chosen.
+-- Points at the place of others, and points that span no simplex: notices and choices.
 CREATE SCHEMA regress_duplicates;
 SET search_path = regress_duplicates, public;
 

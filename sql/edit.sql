@@ -101,7 +101,7 @@ SELECT abacus_delete('points', 'VALUES (1, 2, 3)');
 \echo :LAST_ERROR_SQLSTATE
 SELECT counts('q');
 
--- vertices of high degree, whose removals cost more than a triangulation of the rest: the same mesh all the same
+-- vertices of high degree, whose removals cost more than a triangulation of the rest: still the same mesh
 TRUNCATE points;
 INSERT INTO points SELECT i, cos(i * 6.283185307179586 / 3000), sin(i * 6.283185307179586 / 3000), i % 3, i FROM generate_series(1, 3000) i;
 INSERT INTO points SELECT 3000 + i, x, y, z, -i FROM points, generate_series(1, 2) i WHERE id = 77;

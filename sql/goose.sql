@@ -106,7 +106,7 @@ RESET statement_timeout;
 \set VERBOSITY default
 SELECT to_regclass('wrong') IS NULL AS nothing_left;
 
--- Whoever may create a table and read the points may call it.
+-- Users who may create a table and read the points may call it.
 CREATE ROLE abacus_goose_user;
 CREATE SCHEMA pond;
 SET ROLE abacus_goose_user;

@@ -1,4 +1,4 @@
--- What is done to tables, done to the tables of a mesh.
+-- Commands for tables, run on the tables of a mesh.
 CREATE TABLE points AS SELECT i AS id, i % 40 AS x, i / 40 AS y, i * 0.5 AS height FROM generate_series(0, 1599) i;
 SELECT abacus_triangulate('field', 'TABLE points');
 -- all that is stored, and whether it is sound

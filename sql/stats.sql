@@ -32,7 +32,7 @@ BEGIN
 END $$;
 SELECT abacus_stage('field', 'SELECT 10000, 200, 200, look()');
 SELECT count(*) FROM abacus_progress;
--- many places are located; within another function that one's progress stays
+-- many places are located; inside another function the progress of that one stays
 SELECT id FROM abacus_locate('field', 'SELECT 1, 50, 50 + look()');
 SELECT abacus_triangulate('other', 'VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1)');
 SELECT abacus_stage('other', 'SELECT id, 2, look() FROM abacus_locate(''field'', ''SELECT 1, 50, 50'')');

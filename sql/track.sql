@@ -57,7 +57,7 @@ SELECT apart(), count(*) FROM abacus_vertices('field') WHERE id = 30;
 UPDATE wells SET y = 2 WHERE id = 30;
 SELECT apart(), count(*) FROM abacus_vertices('field') WHERE id = 30;
 
--- what has no place is refused, and nothing has changed
+-- a row without a place is refused, and nothing has changed
 INSERT INTO wells VALUES (300, 'ok', 5, 6, 1), (301, 'bad', 'NaN', 6, 1);
 \echo :LAST_ERROR_SQLSTATE
 UPDATE wells SET x = 'Infinity' WHERE id = 3;
@@ -217,7 +217,7 @@ INSERT INTO others VALUES (40, 1, 1, 1);
 \echo :LAST_ERROR_SQLSTATE
 SELECT count(*) FROM pg_trigger WHERE tgrelid = 'parted'::regclass;
 
--- privileges: whoever may write the table; the mesh is written as the table's owner
+-- privileges: users who may write the table need no others; the mesh is written as the table's owner
 CREATE ROLE regress_track_owner;
 CREATE ROLE regress_track_writer;
 CREATE SCHEMA regress_track AUTHORIZATION regress_track_owner;
@@ -243,7 +243,7 @@ ALTER TABLE spots ENABLE ROW LEVEL SECURITY, FORCE ROW LEVEL SECURITY;
 SELECT abacus_track('spotted', 'spots');
 \echo :LAST_ERROR_SQLSTATE
 RESET ROLE;
--- it is the table's owner who needs the privileges, whoever asks
+-- the table's owner needs the privileges, not the user who asks
 CREATE TABLE owned (id int, x float8, y float8);
 ALTER TABLE owned OWNER TO regress_track_owner;
 SELECT abacus_create('unowned', 2);

@@ -206,7 +206,7 @@ CREATE UNLOGGED TABLE owned_brief PARTITION OF owned FOR VALUES IN (1);
 SELECT abacus_track('mesh', 'owned');
 \echo :LAST_ERROR_SQLSTATE
 DROP TABLE owned_brief;
--- whoever may write the table writes the mesh, by whichever way
+-- users who may write the table write the mesh, on whichever way
 SELECT abacus_track('mesh', 'owned');
 GRANT INSERT, TRUNCATE ON owned, owned_part TO regress_track_part;
 SET ROLE regress_track_part;

@@ -6,7 +6,7 @@ CREATE FUNCTION corners(x float8, y float8) RETURNS bigint[] LANGUAGE sql STABLE
 $$;
 SELECT corners(3, 1);
 
--- a change that is rolled back was never there, in the session's cache neither
+-- a change that is rolled back leaves nothing, not even in the session's cache
 BEGIN;
 SELECT abacus_stage('field', 'SELECT 5, 3, 1'), abacus_triangulate('field');
 SELECT corners(3, 0.5);

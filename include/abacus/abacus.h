@@ -1,9 +1,9 @@
 /*
  * abacus.h: the one bridge between PostgreSQL (C) and the Abacus core (C++).
  *
- * The core knows nothing of PostgreSQL. What it needs from a database it asks
- * of an abacus_host (host.h): memory, pages found and stored by key, spool files, and
- * a word about interrupts. What it offers is a handful of plain handles:
+ * The core knows nothing of PostgreSQL. An abacus_host (host.h) gives it what it needs
+ * from a database: memory, pages found and stored by key, spool files, and a word about
+ * interrupts. The core offers a handful of plain handles:
  *
  *   abacus_stage   points in, vertex pages in insertion order out   (dissertation §4.12.2)
  *   abacus_build   staged points in, simplex pages out              (§4.12.3-5)
@@ -14,10 +14,10 @@
  *
  * Errors travel by return value only. A host function that fails returns
  * ABACUS_HOST_FAILED and keeps its own error; the core unwinds and returns
- * ABACUS_HOST_ERROR, and the caller re-raises what the host kept. An error of
- * the core's own is returned as ABACUS_ERROR with an abacus_error filled in.
- * No exception and no longjmp ever crosses this header. After any failure a
- * handle may only be closed; closing calls nothing of the host but resize().
+ * ABACUS_HOST_ERROR, and the caller re-raises what the host kept. The core's own errors
+ * are returned as ABACUS_ERROR with an abacus_error filled in. No exception and no
+ * longjmp ever crosses this header. After any failure a handle may only be closed;
+ * closing calls nothing of the host but resize().
  *
  * Every handle is bound to one thread and to the host it was opened with,
  * which must stay at its address until the handle is closed.

@@ -29,7 +29,7 @@ ABACUS_API abacus_status abacus_stage_open(const abacus_host *host, const abacus
  */
 ABACUS_API abacus_status abacus_stage_add(abacus_stage *stage, const uint64_t *points,
 										  size_t count, abacus_error *error);
-/* No more points come: a header without a domain gets theirs. */
+/* No more points come. A header without a domain gets theirs. */
 ABACUS_API abacus_status abacus_stage_end(abacus_stage *stage, abacus_header *header,
 										  abacus_error *error);
 /* Ends, orders the points, writes the vertex pages, brings the header up to date. */
@@ -41,8 +41,11 @@ ABACUS_API void abacus_stage_close(abacus_stage *stage);
 
 typedef struct abacus_build abacus_build;
 
-/* Opens a mesh for inserting, with a computational cache of `cache_bytes`. Its domain is that of the
- * header now: for the first points abacus_stage_end() comes before. */
+/*
+ * Opens a mesh for inserting, with a computational cache of `cache_bytes`. Its domain
+ * is the one that the header has now, so for the first points call abacus_stage_end()
+ * before.
+ */
 ABACUS_API abacus_status abacus_build_open(const abacus_host *host, const abacus_header *header,
 										   size_t cache_bytes, abacus_build **build,
 										   abacus_error *error);
@@ -51,8 +54,8 @@ ABACUS_API abacus_status abacus_build_open(const abacus_host *host, const abacus
  * One may follow another as long as nobody else changes the mesh or moves its
  * pages.
  *
- * run: inserts staged points that wait, at most `limit` of them (0 = all), and
- * erases their pages. While the points span no simplex they go on waiting.
+ * run: inserts staged points that wait, at most `limit` of them (0 = all), and erases
+ * their pages. While the points span no simplex they keep waiting.
  */
 ABACUS_API abacus_status abacus_build_run(abacus_build *build, uint64_t limit,
 										  abacus_header *header, abacus_error *error);
@@ -65,31 +68,31 @@ typedef enum abacus_on_duplicate
 } abacus_on_duplicate;
 
 /*
- * insert: inserts what waits, then the points of a stage that has ended, without
- * vertex pages between; they are staged after all if they span no simplex.
+ * insert: inserts what waits, then the points of a stage that has ended, without vertex
+ * pages between. If the points span no simplex, they are staged.
  */
 ABACUS_API abacus_status abacus_build_insert(abacus_build *build, abacus_stage *stage,
 											 abacus_on_duplicate on_duplicate,
 											 abacus_header *header, abacus_error *error);
 /*
- * delete: inserts what waits, then takes away a point for each point of a stage
- * that has ended: one with the same coordinates, and of several the one with the
- * same id, or else the first; `exactly`: only one with the same id and attributes,
- * among which 0 equals -0, and a NaN any other; the stage must have those of the mesh.
- * *deleted says how many there were. What is left is the triangulation of the other points; if
+ * delete: inserts what waits, then takes away a point for each point of a stage that has
+ * ended: one with the same coordinates, and of several the one with the same id, or else the
+ * first. With `exactly`, only a point with the same id and attributes goes; 0 equals -0 then,
+ * and a NaN equals any other NaN, and the stage must have the attributes of the mesh. *deleted
+ * says how many points there were. What is left is the triangulation of the other points. If
  * they span no simplex they wait again.
  */
 ABACUS_API abacus_status abacus_build_delete(abacus_build *build, abacus_stage *stage, int exactly,
 											 abacus_header *header, uint64_t *deleted,
 											 abacus_error *error);
-/* clear: takes away all points, those that wait too, at the cost of erasing their pages. */
+/* clear: takes away all points, waiting ones included, at the cost of erasing their pages. */
 ABACUS_API abacus_status abacus_build_clear(abacus_build *build, abacus_header *header,
 											uint64_t *deleted, abacus_error *error);
 /*
- * rekey: gives a mesh whose domain does not fit many of its points another one, and all its pages
- * other keys, with `memory` bytes for sorting; *done is 0 if there is no better one, and header->outside
- * is 0 then if that took a look at all points. The simplices are the same. The insertion of many
- * points does so by itself.
+ * rekey: gives a mesh whose domain does not fit many of its points another domain, and all its
+ * pages other keys, with `memory` bytes for sorting. The simplices stay the same. *done is 0 if
+ * there is no better domain; header->outside is then 0 if that took a look at all points. The
+ * insertion of many points does this by itself.
  */
 ABACUS_API abacus_status abacus_build_rekey(abacus_build *build, size_t memory,
 											abacus_header *header, int *done,
@@ -116,7 +119,7 @@ ABACUS_API abacus_status abacus_load_vertices(abacus_load *load, const uint64_t 
 ABACUS_API abacus_status abacus_load_simplices(abacus_load *load, const int64_t *ids,
 											   size_t count, abacus_error *error);
 /*
- * No more simplices come: checks, exactly, that they form a complex, and how this is related to
+ * No more simplices come. Checks exactly that they form a complex, and how this is related to
  * the Delaunay triangulation of its vertices. ABACUS_ERROR (argument) names what is wrong: an
  * unknown or repeated vertex, a flat simplex, a facet used too often, an overlap.
  */

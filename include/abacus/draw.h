@@ -21,7 +21,7 @@ typedef struct abacus_drawing
 	int32_t edges;             /* 1: draw the edges of the triangles, or of the section */
 	double exaggeration;       /* values are multiplied by this for the hill shading; 0 = no shading */
 	double max_edge;           /* leave out simplices with a longer edge; 0 = none */
-	double range[2];           /* values at the ends of the colours, which those beyond get, too;
+	double range[2];           /* values at the ends of the colours, also for values beyond;
 	                              empty ([0] >= [1]) = the least and the greatest that is seen */
 } abacus_drawing;
 

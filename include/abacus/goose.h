@@ -12,8 +12,8 @@ extern "C" {
 #endif
 
 /*
- * A simplex as a row of its own, with its box: what of the domain holds every point that can be
- * in conflict with it. A box is in the R-tree's unit, coordinates times abacus_goose_figures.unit.
+ * A simplex as a row of its own, with its box: the part of the domain that holds every point in
+ * conflict with it. A box is in the R-tree's unit, coordinates times abacus_goose_figures.unit.
  */
 typedef struct abacus_boxed_simplex
 {

@@ -1,6 +1,6 @@
 /*
- * header.h: what is known of a mesh as a whole, and the counters of all its
- * builds; a row of its own among its pages.
+ * header.h: what is known of a mesh as a whole, and the counters of all its builds. It
+ * is a row of its own among the pages.
  */
 #ifndef ABACUS_ABACUS_HEADER_H
 #define ABACUS_ABACUS_HEADER_H
@@ -57,13 +57,13 @@ typedef struct abacus_counters
 /* ---- Header of a mesh ----------------------------------------------------- */
 
 /*
- * How a mesh is related to the Delaunay triangulation of its vertices: under the symbolic
- * perturbation there is one, that which the core makes. What is another was loaded
+ * How a mesh is related to the Delaunay triangulation of its vertices. Under the symbolic
+ * perturbation there is only one, which the core makes. Any other mesh was loaded
  * (abacus_load_open).
  */
 typedef enum abacus_delaunay
 {
-	ABACUS_DELAUNAY = 0,    /* is it, and can be changed */
+	ABACUS_DELAUNAY = 0,    /* is that one, and can be changed */
 	ABACUS_NOT_DELAUNAY,    /* a vertex lies inside the circumsphere of a simplex */
 	ABACUS_WEAKLY_DELAUNAY, /* all circumspheres are empty, but of cospherical vertices others
 							   were joined */
@@ -71,7 +71,10 @@ typedef enum abacus_delaunay
 							   holes, notches or pieces */
 } abacus_delaunay;
 
-/* The same in words: a clause about the mesh, and a sentence that says why; not of ABACUS_DELAUNAY. */
+/*
+ * The same in words: a clause about the mesh, and a sentence that says why. Not for
+ * ABACUS_DELAUNAY.
+ */
 ABACUS_API const char *abacus_delaunay_clause(abacus_delaunay delaunay);
 ABACUS_API const char *abacus_delaunay_reason(abacus_delaunay delaunay);
 

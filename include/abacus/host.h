@@ -1,7 +1,7 @@
 /*
- * host.h: what a database gives the core: memory, pages found and stored by
- * key, spool files, and a word about interrupts. And the words in which both
- * speak of failure and of progress.
+ * host.h: what a database gives the core: memory, pages found and stored by key, spool
+ * files, and a word about interrupts. It also defines how both report failure and
+ * progress.
  */
 #ifndef ABACUS_ABACUS_HOST_H
 #define ABACUS_ABACUS_HOST_H
@@ -124,9 +124,9 @@ typedef enum abacus_host_status
  * first. None may longjmp or throw. `bytes` that a function hands out stay valid
  * until the next call of a host function other than resize().
  *
- * Threads: every function is for the session's thread alone. Another thread may
+ * Threads: every function is for the session's thread alone. Another thread may only
  * read *interrupted, and use memory that the session's thread has reserved for it
- * (src/host/thread_memory.hpp); nothing else here.
+ * (src/host/thread_memory.hpp).
  */
 typedef struct abacus_host
 {

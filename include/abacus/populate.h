@@ -1,12 +1,12 @@
 /*
  * populate.h: memory for addresses that are about to be used, many pages at a time.
  *
- * Memory comes when an address is first touched: 4 KB, one page fault. On a
- * virtual machine whose hypervisor takes part in each, a fault was measured to
- * cost 12 microseconds, of a range asked for at once 0.8 a page; then faults had
- * been a third of the time of a build of a million points. Linux takes ranges since 5.14
- * (MADV_POPULATE_WRITE). Where it does not, or has no memory, nothing happens
- * here, and pages come one by one as ever.
+ * Memory comes when an address is first touched: 4 KB, one page fault. On a virtual
+ * machine whose hypervisor takes part in each fault, one costs 12 microseconds, and a
+ * page of a range that is asked for at once 0.8. There, page by page, faults are a third
+ * of the time of a build of a million points. Linux takes ranges since 5.14
+ * (MADV_POPULATE_WRITE). Where it does not, or has no memory, nothing happens here, and
+ * pages come one by one.
  */
 #ifndef ABACUS_POPULATE_H
 #define ABACUS_POPULATE_H

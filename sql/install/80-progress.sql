@@ -1,12 +1,12 @@
 -- Live figures of the builds, and of other long work, that run in any session.
 --
--- The slots are those that src/pg/progress.c fills. Like the progress views
--- of PostgreSQL it shows figures of other users' sessions only to members of
+-- The slots are those that src/pg/host/progress.c fills. Like the progress views of
+-- PostgreSQL it shows figures of other users' sessions only to members of
 -- pg_read_all_stats.
 --
--- Operands have the types of a built-in operator, not such as are converted for
--- one: else one that somebody has made for just these types, in the schema of the
--- extension, would be taken, and be run by everybody who looks.
+-- Operands have exactly the types of a built-in operator. If they needed a conversion,
+-- an operator that somebody has made for just these types, in the schema of the
+-- extension, would be chosen, and everybody who reads the view would run it.
 
 CREATE VIEW abacus_progress AS
 WITH build AS (

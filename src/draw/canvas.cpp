@@ -42,7 +42,8 @@ double area_of(const Patch &p) {
 class Ramp {
 public:
     explicit Ramp(const Patch &p) : start_{p.corner[0][0], p.corner[0][1]}, at_start_(p.value[0]) {
-        // Three corners say it all; the larger half of a quadrilateral says it best.
+        // Three corners tell all of it; of a quadrilateral the larger half tells it
+        // best.
         const bool second =
             p.corners == 4 && std::fabs(p.turn(0, 2, 3)) > std::fabs(p.turn(0, 1, 2));
         const int b = second ? 2 : 1, c = b + 1;
@@ -78,7 +79,7 @@ constexpr double most_density = 1e6;
 Canvas::Canvas(const Host &host, const abacus_drawing &drawing, double low, double high)
     : host_(&host), drawing_(Extent(drawing).drawing()), low_(low), high_(high), frame_(drawing_),
       range_(low, high), raster_(host, drawing_.width, drawing_.height), pixels_(host) {
-    // Row by row: to get memory for all of a large picture takes most of a second.
+    // Row by row, since memory for all of a large picture takes most of a second.
     pixels_.reserve(static_cast<std::size_t>(drawing_.width) * drawing_.height);
     for (std::int32_t y = 0; y < drawing_.height; ++y) {
         host_->poll();

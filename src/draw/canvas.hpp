@@ -1,10 +1,10 @@
 // The canvas on which a mesh is drawn, patch by patch: triangle by triangle, or one
 // tetrahedron's section after the other.
 //
-// Each pixel keeps a few sums over what the patches cover of it; the colour is
-// made of them at the end. So memory depends on the picture alone, the order of
-// the patches does not matter, and a pixel that holds a thousand of them shows
-// their mean, not the last of them.
+// Each pixel keeps a few sums over the shares that patches cover, and the colour is
+// computed from them at the end. So memory depends on the picture alone, the order of
+// the patches does not matter, and a pixel that holds a thousand patches shows their
+// mean, not the last of them.
 //
 // There are two styles. With an attribute, the surface is tinted by its value and
 // shaded as hills. Without one, the mesh itself is the subject: the tint tells
@@ -13,8 +13,8 @@
 // cuts small corners off large tetrahedra; patches of a section therefore bring
 // the mesh's own spacing, by which they count as triangles of that size would.
 //
-// Edges lose width with the size of their patch (see edge_width), so that
-// their tone stays below a bound however fine the mesh: an etching, no blot.
+// Edges get thinner with the size of their patch (see edge_width). So their tone stays
+// below a bound however fine the mesh is: an etching, not a blot.
 #pragma once
 
 #include "draw/frame.hpp"

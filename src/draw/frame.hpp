@@ -1,9 +1,9 @@
 // What a picture shows: the checked order, the extent of the mesh, and the
 // map from mesh coordinates to pixels.
 //
-// A mesh is streamed twice when its extent or the range of its attribute must
-// be found first; Extent is the first pass. Nothing here, nor in the other
-// files of this folder, grows with the number of triangles or tetrahedra.
+// A mesh is streamed twice when its extent or the range of its attribute must be found
+// first; Extent is the first pass. Nothing in this folder grows with the number of
+// triangles or tetrahedra.
 #pragma once
 
 #include "geometry/box.hpp"

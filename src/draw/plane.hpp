@@ -1,12 +1,12 @@
 // A plane through space, as the sheet of a picture: on which side of it a point
 // lies, where its foot is on the sheet, and which part of a box it cuts.
 //
-// The side is decided in floating point: exact decisions would differ by less than
-// any picture shows. What a picture does show is a gap, and there is none as long
-// as every tetrahedron that has a vertex takes it to be on the same side. So the
-// side is a function of the coordinates alone. A point is on the plane when the
-// rounding of its own coordinates could have brought it there: a layer of a grid
-// at 0.3 is met by a plane through 0.1 + 0.2.
+// The side is decided in floating point, since exact decisions would differ by less
+// than any picture shows. But a picture would show a gap. There is none as long as all
+// tetrahedra around a vertex agree on its side. So the side is a function of the
+// coordinates alone. A point is on the plane when the rounding of its own coordinates
+// could have brought it there: a plane through 0.1 + 0.2 meets a layer of a grid at
+// 0.3.
 #pragma once
 
 #include "geometry/point.hpp"
@@ -19,7 +19,7 @@ namespace abacus {
 /// A point as the plane sees it.
 struct Place {
     double at[2];  // its foot on the sheet: to the right, upwards
-    double height; // above the sheet, towards who looks at it
+    double height; // above the sheet, towards the viewer
     int side;      // sign of the height, or 0: on the plane
 };
 

@@ -1,11 +1,11 @@
 // From shapes to pixels: the exact share of every pixel that a polygon covers,
 // and antialiased lines.
 //
-// Exact coverage is what makes huge meshes come out right. A triangle of a
-// millionth of a pixel adds a millionth of its colour, whether or not it holds
-// any sample point; neighbours share the pixels along their common edge without
-// seam or overlap, as their shares sum to one; and the sum does not depend on
-// who is drawn first. So no mesh is too fine, and there is nothing to sort.
+// Exact coverage is what makes huge meshes come out right. A triangle of a millionth of
+// a pixel adds a millionth of its colour, whether or not it holds any sample point.
+// Neighbours share the pixels along their common edge without seam or overlap, since
+// their shares sum to one. The sum does not depend on the order of drawing. So no mesh
+// is too fine, and there is nothing to sort.
 //
 // A row of pixels is covered by accumulating signed areas. Every edge leaves, in
 // each pixel it passes, the change of coverage that it causes there and in the

@@ -1,13 +1,12 @@
 // The plane section of a tetrahedron, and of a mesh of them without gap or overlap.
 //
-// A plane in general position cuts a tetrahedron in a triangle or a quadrilateral.
-// But grids and octrees are cut through their points as a rule. The sections
-// still tile the plane if a vertex on the plane counts as one just above it: the
-// corners that coincide then make a section smaller, down to an edge or a point,
-// which is no patch; and of two tetrahedra that share a face in the plane, the
-// lower one has it as its section, the upper one none. What is left is the face
-// in the plane at the bottom of the hull, which nothing lies below: it is the
-// section of its ghost.
+// A plane in general position cuts a tetrahedron in a triangle or a quadrilateral. But
+// planes mostly cut grids and octrees through their points. The sections still tile the
+// plane if a vertex on the plane counts as one just above it. Corners that coincide
+// then make a section smaller, down to an edge or a point, which is no patch. Of two
+// tetrahedra that share a face in the plane, the lower one has it as its section, the
+// upper one none. Only a face in the plane at the bottom of the hull has nothing below:
+// it is the section of its ghost.
 #pragma once
 
 #include "draw/frame.hpp"

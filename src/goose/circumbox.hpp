@@ -9,9 +9,9 @@
 //
 // Everything is computed by interval arithmetic and rounded outwards, so a box may be too
 // large but never too small: a search can find too many simplices, which the exact
-// predicate dismisses, and never miss one. What underflows or overflows is rounded
-// outwards, too. Where the intervals say nothing, as for a
-// simplex that is nearly flat, the domain is the box.
+// predicate dismisses, and never miss one. Results that underflow or overflow are also
+// rounded outwards. Where the intervals say nothing, as for a simplex that is nearly
+// flat, the domain is the box.
 #pragma once
 
 #include "geometry/predicates.hpp"

@@ -1,9 +1,9 @@
 // The rim of a cavity that is known as a set of rows, without links: the facets that only
 // one of them has.
 //
-// Rows know one another by nothing but the places of their corners. So corners are sorted
-// by place and numbered, then facets by the numbers of theirs; a facet between two rows
-// comes twice.
+// Rows are related only by the places of their corners. So corners are sorted by place
+// and numbered, and facets are sorted by the numbers of their corners. A facet between
+// two rows comes twice.
 #pragma once
 
 #include "geometry/point.hpp"

@@ -11,12 +11,11 @@
 //   an octant of half its edge, beside one of its children across a face or an
 //   edge but outside of it, is split: that child must exist then.
 //
-// The second case is a recursion to ever smaller octants, which all lie within
-// one edge length of the first: 1/2 + 1/4 + ... Where the ground there is fast
-// enough for all of them, nothing is asked; this ends nearly all searches at once.
-// What remains is steep ground (the rim of the basin), where the answers are
-// remembered in a table of fixed size. It only saves time: an answer that was
-// forgotten is found again.
+// The second case is a recursion to ever smaller octants, which all lie within one edge
+// length of the first: 1/2 + 1/4 + ... Where the ground there is fast enough for all of
+// them, nothing is asked; this ends nearly all searches at once. What remains is steep
+// ground (the rim of the basin), where answers are remembered in a table of fixed size.
+// The table only saves time: a forgotten answer is computed again.
 #pragma once
 
 #include "quake/basin.hpp"

@@ -35,7 +35,7 @@ public:
     abacus_header header{};
     std::size_t cache_bytes = 1 << 20;
 
-    /// Runs a call that returns a status; any but an internal error is well.
+    /// Runs a call that returns a status; any status is right but an internal error.
     template <class Call> abacus_status run(Call call) {
         abacus_error error{};
         const abacus_status status = call(error);
@@ -327,8 +327,8 @@ template <class Pages> void seal(Pages &pages) {
         if (page.size >= checksum_bytes) seal_page(page.bytes(), page.size);
 }
 
-/// libFuzzer starts from the files of a folder: those that `seeds` gives go to the first
-/// folder on the command line, if it is empty.
+/// libFuzzer starts from the files of a folder. The inputs that `seeds` gives go to the
+/// first folder on the command line, if it is empty.
 inline void write_seeds(int argc, char **argv,
                         const std::vector<std::vector<std::uint8_t>> &seeds) {
     for (int i = 1; i < argc; ++i) {

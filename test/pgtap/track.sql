@@ -230,7 +230,7 @@ SELECT throws_ok($$ DELETE FROM shared WHERE id = 2 $$, '55000', NULL, 'a column
 SELECT abacus_track('tellers', 'shared', synchronize => true);
 SELECT lives_ok($$ DELETE FROM shared WHERE id = 2 $$, '... in step again');
 
--- who makes triggers may be answered by event triggers
+-- event triggers may interfere with the making of triggers
 CREATE FUNCTION drop_it() RETURNS event_trigger LANGUAGE plpgsql AS $$ BEGIN EXECUTE 'DROP TABLE IF EXISTS ' || current_setting('test.drop'); END $$;
 CREATE EVENT TRIGGER drops ON ddl_command_end WHEN TAG IN ('CREATE TRIGGER', 'DROP TRIGGER') EXECUTE FUNCTION drop_it();
 SET LOCAL test.drop = 'tellers';

@@ -39,7 +39,8 @@ SELECT abacus_track('own.field', 'own.wells');
 CREATE TABLE own.notes (id int, x float8, y float8);
 GRANT ALL ON own.notes, own.wells TO pgtap_guest;
 
--- a trigger made by hand has the rights of who fires it, and reaches nothing by those of the owner
+-- a trigger made by hand has the rights of the user who fires it, and reaches nothing by those of
+-- the owner
 SET ROLE pgtap_guest;
 CREATE TRIGGER a AFTER INSERT ON own.notes REFERENCING NEW TABLE AS n FOR EACH STATEMENT
     EXECUTE FUNCTION abacus_tracked('field', '2', 'id', 'x', 'y');
@@ -57,7 +58,7 @@ INSERT INTO own.notes VALUES (9, 9, 9);
 SELECT is(bound('own.field'), 4::bigint, 'a mesh that follows a table is not bound to another');
 DROP TABLE own.notes;
 SELECT is(abacus_track('own.field', 'own.wells', synchronize => true), 4::bigint, 'in step again');
--- what a bound trigger is replaced by is not bound
+-- a trigger that replaces a bound one is not bound
 SET ROLE pgtap_guest;
 CREATE OR REPLACE TRIGGER abacus_track_insert_field AFTER INSERT ON own.wells REFERENCING NEW TABLE AS n
     FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('field', '2', 'id', 'y', 'x');
@@ -73,7 +74,7 @@ SELECT throws_ok('TRUNCATE own.other', '42P01', NULL, 'a trigger of the mesh''s 
 RESET ROLE;
 DROP TABLE own.other;
 
--- after a restore: the first who may binds all of them
+-- after a restore: the first user who may bind them binds all of them
 SET ROLE pgtap_owner;
 SELECT abacus_track('own.field', 'own.wells');
 SELECT forget('own.field');

@@ -1,7 +1,7 @@
 // A small type of data in the block cache: entries with a key and a payload, as small as it can
-// be and still use all of the cache. Entries are of different weights, so that pages have too
-// many bytes now and then; and an index names the cached ones by their handles, as the
-// links of a mesh do, so that whatever moves without telling shows.
+// be and still use all of the cache. Entries have different weights, so pages have too many
+// bytes now and then. An index names the cached entries by their handles, as the links of a
+// mesh do. So an entry that moves unannounced is noticed.
 #pragma once
 
 #include "blocks/block_cache.hpp"

@@ -18,8 +18,8 @@ struct PageEditor {
 
     PageEditor(const MemoryHost::Page &page, const abacus_header &mesh);
     /// Puts the page together, checksum included. The links are those of the facets that find
-    /// no partner, in order. A page that is not sound any more may take more bytes, for then
-    /// each simplex has to name its vertices.
+    /// no partner, in order. A page that is no longer sound may take more bytes, since each
+    /// simplex then has to name its vertices.
     void write(MemoryHost::Page &page) const;
 
     int number_of(const Point<2> &p) const;

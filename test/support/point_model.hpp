@@ -1,4 +1,4 @@
-// What a mesh should hold after points have come and gone: a list of points by place.
+// The points that a mesh should hold after insertions and deletions, listed by place.
 #pragma once
 
 #include "support/oracle.hpp"

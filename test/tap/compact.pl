@@ -111,7 +111,7 @@ END \$\$
 SQL
 	is(content($mesh), $m->{content}, "$mesh, $victim: the same mesh");
 	is_intact($node, 'postgres', $mesh, "$mesh, $victim");
-	# before, too: each heap page has been used hundreds of times
+	# also before: each heap page has been used hundreds of times
 	sql("VACUUM $mesh; CALL abacus_build('$mesh'); VACUUM (INDEX_CLEANUP ON) $mesh");
 	# a few heap pages are not worth it
 	cmp_ok(sql("SELECT pg_relation_size('$mesh') / 8192"), '<=', 8 / 7 * (sql("SELECT count(*) FROM $mesh") + 64),

@@ -148,7 +148,7 @@ for my $bound (1, 0)
 	sql('DROP TABLE twice; DROP TABLE IF EXISTS twice_vertices');
 }
 
-# Who may vacuum a table may have its rows moved, whatever else they may do.
+# Users who may vacuum a table may have its rows moved, whatever else they may do.
 sql(q{CREATE ROLE owner; CREATE ROLE other;
 	ALTER TABLE plane OWNER TO owner; ALTER TABLE plane_vertices OWNER TO owner});
 spread('plane');

@@ -212,7 +212,8 @@ TYPED_TEST(OtherDomain, FromOneWhereAnAxisIsFarFromZero) {
     }
 }
 
-// Who inserts a few points into a large mesh does not wait until all of it has other keys.
+// An insertion of a few points into a large mesh does not wait until all of it has other
+// keys.
 TYPED_TEST(OtherDomain, OfALargeMeshNotForAFewPoints) {
     constexpr int D = TypeParam::value;
     MeshOf<D> mesh(1);

@@ -225,8 +225,9 @@ TEST_P(Failure, OfACancelInAnyPhase) {
                 if (++at == report) host.cancel();
             };
         });
-        // How often a long phase reports depends on the time: the cancel may come with the last
-        // report, when all is done, or not at all. No report follows one that is noticed.
+        // How often a long phase reports depends on the time. The cancel may come with the last
+        // report, when all is done, or not at all. After a cancel that is noticed no report
+        // follows.
         if (succeeded(status))
             EXPECT_LE(calls_.progress, report);
         else

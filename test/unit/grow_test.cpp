@@ -168,7 +168,7 @@ TYPED_TEST(Grow, OnlyAMeshWhereThePointsAreStandsIn) {
     EXPECT_FALSE(dense(100, 16));
     EXPECT_FALSE(dense(0, 1000));
 
-    // A page that is no page: whoever loads it has more to say.
+    // A page that is no page: the load that needs it says more.
     mesh.host.pages.begin()->second.size = 8;
     EXPECT_FALSE(dense(0, 16));
 }

@@ -2,8 +2,8 @@
 // degenerate happens, against a test of every pair with CGAL's kernel over rationals.
 //
 // Two simplices meet in a common face if and only if no vertex of one lies in a face of the
-// other that does not have it, and in space no edge of one meets an edge or a triangle of the
-// other that has no vertex in common with it (circuits: De Loera, Rambau and Santos,
+// other that lacks this vertex, and in space no edge of one meets an edge or a triangle of
+// the other that shares no vertex with it (circuits: De Loera, Rambau and Santos,
 // "Triangulations", 2010, §4.1).
 #include "support/sanitized.hpp"
 #include "support/triangulations.hpp"

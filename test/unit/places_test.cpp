@@ -187,7 +187,7 @@ TYPED_TEST(Places, SurviveSealedDamage) {
         mesh.host.pages = sound;
         for (auto &[key, page] : mesh.host.pages) {
             if (trial % 3 != 0 && mesh.random() % 8 != 0) continue;
-            // Every other trial the header's counts and interval, too.
+            // In every other trial also the header's counts and interval.
             const std::size_t from = trial % 2 == 0 ? 8 : 48;
             for (int i = 0; i < 3; ++i) {
                 const std::size_t at = from + mesh.random() % (page.size - from - checksum_bytes);

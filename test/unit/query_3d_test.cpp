@@ -58,7 +58,7 @@ TEST(LocateInSpace, GivesTheFirstOfTheTetrahedraAroundThePoint) {
         Random random(2);
         for (int i = 0; i < 300; ++i) {
             const auto &a = points[random() % points.size()], &b = points[random() % points.size()];
-            Point<3> middle, beside; // in a grid the middle lies on edges and facets, too
+            Point<3> middle, beside; // in a grid the middle also lies on edges and facets
             for (int k = 0; k < 3; ++k) {
                 middle[k] = (a[k] + b[k]) / 2;
                 beside[k] = a[k] + unit(random) - 0.5;
