@@ -1,7 +1,7 @@
-// Where exceptions end. Every function of abacus.h that can fail runs its body
-// in guard(), which turns whatever is thrown into a status and an abacus_error,
-// and leaves the rounding mode as it found it: CGAL's interval arithmetic
-// changes the mode, and the caller is a server that computes on its own.
+// Where exceptions end. Every function of abacus.h that can fail runs its body in
+// guard(). That turns whatever is thrown into a status and an abacus_error. It also
+// leaves the rounding mode as it found it: CGAL's interval arithmetic changes the mode,
+// and the caller is a server that does its own arithmetic.
 #pragma once
 
 #include "host/host.hpp"
@@ -33,7 +33,7 @@ inline void fill_error(abacus_error *error, abacus_error_kind kind, std::string_
     copy_text(error->hint, hint);
 }
 
-/// Told by two sums, since to ask the processor takes longer, at every call of the core.
+/// Two sums tell, since asking the processor at every call of the core takes longer.
 inline bool rounds_to_nearest() noexcept {
     volatile double tiny = 0x1p-60; // for the compiler no constant
     return 1.0 + tiny == 1.0 && 1.0 - tiny == 1.0;

@@ -12,7 +12,7 @@ namespace abacus {
 namespace {
 
 /// A header begins with the bytes "ABACUS" and the format of the mesh: of the header and of
-/// all its pages together. It is raised when any of them changes.
+/// all its pages together. The number is raised when any of them changes.
 constexpr std::uint64_t name = 0x535543414241, format = 3;
 constexpr int name_bits = 48;
 /// Counts and sequence numbers are bigint in the database, and so is the sum of two.

@@ -14,17 +14,17 @@
 //   points    every repeated point equals a vertex; the sequence of those that wait is
 //             whole; the counts add up
 //
-// A mesh that is not Delaunay need not fulfil the empty-sphere criterion, Euler's relation
-// nor have a convex hull, which is what its stars are judged by. What is verified instead
-// across facets is that the two simplices lie on their two sides, which follows from their
-// orientations. That simplices that are no neighbours do not overlap was verified when the
-// mesh was loaded, and is not again.
+// A mesh that is not Delaunay need not fulfil the empty-sphere criterion and Euler's
+// relation, nor have a convex hull, which its stars would be judged by. Instead, the two
+// simplices at a facet must lie on its two sides, which follows from their orientations.
+// That simplices which are no neighbours do not overlap is verified when the mesh is
+// loaded, and not again.
 //
 // Its vertices are listed beside it, and the list is compared with the pages.
 //
-// What is stored once, the ids, attributes and places of points, nothing else in the
-// database repeats: that it is changed in a simplex page only the checksum tells. The other
-// passes don't depend on that, and tell what else has changed.
+// The ids, attributes and places of points are stored only once. So only the checksum tells
+// that they have changed in a simplex page. The other passes do not depend on it, and tell
+// what else has changed.
 //
 // Locally Delaunay across every facet is globally Delaunay (Delaunay 1934), and under the
 // perturbation unique, where no place is covered twice: see query/stars.hpp.

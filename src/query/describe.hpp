@@ -1,6 +1,6 @@
 // Simplices as users see them. The order of the corners in memory depends on how a
-// simplex came about; what is handed out does not: positive orientation, the least
-// corner first (by id, then coordinates), in 3D the second least next.
+// simplex came about. The order that is handed out does not: positive orientation, the
+// least corner first (by id, then coordinates), in 3D the second least next.
 #pragma once
 
 #include "geometry/point.hpp"

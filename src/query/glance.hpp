@@ -1,23 +1,23 @@
 // Locating a point in a stored page, without loading that into the cache.
 //
-// A page that is loaded pays off when it is asked again. Places at random in a mesh far
-// larger than the cache do not come back: then it is many times quicker to look for the one
-// simplex in the page's bytes, to decode no more of them than that takes, and to keep nothing
-// but where the page is (known_pages.hpp).
+// Loading a page pays off when the page is asked again. Places at random in a mesh far larger
+// than the cache do not come back. Then it is many times quicker to look for the one simplex
+// in the page's bytes, to decode no more of them than that takes, and to keep only the
+// location of the page (known_pages.hpp).
 //
 // Where places come along the curve, the last few pages looked into are held, with all that has
-// been decoded of them, and places find theirs there, one after the other. When several have come,
-// the boxes of the page's simplices are worth having: then a place is compared with eight of them
-// at once. Places in no order would pay for the copies: 4 to 6 % of their time.
+// been decoded of them, and one place after the other is found there. When several places have
+// come to a page, the boxes of its simplices are worth computing: a place is then compared with
+// eight of them at once. Places in no order would pay for the copies with 4 to 6 % of their time.
 //
-// A simplex belongs to the page that owns the greatest of its vertices' codes. So that of a
-// place is in the plane one time in ten, in space four in ten, in another page than the one that
-// owns the place itself: in one further on the curve. The vertices are about as far away as they
-// are from one another; the greatest code of a few places around, at that distance, leads to the
-// right page nineteen times in twenty, and four in five.
+// A simplex belongs to the page that owns the greatest of its vertices' codes. So the simplex of
+// a place may lie in another page than the one that owns the place, further on the curve: in the
+// plane one time in ten, in space four in ten. The vertices are about as far away as they are
+// from one another. The greatest code of a few places around, at that distance, leads to the
+// right page nineteen times in twenty, in space four in five.
 //
-// Whether a page will be asked again nobody knows; so it is loaded at the second time, if it
-// is among the last pages looked into and no longer held.
+// Nobody knows whether a page will be asked again. So it is loaded the second time, if it is
+// among the last pages looked into and is not held.
 #pragma once
 
 #include "host/memory_resource.hpp"
@@ -36,9 +36,9 @@ namespace abacus {
 
 template <int D> class Glance {
 public:
-    /// `bytes` are for what is known of pages, as many again for pages that are held, if places
-    /// come in the order of the curve; then a page that is looked into again will not be asked
-    /// for long.
+    /// `bytes` are for what is known of pages. If places come in the order of the curve, as
+    /// many again are for pages that are held; a page that is looked into again is then not
+    /// needed for long.
     Glance(const Cache<D> &cache, std::size_t bytes, bool in_order)
         : cache_(cache), known_(cache.host(), bytes), in_order_(in_order), memory_(cache.host()),
           held_(in_order ? std::clamp<std::size_t>(bytes / sizeof(Held), 2, most_held) : 1,
@@ -99,15 +99,16 @@ private:
     Outcome look(std::uint64_t code, const KnownPage *known, const Point<D> &p,
                  abacus_simplex &simplex, CornerValues *values);
     bool fetch(std::uint64_t code, const KnownPage *known, abacus_page &page);
-    /// The held page that owns a code, or null; of places in no order that looked into last.
+    /// The held page that owns a code, or null; for places in no order, the one looked into
+    /// last.
     Held *find_held(std::uint64_t code);
     /// Opens the page that owns a code, in place of the one used longest ago.
     Held &hold(std::uint64_t code, const abacus_page &page, const KnownPage *known);
     bool is_cached(std::uint64_t code) const { return cache_.is_cached({code, 0}); }
     bool has_looked(std::uint64_t code) const;
     bool was_seen(const Key &page);
-    /// What a search gives instead of a simplex's number: there is none, or p is on its border
-    /// and so inside of no other.
+    /// What a search returns instead of a simplex's number: there is none, or p is on its
+    /// border and so inside no other.
     static constexpr int nowhere = -1, on_facet = -2;
     using Prefixes = typename SimplexBoxes<D>::Place;
     int search(Held &held, const Point<D> &p);
@@ -133,7 +134,7 @@ private:
     /// is below p, or above. What all corners have in common dismisses a simplex.
     std::array<Side, page_vertices<D> + 1> sides_;
     std::array<Prefix, page_vertices<D>> prefixes_; // of a page's vertices on one axis
-    /// What the pages own that have been looked into for this place.
+    /// The intervals of the pages that have been looked into for this place.
     std::array<std::pair<Key, Key>, 1 + distances.size() * most_codes> looked_;
     std::size_t looks_ = 0;
     std::array<Key, remembered> seen_;

@@ -1,8 +1,9 @@
-// Where pages are that a reader has looked into: then the host need not search for them again.
+// The locations of pages that a reader has looked into, so that the host need not search for
+// them again.
 //
-// A stamp names one state of a mesh for ever, and a reader lives as long as its stamp: so what
-// is known of a page's interval stays true. The host may move a page meanwhile; its location is
-// a hint, and the page there is asked for its key.
+// A stamp names one state of a mesh for ever, and a reader lives as long as its stamp. So what
+// is known of a page's interval stays true. The host may move a page meanwhile. So its location
+// is a hint, and the key of the page there is checked.
 #pragma once
 
 #include "blocks/directory.hpp"

@@ -1,13 +1,13 @@
 // Pages reached from one another across facets.
 //
-// A page tells for each facet on its border the key of the simplex beyond. So from one page of a
-// mesh all those can be found that a chain of neighbouring simplices leads to, each read once:
-// the page index finds the page of a key, and what has been read is known as intervals of keys,
-// which grow together. In memory are these and the keys that are still to be looked for.
+// A page tells for each facet on its border the key of the simplex beyond. So one page of a mesh
+// leads to all pages that a chain of neighbouring simplices reaches, each read once. The page
+// index finds the page of a key. What has been read is known as intervals of keys, which grow
+// together. Memory holds only these intervals and the keys that are still to be looked for.
 //
-// The next page is the least one ahead on the curve; what is found to lie behind waits until there
-// is none, and then comes in order again. Once all are known they can be read again, strictly
-// along the curve.
+// The next page is the least one ahead on the curve. Pages found behind wait until there is none
+// ahead, and then come in order again. Once all are known they can be read again, strictly along
+// the curve.
 #pragma once
 
 #include "host/memory_resource.hpp"

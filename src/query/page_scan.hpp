@@ -1,6 +1,6 @@
-// All pages of a mesh in key order, without a cache. The page at hand is a copy:
-// the host's bytes do not outlive its next call, and a scan may be held between
-// calls of its user.
+// All pages of a mesh in key order, without a cache. The current page is a copy, since
+// the host's bytes do not outlive its next call, and a scan may be held between calls
+// of its user.
 //
 // No page knows its neighbours on the curve, so a page that is lost leaves no trace in the others.
 // But their intervals follow one another without a gap from end to end, and the header counts

@@ -1,10 +1,10 @@
 // All simplices around a place, in pages that are held in memory, patch by patch.
 //
-// Where a walk does not settle a place, every page is looked into whose box has it
+// Where a walk does not settle a place, all pages are looked into whose boxes contain it
 // (page_boxes.hpp): two or three pages in a cavity, more at a vertex. Nearly all of their simplices
-// are somewhere else. So a page says by the boxes of its patches which of these to read, and each
-// patch by the boxes of its simplices which of these to test, eight at once. What has been read of
-// a page is kept; the page used longest ago makes room for another one.
+// are somewhere else. So the boxes of a page's patches tell which patches to read, and the boxes of
+// a patch's simplices tell which of these to test, eight at once. What has been read of a page is
+// kept; the page used longest ago makes room for another one.
 #pragma once
 
 #include "host/host.hpp"

@@ -1,10 +1,10 @@
 // The pages of one code that may have a simplex with given ids.
 //
-// As a rule a code's simplices lie in one page. Where points crowd far below what the domain can
-// show, or around a hub, they fill many, and ids say nothing of where a simplex lies. But they say
-// where it does not: a page has all corners of its simplices among its vertices. So of each page
-// the ids of its vertices are kept as bits, one of a few thousand for each id. A simplex is looked
-// for where the bits of all its corners are set, which is hardly anywhere else.
+// As a rule the simplices of a code lie in one page. Where points crowd far below the resolution
+// of the domain, or around a hub, they fill many pages, and ids do not tell where a simplex lies.
+// But they tell where it does not lie: a page has all corners of its simplices among its vertices.
+// So the ids of each page's vertices are kept as bits, one of a few thousand for each id. A
+// simplex is looked for where the bits of all its corners are set, which is hardly anywhere else.
 //
 // A reader lives as long as one state of the mesh, so what is known of pages stays true. It is
 // kept for the code asked for last, in bounded memory: pages beyond that are read each time.
@@ -21,7 +21,7 @@ public:
     PagesOfCode(const Host &host, int attributes, std::size_t bytes)
         : host_(host), attributes_(attributes), most_(bytes / sizeof(Known)), known_(host) {}
 
-    /// Calls visit(key) with the keys of the pages; of some that have no such simplex, too.
+    /// Calls visit(key) with the keys of the pages, and of some that have no such simplex.
     template <class Visit> void with_ids(std::uint64_t code, const std::int64_t *ids, Visit visit) {
         if (code != code_) forget(code);
         for (const Known &page : known_)

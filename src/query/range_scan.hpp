@@ -1,19 +1,19 @@
 // The pages of a mesh with simplices that meet a convex region, such as a window: found through
 // the page index, each read once, and none far away.
 //
-// A simplex is stored under the greatest code of its vertices. So one that reaches into a window
-// may lie in a page whose stretch of the curve is nowhere near, and no list of stretches of the
+// A simplex is stored under the greatest code of its vertices. So a simplex that reaches into a
+// window may lie in a page whose stretch of the curve is far away, and no list of stretches of the
 // curve is exact. But the simplices of a Delaunay mesh fill their convex hull, and neighbours know
 // one another's keys. So the pages are flooded (page_flood.hpp), from one simplex that meets the
-// region across all facets that meet it.
+// region, across all facets that meet it.
 //
 // That finds all of them. Let R be the region and C the hull, both closed and convex; so R and C
 // have a connected part in common, and the simplices that meet it cover it, finitely many closed
 // sets. So from any of them to any other leads a chain in which each has a point x of R in common
 // with the next. The simplices around x fill all of C near x, where C is convex, so they hang
 // together across facets that contain x, and x is in R. Whether a facet meets R need not be decided
-// exactly: to cross too many facets costs pages and loses nothing. The facet's box is compared with
-// a window, which is done by comparing coordinates, so without rounding.
+// exactly: crossing too many facets costs pages and loses nothing. The facet's box is compared with
+// the window, coordinate by coordinate and so without rounding.
 //
 // Where to begin: a walk leads to a point p of R, chosen near the middle of the domain. If p lies
 // in C, the simplex around it meets R. Else the walk ends at a ghost whose facet p sees, strictly
@@ -23,10 +23,10 @@
 // lies wholly beyond one of them, it does not meet C, and there is nothing to read. As a rule that
 // is the first one. At the worst p sees many facets, half of the hull at most.
 //
-// A mesh that is not Delaunay may have holes and pieces: what is in a window need not hang together
-// there, and nothing but its pages tells where they are. All are read, once, those whose boxes do
-// not meet the region are passed over. So they are where the region has much of the domain inside,
-// since a run over all pages takes less time than to flood them.
+// A mesh that is not Delaunay may have holes and pieces. The simplices in a window need not be
+// connected there, and only the pages tell where they are. So all pages are read once, and those
+// whose boxes do not meet the region are skipped. The same is done where the region covers much of
+// the domain, since a run over all pages takes less time than a flood.
 //
 // A flood meets pages in the order of the curve as far as it knows them; rewind() gives them again
 // in that order strictly.

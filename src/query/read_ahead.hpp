@@ -1,10 +1,10 @@
 // Asks for memory ahead of places that come along the curve, in a mesh in memory.
 //
 // Where few places lie in a block, each step of a walk would wait for a simplex and a vertex. But
-// the blocks to come are known, and a block is a stretch of memory, as the vertices are that came
-// with its page. So the second place in a block asks for the simplices of the next one on the
-// curve, the fourth for its vertices, and nobody waits: they are there when the places have got so
-// far. If nobody has asked for those of the block at hand before, the same places do.
+// the blocks to come are known. A block is a stretch of memory, and so are the vertices that came
+// with its page. So the second place in a block prefetches the simplices of the next block on the
+// curve, the fourth its vertices. They are there when the places have got so far. If those of the
+// current block were not prefetched before, the same places do that.
 #pragma once
 
 #include "mesh/cache.hpp"

@@ -1,7 +1,8 @@
 // The boxes of a page's simplices, to find those around a place eight at a time.
 //
-// They are made of prefixes of coordinates (Column::prefix), two bytes each: a simplex whose box
-// does not have a place in it does not contain the place; one whose box has is tested exactly.
+// They are made of prefixes of coordinates (Column::prefix), two bytes each. A simplex whose box
+// does not contain a place does not contain the place either; one whose box does is tested
+// exactly.
 #pragma once
 
 #include "mesh/page_format.hpp"

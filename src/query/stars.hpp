@@ -1,9 +1,9 @@
-// What the stars of all vertices say of the whole mesh: that it is in one piece and nowhere
-// covers a place twice.
+// What the stars of all vertices tell about the whole mesh: that it is in one piece and
+// covers no place twice.
 //
-// A mesh can be sound across every facet and overlap itself all the same. Two meshes may be
-// stored as one. Or five triangles around a vertex join the corners of a pentagon to the next
-// but one, and wind around the vertex twice: each is positively oriented, no circumcircle is
+// A mesh can be sound across every facet and still overlap itself. Two meshes may be stored
+// as one. Or five triangles around a vertex join the corners of a pentagon to the next but
+// one, and wind around the vertex twice: each is positively oriented, no circumcircle is
 // touched, the hull turns left at every corner, and Euler's relation holds.
 //
 // One piece. The lexicographically least vertex of a piece has no lesser neighbour. In a
@@ -17,8 +17,8 @@
 // half a turn or less, which is what the wedges make up on the hull, where two ghosts close the
 // circle. The direction is one that no vertex lies in: towards greater lexicographic order.
 //
-// Every star. Those looked at have as many corners as the mesh: so no vertex has a second star
-// that no page calls its own.
+// Every star. The stars looked at have as many corners as the mesh. So no vertex has a second
+// star that belongs to no page.
 //
 // What is in one piece, wound once everywhere and locally convex on its hull is convex and
 // covers no place twice (Tietze 1928; Nakajima 1928, for what is only immersed).
