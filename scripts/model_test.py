@@ -334,7 +334,7 @@ class World:
             self.savepoints = None
         self.session.run("SELECT abacus_triangulate('mesh');")
         self.look()
-        self.session.run(track)  # verifies, too
+        self.session.run(track)  # also verifies
         for mesh in ("mesh", "followed"):
             self.done["evictions"] += int(float(self.session.run(
                 f"SELECT value FROM abacus_stats('{mesh}') WHERE name = 'evictions';")))

@@ -120,7 +120,7 @@ private:
     std::optional<Core> core_;                  ///< always there; optional, to be made anew
     std::optional<RepeatedPoints<D>> repeated_; ///< as well
     std::optional<Rest<D>> rest_;               ///< while removals are put off
-    abacus_header *header_ = nullptr;           ///< of the change at hand
+    abacus_header *header_ = nullptr;           ///< of the current change
     abacus_on_duplicate on_duplicate_ = ABACUS_KEEP;
     bool counts_crowded_ = false; ///< the mesh had vertices before what comes
 };

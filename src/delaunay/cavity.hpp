@@ -171,7 +171,7 @@ private:
 
     typename VertexHeap<3>::Numbering corners_;
     Arena<SeenPoint<3>> seen_;   // of the corners
-    Arena<std::uint64_t> codes_; // of these, too
+    Arena<std::uint64_t> codes_; // also of these
     Arena<Cross> edges_;
     Arena<Facet> facets_; // in the order in which they are crossed
     Arena<RimFacet> rim_;

@@ -56,7 +56,7 @@ private:
 };
 
 /// Where the line between two places on opposite sides pierces the plane: the share
-/// of the way from the lower to the upper one, which is the same for whoever asks.
+/// of the way from the lower to the upper one, which is the same for every caller.
 inline double pierced(const Place &below, const Place &above) {
     return below.height / (below.height - above.height);
 }

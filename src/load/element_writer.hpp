@@ -47,7 +47,7 @@ private:
     Arena<std::uint64_t> crowded_;     // codes of many elements, ascending
     Arena<Word> waiting_;              // elements not written yet
     std::size_t count_ = 0;
-    Arena<LooseSimplex<D>> loose_; // those of the page at hand
+    Arena<LooseSimplex<D>> loose_; // those of the current page
     Key lower_ = first_key;
 };
 

@@ -42,20 +42,20 @@ public:
     const std::uint64_t *take_first(const Point<D> &p);
     /// Takes away all points equal to p; returns how many there were.
     std::uint64_t take_all(const Point<D> &p);
-    /// Writes the page at hand.
+    /// Writes the current page.
     void flush();
     /// All pages have gone, or may lie elsewhere.
     void forget() { at_page_ = dirty_ = false; }
 
 private:
-    /// Makes the page that owns the key the one at hand; false if there are no pages.
+    /// Makes the page that owns the key the current one; false if there are no pages.
     bool go_to(Key key);
-    /// Goes on to the page after the one at hand, if that can have points of this code.
+    /// Goes on to the page after the current one, if that can have points of this code.
     bool go_on(std::uint64_t code);
     void create_first_page();
     void split();
     void remove(std::size_t i);
-    /// The first entry of a point equal to p that matches is on the page at hand then: its
+    /// The first entry of a point equal to p that matches is on the current page then: its
     /// number, or none.
     static constexpr std::size_t none = ~std::size_t{0};
     template <class Matches> std::size_t find(const Point<D> &p, Matches matches);
@@ -76,7 +76,7 @@ private:
     const std::size_t capacity_; // entries of a page
     bool at_page_ = false;       // otherwise what follows says nothing
     bool dirty_ = false;
-    Key lower_{}, upper_{};        // interval of the page at hand
+    Key lower_{}, upper_{};        // interval of the current page
     std::uint64_t location_ = 0;   // where it is stored; 0 = not yet
     Arena<std::uint64_t> records_; // its entries
     Arena<std::uint64_t> taken_;   // the record that was taken last
@@ -94,7 +94,7 @@ public:
     bool advance();
     const std::uint64_t *record() const { return entries_.data() + at_ + 1; }
     std::uint64_t serial() const { return entries_[at_]; }
-    /// Of the page at hand.
+    /// Of the current page.
     const Key &key() const { return key_; }
 
 private:

@@ -26,9 +26,9 @@ public:
     }
 
     std::uint64_t sequence() const { return next_ - 1; }
-    /// Of the page with the point at hand.
+    /// Of the page with the current point.
     const abacus_key &page_key() const { return key_; }
-    /// Of the point at hand; valid until the next advance(). No coordinate is -0.0.
+    /// Of the current point; valid until the next advance(). No coordinate is -0.0.
     const std::uint64_t *record() const { return page_->record(at_); }
     std::int64_t id() const { return record_id(record()); }
     Point<D> point() const { return record_point<D>(record()); }

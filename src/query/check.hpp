@@ -74,7 +74,7 @@ private:
 
     /// Keeps a fault, if there is room for more.
     void fault(const char *kind, const Key &key, const char *message);
-    /// One of what the page at hand says of its content, which may well hold together.
+    /// One of what the current page says of its content, which may well hold together.
     void fault_of_content(const char *kind, const char *message);
     /// Runs a pass; a page so damaged that the pass cannot go on is a fault of its own.
     template <class Pass> void run(const char *kind, Pass pass);
@@ -87,7 +87,7 @@ private:
     Domain<D> domain_;
     std::pmr::vector<abacus_fault> faults_;
     std::size_t at_ = 0;
-    Key at_key_{}; // page at hand
+    Key at_key_{}; // of the current page
     std::uint64_t pages_ = 0;
     bool is_counted_ = false; // pages_ are all
     std::uint64_t simplices_ = 0, ghosts_ = 0;

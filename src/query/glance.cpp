@@ -174,7 +174,7 @@ typename Glance<D>::Outcome Glance<D>::look(std::uint64_t code, const KnownPage 
 }
 
 template <int D> double Glance<D>::spacing(const PageView<D> &view) {
-    // Of points at random; some of the page's vertices are other pages', too.
+    // Of points at random; some of the page's vertices also belong to other pages.
     constexpr double simplices_per_vertex = D == 2 ? 2 : 6.77;
     constexpr std::uint64_t end = std::uint64_t{1} << (D * code_bits<D>);
     const double cells = static_cast<double>(std::min(view.upper().code, end)) -

@@ -51,7 +51,7 @@ public:
         view_.read(copy_, size_, static_cast<int>(attributes_), PageView<D>::Checksum::ignore);
         return page_is_sealed(copy_, size_);
     }
-    /// Key under which the page at hand is stored.
+    /// Key under which the current page is stored.
     const Key &key() const { return key_; }
     const PageView<D> &page() const { return view_; }
 
@@ -76,7 +76,7 @@ private:
 
     const Host &host_;
     unsigned attributes_;
-    std::uint64_t left_; // simplices and ghosts that the header counts beyond the page at hand
+    std::uint64_t left_; // simplices and ghosts that the header counts beyond the current page
     Key expected_ = first_key;
     bool started_ = false;
     Key key_{};

@@ -38,7 +38,7 @@ private:
     const Cache<D> &cache_;
     BlockIndex here_ = no_block; // where the places are
     BlockIndex next_ = no_block; // that was asked for
-    bool is_new_ = false;        // nobody has asked for the block at hand
+    bool is_new_ = false;        // nobody has asked for the current block
     unsigned places_ = 0;        // in it
 };
 

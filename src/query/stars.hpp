@@ -132,7 +132,7 @@ private:
     Cache<D> &cache_;
     std::uint64_t count_ = 0, corners_ = 0, least_ = 0;
     bool are_wound_once_ = true;
-    typename VertexHeap<D>::Numbering neighbours_; // of the vertex at hand, in space
+    typename VertexHeap<D>::Numbering neighbours_; // of the current vertex, in space
     Arena<Turn> turns_;                            // around it, or around the edges to those
 };
 

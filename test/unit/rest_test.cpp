@@ -93,7 +93,7 @@ TYPED_TEST(Rest, IsTheMeshOfWhatIsLeft) {
         this->add(hubs, Point<D>{7, 7}); // none
         this->remove(mesh, model, hubs, cache_bytes);
         if (this->HasFatalFailure()) return;
-        // And it goes on as ever.
+        // And it goes on as before.
         this->insert(mesh, model, this->hubs(20));
         model.expect(mesh);
     }

@@ -1,5 +1,5 @@
 /*
- * host_pages.c: pages by kind, for whoever has registered the kind.
+ * host_pages.c: pages by kind, for the code that has registered the kind.
  */
 #include "postgres.h"
 

@@ -67,7 +67,7 @@ struct Superseded
 	Size		first_free;		/* no bit is set in the bytes before */
 	LocalTransactionId last;	/* that added one */
 	TransactionId horizon;		/* what somebody still saw when not all could be pruned */
-	BlockNumber *own;			/* heap pages where the transaction at hand has replaced its own rows */
+	BlockNumber *own;			/* heap pages where the current transaction has replaced its own rows */
 	uint32		own_count;
 	uint32		own_room;
 	LocalTransactionId own_of;	/* that transaction */
@@ -125,7 +125,7 @@ superseded_add(Superseded *superseded, BlockNumber block)
 	superseded->last = MyProc->lxid;
 }
 
-/* Remembers that the transaction at hand has replaced a row of its own on this heap page. */
+/* Remembers that the current transaction has replaced a row of its own on this heap page. */
 void
 superseded_add_own(Superseded *superseded, BlockNumber block)
 {
