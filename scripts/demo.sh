@@ -1,10 +1,9 @@
 #!/bin/bash
-# The demonstration, inside a throw-away PostgreSQL cluster. In the plane: all
+# The demonstration, inside a throw-away PostgreSQL cluster. In the plane, all
 # shorelines, borders and rivers of the world, 14.35 million points, become a
-# triangulation in which we then locate, walk, and check; and a mountain range
-# becomes a shaded terrain. In space: a million points of an earthquake model
-# become tetrahedra, in which we ask for the ground under seismographs. Pictures
-# are left in build/demo.
+# triangulation. The demo locates places in it, walks and checks it. A mountain range
+# becomes a shaded terrain. In space, a million points of an earthquake model become
+# tetrahedra, which tell the ground under seismographs. Pictures are left in build/demo.
 #
 #   demo.sh          everything (a few minutes)
 #   demo.sh quick    shorelines at a fifth of the resolution, a coarser earthquake model

@@ -1,9 +1,9 @@
 # Sourced after cluster.sh: how each kind of test is run. scripts/test.sh runs all of a kind,
-# scripts/dev.sh a few, so most take the names of what to run. What needs a server takes the one
-# that the environment names; cluster_start makes it.
+# scripts/dev.sh a few, so most take the names of what to run. Tests that need a server use the
+# one that the environment names; cluster_start makes it.
 
-# Warnings are errors in what the tests build; with ABACUS_WERROR= (empty) they are not, for a compiler
-# that warns of something else.
+# Warnings are errors in what the tests build. With ABACUS_WERROR= (empty) they are not, for a
+# compiler with other warnings.
 export ABACUS_WERROR=${ABACUS_WERROR-1}
 
 # All C++ is as clang-format writes it.
@@ -16,14 +16,14 @@ layout_check() {
     python3 -m unittest discover -s test/layout -p '*_test.py'
 }
 
-# .clang-tidy over some files: tidy_check FILE.... Nothing is compiled in build/tidy, which tells
-# how each would be.
+# .clang-tidy over some files: tidy_check FILE.... Nothing is compiled in build/tidy; it only
+# tells how each file would be.
 tidy_check() {
     CC=clang CXX=clang++ cmake -S . -B build/tidy -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null &&
         printf '%s\0' "$@" | xargs -0 -n 1 -P "$ABACUS_JOBS" clang-tidy --quiet -p build/tidy
 }
 
-# What unit tests need, of the core as it is compiled for the extension.
+# The unit tests, linked with the core as it is compiled for the extension.
 build_unit_tests() {
     build_extension &&
         ABACUS_CORE_OBJECTS=$ABACUS_BUILD/extension build_release abacus_unit_tests
@@ -54,8 +54,9 @@ pgtap_tests() {
         pg_prove -d abacus_pgtap "$@"
 }
 
-# The TAP files are copied to where the server's user may write; a small file system of its own is
-# a full disk soon, and where it cannot be mounted, that test is skipped. Call tap_end afterwards.
+# The TAP files are copied to a folder where the server's user may write. A small file system
+# serves as a disk that is soon full. Where it cannot be mounted, that test is skipped. Call
+# tap_end afterwards.
 tap_begin() {
     tap_folder=$cluster_folder/tap
     mkdir "$tap_folder" "$tap_folder/disk"

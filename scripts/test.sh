@@ -40,7 +40,7 @@ declare -A command=(
     [bench]="scripts/bench.sh smoke"
     [evaluation]="scripts/evaluation.sh smoke"
 )
-# The order. What the second line has runs beside the first: servers mostly wait, and few of
+# The order. The second line runs beside the first, since servers mostly wait, and few of
 # its suites use more than one processor.
 first_builds=(format layout build-extension build)
 first_line=(build-sanitized build-fuzz tidy unit unit-sanitized fuzz)
@@ -95,9 +95,9 @@ summary() {
         tail -n 1
 }
 
-# By clang, which takes half of gcc's time for it: build_with_clang FOLDER OPTION. What is
-# sanitized and what is fuzzed are compiled apart, for what the fuzzer needs makes all tests take
-# twice their time.
+# build_with_clang FOLDER OPTION: clang takes half of gcc's time for this. Sanitized tests and
+# fuzz targets are compiled apart, since what the fuzzer needs would make all tests take twice
+# their time.
 build_with_clang() {
     CC=clang CXX=clang++ cmake -S . -B "$1" "$2" -DABACUS_WERROR=ON >/dev/null &&
         cmake --build "$1" -j "$ABACUS_JOBS"
@@ -110,8 +110,8 @@ tidy_core() {
     tidy_check "${files[@]}"
 }
 
-# All fuzz targets beside one another, FUZZ_SECONDS of processor time in all. What a target finds
-# stays in build/fuzz/corpus for the next run; test/fuzz/corpus/<target> are its seeds.
+# All fuzz targets at once, FUZZ_SECONDS of processor time in all. The inputs that a target finds
+# stay in build/fuzz/corpus for the next run. Its seeds are in test/fuzz/corpus/<target>.
 fuzz() {
     local targets=(test/fuzz/*.cpp) target runs=() run status=0
     local seconds=$((FUZZ_SECONDS / ABACUS_JOBS))
@@ -150,8 +150,8 @@ second_run() {
     exit "$failed"
 }
 
-# Waits for them, and counts them: it ends with the number of those that failed, broken off with
-# that of all.
+# Waits for the second line, and counts its suites: its exit status is the number of those that
+# failed, or that of all if it was interrupted.
 second_end() {
     local count=${#second_line[@]} lost=0
     wait "$second" || lost=$?

@@ -148,7 +148,7 @@ $node->safe_psql('copied', "COPY field FROM '$folder/field.text'; COPY field_ver
 is(mesh_content($node, 'copied', 'field'), $content{'public.field'}, 'COPY out and in');
 is_sound($node, 'copied', 'field', 'COPY out and in');
 
-# all the rest is compared with what the origin becomes
+# everything else is compared with what the origin becomes
 $grown{$_} = grow('origin', $_) for @meshes;
 
 fresh_database('plain');

@@ -99,7 +99,7 @@ is(other_simplices($standby, 'postgres', 'field', 'once', 2), 0, 'at the end the
 cmp_ok($standby->safe_psql('postgres', "SELECT pg_relation_size('field_vertices')"), '>', 0, '... whose vertex table was not to be truncated');
 is_intact($standby, 'postgres', 'field', 'standby');
 
-# what changes a mesh is refused there
+# changes of a mesh are refused there
 my ($status, $out, $err) = $standby->psql('postgres', "CALL abacus_build('field')");
 like($err, qr/cannot execute abacus_build\(\) in a read-only transaction/, 'no building');
 ($status, $out, $err) = $standby->psql('postgres', "SELECT abacus_stage('field', 'TABLE points')");

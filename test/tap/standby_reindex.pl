@@ -1,7 +1,7 @@
-# A snapshot on a standby that is older than an index which REINDEX CONCURRENTLY
-# has built on the primary: the index lacks pages that this snapshot would have
-# to see. PostgreSQL has that hole for every table. A reader of a mesh is told
-# so, and gets no answer from a part of the mesh.
+# A snapshot on a standby that is older than an index which REINDEX CONCURRENTLY has
+# built on the primary: the index lacks pages that this snapshot would have to see.
+# PostgreSQL has that hole for every table. A reader of a mesh gets an error, and no
+# answer from a part of the mesh.
 use strict;
 use warnings;
 

@@ -1,7 +1,7 @@
-# ALTER EXTENSION UPDATE of abacus and abacus_lab: from every version that was
-# released. What it leads to is what CREATE EXTENSION makes. A mesh made by that
-# version (meshes/<version>.sql, from pg_dump) goes on, or it is said that it cannot.
-# What has gone from abacus to abacus_lab goes on as well where it is used.
+# ALTER EXTENSION UPDATE of abacus and abacus_lab: from every version that was released.
+# The result must be what CREATE EXTENSION makes. A mesh made by that version
+# (meshes/<version>.sql, from pg_dump) goes on, or a message says that it cannot.
+# Objects that have moved from abacus to abacus_lab keep working where they are used.
 use strict;
 use warnings;
 

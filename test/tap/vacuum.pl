@@ -1,5 +1,6 @@
 # VACUUM alone gives the space of a mesh back, in sessions that have the module loaded: after
-# changes all over it, whatever is named; not where it is told not to, and not in the way of others.
+# changes all over it, whichever tables are named. It does not where options forbid it, and it does
+# not block others.
 use strict;
 use warnings;
 
@@ -70,12 +71,12 @@ SQL
 }
 
 
-# From now on the rows are spread over the table in the shortest way.
+# From now on an UPDATE spreads the rows over the table, which is the shortest way.
 my $fresh = pages('plane');
 my $content = content('plane');
 my $header = 'SELECT xmin FROM plane WHERE code = -1';
 
-# Two tests: whether a statement cuts the file, and what it tells. Returns that.
+# Two tests: whether a statement cuts the file, and its messages. Returns the messages.
 sub cuts
 {
 	my ($what, $statement, $before) = @_;
@@ -85,7 +86,7 @@ sub cuts
 	return $told;
 }
 
-# Two tests: that a statement leaves rows and files as they are, and what it tells.
+# Two tests: that a statement leaves rows and files as they are, and its messages.
 sub leaves
 {
 	my ($what, $wanted, $statement, $before) = @_;

@@ -1,5 +1,5 @@
-# VACUUM that moves the pages of meshes, beside other sessions, and when something is wrong: it waits
-# for nobody, takes nothing from readers, and is a VACUUM in any case.
+# VACUUM that moves the pages of meshes, beside other sessions, and when something is wrong. It
+# waits for nobody, takes nothing from readers, and does a VACUUM's work in any case.
 #
 #     ABACUS_CANCELS   how many times to cancel (default 20)
 use strict;
@@ -114,8 +114,8 @@ $told = told('VACUUM (VERBOSE) plane');
 like($told, qr/index scan bypassed.*index scan needed/s, 'few pages: VACUUM does not put them off again');
 is_cut('plane', 'few pages');
 
-# What keeps pages from being moved is told, keeps no lock, and does not keep VACUUM from the next mesh. By both
-# protocols, of which one lets the statement's plan go with the transaction.
+# A failure to move pages is reported, leaves no lock, and does not keep VACUUM from the next mesh.
+# Both protocols are tried; one of them releases the statement's plan with the transaction.
 my $refused = qq{WARNING:  could not move pages of mesh "public.plane"
 DETAIL:  cannot change mesh table "plane" because of its index "sums"
 HINT:  Drop that index.};
