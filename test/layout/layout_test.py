@@ -87,6 +87,11 @@ class Layout(unittest.TestCase):
                  if (ROOT / "src" / name).exists() and not name.startswith("pg/")]
         self.assertEqual(wrong, [])
 
+    def test_only_the_port_asks_for_the_version(self):
+        wrong = [str(path) for path in sources() if "PG_VERSION_NUM" in (ROOT / path).read_text()
+                 and path.parent.as_posix() != "src/pg/port"]
+        self.assertEqual(wrong, [])
+
     def test_documents_name_files_that_exist(self):
         wrong = []
         for name in DOCUMENTS:

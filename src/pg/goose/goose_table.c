@@ -48,6 +48,7 @@
 #include "pg/goose/goose_table.h"
 #include "pg/host/guard.h"
 #include "pg/mesh/new_table.h"
+#include "pg/port/port.h"
 
 /* ---- The table -------------------------------------------------------------- */
 
@@ -123,7 +124,7 @@ goose_table_create(text *name, int dimension)
 	init_key(&table->overlaps, table->index, RTOverlapStrategyNumber);
 	init_key(&table->equals, table->index, RTSameStrategyNumber);
 	table->slot = MakeSingleTupleTableSlot(RelationGetDescr(table->heap), &TTSOpsBufferHeapTuple);
-	table->scan = index_beginscan(table->heap, table->index, SnapshotSelf, 1, 0);
+	table->scan = port_index_beginscan(table->heap, table->index, SnapshotSelf, 1);
 	table->inserting = GetCurrentCommandId(true);
 	CommandCounterIncrement();
 	return table;

@@ -33,6 +33,7 @@
 
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/mesh_access.h"
+#include "pg/port/port.h"
 
 /* Whether `type` is this extension's row type of that name; remembers the last yes. */
 static bool
@@ -289,8 +290,8 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 				 errhint("After a restore, give the vertex table that name; if it is lost, "
 						 "restore it from a backup.")));
 	mesh_check_access(rel, access, mesh);
-	if (!bound && access == MESH_WRITE && pg_class_ownercheck(relid, GetUserId()) &&
-		pg_class_ownercheck(RelationGetRelid(mesh), GetUserId()))
+	if (!bound && access == MESH_WRITE && object_ownercheck(RelationRelationId, relid, GetUserId()) &&
+		object_ownercheck(RelationRelationId, RelationGetRelid(mesh), GetUserId()))
 	{
 		mesh_bind_vertex_table(RelationGetRelid(mesh), relid);
 		if (on_restored != NULL)

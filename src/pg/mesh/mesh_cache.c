@@ -26,6 +26,7 @@
 
 #include "pg/base/settings.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/port/port.h"
 
 #define MESHES_KEPT 4
 
@@ -48,7 +49,7 @@ typedef struct Entry
 {
 	CachedMesh	cached;			/* host NULL: the entry is free */
 	Oid			relid;
-	RelFileNode node;
+	RelFileLocator node;
 	uint64		stamp;
 	size_t		bytes;			/* cache size it was opened with */
 	uint64		last_use;
@@ -180,7 +181,7 @@ validate(Oid relid, Entry *entry)
 	rel = mesh_table_open(relid, MESH_READ);
 	/* the data of a mesh lies in one file; TRUNCATE and rewrites give it another */
 	if (entry != NULL &&
-		(entry->cached.host->busy || !RelFileNodeEquals(entry->node, rel->rd_node) ||
+		(entry->cached.host->busy || !RelFileLocatorEquals(entry->node, rel->rd_locator) ||
 		 entry->bytes != setting_cache_bytes()))
 	{
 		drop(entry);
@@ -189,7 +190,7 @@ validate(Oid relid, Entry *entry)
 	if (entry == NULL)
 	{
 		entry = take_entry(relid);
-		entry->node = rel->rd_node;
+		entry->node = rel->rd_locator;
 		entry->cached.host = mesh_host_create(TopMemoryContext, relid, MESH_READ);
 	}
 	host = entry->cached.host;

@@ -26,6 +26,7 @@
 #include "utils/rel.h"
 #include "utils/snapmgr.h"
 
+#include "pg/port/port.h"
 #include "pg/space/truncate.h"
 
 /* Whether a row is there that VACUUM would not remove. */
@@ -52,8 +53,8 @@ truncate_table(Relation rel)
 	ReindexParams params = {0};
 
 	CheckTableForSerializableConflictIn(rel);
-	RelationSetNewRelfilenode(rel, rel->rd_rel->relpersistence);
-	reindex_relation(RelationGetRelid(rel), REINDEX_REL_PROCESS_TOAST, &params);
+	RelationSetNewRelfilenumber(rel, rel->rd_rel->relpersistence);
+	port_reindex_relation(RelationGetRelid(rel), REINDEX_REL_PROCESS_TOAST, &params);
 	pgstat_count_truncate(rel);
 }
 

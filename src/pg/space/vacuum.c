@@ -39,6 +39,7 @@
 
 #include "pg/base/settings.h"
 #include "pg/mesh/mesh.h"
+#include "pg/port/port.h"
 #include "pg/space/vacuum.h"
 #include "pg/space/vacuum_moves.h"
 
@@ -206,7 +207,7 @@ static bool
 is_due(void)
 {
 	return setting_vacuum_moves_rows() && !XactReadOnly && !RecoveryInProgress() &&
-		old_snapshot_threshold < 0 &&	/* else VACUUM cuts no file */
+		!port_snapshots_may_be_too_old() &&	/* else VACUUM cuts no file */
 		OidIsValid(get_extension_oid("abacus", true));
 }
 

@@ -28,6 +28,7 @@
 #include "utils/memutils.h"
 #include "utils/syscache.h"
 
+#include "pg/port/port.h"
 #include "pg/space/compact.h"
 #include "pg/space/vacuum_moves.h"
 
@@ -36,8 +37,8 @@ static bool
 may_vacuum(Oid relid)
 {
 	return SearchSysCacheExists1(RELOID, ObjectIdGetDatum(relid)) &&
-		(pg_class_ownercheck(relid, GetUserId()) ||
-		 pg_database_ownercheck(MyDatabaseId, GetUserId()));
+		(object_ownercheck(RelationRelationId, relid, GetUserId()) ||
+		 object_ownercheck(DatabaseRelationId, MyDatabaseId, GetUserId()));
 }
 
 /* Whether VACUUM would leave the table's file as it is. */

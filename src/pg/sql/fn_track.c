@@ -23,6 +23,7 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/mesh/change.h"
+#include "pg/port/port.h"
 #include "pg/track/pending.h"
 #include "pg/track/tracked_points.h"
 #include "pg/track/tracking.h"
@@ -38,7 +39,7 @@ static void
 check_owner(Oid relid)
 {
 	if (SearchSysCacheExists1(RELOID, ObjectIdGetDatum(relid)) &&
-		!pg_class_ownercheck(relid, GetUserId()))
+		!object_ownercheck(RelationRelationId, relid, GetUserId()))
 		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, get_rel_name(relid));
 }
 
@@ -110,7 +111,7 @@ check_table(Relation table)
 	const char *name = RelationGetRelationName(table);
 
 	check_kind(table);
-	if (!pg_class_ownercheck(relid, GetUserId()))	/* another one since */
+	if (!object_ownercheck(RelationRelationId, relid, GetUserId()))	/* another one since */
 		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, name);
 	if (check_enable_rls(relid, InvalidOid, true) == RLS_ENABLED)
 		ereport(ERROR,
@@ -202,7 +203,7 @@ present_triggers(Oid function, Oid mesh, Relation table)
 
 		/* a partition that was detached still has its auxiliary trigger */
 		if (tracking_root(trigger->table) == RelationGetRelid(table) ||
-			(trigger->auxiliary && pg_class_ownercheck(trigger->table, GetUserId())))
+			(trigger->auxiliary && object_ownercheck(RelationRelationId, trigger->table, GetUserId())))
 			present = lappend(present, trigger);
 		else if (!trigger->auxiliary && (trigger->bound || !is_bound))
 			ereport(ERROR,

@@ -24,6 +24,7 @@
 #include "storage/lmgr.h"
 #include "storage/smgr.h"
 
+#include "pg/port/port.h"
 #include "pg/store/buffer_map.h"
 #include "pg/store/heap_growth.h"
 
@@ -43,7 +44,7 @@ static bool
 reserve(Relation heap, BlockNumber first, int pages)
 {
 #ifdef __linux__
-	char	   *name = relpath(RelationGetSmgr(heap)->smgr_rnode, MAIN_FORKNUM);
+	char	   *name = port_relation_path(heap);
 	BlockNumber segment = first / RELSEG_SIZE;
 	char	   *path = segment == 0 ? pstrdup(name) : psprintf("%s.%u", name, segment);
 	int			file = OpenTransientFile(path, O_RDWR | PG_BINARY);

@@ -22,6 +22,7 @@
 #include "lib/pairingheap.h"
 #include "utils/snapmgr.h"
 
+#include "pg/port/port.h"
 #include "pg/store/own_sight.h"
 
 static void
@@ -107,7 +108,7 @@ own_sight_take(OwnSight *sight, bool in_trigger)
 {
 	MemSet(sight, 0, sizeof(*sight));
 	/* with a threshold the oldest snapshot need not be the first active one */
-	sight->known = old_snapshot_threshold < 0;
+	sight->known = !port_snapshots_may_be_too_old();
 	sight->level = GetCurrentTransactionNestLevel();
 	sight->innermost = GetCurrentTransactionIdIfAny();
 	if (!sight->known)

@@ -20,6 +20,7 @@
 #include "storage/bufmgr.h"
 #include "utils/snapmgr.h"
 
+#include "pg/port/port.h"
 #include "pg/store/page_table.h"
 
 /* Others may have moved rows. */
@@ -54,7 +55,7 @@ fetch_where_it_was(PageTable *table, ItemPointer tid, const unsigned char *bytes
 		return false;			/* of a temporary table */
 	ask_for(bytes, Min(size, BLCKSZ - ((const char *) bytes - BufferBlocks) % BLCKSZ));
 	if (BUF_STATE_GET_USAGECOUNT(pg_atomic_read_u32(&GetBufferDescriptor(place)->state)) < 2 ||
-		!ReadRecentBuffer(table->heap->rd_node, MAIN_FORKNUM, ItemPointerGetBlockNumber(tid),
+		!ReadRecentBuffer(table->heap->rd_locator, MAIN_FORKNUM, ItemPointerGetBlockNumber(tid),
 						  buffer))
 		return false;
 	pgstat_count_buffer_read(table->heap);
@@ -62,7 +63,7 @@ fetch_where_it_was(PageTable *table, ItemPointer tid, const unsigned char *bytes
 	ExecClearTuple(table->fetched);
 	row->t_self = *tid;
 	LockBuffer(buffer, BUFFER_LOCK_SHARE);
-	TestForOldSnapshot(GetActiveSnapshot(), table->heap, BufferGetPage(buffer));
+	port_refuse_old_snapshot(GetActiveSnapshot(), table->heap, BufferGetPage(buffer));
 	found = heap_hot_search_buffer(&row->t_self, table->heap, buffer, GetActiveSnapshot(), row,
 								   NULL, true);
 	LockBuffer(buffer, BUFFER_LOCK_UNLOCK);

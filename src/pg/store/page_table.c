@@ -25,6 +25,7 @@
 #include "utils/memutils.h"
 #include "utils/snapmgr.h"
 
+#include "pg/port/port.h"
 #include "pg/store/page_table.h"
 #include "pg/store/page_type.h"
 
@@ -53,9 +54,9 @@ lock_mode(const PageTable *table)
 static void
 check_node(PageTable *table)
 {
-	if (!OidIsValid(table->node.relNode))
-		table->node = table->heap->rd_node;
-	else if (!table->writable && !RelFileNodeEquals(table->node, table->heap->rd_node))
+	if (!OidIsValid(table->node.relNumber))
+		table->node = table->heap->rd_locator;
+	else if (!table->writable && !RelFileLocatorEquals(table->node, table->heap->rd_locator))
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_IN_USE),
 				 errmsg("table \"%s\" was rewritten while this query reads it",
@@ -158,7 +159,7 @@ search(PageTable *table, PageScan *scan, ScanKey keys, int count)
 		if (table->index == NULL)
 			table->index = page_index_open_primary(table->heap, lock_mode(table));
 		scan->slot = MakeSingleTupleTableSlot(RelationGetDescr(table->heap), &TTSOpsBufferHeapTuple);
-		scan->scan = index_beginscan(table->heap, table->index, GetActiveSnapshot(), count, 0);
+		scan->scan = port_index_beginscan(table->heap, table->index, GetActiveSnapshot(), count);
 		MemoryContextSwitchTo(old);
 	}
 	index_rescan(scan->scan, keys, count, NULL, 0);

@@ -15,6 +15,7 @@
 #include "executor/tuptable.h"
 #include "utils/rel.h"
 
+#include "pg/port/port.h"
 #include "pg/store/heap_growth.h"
 #include "pg/store/page_index.h"
 #include "pg/store/stored_page.h"
@@ -35,7 +36,7 @@ typedef struct PageTable
 	bool		writable;
 
 	Relation	heap;			/* NULL while closed */
-	RelFileNode node;			/* of the heap when it was opened first */
+	RelFileLocator node;			/* of the heap when it was opened first */
 	Relation	index;			/* NULL until searched */
 	List	   *indexes;		/* writers: all that they keep */
 

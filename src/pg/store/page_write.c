@@ -14,6 +14,7 @@
 #include "storage/bufmgr.h"
 #include "storage/freespace.h"
 
+#include "pg/port/port.h"
 #include "pg/store/buffer_map.h"
 #include "pg/store/heap_room.h"
 #include "pg/store/own_versions.h"
@@ -154,7 +155,7 @@ page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes
 	tuple = form_row(table, key, bytes, size, values, isnull);
 	choose_heap_page(table, tuple, true);
 	note_superseded(table, tid);
-	simple_heap_update(table->heap, tid, tuple);
+	port_heap_update(table->heap, tid, tuple);
 	if (!HeapTupleIsHeapOnly(tuple))
 		page_index_insert(table->indexes, table->heap, values, isnull, &tuple->t_self, true);
 	note_stored(table, tuple, ItemPointerGetBlockNumber(tid), tid);

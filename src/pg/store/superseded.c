@@ -41,6 +41,7 @@
 #include "utils/memutils.h"
 #include "utils/rel.h"
 
+#include "pg/port/port.h"
 #include "pg/store/heap_room.h"
 #include "pg/store/own_versions.h"
 #include "pg/store/superseded.h"
@@ -122,16 +123,16 @@ superseded_add(Superseded *superseded, BlockNumber block)
 	if ((superseded->bits[byte] & (1 << (block % BITS_PER_BYTE))) == 0)
 		superseded->count++;
 	superseded->bits[byte] |= 1 << (block % BITS_PER_BYTE);
-	superseded->last = MyProc->lxid;
+	superseded->last = port_local_transaction();
 }
 
 /* Remembers that the current transaction has replaced a row of its own on this heap page. */
 void
 superseded_add_own(Superseded *superseded, BlockNumber block)
 {
-	if (superseded->own_of != MyProc->lxid)
+	if (superseded->own_of != port_local_transaction())
 	{
-		superseded->own_of = MyProc->lxid;
+		superseded->own_of = port_local_transaction();
 		superseded->own_count = 0;
 	}
 	if (superseded->own_count > 0 && superseded->own[superseded->own_count - 1] == block)
@@ -269,7 +270,7 @@ reclaim(Superseded *superseded, Relation heap, BlockNumber block, bool *is_empty
 	if (TransactionIdIsValid(((PageHeader) page)->pd_prune_xid))
 		PageSetFull(page);
 	LockBuffer(buffer, BUFFER_LOCK_UNLOCK);
-	heap_page_prune_opt(heap, buffer);
+	port_prune_heap_page(heap, buffer);
 	LockBuffer(buffer, BUFFER_LOCK_SHARE);
 	room = heap_room_on(buffer);
 	done = !TransactionIdIsValid(((PageHeader) page)->pd_prune_xid);
@@ -358,9 +359,10 @@ superseded_reclaim_earlier(Superseded *superseded, Relation heap, const OwnSight
 	TransactionId horizon;
 
 	/* events of a user's own triggers on the table may wait for rows */
-	if (superseded->own_of == MyProc->lxid && superseded->own_count > 0 && heap->trigdesc == NULL)
+	if (superseded->own_of == port_local_transaction() && superseded->own_count > 0 &&
+		heap->trigdesc == NULL)
 		reclaim_own(superseded, heap, sight);
-	if (superseded->count == 0 || superseded->last == MyProc->lxid)
+	if (superseded->count == 0 || superseded->last == port_local_transaction())
 		return;
 	horizon = GetOldestNonRemovableTransactionId(heap);
 	if (horizon == superseded->horizon)

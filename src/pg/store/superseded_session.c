@@ -11,13 +11,14 @@
 #include "storage/proc.h"
 #include "utils/memutils.h"
 
+#include "pg/port/port.h"
 #include "pg/store/superseded.h"
 
 #define MESHES_KEPT 4
 
 static struct
 {
-	RelFileNode node;
+	RelFileLocator node;
 	Superseded *superseded;		/* NULL while nothing is kept here */
 	LocalTransactionId used;	/* the last that asked for it */
 }			kept[MESHES_KEPT];
@@ -30,11 +31,11 @@ place_for(Relation heap)
 	int			i = 0;
 
 	while (i < MESHES_KEPT &&
-		   !(kept[i].superseded != NULL && RelFileNodeEquals(kept[i].node, heap->rd_node)))
+		   !(kept[i].superseded != NULL && RelFileLocatorEquals(kept[i].node, heap->rd_locator)))
 		i++;
 	for (int tried = 0; i == MESHES_KEPT && tried < MESHES_KEPT; tried++)
 	{
-		if (kept[next_kept].superseded == NULL || kept[next_kept].used != MyProc->lxid)
+		if (kept[next_kept].superseded == NULL || kept[next_kept].used != port_local_transaction())
 			i = next_kept;
 		next_kept = (next_kept + 1) % MESHES_KEPT;
 	}
@@ -49,14 +50,14 @@ superseded_of_session(Relation heap)
 
 	if (i == MESHES_KEPT)
 		return superseded_create(CurTransactionContext);
-	if (kept[i].superseded != NULL && !RelFileNodeEquals(kept[i].node, heap->rd_node))
+	if (kept[i].superseded != NULL && !RelFileLocatorEquals(kept[i].node, heap->rd_locator))
 	{
 		superseded_forget(kept[i].superseded);
 		kept[i].superseded = NULL;
 	}
 	if (kept[i].superseded == NULL)
 		kept[i].superseded = superseded_create(TopMemoryContext);
-	kept[i].node = heap->rd_node;
-	kept[i].used = MyProc->lxid;
+	kept[i].node = heap->rd_locator;
+	kept[i].used = port_local_transaction();
 	return kept[i].superseded;
 }

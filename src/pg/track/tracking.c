@@ -44,6 +44,7 @@
 #include "utils/varlena.h"
 
 #include "pg/mesh/mesh.h"
+#include "pg/port/port.h"
 #include "pg/track/tracking.h"
 
 /* The function TRACKING_FUNCTION of the extension; InvalidOid if it has none. */
@@ -254,8 +255,8 @@ bind_triggers(Oid function, Oid mesh, Oid table)
 	ListCell   *cell;
 
 	table = tracking_root(table);
-	if (mesh_of_table(mesh) != mesh || !pg_class_ownercheck(mesh, GetUserId()) ||
-		!pg_class_ownercheck(table, GetUserId()))
+	if (mesh_of_table(mesh) != mesh || !object_ownercheck(RelationRelationId, mesh, GetUserId()) ||
+		!object_ownercheck(RelationRelationId, table, GetUserId()))
 		return false;
 	triggers = tracking_triggers(function, mesh, table);
 	foreach(cell, triggers)
@@ -307,7 +308,7 @@ check_schema(Oid mesh, Oid table)
 
 	if (namespace == get_rel_namespace(table))
 		return;
-	result = pg_namespace_aclcheck(namespace, GetUserId(), ACL_USAGE);
+	result = object_aclcheck(NamespaceRelationId, namespace, GetUserId(), ACL_USAGE);
 	if (result != ACLCHECK_OK)
 		aclcheck_error(result, OBJECT_SCHEMA, get_namespace_name(namespace));
 }

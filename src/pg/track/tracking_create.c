@@ -17,6 +17,7 @@
 
 #include "pg/base/utility.h"
 #include "pg/mesh/mesh.h"
+#include "pg/port/port.h"
 #include "pg/track/tracking.h"
 #include "pg/track/transition.h"
 
@@ -72,7 +73,7 @@ fire_as_before(Relation table, const char *name, int16 event, List *former)
 		if (trigger->event != event || (trigger->fires != TRIGGER_FIRES_ALWAYS &&
 										trigger->fires != TRIGGER_FIRES_ON_REPLICA))
 			continue;
-		EnableDisableTrigger(table, name, trigger->fires, false, ShareRowExclusiveLock);
+		port_set_trigger_firing(table, name, trigger->fires, ShareRowExclusiveLock);
 		CommandCounterIncrement();
 	}
 }
