@@ -12,8 +12,13 @@ enum class BlockIndex : std::uint32_t {};
 inline constexpr BlockIndex no_block{0xffffffffu};
 constexpr std::uint32_t to_number(BlockIndex b) { return static_cast<std::uint32_t>(b); }
 /// Numbers a record: block * slots of a block + slot.
-using Handle = std::uint32_t;
-inline constexpr Handle no_handle = 0xffffffffu;
+enum class Handle : std::uint32_t {};
+inline constexpr Handle no_handle{0xffffffffu};
+constexpr std::uint32_t to_number(Handle h) { return static_cast<std::uint32_t>(h); }
+/// The one that comes so many slots behind another, in its block.
+constexpr Handle operator+(Handle h, std::uint32_t slots) { return Handle{to_number(h) + slots}; }
+/// Slots from the second to the first: huge if it comes before.
+constexpr std::uint32_t operator-(Handle a, Handle b) { return to_number(a) - to_number(b); }
 /// Ends the chain of free slots.
 inline constexpr std::uint32_t no_slot = 0xffffffffu;
 

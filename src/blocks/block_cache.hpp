@@ -70,16 +70,16 @@ public:
     BlockCache &operator=(const BlockCache &) = delete;
 
     static constexpr std::uint32_t slots = Type::slots;
-    static constexpr BlockIndex block_of(Handle h) { return BlockIndex{h / slots}; }
+    static constexpr BlockIndex block_of(Handle h) { return BlockIndex{to_number(h) / slots}; }
     /// Of a block's first slot.
-    static constexpr Handle first_of(BlockIndex b) { return to_number(b) * slots; }
+    static constexpr Handle first_of(BlockIndex b) { return Handle{to_number(b) * slots}; }
 
     // ---- Records -------------------------------------------------------------
 
     const Record &record(Handle h) const { return slots_[h]; }
     /// Whether a handle kept from earlier is a record still (perhaps another one).
     bool is_live(Handle h) const {
-        if (h >= slots_.size()) return false;
+        if (to_number(h) >= slots_.size()) return false;
         const BlockIndex b = block_of(h);
         return blocks_[b].state == Block::cached && h - first_of(b) < blocks_[b].high_water &&
                !slots_[h].is_free();
@@ -327,7 +327,7 @@ private:
 protected:
     const Host &host_;
     Arena<Block, BlockIndex> blocks_;
-    Arena<Record> slots_;                          // so many of each block
+    Arena<Record, Handle> slots_;                  // so many of each block
     Arena<typename Type::Note, BlockIndex> notes_; // the owner's, of each block; zero at first
 };
 

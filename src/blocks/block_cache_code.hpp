@@ -21,7 +21,7 @@ BlockCache<Owner, Type>::BlockCache(const Host &host, std::size_t budget,
 template <class Owner, BlockDescription Type>
 Handle BlockCache<Owner, Type>::follow(Handle h) const {
     // A record moves from limbo, or with a part of its block, once or twice.
-    for (int i = 0; i < 4 && h < slots_.size(); ++i) {
+    for (int i = 0; i < 4 && to_number(h) < slots_.size(); ++i) {
         if (is_live(h)) return h;
         if (!slots_[h].is_free()) break;
         h = slots_[h].moved_to();

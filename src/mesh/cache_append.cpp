@@ -33,7 +33,7 @@ bool Cache<D>::append(const Key &lower, const Key &upper, const LooseSimplex<D> 
     }
     for (std::size_t s = 0; s < n; ++s)
         for (int i = 0; i <= D; ++i) {
-            const Link link = make_link(first + static_cast<Handle>(s), i);
+            const Link link = make_link(first + static_cast<std::uint32_t>(s), i);
             Simplex<D> &simplex = slots_[first + s];
             if (is_loose_ridge<D>(options_.linked_ghosts, simplex.is_ghost(), i))
                 simplex.link[i] = link;

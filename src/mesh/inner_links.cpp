@@ -23,7 +23,7 @@ void InnerLinks<D>::join_trees(const PageView<D> &page, Simplex<D> *slots, Handl
         const PageLink parent = page.parent(s);
         if (parent == PageView<D>::no_link) [[unlikely]]
             continue;
-        join(slots, first, make_link(page_simplex(parent), page_facet(parent)),
+        join(slots, first, make_link(Handle{page_simplex(parent)}, page_facet(parent)),
              make_link(static_cast<Handle>(s), page.facet_to_parent(s)));
     }
     // The facets still open, gathered without a branch: which they are is hard to foresee.

@@ -36,8 +36,8 @@ private:
     static constexpr std::uint16_t no_facet = 0xffff;
 
     static void join(Simplex<D> *slots, Handle first, Link a, Link b) {
-        slots[link_simplex(a)].link[link_facet(a)] = link_from(first, b);
-        slots[link_simplex(b)].link[link_facet(b)] = link_from(first, a);
+        slots[to_number(link_simplex(a))].link[link_facet(a)] = link_from(first, b);
+        slots[to_number(link_simplex(b))].link[link_facet(b)] = link_from(first, a);
     }
     /// Sets the links that are stored, and lists the facets that are still open.
     void join_trees(const PageView<D> &page, Simplex<D> *slots, Handle first);

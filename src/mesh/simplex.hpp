@@ -30,9 +30,9 @@ inline constexpr Link unset{0xffffffffu};
 
 constexpr std::uint32_t to_bits(Link link) { return static_cast<std::uint32_t>(link); }
 constexpr Link make_link(Handle simplex, int facet) {
-    return Link{simplex << 2 | static_cast<std::uint32_t>(facet)};
+    return Link{to_number(simplex) << 2 | static_cast<std::uint32_t>(facet)};
 }
-constexpr Handle link_simplex(Link link) { return to_bits(link) >> 2; }
+constexpr Handle link_simplex(Link link) { return Handle{to_bits(link) >> 2}; }
 constexpr int link_facet(Link link) { return static_cast<int>(to_bits(link) & 3); }
 constexpr bool is_absent(Link link) { return (to_bits(link) & to_bits(absent)) != 0; }
 /// To an entry of the visible facets.
@@ -54,11 +54,11 @@ template <int D> struct Simplex {
     // A free slot, see blocks/data_type.hpp.
     bool is_free() const { return vertex[0] == free_mark; }
     std::uint32_t next_free() const { return to_bits(link[0]); }
-    Handle moved_to() const { return to_bits(link[1]); }
+    Handle moved_to() const { return Handle{to_bits(link[1])}; }
     void set_free(std::uint32_t next, Handle moved) {
         vertex[0] = free_mark;
         link[0] = Link{next};
-        link[1] = Link{moved};
+        link[1] = Link{to_number(moved)};
     }
     /// Vertices that are not at infinity.
     int finite_vertices() const { return is_ghost() ? D : D + 1; }

@@ -13,18 +13,18 @@ public:
 
     explicit Marks(const Memory &memory) : marks_(memory) {}
 
-    Mark get(Handle h) const { return h < marks_.size() ? marks_[h] : none; }
+    Mark get(Handle h) const { return to_number(h) < marks_.size() ? marks_[h] : none; }
     void set(Handle h, Mark mark) {
-        if (h >= marks_.size()) {
+        if (to_number(h) >= marks_.size()) {
             const std::size_t known = marks_.size();
-            marks_.resize(h + 1);
+            marks_.resize(std::size_t(to_number(h)) + 1);
             std::fill(marks_.begin() + known, marks_.end(), none);
         }
         marks_[h] = mark;
     }
 
 private:
-    Arena<Mark> marks_;
+    Arena<Mark, Handle> marks_;
 };
 
 } // namespace abacus

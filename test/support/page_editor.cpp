@@ -62,7 +62,8 @@ std::vector<Simplex<2>> PageEditor::slots() const {
         outside += sides.size() == 1;
         if (sides.size() != 2) continue;
         for (int i = 0; i < 2; ++i)
-            slots[link_simplex(sides[i].link)].link[link_facet(sides[i].link)] = sides[1 - i].link;
+            slots[to_number(link_simplex(sides[i].link))].link[link_facet(sides[i].link)] =
+                sides[1 - i].link;
     }
     if (!is_sound || outside != links.size())
         for (Simplex<2> &slot : slots) slot.link.fill(PageWriter<2>::untold);
@@ -83,8 +84,8 @@ void PageEditor::write(MemoryHost::Page &page) const {
     VertexHeap<2>::Numbering numbered(host);
     Arena<Link> border(host);
     const std::vector<Simplex<2>> slots = this->slots();
-    writer.order(slots.data(), static_cast<std::uint32_t>(slots.size()), 0, vertices, numbered,
-                 border);
+    writer.order(slots.data(), static_cast<std::uint32_t>(slots.size()), Handle{}, vertices,
+                 numbered, border);
     for (VertexIndex v = 1; v <= ids.size(); ++v) numbered.number(vertices, v); // of no simplex
     const bool is_told = !border.empty();
     writer.expect_links(links.size());

@@ -26,19 +26,19 @@ TEST(KeyCut, PartsKeysNearTheNumberWanted) {
         const int kind = static_cast<int>(random() % 4);
         cut.clear();
         std::vector<Words> keys;
-        for (Handle h = 0; h < n; ++h) {
+        for (std::uint32_t h = 0; h < n; ++h) {
             const std::uint64_t bits = random() >> 2;
             const std::uint64_t code = kind == 0   ? bits
                                        : kind == 1 ? bits >> random() % 60
                                                    : bits % (kind == 2 ? n : 3);
-            cut.add(code, h);
+            cut.add(code, Handle{h});
             keys.push_back({code, 0});
         }
         ASSERT_EQ(cut.least_code(), std::min_element(keys.begin(), keys.end())->first);
         ASSERT_EQ(cut.greatest_code(), std::max_element(keys.begin(), keys.end())->first);
         if (kind == 3)
             for (KeyCut::Place &place : cut)
-                keys[place.handle].second = place.key.part = random() % 4;
+                keys[to_number(place.handle)].second = place.key.part = random() % 4;
         std::sort(keys.begin(), keys.end());
 
         const std::size_t wanted = random() % (n + 1);
@@ -49,8 +49,8 @@ TEST(KeyCut, PartsKeysNearTheNumberWanted) {
         std::vector<Words> parted;
         std::vector<bool> seen(n);
         for (const KeyCut::Place &place : cut) {
-            ASSERT_FALSE(seen[place.handle]);
-            seen[place.handle] = true;
+            ASSERT_FALSE(seen[to_number(place.handle)]);
+            seen[to_number(place.handle)] = true;
             parted.push_back({place.key.code, place.key.part});
         }
         if (at < n) {

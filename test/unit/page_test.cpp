@@ -175,12 +175,12 @@ protected:
         }
         const Link side = told ? absent : PageWriter<2>::untold;
         const Simplex<2> slots[] = {
-            {{1, 2, 3}, {side, told ? make_link(1, 1) : side, side}},
-            {{3, 4, 1}, {side, told ? make_link(0, 1) : side, side}},
+            {{1, 2, 3}, {side, told ? make_link(Handle{1}, 1) : side, side}},
+            {{3, 4, 1}, {side, told ? make_link(Handle{0}, 1) : side, side}},
         };
         VertexHeap<2>::Numbering numbered(host_);
         Arena<Link> border(host_);
-        writer_.order(slots, 2, 0, vertices, numbered, border);
+        writer_.order(slots, 2, Handle{}, vertices, numbered, border);
         EXPECT_EQ(border.size(), told ? 4u : 0u);
         writer_.expect_links(4);
         for (std::size_t i = 0; i < 4; ++i) writer_.set_link(i, {i < 2 ? 10 * i : 1000 + i, 0});
@@ -294,7 +294,7 @@ TEST(Pages, WithoutSimplicesAreWrittenToo) {
     VertexHeap<2>::Numbering numbered(host);
     Arena<Link> border(host);
     PageWriter<2> writer(host); // that has not made any page before
-    writer.order(nullptr, 0, 0, vertices, numbered, border);
+    writer.order(nullptr, 0, Handle{}, vertices, numbered, border);
     ASSERT_TRUE(writer.finish({5, 6}, {7, 8}, vertices, numbered, nullptr));
     PageView<2> view;
     view.read(writer.bytes(), writer.size(), 0);
