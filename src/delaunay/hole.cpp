@@ -225,9 +225,11 @@ template <int D> std::size_t Hole<D>::sew(const Star<D> &star) {
     } else {
         made = link_.triangulate(cache_, star, independent);
         filled_.resize(link_.cells());
-        for (Handle cell = 0; cell < link_.cells(); ++cell)
+        const Handle begin{};
+        const Handle end = begin + static_cast<std::uint32_t>(link_.cells());
+        for (Handle cell = begin; cell != end; cell = cell + 1)
             if (link_.is_inside(cell)) filled_[cell] = create(link_.vertices(cell));
-        for (Handle cell = 0; cell < link_.cells(); ++cell)
+        for (Handle cell = begin; cell != end; cell = cell + 1)
             if (link_.is_inside(cell)) connect(cell);
     }
     require_filled();

@@ -79,7 +79,7 @@ private:
     Arena<Chain> chains_;
     Arena<Candidate> candidates_;
     LinkMesh<D> link_;
-    Arena<Handle> filled_; // of the cells of this that are inside, the simplices
+    Arena<Handle, Handle> filled_; // of the cells of this that are inside, the simplices
 };
 
 } // namespace abacus

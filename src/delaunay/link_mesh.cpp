@@ -69,8 +69,8 @@ template <int D> Handle LinkMesh<D>::create(const Simplex<D> &s) {
     Handle h;
     ++made_;
     if (free_.empty()) {
-        h = static_cast<Handle>(cells_.size());
-        if (h >= most_) throw_no_triangulation();
+        if (cells_.size() >= most_) throw_no_triangulation();
+        h = Handle{static_cast<std::uint32_t>(cells_.size())};
         cells_.push_back({s, false});
     } else {
         h = free_.back();
@@ -95,15 +95,17 @@ template <int D> void LinkMesh<D>::start() {
     if (orientation<D>(corners) < 0) std::swap(first[0], first[1]);
     create({first, {}});
     for (int i = 0; i <= D; ++i) create({ghost_on(first, i, infinite_vertex), {}});
-    for (Handle a = 0; a < D + 2; ++a)
-        for (Handle b = 0; b < D + 2; ++b)
+    const Handle begin{};
+    const Handle end = begin + (D + 2);
+    for (Handle a = begin; a != end; a = a + 1)
+        for (Handle b = begin; b != end; b = b + 1)
             for (int i = 0; i <= D; ++i)
                 for (int j = 0; j <= D; ++j) {
                     const FacetVertices<D, VertexIndex> f(cells_[a].simplex.vertex, i);
                     const FacetVertices<D, VertexIndex> g(cells_[b].simplex.vertex, j);
                     if (a != b && f.vertex == g.vertex) cells_[a].simplex.link[i] = make_link(b, j);
                 }
-    for (Handle h = 0; h < D + 2; ++h)
+    for (Handle h = begin; h != end; h = h + 1)
         if (!is_in_conflict(cells_[h].simplex, points_[apex])) kill(h);
     fill(apex);
 }

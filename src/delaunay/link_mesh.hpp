@@ -92,7 +92,7 @@ private:
     Arena<Point<D>> points_;   // those at 0 and of q first
     Arena<VertexIndex> names_; // of each, in the mesh
     Arena<Place> order_;       // in which they come
-    Arena<Cell> cells_;
+    Arena<Cell, Handle> cells_;
     Arena<Handle> free_, killed_, created_;
     Handle cone_ = no_handle; // any, where the next way begins
     std::size_t most_ = 0;    // cells that there can be

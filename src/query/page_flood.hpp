@@ -32,9 +32,10 @@ public:
     /// holds.
     template <class Crosses> void spread(Crosses crosses) {
         if (page().links() == 0 || is_again_) return;
-        inner_links_.connect(page(), slots_.data(), 0, true, border_, on_border_);
+        inner_links_.connect(page(), slots_.data(), Handle{}, true, border_, on_border_);
         for (std::size_t i = 0; i < border_.size(); ++i)
-            if (crosses(static_cast<int>(link_simplex(border_[i])), link_facet(border_[i])))
+            if (crosses(static_cast<int>(to_number(link_simplex(border_[i]))),
+                        link_facet(border_[i])))
                 follow(static_cast<int>(i));
     }
     /// After the last page: begins again with the first of those that were read.

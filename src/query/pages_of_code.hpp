@@ -14,6 +14,8 @@
 #include "host/host.hpp"
 #include "mesh/page_format.hpp"
 
+#include <abacus/header.h>
+
 namespace abacus {
 
 template <int D> class PagesOfCode {
