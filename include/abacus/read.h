@@ -25,6 +25,18 @@ typedef struct abacus_simplex
 	double corner[ABACUS_MAX_DIMENSION + 1][ABACUS_MAX_DIMENSION];
 } abacus_simplex;
 
+/* A point of a mesh, or one that waits to be. */
+typedef struct abacus_vertex
+{
+	int64_t id;
+	double point[ABACUS_MAX_DIMENSION];
+	const double *attributes; /* valid until the next call */
+	int32_t waits;           /* 1: it is not inserted yet */
+	uint64_t sequence;       /* of a point that waits: its place in the insertion order */
+	int64_t vertex;          /* of one that does not: id of the vertex that stands for it,
+								its own unless an equal point came before it */
+} abacus_vertex;
+
 typedef struct abacus_mesh abacus_mesh;
 
 ABACUS_API abacus_status abacus_mesh_open(const abacus_host *host, const abacus_header *header,
@@ -45,6 +57,20 @@ ABACUS_API abacus_status abacus_mesh_locate(abacus_mesh *mesh, const double *poi
  */
 ABACUS_API abacus_status abacus_mesh_walk(abacus_mesh *mesh, uint64_t code, const int64_t *ids,
 										  int facet, abacus_simplex *simplex, abacus_error *error);
+/*
+ * Gets one of the vertices nearest to a place, valid during the call, and its distance: rank 1 is
+ * the nearest. May fail as a host function may. `place` is the id of one of many places.
+ */
+typedef abacus_host_status (*abacus_nearest_report)(void *context, int64_t place, uint64_t rank,
+													const abacus_vertex *vertex, double distance);
+/*
+ * Reports the k vertices nearest to the point (`dimension` finite doubles), nearest first; fewer if
+ * the mesh has fewer. Distances are compared exactly; of vertices equally far the one with the
+ * lexicographically least coordinates comes first.
+ */
+ABACUS_API abacus_status abacus_mesh_nearest(abacus_mesh *mesh, const double *point, uint64_t k,
+											 abacus_nearest_report report, void *context,
+											 abacus_error *error);
 ABACUS_API void abacus_mesh_counters(const abacus_mesh *mesh, abacus_counters *counters);
 
 /*
@@ -67,6 +93,10 @@ typedef abacus_host_status (*abacus_place_report)(void *context, int64_t id,
 /* No more places come: reports each of them, in the order of the curve. Once. */
 ABACUS_API abacus_status abacus_places_locate(abacus_places *places, abacus_place_report report,
 											  void *context, abacus_error *error);
+/* The same of their nearest vertices: instead of abacus_places_locate(), which finds simplices. */
+ABACUS_API abacus_status abacus_places_nearest(abacus_places *places, uint64_t k,
+											   abacus_nearest_report report, void *context,
+											   abacus_error *error);
 ABACUS_API void abacus_places_close(abacus_places *places);
 
 /* All simplices, page by page in key order; with `ghosts` the hull facets too. */
@@ -76,18 +106,6 @@ ABACUS_API abacus_status abacus_scan_open(const abacus_host *host, const abacus_
 ABACUS_API abacus_status abacus_scan_next(abacus_scan *scan, abacus_simplex *simplex,
 										  abacus_error *error);
 ABACUS_API void abacus_scan_close(abacus_scan *scan);
-
-/* A point of a mesh, or one that waits to be. */
-typedef struct abacus_vertex
-{
-	int64_t id;
-	double point[ABACUS_MAX_DIMENSION];
-	const double *attributes; /* valid until the next call */
-	int32_t waits;           /* 1: it is not inserted yet */
-	uint64_t sequence;       /* of a point that waits: its place in the insertion order */
-	int64_t vertex;          /* of one that does not: id of the vertex that stands for it,
-								its own unless an equal point came before it */
-} abacus_vertex;
 
 /*
  * All points: the vertices, page by page along the curve; the points equal to a

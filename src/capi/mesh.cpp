@@ -1,11 +1,11 @@
 // Locating and walking behind the C interface.
 #include "query/reader.hpp"
 
-#include "capi/dimension.hpp"
-#include "capi/guard.hpp"
+#include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
+#include "capi/nearest.hpp"
 
-#include <abacus/read.h>
+#include <abacus/ask.h>
 #include <cmath>
 
 struct abacus_mesh {
@@ -15,6 +15,20 @@ struct abacus_mesh {
     const abacus::Host host;
     abacus::ByDimension<abacus::Reader> reader;
 };
+
+namespace {
+
+template <int D> abacus::Point<D> finite_point(const double *point) {
+    abacus::Point<D> p;
+    for (int i = 0; i < D; ++i) {
+        if (!std::isfinite(point[i]))
+            throw abacus::Error(ABACUS_ERROR_ARGUMENT, "a coordinate is not finite");
+        p[i] = point[i] + 0.0; // -0.0 is +0.0
+    }
+    return p;
+}
+
+} // namespace
 
 abacus_status abacus_mesh_open(const abacus_host *host, const abacus_header *header,
                                size_t cache_bytes, abacus_mesh **mesh, abacus_error *error) {
@@ -30,13 +44,7 @@ abacus_status abacus_mesh_locate(abacus_mesh *mesh, const double *point, abacus_
                                  abacus_error *error) {
     return abacus::guard(error, [&] {
         return mesh->reader.visit([&]<int D>(abacus::Reader<D> &reader) {
-            abacus::Point<D> p;
-            for (int i = 0; i < D; ++i) {
-                if (!std::isfinite(point[i]))
-                    throw abacus::Error(ABACUS_ERROR_ARGUMENT, "a coordinate is not finite");
-                p[i] = point[i] + 0.0; // -0.0 is +0.0
-            }
-            return reader.locate(p, *simplex) ? ABACUS_OK : ABACUS_END;
+            return reader.locate(finite_point<D>(point), *simplex) ? ABACUS_OK : ABACUS_END;
         });
     });
 }
@@ -46,6 +54,33 @@ abacus_status abacus_mesh_walk(abacus_mesh *mesh, uint64_t code, const int64_t *
     return abacus::guard(error, [&] {
         return mesh->reader.visit([&](auto &reader) {
             return reader.walk(code, ids, facet, *simplex) ? ABACUS_OK : ABACUS_END;
+        });
+    });
+}
+
+abacus_status abacus_mesh_nearest(abacus_mesh *mesh, const double *point, uint64_t k,
+                                  abacus_nearest_report report, void *context,
+                                  abacus_error *error) {
+    return abacus::dispatch(mesh->reader, error, [&]<int D>(abacus::Reader<D> &reader) {
+        abacus::report_nearest<D>(reader, 0, finite_point<D>(point), k, report, context);
+    });
+}
+
+abacus_status abacus_mesh_star(abacus_mesh *mesh, const double *point, abacus_simplex_report report,
+                               void *context, abacus_error *error) {
+    return abacus::dispatch(mesh->reader, error, [&]<int D>(abacus::Reader<D> &reader) {
+        reader.star(finite_point<D>(point), [&](const abacus_simplex &simplex) {
+            abacus::host::require(report(context, &simplex));
+        });
+    });
+}
+
+abacus_status abacus_mesh_neighbours(abacus_mesh *mesh, uint64_t code, const int64_t *ids,
+                                     uint32_t steps, abacus_simplex_report report, void *context,
+                                     abacus_error *error) {
+    return abacus::dispatch(mesh->reader, error, [&](auto &reader) {
+        reader.neighbours(code, ids, steps, [&](const abacus_simplex &simplex) {
+            abacus::host::require(report(context, &simplex));
         });
     });
 }

@@ -3,6 +3,7 @@
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
+#include "capi/nearest.hpp"
 
 #include <abacus/read.h>
 
@@ -36,6 +37,15 @@ abacus_status abacus_places_locate(abacus_places *places, abacus_place_report re
         all.each([&](auto &reader, std::int64_t id, const auto &place) {
             const bool is_inside = reader.locate(place, simplex);
             abacus::host::require(report(context, id, is_inside ? &simplex : nullptr));
+        });
+    });
+}
+
+abacus_status abacus_places_nearest(abacus_places *places, uint64_t k, abacus_nearest_report report,
+                                    void *context, abacus_error *error) {
+    return abacus::dispatch(places->places, error, [&]<int D>(abacus::Places<D> &all) {
+        all.each([&](abacus::Reader<D> &reader, std::int64_t id, const abacus::Point<D> &place) {
+            abacus::report_nearest<D>(reader, id, place, k, report, context);
         });
     });
 }

@@ -9,6 +9,8 @@
 #include "host/arena.hpp"
 
 #include <algorithm>
+#include <memory_resource>
+#include <vector>
 
 namespace abacus {
 
@@ -50,13 +52,45 @@ public:
         return size_ == 0 || visit_node(levels_ - 1, 0, box, visit);
     }
 
+    /// Calls visit(number, rank) for the boxes in the order of rank(box), until that returns false;
+    /// no box may have a lower rank than a box around it. Keeps what it has not come to in
+    /// `memory`.
+    template <class Rank, class Visit>
+    void visit_by_rank(std::pmr::memory_resource &memory, Rank rank, Visit visit) const {
+        struct Open {
+            double rank;
+            int level;
+            std::size_t i;
+            bool operator<(const Open &other) const { return other.rank < rank; }
+        };
+        std::pmr::vector<Open> open(&memory); // a heap
+        const auto add = [&](int level, std::size_t i) {
+            open.push_back({rank(boxes_[begin_[level] + i]), level, i});
+            std::push_heap(open.begin(), open.end());
+        };
+        if (size_ > 0) add(levels_ - 1, 0);
+        while (!open.empty()) {
+            std::pop_heap(open.begin(), open.end());
+            const Open next = open.back();
+            open.pop_back();
+            if (next.level == 0) {
+                if (!visit(next.i, next.rank)) return;
+                continue;
+            }
+            const std::size_t end = std::min((next.i + 1) * fan, boxes_at(next.level - 1));
+            for (std::size_t k = next.i * fan; k < end; ++k) add(next.level - 1, k);
+        }
+    }
+
 private:
+    /// Nodes of a level below the last.
+    std::size_t boxes_at(int level) const { return begin_[level + 1] - begin_[level]; }
+
     template <class Visit>
     bool visit_node(int level, std::size_t i, const Box<D> &box, Visit &visit) const {
         if (!boxes_[begin_[level] + i].meets(box)) return true;
         if (level == 0) return visit(i);
-        const std::size_t below = begin_[level] - begin_[level - 1];
-        for (std::size_t k = i * fan; k < std::min((i + 1) * fan, below); ++k)
+        for (std::size_t k = i * fan; k < std::min((i + 1) * fan, boxes_at(level - 1)); ++k)
             if (!visit_node(level - 1, k, box, visit)) return false;
         return true;
     }

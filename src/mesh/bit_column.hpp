@@ -80,6 +80,8 @@ public:
     /// Asks for a field, which will be read soon.
     void ask_for(std::size_t i) const { touch(bytes_ + (i * width_ >> 3)); }
     unsigned width() const { return width_; }
+    /// The greatest that a field may be.
+    std::uint64_t most() const { return mask_; }
     const unsigned char *begin() const { return bytes_; }
 
 private:
@@ -137,6 +139,13 @@ public:
         const std::uint64_t field = (word - base_) >> shift_;
         const std::uint64_t cut = width > prefix_bits ? field >> (width - prefix_bits) : field;
         return static_cast<Prefix>(cut >> prefix_bits == 0 ? cut : 1u << prefix_bits);
+    }
+
+    /// Whether the head lets a word be from `least` to `greatest`; true where a word is.
+    bool may_have(std::uint64_t least, std::uint64_t greatest) const {
+        const std::uint64_t span = fields_.most() << shift_;
+        const bool wraps = base_ + span < base_; // only in a forged page
+        return wraps || (base_ <= greatest && least <= base_ + span);
     }
 
     /// Whether not all words are 0.

@@ -113,6 +113,10 @@ template <int D>
 void PageView<D>::read(const unsigned char *bytes, std::size_t size, int attributes,
                        Checksum checksum) {
     open(bytes, size, attributes, checksum);
+    read_rest();
+}
+
+template <int D> void PageView<D>::read_rest() {
     for (int i = 0; i < links(); ++i)
         require(link_vertex(i) < vertices() + header_.codes,
                 "A simplex page has a link to no code.");

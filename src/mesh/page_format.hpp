@@ -103,7 +103,9 @@ public:
     /// The same in parts. First all but links, points and simplices, ...
     void open(const unsigned char *bytes, std::size_t size, int attributes,
               Checksum checksum = Checksum::verify);
-    /// ... then patches, in any order.
+    /// ... then all that is left, ...
+    void read_rest();
+    /// ... or patches, in any order.
     void read_patch(int patch);
     int patches() const { return static_cast<int>(patches_of(header_.simplices)); }
     Range simplices_of(int patch) const {
@@ -145,6 +147,13 @@ public:
     void ask_for_id(int vertex) const { ids_.ask_for(static_cast<std::size_t>(vertex)); }
     std::int64_t id(int vertex) const { return static_cast<std::int64_t>(ids_[vertex]); }
     const Point<D> &point(int vertex) const { return points_[vertex]; }
+    /// Whether the head of an attribute's column lets a value be from `least` to `greatest`; true
+    /// where one is.
+    bool may_have_attribute(int i, double least, double greatest) const {
+        // -0 and 0 have different ranks.
+        return attributes_[i].may_have(ordered(least == 0 ? -0.0 : least),
+                                       ordered(greatest == 0 ? 0.0 : greatest));
+    }
     double attribute(int vertex, int i) const { return from_ordered(attributes_[i][vertex]); }
 
     /// Number of the vertex whose code is the link's; from vertices() on, foreign_code()

@@ -21,6 +21,14 @@ public:
             return visit(keys_[i], i + 1 < keys_.size() ? keys_[i + 1] : end_key);
         });
     }
+    /// Calls visit(from, to, rank) for all such intervals in the order of rank(box), until it
+    /// returns false, as in BoxTree::visit_by_rank().
+    template <class Rank, class Visit>
+    void by_rank(std::pmr::memory_resource &memory, Rank rank, Visit visit) const {
+        tree_.visit_by_rank(memory, rank, [&](std::size_t i, double rank_of_box) {
+            return visit(keys_[i], i + 1 < keys_.size() ? keys_[i + 1] : end_key, rank_of_box);
+        });
+    }
 
 private:
     void halve();

@@ -33,6 +33,18 @@ public:
         follow();
         return true;
     }
+    /// The same, past pages that wants(page) refuses, of which only the heads are read then.
+    template <class Wants> bool advance(Wants wants) {
+        while (fetch()) {
+            view_.open(copy_, size_, static_cast<int>(attributes_));
+            follow();
+            if (!wants(view_)) continue;
+            view_.read_rest();
+            return true;
+        }
+        require_end();
+        return false;
+    }
     /// The halves of advance(), for callers that go on after a damaged page and compare the
     /// intervals themselves.
     bool fetch() {

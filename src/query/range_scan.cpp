@@ -70,8 +70,9 @@ template <int D> bool BoxRegion<D>::has_much_of(const Domain<D> &domain) const {
 // ---- The scan ---------------------------------------------------------------------------
 
 template <int D>
-RangeScan<D>::RangeScan(const Host &host, const abacus_header &header, const Region<D> *region)
-    : host_(host), header_(header), region_(region) {
+RangeScan<D>::RangeScan(const Host &host, const abacus_header &header, const Region<D> *region,
+                        Wants wants)
+    : host_(host), header_(header), region_(region), wants_(std::move(wants)) {
     const bool is_whole = region == nullptr || header.not_delaunay != 0 || header.simplices == 0 ||
                           region->has_much_of(domain_of<D>(header));
     if (is_whole) {
@@ -119,7 +120,7 @@ template <int D> bool RangeScan<D>::may_cross(int simplex, int facet) const {
 }
 
 template <int D> bool RangeScan<D>::advance_any() {
-    if (whole_) return whole_->advance();
+    if (whole_) return wants_ ? whole_->advance(wants_) : whole_->advance();
     if (!flood_->advance()) return false;
     if (region_->may_meet(box_of(page())))
         flood_->spread([this](int simplex, int facet) { return may_cross(simplex, facet); });
@@ -128,7 +129,9 @@ template <int D> bool RangeScan<D>::advance_any() {
 
 template <int D> bool RangeScan<D>::advance() {
     while (advance_any())
-        if (region_ == nullptr || region_->may_meet(box_of(page()))) return true;
+        if ((region_ == nullptr || region_->may_meet(box_of(page()))) &&
+            (!wants_ || wants_(page())))
+            return true;
     return false;
 }
 

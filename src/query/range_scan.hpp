@@ -38,6 +38,7 @@
 
 #include <abacus/header.h>
 
+#include <functional>
 #include <optional>
 
 namespace abacus {
@@ -76,8 +77,13 @@ private:
 
 template <int D> class RangeScan {
 public:
-    /// Of all pages if `region` is null. It is read as long as the scan.
-    RangeScan(const Host &host, const abacus_header &header, const Region<D> *region);
+    /// Whether a page is wanted, by its heads: see PageView::open().
+    using Wants = std::function<bool(const PageView<D> &)>;
+
+    /// Of all pages if `region` is null. It is read as long as the scan. Pages that `wants` refuses
+    /// are passed over; many of them are not decoded.
+    RangeScan(const Host &host, const abacus_header &header, const Region<D> *region,
+              Wants wants = {});
 
     /// Goes to the next page whose box may meet the region; false after the last. Which of its
     /// simplices do the caller asks, of a window by meets(). Throws if a page is damaged or
@@ -98,6 +104,7 @@ private:
     const Host &host_;
     const abacus_header header_;
     const Region<D> *const region_;
+    const Wants wants_;
     // One of the two.
     std::optional<PageScan<D>> whole_;
     std::optional<PageFlood<D>> flood_;

@@ -17,6 +17,13 @@ CacheOptions linked_as(const abacus_header &header, CacheOptions options) {
     return options;
 }
 
+template <int D> [[noreturn]] void throw_no_such_simplex() {
+    throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such simplex", {},
+                "Take a simplex that abacus_locate, abacus_walk or abacus_simplices returned "
+                "for this mesh, and a facet from 0 to " +
+                    std::to_string(D) + ".");
+}
+
 } // namespace
 
 template <int D>
@@ -65,12 +72,16 @@ template <int D> Handle Reader<D>::walk_to_inside(const Point<D> &p) {
     return last_ = h;
 }
 
+template <int D> const PageBoxes<D> &Reader<D>::boxes() {
+    if (!boxes_) boxes_.emplace(cache_.host(), header_, budget_ / 8);
+    return *boxes_;
+}
+
 template <int D>
 template <class Visit>
 void Reader<D>::search_pages(const Point<D> &p, Visit visit) {
     if (size_ == 0) return;
-    if (!boxes_) boxes_.emplace(cache_.host(), header_, budget_ / 8);
-    boxes_->around(p, [&](Key key, const Key &end) {
+    boxes().around(p, [&](Key key, const Key &end) {
         while (key < end) {
             cache_.trim();
             cache_.poll();
@@ -179,7 +190,7 @@ bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex, CornerValues 
 
 template <int D>
 std::optional<typename Reader<D>::Around> Reader<D>::page_around(const Point<D> &p) {
-    const Handle h = find(p, cache_.domain().code(p));
+    const Handle h = simplex_around(p);
     if (h == no_handle) return std::nullopt;
     return Around{cache_.lower(h), !cache_.simplex(h).is_ghost()};
 }
@@ -200,18 +211,38 @@ bool Reader<D>::glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &s
 template <int D>
 void Reader<D>::first_around(const Point<D> &p, Handle h, abacus_simplex &simplex,
                              CornerValues *values) {
+    flood_around(p, h, [&](Handle met) {
+        abacus_simplex other;
+        describe(met, other);
+        if (comes_before<D>(other, simplex)) describe(met, simplex, values);
+    });
+}
+
+template <int D>
+template <class Visit>
+void Reader<D>::flood_around(const Point<D> &p, Handle h, Visit visit) {
     // Across every facet that p lies on there is another simplex that contains p.
     const auto has_p = [&](Handle at, int facet) {
         const Simplex<D> &s = cache_.simplex(at);
         return !s.is_ghost() && facet_side<D>(cache_.corners(s), facet, p) == 0;
     };
     around_.from(cache_, h, has_p, [&](Handle met) {
-        if (cache_.simplex(met).is_ghost()) return true;
-        abacus_simplex other;
-        describe(met, other);
-        if (comes_before<D>(other, simplex)) describe(met, simplex, values);
+        if (!cache_.simplex(met).is_ghost()) visit(met);
         return true;
     });
+}
+
+template <int D>
+void Reader<D>::containing(const Point<D> &p, const std::function<void(Handle)> &visit) {
+    if (!delaunay_) {
+        search(p, [&](Handle found) {
+            visit(found);
+            return true;
+        });
+    } else if (const Handle h = simplex_around(p);
+               h != no_handle && !cache_.simplex(h).is_ghost()) {
+        flood_around(p, h, visit);
+    }
 }
 
 template <int D> bool Reader<D>::has_ids(Handle h, const std::int64_t *ids) const {
@@ -238,9 +269,7 @@ template <int D> int Reader<D>::named_corner(Handle h, const std::int64_t *ids, 
     return corner;
 }
 
-template <int D>
-bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
-                     abacus_simplex &simplex) {
+template <int D> Handle Reader<D>::named(std::uint64_t code, const std::int64_t *ids) {
     Handle h = no_handle;
     Key page{}; // that has it
     bool is_unique = true;
@@ -257,17 +286,13 @@ bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
             page = cache_.lower(h);
         });
     };
-    if (size_ != 0 && facet >= 0 && facet <= D && code < key_word_end) {
+    if (size_ != 0 && code < key_word_end) {
         if (is_at_hand(code))
             look({code, 0});
         else
             pages_of_code_.with_ids(code, ids, look);
     }
-    if (h == no_handle)
-        throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such simplex", {},
-                    "Take a simplex that abacus_locate, abacus_walk or abacus_simplices returned "
-                    "for this mesh, and a facet from 0 to " +
-                        std::to_string(D) + ".");
+    if (h == no_handle) throw_no_such_simplex<D>();
     if (!is_unique)
         throw Error(ABACUS_ERROR_ARGUMENT,
                     "several simplices of the mesh have this code and these ids",
@@ -277,6 +302,14 @@ bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
         cache_.visit(page, [&](Handle candidate) {
             if (is_it(candidate)) h = candidate;
         });
+    return h;
+}
+
+template <int D>
+bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
+                     abacus_simplex &simplex) {
+    if (facet < 0 || facet > D) throw_no_such_simplex<D>();
+    const Handle h = named(code, ids);
     const Handle neighbour = link_simplex(cache_.cross(h, named_corner(h, ids, facet)));
     if (cache_.simplex(neighbour).is_ghost()) return false;
     last_ = neighbour;

@@ -17,6 +17,7 @@
 #include "traverse/walk.hpp"
 
 #include <abacus/read.h>
+#include <functional>
 #include <optional>
 
 namespace abacus {
@@ -37,6 +38,14 @@ public:
     /// False at the hull; throws an Error (argument) if there is no such simplex, or several,
     /// as there may be where points have equal ids.
     bool walk(std::uint64_t code, const std::int64_t *ids, int facet, abacus_simplex &simplex);
+    /// Calls visit(handle) for all finite simplices that contain p, in no order.
+    void containing(const Point<D> &p, const std::function<void(Handle)> &visit);
+    /// Calls visit(simplex) for all that contain p.
+    void star(const Point<D> &p, const std::function<void(const abacus_simplex &)> &visit);
+    /// ... for the simplex with this code and these ids, as of walk(), and those that can be
+    /// reached from it across at most `steps` facets, the nearest first.
+    void neighbours(std::uint64_t code, const std::int64_t *ids, std::uint32_t steps,
+                    const std::function<void(const abacus_simplex &)> &visit);
     /// Id and attributes of the vertex at p, if there is one; the attributes stay valid
     /// until the next call.
     struct Found {
@@ -52,6 +61,17 @@ public:
         bool is_inside;
     };
     std::optional<Around> page_around(const Point<D> &p);
+
+    /// In a Delaunay mesh: the simplex around p or, outside the hull, a ghost that has p strictly
+    /// beyond its facet; no_handle in an empty mesh. It stays until the next call.
+    Handle simplex_around(const Point<D> &p) { return find(p, cache_.domain().code(p)); }
+    /// In a mesh that is not Delaunay and not empty: where its pages are.
+    const PageBoxes<D> &boxes();
+    /// Whether the mesh is Delaunay: all of it can be reached by walking then.
+    bool is_delaunay() const { return delaunay_; }
+    bool is_empty() const { return size_ == 0; }
+    /// A flood over the cache, for whoever asks between two calls.
+    Flood<D> &flood() { return around_; }
 
     /// In a mesh that is not Delaunay: how many pages have this vertex, with its id and
     /// attributes.
@@ -92,10 +112,14 @@ private:
     /// The first of all simplices that contain p, of those in the pages themselves.
     bool search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values);
     void describe(Handle h, abacus_simplex &simplex, CornerValues *values = nullptr) const;
+    /// The simplex with this code and these ids; throws as walk() does.
+    Handle named(std::uint64_t code, const std::int64_t *ids);
     /// Whether these are the ids of the simplex's corners, in any order.
     bool has_ids(Handle h, const std::int64_t *ids) const;
     /// Which of its corners is then meant by corner `facet` of the ids.
     int named_corner(Handle h, const std::int64_t *ids, int facet) const;
+    /// Calls visit(handle) for all finite simplices around a point that h contains.
+    template <class Visit> void flood_around(const Point<D> &p, Handle h, Visit visit);
     /// The first of all simplices around a point on a facet of h, which `simplex` describes.
     void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex, CornerValues *values);
 

@@ -84,6 +84,15 @@ SELECT pg_temp.inject('walk', $$ DO 'BEGIN SET LOCAL abacus.cache_size = ''4MB''
     $$ SELECT pg_temp.answers() = (TABLE answer) $$);
 SELECT pg_temp.inject('simplices', $$ SELECT count(*) FROM abacus_simplices('field') $$, 'SELECT true');
 SELECT pg_temp.inject('vertices', $$ SELECT count(*) FROM abacus_vertices('field') $$, 'SELECT true');
+SELECT pg_temp.inject('nearest', $$ DO 'BEGIN SET LOCAL abacus.cache_size = ''5MB''; PERFORM abacus_nearest(''field'', x + 0.25, y + 0.25, 4) FROM points; END' $$,
+    $$ SELECT pg_temp.answers() = (TABLE answer) $$);
+SELECT pg_temp.inject('nearest of many', $$ SELECT count(*) FROM abacus_nearest('field', 'SELECT id, x + 0.25, y + 0.25 FROM points', 2) $$,
+    $$ SELECT NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
+SELECT pg_temp.inject('cells of a window', $$ SELECT count(*) FROM abacus_cells('field', ARRAY[100, 100], ARRAY[300, 300]) $$, 'SELECT true');
+SELECT pg_temp.inject('edges', $$ SELECT count(*) FROM abacus_edges('field') $$, 'SELECT true');
+SELECT pg_temp.inject('vertices of a range', $$ SELECT count(*) FROM abacus_vertices('field', 'height', 100, 300) $$, 'SELECT true');
+SELECT pg_temp.inject('star', $$ DO 'BEGIN SET LOCAL abacus.cache_size = ''6MB''; PERFORM abacus_star(''field'', x, y) FROM points; END' $$,
+    $$ SELECT pg_temp.answers() = (TABLE answer) $$);
 SELECT pg_temp.inject('check', $$ SELECT count(*) FROM abacus_check('field') $$,
     $$ SELECT NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
 SELECT pg_temp.inject('draw', $$ SELECT abacus_draw('field', 100) $$, 'SELECT true');

@@ -1,6 +1,6 @@
 /*
- * fn_estimate.c: how many rows abacus_simplices and abacus_vertices return, told
- * to the planner by their support functions.
+ * fn_estimate.c: how many rows functions that read a mesh return, told to the
+ * planner by their support functions.
  *
  * As for any table of PostgreSQL, the size of the file is asked for, which costs a
  * system call. The last VACUUM or ANALYZE tells how full the file is: a page of it
@@ -20,12 +20,16 @@
 #include "nodes/supportnodes.h"
 #include "optimizer/optimizer.h"
 #include "storage/bufmgr.h"
+#include "utils/selfuncs.h"
 
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh.h"
 
 SQL_FUNCTION(abacus_sql_simplices_rows);
 SQL_FUNCTION(abacus_sql_vertices_rows);
+SQL_FUNCTION(abacus_sql_nearest_rows);
+SQL_FUNCTION(abacus_sql_window_rows);
+SQL_FUNCTION(abacus_sql_range_rows);
 
 /* Of fresh builds of uniform points, in the plane and in space (docs/benchmarks.md). */
 #define BYTES_PER_SIMPLEX 12.0
@@ -129,4 +133,66 @@ Datum
 abacus_sql_vertices_rows(PG_FUNCTION_ARGS)
 {
 	return estimate(fcinfo, 1 / SIMPLICES_PER_VERTEX, true);
+}
+
+/* Whether an argument of a call is known to be NULL. */
+static bool
+is_null_argument(const SupportRequestRows *request, int argument)
+{
+	Node	   *value = estimate_expression_value(request->root,
+												  (Node *) list_nth(((FuncExpr *) request->node)->args,
+																	argument));
+
+	return IsA(value, Const) && ((Const *) value)->constisnull;
+}
+
+/*
+ * abacus_window_rows(internal) -> internal, for simplices of a window: arguments 1 and 2. How much
+ * of the mesh a window has only the header and the pages tell, so PostgreSQL's own guess at a
+ * range is taken.
+ */
+Datum
+abacus_sql_window_rows(PG_FUNCTION_ARGS)
+{
+	SupportRequestRows *request = (SupportRequestRows *) PG_GETARG_POINTER(0);
+	bool		is_whole;
+
+	if (!IsA(request, SupportRequestRows) || !is_funcclause(request->node))
+		PG_RETURN_POINTER(NULL);
+	is_whole = is_null_argument(request, 1) && is_null_argument(request, 2);
+	return estimate(fcinfo, is_whole ? 1 : DEFAULT_RANGE_INEQ_SEL, false);
+}
+
+/*
+ * abacus_range_rows(internal) -> internal, for vertices with an attribute in a range, of a window:
+ * arguments 4 and 5.
+ */
+Datum
+abacus_sql_range_rows(PG_FUNCTION_ARGS)
+{
+	SupportRequestRows *request = (SupportRequestRows *) PG_GETARG_POINTER(0);
+	double		share = DEFAULT_RANGE_INEQ_SEL;
+
+	if (!IsA(request, SupportRequestRows) || !is_funcclause(request->node))
+		PG_RETURN_POINTER(NULL);
+	if (!is_null_argument(request, 4) || !is_null_argument(request, 5))
+		share *= DEFAULT_RANGE_INEQ_SEL;
+	return estimate(fcinfo, share / SIMPLICES_PER_VERTEX, false);
+}
+
+/* abacus_nearest_rows(internal) -> internal, for abacus_nearest: k, its last argument */
+Datum
+abacus_sql_nearest_rows(PG_FUNCTION_ARGS)
+{
+	SupportRequestRows *request = (SupportRequestRows *) PG_GETARG_POINTER(0);
+	Node	   *k;
+
+	if (!IsA(request, SupportRequestRows) || !is_funcclause(request->node))
+		PG_RETURN_POINTER(NULL);
+	k = estimate_expression_value(request->root,
+								  (Node *) llast(((FuncExpr *) request->node)->args));
+	if (!IsA(k, Const))
+		PG_RETURN_POINTER(NULL);
+	request->rows = ((Const *) k)->constisnull ? 0 : Max(1, DatumGetInt32(((Const *) k)->constvalue));
+	PG_RETURN_POINTER(request);
 }

@@ -6,10 +6,9 @@
  */
 #include "postgres.h"
 
-#include <math.h>
-
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/sql/place.h"
 #include "pg/sql/simplex_row.h"
 
 SQL_FUNCTION(abacus_sql_locate);
@@ -26,30 +25,13 @@ Datum
 abacus_sql_locate(PG_FUNCTION_ARGS)
 {
 	double		point[ABACUS_MAX_DIMENSION];
-	bool		finite = true;
 	CachedMesh *cached;
 	Host	   *host;
 	abacus_simplex simplex;
 	abacus_status status;
 
 	cached = mesh_cache_get(PG_GETARG_OID(0));
-	if (PG_NARGS() != 1 + (int) cached->dimension)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("z is %s, but the mesh has dimension %u",
-						cached->dimension == 2 ? "given" : "missing", cached->dimension),
-				 cached->dimension == 2 ? errhint("Leave z out.")
-				 : errhint("Give all three coordinates of the point.")));
-	for (uint32 i = 0; i < cached->dimension; i++)
-	{
-		point[i] = PG_GETARG_FLOAT8(1 + i);
-		if (isnan(point[i]))
-			ereport(ERROR,
-					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-					 errmsg("%c is not a number", "xyz"[i])));
-		finite &= isfinite(point[i]) != 0;
-	}
-	if (!finite)
+	if (!place_arguments(fcinfo, PG_NARGS() - 1, cached->dimension, point))
 		PG_RETURN_NULL();		/* outside of any hull */
 
 	host = cached->host;

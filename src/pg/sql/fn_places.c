@@ -1,22 +1,14 @@
 /*
  * fn_places.c: abacus_locate for the places of a query, many at once.
- *
- * All places are read before the first is located, since they are sorted along the
- * curve. So the rows go into a tuplestore, as those of a function in FROM do anyway.
- * The session's cache is not used: the core looks for all places of a page together,
- * and keeps no page.
  */
 #include "postgres.h"
 
 #include "funcapi.h"
 #include "utils/builtins.h"
 
-#include "abacus/read.h"
-#include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
-#include "pg/input/source.h"
-#include "pg/mesh/reader.h"
+#include "pg/sql/places.h"
 #include "pg/sql/simplex_row.h"
 
 SQL_FUNCTION(abacus_sql_locate_places);
@@ -56,19 +48,6 @@ put_answer(void *context, int64_t id, const abacus_simplex *simplex)
 	return ABACUS_HOST_OK;
 }
 
-/* Reads the places of a query. */
-static void
-read_places(Host *host, Source *source, const abacus_header *header)
-{
-	const uint64 *records;
-	size_t		count;
-
-	source_open_places(source, header);
-	while ((count = source_fetch(source, &records)) > 0)
-		host_run(host, abacus_places_add, host->handle, records, count);
-	source_close(source);
-}
-
 /*
  * abacus_locate(mesh regclass, query text)
  *     -> id, code, v0, v1, v2, v3
@@ -76,28 +55,14 @@ read_places(Host *host, Source *source, const abacus_header *header)
 Datum
 abacus_sql_locate_places(PG_FUNCTION_ARGS)
 {
-	Oid			mesh = PG_GETARG_OID(0);
-	Source		source;
-	Reader	   *reader;
-	Host	   *host;
-	abacus_places *places = NULL;
+	PlacesRead	read;
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
 	InitMaterializedSRF(fcinfo, 0);
-	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	reader = reader_open(mesh, CurrentMemoryContext);
-	answers.host = host = reader->host;
-	answers.dimension = reader->header.dimension;
-
-	progress_begin(&host->progress, mesh);
-	host_run(host, abacus_places_open, &host->table, &reader->header, setting_query_sort_bytes(),
-			 setting_cache_bytes(), &places);
-	host_own(host, places, (void (*) (void *)) abacus_places_close);
-	read_places(host, &source, &reader->header);
-	host_run(host, abacus_places_locate, places, put_answer, &answers);
-	progress_end(&host->progress);
-	host_release(host);
-	host_destroy(host);
-	source_finish(&source);
+	places_read(&read, PG_GETARG_OID(0), text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	answers.host = read.host;
+	answers.dimension = read.dimension;
+	host_run(read.host, abacus_places_locate, read.places, put_answer, &answers);
+	places_done(&read);
 	PG_RETURN_NULL();
 }

@@ -3,9 +3,14 @@
  */
 #include "postgres.h"
 
+#include <math.h>
+
+#include "catalog/pg_type.h"
 #include "funcapi.h"
+#include "utils/array.h"
 #include "utils/builtins.h"
 
+#include "abacus/header.h"
 #include "pg/sql/result.h"
 
 /* Row type of the function's result, blessed, in the current memory context. */
@@ -17,6 +22,46 @@ result_row_type(FunctionCallInfo fcinfo)
 	if (get_call_result_type(fcinfo, NULL, &row_type) != TYPEFUNC_COMPOSITE)
 		elog(ERROR, "function must return a row");
 	return BlessTupleDesc(row_type);
+}
+
+/* Doubles as float8[]; the core's NaN is SQL's NULL. */
+static Datum
+float_array(const double *values, int dimensions, int *counts)
+{
+	int			size = dimensions == 1 ? counts[0] : counts[0] * counts[1];
+	int			lower[2] = {1, 1};
+	Datum	   *elements;
+	bool	   *isnull;
+	Datum		array;
+
+	if (size == 0)
+		return PointerGetDatum(construct_empty_array(FLOAT8OID));
+	elements = palloc(size * sizeof(Datum));
+	isnull = palloc(size * sizeof(bool));
+	for (int i = 0; i < size; i++)
+	{
+		elements[i] = Float8GetDatum(values[i]);
+		isnull[i] = isnan(values[i]) != 0;
+	}
+	array = PointerGetDatum(construct_md_array(elements, isnull, dimensions, counts, lower,
+											   FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
+											   TYPALIGN_DOUBLE));
+	pfree(elements);
+	pfree(isnull);
+	return array;
+}
+
+Datum
+attribute_array(const double *attributes, int count)
+{
+	return float_array(attributes, 1, &count);
+}
+
+/* The same of rows one after the other. */
+Datum
+float_matrix(const double *values, int rows, int columns)
+{
+	return float_array(values, 2, (int[]) {rows, columns});
 }
 
 void

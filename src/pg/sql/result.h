@@ -16,6 +16,8 @@ typedef struct Figures
 } Figures;
 
 extern TupleDesc result_row_type(FunctionCallInfo fcinfo);
+extern Datum attribute_array(const double *attributes, int count);
+extern Datum float_matrix(const double *values, int rows, int columns);
 extern void put_figure(const Figures *figures, const char *name, double value,
 					   const char *description);
 extern double bytes_of(PGFunction size, Oid relid);

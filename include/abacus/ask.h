@@ -1,0 +1,106 @@
+/*
+ * ask.h: a mesh asked what is where: simplices of a window with what their
+ * corners carry, those around a place, those near a simplex.
+ */
+#ifndef ABACUS_ABACUS_ASK_H
+#define ABACUS_ABACUS_ASK_H
+
+#include "abacus/read.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum abacus_window_kind
+{
+	ABACUS_NO_WINDOW = 0,    /* all of the mesh */
+	ABACUS_BOX_WINDOW,       /* from lower to upper */
+	ABACUS_BALL_WINDOW       /* what is at most `radius` from center */
+} abacus_window_kind;
+
+/* A closed part of the plane or of space; all is finite. */
+typedef struct abacus_window
+{
+	abacus_window_kind kind;
+	double lower[ABACUS_MAX_DIMENSION];
+	double upper[ABACUS_MAX_DIMENSION];
+	double center[ABACUS_MAX_DIMENSION];
+	double radius;
+} abacus_window;
+
+/*
+ * The simplices that meet a window, exactly, in the order in which their pages are found; those of
+ * all of the mesh in key order. Those with an edge longer than max_edge are left out, unless it is 0.
+ */
+typedef struct abacus_cells abacus_cells;
+ABACUS_API abacus_status abacus_cells_open(const abacus_host *host, const abacus_header *header,
+										   const abacus_window *window, double max_edge,
+										   abacus_cells **cells, abacus_error *error);
+/*
+ * `values` gets the attributes of the corners, corner by corner: of each all that the mesh has. It
+ * may be NULL.
+ */
+ABACUS_API abacus_status abacus_cells_next(abacus_cells *cells, abacus_simplex *simplex,
+										   double *values, abacus_error *error);
+ABACUS_API void abacus_cells_close(abacus_cells *cells);
+
+/*
+ * The vertices in a window, or the edges that meet one, each once: those equal to a vertex, and
+ * points that wait, are none. Edges longer than max_edge are left out, unless it is 0.
+ */
+typedef struct abacus_faces abacus_faces;
+ABACUS_API abacus_status abacus_faces_open(const abacus_host *host, const abacus_header *header,
+										   const abacus_window *window, int edges, double max_edge,
+										   size_t cache_bytes, abacus_faces **faces,
+										   abacus_error *error);
+/* The values of an attribute that are wanted; ends may be infinite. */
+typedef struct abacus_range
+{
+	uint32_t attribute; /* its number */
+	double least;
+	double greatest;
+} abacus_range;
+/*
+ * Those vertices of the window of which an attribute is within a range. Pages without such a value
+ * are passed over by the heads of their columns.
+ */
+ABACUS_API abacus_status abacus_faces_open_range(const abacus_host *host,
+												 const abacus_header *header,
+												 const abacus_window *window,
+												 const abacus_range *range, size_t cache_bytes,
+												 abacus_faces **faces, abacus_error *error);
+ABACUS_API abacus_status abacus_faces_next_vertex(abacus_faces *faces, abacus_vertex *vertex,
+												  abacus_error *error);
+typedef struct abacus_edge
+{
+	int64_t id[2]; /* the lesser one first */
+	double length;
+} abacus_edge;
+ABACUS_API abacus_status abacus_faces_next_edge(abacus_faces *faces, abacus_edge *edge,
+												abacus_error *error);
+ABACUS_API void abacus_faces_close(abacus_faces *faces);
+
+/* Gets one of several simplices, valid during the call. May fail as a host function may. */
+typedef abacus_host_status (*abacus_simplex_report)(void *context, const abacus_simplex *simplex);
+/*
+ * Reports all simplices that contain the point (`dimension` finite doubles): around a vertex its
+ * star, around an edge or on a facet those that meet there, else one or none.
+ */
+ABACUS_API abacus_status abacus_mesh_star(abacus_mesh *mesh, const double *point,
+										  abacus_simplex_report report, void *context,
+										  abacus_error *error);
+/*
+ * Reports the simplex with this code and these corner ids, and all that can be reached from it
+ * across at most `steps` facets, the nearest first. ABACUS_ERROR (argument) if the mesh has no such
+ * simplex.
+ */
+ABACUS_API abacus_status abacus_mesh_neighbours(abacus_mesh *mesh, uint64_t code,
+												const int64_t *ids, uint32_t steps,
+												abacus_simplex_report report, void *context,
+												abacus_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

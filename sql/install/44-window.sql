@@ -1,0 +1,164 @@
+-- Parts of a mesh.
+
+CREATE FUNCTION abacus_window_rows(internal) RETURNS internal
+AS 'MODULE_PATHNAME', 'abacus_sql_window_rows'
+LANGUAGE C STRICT;
+COMMENT ON FUNCTION abacus_window_rows(internal) IS 'planner support of functions that take a window';
+
+CREATE FUNCTION abacus_simplices(mesh regclass, lower double precision[], upper double precision[])
+RETURNS SETOF abacus_simplex
+AS 'MODULE_PATHNAME', 'abacus_sql_simplices_in_box'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
+COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], double precision[]) IS
+    'the simplices that meet a window, from its least to its greatest corner';
+
+CREATE FUNCTION abacus_simplices(mesh regclass, center double precision[], radius double precision)
+RETURNS SETOF abacus_simplex
+AS 'MODULE_PATHNAME', 'abacus_sql_simplices_in_ball'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
+COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], double precision) IS
+    'the simplices that come at most as near to a center as a radius';
+
+CREATE FUNCTION abacus_cells(
+    mesh regclass,
+    lower double precision[] DEFAULT NULL,
+    upper double precision[] DEFAULT NULL,
+    max_edge double precision DEFAULT NULL,
+    OUT code bigint,
+    OUT v0 bigint,
+    OUT v1 bigint,
+    OUT v2 bigint,
+    OUT v3 bigint,
+    OUT corners double precision[],
+    OUT "values" double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_cells'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
+COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision[], double precision) IS
+    'the simplices of a mesh, or of a window, with the coordinates and attributes of their corners';
+
+CREATE FUNCTION abacus_cells(
+    mesh regclass,
+    center double precision[],
+    radius double precision,
+    max_edge double precision DEFAULT NULL,
+    OUT code bigint,
+    OUT v0 bigint,
+    OUT v1 bigint,
+    OUT v2 bigint,
+    OUT v3 bigint,
+    OUT corners double precision[],
+    OUT "values" double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_cells_in_ball'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
+COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision, double precision) IS
+    'the simplices that come at most as near to a center as a radius, with the coordinates and attributes of their corners';
+
+CREATE FUNCTION abacus_vertices(
+    mesh regclass,
+    lower double precision[],
+    upper double precision[],
+    OUT sequence bigint,
+    OUT id bigint,
+    OUT x double precision,
+    OUT y double precision,
+    OUT z double precision,
+    OUT attributes double precision[],
+    OUT vertex bigint)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_vertices_in_box'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
+COMMENT ON FUNCTION abacus_vertices(regclass, double precision[], double precision[]) IS
+    'the vertices of a mesh in a window, from its least to its greatest corner';
+
+CREATE FUNCTION abacus_vertices(
+    mesh regclass,
+    center double precision[],
+    radius double precision,
+    OUT sequence bigint,
+    OUT id bigint,
+    OUT x double precision,
+    OUT y double precision,
+    OUT z double precision,
+    OUT attributes double precision[],
+    OUT vertex bigint)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_vertices_in_ball'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
+COMMENT ON FUNCTION abacus_vertices(regclass, double precision[], double precision) IS
+    'the vertices of a mesh that are at most as far from a center as a radius';
+
+CREATE FUNCTION abacus_range_rows(internal) RETURNS internal
+AS 'MODULE_PATHNAME', 'abacus_sql_range_rows'
+LANGUAGE C STRICT;
+COMMENT ON FUNCTION abacus_range_rows(internal) IS 'planner support of abacus_vertices with a range';
+
+CREATE FUNCTION abacus_vertices(
+    mesh regclass,
+    attribute text,
+    "least" double precision,
+    "greatest" double precision,
+    lower double precision[] DEFAULT NULL,
+    upper double precision[] DEFAULT NULL,
+    OUT sequence bigint,
+    OUT id bigint,
+    OUT x double precision,
+    OUT y double precision,
+    OUT z double precision,
+    OUT attributes double precision[],
+    OUT vertex bigint)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_vertices_in_range'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_range_rows;
+COMMENT ON FUNCTION abacus_vertices(regclass, text, double precision, double precision, double precision[], double precision[]) IS
+    'the vertices of a mesh, or of a window, of which an attribute is within a range';
+
+CREATE FUNCTION abacus_edges(
+    mesh regclass,
+    lower double precision[] DEFAULT NULL,
+    upper double precision[] DEFAULT NULL,
+    max_edge double precision DEFAULT NULL,
+    OUT v0 bigint,
+    OUT v1 bigint,
+    OUT length double precision)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_edges'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
+COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision[], double precision) IS
+    'the edges of a mesh, or those that meet a window, each once';
+
+CREATE FUNCTION abacus_edges(
+    mesh regclass,
+    center double precision[],
+    radius double precision,
+    max_edge double precision DEFAULT NULL,
+    OUT v0 bigint,
+    OUT v1 bigint,
+    OUT length double precision)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_edges_in_ball'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
+COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision, double precision) IS
+    'the edges that come at most as near to a center as a radius, each once';
+
+CREATE FUNCTION abacus_star(mesh regclass, x double precision, y double precision)
+RETURNS SETOF abacus_simplex
+AS 'MODULE_PATHNAME', 'abacus_sql_star'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 6;
+COMMENT ON FUNCTION abacus_star(regclass, double precision, double precision) IS
+    'all triangles of a mesh of dimension 2 around a vertex, or around any place';
+
+CREATE FUNCTION abacus_star(mesh regclass, x double precision, y double precision, z double precision)
+RETURNS SETOF abacus_simplex
+AS 'MODULE_PATHNAME', 'abacus_sql_star'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 24;
+COMMENT ON FUNCTION abacus_star(regclass, double precision, double precision, double precision) IS
+    'all tetrahedra of a mesh of dimension 3 around a vertex, or around any place';
+
+CREATE FUNCTION abacus_neighbours(mesh regclass, simplex abacus_simplex, steps integer)
+RETURNS SETOF abacus_simplex
+AS 'MODULE_PATHNAME', 'abacus_sql_neighbours'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 20;
+COMMENT ON FUNCTION abacus_neighbours(regclass, abacus_simplex, integer) IS
+    'a simplex and all that can be reached from it across so many facets, the nearest first';

@@ -1,0 +1,52 @@
+// The simplices of a window behind the C interface.
+#include "query/cell_scan.hpp"
+
+#include "capi/dimension.hpp"
+#include "capi/guard.hpp"
+#include "capi/handle.hpp"
+
+#include <abacus/ask.h>
+#include <numeric>
+
+struct abacus_cells {
+    abacus_cells(const abacus_host *table, const abacus_header &header, const abacus_window &window,
+                 double max_edge)
+        : host(*table), values(all.data(), header.attributes),
+          cells(host, header, window, max_edge) {}
+
+    static constexpr std::array<std::uint32_t, ABACUS_MAX_ATTRIBUTES> all = [] {
+        std::array<std::uint32_t, ABACUS_MAX_ATTRIBUTES> numbers;
+        std::iota(numbers.begin(), numbers.end(), 0u);
+        return numbers;
+    }();
+
+    const abacus::Host host;
+    abacus::CornerValues values;
+    abacus::ByDimension<abacus::CellScan> cells;
+};
+
+abacus_status abacus_cells_open(const abacus_host *host, const abacus_header *header,
+                                const abacus_window *window, double max_edge, abacus_cells **cells,
+                                abacus_error *error) {
+    return abacus::guard(error, [&] {
+        *cells = abacus::create_handle<abacus_cells>(host, *header, *window, max_edge);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_cells_next(abacus_cells *cells, abacus_simplex *simplex, double *values,
+                                abacus_error *error) {
+    return abacus::guard(error, [&] {
+        return cells->cells.visit([&]<int D>(abacus::CellScan<D> &scan) {
+            abacus::CornerValues *const wanted = values == nullptr ? nullptr : &cells->values;
+            if (!scan.next(*simplex, wanted)) return ABACUS_END;
+            if (wanted != nullptr)
+                for (int i = 0; i <= D; ++i)
+                    for (std::size_t n = 0; n < wanted->count(); ++n)
+                        *values++ = wanted->value(i, n);
+            return ABACUS_OK;
+        });
+    });
+}
+
+void abacus_cells_close(abacus_cells *cells) { abacus::destroy_handle(cells); }

@@ -1,0 +1,77 @@
+// Vertices and edges of a window behind the C interface.
+#include "query/face_scan.hpp"
+
+#include "capi/dimension.hpp"
+#include "capi/guard.hpp"
+#include "capi/handle.hpp"
+
+#include <abacus/ask.h>
+#include <algorithm>
+
+struct abacus_faces {
+    abacus_faces(const abacus_host *table, const abacus_header &header, const abacus_window &window,
+                 int corners, double max_edge, std::size_t cache_bytes)
+        : host(*table), faces(host, header, window, corners, max_edge, cache_bytes) {}
+
+    abacus_faces(const abacus_host *table, const abacus_header &header, const abacus_window &window,
+                 const abacus_range &range, std::size_t cache_bytes)
+        : host(*table), faces(host, header, window, range, cache_bytes) {}
+
+    const abacus::Host host;
+    abacus::ByDimension<abacus::FaceScan> faces;
+    double attributes[ABACUS_MAX_ATTRIBUTES]; // of the vertex handed out last
+};
+
+abacus_status abacus_faces_open(const abacus_host *host, const abacus_header *header,
+                                const abacus_window *window, int edges, double max_edge,
+                                std::size_t cache_bytes, abacus_faces **faces,
+                                abacus_error *error) {
+    return abacus::guard(error, [&] {
+        *faces = abacus::create_handle<abacus_faces>(host, *header, *window, edges != 0 ? 2 : 1,
+                                                     max_edge, cache_bytes);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_faces_open_range(const abacus_host *host, const abacus_header *header,
+                                      const abacus_window *window, const abacus_range *range,
+                                      std::size_t cache_bytes, abacus_faces **faces,
+                                      abacus_error *error) {
+    return abacus::guard(error, [&] {
+        *faces = abacus::create_handle<abacus_faces>(host, *header, *window, *range, cache_bytes);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_faces_next_vertex(abacus_faces *faces, abacus_vertex *vertex,
+                                       abacus_error *error) {
+    return abacus::guard(error, [&] {
+        return faces->faces.visit([&](auto &scan) {
+            if (!scan.advance()) return ABACUS_END;
+            const auto &page = scan.page();
+            const int v = scan.vertex(0);
+            *vertex = {};
+            vertex->id = vertex->vertex = page.id(v);
+            std::copy(page.point(v).begin(), page.point(v).end(), vertex->point);
+            for (int i = 0; i < page.attributes(); ++i) faces->attributes[i] = page.attribute(v, i);
+            vertex->attributes = faces->attributes;
+            return ABACUS_OK;
+        });
+    });
+}
+
+abacus_status abacus_faces_next_edge(abacus_faces *faces, abacus_edge *edge, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        return faces->faces.visit([&]<int D>(abacus::FaceScan<D> &scan) {
+            if (!scan.advance()) return ABACUS_END;
+            const auto &page = scan.page();
+            const int a = scan.vertex(0), b = scan.vertex(1);
+            edge->id[0] = std::min(page.id(a), page.id(b));
+            edge->id[1] = std::max(page.id(a), page.id(b));
+            edge->length = abacus::distance<D>(page.point(a), page.point(b));
+            return ABACUS_OK;
+        });
+    });
+}
+
+void abacus_faces_close(abacus_faces *faces) { abacus::destroy_handle(faces); }

@@ -1,0 +1,26 @@
+#include "geometry/distance.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+namespace abacus::exact {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+Kernel::Point_2 cgal(const Point<2> &p) { return {p[0], p[1]}; }
+Kernel::Point_3 cgal(const Point<3> &p) { return {p[0], p[1], p[2]}; }
+
+} // namespace
+
+template <int D> int compare_distance(const Point<D> &p, const Point<D> &a, const Point<D> &b) {
+    if constexpr (D == 2)
+        return Kernel().compare_distance_2_object()(cgal(p), cgal(a), cgal(b));
+    else
+        return Kernel().compare_distance_3_object()(cgal(p), cgal(a), cgal(b));
+}
+
+template int compare_distance<2>(const Point<2> &, const Point<2> &, const Point<2> &);
+template int compare_distance<3>(const Point<3> &, const Point<3> &, const Point<3> &);
+
+} // namespace abacus::exact

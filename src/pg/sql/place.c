@@ -1,0 +1,47 @@
+/*
+ * place.c: a place given as x, y and, in space, z behind the mesh.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "pg/sql/place.h"
+
+/*
+ * Reads the `given` coordinates behind the first argument. False if one is
+ * infinite; NaN is an error.
+ */
+bool
+place_arguments(FunctionCallInfo fcinfo, int given, uint32 dimension, double *point)
+{
+	bool		finite = true;
+
+	if (given != (int) dimension)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("z is %s, but the mesh has dimension %u",
+						dimension == 2 ? "given" : "missing", dimension),
+				 dimension == 2 ? errhint("Leave z out.")
+				 : errhint("Give all three coordinates of the point.")));
+	for (uint32 i = 0; i < dimension; i++)
+	{
+		point[i] = PG_GETARG_FLOAT8(1 + i);
+		if (isnan(point[i]))
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("%c is not a number", "xyz"[i])));
+		finite &= isfinite(point[i]) != 0;
+	}
+	return finite;
+}
+
+/* The same where an infinite coordinate is an error, too. */
+void
+place_arguments_finite(FunctionCallInfo fcinfo, int given, uint32 dimension, double *point)
+{
+	if (!place_arguments(fcinfo, given, dimension, point))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("a coordinate of the place is infinite"),
+				 errhint("Give finite coordinates.")));
+}

@@ -1,0 +1,13 @@
+/*
+ * place.h: a place given as x, y and, in space, z behind the mesh.
+ */
+#ifndef ABACUS_PLACE_H
+#define ABACUS_PLACE_H
+
+#include "fmgr.h"
+
+extern bool place_arguments(FunctionCallInfo fcinfo, int given, uint32 dimension, double *point);
+extern void place_arguments_finite(FunctionCallInfo fcinfo, int given, uint32 dimension,
+								   double *point);
+
+#endif

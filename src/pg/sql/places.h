@@ -1,0 +1,24 @@
+/*
+ * places.h: the places of a query, read for a function that answers all of
+ * them.
+ */
+#ifndef ABACUS_PLACES_H
+#define ABACUS_PLACES_H
+
+#include "abacus/read.h"
+#include "pg/input/source.h"
+#include "pg/mesh/reader.h"
+
+/* Made by places_read(); what is asked at each place the caller asks the core. */
+typedef struct PlacesRead
+{
+	Source		source;
+	Host	   *host;
+	uint32		dimension;
+	abacus_places *places;
+} PlacesRead;
+
+extern void places_read(PlacesRead *read, Oid mesh, const char *query);
+extern void places_done(PlacesRead *read);
+
+#endif

@@ -1,0 +1,24 @@
+/*
+ * set.c: functions that return the rows of a mesh one by one.
+ *
+ * Between calls only the core's scan is kept, which holds a few decoded pages
+ * in memory and nothing of PostgreSQL; so a query that stops early (LIMIT, a
+ * closed cursor) leaves nothing behind.
+ */
+#include "postgres.h"
+
+#include "pg/sql/set.h"
+
+/* First call of a set: opens the mesh, its first argument, for the calls that follow. */
+Reader *
+set_begin(FunctionCallInfo fcinfo, FuncCallContext *set,
+		  TupleDesc (*row_type) (FunctionCallInfo fcinfo))
+{
+	MemoryContext old = MemoryContextSwitchTo(set->multi_call_memory_ctx);
+	Reader	   *reader = reader_open(PG_GETARG_OID(0), set->multi_call_memory_ctx);
+
+	set->tuple_desc = row_type(fcinfo);
+	set->user_fctx = reader;
+	MemoryContextSwitchTo(old);
+	return reader;
+}

@@ -1,0 +1,13 @@
+/*
+ * set.h: functions that return the rows of a mesh one by one.
+ */
+#ifndef ABACUS_SET_H
+#define ABACUS_SET_H
+
+#include "funcapi.h"
+#include "pg/mesh/reader.h"
+
+extern Reader *set_begin(FunctionCallInfo fcinfo, FuncCallContext *set,
+						 TupleDesc (*row_type) (FunctionCallInfo fcinfo));
+
+#endif

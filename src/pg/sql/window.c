@@ -1,0 +1,93 @@
+/*
+ * window.c: the part of a mesh that a call is about: a box, which may be flat,
+ * or a ball.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "pg/mesh/shape.h"
+#include "pg/sql/window.h"
+
+/* A closed box; all of the mesh if neither corner is given. */
+static void
+window_of_box(const abacus_header *header, ArrayType *lower, ArrayType *upper,
+			  abacus_window *window)
+{
+	window->kind = ABACUS_NO_WINDOW;
+	if (lower == NULL && upper == NULL)
+		return;
+	if (lower == NULL || upper == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("lower and upper must be given together"),
+				 errhint("Leave both out for all of the mesh.")));
+	window->kind = ABACUS_BOX_WINDOW;
+	shape_point(header, lower, "lower", window->lower);
+	shape_point(header, upper, "upper", window->upper);
+	for (uint32 i = 0; i < header->dimension; i++)
+		if (!isfinite(window->lower[i]) || !isfinite(window->upper[i]) ||
+			window->lower[i] > window->upper[i])
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("lower must not be greater than upper, and both finite, on axis %c",
+							"xyz"[i]),
+					 errhint("lower is the corner of the window with the least coordinates.")));
+}
+
+/* A closed ball. */
+static void
+window_of_ball(const abacus_header *header, ArrayType *center, double radius,
+			   abacus_window *window)
+{
+	window->kind = ABACUS_BALL_WINDOW;
+	shape_point(header, center, "center", window->center);
+	window->radius = radius;
+	for (uint32 i = 0; i < header->dimension; i++)
+		if (!isfinite(window->center[i]))
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("center must be finite on axis %c", "xyz"[i]),
+					 errhint("Give finite coordinates.")));
+	if (!isfinite(radius) || radius < 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("radius must be a finite number, at least 0"),
+				 errhint("Of radius 0 is the center alone.")));
+}
+
+static ArrayType *
+array(FunctionCallInfo fcinfo, int argument)
+{
+	return PG_ARGISNULL(argument) ? NULL : PG_GETARG_ARRAYTYPE_P(argument);
+}
+
+/* The window of a call: the first of two arguments. */
+void
+window_arguments(FunctionCallInfo fcinfo, int first, WindowForm form,
+				 const abacus_header *header, abacus_window *window)
+{
+	if (form == WINDOW_BOX)
+		window_of_box(header, array(fcinfo, first), array(fcinfo, first + 1), window);
+	else if (PG_ARGISNULL(first) || PG_ARGISNULL(first + 1))
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("center and radius must not be NULL"),
+				 errhint("Leave both out for all of the mesh.")));
+	else
+		window_of_ball(header, array(fcinfo, first), PG_GETARG_FLOAT8(first + 1), window);
+}
+
+/* The longest edge that is wanted, or that simplices may have; 0 if any may be. */
+double
+window_max_edge(FunctionCallInfo fcinfo, int argument)
+{
+	double		value = PG_ARGISNULL(argument) ? 0 : PG_GETARG_FLOAT8(argument);
+
+	if (!isfinite(value) || value < 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("max_edge must be a finite number, at least 0"),
+				 errhint("Leave it out, or give 0, for edges of any length.")));
+	return value;
+}
