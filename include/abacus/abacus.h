@@ -9,7 +9,7 @@
  *   abacus_build   staged points in, simplex pages out              (§4.12.3-5)
  *   abacus_load    vertices and simplices made elsewhere in, simplex pages out
  *   abacus_mesh    locate and walk over stored pages                (§4.11.3)
- *   abacus_places  locate many places at once
+ *   abacus_places  locate many places at once; both also interpolate (interpolate.h)
  *   abacus_scan, abacus_vertex_scan, abacus_check, abacus_draw      whole-mesh readers
  *
  * Errors travel by return value only. A host function that fails returns
@@ -31,6 +31,7 @@
 #include "abacus/goose.h"
 #include "abacus/header.h"
 #include "abacus/host.h"
+#include "abacus/interpolate.h"
 #include "abacus/quake.h"
 #include "abacus/read.h"
 

@@ -1,19 +1,22 @@
-// Locating and walking behind the C interface.
-#include "query/reader.hpp"
+// Locating, walking and interpolating behind the C interface.
+#include "query/gradient.hpp"
+#include "query/interpolation.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
 #include "capi/nearest.hpp"
 
 #include <abacus/ask.h>
+#include <abacus/interpolate.h>
 #include <cmath>
 
 struct abacus_mesh {
     abacus_mesh(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
-        : host(*table), reader(host, header, cache_bytes) {}
+        : host(*table), reader(host, header, cache_bytes), interpolation(host, header) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::Reader> reader;
+    abacus::ByDimension<abacus::Interpolation> interpolation;
 };
 
 namespace {
@@ -26,6 +29,17 @@ template <int D> abacus::Point<D> finite_point(const double *point) {
         p[i] = point[i] + 0.0; // -0.0 is +0.0
     }
     return p;
+}
+
+/// Calls answer(reader, point), which tells whether there is one.
+template <class Answer>
+abacus_status answer_at(abacus_mesh *mesh, const double *point, abacus_error *error,
+                        Answer answer) {
+    return abacus::guard(error, [&] {
+        return mesh->reader.visit([&]<int D>(abacus::Reader<D> &reader) {
+            return answer(reader, finite_point<D>(point)) ? ABACUS_OK : ABACUS_END;
+        });
+    });
 }
 
 } // namespace
@@ -42,10 +56,33 @@ void abacus_mesh_close(abacus_mesh *mesh) { abacus::destroy_handle(mesh); }
 
 abacus_status abacus_mesh_locate(abacus_mesh *mesh, const double *point, abacus_simplex *simplex,
                                  abacus_error *error) {
-    return abacus::guard(error, [&] {
-        return mesh->reader.visit([&]<int D>(abacus::Reader<D> &reader) {
-            return reader.locate(finite_point<D>(point), *simplex) ? ABACUS_OK : ABACUS_END;
-        });
+    return answer_at(mesh, point, error,
+                     [&](auto &reader, const auto &p) { return reader.locate(p, *simplex); });
+}
+
+abacus_status abacus_mesh_interpolate(abacus_mesh *mesh, const abacus_interpolation *interpolation,
+                                      const double *point, double *values, abacus_error *error) {
+    return answer_at(mesh, point, error, [&]<int D>(abacus::Reader<D> &reader, const auto &p) {
+        return mesh->interpolation.get<D>().values(reader, *interpolation, p, values);
+    });
+}
+
+abacus_status abacus_mesh_weigh(abacus_mesh *mesh, const abacus_interpolation *interpolation,
+                                const double *point, const abacus_weight **weights, size_t *count,
+                                abacus_error *error) {
+    return answer_at(mesh, point, error, [&]<int D>(abacus::Reader<D> &reader, const auto &p) {
+        auto &found = mesh->interpolation.get<D>();
+        if (!found.weigh(reader, *interpolation, p)) return false;
+        *weights = found.weights().data();
+        *count = found.weights().size();
+        return true;
+    });
+}
+
+abacus_status abacus_mesh_gradient(abacus_mesh *mesh, const abacus_interpolation *interpolation,
+                                   const double *point, double *gradient, abacus_error *error) {
+    return answer_at(mesh, point, error, [&]<int D>(abacus::Reader<D> &reader, const auto &p) {
+        return abacus::gradient_at<D>(reader, *interpolation, p, gradient);
     });
 }
 

@@ -1,11 +1,12 @@
 // Many places behind the C interface.
 #include "query/places.hpp"
+#include "query/interpolation.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
 #include "capi/nearest.hpp"
 
-#include <abacus/read.h>
+#include <abacus/interpolate.h>
 
 struct abacus_places {
     abacus_places(const abacus_host *table, const abacus_header &header, std::size_t memory,
@@ -37,6 +38,33 @@ abacus_status abacus_places_locate(abacus_places *places, abacus_place_report re
         all.each([&](auto &reader, std::int64_t id, const auto &place) {
             const bool is_inside = reader.locate(place, simplex);
             abacus::host::require(report(context, id, is_inside ? &simplex : nullptr));
+        });
+    });
+}
+
+abacus_status abacus_places_interpolate(abacus_places *places,
+                                        const abacus_interpolation *interpolation,
+                                        abacus_values_report report, void *context,
+                                        abacus_error *error) {
+    return abacus::dispatch(places->places, error, [&]<int D>(abacus::Places<D> &all) {
+        abacus::Interpolation<D> found(places->host);
+        std::array<double, ABACUS_MAX_ATTRIBUTES> values;
+        all.each([&](auto &reader, std::int64_t id, const auto &place) {
+            const bool is_inside = found.values(reader, *interpolation, place, values.data());
+            abacus::host::require(report(context, id, is_inside ? values.data() : nullptr));
+        });
+    });
+}
+
+abacus_status abacus_places_weigh(abacus_places *places, const abacus_interpolation *interpolation,
+                                  abacus_weights_report report, void *context,
+                                  abacus_error *error) {
+    return abacus::dispatch(places->places, error, [&]<int D>(abacus::Places<D> &all) {
+        abacus::Interpolation<D> found(places->host);
+        all.each([&](auto &reader, std::int64_t id, const auto &place) {
+            const bool is_inside = found.weigh(reader, *interpolation, place);
+            abacus::host::require(report(context, id, found.weights().data(),
+                                         is_inside ? found.weights().size() : 0));
         });
     });
 }

@@ -41,7 +41,7 @@ std::array<double, D + 1> barycentric_weights(const abacus_simplex &simplex, con
             const int a = (i + 1) % 4, b = (i + 2) % 4, c = (i + 3) % 4;
             const double volume = seen[a][0] * cross(b, c, 1, 2) - seen[a][1] * cross(b, c, 0, 2) +
                                   seen[a][2] * cross(b, c, 0, 1);
-            weights[i] = i % 2 == 0 ? -volume : volume;
+            weights[i] = i % 2 == 0 ? volume : -volume;
         }
         weights[i] = std::max(weights[i], 0.0); // what is not is rounding
         sum += weights[i];

@@ -1,6 +1,7 @@
 #include "query/portrait.hpp"
 
 #include "draw/section.hpp"
+#include "geometry/longer_edge.hpp"
 #include "query/range_scan.hpp"
 
 #include <array>
@@ -9,11 +10,6 @@
 namespace abacus {
 
 namespace {
-
-double length(const Point<2> &a, const Point<2> &b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
-double length(const Point<3> &a, const Point<3> &b) {
-    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
 
 /// What both views know of a simplex.
 template <int D> class MeshView {
@@ -29,13 +25,9 @@ protected:
     }
     /// Whether the drawing leaves out the simplex with these first `n` corners.
     bool is_too_long(const PageView<D> &page, int simplex, int n) const {
-        if (!(max_edge_ > 0)) return false;
-        for (int i = 0; i < n; ++i)
-            for (int j = 0; j < i; ++j)
-                if (length(page.point(page.corner(simplex, i)),
-                           page.point(page.corner(simplex, j))) > max_edge_)
-                    return true;
-        return false;
+        return max_edge_ > 0 && has_longer_edge<D>(n, max_edge_, [&](int i) -> const Point<D> & {
+                   return page.point(page.corner(simplex, i));
+               });
     }
 
 private:

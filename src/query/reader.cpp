@@ -1,5 +1,6 @@
 #include "query/reader.hpp"
 
+#include "geometry/longer_edge.hpp"
 #include "host/memory.hpp"
 #include "keys/domain_of.hpp"
 #include "points/record.hpp"
@@ -15,6 +16,21 @@ namespace {
 CacheOptions linked_as(const abacus_header &header, CacheOptions options) {
     options.linked_ghosts = header.not_delaunay == 0;
     return options;
+}
+
+template <int D> bool is_too_long(const abacus_simplex &simplex, double max_edge) {
+    return max_edge != no_max_edge && has_longer_edge<D>(D + 1, max_edge, [&](int i) {
+               Point<D> p;
+               std::copy_n(simplex.corner[i], D, p.begin());
+               return p;
+           });
+}
+
+/// Of two simplices that contain a place, whether `a` is the answer: one that is too long is not.
+template <int D>
+bool is_preferred(const abacus_simplex &a, const abacus_simplex &b, double max_edge) {
+    const bool a_long = is_too_long<D>(a, max_edge), b_long = is_too_long<D>(b, max_edge);
+    return a_long != b_long ? b_long : comes_before<D>(a, b);
 }
 
 template <int D> [[noreturn]] void throw_no_such_simplex() {
@@ -129,7 +145,8 @@ template <int D> std::uint64_t Reader<D>::pages_with(const std::uint64_t *vertex
 }
 
 template <int D>
-bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values) {
+bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values,
+                             double max_edge) {
     if (!search_) {
         search_.emplace(cache_.host(), cache_.vertices().attribute_count(), budget_ / 4);
         cache_.set_budget(budget_ - std::min(budget_, search_->bytes()));
@@ -140,13 +157,13 @@ bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex, CornerV
         return search_->around(page, p, [&](const PageView<D> &view, int number, int position) {
             abacus_simplex other;
             abacus::describe(view, number, cache_.domain(), other);
-            if (!found || comes_before<D>(other, simplex))
+            if (!found || is_preferred<D>(other, simplex, max_edge))
                 abacus::describe(view, number, cache_.domain(), simplex, values);
             found = true;
             if (position > 0) is_search_ = false;
         });
     });
-    return found;
+    return found && !is_too_long<D>(simplex, max_edge);
 }
 
 // ---- All meshes ------------------------------------------------------------------------
@@ -168,24 +185,25 @@ void Reader<D>::describe(Handle h, abacus_simplex &simplex, CornerValues *values
 }
 
 template <int D>
-bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex, CornerValues *values) {
+bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex, CornerValues *values,
+                       double max_edge) {
     if (!delaunay_) {
         // Of a cache that is full a walk needs pages that are evicted; a search keeps others.
         const bool is_walk = !is_search_ && cache_.counters.evictions == 0;
         const Handle inside = is_walk ? walk_to_inside(p) : no_handle;
-        if (inside == no_handle) return search_first(p, simplex, values);
+        if (inside == no_handle) return search_first(p, simplex, values, max_edge);
         describe(inside, simplex, values);
-        return true;
+        return !is_too_long<D>(simplex, max_edge);
     }
     std::uint64_t code = cache_.domain().code(p);
-    if (glance(p, code, simplex, values)) return true;
+    if (glance(p, code, simplex, values)) return !is_too_long<D>(simplex, max_edge);
     const Handle h = find(p, code);
     const bool is_inside = h != no_handle && !cache_.simplex(h).is_ghost();
     is_no_glance_ = !is_inside || walk_.ends_on_facet();
     if (!is_inside) return false;
     describe(h, simplex, values);
-    if (walk_.ends_on_facet()) first_around(p, h, simplex, values);
-    return true;
+    if (walk_.ends_on_facet()) first_around(p, h, simplex, values, max_edge);
+    return !is_too_long<D>(simplex, max_edge);
 }
 
 template <int D>
@@ -210,11 +228,11 @@ bool Reader<D>::glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &s
 
 template <int D>
 void Reader<D>::first_around(const Point<D> &p, Handle h, abacus_simplex &simplex,
-                             CornerValues *values) {
+                             CornerValues *values, double max_edge) {
     flood_around(p, h, [&](Handle met) {
         abacus_simplex other;
         describe(met, other);
-        if (comes_before<D>(other, simplex)) describe(met, simplex, values);
+        if (is_preferred<D>(other, simplex, max_edge)) describe(met, simplex, values);
     });
 }
 

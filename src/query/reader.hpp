@@ -18,9 +18,12 @@
 
 #include <abacus/read.h>
 #include <functional>
+#include <limits>
 #include <optional>
 
 namespace abacus {
+
+inline constexpr double no_max_edge = std::numeric_limits<double>::infinity();
 
 template <int D> class Reader {
 public:
@@ -32,8 +35,10 @@ public:
            bool in_order = false);
 
     /// The simplex that contains p; of several, the first by comes_before(). False
-    /// outside the hull. `values` gets what its corners carry.
-    bool locate(const Point<D> &p, abacus_simplex &simplex, CornerValues *values = nullptr);
+    /// outside the hull. `values` gets what its corners carry. Simplices with an edge longer than
+    /// `max_edge` count as outside.
+    bool locate(const Point<D> &p, abacus_simplex &simplex, CornerValues *values = nullptr,
+                double max_edge = no_max_edge);
     /// The neighbour across facet `facet` of the simplex with this code and these ids.
     /// False at the hull; throws an Error (argument) if there is no such simplex, or several,
     /// as there may be where points have equal ids.
@@ -110,7 +115,8 @@ private:
     /// As in_simplex(); every point is outside of a ghost.
     int position(Handle h, const Point<D> &p) const;
     /// The first of all simplices that contain p, of those in the pages themselves.
-    bool search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values);
+    bool search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values,
+                      double max_edge);
     void describe(Handle h, abacus_simplex &simplex, CornerValues *values = nullptr) const;
     /// The simplex with this code and these ids; throws as walk() does.
     Handle named(std::uint64_t code, const std::int64_t *ids);
@@ -121,7 +127,8 @@ private:
     /// Calls visit(handle) for all finite simplices around a point that h contains.
     template <class Visit> void flood_around(const Point<D> &p, Handle h, Visit visit);
     /// The first of all simplices around a point on a facet of h, which `simplex` describes.
-    void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex, CornerValues *values);
+    void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex, CornerValues *values,
+                      double max_edge);
 
     const abacus_header header_;
     std::uint64_t size_; // simplices and ghosts

@@ -83,6 +83,16 @@ public:
     abacus_status walk(const abacus_simplex &from, int facet, abacus_simplex &simplex) {
         return abacus_mesh_walk(handle_, from.code, from.id, facet, &simplex, &error);
     }
+    abacus_status interpolate(const abacus_interpolation &how, const Point<D> &p, double *values) {
+        return abacus_mesh_interpolate(handle_, &how, p.data(), values, &error);
+    }
+    abacus_status weigh(const abacus_interpolation &how, const Point<D> &p,
+                        const abacus_weight *&weights, std::size_t &count) {
+        return abacus_mesh_weigh(handle_, &how, p.data(), &weights, &count, &error);
+    }
+    abacus_status gradient(const abacus_interpolation &how, const Point<D> &p, double *gradient) {
+        return abacus_mesh_gradient(handle_, &how, p.data(), gradient, &error);
+    }
     abacus_counters counters() const;
 
     abacus_error error{};

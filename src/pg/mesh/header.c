@@ -185,3 +185,29 @@ header_find_attribute(const abacus_header *header, const char *name)
 				 : errdetail("Its attributes are %s.", list_attributes(header))));
 	return number;
 }
+
+/* An error if there are none. */
+void
+header_require_attributes(const abacus_header *header)
+{
+	if (header->attributes == 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("mesh has no attributes"),
+				 errhint("Columns that follow the coordinates in the query of abacus_triangulate() "
+						 "become attributes.")));
+}
+
+/* Number of the one attribute, where no name is given. */
+int
+header_only_attribute(const abacus_header *header)
+{
+	header_require_attributes(header);
+	if (header->attributes > 1)
+		ereport(ERROR,
+				(errcode(ERRCODE_AMBIGUOUS_COLUMN),
+				 errmsg("mesh has %u attributes", header->attributes),
+				 errdetail("Its attributes are %s.", list_attributes(header)),
+				 errhint("Say which one with the argument attribute.")));
+	return 0;
+}

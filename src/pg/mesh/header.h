@@ -21,5 +21,7 @@ extern void header_update(Host *host, abacus_header *header, ItemPointer tid);
 
 extern int	header_attribute(const abacus_header *header, const char *name);
 extern int	header_find_attribute(const abacus_header *header, const char *name);
+extern void header_require_attributes(const abacus_header *header);
+extern int	header_only_attribute(const abacus_header *header);
 
 #endif

@@ -166,7 +166,7 @@ open_mesh(Entry *entry, const abacus_header *header)
 	host_own(host, mesh, (void (*) (void *)) abacus_mesh_close);
 	entry->cached.mesh = mesh;
 	entry->cached.dimension = header->dimension;
-	entry->cached.attributes = header->attributes;
+	entry->cached.header = *header;
 }
 
 /* Makes the entry for `relid` valid under the active snapshot. */

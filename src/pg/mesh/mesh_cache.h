@@ -12,7 +12,7 @@ typedef struct CachedMesh
 	Host	   *host;
 	abacus_mesh *mesh;			/* NULL while being opened */
 	uint32		dimension;
-	uint32		attributes;
+	abacus_header header;		/* as the mesh was when it was opened */
 } CachedMesh;
 
 extern CachedMesh *mesh_cache_get(Oid relid);

@@ -108,7 +108,7 @@ abacus_sql_nearest(PG_FUNCTION_ARGS)
 	place_arguments_finite(fcinfo, given, cached->dimension, point);
 	answers.host = cached->host;
 	answers.dimension = cached->dimension;
-	answers.attributes = cached->attributes;
+	answers.attributes = cached->header.attributes;
 	host_run(answers.host, abacus_mesh_nearest, cached->mesh, point, k, put_near, &answers);
 	host_release(answers.host);
 	PG_RETURN_NULL();

@@ -12,29 +12,43 @@
 #include "pg/base/settings.h"
 #include "pg/sql/places.h"
 
-/* Opens the mesh and reads the places; shows as progress until places_done(). */
+/* Opens the mesh; shows as progress until places_done(). */
 void
-places_read(PlacesRead *read, Oid mesh, const char *query)
+places_open(PlacesRead *read, Oid mesh, const char *query)
 {
 	Reader	   *reader;
-	Host	   *host;
-	const uint64 *records;
-	size_t		count;
 
 	source_prepare(&read->source, query);
 	reader = reader_open(mesh, CurrentMemoryContext);
-	read->host = host = reader->host;
+	read->host = reader->host;
 	read->dimension = reader->header.dimension;
+	read->header = &reader->header;
 	read->places = NULL;
+	progress_begin(&read->host->progress, mesh);
+}
 
-	progress_begin(&host->progress, mesh);
-	host_run(host, abacus_places_open, &host->table, &reader->header, setting_query_sort_bytes(),
+/* Reads the places. */
+void
+places_fetch(PlacesRead *read)
+{
+	Host	   *host = read->host;
+	const uint64 *records;
+	size_t		count;
+
+	host_run(host, abacus_places_open, &host->table, read->header, setting_query_sort_bytes(),
 			 setting_cache_bytes(), &read->places);
 	host_own(host, read->places, (void (*) (void *)) abacus_places_close);
-	source_open_places(&read->source, &reader->header);
+	source_open_places(&read->source, read->header);
 	while ((count = source_fetch(&read->source, &records)) > 0)
 		host_run(host, abacus_places_add, read->places, records, count);
 	source_close(&read->source);
+}
+
+void
+places_read(PlacesRead *read, Oid mesh, const char *query)
+{
+	places_open(read, mesh, query);
+	places_fetch(read);
 }
 
 /* Ends the reading. */

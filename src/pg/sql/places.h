@@ -9,15 +9,21 @@
 #include "pg/input/source.h"
 #include "pg/mesh/reader.h"
 
-/* Made by places_read(); what is asked at each place the caller asks the core. */
+/*
+ * Made by places_read(), or by places_open() and places_fetch() where arguments depend on the
+ * mesh; what is asked at each place the caller asks the core.
+ */
 typedef struct PlacesRead
 {
 	Source		source;
 	Host	   *host;
 	uint32		dimension;
+	const abacus_header *header;
 	abacus_places *places;
 } PlacesRead;
 
+extern void places_open(PlacesRead *read, Oid mesh, const char *query);
+extern void places_fetch(PlacesRead *read);
 extern void places_read(PlacesRead *read, Oid mesh, const char *query);
 extern void places_done(PlacesRead *read);
 

@@ -1,0 +1,114 @@
+/*
+ * interpolation.c: the optional arguments of functions that interpolate.
+ *
+ * NULL is as good as an argument left out. Functions of one place are called
+ * for every row, so words are compared where they lie.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "utils/builtins.h"
+
+#include "pg/mesh/header.h"
+#include "pg/mesh/shape.h"
+#include "pg/sql/interpolation.h"
+
+/* By the numbers of the core */
+static const char *const methods[] = {"linear", "natural", "nearest", NULL};
+static const char *const outsides[] = {"null", "nearest", NULL};
+
+/* Whether the mesh, or one of so many arguments that say where, is NULL: then there is no answer. */
+bool
+interpolation_of_null(FunctionCallInfo fcinfo, int given)
+{
+	for (int i = 0; i <= given; i++)
+		if (PG_ARGISNULL(i))
+			return true;
+	return false;
+}
+
+/* Number of the word that an argument is; of the first one if it is NULL. */
+static int
+word(FunctionCallInfo fcinfo, int argument, const char *const *words, const char *name,
+	 const char *hint)
+{
+	text	   *given;
+
+	if (PG_ARGISNULL(argument))
+		return 0;
+	given = PG_GETARG_TEXT_PP(argument);
+	for (int i = 0; words[i] != NULL; i++)
+		if (strlen(words[i]) == VARSIZE_ANY_EXHDR(given) &&
+			memcmp(words[i], VARDATA_ANY(given), VARSIZE_ANY_EXHDR(given)) == 0)
+			return i;
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("%s \"%s\" is not known", name, text_to_cstring(given)),
+			 errhint("%s", hint)));
+}
+
+void
+interpolation_max_edge(FunctionCallInfo fcinfo, int argument, abacus_interpolation *how)
+{
+	double		value = PG_ARGISNULL(argument) ? 0 : PG_GETARG_FLOAT8(argument);
+
+	if (!isfinite(value) || value < 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("max_edge must be a finite number, at least 0")));
+	how->max_edge = value > 0 ? value : INFINITY;
+}
+
+/* Reads the arguments method, outside and max_edge, which follow one another. */
+void
+interpolation_how(FunctionCallInfo fcinfo, int method, abacus_interpolation *how)
+{
+	how->method = word(fcinfo, method, methods, "method", "Methods are linear, natural and nearest.");
+	how->outside = word(fcinfo, method + 1, outsides, "outside",
+						"Outside the mesh the value is null, or that of the nearest vertex.");
+	interpolation_max_edge(fcinfo, method + 2, how);
+}
+
+/* One attribute, by its name; the only one if no name is given. */
+void
+interpolation_attribute(FunctionCallInfo fcinfo, int argument, const abacus_header *header,
+						abacus_interpolation *how)
+{
+	how->attributes = 1;
+	if (PG_ARGISNULL(argument))
+		how->attribute[0] = (uint32) header_only_attribute(header);
+	else
+	{
+		char	   *name = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+
+		how->attribute[0] = (uint32) header_find_attribute(header, name);
+		pfree(name);
+	}
+}
+
+/* Any number of attributes, in the order of their names; all of them if none are given. */
+void
+interpolation_attributes(FunctionCallInfo fcinfo, int argument, const abacus_header *header,
+						 abacus_interpolation *how)
+{
+	Datum	   *names;
+	int			count;
+
+	if (PG_ARGISNULL(argument))
+	{
+		header_require_attributes(header);
+		how->attributes = header->attributes;
+		for (uint32 i = 0; i < header->attributes; i++)
+			how->attribute[i] = i;
+		return;
+	}
+	names = shape_names(PG_GETARG_ARRAYTYPE_P(argument), "attributes", &count);
+	if (count > ABACUS_MAX_ATTRIBUTES)
+		ereport(ERROR,
+				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
+				 errmsg("at most %d attributes can be asked for", ABACUS_MAX_ATTRIBUTES)));
+	how->attributes = (uint32) count;
+	for (int i = 0; i < count; i++)
+		how->attribute[i] = (uint32) header_find_attribute(header, TextDatumGetCString(names[i]));
+}
