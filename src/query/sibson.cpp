@@ -174,11 +174,12 @@ template <> void Sibson<3>::add_ridges() {
     ridges_.pair(3 * rim_.size(), numbers_.size(), [&](const auto &view) {
         for (std::size_t n = 0; n < rim_.size(); ++n)
             for (int i = 0; i < 3; ++i)
-                view.add(rim_[n].vertex[i], rim_[n].vertex[(i + 1) % 3], static_cast<Link>(n));
+                view.add(rim_[n].vertex[i], rim_[n].vertex[(i + 1) % 3],
+                         Link{static_cast<std::uint32_t>(n)});
         for (std::size_t n = 0; n < rim_.size(); ++n)
             for (int i = 0; i < 3; ++i) {
                 const std::uint32_t a = rim_[n].vertex[i], b = rim_[n].vertex[(i + 1) % 3];
-                const Link beyond = view.across(a, b);
+                const std::size_t beyond = to_bits(view.across(a, b));
                 if (beyond < n) continue; // added from there
                 const Point<3> turned = times(rim_[n].centre, rim_[beyond].centre);
                 // What is left of the dual of the edge from a to b goes the other way.
