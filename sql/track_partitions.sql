@@ -232,3 +232,16 @@ RESET ROLE;
 DROP TABLE owned, mesh;
 DROP ROLE regress_track_part;
 DROP FUNCTION apart(), apart(regclass, text);
+
+-- many rows, whose conversion takes memory for each: what is kept from row to row is kept
+CREATE TABLE many (id int, x numeric, y numeric, note text) PARTITION BY HASH (id);
+CREATE TABLE many_0 PARTITION OF many FOR VALUES WITH (modulus 2, remainder 0);
+CREATE TABLE many_1 PARTITION OF many FOR VALUES WITH (modulus 2, remainder 1);
+SELECT abacus_create('of_many', 2);
+SELECT abacus_track('of_many', 'many');
+INSERT INTO many SELECT i, (i * 7919) % 10007, (i * 104729) % 10009, repeat('x', i % 500) FROM generate_series(1, 6000) i;
+UPDATE many SET x = x + 0.5, note = repeat('y', id % 300) WHERE id % 3 = 0;
+DELETE FROM many WHERE id % 5 = 0;
+SELECT count(*), (SELECT count(*) FROM many) AS rows, sum(abs(v.x - m.x) + abs(v.y - m.y)) AS apart
+FROM abacus_vertices('of_many') v JOIN many m USING (id);
+DROP TABLE many, of_many;

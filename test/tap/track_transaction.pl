@@ -14,6 +14,7 @@ use Test::More;
 my $node = PostgreSQL::Test::Cluster->new('track_transaction');
 $node->init(allows_streaming => 1);
 $node->append_conf('postgresql.conf', <<'CONF');
+wal_keep_size = '1GB' # a slow standby still finds what it needs
 max_prepared_transactions = 5
 fsync = off
 wal_consistency_checking = 'heap, heap2'

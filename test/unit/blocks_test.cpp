@@ -3,7 +3,6 @@
 // that are wrong; and whatever fails, at whatever moment.
 #include "blocks/block_cache_code.hpp"
 #include "support/ledger.hpp"
-#include "support/sanitized.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +23,6 @@ using Model = std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint32_t>;
 
 constexpr std::size_t block_bytes = EntryBlocks::slots * sizeof(Entry);
 constexpr std::size_t little = 6 * block_bytes, ample = 4096 * block_bytes;
-constexpr int scale = sanitized ? 10 : 1;
 
 /// How keys are spread: over the curve, a few codes with many parts, in order.
 enum class Spread { even, parts, ascending };
@@ -100,7 +98,7 @@ public:
 
 TEST(BlockCache, KeepsWhatIsAddedAnywhereOnTheCurve) {
     LedgerInChange change(little);
-    ASSERT_NO_FATAL_FAILURE(change.add_some(4000 / scale, Spread::even));
+    ASSERT_NO_FATAL_FAILURE(change.add_some(4000, Spread::even));
     const BlockCounters &counters = change.ledger->counters;
     EXPECT_GT(counters.splits, 0u);
     EXPECT_GT(counters.evictions, 0u);
@@ -111,7 +109,7 @@ TEST(BlockCache, KeepsWhatIsAddedAnywhereOnTheCurve) {
 
 TEST(BlockCache, FillsPagesOfWhatIsAddedInOrder) {
     LedgerInChange change(little);
-    ASSERT_NO_FATAL_FAILURE(change.add_some(6000 / scale, Spread::ascending));
+    ASSERT_NO_FATAL_FAILURE(change.add_some(6000, Spread::ascending));
     ASSERT_NO_FATAL_FAILURE(change.verify());
     std::size_t bytes = 0;
     for (const auto &[key, page] : change.memory.pages) bytes += page.size;
@@ -122,18 +120,18 @@ TEST(BlockCache, FillsPagesOfWhatIsAddedInOrder) {
 
 TEST(BlockCache, TellsEntriesOfOneCodeApartByTheirParts) {
     LedgerInChange change(little);
-    ASSERT_NO_FATAL_FAILURE(change.add_some(2000 / scale, Spread::parts));
+    ASSERT_NO_FATAL_FAILURE(change.add_some(2000, Spread::parts));
     EXPECT_GT(change.memory.pages.size() + change.ledger->cached_blocks(), 6u);
-    ASSERT_NO_FATAL_FAILURE(change.remove_some(500 / scale, false));
+    ASSERT_NO_FATAL_FAILURE(change.remove_some(500, false));
     ASSERT_NO_FATAL_FAILURE(change.verify());
 }
 
 TEST(BlockCache, MergesWhatIsLeftOfManyBlocks) {
     LedgerInChange change(little);
-    ASSERT_NO_FATAL_FAILURE(change.add_some(4000 / scale, Spread::even));
+    ASSERT_NO_FATAL_FAILURE(change.add_some(4000, Spread::even));
     change.ledger->flush();
     const std::size_t before = change.memory.pages.size();
-    ASSERT_NO_FATAL_FAILURE(change.remove_some(2000 / scale, true));
+    ASSERT_NO_FATAL_FAILURE(change.remove_some(2000, true));
     ASSERT_NO_FATAL_FAILURE(change.verify());
     EXPECT_LT(change.memory.pages.size(), before * 3 / 4);
     EXPECT_GT(change.ledger->counters.merges, 0u);
@@ -146,8 +144,8 @@ TEST(BlockCache, IsTheSameWhateverTheBudget) {
     LedgerInChange small(little), large(ample);
     for (LedgerInChange *change : {&small, &large})
         for (int round = 0; round < 8; ++round) {
-            ASSERT_NO_FATAL_FAILURE(change->add_some(500 / scale, Spread::even));
-            ASSERT_NO_FATAL_FAILURE(change->remove_some(300 / scale, round % 2 == 0));
+            ASSERT_NO_FATAL_FAILURE(change->add_some(500, Spread::even));
+            ASSERT_NO_FATAL_FAILURE(change->remove_some(300, round % 2 == 0));
         }
     EXPECT_EQ(small.model, large.model);
     ASSERT_NO_FATAL_FAILURE(small.verify());

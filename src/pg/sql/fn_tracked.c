@@ -174,7 +174,7 @@ note_row(FunctionCallInfo fcinfo)
 		MemoryContext old = MemoryContextSwitchTo(fcinfo->flinfo->fn_mcxt);
 
 		notes = palloc(sizeof(RowNotes));
-		notes->transition = transition_open(trigger);
+		notes->transition = transition_open_for_rows(trigger);
 		notes->pending = open_pending(trigger, notes->transition);
 		fcinfo->flinfo->fn_extra = notes;
 		MemoryContextSwitchTo(old);

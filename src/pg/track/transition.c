@@ -242,7 +242,23 @@ transition_send(Transition *transition, bool new, PointSink sink, void *context)
 	return sent;
 }
 
-/* Sends on the point of the row with which a trigger for each row is called, if it counts. */
+/*
+ * Opened for a trigger that is called for each row. What is needed from row to row lives in the current
+ * memory context: the one in which the trigger is called is emptied after each row.
+ */
+Transition *
+transition_open_for_rows(const TriggerData *trigger)
+{
+	Transition *transition = transition_open(trigger);
+
+	open_packer(transition, 1);
+	return transition;
+}
+
+/*
+ * Sends on the point of the row with which a trigger for each row is called, if it counts. The
+ * transition is one that transition_open_for_rows() has opened.
+ */
 void
 transition_send_row(Transition *transition, const TriggerData *trigger, bool new, PointSink sink,
 					void *context)
@@ -257,7 +273,6 @@ transition_send_row(Transition *transition, const TriggerData *trigger, bool new
 		(is_update && is_point(transition, transition->old.slot) &&
 		 is_point(transition, transition->new.slot) && is_same_point(transition)))
 		return;
-	open_packer(transition, 1);
 	pack(transition, rows->slot);
 	sink(context, transition->packer->points, 1);
 	row_packer_reset(transition->packer);

@@ -41,6 +41,7 @@ typedef void (*PointSink) (void *context, const uint64 *points, size_t count);
 #define TRACKING_ARGUMENT_COLUMNS 2
 
 extern Transition *transition_open(const TriggerData *trigger);
+extern Transition *transition_open_for_rows(const TriggerData *trigger);
 extern const abacus_header *transition_shape(const Transition *transition);
 extern bool transition_changes(Transition *transition);
 extern uint64 transition_send(Transition *transition, bool new, PointSink sink, void *context);
