@@ -53,8 +53,8 @@ void LinkMesh<D>::list(const Cache<D> &cache, const Star<D> &star, const Vertice
         if (v == infinite_vertex ||
             std::find(independent.begin(), independent.end(), v) != independent.end())
             continue;
-        const auto number = static_cast<VertexIndex>(names_.size());
-        order_.push_back({round_of(number), cache.vertices()[v].code, number});
+        const auto number = static_cast<std::uint32_t>(names_.size());
+        order_.push_back({round_of(number), cache.vertices()[v].code, VertexIndex{number}});
         add(v);
     }
     const std::size_t n = names_.size();
@@ -89,7 +89,7 @@ template <int D> void LinkMesh<D>::start() {
     Vertices first;
     Corners<D> corners;
     for (int i = 0; i <= D; ++i) {
-        first[i] = apex + 1 + i;
+        first[i] = VertexIndex{to_number(apex) + 1 + static_cast<std::uint32_t>(i)};
         corners[i] = &points_[first[i]];
     }
     if (orientation<D>(corners) < 0) std::swap(first[0], first[1]);

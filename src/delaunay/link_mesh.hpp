@@ -55,7 +55,7 @@ public:
 
 private:
     static constexpr int none = -1;
-    static constexpr VertexIndex apex = 1; // q; 0 is the point at infinity
+    static constexpr VertexIndex apex{1}; // q; 0 is the point at infinity
 
     struct Cell {
         Simplex<D> simplex; // of a cone the mirror image
@@ -89,9 +89,9 @@ private:
     Handle create(const Simplex<D> &s);
 
     const Host &host_;
-    Arena<Point<D>> points_;   // those at 0 and of q first
-    Arena<VertexIndex> names_; // of each, in the mesh
-    Arena<Place> order_;       // in which they come
+    Arena<Point<D>, VertexIndex> points_;   // those at 0 and of q first
+    Arena<VertexIndex, VertexIndex> names_; // of each, in the mesh
+    Arena<Place> order_;                    // in which they come
     Arena<Cell, Handle> cells_;
     Arena<Handle> free_, killed_, created_;
     Handle cone_ = no_handle; // any, where the next way begins

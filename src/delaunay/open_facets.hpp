@@ -81,7 +81,7 @@ private:
 
     std::size_t slot(const Vertices &vertices) const {
         std::uint64_t h = 0;
-        for (const VertexIndex v : vertices.vertex) h = (h ^ v) * 0x9e3779b97f4a7c15ull;
+        for (const VertexIndex v : vertices.vertex) h = (h ^ to_number(v)) * 0x9e3779b97f4a7c15ull;
         std::size_t at = (h >> 32) & mask_;
         while (table_[at].epoch == epoch_ &&
                facets_[table_[at].facet].vertices.vertex != vertices.vertex)

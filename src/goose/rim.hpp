@@ -42,20 +42,22 @@ public:
         return {facets_.data(), kept};
     }
 
+    static constexpr std::uint32_t at_infinity = 0; // number of the point there
+
 private:
     struct Corner {
         Point<D> point;
         std::uint32_t at; // row * (D + 1) + corner
     };
 
-    /// Numbers the corners by place; the point at infinity is 0.
+    /// Numbers the corners by place.
     void number_corners(std::span<const abacus_simplex *const> rows) {
         corners_.clear();
         numbers_.resize(rows.size() * (D + 1));
         std::uint32_t at = 0;
         for (const abacus_simplex *row : rows)
             for (int i = 0; i <= D; ++i, ++at) {
-                numbers_[at] = infinite_vertex;
+                numbers_[at] = at_infinity;
                 if (row->ghost && i == D) continue;
                 Corner &corner = *corners_.extend(1);
                 std::copy_n(row->corner[i], D, corner.point.begin());
@@ -64,7 +66,7 @@ private:
         std::sort(corners_.begin(), corners_.end(), [](const Corner &a, const Corner &b) {
             return lexicographically_less<D>(a.point, b.point);
         });
-        std::uint32_t number = infinite_vertex;
+        std::uint32_t number = at_infinity;
         for (std::size_t i = 0; i < corners_.size(); ++i) {
             if (i == 0 || corners_[i].point != corners_[i - 1].point) ++number;
             numbers_[corners_[i].at] = number;

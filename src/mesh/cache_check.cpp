@@ -37,7 +37,7 @@ template <int D> const char *Cache<D>::check_links(Handle h) const {
 }
 
 template <int D> const char *Cache<D>::check_vertices() const {
-    Arena<std::uint32_t> uses(host_);
+    Arena<std::uint32_t, VertexIndex> uses(host_);
     uses.resize(vertices_.end());
     std::fill(uses.begin(), uses.end(), 0);
     for_each_cached([&](BlockIndex b) {
@@ -45,8 +45,9 @@ template <int D> const char *Cache<D>::check_vertices() const {
             for (const VertexIndex v : slots_[h].vertex) ++uses[v];
         });
     });
-    for (VertexIndex v = 0; v < uses.size(); ++v)
-        if (uses[v] != vertices_.references(v)) return "a vertex counts its simplices wrong";
+    for (std::uint32_t n = 0; n < uses.size(); ++n)
+        if (const VertexIndex v{n}; uses[v] != vertices_.references(v))
+            return "a vertex counts its simplices wrong";
     return nullptr;
 }
 

@@ -86,15 +86,15 @@ template <int D> void Cache<D>::load_vertices() {
 
 /// Where the vertices lie that were made for the page at hand, so that they can be asked for.
 template <int D> VertexRun Cache<D>::run_of_vertices() const {
-    VertexIndex least = free_mark, greatest = 0;
+    VertexIndex least = free_mark, greatest{};
     for (std::size_t n = 0; n < border_.vertices.size(); ++n) {
         if (border_.has_vertex[n]) continue; // it may be of another page
         least = std::min(least, border_.vertices[n]);
         greatest = std::max(greatest, border_.vertices[n]);
     }
     if (least > greatest) return {};
-    return {least, static_cast<std::uint16_t>(
-                       std::min<std::size_t>(greatest - least + 1, 2 * border_.vertices.size()))};
+    const std::size_t length = to_number(greatest) - to_number(least) + 1;
+    return {least, static_cast<std::uint16_t>(std::min(length, 2 * border_.vertices.size()))};
 }
 
 template <int D> void Cache<D>::load_simplices(Handle first) {

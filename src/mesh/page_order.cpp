@@ -34,7 +34,8 @@ public:
                        const std::array<VertexIndex, D + 1> &slot) const {
         unsigned place = 0;
         if constexpr (D == 3)
-            for (unsigned i = 1; i <= D; ++i) place += slot[i] == corners[asked_for(entry)] ? i : 0;
+            for (unsigned i = 1; i <= D; ++i)
+                place += to_number(slot[i]) == corners[asked_for(entry)] ? i : 0;
         return even_[entry][mirror][place];
     }
 
@@ -130,7 +131,7 @@ private:
     [[gnu::always_inline]] inline unsigned place_root(std::uint32_t at, const Placed &placed) {
         const Simplex<D> &s = slots_[placed.slot];
         for (int i = 0; i <= D; ++i, ++named_) {
-            corners_[at][i] = s.vertex[i];
+            corners_[at][i] = to_number(s.vertex[i]);
             number(s.vertex[i]);
         }
         unsigned step = 0;
@@ -141,7 +142,7 @@ private:
         const Simplex<D> &s = slots_[placed.slot];
         const VertexIndex apex = s.vertex[placed.mirror];
         const WideLanes parent = corners_[page_simplex(placed.parent)];
-        const WideLanes everywhere = WideLanes{} + apex;
+        const WideLanes everywhere = WideLanes{} + to_number(apex);
         const int facet = page_facet(placed.parent);
         int entry = facet_back(facet);
         WideLanes child = child_across(parent, facet, everywhere);

@@ -19,12 +19,13 @@
 
 namespace abacus {
 
-using VertexIndex = std::uint32_t;
+enum class VertexIndex : std::uint32_t {};
+constexpr std::uint32_t to_number(VertexIndex v) { return static_cast<std::uint32_t>(v); }
 /// A facet of a simplex; a type of its own, for it is neither a number nor a handle.
 enum class Link : std::uint32_t {};
 
-inline constexpr VertexIndex infinite_vertex = 0;
-inline constexpr VertexIndex free_mark = 0xffffffffu; // vertex[0] of a free slot
+inline constexpr VertexIndex infinite_vertex{0};
+inline constexpr VertexIndex free_mark{0xffffffffu}; // vertex[0] of a free slot
 inline constexpr Link absent{0x80000000u};
 inline constexpr Link unset{0xffffffffu};
 

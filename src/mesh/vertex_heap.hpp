@@ -59,12 +59,13 @@ public:
                        const double *attributes) {
         VertexIndex v;
         if (!free_.empty()) {
-            v = free_.take();
+            v = VertexIndex{free_.take()};
         } else {
-            v = static_cast<VertexIndex>(vertices_.size());
-            vertices_.resize(v + 1);
-            ids_.resize(v + 1);
-            values_.resize((std::size_t(v) + 1) * attributes_);
+            const std::size_t size = vertices_.size() + 1;
+            v = VertexIndex{static_cast<std::uint32_t>(size - 1)};
+            vertices_.resize(size);
+            ids_.resize(size);
+            values_.resize(size * attributes_);
         }
         vertices_[v] = {p, code, 0, 0};
         rename(v, id, attributes);
@@ -138,21 +139,22 @@ public:
     bool is_shared(VertexIndex v) const { return (vertices_[v].references & shared) != 0; }
 
     void destroy(VertexIndex v) {
-        if (vertices_[v].references & shared) slots_.remove(hash(point(v)), v);
+        if (vertices_[v].references & shared) slots_.remove(hash(point(v)), to_number(v));
         vertices_[v].references = 0;
-        free_.add(v);
+        free_.add(to_number(v));
     }
 
     /// Makes the vertex known to find_shared().
     void share(VertexIndex v) {
         if (vertices_[v].references & shared) return;
         vertices_[v].references |= shared;
-        slots_.add(hash(point(v)), v);
+        slots_.add(hash(point(v)), to_number(v));
     }
 
     /// The shared vertex at p, or infinite_vertex.
     VertexIndex find_shared(const Point<D> &p) const {
-        return slots_.find(hash(p), [&](VertexIndex v) { return point(v) == p; });
+        return VertexIndex{slots_.find(
+            hash(p), [&](std::uint32_t number) { return point(VertexIndex{number}) == p; })};
     }
 
     void prefetch_id(VertexIndex v) const {
@@ -162,13 +164,13 @@ public:
     /// Two steps of find_shared() or share() in advance, for many points at once.
     void prefetch_slot(const Point<D> &p) const { slots_.prefetch(hash(p)); }
     void prefetch_vertex(const Point<D> &p) const {
-        __builtin_prefetch(&vertices_[slots_.first(hash(p))]);
+        __builtin_prefetch(&vertices_[VertexIndex{slots_.first(hash(p))}]);
     }
 
 private:
     static constexpr std::uint32_t shared = 0x80000000u;
 
-    using Slots = HashSlots<infinite_vertex>;
+    using Slots = HashSlots<to_number(infinite_vertex)>;
 
     std::uint32_t hash(const Point<D> &p) const {
         std::uint64_t h = 0;
@@ -180,8 +182,8 @@ private:
     }
 
     int attributes_;
-    Arena<Vertex<D>> vertices_;
-    Arena<std::int64_t> ids_;
+    Arena<Vertex<D>, VertexIndex> vertices_;
+    Arena<std::int64_t, VertexIndex> ids_;
     Arena<double> values_;
     FreeNumbers free_;
     Slots slots_; // of the shared vertices, by their points

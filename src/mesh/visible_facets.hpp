@@ -36,7 +36,7 @@ public:
     static std::uint32_t hash(const Vertices &facet) {
         std::uint64_t h = 0;
         for (const VertexIndex v : facet.vertex) {
-            h = (h ^ v) * 0x9e3779b97f4a7c15ull;
+            h = (h ^ to_number(v)) * 0x9e3779b97f4a7c15ull;
             h ^= h >> 29;
         }
         return static_cast<std::uint32_t>(h >> 16);

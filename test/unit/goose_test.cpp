@@ -141,7 +141,7 @@ TEST(Goose, FindsTheRimOfACavityByTheFacetsThatComeOnce) {
     for (const auto &facet : rim.find(square)) {
         EXPECT_FALSE(facet.row == 0 && facet.facet == 1); // the diagonal
         EXPECT_FALSE(facet.row == 0 && facet.facet == 2); // below it the ghost
-        ++(facet.number[0] == infinite_vertex ? infinite : outer);
+        ++(facet.number[0] == rim.at_infinity ? infinite : outer);
     }
     EXPECT_EQ(outer, 3);
     EXPECT_EQ(infinite, 2);

@@ -74,7 +74,7 @@ public:
     }
 
     const Simplex<D> &simplex(Handle h) const { return simplices_[to_number(h)]; }
-    const Point<D> &point(VertexIndex v) const { return points_[v]; }
+    const Point<D> &point(VertexIndex v) const { return points_[to_number(v)]; }
     Link cross(Handle h, int facet) { return simplices_[to_number(h)].link[facet]; }
     void poll() {}
 
@@ -117,17 +117,18 @@ template <int D> void check_stars() {
     Flood<D> flood(host.host());
     std::vector<std::set<Handle>> stars(mesh.vertices());
     for (const Handle h : mesh.handles())
-        for (const VertexIndex v : mesh.simplex(h).vertex) stars[v].insert(h);
-    for (VertexIndex v = 0; v < mesh.vertices(); ++v) {
+        for (const VertexIndex v : mesh.simplex(h).vertex) stars[to_number(v)].insert(h);
+    for (std::uint32_t n = 0; n < mesh.vertices(); ++n) {
         std::set<Handle> met;
-        EXPECT_TRUE(flood.around(mesh, *stars[v].begin(), v,
+        EXPECT_TRUE(flood.around(mesh, *stars[n].begin(), VertexIndex{n},
                                  [&](Handle h) { return met.insert(h).second; }));
-        EXPECT_EQ(met, stars[v]);
+        EXPECT_EQ(met, stars[n]);
         EXPECT_EQ(flood.met().size(), met.size());
     }
     // A visitor that has enough ends it, and leaves no mark behind.
     int visits = 0;
-    EXPECT_FALSE(flood.around(mesh, *stars[1].begin(), 1, [&](Handle) { return ++visits < 2; }));
+    EXPECT_FALSE(flood.around(mesh, *stars[1].begin(), VertexIndex{1},
+                              [&](Handle) { return ++visits < 2; }));
     EXPECT_EQ(visits, 2);
     visits = 0;
     EXPECT_TRUE(flood.from(
