@@ -71,7 +71,7 @@ std::vector<Simplex<2>> PageEditor::slots() const {
 }
 
 void PageEditor::write(MemoryHost::Page &page) const {
-    static_assert(infinity + 1 == infinite_vertex);
+    static_assert(VertexIndex{infinity + 1} == infinite_vertex);
     MemoryHost memory;
     const Host host = memory.host();
     VertexHeap<2> vertices(host, attribute_count);
@@ -86,7 +86,8 @@ void PageEditor::write(MemoryHost::Page &page) const {
     const std::vector<Simplex<2>> slots = this->slots();
     writer.order(slots.data(), static_cast<std::uint32_t>(slots.size()), Handle{}, vertices,
                  numbered, border);
-    for (VertexIndex v = 1; v <= ids.size(); ++v) numbered.number(vertices, v); // of no simplex
+    for (std::uint32_t n = 1; n <= ids.size(); ++n) // of no simplex
+        numbered.number(vertices, VertexIndex{n});
     const bool is_told = !border.empty();
     writer.expect_links(links.size());
     for (std::size_t i = 0; i < links.size(); ++i)
