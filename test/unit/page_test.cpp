@@ -175,8 +175,10 @@ protected:
         }
         const Link side = told ? absent : PageWriter<2>::untold;
         const Simplex<2> slots[] = {
-            {{1, 2, 3}, {side, told ? make_link(Handle{1}, 1) : side, side}},
-            {{3, 4, 1}, {side, told ? make_link(Handle{0}, 1) : side, side}},
+            {{VertexIndex{1}, VertexIndex{2}, VertexIndex{3}},
+             {side, told ? make_link(Handle{1}, 1) : side, side}},
+            {{VertexIndex{3}, VertexIndex{4}, VertexIndex{1}},
+             {side, told ? make_link(Handle{0}, 1) : side, side}},
         };
         VertexHeap<2>::Numbering numbered(host_);
         Arena<Link> border(host_);
