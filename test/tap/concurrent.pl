@@ -13,6 +13,7 @@ use PostgreSQL::Test::Utils;
 use Test::More;
 
 my $seconds = $ENV{ABACUS_SECONDS} || 10;
+$ENV{PGOPTIONS} = '-c client_min_messages=warning'; # pgbench shows errors alone
 
 my $node = PostgreSQL::Test::Cluster->new('concurrent');
 $node->init;
@@ -21,20 +22,26 @@ $node->start;
 $node->safe_psql('postgres', 'CREATE EXTENSION abacus; CREATE EXTENSION amcheck');
 make_models($node);
 
-# A look fails if anything of one snapshot disagrees with the rest of it.
+# A look fails if anything of one snapshot disagrees with the rest of it. Now and then so few
+# points are left that they span no simplex.
 $node->safe_psql('postgres', <<'SQL');
 CREATE FUNCTION look(dimension int) RETURNS void LANGUAGE plpgsql STABLE AS $$
 DECLARE
 	mesh text := 'mesh' || dimension;
 	simplices bigint := (SELECT value FROM abacus_stats(mesh) WHERE name = 'simplices');
+	places bigint;
 	place record;
 BEGIN
+	IF simplices = 0 THEN
+		EXECUTE format('SELECT count(DISTINCT (x, y, z)) FROM %s_noted', mesh) INTO places;
+		ASSERT places <= dimension, places || ' places, but no simplex';
+	END IF;
 	FOR place IN EXECUTE format('SELECT * FROM %s_noted TABLESAMPLE SYSTEM (5)', mesh) LOOP
 		-- the point is a vertex, or equal to one, of the simplex found at its place
 		IF dimension = 2 THEN
-			ASSERT (SELECT code IS NOT NULL FROM abacus_locate(mesh, place.x, place.y)), 'not located';
+			ASSERT simplices = 0 OR (SELECT code IS NOT NULL FROM abacus_locate(mesh, place.x, place.y)), 'not located';
 		ELSE
-			ASSERT (SELECT code IS NOT NULL FROM abacus_locate(mesh, place.x, place.y, place.z)), 'not located';
+			ASSERT simplices = 0 OR (SELECT code IS NOT NULL FROM abacus_locate(mesh, place.x, place.y, place.z)), 'not located';
 		END IF;
 	END LOOP;
 	ASSERT wrong(dimension) = 0, wrong(dimension) || ' points differ';
