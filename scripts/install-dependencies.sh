@@ -25,6 +25,7 @@ test=(
     libtet1.5-dev libqhull-dev      # TetGen and Qhull, to compare with
     gnuplot-nox                     # plots of docs/benchmarks.md
     python3-numpy python3-scipy python3-matplotlib python3-vtk9   # whose answers ours are compared with
+    python3-meshio                  # reads and writes the files of meshes
     postgresql-15-pgtap libtap-parser-sourcehandler-pgtap-perl libipc-run-perl
 )
 bench=(

@@ -25,6 +25,7 @@
 #ifndef ABACUS_ABACUS_H
 #define ABACUS_ABACUS_H
 
+#include "abacus/arrays.h"
 #include "abacus/ask.h"
 #include "abacus/change.h"
 #include "abacus/draw.h"

@@ -27,10 +27,12 @@ std::uint64_t code_of(const PageView<D> &page, int simplex, const Domain<D> &dom
     return greatest;
 }
 
-/// With what its corners carry, if `values` is not null.
+/// With what its corners carry, if `values` is not null. Returns which corner is handed out first,
+/// second, and so on.
 template <int D>
-void describe(const PageView<D> &page, int simplex, const Domain<D> &domain,
-              abacus_simplex &description, CornerValues *values = nullptr) {
+const typename EvenOrders<D>::Order &describe(const PageView<D> &page, int simplex,
+                                              const Domain<D> &domain, abacus_simplex &description,
+                                              CornerValues *values = nullptr) {
     const bool ghost = page.is_ghost(simplex);
     DescribedCorners<D> corners;
     for (int i = 0; i < D + !ghost; ++i) {
@@ -39,11 +41,11 @@ void describe(const PageView<D> &page, int simplex, const Domain<D> &domain,
         corners.point[i] = &page.point(vertex);
     }
     const auto &order = describe(corners, code_of(page, simplex, domain), ghost, description);
-    if (values == nullptr) return;
-    for (int i = 0; i < D + !ghost; ++i)
+    for (int i = 0; values != nullptr && i < D + !ghost; ++i)
         values->set(i, [&](int attribute) {
             return page.attribute(page.corner(simplex, order[i]), attribute);
         });
+    return order;
 }
 
 } // namespace abacus

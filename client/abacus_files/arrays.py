@@ -1,0 +1,47 @@
+"""A mesh as chunks of arrays: what all writers are given."""
+import numpy
+
+from .session import Failed
+
+MESH = ":'mesh'::regclass"
+
+
+class Mesh:
+    """A mesh of the session's snapshot. Counts and names are there at once; the arrays come in chunks, in any number of passes."""
+
+    def __init__(self, session):
+        self.session = session
+        figures = dict(zip(("dimension", "vertices", "simplices"), session.all(
+            "SELECT " + ", ".join(f"(max(value) FILTER (WHERE name = '{name}'))::int8" for name in ("dimension", "vertices", "simplices"))
+            + f" FROM abacus_stats({MESH})", ["int8"] * 3)[0]))
+        self.dimension = figures["dimension"]
+        self.vertices = figures["vertices"]
+        self.simplices = figures["simplices"]
+        self.attributes = session.texts(f"SELECT name FROM abacus_attributes({MESH}) ORDER BY position")
+        self.axes = "xyz"[: self.dimension]
+
+    def points(self):
+        """Chunks of (ids, coordinates n x dimension, values n x attributes); a missing value is NaN."""
+        count = len(self.attributes)
+        values = "".join(f", coalesce(attributes[{n + 1}], 'NaN')" for n in range(count))
+        query = f"SELECT id, {', '.join(self.axes)}{values} FROM abacus_numbered_vertices({MESH})"
+        for chunk in self.session.chunks(query, ["int8"] + ["float8"] * (self.dimension + count)):
+            columns = [chunk[f"f{n + 1}"].astype("<f8") for n in range(self.dimension + count)]
+            table = numpy.stack(columns, axis=1)
+            yield chunk["f0"].astype("<i8"), table[:, : self.dimension], table[:, self.dimension:]
+
+    def cells(self):
+        """Chunks of (codes, numbers of the corners n x (dimension + 1), from 0)."""
+        corners = self.dimension + 1
+        query = f"SELECT code, {', '.join(f'n{n}' for n in range(corners))} FROM abacus_numbered_simplices({MESH})"
+        for chunk in self.session.chunks(query, ["int8"] * (corners + 1)):
+            yield chunk["f0"].astype("<i8"), numpy.stack([chunk[f"f{n + 1}"].astype("<i8") for n in range(corners)], axis=1)
+
+    def solid(self, coordinates, values, z):
+        """Coordinates with three columns: of a mesh in the plane z is the attribute with that number, or 0."""
+        if self.dimension == 3:
+            return coordinates
+        height = numpy.zeros(len(coordinates)) if z is None else values[:, z]
+        if numpy.isnan(height).any():
+            raise Failed(f"{self.attributes[z]} is missing at some vertices, so it is no third coordinate")
+        return numpy.column_stack([coordinates, height])

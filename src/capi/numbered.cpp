@@ -1,0 +1,48 @@
+// A mesh as arrays behind the C interface.
+#include "query/numbering.hpp"
+
+#include "capi/dimension.hpp"
+#include "capi/guard.hpp"
+#include "capi/handle.hpp"
+
+struct abacus_numbered {
+    abacus_numbered(const abacus_host *table, const abacus_header &header, bool of_simplices,
+                    std::size_t memory)
+        : host(*table) {
+        if (of_simplices)
+            simplices.emplace(host, header, memory);
+        else
+            vertices.emplace(host, header, memory);
+    }
+
+    const abacus::Host host;
+    std::optional<abacus::ByDimension<abacus::NumberedVertices>> vertices;
+    std::optional<abacus::ByDimension<abacus::NumberedSimplices>> simplices;
+};
+
+abacus_status abacus_numbered_open(const abacus_host *host, const abacus_header *header,
+                                   int simplices, size_t memory, abacus_numbered **numbered,
+                                   abacus_error *error) {
+    return abacus::guard(error, [&] {
+        *numbered = abacus::create_handle<abacus_numbered>(host, *header, simplices != 0, memory);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_numbered_next_vertex(abacus_numbered *numbered, abacus_vertex *vertex,
+                                          abacus_error *error) {
+    return abacus::guard(error, [&] {
+        return numbered->vertices.value().visit(
+            [&](auto &all) { return all.next(*vertex) ? ABACUS_OK : ABACUS_END; });
+    });
+}
+
+abacus_status abacus_numbered_next_simplex(abacus_numbered *numbered, abacus_simplex *simplex,
+                                           uint64_t *numbers, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        return numbered->simplices.value().visit(
+            [&](auto &all) { return all.next(*simplex, numbers) ? ABACUS_OK : ABACUS_END; });
+    });
+}
+
+void abacus_numbered_close(abacus_numbered *numbered) { abacus::destroy_handle(numbered); }

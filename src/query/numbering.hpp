@@ -1,0 +1,61 @@
+// A mesh as two arrays, as programs outside the database want it: vertices, and simplices by the
+// numbers of their corners.
+//
+// Vertices are numbered from 0 in the order of their codes along the curve, of one code by their
+// coordinates: so the numbers are those of the points alone, and near ones are near in the array.
+// No page knows a number. Each page names its vertices; an external sort by code brings the names
+// of a vertex together, and its place among all is the number. A second sort, by page, brings the
+// numbers back to where they are needed. Neither takes memory that grows with the mesh.
+#pragma once
+
+#include "query/page_scan.hpp"
+#include "sort/record_sort.hpp"
+
+#include <abacus/arrays.h>
+
+namespace abacus {
+
+/// The vertices of a mesh in the order of their numbers.
+template <int D> class NumberedVertices {
+public:
+    /// Reads all pages.
+    NumberedVertices(const Host &host, const abacus_header &header, std::size_t memory);
+
+    /// False after the last one. The attributes stay valid until the next call.
+    bool next(abacus_vertex &vertex);
+
+private:
+    RecordSort named_;
+    std::uint64_t left_;         // vertices, as the header counts them
+    const std::uint64_t *ahead_; // the next record, null after the last
+    Arena<std::uint64_t> current_;
+};
+
+/// The simplices of a mesh in the order of their pages, with the numbers of their corners.
+template <int D> class NumberedSimplices {
+public:
+    /// Reads all pages.
+    NumberedSimplices(const Host &host, const abacus_header &header, std::size_t memory);
+
+    /// False after the last one. The numbers are of the corners in the order of the description.
+    bool next(abacus_simplex &simplex, std::uint64_t *numbers);
+
+private:
+    void number(std::size_t memory);
+    void enter_page();
+
+    const Host &host_;
+    const abacus_header header_;
+    RecordSort places_; // (place, number)
+    PageScan<D> pages_;
+    Arena<std::uint64_t> numbers_; // of the vertices of the page at hand
+    std::uint64_t page_ = 0;       // its number, from 1
+    int at_ = 0;
+};
+
+extern template class NumberedVertices<2>;
+extern template class NumberedVertices<3>;
+extern template class NumberedSimplices<2>;
+extern template class NumberedSimplices<3>;
+
+} // namespace abacus
