@@ -37,7 +37,7 @@ EXPLAIN (COSTS OFF, TIMING OFF, SUMMARY OFF, ANALYZE) SELECT count(look(x)) FROM
 TABLE looked EXCEPT TABLE serial_look;
 
 -- changes of the own transaction, uncommitted and rolled back, are those of the workers too
-SET force_parallel_mode = on;
+SELECT set_config(name, 'on', false) FROM pg_settings WHERE name IN ('force_parallel_mode', 'debug_parallel_query'); -- before 16, and since
 BEGIN;
 SELECT abacus_stage('field', 'SELECT 20000 + i, i % 99 + 0.3, i / 99 + 0.6 FROM generate_series(0, 9800) i'), abacus_triangulate('field');
 SELECT count(*), count((abacus_locate('field', x, y)).v0) = count(*) AS located, max(greatest((abacus_locate('field', x, y)).v1, (abacus_locate('field', x, y)).v2)) >= 20000 AS changed FROM places;

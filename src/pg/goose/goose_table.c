@@ -243,7 +243,7 @@ kill_entry(GooseTable *table, const abacus_boxed_simplex *row)
 void
 goose_table_remove_ghosts(GooseTable *table)
 {
-	TableScanDesc scan = table_beginscan(table->heap, SnapshotSelf, 0, NULL);
+	TableScanDesc scan = port_table_beginscan(table->heap, SnapshotSelf);
 	abacus_boxed_simplex row;
 
 	while (table_scan_getnextslot(scan, ForwardScanDirection, table->slot))
