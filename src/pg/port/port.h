@@ -83,6 +83,17 @@ object_aclcheck(Oid class, Oid object, Oid role, AclMode mode)
 }
 #endif
 
+/* Whether a role may vacuum a table: its owner, or who has the privilege MAINTAIN (from 17 on). */
+static inline bool
+port_may_maintain(Oid table, Oid role)
+{
+#if PG_VERSION_NUM >= 170000
+	return pg_class_aclcheck(table, role, ACL_MAINTAIN) == ACLCHECK_OK;
+#else
+	return object_ownercheck(RelationRelationId, table, role);
+#endif
+}
+
 /* ---- Scans, rows and triggers ------------------------------------------------ */
 
 /* 18 counts searches, 19 takes flags. */

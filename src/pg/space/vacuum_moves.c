@@ -37,7 +37,7 @@ static bool
 may_vacuum(Oid relid)
 {
 	return SearchSysCacheExists1(RELOID, ObjectIdGetDatum(relid)) &&
-		(object_ownercheck(RelationRelationId, relid, GetUserId()) ||
+		(port_may_maintain(relid, GetUserId()) ||
 		 object_ownercheck(DatabaseRelationId, MyDatabaseId, GetUserId()));
 }
 
