@@ -6,8 +6,7 @@
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 
-if [[ ! -e /etc/abacus-arm64 ]]; then
-    scripts/chroot.sh arm64 bash -c 'touch /etc/abacus-arm64'
+if [[ ${ABACUS_CHROOT:-} != arm64 ]]; then # not in there yet
     exec scripts/chroot.sh arm64 scripts/arm64_test.sh "$@"
 fi
 

@@ -24,7 +24,12 @@ shift
 root=$ABACUS_BUILD/chroot-$name/root
 build=$ABACUS_BUILD/chroot-$name/build
 architectures=$(dpkg --print-architecture)
-if [[ $name == arm64 ]]; then architectures+=,arm64; fi
+server=()
+if [[ $name == arm64 ]]; then
+    architectures+=,arm64
+else
+    server=(ABACUS_POSTGRESQL="$name" ABACUS_PACKAGES=versions)
+fi
 
 cannot() {
     echo "There is no Debian $suite for $name: $*" >&2
@@ -77,7 +82,8 @@ run() {
         exec chroot "$root" "$@"' bash "$root" "$ABACUS_ROOT" "$build" \
         /usr/bin/env -i HOME=/root LANG=C.UTF-8 TERM="${TERM:-dumb}" PYTHONDONTWRITEBYTECODE=1 \
         PATH=/usr/lib/ccache:/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
-        ABACUS_SHORTCUTS="${ABACUS_SHORTCUTS:-1}" ABACUS_POSTGRESQL="$name" ABACUS_PACKAGES=versions ABACUS_JOBS="$ABACUS_JOBS" ABACUS_WERROR="${ABACUS_WERROR-}" \
+        ABACUS_CHROOT="$name" "${server[@]}" ABACUS_SHORTCUTS="${ABACUS_SHORTCUTS:-1}" \
+        ABACUS_JOBS="$ABACUS_JOBS" ABACUS_WERROR="${ABACUS_WERROR-}" \
         bash -c 'cd /abacus && exec "$@"' bash "$@"
 }
 
