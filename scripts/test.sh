@@ -191,19 +191,24 @@ second_end() {
     trap cluster_stop EXIT
 }
 
-# Each in a Debian of its own, and none waits for another.
+# Each in a Debian of its own, and none waits for another. They are process groups, which end with
+# this script; what runs in a Debian takes only signal 9.
 other_versions_run() {
-    local name run runs=()
+    local name run before
+    before=$(trap -p EXIT) # stops the server of the second line
+    runs=()
+    set -m
     for name in "${other_versions[@]}"; do
-        (suite "$name"; exit $((failed + 2 * skipped))) &
+        (passed=0 failed=0 skipped=0; suite "$name"; exit $((failed + 2 * skipped))) &
         runs+=($!)
     done
-    trap 'kill "${runs[@]}"' EXIT
+    set +m
+    trap "kill -KILL -- ${runs[*]/#/-}; ${before:+cluster_stop}" EXIT
     for run in "${runs[@]}"; do
         wait "$run"
         case $? in 0) passed=$((passed + 1)) ;; 2) skipped=$((skipped + 1)) ;; *) failed=$((failed + 1)) ;; esac
     done
-    trap - EXIT
+    eval "${before:-trap - EXIT}"
 }
 
 case ${1:-all} in
