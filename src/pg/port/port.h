@@ -1,5 +1,5 @@
 /*
- * port.h: what differs between major versions of PostgreSQL, and the only file that asks for the version.
+ * port.h: what differs between major versions of PostgreSQL. Only this room asks for the version.
  *
  * All other files use the names and signatures of the newest version; here they are mapped to
  * those of older ones. Where a name would say too little, it begins with port_. A version that is
@@ -7,6 +7,10 @@
  */
 #ifndef ABACUS_PORT_H
 #define ABACUS_PORT_H
+
+#if PG_VERSION_NUM < 150000 || PG_VERSION_NUM >= 200000
+#error "Abacus is made for PostgreSQL 15 to 19: this version is not known"
+#endif
 
 #include "access/genam.h"
 #include "access/heapam.h"
@@ -29,10 +33,6 @@
 #include "utils/snapmgr.h"
 #if PG_VERSION_NUM >= 160000
 #include "varatt.h"
-#endif
-
-#if PG_VERSION_NUM < 150000 || PG_VERSION_NUM >= 200000
-#error "Abacus is made for PostgreSQL 15 to 19: this version is not known"
 #endif
 
 #if PG_VERSION_NUM < 180000
