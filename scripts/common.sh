@@ -4,7 +4,8 @@
 ABACUS_ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 ABACUS_BUILD=$ABACUS_ROOT/build
 ABACUS_JOBS=${ABACUS_JOBS:-$(nproc)}
-PG_CONFIG=${PG_CONFIG:-/usr/lib/postgresql/15/bin/pg_config}
+ABACUS_POSTGRESQL=${ABACUS_POSTGRESQL:-15} # the major version that is tested
+PG_CONFIG=${PG_CONFIG:-/usr/lib/postgresql/$ABACUS_POSTGRESQL/bin/pg_config}
 
 cd "$ABACUS_ROOT"
 mkdir -p "$ABACUS_BUILD"

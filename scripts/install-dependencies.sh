@@ -1,16 +1,20 @@
 #!/bin/bash
-# Installs the Debian 12 packages that Abacus is built, shown and tested with;
-# does nothing (in a fraction of a second) when all are present.
+# Installs the Debian packages that Abacus is built, shown and tested with; does nothing (in a
+# fraction of a second) when all are present. ABACUS_POSTGRESQL is the server's version: 15, that
+# of Debian 12, if it is not set.
 #
 #   install-dependencies.sh build     what the extension needs
+#   install-dependencies.sh server    ... and tests in a server
+#   install-dependencies.sh versions  ... and tests of the core: all that another version is tested with
 #   install-dependencies.sh demo      ... and the data of the demo
 #   install-dependencies.sh test      ... and all tests, which run the benchmarks once (default)
 #   install-dependencies.sh bench     ... and PostGIS, to compare with, and perf
 set -euo pipefail
 
+version=${ABACUS_POSTGRESQL:-15}
 packages=(
     make g++ pkg-config libxxhash-dev
-    postgresql-15 postgresql-server-dev-15
+    "postgresql-$version" "postgresql-server-dev-$version"
     libcgal-dev libgmp-dev libmpfr-dev libcairo2-dev
 )
 demo=(
@@ -18,27 +22,35 @@ demo=(
     python3-netcdf4 python3-numpy   # to read them
     python-matplotlib-data          # the Jacksboro fault elevation model
 )
-test=(
-    cmake clang libclang-rt-14-dev  # clang brings libFuzzer
-    clang-format clang-tidy
-    libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
+server=(
+    "postgresql-$version-pgtap" libtap-parser-sourcehandler-pgtap-perl libipc-run-perl mount
+)
+core=(
+    cmake libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
     libtet1.5-dev libqhull-dev      # TetGen and Qhull, to compare with
+)
+test=(
+    "${server[@]}" "${core[@]}"
+    clang libclang-rt-14-dev        # clang brings libFuzzer
+    clang-format clang-tidy
     gnuplot-nox                     # plots of docs/benchmarks.md
     python3-numpy python3-scipy python3-matplotlib python3-vtk9   # whose answers ours are compared with
     python3-meshio                  # reads and writes the files of meshes
-    postgresql-15-pgtap libtap-parser-sourcehandler-pgtap-perl libipc-run-perl
+    mmdebstrap                      # a Debian with another version of PostgreSQL
 )
 bench=(
-    postgresql-15-postgis-3
+    "postgresql-$version-postgis-3"
     linux-perf                      # tells the functions that take most time
 )
 
 case ${1:-test} in
 build) ;;
+server) packages+=("${server[@]}") ;;
+versions) packages+=("${server[@]}" "${core[@]}") ;;
 demo) packages+=("${demo[@]}") ;;
 test) packages+=("${demo[@]}" "${test[@]}") ;;
 bench) packages+=("${demo[@]}" "${test[@]}" "${bench[@]}") ;;
-*) echo "usage: $0 [build|demo|test|bench]" >&2; exit 2 ;;
+*) echo "usage: $0 [build|server|versions|demo|test|bench]" >&2; exit 2 ;;
 esac
 
 missing=()

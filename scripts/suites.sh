@@ -76,12 +76,19 @@ tap_end() {
 
 # Crashes, many sessions, dumps, replication, upgrades: in servers that the tests start
 # themselves, as a user that may. An interrupted test dies and ends its servers. ABACUS_KILLS says
-# how often to kill. Names of files in test/tap; all without arguments.
+# how often to kill. Names of files in test/tap; all without arguments. A server of an earlier
+# version in build/old (other_version.sh) is upgraded from.
 tap_tests() {
-    local sources
+    local sources old=()
+    if [[ -d $ABACUS_BUILD/old ]]; then
+        old=(LD_LIBRARY_PATH="$ABACUS_BUILD/old/libraries"
+            ABACUS_OLD_SERVER="$(echo "$ABACUS_BUILD"/old/lib/postgresql/*)")
+    fi
     if ((!$#)); then set -- "$tap_folder"/*.pl; else set -- "${@/#/"$tap_folder/"}"; fi
     sources=$(dirname "$("$PG_CONFIG" --pgxs)")/..
-    cluster_as_server env TESTDIR="$tap_folder" PG_REGRESS="$sources/test/regress/pg_regress" \
+    # TESTDIR until 15, the others since
+    cluster_as_server env TESTDIR="$tap_folder" TESTDATADIR="$tap_folder/tmp_check" \
+        TESTLOGDIR="$tap_folder/tmp_check/log" "${old[@]}" PG_REGRESS="$sources/test/regress/pg_regress" \
         PERL5OPT=-Msigtrap=die,INT,TERM prove -j "$ABACUS_JOBS" -I "$sources/test/perl" "$@"
 }
 

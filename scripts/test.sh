@@ -5,18 +5,27 @@
 # random changes against a model, reports of benchmarks, smoke runs of the benchmarks
 # and the evaluation. Logs are left in build/test.
 #
-#   test.sh             all suites but tidy
-#   test.sh NAME...     these, after the builds that they need
+#   test.sh             all suites but tidy and other versions
+#   test.sh NAME...     these, after the builds that they need; `all` are those of above
 #   test.sh list        the names
+#   test.sh --postgresql N [short|NAME...]
+#                       with PostgreSQL 17 or 18, in a Debian that has it (chroot.sh): all that a
+#                       server and the core concerns, compiled there; these suites; or, in some
+#                       minutes, what differs between servers, with the core as it is compiled here
 set -uo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh
 . scripts/suites.sh
+. scripts/other_version.sh
 
 FUZZ_SECONDS=${FUZZ_SECONDS:-30}
 logs=$ABACUS_BUILD/test
 mkdir -p "$logs"
-passed=0 failed=0
+passed=0 failed=0 skipped=0
+
+# The short form: TAP files that concern what differs between versions, and data sets.
+short_tap="standby.pl logical.pl pg_upgrade.pl vacuum.pl build_crash.pl"
+short_sets="wheel octree duplicates"
 
 # Each suite, and what runs it.
 declare -A command=(
@@ -34,30 +43,37 @@ declare -A command=(
     [pgtap]=pgtap_tests
     [docs]=documentation_examples
     [oracles]=oracle_tests
-    [tap]=tap_tests
-    [acceptance]="scripts/acceptance.sh quick"
+    [tap]="tap_tests ${ABACUS_SHORT:+$short_tap}"
+    [acceptance]="scripts/acceptance.sh quick ${ABACUS_SHORT:+$short_sets}"
     [acceptance-goose]="scripts/acceptance.sh goose"
     [model]="scripts/model_test.sh -t 30"
     [reports]=report_tests
     [bench]="scripts/bench.sh smoke"
     [evaluation]="scripts/evaluation.sh smoke"
+    [postgresql-17]="scripts/test.sh --postgresql 17 short"
+    [postgresql-18]="scripts/test.sh --postgresql 18 short"
 )
 # The order. The second line runs beside the first, since servers mostly wait, and few of
 # its suites use more than one processor.
 first_builds=(format layout build-extension build)
 first_line=(build-sanitized build-fuzz tidy unit unit-sanitized fuzz)
 second_line=(regress pgtap docs oracles tap acceptance acceptance-goose model reports bench evaluation)
+# Then, beside each other.
+other_versions=(postgresql-17 postgresql-18)
+# These take long, or load much: only where they are named.
+not_in_all=(tidy "${other_versions[@]}")
 # The builds that a suite needs.
 declare -A needs=([unit]=build [unit-sanitized]=build-sanitized [fuzz]=build-fuzz)
 for name in build regress pgtap docs oracles tap; do needs[$name]=build-extension; done
-for name in acceptance acceptance-goose model bench evaluation; do needs[$name]=build; done
+for name in acceptance acceptance-goose model bench evaluation "${other_versions[@]}"; do needs[$name]=build; done
+if [[ -n ${ABACUS_SHORT:-} ]]; then needs[acceptance]=build-extension; fi # the oracle was brought
 
 # choose NAME...: leaves in the lists these, and what they need.
 declare -A chosen=()
 choose() {
     local name
     for name in "$@"; do
-        [[ -n ${command[$name]:-} ]] || fail "No suite $name. There are: ${first_builds[*]} ${first_line[*]} ${second_line[*]}"
+        [[ -n ${command[$name]:-} ]] || fail "No suite $name. There are: $(suites)"
         while [[ -n $name ]]; do
             chosen[$name]=1
             name=${needs[$name]:-}
@@ -66,6 +82,16 @@ choose() {
     keep_chosen first_builds
     keep_chosen first_line
     keep_chosen second_line
+    keep_chosen other_versions
+}
+
+suites() {
+    echo "${first_builds[@]}" "${first_line[@]}" "${second_line[@]}" "${other_versions[@]}"
+}
+
+# The names that `all` stands for.
+all_suites() {
+    suites | tr ' ' '\n' | grep -vxF -f <(printf '%s\n' "${not_in_all[@]}")
 }
 
 keep_chosen() {
@@ -77,13 +103,17 @@ keep_chosen() {
     line=("${kept[@]}")
 }
 
-# suite NAME: runs it, output into a log that is shown on failure.
+# suite NAME: runs it, output into a log that is shown on failure. Status 77: it cannot be run here.
 suite() {
-    local name=$1 start=$SECONDS log=$logs/$1.log
+    local name=$1 start=$SECONDS log=$logs/$1.log status=0
     # shellcheck disable=SC2086 # the words of a command
-    if (${command[$name]}) >"$log" 2>&1; then
+    (${command[$name]}) >"$log" 2>&1 || status=$?
+    if ((status == 0)); then
         passed=$((passed + 1))
         printf 'ok      %-18s %4d s   %s\n' "$name" $((SECONDS - start)) "$(summary "$log")"
+    elif ((status == 77)); then
+        skipped=$((skipped + 1))
+        printf 'SKIPPED %-18s %4d s   %s\n' "$name" $((SECONDS - start)) "$(tail -n 1 "$log")"
     else
         failed=$((failed + 1))
         printf 'FAILED  %-18s %4d s   (%s)\n' "$name" $((SECONDS - start)) "${log#"$ABACUS_ROOT"/}"
@@ -93,7 +123,7 @@ suite() {
 
 # The line of a log that says how much was tested.
 summary() {
-    grep -E -o '[0-9]+% tests passed.*|All [0-9]+ tests passed|^Files=.*Tests=[0-9]+|^[0-9]+ examples.*|^[0-9]+ meshes compared.*|^[0-9]+ steps in .*|^Done [0-9]+ runs.*|^Ran [0-9]+ tests.*' "$1" |
+    grep -E -o '[0-9]+% tests passed.*|All [0-9]+ tests passed|^Files=.*Tests=[0-9]+|^[0-9]+ examples.*|^[0-9]+ meshes compared.*|^[0-9]+ steps in .*|^Done [0-9]+ runs.*|^Ran [0-9]+ tests.*|^[0-9]+ passed, [0-9]+ failed' "$1" |
         tail -n 1
 }
 
@@ -163,16 +193,33 @@ second_end() {
     trap cluster_stop EXIT
 }
 
-if [[ ${1:-} == list ]]; then
-    printf '%s\n' "${first_builds[@]}" "${first_line[@]}" "${second_line[@]}"
-    exit
-fi
-if ((!$#)); then
-    unset "command[tidy]" # takes five minutes of processor time: only where it is named
-    set -- "${!command[@]}"
-fi
+# Each in a Debian of its own, and none waits for another. They are process groups, which end with
+# this script; what runs in a Debian takes only signal 9.
+other_versions_run() {
+    local name run before
+    before=$(trap -p EXIT) # stops the server of the second line
+    runs=()
+    set -m
+    for name in "${other_versions[@]}"; do
+        (passed=0 failed=0 skipped=0; suite "$name"; exit $((failed + 2 * skipped))) &
+        runs+=($!)
+    done
+    set +m
+    trap "kill -KILL -- ${runs[*]/#/-}; ${before:+cluster_stop}" EXIT
+    for run in "${runs[@]}"; do
+        wait "$run"
+        case $? in 0) passed=$((passed + 1)) ;; 2) skipped=$((skipped + 1)) ;; *) failed=$((failed + 1)) ;; esac
+    done
+    eval "${before:-trap - EXIT}"
+}
+
+case ${1:-all} in
+list) suites | tr ' ' '\n'; exit ;;
+--postgresql) shift; other_postgresql "$@" ;;
+all) shift $(($# > 0)); mapfile -t names < <(all_suites); set -- "${names[@]}" "$@" ;;
+esac
 choose "$@"
-scripts/install-dependencies.sh test || fail "packages are missing"
+scripts/install-dependencies.sh "${ABACUS_PACKAGES:-test}" || fail "packages are missing"
 export ABACUS_BUILT=1 # tells the scripts below that all is built and installed
 export ABACUS_CORE_OBJECTS=$ABACUS_BUILD/extension # what is tested is what is installed
 for name in "${first_builds[@]}"; do suite "$name"; done
@@ -180,6 +227,7 @@ unset ABACUS_CORE_OBJECTS
 if ((${#second_line[@]})); then second_begin; fi
 for name in "${first_line[@]}"; do suite "$name"; done
 if ((${#second_line[@]})); then second_end; fi
+if ((${#other_versions[@]})); then other_versions_run; fi
 
-echo "$passed passed, $failed failed"
+echo "$passed passed, $failed failed$( ((!skipped)) || echo ", $skipped skipped")"
 ((failed == 0))

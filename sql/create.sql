@@ -1,7 +1,7 @@
 -- Making, renaming, moving and dropping a mesh.
 SELECT abacus_create('empty', 2);
 SELECT c.relname, t.typname AS row_type, pg_get_constraintdef(k.oid) AS primary_key
-FROM pg_class c JOIN pg_type t ON t.oid = c.reloftype JOIN pg_constraint k ON k.conrelid = c.oid
+FROM pg_class c JOIN pg_type t ON t.oid = c.reloftype JOIN pg_constraint k ON k.conrelid = c.oid AND k.contype = 'p'
 WHERE c.relname LIKE 'empty%' ORDER BY 1;
 SELECT code, part FROM empty;
 SELECT count(*) FROM empty_vertices;

@@ -107,13 +107,13 @@ RESET statement_timeout;
 SELECT to_regclass('wrong') IS NULL AS nothing_left;
 
 -- Users who may create a table and read the points may call it.
-CREATE ROLE abacus_goose_user;
+CREATE ROLE regress_goose_user;
 CREATE SCHEMA pond;
-SET ROLE abacus_goose_user;
+SET ROLE regress_goose_user;
 SELECT abacus_goose('pond.wrong', 'VALUES (1, 0, 0)');
 RESET ROLE;
-GRANT CREATE, USAGE ON SCHEMA pond TO abacus_goose_user;
-SET ROLE abacus_goose_user;
+GRANT CREATE, USAGE ON SCHEMA pond TO regress_goose_user;
+SET ROLE regress_goose_user;
 SELECT abacus_goose('pond.wrong', 'SELECT * FROM pg_authid');
 SELECT count(*) AS figures FROM abacus_goose('pond.own', 'VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1)');
 RESET ROLE;
@@ -122,4 +122,4 @@ SELECT tableowner FROM pg_tables WHERE tablename = 'own';
 SET client_min_messages = warning;
 DROP SCHEMA pond, goose, elsewhere CASCADE;
 DROP EXTENSION abacus_lab;
-DROP ROLE abacus_goose_user;
+DROP ROLE regress_goose_user;

@@ -70,8 +70,10 @@ CREATE TYPE taken AS ENUM ();
 SELECT abacus_create('taken', 2);
 \echo :LAST_ERROR_SQLSTATE
 -- what stands on the tables of a mesh
-\d+ field
-\d+ field_vertices
+\d field
+\d field_vertices
+SELECT attrelid::regclass AS "table", attname, attstorage, col_description(attrelid, attnum) FROM pg_attribute
+WHERE attrelid IN ('field'::regclass, 'field_vertices'::regclass) AND attnum > 0 ORDER BY attrelid::regclass::text, attnum;
 SELECT obj_description('field'::regclass), obj_description('field_vertices'::regclass);
 
 SET client_min_messages = warning;

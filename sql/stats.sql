@@ -99,13 +99,16 @@ SELECT abacus_draw('field', 64, max_edge => 'NaN');
 
 SELECT abacus_version() = extversion AS same_version FROM pg_extension WHERE extname = 'abacus';
 SHOW abacus.cache_size;
+\set VERBOSITY sqlstate
 SET abacus.cache_size = 0;
--- every object of the extension has a comment
+\set VERBOSITY default
+-- every object of the extension has a comment; types that PostgreSQL makes by itself need none
 SELECT pg_describe_object(classid, objid, 0)
-FROM pg_depend
+FROM pg_depend AS d
 WHERE refclassid = 'pg_extension'::regclass AND refobjid = (SELECT oid FROM pg_extension WHERE extname = 'abacus')
   AND deptype = 'e' AND classid <> 'pg_rewrite'::regclass
   AND obj_description(objid, classid::regclass::name) IS NULL
+  AND NOT EXISTS (SELECT FROM pg_depend AS i WHERE i.classid = d.classid AND i.objid = d.objid AND i.deptype = 'i')
 ORDER BY 1;
 
 -- the extension moves to another schema, and works under any search_path

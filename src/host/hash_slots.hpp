@@ -23,7 +23,12 @@ template <std::uint32_t no_number> class HashSlots {
 public:
     static constexpr std::size_t slot_bytes = 2 * sizeof(std::uint32_t);
 
-    explicit HashSlots(const Memory &memory) : slots_(memory) { add_slots(1024); }
+    static constexpr std::size_t few = 1024;
+
+    /// `slots`: a power of two. A table that is never used may have none.
+    explicit HashSlots(const Memory &memory, std::size_t slots = few) : slots_(memory) {
+        if (slots > 0) add_slots(slots);
+    }
 
     void add(std::uint32_t hash, std::uint32_t number) {
         if (2 * (count_ + 1) > slots_.size()) grow();

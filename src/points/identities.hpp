@@ -16,7 +16,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 
 namespace abacus {
 
@@ -24,12 +23,10 @@ class Identities {
 public:
     static constexpr std::int64_t unknown = -1;
 
-    /// `attributes`: how many of them count.
+    /// `attributes`: how many of them count; with none there is no table.
     Identities(const Host &host, unsigned attributes)
         : attributes_(attributes), stride_(1 + std::size_t(attributes)), words_(host),
-          hashes_(host) {
-        if (attributes_ > 0) slots_.emplace(host); // a first table, which most never need
-    }
+          hashes_(host), slots_(host, attributes > 0 ? HashSlots<none>::few : 0) {}
 
     /// The number of a point that is wanted.
     std::int64_t enter(std::int64_t id, const double *attributes) {
@@ -37,7 +34,7 @@ public:
         if (attributes_ == 0 || known != unknown) return known;
         const std::uint32_t hash = append(id, attributes), number = count();
         hashes_.push_back(hash);
-        slots_->add(hash, number);
+        slots_.add(hash, number);
         return number;
     }
     /// The number of a point; `unknown` if none like it has been entered.
@@ -46,7 +43,7 @@ public:
         const std::uint32_t hash = append(id, attributes);
         const std::uint64_t *const words = words_.data();
         const std::uint64_t *const wanted = words + count() * stride_;
-        const std::uint32_t number = slots_->find(hash, [&](std::uint32_t n) {
+        const std::uint32_t number = slots_.find(hash, [&](std::uint32_t n) {
             return std::equal(wanted, wanted + stride_, words + n * stride_);
         });
         words_.resize(count() * stride_);
@@ -54,7 +51,7 @@ public:
     }
     /// Forgets all that has been entered.
     void clear() {
-        for (std::uint32_t n = 0; n < hashes_.size(); ++n) slots_->remove(hashes_[n], n);
+        for (std::uint32_t n = 0; n < hashes_.size(); ++n) slots_.remove(hashes_[n], n);
         hashes_.clear();
         words_.clear();
     }
@@ -89,7 +86,7 @@ private:
     const std::size_t stride_;
     Arena<std::uint64_t> words_; // id and attributes of each entry
     Arena<std::uint32_t> hashes_;
-    std::optional<HashSlots<none>> slots_; // of the entries, by their words
+    HashSlots<none> slots_; // of the entries, by their words
 };
 
 } // namespace abacus

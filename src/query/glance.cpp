@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <functional>
 
 namespace abacus {
 
@@ -35,7 +34,6 @@ bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &sim
             codes.add(code);
         else
             add_diagonally(cell, distance * own.spacing, codes);
-        std::sort(codes.begin(), codes.end(), std::greater());
         if (is_first) {
             code = *codes.begin();
             const auto is_here = [&](std::uint64_t c) { return is_cached(c); };

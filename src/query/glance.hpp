@@ -65,11 +65,16 @@ private:
     static constexpr int most_codes = 2 * D + (1 << D); // at one of them
 
     using Side = std::uint16_t; // as wide as what is compared
+    /// The greatest first.
     struct Codes {
         std::array<std::uint64_t, most_codes> code;
         int count = 0;
 
-        void add(std::uint64_t another) { code[count++] = another; }
+        void add(std::uint64_t another) {
+            int at = count++;
+            for (; at > 0 && code[at - 1] < another; --at) code[at] = code[at - 1];
+            code[at] = another;
+        }
         std::uint64_t *begin() { return code.data(); }
         std::uint64_t *end() { return code.data() + count; }
     };

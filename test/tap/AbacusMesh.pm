@@ -7,7 +7,14 @@ use warnings;
 use Exporter 'import';
 use Test::More;
 
-our @EXPORT = qw(mesh_figure mesh_content mesh_bytes mesh_pages spread_mesh create_rest other_simplices is_sound is_intact);
+our @EXPORT = qw(has_shortcuts mesh_figure mesh_content mesh_bytes mesh_pages spread_mesh create_rest other_simplices is_sound is_intact);
+
+# Whether the module does more than PostgreSQL offers to extensions (abacus.shortcuts).
+sub has_shortcuts
+{
+	my ($node) = @_;
+	return $node->safe_psql('postgres', "LOAD 'abacus'; SHOW abacus.shortcuts") eq 'on';
+}
 
 # Value of a row of abacus_stats.
 sub mesh_figure

@@ -32,7 +32,7 @@ my $standby = PostgreSQL::Test::Cluster->new('standby');
 $standby->init_from_backup($primary, 'base', has_streaming => 1);
 $standby->append_conf('postgresql.conf', <<'CONF');
 hot_standby_feedback = on
-max_standby_streaming_delay = 100ms
+max_standby_streaming_delay = 1s
 CONF
 $standby->start;
 

@@ -23,6 +23,7 @@ max_prepared_transactions = 2
 session_preload_libraries = 'abacus'
 CONF
 $node->start;
+plan skip_all => 'built without shortcuts' unless has_shortcuts($node);
 
 sub sql { return $node->safe_psql('postgres', $_[0]); }
 sub pages { return mesh_pages($node, 'postgres', $_[0]); }

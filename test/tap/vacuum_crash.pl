@@ -16,6 +16,7 @@ my $kills = $ENV{ABACUS_KILLS} || 8;
 my $node = crash_node('vacuum_crash');
 $node->append_conf('postgresql.conf', "autovacuum = off\nsession_preload_libraries = 'abacus'");
 $node->restart;
+plan skip_all => 'built without shortcuts' unless has_shortcuts($node);
 $node->safe_psql('postgres', q{SELECT setseed(0.5);
 	CREATE TABLE points AS SELECT i AS id, random() AS x, random() AS y FROM generate_series(1, 100000) AS i;
 	SELECT abacus_triangulate('plane', 'SELECT * FROM points')});

@@ -9,9 +9,11 @@
 #include "utils/guc.h"
 
 #include "pg/base/settings.h"
+#include "pg/port/shortcuts.h"
 
 static int	cache_size_mb = 128;
 static int	fail_host_call = 0;
+static bool shortcuts = ABACUS_SHORTCUTS != 0;
 static bool vacuum_moves_rows = true;
 
 int			setting_calls_to_failure = 0;
@@ -36,6 +38,11 @@ settings_define(void)
 							"Counted from the moment of setting; 0 means none. For tests.",
 							&fail_host_call, 0, 0, INT_MAX, PGC_SUSET,
 							GUC_NOT_IN_SAMPLE, NULL, assign_fail_host_call, NULL);
+	DefineCustomBoolVariable("abacus.shortcuts",
+							 "Shows whether Abacus was built to do more than PostgreSQL offers to extensions.",
+							 NULL,
+							 &shortcuts, ABACUS_SHORTCUTS != 0, PGC_INTERNAL,
+							 GUC_NOT_IN_SAMPLE | GUC_DISALLOW_IN_FILE, NULL, NULL, NULL);
 	DefineCustomBoolVariable("abacus.vacuum_moves_rows",
 							 "Lets VACUUM move the rows of meshes to the beginning of their tables.",
 							 "So it can cut the files.",

@@ -9,6 +9,7 @@
 #define ABACUS_SQL_FUNCTION_H
 
 #include "fmgr.h"
+#include "utils/tuplestore.h"	/* rows that are returned; before 19 it came with funcapi.h */
 
 #define SQL_FUNCTION(name) \
 	extern PGDLLEXPORT Datum name(PG_FUNCTION_ARGS); \

@@ -14,6 +14,7 @@
 
 #include "pg/base/location.h"
 #include "pg/goose/goose_row.h"
+#include "pg/port/port.h"
 
 /* The type of boxes: PostgreSQL's own in the plane, that of an extension in space. */
 Oid

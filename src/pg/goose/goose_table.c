@@ -221,7 +221,12 @@ find_rows(GooseTable *table, const double *point)
 	return count;
 }
 
-/* Searches for a row's box and marks the row's index entry dead; false if it is not there. */
+/*
+ * Searches for a row's box and marks the row's index entry dead; false if it is not there. GiST keeps
+ * in mind what is to be marked until it leaves a page, but never marks an index of one page.
+ * It would mark these entries on the first page that it leaves later. So there is nothing to mark
+ * until there are more pages.
+ */
 static bool
 kill_entry(GooseTable *table, const abacus_boxed_simplex *row)
 {
@@ -231,11 +236,16 @@ kill_entry(GooseTable *table, const abacus_boxed_simplex *row)
 	GooseBox		room;
 
 	unpack_location(row->location, &wanted);
+	if (!table->has_leaves)
+		table->has_leaves = RelationGetNumberOfBlocks(table->index) > 1;
 	search(table, &table->equals, row->lower, row->upper, &room);
 	/* to the end, since the mark is made when the scan goes on */
 	while ((tid = index_getnext_tid(table->scan, ForwardScanDirection)) != NULL)
 		if (ItemPointerEquals(tid, &wanted))
-			killed = table->scan->kill_prior_tuple = true;
+		{
+			killed = true;
+			table->scan->kill_prior_tuple = table->has_leaves;
+		}
 	return killed;
 }
 
@@ -243,7 +253,7 @@ kill_entry(GooseTable *table, const abacus_boxed_simplex *row)
 void
 goose_table_remove_ghosts(GooseTable *table)
 {
-	TableScanDesc scan = table_beginscan(table->heap, SnapshotSelf, 0, NULL);
+	TableScanDesc scan = port_table_beginscan(table->heap, SnapshotSelf);
 	abacus_boxed_simplex row;
 
 	while (table_scan_getnextslot(scan, ForwardScanDirection, table->slot))

@@ -25,6 +25,7 @@ typedef struct GooseTable
 	TupleTableSlot *slot;
 	ScanKeyData overlaps;		/* box && given */
 	ScanKeyData equals;			/* box ~= given, or = */
+	bool		has_leaves;		/* the index has more than one page */
 	CommandId	inserting;		/* under which rows are inserted: see goose_table.c */
 	abacus_boxed_simplex *found;
 	size_t		room;			/* of `found` */

@@ -5,10 +5,11 @@
 
 #include "pg/host/guard.h"
 #include "pg/host/host_parts.h"
+#include "pg/port/port.h"
 
 /* What stands for the functions of a kind that nobody has registered. */
 
-static pg_attribute_noreturn() void
+pg_noreturn static void
 fail_unregistered(abacus_page_kind kind)
 {
 	elog(ERROR, "pages of kind %u have no place", (unsigned) kind);

@@ -303,7 +303,7 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 
 /* From now on the object goes where the mesh goes. */
 static void
-bind(Oid class, Oid object, Oid mesh)
+bind_object(Oid class, Oid object, Oid mesh)
 {
 	ObjectAddress dependent;
 	ObjectAddress referenced;
@@ -316,7 +316,7 @@ bind(Oid class, Oid object, Oid mesh)
 void
 mesh_bind_vertex_table(Oid mesh, Oid vertices)
 {
-	bind(RelationRelationId, vertices, mesh);
+	bind_object(RelationRelationId, vertices, mesh);
 }
 
 /* The mesh that a trigger is bound to; InvalidOid if none. */
@@ -329,7 +329,7 @@ mesh_of_trigger(Oid trigger)
 void
 mesh_bind_trigger(Oid mesh, Oid trigger)
 {
-	bind(TriggerRelationId, trigger, mesh);
+	bind_object(TriggerRelationId, trigger, mesh);
 }
 
 /*

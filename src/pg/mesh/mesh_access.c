@@ -10,6 +10,7 @@
 #include "access/parallel.h"
 #include "access/xlog.h"
 #include "catalog/pg_am.h"
+#include "catalog/pg_type.h"
 #include "executor/executor.h"
 #include "lib/stringinfo.h"
 #include "miscadmin.h"

@@ -1,5 +1,5 @@
 /*
- * port.h: what differs between major versions of PostgreSQL, and the only file that asks for the version.
+ * port.h: what differs between major versions of PostgreSQL. Only this room asks for the version.
  *
  * All other files use the names and signatures of the newest version; here they are mapped to
  * those of older ones. Where a name would say too little, it begins with port_. A version that is
@@ -7,6 +7,10 @@
  */
 #ifndef ABACUS_PORT_H
 #define ABACUS_PORT_H
+
+#if PG_VERSION_NUM < 150000 || PG_VERSION_NUM >= 200000
+#error "Abacus is made for PostgreSQL 15 to 19: this version is not known"
+#endif
 
 #include "access/genam.h"
 #include "access/heapam.h"
@@ -17,49 +21,52 @@
 #include "catalog/pg_namespace.h"
 #include "commands/tablecmds.h"
 #include "commands/trigger.h"
-#include "common/relpath.h"
+#include "commands/vacuum.h"
 #include "miscadmin.h"
+#include "storage/buf_internals.h"
 #include "storage/bufmgr.h"
 #include "storage/proc.h"
-#include "storage/smgr.h"
+#include "tcop/pquery.h"
 #include "utils/acl.h"
 #include "utils/rel.h"
 #include "utils/relcache.h"
 #include "utils/snapmgr.h"
+#if PG_VERSION_NUM >= 160000
+#include "varatt.h"
+#endif
 
-#if PG_VERSION_NUM < 150000 || PG_VERSION_NUM >= 160000
-#error "Abacus is made for PostgreSQL 15"
+#if PG_VERSION_NUM < 180000
+#define pg_noreturn pg_attribute_noreturn()
 #endif
 
 /* ---- Files of a relation (names of 16) ------------------------------------ */
 
+#if PG_VERSION_NUM < 160000
 typedef RelFileNode RelFileLocator;
 
 #define RelFileLocatorEquals(a, b) RelFileNodeEquals(a, b)
 #define rd_locator rd_node
 #define relNumber relNode
-#define smgr_rlocator smgr_rnode
 #define RelationSetNewRelfilenumber(relation, persistence) \
 	RelationSetNewRelfilenode(relation, persistence)
-
-/* The path of a relation's main fork, in memory of the caller's (18: relpath() gives a struct). */
-static inline char *
-port_relation_path(Relation rel)
-{
-	return relpath(RelationGetSmgr(rel)->smgr_rlocator, MAIN_FORKNUM);
-}
+#endif
 
 /* As by REINDEX TABLE, without a statement (17 takes it). */
 static inline bool
 port_reindex_relation(Oid relid, int flags, const ReindexParams *params)
 {
+#if PG_VERSION_NUM >= 170000
+	return reindex_relation(NULL, relid, flags, params);
+#else
 	ReindexParams copy = *params;
 
 	return reindex_relation(relid, flags, &copy);
+#endif
 }
 
 /* ---- Privileges (names of 16) ----------------------------------------------- */
 
+#if PG_VERSION_NUM < 160000
 static inline bool
 object_ownercheck(Oid class, Oid object, Oid role)
 {
@@ -74,6 +81,18 @@ object_aclcheck(Oid class, Oid object, Oid role, AclMode mode)
 	Assert(class == NamespaceRelationId);
 	return pg_namespace_aclcheck(object, role, mode);
 }
+#endif
+
+/* Whether a role may vacuum a table: its owner, or who has the privilege MAINTAIN (from 17 on). */
+static inline bool
+port_may_maintain(Oid table, Oid role)
+{
+#if PG_VERSION_NUM >= 170000
+	return pg_class_aclcheck(table, role, ACL_MAINTAIN) == ACLCHECK_OK;
+#else
+	return object_ownercheck(RelationRelationId, table, role);
+#endif
+}
 
 /* ---- Scans, rows and triggers ------------------------------------------------ */
 
@@ -81,28 +100,126 @@ object_aclcheck(Oid class, Oid object, Oid role, AclMode mode)
 static inline IndexScanDesc
 port_index_beginscan(Relation heap, Relation index, Snapshot snapshot, int keys)
 {
+#if PG_VERSION_NUM >= 190000
+	return index_beginscan(heap, index, snapshot, NULL, keys, 0, SO_NONE);
+#elif PG_VERSION_NUM >= 180000
+	return index_beginscan(heap, index, snapshot, NULL, keys, 0);
+#else
 	return index_beginscan(heap, index, snapshot, keys, 0);
+#endif
+}
+
+/* After the last insertion: a BRIN index keeps pages pinned until then (from 17 on). */
+static inline void
+port_index_insert_cleanup(Relation index, IndexInfo *info)
+{
+#if PG_VERSION_NUM >= 170000
+	index_insert_cleanup(index, info);
+#endif
+}
+
+/* A scan of all rows (19 takes flags). */
+static inline TableScanDesc
+port_table_beginscan(Relation rel, Snapshot snapshot)
+{
+#if PG_VERSION_NUM >= 190000
+	return table_beginscan(rel, snapshot, 0, NULL, SO_NONE);
+#else
+	return table_beginscan(rel, snapshot, 0, NULL);
+#endif
+}
+
+/* A scan of the rows with places from `first` to `last`. */
+static inline TableScanDesc
+port_table_beginscan_tidrange(Relation rel, Snapshot snapshot, ItemPointer first, ItemPointer last)
+{
+#if PG_VERSION_NUM >= 190000
+	return table_beginscan_tidrange(rel, snapshot, first, last, SO_NONE);
+#else
+	return table_beginscan_tidrange(rel, snapshot, first, last);
+#endif
+}
+
+/* The primary key's index, if it is checked at once (18 also gives one that is deferrable). */
+static inline Oid
+port_primary_key_index(Relation heap)
+{
+#if PG_VERSION_NUM >= 180000
+	return RelationGetPrimaryKeyIndex(heap, false);
+#else
+	return RelationGetPrimaryKeyIndex(heap);
+#endif
 }
 
 /* 16 tells which indexes are to be updated: ours are, by ourselves. */
 static inline void
 port_heap_update(Relation heap, ItemPointer tid, HeapTuple tuple)
 {
+#if PG_VERSION_NUM >= 160000
+	TU_UpdateIndexes ignored;
+
+	simple_heap_update(heap, tid, tuple, &ignored);
+#else
 	simple_heap_update(heap, tid, tuple);
+#endif
 }
 
-/* 16 asks whether clones of the trigger shall be changed, too. */
+/* Clones of the trigger at partitions are changed, too (16 asks). */
 static inline void
 port_set_trigger_firing(Relation rel, const char *name, char fires, LOCKMODE lock)
 {
+#if PG_VERSION_NUM >= 160000
+	EnableDisableTrigger(rel, name, InvalidOid, fires, false, true, lock);
+#else
 	EnableDisableTrigger(rel, name, fires, false, lock);
+#endif
 }
 
 /* 19 hands a pin of the visibility map's page, which is to be released. */
 static inline void
 port_prune_heap_page(Relation heap, Buffer buffer)
 {
+#if PG_VERSION_NUM >= 190000
+	Buffer		map = InvalidBuffer;
+
+	heap_page_prune_opt(heap, buffer, &map, false);
+	if (BufferIsValid(map))
+		ReleaseBuffer(map);
+#else
 	heap_page_prune_opt(heap, buffer);
+#endif
+}
+
+/* ---- VACUUM and buffers -------------------------------------------------------- */
+
+/* Whether VACUUM cuts the table's file (18: a setting of the server where the table has none). */
+static inline bool
+port_vacuum_truncates(Relation rel)
+{
+	const StdRdOptions *options = (const StdRdOptions *) rel->rd_options;
+
+#if PG_VERSION_NUM >= 190000
+	return options == NULL || options->vacuum_truncate == PG_TERNARY_UNSET ? vacuum_truncate
+		: options->vacuum_truncate == PG_TERNARY_TRUE;
+#elif PG_VERSION_NUM >= 180000
+	return options == NULL || !options->vacuum_truncate_set ? vacuum_truncate
+		: options->vacuum_truncate;
+#else
+	return options == NULL || options->vacuum_truncate;
+#endif
+}
+
+/* How often a shared buffer has been used lately, read without a lock (19: a state of 64 bits). */
+static inline uint32
+port_buffer_usage(Buffer buffer)
+{
+	BufferDesc *descriptor = GetBufferDescriptor(buffer - 1);
+
+#if PG_VERSION_NUM >= 190000
+	return BUF_STATE_GET_USAGECOUNT(pg_atomic_read_u64(&descriptor->state));
+#else
+	return BUF_STATE_GET_USAGECOUNT(pg_atomic_read_u32(&descriptor->state));
+#endif
 }
 
 /* ---- Transactions and snapshots ------------------------------------------------ */
@@ -111,21 +228,50 @@ port_prune_heap_page(Relation heap, Buffer buffer)
 static inline LocalTransactionId
 port_local_transaction(void)
 {
+#if PG_VERSION_NUM >= 170000
+	return MyProc->vxid.lxid;
+#else
 	return MyProc->lxid;
+#endif
+}
+
+/*
+ * The first of the active snapshots, or NULL if it cannot be told. From 18 on it is known only
+ * while the portal without a name runs. That is a client's statement, below which there is none;
+ * portals of cursors and of functions have names.
+ */
+static inline Snapshot
+port_first_active_snapshot(void)
+{
+#if PG_VERSION_NUM >= 180000
+	if (ActivePortal == NULL || ActivePortal->name[0] != '\0')
+		return NULL;
+	if (ActivePortal->portalSnapshot != NULL)
+		return ActivePortal->portalSnapshot;
+	return ActivePortal->queryDesc != NULL ? ActivePortal->queryDesc->snapshot : NULL;
+#else
+	return GetOldestSnapshot();
+#endif
 }
 
 /* Whether rows that a snapshot sees may go for the age of the snapshot (until 16). */
 static inline bool
 port_snapshots_may_be_too_old(void)
 {
+#if PG_VERSION_NUM >= 170000
+	return false;
+#else
 	return old_snapshot_threshold >= 0;
+#endif
 }
 
 /* An error if that has happened to what the snapshot would see on the page. */
 static inline void
 port_refuse_old_snapshot(Snapshot snapshot, Relation rel, Page page)
 {
+#if PG_VERSION_NUM < 170000
 	TestForOldSnapshot(snapshot, rel, page);
+#endif
 }
 
 #endif

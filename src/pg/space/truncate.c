@@ -62,10 +62,7 @@ truncate_table(Relation rel)
 static bool
 is_empty(Relation rel)
 {
-	bool		may = rel->rd_options == NULL ||
-		((StdRdOptions *) rel->rd_options)->vacuum_truncate;
-
-	return may && RelationGetNumberOfBlocks(rel) > 0 && !has_rows(rel);
+	return port_vacuum_truncates(rel) && RelationGetNumberOfBlocks(rel) > 0 && !has_rows(rel);
 }
 
 /*

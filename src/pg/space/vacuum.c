@@ -40,6 +40,7 @@
 #include "pg/base/settings.h"
 #include "pg/mesh/mesh.h"
 #include "pg/port/port.h"
+#include "pg/port/shortcuts.h"
 #include "pg/space/vacuum.h"
 #include "pg/space/vacuum_moves.h"
 
@@ -236,6 +237,8 @@ process_utility(PlannedStmt *planned, const char *query, bool read_only_tree,
 void
 vacuum_init(void)
 {
+	if (!ABACUS_SHORTCUTS)
+		return;
 	previous_hook = ProcessUtility_hook;
 	ProcessUtility_hook = process_utility;
 }

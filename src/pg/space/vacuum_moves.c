@@ -37,7 +37,7 @@ static bool
 may_vacuum(Oid relid)
 {
 	return SearchSysCacheExists1(RELOID, ObjectIdGetDatum(relid)) &&
-		(object_ownercheck(RelationRelationId, relid, GetUserId()) ||
+		(port_may_maintain(relid, GetUserId()) ||
 		 object_ownercheck(DatabaseRelationId, MyDatabaseId, GetUserId()));
 }
 
@@ -48,7 +48,7 @@ is_spared(Relation rel, const VacuumOptions *options)
 	const StdRdOptions *settings = (const StdRdOptions *) rel->rd_options;
 
 	return rel->rd_rel->relam != HEAP_TABLE_AM_OID || RELATION_IS_OTHER_TEMP(rel) ||
-		(settings != NULL && !options->truncate && !settings->vacuum_truncate) ||
+		(!options->truncate && !port_vacuum_truncates(rel)) ||
 		(settings != NULL && !options->index_cleanup &&
 		 settings->vacuum_index_cleanup == STDRD_OPTION_VACUUM_INDEX_CLEANUP_OFF);
 }

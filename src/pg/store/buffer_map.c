@@ -14,6 +14,7 @@
 
 #include <abacus/populate.h>
 
+#include "pg/port/shortcuts.h"
 #include "pg/store/buffer_map.h"
 
 #define STRETCH 32				/* buffers */
@@ -27,7 +28,7 @@ buffer_map_around(Buffer buffer)
 {
 	int			first;
 
-	if (buffer <= 0)
+	if (!ABACUS_SHORTCUTS || buffer <= 0)
 		return;
 	if (mapped == NULL)
 		mapped = MemoryContextAllocZero(TopMemoryContext, NBuffers / STRETCH + 1);

@@ -23,6 +23,7 @@
 #include "utils/snapmgr.h"
 
 #include "pg/port/port.h"
+#include "pg/port/shortcuts.h"
 #include "pg/store/own_sight.h"
 
 static void
@@ -83,7 +84,7 @@ add_all_active(OwnSight *sight)
 }
 
 /*
- * The last but one active snapshot. The last must have been pushed in the innermost
+ * The last but one active snapshot, or NULL. The last must have been pushed in the innermost
  * transaction, since it is pushed there again.
  */
 static Snapshot
@@ -93,7 +94,7 @@ last_but_one(void)
 	Snapshot	before;
 
 	PopActiveSnapshot();
-	before = GetActiveSnapshot();
+	before = ActiveSnapshotSet() ? GetActiveSnapshot() : NULL;
 	PushActiveSnapshot(last);
 	UnregisterSnapshot(last);
 	return before;
@@ -108,7 +109,7 @@ own_sight_take(OwnSight *sight, bool in_trigger)
 {
 	MemSet(sight, 0, sizeof(*sight));
 	/* with a threshold the oldest snapshot need not be the first active one */
-	sight->known = !port_snapshots_may_be_too_old();
+	sight->known = ABACUS_SHORTCUTS && !port_snapshots_may_be_too_old();
 	sight->level = GetCurrentTransactionNestLevel();
 	sight->innermost = GetCurrentTransactionIdIfAny();
 	if (!sight->known)
@@ -117,9 +118,10 @@ own_sight_take(OwnSight *sight, bool in_trigger)
 		add_all_active(sight);
 	else if (ActiveSnapshotSet())
 	{
-		Snapshot	first = GetOldestSnapshot();
+		Snapshot	first = port_first_active_snapshot();
 
-		add_snapshot(sight, first);
+		if (first != NULL)
+			add_snapshot(sight, first);
 		add_snapshot(sight, GetActiveSnapshot());
 		if (GetActiveSnapshot() != first)
 			sight->known = in_trigger && last_but_one() == first;

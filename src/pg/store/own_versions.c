@@ -7,7 +7,7 @@
  * of them.
  *
  * This does to a heap page what PostgreSQL's pruning does, with the same function and the same
- * record of the write-ahead log, under the same lock: nobody else has the page pinned. Line
+ * record of the write-ahead log (pruning.c), under the same lock: nobody else has the page pinned. Line
  * pointers stay, as dead ones, until VACUUM has removed their index entries. A chain of versions on
  * one page (HOT) keeps its first line pointer, which leads to the first version that is left. A
  * standby replays it as any pruning. No snapshot there can be in its way, since none ever saw the
@@ -19,26 +19,13 @@
 #include "postgres.h"
 
 #include "access/heapam.h"
-#include "access/heapam_xlog.h"
 #include "access/htup_details.h"
 #include "access/xact.h"
-#include "access/xloginsert.h"
-#include "miscadmin.h"
 #include "storage/bufmgr.h"
 
+#include "pg/port/pruning.h"
 #include "pg/store/heap_room.h"
 #include "pg/store/own_versions.h"
-
-/* What is to be done to the line pointers of a heap page. */
-typedef struct Pruning
-{
-	int			redirected_count;
-	int			dead_count;
-	int			unused_count;
-	OffsetNumber redirected[MaxHeapTuplesPerPage * 2];	/* from, to */
-	OffsetNumber dead[MaxHeapTuplesPerPage];
-	OffsetNumber unused[MaxHeapTuplesPerPage];
-} Pruning;
 
 /* Whether our own transaction has made the row at *tid. */
 bool
@@ -130,42 +117,6 @@ judge_page(Page page, const OwnSight *sight, Pruning *pruning)
 	}
 }
 
-/* Does what heap_page_prune() does in the end. */
-static void
-execute(Relation heap, Buffer buffer, Pruning *pruning)
-{
-	Page		page = BufferGetPage(buffer);
-
-	START_CRIT_SECTION();
-	heap_page_prune_execute(buffer, pruning->redirected, pruning->redirected_count, pruning->dead,
-							pruning->dead_count, pruning->unused, pruning->unused_count);
-	PageClearFull(page);
-	MarkBufferDirty(buffer);
-	if (RelationNeedsWAL(heap))
-	{
-		xl_heap_prune record;
-		XLogRecPtr	end;
-
-		record.latestRemovedXid = InvalidTransactionId;
-		record.nredirected = pruning->redirected_count;
-		record.ndead = pruning->dead_count;
-		XLogBeginInsert();
-		XLogRegisterData((char *) &record, SizeOfHeapPrune);
-		XLogRegisterBuffer(0, buffer, REGBUF_STANDARD);
-		if (pruning->redirected_count > 0)
-			XLogRegisterBufData(0, (char *) pruning->redirected,
-								pruning->redirected_count * sizeof(OffsetNumber) * 2);
-		if (pruning->dead_count > 0)
-			XLogRegisterBufData(0, (char *) pruning->dead, pruning->dead_count * sizeof(OffsetNumber));
-		if (pruning->unused_count > 0)
-			XLogRegisterBufData(0, (char *) pruning->unused,
-								pruning->unused_count * sizeof(OffsetNumber));
-		end = XLogInsert(RM_HEAP2_ID, XLOG_HEAP2_PRUNE);
-		PageSetLSN(page, end);
-	}
-	END_CRIT_SECTION();
-}
-
 /*
  * Prunes what is past on a heap page; false if there is nothing, or the page is in use. Its room
  * goes to *room.
@@ -186,7 +137,7 @@ own_versions_prune(Relation heap, BlockNumber block, const OwnSight *sight, Size
 	any = pruning.dead_count + pruning.redirected_count > 0;
 	if (any)
 	{
-		execute(heap, buffer, &pruning);
+		port_prune(heap, buffer, &pruning);
 		*room = heap_room_on(buffer);
 	}
 	UnlockReleaseBuffer(buffer);

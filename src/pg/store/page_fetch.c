@@ -16,11 +16,11 @@
 
 #include "access/heapam.h"
 #include "pgstat.h"
-#include "storage/buf_internals.h"
 #include "storage/bufmgr.h"
 #include "utils/snapmgr.h"
 
 #include "pg/port/port.h"
+#include "pg/port/shortcuts.h"
 #include "pg/store/page_table.h"
 
 /* Others may have moved rows. */
@@ -54,7 +54,7 @@ fetch_where_it_was(PageTable *table, ItemPointer tid, const unsigned char *bytes
 	if (place >= (Size) NBuffers)
 		return false;			/* of a temporary table */
 	ask_for(bytes, Min(size, BLCKSZ - ((const char *) bytes - BufferBlocks) % BLCKSZ));
-	if (BUF_STATE_GET_USAGECOUNT(pg_atomic_read_u32(&GetBufferDescriptor(place)->state)) < 2 ||
+	if (port_buffer_usage(buffer) < 2 ||
 		!ReadRecentBuffer(table->heap->rd_locator, MAIN_FORKNUM, ItemPointerGetBlockNumber(tid),
 						  buffer))
 		return false;
@@ -96,7 +96,7 @@ page_table_fetch(PageTable *table, ItemPointer tid, const unsigned char *bytes, 
 												  &TTSOpsBufferHeapTuple);
 		MemoryContextSwitchTo(old);
 	}
-	if (!fetch_where_it_was(table, tid, bytes, size) &&
+	if (!(ABACUS_SHORTCUTS && fetch_where_it_was(table, tid, bytes, size)) &&
 		!table_tuple_fetch_row_version(table->heap, tid, GetActiveSnapshot(), table->fetched))
 		return false;
 	stored_page_read(table->fetched, page);

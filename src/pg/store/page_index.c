@@ -14,6 +14,7 @@
 #include "catalog/index.h"
 #include "catalog/pg_am.h"
 
+#include "pg/port/port.h"
 #include "pg/store/page_index.h"
 
 typedef struct PageIndex
@@ -32,7 +33,7 @@ typedef struct PageIndex
 Relation
 page_index_open_primary(Relation heap, LOCKMODE lock)
 {
-	Oid			index_oid = RelationGetPrimaryKeyIndex(heap);
+	Oid			index_oid = port_primary_key_index(heap);
 	Relation	index = OidIsValid(index_oid) ? index_open(index_oid, lock) : NULL;
 	bool		usable = index != NULL && index->rd_rel->relam == BTREE_AM_OID &&
 		index->rd_index->indimmediate && index->rd_index->indnkeyatts == PAGE_TABLE_KEYS;
@@ -131,6 +132,7 @@ page_index_close_all(List *indexes)
 	{
 		PageIndex  *opened = lfirst(cell);
 
+		port_index_insert_cleanup(opened->index, opened->info);
 		index_close(opened->index, NoLock);
 		pfree(opened->info);
 	}

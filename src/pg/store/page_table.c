@@ -305,7 +305,7 @@ page_table_refuse_newer(PageTable *table)
 		return;
 	}
 	slot = table_slot_create(table->heap, NULL);
-	scan = table_beginscan(table->heap, SnapshotSelf, 0, NULL);
+	scan = port_table_beginscan(table->heap, SnapshotSelf);
 	is_newer = table_scan_getnextslot(scan, ForwardScanDirection, slot);
 	table_endscan(scan);
 	ExecDropSingleTupleTableSlot(slot);
@@ -328,5 +328,5 @@ page_table_scan_heap_page(PageTable *table, BlockNumber block)
 	page_table_see_own_changes(table);
 	ItemPointerSet(&first, block, FirstOffsetNumber);
 	ItemPointerSet(&last, block, MaxOffsetNumber);
-	return table_beginscan_tidrange(table->heap, GetActiveSnapshot(), &first, &last);
+	return port_table_beginscan_tidrange(table->heap, GetActiveSnapshot(), &first, &last);
 }

@@ -10,6 +10,8 @@
 
 #include "abacus/host.h"
 
+#include "pg/port/port.h"
+
 #define PAGE_TYPE_OVERHEAD 8
 
 static inline const unsigned char *

@@ -15,6 +15,7 @@
 #include "storage/freespace.h"
 
 #include "pg/port/port.h"
+#include "pg/port/shortcuts.h"
 #include "pg/store/buffer_map.h"
 #include "pg/store/heap_room.h"
 #include "pg/store/own_versions.h"
@@ -86,7 +87,7 @@ note_superseded(PageTable *table, ItemPointer tid)
 
 	if (table->superseded == NULL)
 		return;
-	if (own_versions_has(table->heap, tid))
+	if (ABACUS_SHORTCUTS && own_versions_has(table->heap, tid))
 		superseded_add_own(table->superseded, block);
 	superseded_add(table->superseded, block);
 }

@@ -1,0 +1,91 @@
+#!/bin/bash
+# Runs a command in a small Debian that has another version of PostgreSQL, or libraries of another
+# processor. The Debian is made once, in build/chroot-NAME/root, from the mirror that apt uses here.
+#
+#   chroot.sh NAME COMMAND...   e.g. chroot.sh 17 scripts/test.sh regress
+#   chroot.sh NAME              only makes it
+#
+# NAME is 15, 17, 18 or arm64. Exits with 77 if it cannot be made here: no root, no mirror, or no such
+# suite there. Packages that a command needs are installed by the command.
+#
+# In there the source tree is /abacus, which cannot be written, and build/chroot-NAME/build is its
+# folder build. Nothing is mounted where others see it: all mounts are in a namespace of the
+# command, and end with it, as all its processes do.
+set -euo pipefail
+. "$(dirname "$0")/common.sh"
+
+# Debian's suites: those that have these versions of PostgreSQL.
+declare -A suites=([15]=bookworm [17]=trixie [18]=forky [arm64]=trixie)
+
+name=${1:-}
+suite=${suites[${name:-none}]:-}
+[[ -n $suite ]] || fail "usage: $0 15|17|18|arm64 [COMMAND...]"
+shift
+root=$ABACUS_BUILD/chroot-$name/root
+build=$ABACUS_BUILD/chroot-$name/build
+architectures=$(dpkg --print-architecture)
+server=()
+if [[ $name == arm64 ]]; then
+    architectures+=,arm64
+else
+    server=(ABACUS_POSTGRESQL="$name" ABACUS_PACKAGES=versions)
+fi
+
+cannot() {
+    echo "There is no Debian $suite for $name: $*" >&2
+    exit 77
+}
+
+# The first mirror of Debian that apt knows here.
+mirror() {
+    apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1
+}
+
+# What is the same in all: no server is started, no cluster is made, only what programs need is
+# unpacked. A mirror may be a copy of a former day, whose signatures hold, but not their dates.
+make_root() {
+    local from
+    ((EUID == 0)) || cannot "it needs root"
+    command -v mmdebstrap >/dev/null || { apt-get update -q && apt-get install -q -y --no-install-recommends mmdebstrap; } ||
+        cannot "the package mmdebstrap is missing"
+    from=$(mirror)
+    [[ -n $from ]] || cannot "apt knows no mirror of Debian; try apt-get update"
+    rm -rf --one-file-system "$root.new"
+    mkdir -p "${root%/*}" "$build"
+    mmdebstrap --variant=apt --components=main --architectures="$architectures" \
+        --aptopt='APT::Install-Recommends "false"' --aptopt='Acquire::Check-Valid-Until "false"' \
+        --aptopt='Acquire::Languages "none"' \
+        --dpkgopt=force-unsafe-io --dpkgopt='path-exclude=/usr/share/man/*' \
+        --dpkgopt='path-exclude=/usr/share/doc/*' --dpkgopt='path-exclude=/usr/share/locale/*' \
+        --customize-hook='mkdir -p "$1/etc/postgresql-common" "$1/abacus"' \
+        --customize-hook='echo "create_main_cluster = false" >"$1/etc/postgresql-common/createcluster.conf"' \
+        --customize-hook='printf "#!/bin/sh\nexit 101\n" >"$1/usr/sbin/policy-rc.d"' \
+        --customize-hook='chmod 755 "$1/usr/sbin/policy-rc.d"' \
+        "$suite" "$root.new" "$from" || cannot "mmdebstrap has failed"
+    mv "$root.new" "$root"
+}
+
+# The command, with mounts of its own.
+run() {
+    mkdir -p build "$build"
+    # shellcheck disable=SC2016 # expanded in there
+    exec unshare --mount --propagation private --pid --fork --kill-child --mount-proc bash -c '
+        set -euo pipefail
+        root=$1 source=$2 build=$3
+        shift 3
+        for folder in proc dev sys; do mount --rbind "/$folder" "$root/$folder"; done
+        mount -t tmpfs -o mode=1777 tmpfs "$root/tmp"
+        mount --bind "$source" "$root/abacus"
+        mount -o remount,bind,ro "$root/abacus"
+        mount --bind "$build" "$root/abacus/build"
+        cp -L /etc/resolv.conf /etc/hosts "$root/etc/"
+        exec chroot "$root" "$@"' bash "$root" "$ABACUS_ROOT" "$build" \
+        /usr/bin/env -i HOME=/root LANG=C.UTF-8 TERM="${TERM:-dumb}" PYTHONDONTWRITEBYTECODE=1 \
+        PATH=/usr/lib/ccache:/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
+        ABACUS_CHROOT="$name" "${server[@]}" ABACUS_SHORTCUTS="${ABACUS_SHORTCUTS:-1}" \
+        ABACUS_JOBS="$ABACUS_JOBS" ABACUS_WERROR="${ABACUS_WERROR-}" \
+        bash -c 'cd /abacus && exec "$@"' bash "$@"
+}
+
+if [[ ! -d $root ]]; then make_root; fi
+if (($#)); then run "$@"; fi

@@ -1,0 +1,60 @@
+# Sourced by test.sh: the tests with another version of PostgreSQL, in the Debian that has it (chroot.sh).
+
+# other_postgresql N [short|NAME...]: runs test.sh there. What is compiled and installed here is brought
+# along: this server, for pg_upgrade from it, and in the short form the core.
+other_postgresql() {
+    local version=$1 build=$ABACUS_BUILD/chroot-$1/build packages=versions
+    shift
+    if [[ ${1:-} == short ]]; then packages=server; fi
+    if ! scripts/chroot.sh "$version" scripts/install-dependencies.sh "$packages"; then
+        echo "There is no Debian with PostgreSQL $version here: see above"
+        exit 77
+    fi
+    if [[ -z ${ABACUS_BUILT:-} ]]; then
+        scripts/install-dependencies.sh test && install_extension || fail "It does not compile."
+    fi
+    bring_server "$ABACUS_BUILD/chroot-$version/root" "$build/old"
+    if [[ ${1:-} == short ]]; then
+        bring_core "$build"
+        set -- env ABACUS_SHORT=1 ABACUS_PACKAGES=$packages scripts/test.sh build-extension regress pgtap tap acceptance
+    elif (($#)); then
+        set -- scripts/test.sh "$@"
+    else
+        set -- scripts/test.sh build-extension build unit regress pgtap tap acceptance
+    fi
+    exec scripts/chroot.sh "$version" "$@"
+}
+
+# The core's object files and the oracle, as they are compiled here, into another folder build. They
+# know nothing of PostgreSQL.
+bring_core() {
+    local oracle=release/test/oracle
+    if [[ -z ${ABACUS_BUILT:-} ]]; then
+        ABACUS_CORE_OBJECTS=$ABACUS_BUILD/extension build_release oracle_points oracle_compare ||
+            fail "It does not compile."
+    fi
+    mkdir -p "$1/extension" "$1/$oracle"
+    (cd "$ABACUS_BUILD/extension" && find src -name '*.o' -not -path 'src/pg/*' -print0 |
+        xargs -0 cp -p --parents -t "$1/extension")
+    cp -p "$ABACUS_BUILD/$oracle"/oracle_{points,compare} "$1/$oracle"
+}
+
+# bring_server ROOT FOLDER: the server of here, with its extensions, and the libraries that the Debian
+# in ROOT lacks. It finds its files by where it lies, so Debian's folders are kept. Left out is the
+# compiler of queries, whose library is large.
+bring_server() {
+    local root=$1 folder=$2 server=lib/postgresql/$ABACUS_POSTGRESQL share=share/postgresql/$ABACUS_POSTGRESQL
+    local from library path
+    from=$("$PG_CONFIG" --bindir)
+    from=${from%"/$server/bin"}
+    rm -rf "$folder"
+    mkdir -p "$folder/libraries" "$folder/$server/lib" "$folder/$share"
+    cp -r "$from/$server/bin" "$folder/$server"
+    find "$from/$server/lib" -maxdepth 1 -name '*.so' -not -name 'llvmjit*' -exec cp -t "$folder/$server/lib" {} +
+    cp -r "$from/$share/." "$folder/$share"
+    chroot "$root" ldconfig -p | awk '{ print $1 }' >"$folder/known"
+    ldd "$folder/$server"/bin/* "$folder/$server/lib/abacus.so" 2>/dev/null | awk '$3 ~ "^/" { print $1, $3 }' | sort -u |
+        while read -r library path; do
+            grep -qxF "$library" "$folder/known" || cp -L "$path" "$folder/libraries/$library"
+        done
+}

@@ -1,0 +1,24 @@
+/*
+ * pruning.h: a heap page is pruned by somebody else than PostgreSQL.
+ */
+#ifndef ABACUS_PRUNING_H
+#define ABACUS_PRUNING_H
+
+#include "access/htup_details.h"
+#include "storage/buf.h"
+#include "utils/rel.h"
+
+/* What is to be done to the line pointers of a heap page. */
+typedef struct Pruning
+{
+	int			redirected_count;
+	int			dead_count;
+	int			unused_count;
+	OffsetNumber redirected[MaxHeapTuplesPerPage * 2];	/* from, to */
+	OffsetNumber dead[MaxHeapTuplesPerPage];
+	OffsetNumber unused[MaxHeapTuplesPerPage];
+} Pruning;
+
+extern void port_prune(Relation heap, Buffer buffer, Pruning *pruning);
+
+#endif
