@@ -41,6 +41,21 @@ Point<3> middle_of(const Box<3> &box) {
     return middle;
 }
 
+/// So far away from a point, in a direction, that a ball around the scene fills the picture.
+Point<3> far_enough(const Box<3> &scene, const Point<3> &toward, const Point<3> &direction,
+                    double field_of_view) {
+    const Point<3> radius = half_way(scene.lower, scene.upper);
+    const double ball = std::sqrt(3.0) * std::max({radius[0], radius[1], radius[2]});
+    const double distance = ball / std::sin(field_of_view * (M_PI / 360));
+    Point<3> eye;
+    for (int i = 0; i < 3; ++i) {
+        eye[i] = toward[i] + direction[i] * distance;
+        if (!std::isfinite(eye[i]))
+            refuse("the eye is too far away", "Say where it is with the argument eye.");
+    }
+    return eye;
+}
+
 // As near to the eye as this part of the way to the farthest point nothing is seen: there the
 // picture would have to show what is a million times as large as it.
 constexpr double nearest_part = 1e-6;
@@ -69,17 +84,11 @@ Camera::Camera(const abacus_camera &camera, const abacus_drawing &drawing, const
             refuse("the camera is not finite", "Give finite coordinates.");
     const Point<3> middle = middle_of(scene);
     const Point<3> toward = camera.has_toward ? point_of(camera.toward) : middle;
-    const Point<3> from = unit(from_south_west);
     Point<3> eye = point_of(camera.eye), ahead = unit(half_way(eye, toward));
     if (!camera.has_eye) {
-        // As far away as a ball around the scene fills the picture.
-        const Point<3> radius = half_way(scene.lower, scene.upper);
-        const double size = std::sqrt(3.0) * std::max({radius[0], radius[1], radius[2]});
-        const double distance = size / std::sin(camera.field_of_view * (M_PI / 360));
-        for (int i = 0; i < 3; ++i) {
-            eye[i] = toward[i] + from[i] * distance;
-            ahead[i] = -from[i];
-        }
+        const Point<3> from = unit(from_south_west);
+        ahead = {-from[0], -from[1], -from[2]};
+        if (has_perspective_) eye = far_enough(scene, toward, from, camera.field_of_view);
     }
     set_directions(camera, ahead);
     origin_ = has_perspective_ ? eye : middle;
@@ -88,7 +97,7 @@ Camera::Camera(const abacus_camera &camera, const abacus_drawing &drawing, const
     for (int i = 0; i < 3; ++i)
         farthest = std::max({farthest, std::fabs(scene.lower[i] * 0.5 - origin_[i] * 0.5),
                              std::fabs(scene.upper[i] * 0.5 - origin_[i] * 0.5)});
-    unit_ = std::ldexp(1.0, std::clamp(farthest > 0 ? std::ilogb(farthest) + 2 : 0, -1021, 1021));
+    unit_ = std::ldexp(1.0, std::clamp(farthest > 0 ? std::ilogb(farthest) + 2 : 0, -1074, 1023));
     if (!has_perspective_) return;
     nearest_ = nearest_part;
     if (height_ == 0) height_ = height_of_shape(width_, shape_of_perspective);
@@ -113,10 +122,16 @@ void Camera::set_directions(const abacus_camera &camera, const Point<3> &ahead) 
     axis_ = {right, cross(ahead, right), ahead};
 }
 
+double Camera::from_origin(double x, int axis) const {
+    const double way = x - origin_[axis];
+    if (std::isfinite(way)) [[likely]]
+        return way / unit_;
+    return (x * 0.5 - origin_[axis] * 0.5) / unit_ * 2;
+}
+
 Point<3> Camera::look(const Point<3> &p) const {
-    // A quarter does not overflow.
     Point<3> way;
-    for (int i = 0; i < 3; ++i) way[i] = (p[i] * 0.25 - origin_[i] * 0.25) / unit_ * 4;
+    for (int i = 0; i < 3; ++i) way[i] = from_origin(p[i], i);
     return {dot(axis_[0], way), dot(axis_[1], way), dot(axis_[2], way)};
 }
 
@@ -169,8 +184,8 @@ std::pair<double, double> Camera::depths_within(const Box<3> &box, std::int32_t 
         const double aside = axis_[0][i] * at[0] + axis_[1][i] * at[1];
         const double begin = has_perspective_ ? 0 : aside;
         const double step = has_perspective_ ? axis_[2][i] + aside : axis_[2][i];
-        double enters = (box.lower[i] * 0.25 - origin_[i] * 0.25) / unit_ * 4 - begin;
-        double leaves = (box.upper[i] * 0.25 - origin_[i] * 0.25) / unit_ * 4 - begin;
+        double enters = from_origin(box.lower[i], i) - begin;
+        double leaves = from_origin(box.upper[i], i) - begin;
         if (step == 0) {
             if (enters > 0 || leaves < 0) return {1, 0};
             continue;

@@ -59,6 +59,7 @@ public:
 
 private:
     Point<3> look(const Point<3> &p) const;
+    double from_origin(double x, int axis) const;
     /// To the right and downwards at depth 1, or at any with parallel rays.
     Point<2> ray(std::int32_t x, std::int32_t y) const;
     void set_directions(const abacus_camera &camera, const Point<3> &ahead);

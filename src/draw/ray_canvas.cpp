@@ -16,11 +16,12 @@ struct Facet {
     int corner[3];
     int edge[3]; // opposite the corners
     int turn[3]; // -1: it is passed from its second end to its first
+    int out;     // 1: so turned, it is to the right as seen from outside
 };
-constexpr Facet facets[4] = {{{1, 2, 3}, {5, 4, 3}, {1, -1, 1}},
-                             {{0, 2, 3}, {5, 2, 1}, {1, -1, 1}},
-                             {{0, 1, 3}, {4, 2, 0}, {1, -1, 1}},
-                             {{0, 1, 2}, {3, 1, 0}, {1, -1, 1}}};
+constexpr Facet facets[4] = {{{1, 2, 3}, {5, 4, 3}, {1, -1, 1}, 1},
+                             {{0, 2, 3}, {5, 2, 1}, {1, -1, 1}, -1},
+                             {{0, 1, 3}, {4, 2, 0}, {1, -1, 1}, 1},
+                             {{0, 1, 2}, {3, 1, 0}, {1, -1, 1}, -1}};
 
 /// The line through an edge, in places.
 template <class Number> struct Line {
@@ -43,6 +44,21 @@ std::int32_t first_pixel(std::int64_t place) {
                                  std::numeric_limits<std::int32_t>::max()));
 }
 static_assert(Camera::steps == 1 << 8);
+
+/// Leaves what of a ray is between two depths; false if that is nothing.
+template <class Depths, class Hit> bool cut_off(const Depths &depths, Hit &enters, Hit &leaves) {
+    if (leaves.depth < depths.from || depths.to < enters.depth || depths.to < depths.from)
+        return false;
+    const Hit first = enters;
+    const double way = leaves.depth - enters.depth;
+    const double slope = way > 0 ? (leaves.value - enters.value) / way : 0;
+    const auto at = [&](double depth) {
+        return Hit{depth, first.value + slope * (depth - first.depth)};
+    };
+    if (enters.depth < depths.from) enters = at(depths.from);
+    if (depths.to < leaves.depth) leaves = at(depths.to);
+    return true;
+}
 
 // Up to here places, and the products of their differences, fit words.
 constexpr std::int64_t narrow = std::int64_t{1} << 29;
@@ -98,8 +114,8 @@ void RayCanvas::add_clipped(const Corners &corners) {
         const Sight &c = *corners[edge[0].above], &d = *corners[edge[2].above];
         add_prism({c, at[0], at[1], d, at[3], at[2]});
     } else if (edge[0].below == edge[1].below) { // from one below to the three others
-        add_prism({at[0], at[1], at[2], *corners[edge[0].above], *corners[edge[1].above],
-                   *corners[edge[2].above]});
+        add_prism({at[0], at[2], at[1], *corners[edge[0].above], *corners[edge[2].above],
+                   *corners[edge[1].above]});
     } else {
         project({corners[edge[0].above], &at[0], &at[1], &at[2]});
     }
@@ -149,8 +165,7 @@ void RayCanvas::fill(const Corners &corners, std::int32_t left, std::int32_t rig
                 const Number d = distance[e] = lines[e](centre(x), centre(y));
                 side[e] = d > 0 ? 1 : d < 0 ? -1 : lines[e].tie;
             }
-            Hit hits[4];
-            int n = 0;
+            std::optional<Hit> enters, leaves;
             for (const Facet &f : facets) {
                 const int first = side[f.edge[0]] * f.turn[0];
                 if (first == 0 || side[f.edge[1]] * f.turn[1] != first ||
@@ -165,59 +180,58 @@ void RayCanvas::fill(const Corners &corners, std::int32_t left, std::int32_t rig
                     depth += share * corner.seen[2];
                     value += share * corner.value;
                 }
-                hits[n++] = {depth / sum, value / sum};
+                (first == f.out ? leaves : enters) = Hit{depth / sum, value / sum};
             }
-            if (n == 2) deposit(x, y, hits[0], hits[1]);
+            if (enters && leaves) deposit(x, y, *enters, *leaves);
         }
     }
 }
 
 void RayCanvas::deposit(std::int32_t x, std::int32_t y, Hit enters, Hit leaves) {
-    if (leaves.depth < enters.depth) std::swap(enters, leaves);
+    // What is far smaller than a pixel may be turned inside out by the steps of its places. Its
+    // neighbours then are too long, so it counts below 0.
+    const bool is_turned = leaves.depth < enters.depth;
+    if (is_turned) std::swap(enters, leaves);
     const std::size_t at = index(x, y);
-    if (!depths_.empty()) {
-        const auto &[from, to] = depths_[at];
-        if (leaves.depth < from || to < enters.depth || to < from) return;
-        const double way = leaves.depth - enters.depth;
-        const auto cut = [&](const Hit &hit, double depth) {
-            const double slope = way > 0 ? (leaves.value - enters.value) / way : 0;
-            return Hit{depth, hit.value + slope * (depth - hit.depth)};
-        };
-        const Hit first = enters;
-        if (enters.depth < from) enters = cut(first, from);
-        if (to < leaves.depth) leaves = cut(first, to);
-    }
+    if (!depths_.empty() && !cut_off(depths_[at], enters, leaves)) return;
     Pixel &pixel = pixels_[at];
-    const double length = (leaves.depth - enters.depth) * camera_.length(x, y);
     if (!std::isfinite(enters.value) || !std::isfinite(leaves.value)) {
-        if (pixel.length == 0) pixel.value = NAN;
+        if (pixel.length == 0 && pixel.value == 0) pixel.value = NAN;
         return;
     }
-    const bool is_first = pixel.length == 0;
+    if (std::isnan(pixel.value)) pixel.value = 0;
+    const auto [least, greatest] = std::minmax(enters.value, leaves.value);
+    const double way = leaves.depth - enters.depth;
+    const double mean = enters.value * 0.5 + leaves.value * 0.5;
     switch (mode_) {
     case ABACUS_RAY_MAX:
-    case ABACUS_RAY_MIN: {
-        const auto [least, greatest] = std::minmax(enters.value, leaves.value);
-        const double value = mode_ == ABACUS_RAY_MAX ? greatest : least;
-        if (is_first || (mode_ == ABACUS_RAY_MAX ? pixel.value < value : value < pixel.value))
-            pixel.value = value;
+        pixel.value = pixel.length == 0 ? greatest : std::max(pixel.value, greatest);
         pixel.length = 1;
         break;
-    }
-    case ABACUS_RAY_MEAN:
+    case ABACUS_RAY_MIN:
+        pixel.value = pixel.length == 0 ? least : std::min(pixel.value, least);
+        pixel.length = 1;
+        break;
+    case ABACUS_RAY_MEAN: // a mean is never beyond what it is of: nothing counts below 0
+        pixel.length += way;
+        pixel.value += way * mean;
+        break;
     case ABACUS_RAY_SUM:
-        if (!(length > 0)) return;
-        if (is_first) pixel.value = 0;
-        pixel.length += length;
-        pixel.value += length * (enters.value * 0.5 + leaves.value * 0.5);
+        pixel.length += is_turned ? -way : way;
+        pixel.value += is_turned ? -way * mean : way * mean;
         break;
     }
 }
 
 // ---- From pixels to colours -----------------------------------------------------------------
 
-double RayCanvas::value_of(const Pixel &pixel) const {
-    return mode_ == ABACUS_RAY_MEAN ? pixel.value / pixel.length : pixel.value;
+double RayCanvas::value(std::int32_t x, std::int32_t y) const {
+    const Pixel &pixel = pixels_[index(x, y)];
+    if (!(pixel.length > 0)) return NAN;
+    if (mode_ == ABACUS_RAY_MEAN) return pixel.value / pixel.length;
+    if (mode_ != ABACUS_RAY_SUM) return pixel.value;
+    constexpr double most = std::numeric_limits<double>::max();
+    return std::clamp(pixel.value * camera_.length(x, y), -most, most);
 }
 
 bool RayCanvas::is_blank() const {
@@ -234,22 +248,24 @@ Png RayCanvas::png(const Palette &palette, const double (&range)[2]) const {
     if (!(low < high)) {
         low = std::numeric_limits<double>::infinity();
         high = -low;
-        for (const Pixel &pixel : pixels_) {
-            if (!(pixel.length > 0)) continue;
-            low = std::min(low, value_of(pixel));
-            high = std::max(high, value_of(pixel));
+        for (std::int32_t y = 0; y < camera_.height(); ++y) {
+            host_.poll();
+            for (std::int32_t x = 0; x < camera_.width(); ++x) {
+                low = std::fmin(low, value(x, y)); // NaN does not count
+                high = std::fmax(high, value(x, y));
+            }
         }
     }
     const Scale scale(low, high);
     Picture picture(host_, camera_.width(), camera_.height());
-    const Pixel *pixel = pixels_.begin();
     for (std::int32_t y = 0; y < camera_.height(); ++y) {
         host_.poll();
         std::uint32_t *row = picture.row(y);
-        for (std::int32_t x = 0; x < camera_.width(); ++x, ++pixel) {
-            Color c = std::isnan(pixel->value) ? unknown : ground;
-            if (pixel->length > 0)
-                c = palette(low < high ? static_cast<float>(scale(value_of(*pixel))) : 0.5f);
+        for (std::int32_t x = 0; x < camera_.width(); ++x) {
+            const double shown = value(x, y);
+            Color c = std::isnan(pixels_[index(x, y)].value) ? unknown : ground;
+            if (!std::isnan(shown))
+                c = palette(low < high ? static_cast<float>(scale(shown)) : 0.5f);
             row[x] = encode(c);
         }
     }

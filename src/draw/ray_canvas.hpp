@@ -11,7 +11,8 @@
 // through. The places of vertices are whole numbers (camera.hpp), and rays are taken to be a little
 // to the right and below of the centre, by less than anything there is: so no ray meets an edge. On
 // which side of an edge it is all tetrahedra see in the same way. The facets of one, seen from
-// anywhere, lie in two sheets over each other. So a ray meets two of them or none.
+// anywhere, lie in two sheets over each other. So a ray meets two of them or none, and it leaves
+// one tetrahedron where it enters the next.
 #pragma once
 
 #include "draw/camera.hpp"
@@ -29,9 +30,11 @@ public:
     RayCanvas(const Host &host, const Camera &camera, abacus_ray_mode mode,
               const std::optional<Box<3>> &box);
 
-    /// A tetrahedron.
+    /// A tetrahedron of positive orientation.
     void add(const Sight &a, const Sight &b, const Sight &c, const Sight &d);
 
+    /// What a pixel shows; NaN if its ray has met no value.
+    double value(std::int32_t x, std::int32_t y) const;
     /// Whether no ray has met anything.
     bool is_blank() const;
     /// `range`: values at the ends of the palette; if it is empty, the least and the greatest seen.
@@ -41,8 +44,8 @@ private:
     using Corners = std::array<const Sight *, 4>;
 
     struct Pixel {
-        double length = 0; // of what has a value; of the greatest and least 1
-        double value = 0;  // NaN: something has been met, but no value
+        double length = 0; // in depth, of what has a value; of the greatest and least 1
+        double value = 0;  // so far; NaN: something has been met, but no value
     };
     struct Depths {
         double from, to;
@@ -60,7 +63,6 @@ private:
     void fill(const Corners &corners, std::int32_t left, std::int32_t right, std::int32_t top,
               std::int32_t bottom);
     void deposit(std::int32_t x, std::int32_t y, Hit enters, Hit leaves);
-    double value_of(const Pixel &pixel) const;
     std::size_t index(std::int32_t x, std::int32_t y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width()) +
                static_cast<std::size_t>(x);

@@ -24,7 +24,7 @@ CuttingPlane::CuttingPlane(const Point<3> &through, const Point<3> &normal)
     : through_(through), given_(normal) {
     double largest = 0;
     for (const double x : normal) largest = std::max(largest, std::fabs(x));
-    exponent_ = std::ilogb(largest) + 1;
+    exponent_ = std::ilogb(largest) + 5;
     for (int i = 0; i < 3; ++i) {
         normal_[i] = std::scalbn(normal[i], -exponent_);
         is_rounded_ = is_rounded_ || std::scalbn(normal_[i], exponent_) != normal[i];
@@ -54,9 +54,8 @@ double CuttingPlane::exact_height(const Point<3> &p) const {
         sum += Rational(given_[i]) * (Rational(p[i]) - Rational(through_[i]));
     const int side = sum > 0 ? 1 : sum < 0 ? -1 : 0;
     constexpr double least = std::numeric_limits<double>::denorm_min();
-    constexpr double most = std::numeric_limits<double>::max();
     const double height = std::fabs(CGAL::to_double(Rational(sum * power_of_two(-exponent_))));
-    return side == 0 ? 0 : side * std::clamp(height, least, most);
+    return side == 0 ? 0 : side * std::max(height, least);
 }
 
 } // namespace abacus

@@ -17,7 +17,8 @@ public:
     CuttingPlane(const Point<3> &through, const Point<3> &normal);
 
     const Point<3> &through() const { return through_; }
-    /// The normal, at a scale at which the greatest of its coordinates is from 1/2 to 1.
+    /// The normal, at a scale at which the greatest of its coordinates is from 1/32 to 1/16: so no
+    /// height is beyond all doubles.
     const Point<3> &normal() const { return normal_; }
 
     /// In lengths of that normal: positive above, negative below, 0 if and only if p is in the

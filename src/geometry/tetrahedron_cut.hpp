@@ -69,23 +69,25 @@ inline constexpr auto tetrahedron_cuts = [] {
 /// The share of the way from one number to another at which a third is met. It lies between them:
 /// where it is one of them, the share is exactly 0 or 1.
 inline double share_at(double number, double from, double to) {
-    const double share = (number - from) / (to - from);
-    if (share >= 0 && share <= 1) [[likely]]
-        return share;
-    // The difference is beyond all doubles.
+    const double way = to - from;
+    if (std::isfinite(way)) [[likely]]
+        return (number - from) / way;
     return (number * 0.5 - from * 0.5) / (to * 0.5 - from * 0.5);
 }
 
-/// The point at a share of the way; the ends are exact.
+/// The point at a share of the way; the ends are exact. No coordinate is -0.
 inline Point<3> point_between(const Point<3> &from, const Point<3> &to, double share) {
     Point<3> p;
-    for (int i = 0; i < 3; ++i) p[i] = std::lerp(from[i], to[i], share);
+    for (int i = 0; i < 3; ++i) p[i] = std::lerp(from[i], to[i], share) + 0.0;
     return p;
 }
 
-/// A value there; of an end that has no part in it the value does not count.
+/// A value there; of an end that has no part in it the value does not count. NaN where another has
+/// none, which std::lerp() may pass over.
 inline double value_between(double from, double to, double share) {
-    return share == 0 ? from : share == 1 ? to : std::lerp(from, to, share);
+    if (share == 0) return from;
+    if (share == 1) return to;
+    return std::isnan(from) ? from : std::lerp(from, to, share);
 }
 
 } // namespace abacus
