@@ -25,6 +25,10 @@ CuttingPlane::CuttingPlane(const Point<3> &through, const Point<3> &normal)
     double largest = 0;
     for (const double x : normal) largest = std::max(largest, std::fabs(x));
     exponent_ = std::ilogb(largest) + 5;
+    if (std::count(normal.begin(), normal.end(), 0.0) == 2)
+        axis_ = static_cast<int>(
+            std::find_if(normal.begin(), normal.end(), [](double x) { return x != 0; }) -
+            normal.begin());
     for (int i = 0; i < 3; ++i) {
         normal_[i] = std::scalbn(normal[i], -exponent_);
         is_rounded_ = is_rounded_ || std::scalbn(normal_[i], exponent_) != normal[i];

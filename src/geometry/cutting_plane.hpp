@@ -21,6 +21,10 @@ public:
     /// height is beyond all doubles.
     const Point<3> &normal() const { return normal_; }
 
+    /// The axis to which the plane is at right angles, along which all of its points are where one
+    /// is; -1 if there is none.
+    int axis() const { return axis_; }
+
     /// In lengths of that normal: positive above, negative below, 0 if and only if p is in the
     /// plane. Right to a millionth. It is a function of p alone, and finite.
     double height(const Point<3> &p) const;
@@ -35,6 +39,7 @@ private:
     Point<3> through_;
     Point<3> given_; // normal
     Point<3> normal_;
+    int axis_ = -1;
     int exponent_;            // normal_ is given_, divided by 2 to this power
     bool is_rounded_ = false; // and then rounded
 };

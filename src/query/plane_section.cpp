@@ -166,7 +166,8 @@ void PlaneSection::add(int below, int above, abacus_polygon &polygon) const {
     const bool is_turned = page.point(above) < page.point(below);
     const int from = is_turned ? above : below, to = is_turned ? below : above;
     const double share = share_at(0, heights_[from], heights_[to]);
-    const Point<3> p = point_between(page.point(from), page.point(to), share);
+    Point<3> p = point_between(page.point(from), page.point(to), share);
+    if (const int axis = plane_.axis(); axis >= 0) p[axis] = plane_.through()[axis] + 0.0;
     std::copy_n(p.begin(), 3, polygon.point[polygon.corners]);
     polygon.value[polygon.corners++] = value_between(value(from), value(to), share);
 }
