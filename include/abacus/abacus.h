@@ -10,6 +10,7 @@
  *   abacus_load    vertices and simplices made elsewhere in, simplex pages out
  *   abacus_mesh    locate and walk over stored pages                (§4.11.3)
  *   abacus_places  locate many places at once; both also interpolate (interpolate.h)
+ *   abacus_isosurface, abacus_sections   surfaces through a mesh
  *   abacus_scan, abacus_vertex_scan, abacus_check, abacus_draw      whole-mesh readers
  *
  * Errors travel by return value only. A host function that fails returns
@@ -34,6 +35,8 @@
 #include "abacus/host.h"
 #include "abacus/interpolate.h"
 #include "abacus/quake.h"
+#include "abacus/raycast.h"
 #include "abacus/read.h"
+#include "abacus/surface.h"
 
 #endif

@@ -1,5 +1,6 @@
 // Drawing behind the C interface.
 #include "query/portrait.hpp"
+#include "query/ray_portrait.hpp"
 
 #include "capi/guard.hpp"
 
@@ -38,5 +39,15 @@ abacus_status abacus_draw_section(const abacus_host *host, const abacus_header *
         require_dimension(*header, 3);
         const abacus::Host wrapped(*host);
         return hand_over(abacus::draw_section(wrapped, *header, *section, *drawing), picture);
+    });
+}
+
+abacus_status abacus_draw_volume(const abacus_host *host, const abacus_header *header,
+                                 const abacus_camera *camera, const abacus_drawing *drawing,
+                                 abacus_picture *picture, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        require_dimension(*header, 3);
+        const abacus::Host wrapped(*host);
+        return hand_over(abacus::draw_rays(wrapped, *header, *camera, *drawing), picture);
     });
 }

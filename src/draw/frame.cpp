@@ -26,6 +26,8 @@ void check_side(const char *name, std::int32_t side, std::int32_t least) {
                            std::to_string(least) + " to " + std::to_string(max_side) + ".");
 }
 
+} // namespace
+
 void check_drawing(const abacus_drawing &drawing) {
     check_side("width", drawing.width, 1);
     check_side("height", drawing.height, 0);
@@ -43,7 +45,14 @@ void check_drawing(const abacus_drawing &drawing) {
     if (!(drawing.max_edge >= 0)) throw_argument("longest edge is negative or not a number");
 }
 
-} // namespace
+std::int32_t height_of_shape(std::int32_t width, double shape) {
+    const auto most = static_cast<double>(
+        std::min({std::int64_t{max_side}, max_pixels / width, width * tallest}));
+    const double least = std::max(1.0, std::floor(width * flattest));
+    const double height = std::floor(width * shape + 0.5);
+    // Where there is no shape it is no number.
+    return static_cast<std::int32_t>(height >= least ? std::min(height, most) : least);
+}
 
 Extent::Extent(const abacus_drawing &drawing)
     : drawing_(drawing), whole_(shows_whole<2>(drawing)),
@@ -95,12 +104,8 @@ abacus_drawing Extent::drawing() const {
     if (result.height == 0) {
         const double shape = (result.upper[1] * 0.5 - result.lower[1] * 0.5) /
                              (result.upper[0] * 0.5 - result.lower[0] * 0.5);
-        const auto most = static_cast<double>(
-            std::min({std::int64_t{max_side}, max_pixels / result.width, result.width * tallest}));
-        const double least = std::max(1.0, std::floor(result.width * flattest));
-        const double height = std::floor(result.width * shape + 0.5);
         // A window of the least double is nothing when halved, and has no shape.
-        result.height = static_cast<std::int32_t>(height >= least ? std::min(height, most) : least);
+        result.height = height_of_shape(result.width, shape);
     }
     return result;
 }

@@ -46,6 +46,12 @@ template <int D> bool shows_whole(const abacus_drawing &drawing) {
 /// True if it names the range of its colours.
 inline bool has_range(const abacus_drawing &drawing) { return drawing.range[0] < drawing.range[1]; }
 
+/// Throws an Error unless this can be drawn.
+void check_drawing(const abacus_drawing &drawing);
+/// The height of a picture that shows something of this shape, height to width; kept within the
+/// limits, and from an eighth of the width to eight times.
+std::int32_t height_of_shape(std::int32_t width, double shape);
+
 /// First pass: window and value range of the patches that the picture shows.
 class Extent {
 public:

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "keys/locational_code.hpp"
+#include "query/cell_filter.hpp"
 #include "query/corner_values.hpp"
-#include "query/window.hpp"
 
 #include <abacus/ask.h>
 
@@ -19,11 +19,8 @@ public:
     bool next(abacus_simplex &simplex, CornerValues *values);
 
 private:
-    bool is_wanted(int simplex) const;
-
     const Domain<D> domain_;
-    const double max_edge_;
-    const Window<D> window_;
+    const CellFilter<D> filter_;
     RangeScan<D> pages_;
     bool in_page_ = false;
     int at_ = 0;

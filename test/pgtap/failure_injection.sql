@@ -98,6 +98,14 @@ SELECT pg_temp.inject('check', $$ SELECT count(*) FROM abacus_check('field') $$,
 SELECT pg_temp.inject('draw', $$ SELECT abacus_draw('field', 100) $$, 'SELECT true');
 SELECT abacus_triangulate('solid', 'SELECT id, x, y, (id * 37) % 101 FROM points', dimension => 3);
 SELECT pg_temp.inject('draw a section', $$ SELECT abacus_draw_section('solid', '{0,0,50}', '{1,2,3}', 100) $$, 'SELECT true');
+SELECT pg_temp.inject('section', $$ SELECT count(*) FROM abacus_section('solid', '{0,0,50}', '{1,2,3}') $$, 'SELECT true');
+SELECT pg_temp.inject('draw what is inside', $$ SELECT abacus_draw_volume('solid', width => 50) $$,
+    $$ SELECT NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
+SELECT abacus_triangulate('warm', 'SELECT id, x, y, (id * 37) % 101, x + y FROM points', '{heat}', dimension => 3);
+SET work_mem = '64kB';
+SELECT pg_temp.inject('isosurface', $$ SELECT count(*) FROM abacus_isosurface('warm', 1000) $$,
+    $$ SELECT NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
+RESET work_mem;
 
 -- nothing but the locks of a transaction that has read and written is held
 SELECT is_empty($$ SELECT locktype, mode FROM pg_locks

@@ -149,6 +149,17 @@ header_update(Host *host, abacus_header *header, ItemPointer tid)
 	header_rewrite(host, header, tid);
 }
 
+/* An error, with what the user may do instead, if the mesh has another dimension. */
+void
+header_require_dimension(const abacus_header *header, uint32 dimension, const char *hint)
+{
+	if (header->dimension != dimension)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("mesh has dimension %u, not %u", header->dimension, dimension),
+				 errhint("%s", hint)));
+}
+
 /* Number of the attribute with this name, -1 if there is none. */
 int
 header_attribute(const abacus_header *header, const char *name)

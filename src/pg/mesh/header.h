@@ -19,6 +19,8 @@ extern void header_read(Host *host, abacus_header *header, ItemPointer tid);
 extern void header_rewrite(Host *host, const abacus_header *header, ItemPointer tid);
 extern void header_update(Host *host, abacus_header *header, ItemPointer tid);
 
+extern void header_require_dimension(const abacus_header *header, uint32 dimension,
+									 const char *hint);
 extern int	header_attribute(const abacus_header *header, const char *name);
 extern int	header_find_attribute(const abacus_header *header, const char *name);
 extern void header_require_attributes(const abacus_header *header);

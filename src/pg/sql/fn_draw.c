@@ -1,5 +1,6 @@
 /*
- * fn_draw.c: abacus_draw and abacus_draw_section, pictures of a mesh as PNG.
+ * fn_draw.c: abacus_draw, abacus_draw_section and abacus_draw_volume, pictures
+ * of a mesh as PNG.
  */
 #include "postgres.h"
 
@@ -9,13 +10,14 @@
 #include "utils/lsyscache.h"
 #include "utils/memutils.h"
 
-#include "abacus/draw.h"
+#include "abacus/raycast.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
 
 SQL_FUNCTION(abacus_sql_draw);
 SQL_FUNCTION(abacus_sql_draw_section);
+SQL_FUNCTION(abacus_sql_draw_volume);
 
 #define MAX_PIXELS 16384
 
@@ -237,5 +239,99 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 		tell_blank(reader, &drawing, "tetrahedra",
 				   PG_ARGISNULL(SECTION_LOWER) ? "cut by the plane" :
 				   "cut by the plane in the window");
+	PG_RETURN_BYTEA_P(finish(host, &picture));
+}
+
+/* Arguments of abacus_draw_volume */
+enum
+{
+	VOLUME_MESH,
+	VOLUME_EYE,
+	VOLUME_TOWARD,
+	VOLUME_UP,
+	VOLUME_FIELD_OF_VIEW,
+	VOLUME_WIDTH,
+	VOLUME_HEIGHT,
+	VOLUME_ATTRIBUTE,
+	VOLUME_MODE,
+	VOLUME_LOWER,
+	VOLUME_UPPER,
+	VOLUME_MAX_EDGE,
+	VOLUME_RANGE
+};
+
+/* By the word in SQL. */
+static abacus_ray_mode
+ray_mode(FunctionCallInfo fcinfo, int argument)
+{
+	static const char *const modes[] = {"mean", "max", "min", "sum"};
+	char	   *mode;
+
+	if (PG_ARGISNULL(argument))
+		return ABACUS_RAY_MEAN;
+	mode = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+	for (int i = 0; i < lengthof(modes); i++)
+		if (strcmp(mode, modes[i]) == 0)
+			return (abacus_ray_mode) i;
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE), errmsg("mode \"%s\" is not known", mode),
+			 errhint("Modes are mean, max, min and sum.")));
+}
+
+/* A point or direction of the camera; false if it is not given. */
+static bool
+camera_vector(FunctionCallInfo fcinfo, int argument, const abacus_header *header, const char *name,
+			  double *vector)
+{
+	if (PG_ARGISNULL(argument))
+		return false;
+	shape_point(header, PG_GETARG_ARRAYTYPE_P(argument), name, vector);
+	return true;
+}
+
+static void
+camera_arguments(FunctionCallInfo fcinfo, const abacus_header *header, abacus_camera *camera)
+{
+	camera->has_eye = camera_vector(fcinfo, VOLUME_EYE, header, "eye", camera->eye);
+	camera->has_toward = camera_vector(fcinfo, VOLUME_TOWARD, header, "toward", camera->toward);
+	camera->has_up = camera_vector(fcinfo, VOLUME_UP, header, "up", camera->up);
+	camera->field_of_view = PG_ARGISNULL(VOLUME_FIELD_OF_VIEW) ? 0
+		: PG_GETARG_FLOAT8(VOLUME_FIELD_OF_VIEW);
+	camera->mode = ray_mode(fcinfo, VOLUME_MODE);
+}
+
+/*
+ * abacus_draw_volume(mesh regclass, eye float8[], toward float8[], up float8[],
+ * field_of_view float8, width int, height int, attribute text, mode text,
+ * lower float8[], upper float8[], max_edge float8, range float8[]) -> bytea
+ */
+Datum
+abacus_sql_draw_volume(PG_FUNCTION_ARGS)
+{
+	Reader	   *reader;
+	Host	   *host;
+	abacus_camera camera = {0};
+	abacus_drawing drawing = {0};
+	abacus_picture picture = {0};
+
+	if (PG_ARGISNULL(VOLUME_MESH))
+		PG_RETURN_NULL();
+	reader = reader_open(PG_GETARG_OID(VOLUME_MESH), CurrentMemoryContext);
+	host = reader->host;
+	require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
+	camera_arguments(fcinfo, &reader->header, &camera);
+	drawing.width = pixels(fcinfo, VOLUME_WIDTH, 1024, "width");
+	drawing.height = pixels(fcinfo, VOLUME_HEIGHT, 0, "height");
+	drawing.attribute = attribute(fcinfo, VOLUME_ATTRIBUTE, &reader->header);
+	drawing.max_edge = factor(fcinfo, VOLUME_MAX_EDGE, "max_edge");
+	if (!PG_ARGISNULL(VOLUME_RANGE))
+		shape_range(PG_GETARG_ARRAYTYPE_P(VOLUME_RANGE), "range", drawing.range);
+	window(&reader->header, array(fcinfo, VOLUME_LOWER), array(fcinfo, VOLUME_UPPER), &drawing);
+
+	progress_begin(&host->progress, PG_GETARG_OID(VOLUME_MESH));
+	host_run(host, abacus_draw_volume, &host->table, &reader->header, &camera, &drawing, &picture);
+	progress_end(&host->progress);
+	if (picture.is_blank)
+		tell_blank(reader, &drawing, "tetrahedra", "met by a ray");
 	PG_RETURN_BYTEA_P(finish(host, &picture));
 }

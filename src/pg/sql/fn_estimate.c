@@ -14,6 +14,8 @@
  */
 #include "postgres.h"
 
+#include <math.h>
+
 #include "access/relation.h"
 #include "access/xlog.h"
 #include "nodes/nodeFuncs.h"
@@ -30,11 +32,14 @@ SQL_FUNCTION(abacus_sql_vertices_rows);
 SQL_FUNCTION(abacus_sql_nearest_rows);
 SQL_FUNCTION(abacus_sql_window_rows);
 SQL_FUNCTION(abacus_sql_range_rows);
+SQL_FUNCTION(abacus_sql_surface_rows);
 
 /* Of fresh builds of uniform points, in the plane and in space (docs/benchmarks.md). */
 #define BYTES_PER_SIMPLEX 12.0
 /* In the plane, by Euler's relation; in space it is 6.7 or so. */
 #define SIMPLICES_PER_VERTEX 2.0
+/* Of n tetrahedra a plane cuts this times n^(2/3). */
+#define CUT_BY_A_PLANE 2.0
 /* Of one that waits to be inserted, without attributes. */
 #define BYTES_PER_WAITING_POINT 32.0
 
@@ -178,6 +183,21 @@ abacus_sql_range_rows(PG_FUNCTION_ARGS)
 	if (!is_null_argument(request, 4) || !is_null_argument(request, 5))
 		share *= DEFAULT_RANGE_INEQ_SEL;
 	return estimate(fcinfo, share / SIMPLICES_PER_VERTEX, false);
+}
+
+/*
+ * abacus_surface_rows(internal) -> internal, for surfaces through a mesh in space: they cut as many
+ * tetrahedra as a plane through the middle of evenly spread points does.
+ */
+Datum
+abacus_sql_surface_rows(PG_FUNCTION_ARGS)
+{
+	SupportRequestRows *request = (SupportRequestRows *) PG_GETARG_POINTER(0);
+	Datum		answer = estimate(fcinfo, 1, false);
+
+	if (DatumGetPointer(answer) != NULL)
+		request->rows = CUT_BY_A_PLANE * pow(request->rows, 2.0 / 3);
+	return answer;
 }
 
 /* abacus_nearest_rows(internal) -> internal, for abacus_nearest: k, its last argument */

@@ -1,0 +1,58 @@
+// Surfaces through a mesh behind the C interface.
+#include "query/isosurface.hpp"
+#include "query/plane_section.hpp"
+
+#include "capi/guard.hpp"
+#include "capi/handle.hpp"
+
+#include <abacus/surface.h>
+
+namespace {
+
+void require_space(const abacus_header &header) {
+    if (header.dimension != 3)
+        throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the mesh has another dimension");
+}
+
+} // namespace
+
+abacus_status abacus_isosurface(const abacus_host *host, const abacus_header *header,
+                                const abacus_isosurface_query *query, size_t memory,
+                                abacus_surface_report report, void *context, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        require_space(*header);
+        const abacus::Host wrapped(*host);
+        abacus::Isosurface surface(wrapped, *header, *query, memory);
+        surface.each([&](const abacus_surface_triangle &triangle) {
+            abacus::host::require(report(context, &triangle));
+        });
+        return ABACUS_OK;
+    });
+}
+
+struct abacus_sections {
+    abacus_sections(const abacus_host *table, const abacus_header &header,
+                    const abacus_section_query &query)
+        : host(*table), section(host, header, query) {}
+
+    const abacus::Host host;
+    abacus::PlaneSection section;
+};
+
+abacus_status abacus_sections_open(const abacus_host *host, const abacus_header *header,
+                                   const abacus_section_query *query, abacus_sections **sections,
+                                   abacus_error *error) {
+    return abacus::guard(error, [&] {
+        require_space(*header);
+        *sections = abacus::create_handle<abacus_sections>(host, *header, *query);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_sections_next(abacus_sections *sections, abacus_polygon *polygon,
+                                   abacus_error *error) {
+    return abacus::guard(error,
+                         [&] { return sections->section.next(*polygon) ? ABACUS_OK : ABACUS_END; });
+}
+
+void abacus_sections_close(abacus_sections *sections) { abacus::destroy_handle(sections); }
