@@ -10,6 +10,7 @@
 #include <CGAL/Exact_rational.h>
 
 #include <cmath>
+#include <optional>
 
 namespace abacus {
 
@@ -54,28 +55,40 @@ template <class T, int D> struct LinearSystem {
     std::array<T, D> right;
 };
 
+/// The solution in doubles; nothing where too little is left of the determinant.
+template <int D> std::optional<Point<D>> solve_in_doubles(const LinearSystem<double, D> &system) {
+    const double whole = system.determinant(system.matrix);
+    const double size = system.permanent(system.matrix);
+    if (!(std::abs(whole) > 1e-5 * size && size > 1e-250 && size < 1e250)) return std::nullopt;
+    Point<D> x;
+    bool is_finite = true;
+    for (int axis = 0; axis < D; ++axis) {
+        x[axis] = system.with_right_side(axis) / whole;
+        is_finite = is_finite && std::isfinite(x[axis]);
+    }
+    return is_finite ? std::optional(x) : std::nullopt;
+}
+
+/// The solution, rounded at the end; nothing if there is none, or several.
+template <int D>
+std::optional<Point<D>> solve_exactly(const LinearSystem<CGAL::Exact_rational, D> &system) {
+    using Rational = CGAL::Exact_rational;
+    const Rational whole = system.determinant(system.matrix);
+    if (whole == 0) return std::nullopt;
+    Point<D> x;
+    for (int axis = 0; axis < D; ++axis)
+        x[axis] = CGAL::to_double(Rational(system.with_right_side(axis) / whole));
+    return x;
+}
+
 /// Solves system.operator()<T>(), which is asked for in doubles and, if need be, in rational
 /// numbers. Throws if it has no solution, or several: then a simplex is flat.
 template <int D, class System> Point<D> solve(const System &system) {
-    Point<D> x;
-    const LinearSystem<double, D> rounded = system.template operator()<double>();
-    const double whole = rounded.determinant(rounded.matrix);
-    const double size = rounded.permanent(rounded.matrix);
-    if (std::abs(whole) > 1e-5 * size && size > 1e-250 && size < 1e250) [[likely]] {
-        bool is_finite = true;
-        for (int axis = 0; axis < D; ++axis) {
-            x[axis] = rounded.with_right_side(axis) / whole;
-            is_finite = is_finite && std::isfinite(x[axis]);
-        }
-        if (is_finite) return x;
-    }
-    using Rational = CGAL::Exact_rational;
-    const LinearSystem<Rational, D> exact = system.template operator()<Rational>();
-    const Rational exact_whole = exact.determinant(exact.matrix);
-    if (exact_whole == 0) throw_corrupted("A simplex is flat.");
-    for (int axis = 0; axis < D; ++axis)
-        x[axis] = CGAL::to_double(Rational(exact.with_right_side(axis) / exact_whole));
-    return x;
+    if (const auto x = solve_in_doubles<D>(system.template operator()<double>())) [[likely]]
+        return *x;
+    const auto x = solve_exactly<D>(system.template operator()<CGAL::Exact_rational>());
+    if (!x) throw_corrupted("A simplex is flat.");
+    return *x;
 }
 
 } // namespace abacus

@@ -93,6 +93,11 @@ SELECT pg_temp.inject('edges', $$ SELECT count(*) FROM abacus_edges('field') $$,
 SELECT pg_temp.inject('vertices of a range', $$ SELECT count(*) FROM abacus_vertices('field', 'height', 100, 300) $$, 'SELECT true');
 SELECT pg_temp.inject('star', $$ DO 'BEGIN SET LOCAL abacus.cache_size = ''6MB''; PERFORM abacus_star(''field'', x, y) FROM points; END' $$,
     $$ SELECT pg_temp.answers() = (TABLE answer) $$);
+SELECT pg_temp.inject('voronoi', $$ SELECT count(*) FROM abacus_voronoi('field', ARRAY[100, 100], ARRAY[300, 300]) $$, 'SELECT true');
+SET work_mem = '64kB';
+SELECT pg_temp.inject('outline', $$ SELECT count(*) FROM abacus_alpha_shape('field', 40) $$, 'SELECT true');
+SELECT pg_temp.inject('spanning tree', $$ SELECT count(*) FROM abacus_spanning_tree('field') $$, 'SELECT true');
+RESET work_mem;
 SELECT pg_temp.inject('check', $$ SELECT count(*) FROM abacus_check('field') $$,
     $$ SELECT NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
 SELECT pg_temp.inject('draw', $$ SELECT abacus_draw('field', 100) $$, 'SELECT true');

@@ -1,0 +1,147 @@
+#include "query/outline.hpp"
+
+#include "mesh/bit_column.hpp"
+#include "query/page_flood.hpp"
+
+#include <algorithm>
+
+namespace abacus {
+
+namespace {
+
+Kept kept_by(const abacus_outline_kind &kind) {
+    Kept kept{kind.max_edge, std::nullopt};
+    if (kind.has_alpha != 0) kept.alpha = kind.alpha;
+    return kept;
+}
+
+template <int D> void require(const Reader<D> &reader, const abacus_outline_kind &kind) {
+    if (kind.has_alpha != 0 && !reader.is_delaunay())
+        throw Error(ABACUS_ERROR_STATE, "an alpha shape needs a Delaunay mesh", "",
+                    "Take abacus_hull with max_edge, or load the mesh with retriangulate => true.");
+}
+
+} // namespace
+
+// ---- The plane --------------------------------------------------------------------------
+
+Outline<2>::Outline(const Host &host, const abacus_header &header, const abacus_outline_kind &kind,
+                    std::size_t memory, std::size_t cache_bytes)
+    : reader_(host, header, cache_bytes),
+      rings_((require(reader_, kind), reader_), kept_by(kind), memory) {
+    if (kind.fills_holes != 0) nesting_.emplace(reader_, kept_by(kind), rings_, memory);
+}
+
+bool Outline<2>::next(abacus_outline_row &row) {
+    Rings::Visit visit;
+    do
+        if (!rings_.next(visit)) return false;
+    while (nesting_ && !nesting_->is_outermost(visit.ring));
+    ring_ += visit.ring != last_;
+    last_ = visit.ring;
+    row = {ring_, visit.position + 1, visit.id, {visit.point[0], visit.point[1]}};
+    return true;
+}
+
+// ---- Space ------------------------------------------------------------------------------
+
+Outline<3>::Outline(const Host &host, const abacus_header &header, const abacus_outline_kind &kind,
+                    std::size_t memory, std::size_t cache_bytes)
+    : triangles_(host, words, 9, memory) {
+    if (kind.fills_holes != 0)
+        throw Error(ABACUS_ERROR_ARGUMENT, "in space the cavities of an alpha shape stay", "",
+                    "Leave allow_holes out, or give true.");
+    Reader<3> reader(host, header, cache_bytes);
+    require(reader, kind);
+    const Kept kept = kept_by(kind);
+    if (!reader.is_empty() && kept.is_all() && reader.is_delaunay())
+        find_hull(host, header, reader);
+    else if (!reader.is_empty())
+        find_border(reader, kept);
+    triangles_.finish();
+}
+
+/// Adds a triangle of corners that are counterclockwise seen from outside.
+void Outline<3>::add(std::array<Corner, 3> corners) {
+    const auto least =
+        std::min_element(corners.begin(), corners.end(), [](const Corner &a, const Corner &b) {
+            return lexicographically_less<3>(a.point, b.point);
+        });
+    std::rotate(corners.begin(), least, corners.end());
+    std::uint64_t *const record = triangles_.add();
+    for (int i = 0; i < 3; ++i) {
+        for (int axis = 0; axis < 3; ++axis) record[3 * i + axis] = ordered(corners[i].point[axis]);
+        record[9 + i] = static_cast<std::uint64_t>(corners[i].id);
+    }
+}
+
+void Outline<3>::find_hull(const Host &host, const abacus_header &header, Reader<3> &reader) {
+    Point<3> away;
+    away.fill(std::numeric_limits<double>::lowest());
+    PageFlood<3> flood(host, header);
+    const Handle h = reader.simplex_around(away);
+    Cache<3> &cache = reader.cache();
+    if (cache.simplex(h).is_ghost()) {
+        flood.reach(cache.lower(h));
+    } else { // it has that point as a corner, and so has a ghost beside it
+        reader.flood().around(cache, h, cache.simplex(h).vertex[0], [&](Handle met) {
+            if (cache.simplex(met).is_ghost()) flood.reach(cache.lower(met));
+            return true;
+        });
+    }
+    while (flood.advance()) {
+        const PageView<3> &page = flood.page();
+        for (int s = 0; s < page.simplices(); ++s) {
+            if (!page.is_ghost(s)) continue;
+            std::array<Corner, 3> corners;
+            // A ghost is positively oriented around what lies beyond its facet.
+            for (int i = 0; i < 3; ++i)
+                corners[i] = {page.point(page.corner(s, i)), page.id(page.corner(s, i))};
+            add(corners);
+        }
+        flood.spread([&](int s, int facet) { return facet < 3 && page.is_ghost(s); });
+    }
+}
+
+void Outline<3>::find_border(Reader<3> &reader, const Kept &kept) {
+    constexpr int outward[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+    Cache<3> &cache = reader.cache();
+    Arena<Handle> handles(cache.host());
+    for (Key page = first_key; page < end_key;) {
+        cache.trim();
+        cache.poll();
+        handles.clear();
+        page = cache.visit(page, [&](Handle h) { handles.push_back(h); });
+        for (const Handle h : handles) {
+            if (!is_kept<3>(kept, cache, h)) continue;
+            for (int facet = 0; facet < 4; ++facet) {
+                if (is_kept<3>(kept, cache, link_simplex(cache.cross(h, facet)))) continue;
+                std::array<Corner, 3> corners;
+                for (int i = 0; i < 3; ++i) {
+                    const VertexIndex v = cache.simplex(h).vertex[outward[facet][i]];
+                    corners[i] = {cache.point(v), cache.vertices().id(v)};
+                }
+                add(corners);
+            }
+        }
+    }
+}
+
+bool Outline<3>::next(abacus_outline_row &row) {
+    if (position_ == 3) {
+        const std::uint64_t *const record = triangles_.next();
+        if (record == nullptr) return false;
+        std::copy_n(record, words, triangle_.begin());
+        position_ = 0;
+        ++ring_;
+    }
+    row.ring = ring_;
+    row.position = static_cast<std::uint64_t>(position_) + 1;
+    row.vertex = static_cast<std::int64_t>(triangle_[9 + position_]);
+    for (int axis = 0; axis < 3; ++axis)
+        row.point[axis] = from_ordered(triangle_[3 * position_ + axis]);
+    ++position_;
+    return true;
+}
+
+} // namespace abacus

@@ -1,0 +1,56 @@
+// The border of what is kept of a mesh: of all of it its hull, of some of it a closer outline.
+//
+// In the plane the border is closed rings (rings.hpp). In space it is triangles, each a ring of
+// three, in the order of their corners.
+#pragma once
+
+#include "query/ring_nesting.hpp"
+
+#include <abacus/shape.h>
+
+namespace abacus {
+
+template <int D> class Outline;
+
+template <> class Outline<2> {
+public:
+    Outline(const Host &host, const abacus_header &header, const abacus_outline_kind &kind,
+            std::size_t memory, std::size_t cache_bytes);
+    /// False after the last.
+    bool next(abacus_outline_row &row);
+    void close() { rings_.close(); }
+
+private:
+    Reader<2> reader_;
+    Rings rings_;
+    std::optional<RingNesting> nesting_; // where holes are filled
+    std::uint64_t ring_ = 0, last_ = ~0ull;
+};
+
+template <> class Outline<3> {
+public:
+    Outline(const Host &host, const abacus_header &header, const abacus_outline_kind &kind,
+            std::size_t memory, std::size_t cache_bytes);
+    bool next(abacus_outline_row &row);
+    void close() { triangles_.close(); }
+
+private:
+    struct Corner {
+        Point<3> point;
+        std::int64_t id;
+    };
+    // three points, their ids
+    static constexpr std::size_t words = 12;
+
+    void add(std::array<Corner, 3> corners);
+    /// The hull alone: no other page is read.
+    void find_hull(const Host &host, const abacus_header &header, Reader<3> &reader);
+    void find_border(Reader<3> &reader, const Kept &kept);
+
+    RecordSort triangles_;
+    std::array<std::uint64_t, words> triangle_{};
+    std::uint64_t ring_ = 0;
+    int position_ = 3;
+};
+
+} // namespace abacus

@@ -1,0 +1,202 @@
+// Outlines against brute force over all simplices.
+#include "geometry/ball.hpp"
+#include "geometry/circumradius.hpp"
+#include "geometry/distance.hpp"
+#include "support/point_sets.hpp"
+#include "support/triangulations.hpp"
+
+#include <CGAL/Exact_rational.h>
+
+#include <abacus/shape.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+namespace abacus::test {
+namespace {
+
+constexpr std::size_t little = 4 << 10;
+
+template <int D> using Facet = std::array<Point<D>, D>; ///< oriented, the least corner first
+using Row = abacus_outline_row;
+
+abacus_host_status keep(void *context, const Row *row) {
+    static_cast<std::vector<Row> *>(context)->push_back(*row);
+    return ABACUS_HOST_OK;
+}
+
+template <int D>
+std::vector<Row> read(MeshOf<D> &mesh, const abacus_outline_kind &kind, std::size_t memory) {
+    std::vector<Row> rows;
+    abacus_error error{};
+    EXPECT_EQ(
+        abacus_outline(mesh.host.table(), &mesh.header, &kind, memory, memory, keep, &rows, &error),
+        ABACUS_OK)
+        << error.message;
+    EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
+    EXPECT_EQ(mesh.host.bytes, 0u);
+    return rows;
+}
+
+template <int D> Facet<D> normal(Facet<D> facet) {
+    if (D == 3)
+        std::rotate(facet.begin(), std::min_element(facet.begin(), facet.end()), facet.end());
+    return facet;
+}
+
+/// Facets of the rings, in the plane their edges.
+template <int D> std::multiset<Facet<D>> facets_of(const std::vector<Row> &rows) {
+    std::map<std::uint64_t, std::vector<Point<D>>> rings;
+    for (const Row &row : rows) {
+        auto &ring = rings[row.ring];
+        EXPECT_EQ(row.position, ring.size() + 1);
+        Point<D> p;
+        std::copy_n(row.point, D, p.begin());
+        EXPECT_TRUE(ring.empty() || ring[0] < p) << "it does not begin with the least, or repeats";
+        ring.push_back(p);
+    }
+    std::multiset<Facet<D>> facets;
+    Point<D> before{};
+    for (const auto &[number, ring] : rings) {
+        EXPECT_EQ(std::set<Point<D>>(ring.begin(), ring.end()).size(), ring.size());
+        EXPECT_TRUE(number == 1 || !(ring[0] < before));
+        before = ring[0];
+        if constexpr (D == 3)
+            facets.insert({ring[0], ring[1], ring[2]});
+        else
+            for (std::size_t i = 0; i < ring.size(); ++i)
+                facets.insert({ring[i], ring[(i + 1) % ring.size()]});
+    }
+    return facets;
+}
+
+template <int D>
+std::multiset<Facet<D>> border_by_hand(MeshOf<D> &mesh, const abacus_outline_kind &kind) {
+    std::map<std::set<Point<D>>, std::vector<Facet<D>>> around;
+    for (const abacus_simplex &s : mesh.simplices(false)) {
+        std::array<Point<D>, D + 1> points;
+        Corners<D> corners;
+        for (int i = 0; i <= D; ++i) {
+            std::copy_n(s.corner[i], D, points[i].begin());
+            corners[i] = &points[i];
+        }
+        bool is_kept = kind.has_alpha == 0 || has_circumsphere_within<D>(corners, kind.alpha);
+        for (int i = 0; i <= D && kind.max_edge > 0; ++i)
+            for (int j = 0; j < i; ++j)
+                is_kept = is_kept && is_within<D>(kind.max_edge, points[i], points[j]);
+        if (!is_kept) continue;
+        for (int left_out = 0; left_out <= D; ++left_out) {
+            Facet<D> facet;
+            for (int i = 0, n = 0; i <= D; ++i)
+                if (i != left_out) facet[n++] = points[i];
+            if (left_out % 2 == 1) std::swap(facet[0], facet[1]);
+            around[{facet.begin(), facet.end()}].push_back(normal<D>(facet));
+        }
+    }
+    std::multiset<Facet<D>> border;
+    for (const auto &[corners, facets] : around)
+        if (facets.size() == 1) border.insert(facets[0]);
+    return border;
+}
+
+template <int D> void expect_outlines(MeshOf<D> &mesh, std::initializer_list<double> sizes) {
+    for (const double size : sizes) {
+        SCOPED_TRACE(size);
+        std::vector<abacus_outline_kind> kinds{{size, 0, 0, 0}};
+        if (mesh.header.not_delaunay == 0) kinds.push_back({0, 1, size * size, 0});
+        for (const abacus_outline_kind &kind : kinds) {
+            const auto expected = border_by_hand<D>(mesh, kind);
+            EXPECT_TRUE(facets_of<D>(read<D>(mesh, kind, little)) == expected);
+            EXPECT_TRUE(facets_of<D>(read<D>(mesh, kind, 16 << 20)) == expected);
+        }
+    }
+}
+
+template <int D> void expect_outlines_of_sets() {
+    constexpr std::size_t most = D == 2 ? 400 : 120;
+    Random random(2);
+    for (const PointSet<D> &set : point_sets<D>()) {
+        SCOPED_TRACE(set.name);
+        auto points = set.points(random);
+        if (points.size() > most) points.resize(most);
+        for (Point<D> &p : points)
+            for (double &x : p) x += 0.0;
+        MeshOf<D> mesh(0);
+        ASSERT_EQ(mesh.stage(number<D>(points)), ABACUS_OK);
+        ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message;
+        const double size = std::min(1e150, distance<D>(points[0], points[1]));
+        expect_outlines<D>(mesh, {0, size / 8, size / 3, size});
+    }
+}
+
+TEST(Outlines, OfSetsInThePlane) { expect_outlines_of_sets<2>(); }
+TEST(Outlines, OfSetsInSpace) { expect_outlines_of_sets<3>(); }
+
+/// Every other cell of a grid: parts and holes that meet in vertices alone.
+template <int D> void expect_outlines_of_pinched(bool is_even) {
+    std::vector<Point<D>> grid;
+    const int n = D == 2 ? 14 : 5;
+    for (int i = 0; i < (D == 2 ? n * n : n * n * n); ++i) {
+        Point<D> p{};
+        for (int k = 0, rest = i; k < D; ++k, rest /= n) p[k] = rest % n;
+        grid.push_back(p);
+    }
+    const auto t = keeping<D>(delaunay<D>(grid), [&](const Point<D> &c) {
+        int sum = 0;
+        bool is_rim = false;
+        for (const double x : c) {
+            sum += static_cast<int>(x);
+            is_rim = is_rim || x < 1 || x > n - 2;
+        }
+        return is_even ? sum % 2 == 0 : is_rim || sum % 2 == 1;
+    });
+    MeshOf<D> mesh(0);
+    ASSERT_EQ(mesh.load(t.vertices, t.simplices), ABACUS_OK) << mesh.error.message;
+    ASSERT_NE(mesh.header.not_delaunay, 0u);
+    expect_outlines<D>(mesh, {0, 1.2, 1.5, 9});
+}
+
+TEST(Outlines, OfPartsAndHolesThatTouch) {
+    for (const bool is_even : {true, false}) {
+        expect_outlines_of_pinched<2>(is_even);
+        expect_outlines_of_pinched<3>(is_even);
+    }
+}
+
+/// Squares within squares, each with a hole: only the outermost is left.
+TEST(Outlines, WithoutHolesAndWhatLiesInThem) {
+    std::vector<Point<2>> points;
+    for (int x = -33; x <= 33; ++x)
+        for (int y = -33; y <= 33; ++y) {
+            const int ring = std::max(std::abs(x), std::abs(y));
+            if (ring % 10 < 4) points.push_back({double(x), double(y)});
+        }
+    for (int x = 60; x < 66; ++x)
+        for (int y = 0; y < 6; ++y) points.push_back({double(x), double(y)});
+    MeshOf<2> mesh(0);
+    ASSERT_EQ(mesh.stage(number<2>(points)), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK);
+    const auto with = read<2>(mesh, {0, 1, 0.5, 0}, little);
+    EXPECT_EQ(with.back().ring, 8u); // four squares, three of them with a hole, and one beside
+    const auto without = read<2>(mesh, {0, 1, 0.5, 1}, little);
+    ASSERT_EQ(without.back().ring, 2u);
+    EXPECT_EQ(without.size(), 4u * 66 + 4 * 5);
+}
+
+TEST(Circumradius, IsComparedExactly) {
+    Random random(3);
+    for (int i = 0; i < 200; ++i) {
+        // On a circle of radius 5 around a corner of a grid, exactly.
+        const double x = std::ldexp(double(random() % 1000), -10), y = double(random() % 100);
+        const Point<2> a{x + 5, y}, b{x - 3, y + 4}, c{x - 4, y - 3};
+        const Corners<2> corners{&a, &b, &c};
+        EXPECT_TRUE(has_circumsphere_within<2>(corners, 25));
+        EXPECT_FALSE(has_circumsphere_within<2>(corners, std::nextafter(25, 0)));
+        EXPECT_TRUE(has_circumsphere_within<2>(corners, 26));
+        EXPECT_FALSE(has_circumsphere_within<2>(corners, 24));
+    }
+}
+
+} // namespace
+} // namespace abacus::test
