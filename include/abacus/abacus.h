@@ -34,5 +34,6 @@
 #include "abacus/interpolate.h"
 #include "abacus/quake.h"
 #include "abacus/read.h"
+#include "abacus/volume.h"
 
 #endif
