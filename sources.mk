@@ -156,6 +156,7 @@ PG_SOURCES += src/pg/sql/fn_stats.c
 PG_SOURCES += src/pg/sql/fn_track.c
 PG_SOURCES += src/pg/sql/fn_tracked.c
 PG_SOURCES += src/pg/sql/fn_triangulate.c
+PG_SOURCES += src/pg/sql/fn_volume.c
 PG_SOURCES += src/pg/sql/fn_weights.c
 PG_SOURCES += src/pg/sql/interpolation.c
 PG_SOURCES += src/pg/sql/place.c
