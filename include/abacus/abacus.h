@@ -38,5 +38,6 @@
 #include "abacus/raycast.h"
 #include "abacus/read.h"
 #include "abacus/surface.h"
+#include "abacus/volume.h"
 
 #endif

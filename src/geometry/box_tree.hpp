@@ -45,6 +45,8 @@ public:
         }
     }
     std::size_t size() const { return size_; }
+    /// The box around all of them; empty without any.
+    Box<D> around_all() const { return size_ == 0 ? Box<D>() : boxes_[begin_[levels_ - 1]]; }
 
     /// Calls visit(number) for each box that meets `box`, in order, until it returns
     /// false; returns whether it did not.

@@ -17,10 +17,16 @@ public:
     /// Calls visit(from, to) for intervals of keys, which end at pages, outside of which no
     /// page has p in its box, until it returns false.
     template <class Visit> void around(const Point<D> &p, Visit visit) const {
-        tree_.visit({p, p}, [&](std::size_t i) {
+        meeting({p, p}, visit);
+    }
+    /// The same of pages whose boxes meet a box.
+    template <class Visit> void meeting(const Box<D> &box, Visit visit) const {
+        tree_.visit(box, [&](std::size_t i) {
             return visit(keys_[i], i + 1 < keys_.size() ? keys_[i + 1] : end_key);
         });
     }
+    /// The box around all of them.
+    Box<D> around_all() const { return tree_.around_all(); }
     /// Calls visit(from, to, rank) for all such intervals in the order of rank(box), until it
     /// returns false, as in BoxTree::visit_by_rank().
     template <class Rank, class Visit>

@@ -1,4 +1,4 @@
-// All simplices around a place, in pages that are held in memory, patch by patch.
+// All simplices around a place, or near a box, in pages that are held in memory, patch by patch.
 //
 // Where a walk does not settle a place, all pages are looked into whose boxes contain it
 // (page_boxes.hpp): two or three pages in a cavity, more at a vertex. Nearly all of their simplices
@@ -7,6 +7,7 @@
 // kept; the page used longest ago makes room for another one.
 #pragma once
 
+#include "geometry/box.hpp"
 #include "host/host.hpp"
 #include "host/memory_resource.hpp"
 #include "query/page_simplex.hpp"
@@ -28,16 +29,24 @@ public:
     /// Calls visit(page, simplex, position) for each finite simplex of the page that owns the key
     /// in whose closure p lies; `position` is that of in_simplex(). Returns the next page's key.
     template <class Visit> Key around(const Key &key, const Point<D> &p, Visit visit) {
+        return near(key, {p, p}, [&](const PageView<D> &view, int simplex) {
+            const int position = in_simplex<D>(corners_of(view, simplex), p);
+            if (position >= 0) visit(view, simplex, position);
+        });
+    }
+    /// Calls visit(page, simplex) for finite simplices of the page, all those that meet the box
+    /// among them.
+    template <class Visit> Key near(const Key &key, const Box<D> &box, Visit visit) {
         Held &held = page(key);
         PageView<D> &view = held.view;
-        const auto place = SimplexBoxes<D>::place(view, p);
+        const auto lower = SimplexBoxes<D>::place(view, box.lower);
+        const auto upper = SimplexBoxes<D>::place(view, box.upper);
         for (int patch = 0; patch < view.patches(); ++patch) {
-            if (!has(view.patch(patch), place)) continue;
+            if (!may_meet(view.patch(patch), lower, upper)) continue;
             read(held, patch);
-            held.boxes.around(place, view.simplices_of(patch), [&](int simplex) {
+            held.boxes.meeting(lower, upper, view.simplices_of(patch), [&](int simplex) {
                 for (int i = 0; i <= D; ++i) view.read_point(view.corner(simplex, i));
-                const int position = in_simplex<D>(corners_of(view, simplex), p);
-                if (position >= 0) visit(view, simplex, position);
+                visit(view, simplex);
                 return true;
             });
         }
@@ -61,11 +70,12 @@ private:
         alignas(8) std::array<unsigned char, ABACUS_PAGE_BYTES> bytes;
     };
 
-    static bool has(const PagePatch<D> &patch, const typename SimplexBoxes<D>::Place &place) {
-        bool has = true;
+    using PlaceIn = typename SimplexBoxes<D>::Place;
+    static bool may_meet(const PagePatch<D> &patch, const PlaceIn &lower, const PlaceIn &upper) {
+        bool may = true;
         for (int axis = 0; axis < D; ++axis)
-            has = has && patch.least[axis] <= place[axis] && place[axis] <= patch.greatest[axis];
-        return has;
+            may = may && patch.least[axis] <= upper[axis] && lower[axis] <= patch.greatest[axis];
+        return may;
     }
     static void read(Held &held, int patch) {
         if ((held.patches >> patch & 1) != 0) return;

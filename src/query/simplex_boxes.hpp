@@ -34,18 +34,23 @@ public:
     void make(const PageView<D> &page, int patch);
 
     /// Calls visit(simplex) for each of a range, which begins with a patch and ends with one, whose
-    /// box has the place in it, until it returns false.
-    template <class Visit> void around(const Place &place, Range range, Visit visit) const {
+    /// box meets that from `lower` to `upper`, until it returns false.
+    template <class Visit>
+    void meeting(const Place &lower, const Place &upper, Range range, Visit visit) const {
         for (int first = range.begin; first < range.end; first += at_once) {
             Lanes within = Lanes{} - 1;
             for (int axis = 0; axis < D; ++axis)
-                within &= (lanes(&lower_[axis][first]) <= place[axis]) &
-                          (place[axis] <= lanes(&upper_[axis][first]));
+                within &= (lanes(&lower_[axis][first]) <= upper[axis]) &
+                          (lower[axis] <= lanes(&upper_[axis][first]));
             const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(within);
             if ((halves[0] | halves[1]) == 0) continue;
             for (int i = 0; i < at_once; ++i)
                 if (within[i] != 0 && !visit(first + i)) return;
         }
+    }
+    /// The same of those whose box has the place in it.
+    template <class Visit> void around(const Place &place, Range range, Visit visit) const {
+        meeting(place, place, range, visit);
     }
 
 private:

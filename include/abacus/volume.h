@@ -1,0 +1,52 @@
+/*
+ * volume.h: areas and volumes of a mesh with an attribute, over a base or
+ * another mesh.
+ */
+#ifndef ABACUS_ABACUS_VOLUME_H
+#define ABACUS_ABACUS_VOLUME_H
+
+#include "abacus/ask.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What of a mesh counts. */
+typedef struct abacus_surface
+{
+	abacus_window window; /* none or a box: simplices are cut at its border */
+	double max_edge;      /* leave out simplices with a longer edge; 0 = none */
+	uint32_t attribute;   /* the heights; simplices that lack one are left out */
+} abacus_surface;
+
+/*
+ * In dimension 2: the area below the surface, the area of the surface, the volumes of what is above
+ * the base and of what is below it. In dimension 3: the volume, the area of the surface on which
+ * the attribute has the value of the base, the volumes of the parts where it is at least that, and
+ * less. Infinite, or no number, where doubles are too small.
+ */
+typedef struct abacus_volume
+{
+	double area, surface, cut, fill;
+} abacus_volume;
+
+ABACUS_API abacus_status abacus_volume_above(const abacus_host *host, const abacus_header *header,
+											 const abacus_surface *surface, double base,
+											 abacus_volume *volume, abacus_error *error);
+/*
+ * Between two meshes of dimension 2, where both have heights: cut is where the first is higher. The
+ * other one may have a host of its own, and longest edge and window are those of the first.
+ */
+ABACUS_API abacus_status abacus_volume_between(const abacus_host *host,
+											   const abacus_header *header,
+											   const abacus_surface *surface,
+											   const abacus_host *other_host,
+											   const abacus_header *other,
+											   uint32_t other_attribute, size_t cache_bytes,
+											   abacus_volume *volume, abacus_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,40 @@
+#include "geometry/exact_sum.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abacus {
+
+void ExactSum::carry() {
+    for (std::size_t i = 0; i + 1 < size; ++i) {
+        const std::int64_t over = digits_[i] >> digit_bits;
+        digits_[i] -= over << digit_bits;
+        digits_[i + 1] += over;
+    }
+    added_ = 0;
+}
+
+double ExactSum::value() const {
+    if (special_ != 0) return special_; // also where it is no number
+    ExactSum sum = *this;
+    sum.carry();
+    const bool is_negative = sum.digits_.back() < 0;
+    if (is_negative) {
+        for (std::int64_t &digit : sum.digits_) digit = -digit;
+        sum.carry();
+    }
+    std::size_t first = size - 1;
+    while (first > 0 && sum.digits_[first] == 0) --first;
+    // Three digits have more bits than a double, and one to spare that tells of all others.
+    const std::size_t last = std::max<std::size_t>(first, 2) - 2;
+    Wide leading = 0;
+    for (std::size_t i = first + 1; i-- > last;)
+        leading = leading << digit_bits | static_cast<Wide>(sum.digits_[i]);
+    const bool is_rest = std::any_of(sum.digits_.begin(), sum.digits_.begin() + last,
+                                     [](std::int64_t digit) { return digit != 0; });
+    const double value = std::scalbn(static_cast<double>(leading | static_cast<Wide>(is_rest)),
+                                     static_cast<int>(last * digit_bits) - 1074);
+    return is_negative ? -value : value;
+}
+
+} // namespace abacus

@@ -1,0 +1,57 @@
+// A sum of doubles without rounding: the same to the last bit in whatever order they come.
+//
+// A double is a whole number of times the least one, 2^-1074. The sum is kept as such a number, in
+// digits of 32 bits, each in a word of 64 (R. Neal, "Fast exact summation using small and large
+// superaccumulators", 2015). So a digit takes a billion summands before it must be carried, and a
+// summand changes three digits. The sum is rounded once, when it is asked for.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace abacus {
+
+class ExactSum {
+public:
+    void add(double x) {
+        const auto bits = std::bit_cast<std::uint64_t>(x);
+        const auto exponent = static_cast<unsigned>(bits >> fraction_bits & 0x7ff);
+        if (exponent == 0x7ff) { // infinite, or no number
+            special_ += x;
+            return;
+        }
+        std::uint64_t fraction = bits & ((std::uint64_t{1} << fraction_bits) - 1);
+        unsigned place = 0;
+        if (exponent != 0) {
+            fraction |= std::uint64_t{1} << fraction_bits;
+            place = exponent - 1;
+        }
+        const Wide wide = static_cast<Wide>(fraction) << place % digit_bits;
+        std::int64_t *const digit = &digits_[place / digit_bits];
+        const std::int64_t sign = static_cast<std::int64_t>(bits) < 0 ? -1 : 1;
+        digit[0] += sign * static_cast<std::int64_t>(static_cast<std::uint32_t>(wide));
+        digit[1] += sign * static_cast<std::int64_t>(static_cast<std::uint32_t>(wide >> 32));
+        digit[2] += sign * static_cast<std::int64_t>(wide >> 64);
+        if (++added_ == most_added) carry();
+    }
+    /// The double nearest to the sum; infinite beyond all of them, or after an infinite summand.
+    double value() const;
+
+private:
+    using Wide = unsigned __int128;
+    static constexpr unsigned fraction_bits = 52, digit_bits = 32;
+    /// 2^2098 is beyond all doubles; there is room for as many as a word can count.
+    static constexpr std::size_t size = (2098 + 64) / digit_bits + 1;
+    /// Of 2^32 each, in 63 bits, with what was carried into a digit.
+    static constexpr std::uint32_t most_added = 1u << 30;
+
+    /// Leaves each digit but the last from 0 to 2^32 - 1.
+    void carry();
+
+    std::array<std::int64_t, size> digits_{};
+    std::uint32_t added_ = 0; ///< since the last carry
+    double special_ = 0;
+};
+
+} // namespace abacus

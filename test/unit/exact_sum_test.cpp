@@ -1,0 +1,92 @@
+// Sums without rounding: against rational arithmetic, in any order.
+#include "geometry/exact_sum.hpp"
+
+#include <CGAL/Exact_rational.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace abacus::test {
+namespace {
+
+using Rational = CGAL::Exact_rational;
+
+double sum_of(const std::vector<double> &summands) {
+    ExactSum sum;
+    for (const double x : summands) sum.add(x);
+    return sum.value();
+}
+
+Rational size_of(const Rational &x) { return x < 0 ? Rational(-x) : x; }
+
+/// No double is nearer to the sum, and of two that are as near it is the even one.
+void expect_nearest(const std::vector<double> &summands) {
+    Rational sum = 0;
+    for (const double x : summands) sum += Rational(x);
+    const double value = sum_of(summands);
+    ASSERT_TRUE(std::isfinite(value));
+    const Rational error = size_of(sum - Rational(value));
+    for (const double other : {std::nextafter(value, -HUGE_VAL), std::nextafter(value, HUGE_VAL)}) {
+        if (!std::isfinite(other)) continue;
+        const Rational further = size_of(sum - Rational(other));
+        EXPECT_LE(error, further) << value;
+        if (error == further) {
+            EXPECT_EQ(std::bit_cast<std::uint64_t>(value) % 2, 0u) << value;
+        }
+    }
+}
+
+TEST(ExactSum, IsTheNearestDouble) {
+    std::mt19937_64 random(1);
+    for (const int spread : {0, 3, 60, 500, 1020}) {
+        for (int round = 0; round < 200; ++round) {
+            std::vector<double> summands;
+            for (std::uint64_t n = random() % 40; n > 0; --n) {
+                const double x = std::uniform_real_distribution<double>(-1, 1)(random);
+                const int shift = spread == 0 ? 0 : static_cast<int>(random() % (2 * spread + 1));
+                summands.push_back(std::scalbn(x, shift - spread));
+                if (random() % 3 == 0) summands.push_back(-summands[random() % summands.size()]);
+            }
+            expect_nearest(summands);
+        }
+    }
+}
+
+TEST(ExactSum, IsTheSameInAnyOrder) {
+    std::mt19937_64 random(2);
+    std::vector<double> summands;
+    for (int i = 0; i < 1000; ++i)
+        summands.push_back(std::scalbn(std::uniform_real_distribution<double>(-1, 1)(random),
+                                       static_cast<int>(random() % 200)));
+    const double value = sum_of(summands);
+    for (int round = 0; round < 20; ++round) {
+        std::shuffle(summands.begin(), summands.end(), random);
+        EXPECT_EQ(sum_of(summands), value);
+    }
+}
+
+TEST(ExactSum, HasNoLimits) {
+    constexpr double most = std::numeric_limits<double>::max();
+    constexpr double least = std::numeric_limits<double>::denorm_min();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(sum_of({}), 0);
+    EXPECT_EQ(sum_of({most, most, -most, -most, least}), least);
+    EXPECT_EQ(sum_of({most, 1, -most}), 1);
+    EXPECT_EQ(sum_of({-least, -least, least}), -least);
+    EXPECT_EQ(sum_of({most, most}), infinity);
+    EXPECT_EQ(sum_of({-most, -most}), -infinity);
+    EXPECT_EQ(sum_of({1, infinity, 5}), infinity);
+    EXPECT_TRUE(std::isnan(sum_of({infinity, -infinity})));
+    // Ties, and what just breaks one.
+    EXPECT_EQ(sum_of({1, 0x1p-53}), 1);
+    EXPECT_EQ(sum_of({1, 0x1p-52, 0x1p-53}), 1 + 0x1p-51);
+    EXPECT_EQ(sum_of({1, 0x1p-53, least}), 1 + 0x1p-52);
+}
+
+} // namespace
+} // namespace abacus::test
