@@ -257,7 +257,7 @@ Png RayCanvas::png(const Palette &palette, const double (&range)[2]) const {
         }
     }
     const Scale scale(low, high);
-    Picture picture(host_, camera_.width(), camera_.height());
+    Picture picture(host_, camera_.width(), camera_.height(), /*is_transparent=*/false);
     for (std::int32_t y = 0; y < camera_.height(); ++y) {
         host_.poll();
         std::uint32_t *row = picture.row(y);
