@@ -17,10 +17,10 @@ other_postgresql() {
     if [[ ${1:-} == short ]]; then
         bring_core "$build"
         set -- env ABACUS_SHORT=1 ABACUS_PACKAGES=$packages scripts/test.sh build-extension regress pgtap tap acceptance
-    elif (($#)); then
-        set -- scripts/test.sh "$@"
     else
-        set -- scripts/test.sh build-extension build unit regress pgtap tap acceptance
+        if [[ -e $build/brought ]]; then rm -r "$build"/{brought,extension,release}; fi
+        if ((!$#)); then set -- build-extension build unit regress pgtap tap acceptance; fi
+        set -- scripts/test.sh "$@"
     fi
     exec scripts/chroot.sh "$version" "$@"
 }
@@ -34,6 +34,7 @@ bring_core() {
             fail "It does not compile."
     fi
     mkdir -p "$1/extension" "$1/$oracle"
+    touch "$1/brought"
     (cd "$ABACUS_BUILD/extension" && find src -name '*.o' -not -path 'src/pg/*' -print0 |
         xargs -0 cp -p --parents -t "$1/extension")
     cp -p "$ABACUS_BUILD/$oracle"/oracle_{points,compare} "$1/$oracle"
