@@ -26,11 +26,12 @@ server=(
     "postgresql-$version-pgtap" libtap-parser-sourcehandler-pgtap-perl libipc-run-perl mount
 )
 core=(
-    cmake libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
-    libtet1.5-dev libqhull-dev      # TetGen and Qhull, to compare with
+    cmake libgtest-dev libgmock-dev libpng-dev
 )
 test=(
     "${server[@]}" "${core[@]}"
+    libbenchmark-dev
+    libtet1.5-dev libqhull-dev      # TetGen and Qhull, to compare with
     clang libclang-rt-14-dev        # clang brings libFuzzer
     clang-format clang-tidy
     gnuplot-nox                     # plots of docs/benchmarks.md

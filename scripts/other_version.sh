@@ -13,14 +13,14 @@ other_postgresql() {
     if [[ -z ${ABACUS_BUILT:-} ]]; then
         scripts/install-dependencies.sh test && install_extension || fail "It does not compile."
     fi
-    bring_server "$ABACUS_BUILD/chroot-$version/root" "$build/old"
+    bring_server "$ABACUS_BUILD/chroot-$version/root" opt/old
     if [[ ${1:-} == short ]]; then
         bring_core "$build"
         set -- env ABACUS_SHORT=1 ABACUS_PACKAGES=$packages scripts/test.sh build-extension regress pgtap tap acceptance
-    elif (($#)); then
-        set -- scripts/test.sh "$@"
     else
-        set -- scripts/test.sh build-extension build unit regress pgtap tap acceptance
+        if [[ -e $build/brought ]]; then rm -r "$build"/{brought,extension,release}; fi
+        if ((!$#)); then set -- build-extension build unit regress pgtap tap acceptance; fi
+        set -- scripts/test.sh "$@"
     fi
     exec scripts/chroot.sh "$version" "$@"
 }
@@ -34,16 +34,17 @@ bring_core() {
             fail "It does not compile."
     fi
     mkdir -p "$1/extension" "$1/$oracle"
+    touch "$1/brought"
     (cd "$ABACUS_BUILD/extension" && find src -name '*.o' -not -path 'src/pg/*' -print0 |
         xargs -0 cp -p --parents -t "$1/extension")
     cp -p "$ABACUS_BUILD/$oracle"/oracle_{points,compare} "$1/$oracle"
 }
 
 # bring_server ROOT FOLDER: the server of here, with its extensions, and the libraries that the Debian
-# in ROOT lacks. It finds its files by where it lies, so Debian's folders are kept. Left out is the
-# compiler of queries, whose library is large.
+# in ROOT lacks, into a folder there that everybody can read. It finds its files by where it lies, so
+# Debian's folders are kept. Left out is the compiler of queries, whose library is large.
 bring_server() {
-    local root=$1 folder=$2 server=lib/postgresql/$ABACUS_POSTGRESQL share=share/postgresql/$ABACUS_POSTGRESQL
+    local root=$1 folder=$1/$2 server=lib/postgresql/$ABACUS_POSTGRESQL share=share/postgresql/$ABACUS_POSTGRESQL
     local from library path
     from=$("$PG_CONFIG" --bindir)
     from=${from%"/$server/bin"}

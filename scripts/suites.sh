@@ -77,12 +77,11 @@ tap_end() {
 # Crashes, many sessions, dumps, replication, upgrades: in servers that the tests start
 # themselves, as a user that may. An interrupted test dies and ends its servers. ABACUS_KILLS says
 # how often to kill. Names of files in test/tap; all without arguments. A server of an earlier
-# version in build/old (other_version.sh) is upgraded from.
+# version that was brought (other_version.sh) is upgraded from.
 tap_tests() {
     local sources old=()
-    if [[ -d $ABACUS_BUILD/old ]]; then
-        old=(LD_LIBRARY_PATH="$ABACUS_BUILD/old/libraries"
-            ABACUS_OLD_SERVER="$(echo "$ABACUS_BUILD"/old/lib/postgresql/*)")
+    if [[ -n ${ABACUS_CHROOT:-} && -d /opt/old ]]; then
+        old=(LD_LIBRARY_PATH=/opt/old/libraries ABACUS_OLD_SERVER="$(echo /opt/old/lib/postgresql/*)")
     fi
     if ((!$#)); then set -- "$tap_folder"/*.pl; else set -- "${@/#/"$tap_folder/"}"; fi
     sources=$(dirname "$("$PG_CONFIG" --pgxs)")/..

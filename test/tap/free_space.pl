@@ -32,7 +32,11 @@ sql("SELECT abacus_create('built', 2)");
 sql("SELECT abacus_stage('built', 'SELECT * FROM points WHERE id <= 200000')");
 sql("CALL abacus_build('built')");
 sql("CREATE TABLE left_over AS SELECT block FROM zeros('built')");
-cmp_ok(sql('SELECT count(*) FROM left_over'), '>', 0, 'a build has left new heap pages');
+SKIP:
+{
+	skip 'built without shortcuts', 1 unless has_shortcuts($node) || sql('SHOW server_version_num') >= 160000;
+	cmp_ok(sql('SELECT count(*) FROM left_over'), '>', 0, 'a build has left new heap pages');
+}
 is(sql($unknown), 0, 'the map knows them');
 sql("LOAD 'abacus'; VACUUM built");
 is(sql($unknown), 0, '... after VACUUM, too');
