@@ -73,6 +73,7 @@ private:
     const abacus_ray_mode mode_;
     Arena<Pixel> pixels_;
     Arena<Depths> depths_; // inside the box; empty if there is none
+    Arena<Hit> enters_;    // of the row at hand: where rays enter the tetrahedron
 };
 
 } // namespace abacus
