@@ -175,6 +175,8 @@ timed "draw the fjords around Bergen, short edges only" draw fjords.png \
     "SELECT abacus_draw('shorelines', width => 1200, lower => '{4.7,59.9}', upper => '{6.7,61.1}', max_edge => 0.12)"
 timed "draw the terrain, shaded" draw terrain.png \
     "SELECT abacus_draw('terrain', width => 1200, attribute => 'height', edges => false, exaggeration => 2)"
+timed "draw the terrain as a map" draw terrain_map.png \
+    "SELECT abacus_draw('terrain', width => 560, attribute => 'height', edges => false, exaggeration => 2, contours => 50, legend => 'height (m)', scale_bar => 'm')"
 timed "draw a section across the basin" draw basin_section.png \
     "SELECT abacus_draw_section('quake', '{52000,45000,0}', '{0.6,0.8,0}', width => 1600, attribute => 'vs')"
 timed "draw the rim of the basin, closer" draw basin_rim.png \

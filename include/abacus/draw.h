@@ -10,6 +10,19 @@
 extern "C" {
 #endif
 
+/* Colours of values, from the least to the greatest. */
+typedef enum abacus_ramp
+{
+	ABACUS_RAMP_USUAL = 0, /* terrain of a mesh of dimension 2, strata of a section */
+	ABACUS_RAMP_TERRAIN,
+	ABACUS_RAMP_STRATA,
+	ABACUS_RAMP_VIRIDIS,
+	ABACUS_RAMP_MAGMA,
+	ABACUS_RAMP_CIVIDIS,
+	ABACUS_RAMP_GREY,
+	ABACUS_RAMP_DIVERGING
+} abacus_ramp;
+
 typedef struct abacus_drawing
 {
 	/* Window in mesh coordinates; empty (lower >= upper on an axis) = all there is. In
@@ -23,6 +36,14 @@ typedef struct abacus_drawing
 	double max_edge;           /* leave out simplices with a longer edge; 0 = none */
 	double range[2];           /* values at the ends of the colours, also for values beyond;
 	                              empty ([0] >= [1]) = the least and the greatest that is seen */
+	abacus_ramp ramp;
+	double light[2];           /* where it is: degrees from north, clockwise; degrees above the
+	                              horizon, over 0 to 90. 0 there: in the north-west, 45 degrees high */
+	double contour_interval;   /* lines at its multiples, within the range; 0 = none */
+	int32_t transparent;       /* 1: nothing is behind the mesh */
+	const char *legend;        /* the colours and their values, with this above them, the unit of
+	                              values or a title, in UTF-8; NULL = none */
+	const char *scale_bar;     /* a length, in this unit of coordinates, in UTF-8; NULL = none */
 } abacus_drawing;
 
 typedef struct abacus_picture

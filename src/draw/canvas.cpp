@@ -1,5 +1,8 @@
 #include "draw/canvas.hpp"
 
+#include "draw/captions.hpp"
+#include "draw/relief.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +16,9 @@ constexpr double full_width = 1.0;
 constexpr double half_radius = 2.0;
 // Below this radius edges are no longer told apart: their ink is a tone.
 constexpr double tone_radius = 0.6;
+// Width of contours, pixels; and how many the range may have: more would not be told apart.
+constexpr double contour_width = 1.0;
+constexpr int most_contours = 1000;
 
 // A triangle with an inscribed circle of radius r has a perimeter of 2 area / r, and
 // by that ratio r is defined for other patches; with half an edge's width on its own
@@ -76,20 +82,36 @@ constexpr double most_density = 1e6;
 
 } // namespace
 
-Canvas::Canvas(const Host &host, const abacus_drawing &drawing, double low, double high)
-    : host_(&host), drawing_(Extent(drawing).drawing()), low_(low), high_(high), frame_(drawing_),
-      range_(low, high), raster_(host, drawing_.width, drawing_.height), pixels_(host) {
+std::int32_t Canvas::margin_of(const abacus_drawing &drawing) {
+    const bool is_shaded = drawing.attribute >= 0 && drawing.exaggeration != 0;
+    return is_shaded ? Relief::reach : 2; // half of a line, and what it is off by
+}
+
+Canvas::Canvas(const Host &host, const abacus_drawing &drawing, double low, double high,
+               std::int32_t margin)
+    : host_(&host), drawing_(Extent(drawing).drawing()), low_(low), high_(high), margin_(margin),
+      width_(drawing_.width + 2 * margin), height_(drawing_.height + 2 * margin),
+      frame_(drawing_, margin), range_(low, high), raster_(host, width_, height_), pixels_(host),
+      contours_(host) {
+    const bool has_contours = drawing_.contour_interval > 0 && has_values();
+    if (has_contours && !((high / 2 - low / 2) / drawing_.contour_interval < most_contours / 2))
+        throw Error(ABACUS_ERROR_ARGUMENT, "contours are too close to one another",
+                    "More than " + std::to_string(most_contours) + " lie within the range.",
+                    "Give a greater interval, or a narrower range.");
     // Row by row, since memory for all of a large picture takes most of a second.
-    pixels_.reserve(static_cast<std::size_t>(drawing_.width) * drawing_.height);
-    for (std::int32_t y = 0; y < drawing_.height; ++y) {
+    const std::size_t all = static_cast<std::size_t>(width_) * height_;
+    pixels_.reserve(all);
+    if (has_contours) contours_.reserve(all);
+    for (std::int32_t y = 0; y < height_; ++y) {
         host_->poll();
-        std::fill_n(pixels_.extend(drawing_.width), drawing_.width, Pixel{});
+        std::fill_n(pixels_.extend(width_), width_, Pixel{});
+        if (has_contours) std::fill_n(contours_.extend(width_), width_, 0.0f);
     }
 }
 
 inline void Canvas::deposit(std::int32_t x, std::int32_t y, double covered, double count,
                             double value, double ink) {
-    Pixel &pixel = pixels_[static_cast<std::size_t>(y) * drawing_.width + x];
+    Pixel &pixel = pixels_[static_cast<std::size_t>(y) * width_ + x];
     value = std::clamp(value, 0.0, 1.0); // NaN stays
     pixel.covered += static_cast<float>(covered);
     pixel.count += static_cast<float>(count);
@@ -114,7 +136,8 @@ void Canvas::add(const Patch &patch) {
         bottom = std::max(bottom, y);
         has_value = has_value && std::isfinite(patch.value[i]);
     }
-    if (!(right > 0 && left < drawing_.width && bottom > 0 && top < drawing_.height)) return;
+    if (!(right > 0 && left < width_ && bottom > 0 && top < height_)) return;
+    if (!contours_.empty() && has_value) contour(p, patch.value);
 
     double mean = 0;
     for (int i = 0; i < p.corners; ++i) {
@@ -156,20 +179,56 @@ void Canvas::fill(const Patch &patch, double area, double density) {
 void Canvas::outline(const Patch &p, double width) {
     // The neighbour across each edge draws the other half of the line.
     const auto ink = [&](std::int32_t x, std::int32_t y, double covered) {
-        pixels_[static_cast<std::size_t>(y) * drawing_.width + x].ink +=
-            static_cast<float>(covered * 0.5);
+        pixels_[static_cast<std::size_t>(y) * width_ + x].ink += static_cast<float>(covered * 0.5);
     };
     for (int i = 0, j = p.corners - 1; i < p.corners; j = i++)
         raster_.line(p.corner[j], p.corner[i], width, ink);
 }
 
-bool Canvas::is_blank() const {
-    return std::none_of(pixels_.begin(), pixels_.end(),
-                        [](const Pixel &p) { return p.covered > 0; });
+// A corner at a level counts as above it. So a level along an edge is drawn once, by the patch
+// below.
+void Canvas::contour(const Patch &p, const double (&values)[4]) {
+    const double interval = drawing_.contour_interval;
+    const double *const end = values + p.corners;
+    const double least = std::max(*std::min_element(values, end), low_);
+    const double most = std::min(*std::max_element(values, end), high_);
+    const auto ink = [&](std::int32_t x, std::int32_t y, double covered) {
+        contours_[static_cast<std::size_t>(y) * width_ + x] += static_cast<float>(covered);
+    };
+    const double first = std::floor(least / interval);
+    const double count = std::floor(most / interval) - first; // those in the range, and one below
+    for (int n = 0; n <= count; ++n) {
+        const double level = (first + n) * interval;
+        double at[2][2];
+        int crossings = 0;
+        for (int i = 0, j = p.corners - 1; i < p.corners; j = i++) {
+            const bool is_above = values[i] >= level;
+            if (is_above == (values[j] >= level) || crossings == 2) continue;
+            const int a = is_above ? j : i, b = is_above ? i : j; // upwards
+            const double share = (level - values[a]) / (values[b] - values[a]);
+            for (int axis = 0; axis < 2; ++axis)
+                at[crossings][axis] = std::lerp(p.corner[a][axis], p.corner[b][axis], share);
+            ++crossings;
+        }
+        if (crossings == 2) raster_.line(at[0], at[1], contour_width, ink);
+        host_->poll();
+    }
 }
 
-Png Canvas::png(const Palette &palette) const {
-    return (drawing_.attribute >= 0 ? values(palette) : mesh()).png();
+bool Canvas::is_blank() const {
+    for (std::int32_t y = 0; y < drawing_.height; ++y)
+        for (std::int32_t x = 0; x < drawing_.width; ++x)
+            if (pixels_[index(x, y)].covered > 0) return false;
+    return true;
+}
+
+Png Canvas::png(const Palette &palette, double unit) const {
+    Picture picture = drawing_.attribute >= 0 ? values(palette) : mesh();
+    if (drawing_.attribute >= 0 && drawing_.legend != nullptr && has_values())
+        add_legend(picture, palette, low_, high_, drawing_.legend);
+    if (drawing_.scale_bar != nullptr)
+        add_scale_bar(picture, frame_.pixels_per_unit(0) * unit, drawing_.scale_bar);
+    return picture.png();
 }
 
 } // namespace abacus

@@ -13,6 +13,9 @@
 // cuts small corners off large tetrahedra; patches of a section therefore bring
 // the mesh's own spacing, by which they count as triangles of that size would.
 //
+// A picture of a window is drawn with a margin, which is cut off in the end: what is there casts
+// its light and its lines into the window. So windows side by side fit at their seam.
+//
 // Edges get thinner with the size of their patch (see edge_width). So their tone stays
 // below a bound however fine the mesh is: an etching, not a blot.
 #pragma once
@@ -32,16 +35,22 @@ class Relief;
 class Canvas {
 public:
     /// `drawing` has a window, or comes from an Extent; `low` and `high` are the range
-    /// of the attribute, NaN if there is none. Throws an Error if it cannot be drawn.
-    Canvas(const Host &host, const abacus_drawing &drawing, double low, double high);
+    /// of the attribute, NaN if there is none; `margin` is in pixels. Throws an Error if it cannot
+    /// be drawn.
+    Canvas(const Host &host, const abacus_drawing &drawing, double low, double high,
+           std::int32_t margin = 0);
+
+    /// How wide a margin makes a window fit to what is beside it.
+    static std::int32_t margin_of(const abacus_drawing &drawing);
 
     /// Corners outside the window are welcome, values may be NaN.
     void add(const Patch &patch);
 
     /// Whether no patch so far covers anything of the picture.
     bool is_blank() const;
-    /// The picture of all patches so far; `palette` gives the colours of values.
-    Png png(const Palette &palette) const;
+    /// The picture of all patches so far; `palette` gives the colours of values. `unit` is the unit
+    /// of coordinates in which a scale bar tells lengths.
+    Png png(const Palette &palette, double unit = 1) const;
 
 private:
     /// Sums over the shares of a pixel that patches cover.
@@ -56,12 +65,18 @@ private:
     /// Both take the patch in pixels, with values as fractions of the range.
     void fill(const Patch &patch, double area, double density);
     void outline(const Patch &patch, double width);
+    /// Draws the contours of a patch; its values are not fractions here.
+    void contour(const Patch &pixels, const double (&values)[4]);
     /// Patches a pixel where vertices are this far apart.
     double density(double spacing) const;
     void deposit(std::int32_t x, std::int32_t y, double covered, double count, double value,
                  double ink);
 
     bool has_values() const { return low_ <= high_; }
+    /// Place of a pixel of the picture among all.
+    std::size_t index(std::int32_t x, std::int32_t y) const {
+        return static_cast<std::size_t>(y + margin_) * width_ + (x + margin_);
+    }
     void raise(Relief &relief) const;
     Picture values(const Palette &palette) const;
     Picture mesh() const;
@@ -69,10 +84,13 @@ private:
     const Host *host_;
     abacus_drawing drawing_;
     double low_, high_;
+    const std::int32_t margin_;
+    const std::int32_t width_, height_; // with the margin
     Frame frame_;
     Scale range_;
     Raster raster_;
     Arena<Pixel> pixels_;
+    Arena<float> contours_; // shares of pixels under them; empty if there are none
 };
 
 } // namespace abacus

@@ -65,36 +65,58 @@ private:
 // How much of a pixel must be covered to have a density of its own.
 constexpr float least_covered = 1e-4f;
 
+/// From the colour of what covers a part of a pixel to the pixel, over the ground or nothing.
+class Finish {
+public:
+    Finish(const Color &ground, bool is_transparent)
+        : ground_(ground), is_transparent_(is_transparent) {}
+
+    std::uint32_t operator()(const Color &tint, float covered) const {
+        const float share = covered > least_covered ? std::min(covered, 1.0f) : 0;
+        if (!is_transparent_) return encode_(share > 0 ? mix(ground_, tint, share) : ground_);
+        const auto alpha = static_cast<std::uint32_t>(share * 255 + 0.5f);
+        const std::uint32_t rgb = encode_(tint);
+        const auto part = [&](int shift) {
+            return ((rgb >> shift & 255) * alpha + 127) / 255 << shift;
+        };
+        return alpha << 24 | part(16) | part(8) | part(0);
+    }
+
+private:
+    const Color ground_;
+    const bool is_transparent_;
+    const Encoder encode_;
+};
+
 } // namespace
 
 Picture Canvas::mesh() const {
     const Palette palette = Palette::shore();
     const Color ground = color(0x03060f);
     const Color light = color(0xfff6df);
-    const Encoder encode;
-    Picture picture(*host_, drawing_.width, drawing_.height);
+    const Finish finish(ground, drawing_.transparent != 0);
+    Picture picture(*host_, drawing_.width, drawing_.height, drawing_.transparent != 0);
     Exposure exposure;
-    const Pixel *pixel = pixels_.begin();
     for (std::int32_t y = 0; y < drawing_.height; ++y) {
         host_->poll();
+        const Pixel *pixel = &pixels_[index(0, y)];
         for (const Pixel *const end = pixel + drawing_.width; pixel != end; ++pixel)
             if (pixel->covered > least_covered) exposure.add(pixel->count / pixel->covered);
     }
     exposure.fit();
-    pixel = pixels_.begin();
     for (std::int32_t y = 0; y < drawing_.height; ++y) {
         host_->poll();
+        const Pixel *pixel = &pixels_[index(0, y)];
         std::uint32_t *row = picture.row(y);
         for (std::int32_t x = 0; x < drawing_.width; ++x, ++pixel) {
-            Color c = ground;
+            Color tint = ground;
             if (pixel->covered > least_covered) {
                 const float t = exposure(pixel->count / pixel->covered);
                 // Lines glow in the colour of somewhat finer triangles.
                 const Color line = mix(palette(t + 0.22f), light, 0.1f + 0.15f * t);
-                const Color tint = mix(palette(t), line, 0.8f * opacity(pixel->ink));
-                c = mix(ground, tint, std::min(pixel->covered, 1.0f));
+                tint = mix(palette(t), line, 0.8f * opacity(pixel->ink));
             }
-            row[x] = encode(c);
+            row[x] = finish(tint, pixel->covered);
         }
     }
     return picture;
@@ -102,9 +124,9 @@ Picture Canvas::mesh() const {
 
 void Canvas::raise(Relief &relief) const {
     const Pixel *pixel = pixels_.begin();
-    for (std::int32_t y = 0; y < drawing_.height; ++y) {
+    for (std::int32_t y = 0; y < height_; ++y) {
         host_->poll();
-        for (std::int32_t x = 0; x < drawing_.width; ++x, ++pixel) {
+        for (std::int32_t x = 0; x < width_; ++x, ++pixel) {
             const bool is_land = pixel->valued > least_covered;
             relief.height(x, y) = is_land ? pixel->value / pixel->valued : NAN;
             // Two triangles a vertex.
@@ -115,34 +137,33 @@ void Canvas::raise(Relief &relief) const {
 }
 
 Picture Canvas::values(const Palette &palette) const {
-    const Color ground = color(0xf4f1ea);
     const Color unknown = color(0xcfccc6);
     const Color ink = color(0x1c2a2c);
-    const Encoder encode;
-    Picture picture(*host_, drawing_.width, drawing_.height);
+    const Finish finish(color(0xf4f1ea), drawing_.transparent != 0);
+    Picture picture(*host_, drawing_.width, drawing_.height, drawing_.transparent != 0);
     std::optional<Relief> relief;
     if (drawing_.exaggeration != 0 && low_ < high_) {
         const double rise = (high_ - low_) * drawing_.exaggeration;
-        relief.emplace(*host_, drawing_.width, drawing_.height, rise * frame_.pixels_per_unit(0),
-                       rise * frame_.pixels_per_unit(1));
+        relief.emplace(*host_, width_, height_, rise * frame_.pixels_per_unit(0),
+                       rise * frame_.pixels_per_unit(1), drawing_.light);
         raise(*relief);
     }
-    const Pixel *pixel = pixels_.begin();
     for (std::int32_t y = 0; y < drawing_.height; ++y) {
         host_->poll();
+        const Pixel *pixel = &pixels_[index(0, y)];
         std::uint32_t *row = picture.row(y);
         for (std::int32_t x = 0; x < drawing_.width; ++x, ++pixel) {
-            Color c = ground;
+            Color tint = unknown;
             if (pixel->covered > least_covered) {
-                Color tint = unknown;
                 if (pixel->valued > least_covered)
                     tint = mix(unknown, palette(pixel->value / pixel->valued),
                                std::min(pixel->valued / pixel->covered, 1.0f));
-                if (relief) tint = tint * relief->light(x, y);
+                if (relief) tint = tint * relief->light(x + margin_, y + margin_);
                 tint = mix(tint, ink, 0.5f * opacity(pixel->ink));
-                c = mix(ground, tint, std::min(pixel->covered, 1.0f));
+                if (!contours_.empty())
+                    tint = mix(tint, ink, 0.8f * opacity(contours_[index(x, y)]));
             }
-            row[x] = encode(c);
+            row[x] = finish(tint, pixel->covered);
         }
     }
     return picture;

@@ -42,6 +42,12 @@ void check_drawing(const abacus_drawing &drawing) {
     if (!std::isfinite(drawing.range[0]) || !std::isfinite(drawing.range[1]))
         throw_argument("range of the colours is not finite");
     if (!std::isfinite(drawing.exaggeration)) throw_argument("exaggeration is not finite");
+    if (!(std::isfinite(drawing.light[0]) && drawing.light[1] >= 0 && drawing.light[1] <= 90))
+        throw_argument("light is not above the horizon",
+                       "It is given by degrees from north, and by degrees above the horizon.",
+                       "The latter must be more than 0 and at most 90.");
+    if (!(std::isfinite(drawing.contour_interval) && drawing.contour_interval >= 0))
+        throw_argument("interval of the contours is negative or not finite");
     if (!(drawing.max_edge >= 0)) throw_argument("longest edge is negative or not a number");
 }
 
@@ -115,8 +121,8 @@ Scale::Scale(double low, double high) : origin_(low * 0.5), factor_(1 / (high * 
     if (!std::isfinite(factor_)) factor_ = 0;
 }
 
-Frame::Frame(const abacus_drawing &drawing)
-    : width_(drawing.width), height_(drawing.height), x_(drawing.lower[0], drawing.upper[0]),
-      y_(drawing.lower[1], drawing.upper[1]) {}
+Frame::Frame(const abacus_drawing &drawing, std::int32_t margin)
+    : width_(drawing.width), height_(drawing.height), margin_(margin),
+      x_(drawing.lower[0], drawing.upper[0]), y_(drawing.lower[1], drawing.upper[1]) {}
 
 } // namespace abacus

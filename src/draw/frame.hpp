@@ -32,7 +32,8 @@ struct Patch {
 };
 
 /// Largest width and height, and the most pixels of a picture: each pixel takes
-/// 24 bytes while it is drawn, 32 with hill shading.
+/// 24 bytes while it is drawn, 8 more with hill shading, 4 more with contours; a margin counts,
+/// too.
 inline constexpr std::int32_t max_side = 16384;
 inline constexpr std::int64_t max_pixels = std::int64_t{1} << 25;
 
@@ -94,14 +95,14 @@ private:
     double origin_, factor_;
 };
 
-/// Map from mesh coordinates to pixels: the window fills the picture; y points
-/// up in the mesh and down in the picture.
+/// Map from mesh coordinates to pixels: the window fills the picture, around which there is a
+/// margin of so many pixels; y points up in the mesh and down in the picture.
 class Frame {
 public:
-    explicit Frame(const abacus_drawing &drawing);
+    Frame(const abacus_drawing &drawing, std::int32_t margin);
 
-    double x(double x) const { return bounded(x_(x) * width_); }
-    double y(double y) const { return bounded(height_ - y_(y) * height_); }
+    double x(double x) const { return bounded(x_(x) * width_ + margin_); }
+    double y(double y) const { return bounded(height_ - y_(y) * height_ + margin_); }
     /// Pixels per unit of the mesh along an axis.
     double pixels_per_unit(int axis) const {
         return axis == 0 ? x_.factor() * width_ : y_.factor() * height_;
@@ -111,7 +112,7 @@ private:
     // Far corners stay far, but their differences and products stay finite.
     static double bounded(double pixel) { return std::fmin(std::fmax(pixel, -1e30), 1e30); }
 
-    double width_, height_;
+    double width_, height_, margin_;
     Scale x_, y_;
 };
 

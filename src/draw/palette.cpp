@@ -76,6 +76,47 @@ Palette Palette::shore() {
             0x4d9f95, 0xb9c184, 0xf8d27a, 0xfff5dc};
 }
 
+Palette Palette::viridis() {
+    return {0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21908c,
+            0x27ad81, 0x5dc863, 0xaadc32, 0xfde725};
+}
+
+Palette Palette::magma() {
+    return {0x000004, 0x1d1147, 0x51127c, 0x822681, 0xb63679,
+            0xe65164, 0xfb8861, 0xfec287, 0xfcfdbf};
+}
+
+Palette Palette::cividis() {
+    return {0x00204d, 0x00336f, 0x39486b, 0x575c6d, 0x707173,
+            0x8a8779, 0xa69d75, 0xc4b56c, 0xe4cf5b, 0xffea46};
+}
+
+Palette Palette::grey() { return {0x121212, 0xf6f6f6}; }
+
+Palette Palette::diverging() {
+    return {0x1d3a70, 0x2f69a8, 0x6fa3cf, 0xb9d3e6, 0xf5f4f2,
+            0xf0c9b4, 0xdf8e6c, 0xbb4a3c, 0x7a1b2c};
+}
+
+Palette Palette::of(abacus_ramp ramp, abacus_ramp usual) {
+    switch (ramp == ABACUS_RAMP_USUAL ? usual : ramp) {
+    case ABACUS_RAMP_STRATA:
+        return strata();
+    case ABACUS_RAMP_VIRIDIS:
+        return viridis();
+    case ABACUS_RAMP_MAGMA:
+        return magma();
+    case ABACUS_RAMP_CIVIDIS:
+        return cividis();
+    case ABACUS_RAMP_GREY:
+        return grey();
+    case ABACUS_RAMP_DIVERGING:
+        return diverging();
+    default:
+        return terrain();
+    }
+}
+
 Encoder::Encoder() {
     for (int i = 0; i < steps; ++i)
         levels_[i] = static_cast<std::uint8_t>(

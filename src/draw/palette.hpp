@@ -1,6 +1,8 @@
 // Colours: ramps that look even to the eye, mixed as light mixes.
 #pragma once
 
+#include <abacus/draw.h>
+
 #include <array>
 #include <cstdint>
 #include <initializer_list>
@@ -39,12 +41,26 @@ public:
         return ramp_[static_cast<int>(step + 0.5f)];
     }
 
+    /// The one that a drawing names; `usual` if it leaves that open.
+    static Palette of(abacus_ramp ramp, abacus_ramp usual);
+
     /// Heights: valley green, through meadow and straw, to bare rock and snow.
     static Palette terrain();
     /// Values inside the earth: soft and slow to hard and fast.
     static Palette strata();
     /// Density of a mesh: night water, through shoals, to lit shore.
     static Palette shore();
+
+    /// Even in lightness, and told apart by the colour-blind: those of matplotlib, by S. van der
+    /// Walt, N. Smith and E. Firing (2015, CC0), here as a few of their colours; cividis by J.
+    /// Nuñez, C. Anderton and R. Renslow (2018).
+    static Palette viridis();
+    static Palette magma();
+    static Palette cividis();
+    static Palette grey();
+    /// Values on both sides of a middle: blue, through white, to red; as dark at one end as at the
+    /// other.
+    static Palette diverging();
 
 private:
     static constexpr int steps = 2048;

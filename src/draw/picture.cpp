@@ -27,8 +27,8 @@ unsigned char *Png::release() {
     return std::exchange(bytes_, nullptr);
 }
 
-Picture::Picture(const Host &host, std::int32_t width, std::int32_t height)
-    : host_(&host), width_(width), height_(height), pixels_(host) {
+Picture::Picture(const Host &host, std::int32_t width, std::int32_t height, bool is_transparent)
+    : host_(&host), width_(width), height_(height), is_transparent_(is_transparent), pixels_(host) {
     pixels_.resize(static_cast<std::size_t>(width) * height);
 }
 
@@ -62,16 +62,34 @@ void require(cairo_status_t status) {
 
 } // namespace
 
-Png Picture::png() {
+void Picture::SurfaceEnd::operator()(cairo_surface_t *surface) const {
+    cairo_surface_destroy(surface);
+}
+
+Picture::Surface Picture::surface() {
     static_assert(sizeof(std::uint32_t) == 4);
-    const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
-        cairo_image_surface_create_for_data(reinterpret_cast<unsigned char *>(pixels_.data()),
-                                            CAIRO_FORMAT_RGB24, width_, height_, width_ * 4),
-        &cairo_surface_destroy);
+    Surface surface(cairo_image_surface_create_for_data(
+        reinterpret_cast<unsigned char *>(pixels_.data()),
+        is_transparent_ ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24, width_, height_, width_ * 4));
     require(cairo_surface_status(surface.get()));
+    return surface;
+}
+
+void Picture::paint(const std::function<void(cairo_t *)> &draw) {
+    const Surface on = surface();
+    const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> pen(cairo_create(on.get()),
+                                                                 &cairo_destroy);
+    require(cairo_status(pen.get()));
+    draw(pen.get());
+    require(cairo_status(pen.get()));
+    cairo_surface_flush(on.get());
+}
+
+Png Picture::png() {
+    const Surface from = surface();
     Png png(*host_);
     Writer writer{host_, &png, nullptr};
-    const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), &write, &writer);
+    const cairo_status_t status = cairo_surface_write_to_png_stream(from.get(), &write, &writer);
     if (writer.failure) std::rethrow_exception(writer.failure);
     require(status);
     return png;

@@ -4,6 +4,11 @@
 #include "host/arena.hpp"
 
 #include <cstdint>
+#include <functional>
+#include <memory>
+
+typedef struct _cairo cairo_t;
+typedef struct _cairo_surface cairo_surface_t;
 
 namespace abacus {
 
@@ -29,19 +34,31 @@ private:
     std::size_t capacity_ = 0;
 };
 
-/// Opaque pixels, 0xrrggbb each, top row first.
+/// Pixels, 0xrrggbb each, top row first; with transparency 0xaarrggbb, the colours times alpha.
 class Picture {
 public:
-    Picture(const Host &host, std::int32_t width, std::int32_t height);
+    Picture(const Host &host, std::int32_t width, std::int32_t height, bool is_transparent);
+
+    std::int32_t width() const { return width_; }
+    std::int32_t height() const { return height_; }
 
     std::uint32_t *row(std::int32_t y) {
         return pixels_.data() + static_cast<std::size_t>(y) * width_;
     }
+    /// Has something drawn over it.
+    void paint(const std::function<void(cairo_t *)> &draw);
     Png png();
 
 private:
     const Host *host_;
+    struct SurfaceEnd {
+        void operator()(cairo_surface_t *surface) const;
+    };
+    using Surface = std::unique_ptr<cairo_surface_t, SurfaceEnd>;
+    Surface surface();
+
     std::int32_t width_, height_;
+    bool is_transparent_;
     Arena<std::uint32_t> pixels_;
 };
 

@@ -1,5 +1,6 @@
 #include "draw/ray_canvas.hpp"
 
+#include "draw/captions.hpp"
 #include "geometry/tetrahedron_cut.hpp"
 
 #include <algorithm>
@@ -302,36 +303,44 @@ bool RayCanvas::is_blank() const {
     });
 }
 
-Png RayCanvas::png(const Palette &palette, const double (&range)[2]) const {
-    const Color ground = color(0xf4f1ea);
-    const Color unknown = color(0xcfccc6);
+Png RayCanvas::png(const abacus_drawing &drawing) const {
+    const Palette palette = Palette::of(drawing.ramp, ABACUS_RAMP_STRATA);
+    const bool is_transparent = drawing.transparent != 0;
+    constexpr std::uint32_t opaque = 0xff000000;
     const Encoder encode;
-    double low = range[0], high = range[1];
-    if (!(low < high)) {
-        low = std::numeric_limits<double>::infinity();
-        high = -low;
-        for (std::int32_t y = 0; y < camera_.height(); ++y) {
-            host_.poll();
-            for (std::int32_t x = 0; x < camera_.width(); ++x) {
-                low = std::fmin(low, value(x, y)); // NaN does not count
-                high = std::fmax(high, value(x, y));
-            }
-        }
-    }
+    const std::uint32_t ground = is_transparent ? 0 : encode(color(0xf4f1ea));
+    const std::uint32_t unknown = opaque | encode(color(0xcfccc6));
+    const auto [low, high] = range(drawing);
     const Scale scale(low, high);
-    Picture picture(host_, camera_.width(), camera_.height());
+    Picture picture(host_, camera_.width(), camera_.height(), is_transparent);
     for (std::int32_t y = 0; y < camera_.height(); ++y) {
         host_.poll();
         std::uint32_t *row = picture.row(y);
         for (std::int32_t x = 0; x < camera_.width(); ++x) {
             const double shown = value(x, y);
-            Color c = std::isnan(pixels_[index(x, y)].value) ? unknown : ground;
+            row[x] = std::isnan(pixels_[index(x, y)].value) ? unknown : ground;
             if (!std::isnan(shown))
-                c = palette(low < high ? static_cast<float>(scale(shown)) : 0.5f);
-            row[x] = encode(c);
+                row[x] =
+                    opaque | encode(palette(low < high ? static_cast<float>(scale(shown)) : 0.5f));
         }
     }
+    if (drawing.legend != nullptr && low <= high)
+        add_legend(picture, palette, low, high, drawing.legend);
     return picture.png();
+}
+
+/// The one given, or that of what is seen.
+std::pair<double, double> RayCanvas::range(const abacus_drawing &drawing) const {
+    if (has_range(drawing)) return {drawing.range[0], drawing.range[1]};
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::int32_t y = 0; y < camera_.height(); ++y) {
+        host_.poll();
+        for (std::int32_t x = 0; x < camera_.width(); ++x) {
+            low = std::fmin(low, value(x, y)); // NaN does not count
+            high = std::fmax(high, value(x, y));
+        }
+    }
+    return {low, high};
 }
 
 } // namespace abacus

@@ -1,11 +1,11 @@
 #include "draw/relief.hpp"
 
+#include <numbers>
+
 namespace abacus {
 
 namespace {
 
-// Where the sun stands: 45 degrees high in the north-west.
-constexpr float sun_east = -0.5f, sun_north = 0.5f, sun_up = 0.70710678f;
 // Sunlight is a little warm and skylight, which fills the shadows, a little blue.
 constexpr Color sunlight{1.04f, 1.0f, 0.92f};
 constexpr Color skylight{0.90f, 1.0f, 1.18f};
@@ -29,12 +29,18 @@ float feedback(float spacing, double part) {
 } // namespace
 
 Relief::Relief(const Host &host, std::int32_t width, std::int32_t height_in_pixels, double rise_x,
-               double rise_y)
+               double rise_y, const double (&light)[2])
     : host_(&host), width_(width), height_(height_in_pixels), rise_x_(bounded(rise_x)),
       rise_y_(bounded(rise_y)), heights_(host), spacings_(host) {
     const auto pixels = static_cast<std::size_t>(width) * height_in_pixels;
     heights_.resize(pixels);
     spacings_.resize(pixels);
+    const bool is_given = light[1] > 0;
+    const double azimuth = (is_given ? light[0] : 315) * (std::numbers::pi / 180);
+    const double altitude = (is_given ? light[1] : 45) * (std::numbers::pi / 180);
+    sun_east_ = static_cast<float>(std::sin(azimuth) * std::cos(altitude));
+    sun_north_ = static_cast<float>(std::cos(azimuth) * std::cos(altitude));
+    sun_up_ = static_cast<float>(std::sin(altitude));
 }
 
 void Relief::smooth() {
@@ -90,7 +96,8 @@ Color Relief::light(std::int32_t x, std::int32_t y) const {
     const float east = rise_x_ * slope(at, 1, x > 0, x + 1 < width_);
     const float south = rise_y_ * slope(at, width_, y > 0, y + 1 < height_);
     const float up = 1 / std::sqrt(1 + east * east + south * south);
-    const float sun = std::max(0.0f, (sun_up - sun_east * east + sun_north * south) * up) / sun_up;
+    const float sun =
+        std::max(0.0f, (sun_up_ - sun_east_ * east + sun_north_ * south) * up) / sun_up_;
     const float sky = (1 + up) * 0.5f;
     return sunlight * (sun * (1 - sky_share)) + skylight * (sky * sky_share);
 }

@@ -1,4 +1,4 @@
-// Hill shading of a picture's heights, under a light in the north-west.
+// Hill shading of a picture's heights, under a light from one side.
 //
 // A triangulated surface is flat within each triangle, so shading its true
 // slopes shows facets instead of hills where triangles are larger than pixels.
@@ -21,8 +21,12 @@ public:
     /// `height` is NaN where there is none; `spacing` is the distance between
     /// vertices, in pixels. One row after the other, top row first. `rise_x` and
     /// `rise_y` turn a difference of neighbouring pixels' heights into a slope.
+    /// `light`: as that of a drawing.
     Relief(const Host &host, std::int32_t width, std::int32_t height_in_pixels, double rise_x,
-           double rise_y);
+           double rise_y, const double (&light)[2]);
+
+    /// Pixels from which on others do not change the light of one, as far as can be seen.
+    static constexpr std::int32_t reach = 128;
 
     float &height(std::int32_t x, std::int32_t y) { return heights_[index(x, y)]; }
     float &spacing(std::int32_t x, std::int32_t y) { return spacings_[index(x, y)]; }
@@ -42,6 +46,7 @@ private:
     const Host *host_;
     std::int32_t width_, height_;
     float rise_x_, rise_y_;
+    float sun_east_, sun_north_, sun_up_;
     Arena<float> heights_, spacings_;
 };
 

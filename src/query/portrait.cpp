@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace abacus {
 
@@ -38,6 +39,8 @@ private:
 /// The triangles of a mesh.
 class FlatView : public MeshView<2> {
 public:
+    static constexpr double unit = 1; // of coordinates, in the picture
+
     explicit FlatView(const abacus_drawing &drawing) : MeshView(drawing) {}
 
     void enter(const PageView<2> &) {}
@@ -57,6 +60,8 @@ public:
 /// The sections of the tetrahedra of a mesh by a plane.
 class SectionView : public MeshView<3> {
 public:
+    static constexpr double unit = Plane::scale;
+
     SectionView(const Plane &plane, const abacus_drawing &drawing)
         : MeshView(drawing), plane_(plane) {}
 
@@ -156,9 +161,24 @@ void stream(RangeScan<D> &pages, View &view, Picture &picture) {
     }
 }
 
+/// The same drawing of a wider window: with the margin of its canvas, in pixels.
+abacus_drawing widened(const abacus_drawing &drawing, std::int32_t margin) {
+    abacus_drawing wider = Extent(drawing).drawing(); // its height
+    const double sizes[2] = {wider.width + 0.0, wider.height + 0.0};
+    constexpr double most = std::numeric_limits<double>::max();
+    for (int axis = 0; axis < 2; ++axis) {
+        const double pixel =
+            (wider.upper[axis] / sizes[axis] - wider.lower[axis] / sizes[axis]) * margin;
+        wider.lower[axis] = std::max(wider.lower[axis] - pixel, -most);
+        wider.upper[axis] = std::min(wider.upper[axis] + pixel, most);
+    }
+    return wider;
+}
+
+/// `region` is what the drawing shows with its margin; null: all of the mesh.
 template <int D, class View>
 Portrait draw(const Host &host, const abacus_header &header, const abacus_drawing &drawing,
-              const Region<D> *region, View &&view, const Palette &palette) {
+              std::int32_t margin, const Region<D> *region, View &&view, abacus_ramp usual) {
     if (drawing.attribute >= static_cast<std::int32_t>(header.attributes))
         throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
     Extent extent(drawing);
@@ -167,33 +187,37 @@ Portrait draw(const Host &host, const abacus_header &header, const abacus_drawin
         stream(pages, view, extent);
         pages.rewind();
     }
-    Canvas canvas(host, extent.drawing(), extent.low(), extent.high());
+    Canvas canvas(host, extent.drawing(), extent.low(), extent.high(), margin);
     stream(pages, view, canvas);
-    return {canvas.png(palette), canvas.is_blank()};
+    return {canvas.png(Palette::of(drawing.ramp, usual), View::unit), canvas.is_blank()};
 }
 
 } // namespace
 
 Portrait draw_mesh(const Host &host, const abacus_header &header, const abacus_drawing &drawing) {
-    std::optional<BoxRegion<2>> window;
-    if (!shows_whole<2>(drawing))
-        window.emplace(
-            Box<2>({drawing.lower[0], drawing.lower[1]}, {drawing.upper[0], drawing.upper[1]}));
-    return draw<2>(host, header, drawing, window ? &*window : nullptr, FlatView(drawing),
-                   Palette::terrain());
+    if (shows_whole<2>(drawing))
+        return draw<2>(host, header, drawing, 0, nullptr, FlatView(drawing), ABACUS_RAMP_TERRAIN);
+    const std::int32_t margin = Canvas::margin_of(drawing);
+    const abacus_drawing wider = widened(drawing, margin);
+    const BoxRegion<2> region(
+        Box<2>({wider.lower[0], wider.lower[1]}, {wider.upper[0], wider.upper[1]}));
+    return draw<2>(host, header, drawing, margin, &region, FlatView(drawing), ABACUS_RAMP_TERRAIN);
 }
 
 Portrait draw_section(const Host &host, const abacus_header &header, const abacus_section &section,
                       const abacus_drawing &drawing) {
     const Plane plane(section);
     abacus_drawing sheet = drawing;
-    const Window window = shows_whole<3>(drawing) ? Window{}
-                                                  : plane.window(std::to_array(drawing.lower),
-                                                                 std::to_array(drawing.upper));
+    const bool has_window = !shows_whole<3>(drawing);
+    const Window window =
+        has_window ? plane.window(std::to_array(drawing.lower), std::to_array(drawing.upper))
+                   : Window{};
     std::copy_n(window.lower, 2, sheet.lower);
     std::copy_n(window.upper, 2, sheet.upper);
-    const SectionRegion region(plane, section, sheet);
-    return draw<3>(host, header, sheet, &region, SectionView(plane, drawing), Palette::strata());
+    const std::int32_t margin = has_window ? Canvas::margin_of(drawing) : 0;
+    const SectionRegion region(plane, section, has_window ? widened(sheet, margin) : sheet);
+    return draw<3>(host, header, sheet, margin, &region, SectionView(plane, drawing),
+                   ABACUS_RAMP_STRATA);
 }
 
 } // namespace abacus

@@ -18,6 +18,7 @@ namespace abacus {
 struct Image {
     int width = 0, height = 0;
     std::vector<std::uint32_t> pixels;
+    std::vector<int> alphas; // 255 all over in a PNG without them
 
     std::uint32_t operator()(int x, int y) const { return pixels[y * width + x]; }
 };
@@ -52,7 +53,11 @@ inline Image decode(const unsigned char *bytes, std::size_t size) {
     for (int y = 0; y < image.height; ++y) {
         const auto *row = reinterpret_cast<const std::uint32_t *>(
             cairo_image_surface_get_data(surface) + y * cairo_image_surface_get_stride(surface));
-        for (int x = 0; x < image.width; ++x) image.pixels.push_back(row[x] & 0xffffff);
+        const bool is_opaque = cairo_image_surface_get_format(surface) == CAIRO_FORMAT_RGB24;
+        for (int x = 0; x < image.width; ++x) {
+            image.pixels.push_back(row[x] & 0xffffff);
+            image.alphas.push_back(is_opaque ? 255 : static_cast<int>(row[x] >> 24));
+        }
     }
     cairo_surface_destroy(surface);
     return image;

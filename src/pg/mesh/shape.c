@@ -99,12 +99,12 @@ shape_point(const abacus_header *header, ArrayType *point, const char *what, dou
 		values[i] = DatumGetFloat8(elements[i]);
 }
 
-/* Reads a float8[] of two finite values, the lesser one first. */
+/* Reads a float8[] of two values. */
 void
-shape_range(ArrayType *range, const char *what, double *values)
+shape_pair(ArrayType *pair, const char *what, double *values)
 {
 	int			count;
-	Datum	   *elements = plain_elements(range, what, FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
+	Datum	   *elements = plain_elements(pair, what, FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
 										  TYPALIGN_DOUBLE, &count);
 
 	if (count != 2)
@@ -113,6 +113,13 @@ shape_range(ArrayType *range, const char *what, double *values)
 				 errmsg("%s has %d elements, not 2", what, count)));
 	for (int i = 0; i < count; i++)
 		values[i] = DatumGetFloat8(elements[i]);
+}
+
+/* Reads a float8[] of two finite values, the lesser one first. */
+void
+shape_range(ArrayType *range, const char *what, double *values)
+{
+	shape_pair(range, what, values);
 	if (!isfinite(values[0]) || !isfinite(values[1]) || !(values[0] < values[1]))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),

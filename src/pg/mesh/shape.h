@@ -15,6 +15,7 @@ extern Datum *shape_names(ArrayType *names, const char *what, int *count);
 extern void shape_attributes(abacus_header *header, ArrayType *names);
 extern void shape_point(const abacus_header *header, ArrayType *point, const char *what,
 						double *values);
+extern void shape_pair(ArrayType *pair, const char *what, double *values);
 extern void shape_range(ArrayType *range, const char *what, double *values);
 extern void shape_domain(abacus_header *header, ArrayType *lower, ArrayType *upper);
 

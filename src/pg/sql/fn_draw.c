@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "mb/pg_wchar.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 #include "utils/memutils.h"
@@ -14,12 +15,24 @@
 #include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
+#include "pg/sql/word.h"
 
 SQL_FUNCTION(abacus_sql_draw);
 SQL_FUNCTION(abacus_sql_draw_section);
 SQL_FUNCTION(abacus_sql_draw_volume);
 
 #define MAX_PIXELS 16384
+
+/* Arguments of both, in a row */
+enum
+{
+	STYLE_RAMP,
+	STYLE_CONTOURS,
+	STYLE_LEGEND,
+	STYLE_SCALE_BAR,
+	STYLE_TRANSPARENT,
+	STYLE_ARGUMENTS
+};
 
 /* Arguments of abacus_draw */
 enum
@@ -33,7 +46,9 @@ enum
 	DRAW_EDGES,
 	DRAW_EXAGGERATION,
 	DRAW_MAX_EDGE,
-	DRAW_RANGE
+	DRAW_RANGE,
+	DRAW_STYLE,
+	DRAW_LIGHT = DRAW_STYLE + STYLE_ARGUMENTS
 };
 
 /* Arguments of abacus_draw_section */
@@ -50,7 +65,8 @@ enum
 	SECTION_UPPER,
 	SECTION_EXAGGERATION,
 	SECTION_MAX_EDGE,
-	SECTION_RANGE
+	SECTION_RANGE,
+	SECTION_STYLE
 };
 
 static int32
@@ -107,25 +123,90 @@ window(const abacus_header *mesh, ArrayType *lower, ArrayType *upper, abacus_dra
 	pfree(shape);
 }
 
-static void
-require_dimension(const abacus_header *header, uint32 dimension, const char *hint)
+/* Whether an argument is given that has to do with values; if there are none, tells so. */
+static bool
+is_given(FunctionCallInfo fcinfo, int argument, const char *name, const abacus_drawing *drawing)
 {
-	if (header->dimension != dimension)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("mesh has dimension %u, not %u", header->dimension, dimension),
-				 errhint("%s", hint)));
+	if (PG_ARGISNULL(argument))
+		return false;
+	if (drawing->attribute < 0)
+		ereport(NOTICE, (errmsg("%s has no effect without an attribute", name)));
+	return true;
 }
 
 /* The values at the ends of the colours, if given. */
 static void
 range(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing)
 {
+	if (is_given(fcinfo, argument, "range", drawing))
+		shape_range(PG_GETARG_ARRAYTYPE_P(argument), "range", drawing->range);
+}
+
+/* A text in the core's encoding; NULL if it is not given. */
+static const char *
+caption(FunctionCallInfo fcinfo, int argument)
+{
+	char	   *given;
+
+	if (PG_ARGISNULL(argument))
+		return NULL;
+	given = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+	return pg_server_to_any(given, (int) strlen(given), PG_UTF8);
+}
+
+/* By the numbers of the core, which begin with 1 */
+static const char *const ramps[] = {"terrain", "strata", "viridis", "magma", "cividis", "grey",
+"diverging", NULL};
+
+static abacus_ramp
+ramp_argument(FunctionCallInfo fcinfo, int argument)
+{
+	return ABACUS_RAMP_TERRAIN +
+		word_argument(fcinfo, argument, ramps, "ramp",
+					  "Ramps are terrain, strata, viridis, magma, cividis, grey and diverging.");
+}
+
+static bool
+is_true(FunctionCallInfo fcinfo, int argument)
+{
+	return !PG_ARGISNULL(argument) && PG_GETARG_BOOL(argument);
+}
+
+/* Colours, lines and captions: the arguments from `first` on. */
+static void
+style(FunctionCallInfo fcinfo, int first, abacus_drawing *drawing)
+{
+	if (is_given(fcinfo, first + STYLE_RAMP, "ramp", drawing))
+		drawing->ramp = ramp_argument(fcinfo, first + STYLE_RAMP);
+	if (is_given(fcinfo, first + STYLE_CONTOURS, "contours", drawing))
+	{
+		drawing->contour_interval = PG_GETARG_FLOAT8(first + STYLE_CONTOURS);
+		if (!isfinite(drawing->contour_interval) || drawing->contour_interval <= 0)
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("contours must be a finite number above 0"),
+					 errhint("It is the difference of values from one line to the next.")));
+	}
+	if (is_given(fcinfo, first + STYLE_LEGEND, "legend", drawing))
+		drawing->legend = caption(fcinfo, first + STYLE_LEGEND);
+	drawing->scale_bar = caption(fcinfo, first + STYLE_SCALE_BAR);
+	drawing->transparent = is_true(fcinfo, first + STYLE_TRANSPARENT);
+}
+
+/* The direction of the light, if given. */
+static void
+light(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing)
+{
 	if (PG_ARGISNULL(argument))
 		return;
-	shape_range(PG_GETARG_ARRAYTYPE_P(argument), "range", drawing->range);
-	if (drawing->attribute < 0)
-		ereport(NOTICE, (errmsg("range has no effect without an attribute")));
+	shape_pair(PG_GETARG_ARRAYTYPE_P(argument), "light", drawing->light);
+	if (!isfinite(drawing->light[0]) || !(drawing->light[1] > 0 && drawing->light[1] <= 90))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("light must be a direction in degrees, and an altitude above 0 and at most 90"),
+				 errhint("The direction counts clockwise from north: {315,45} is in the north-west, halfway up.")));
+	if (drawing->attribute < 0 || drawing->exaggeration == 0)
+		ereport(NOTICE, (errmsg("light has no effect without exaggeration")));
 }
 
 /* Tells why a picture shows nothing; `place` is where nothing is. */
@@ -169,7 +250,8 @@ finish(Host *host, const abacus_picture *picture)
 /*
  * abacus_draw(mesh regclass, width int, height int, lower float8[],
  * upper float8[], attribute text, edges boolean, exaggeration float8,
- * max_edge float8, range float8[]) -> bytea
+ * max_edge float8, range float8[], ramp text, contours float8, legend text,
+ * scale_bar text, transparent boolean, light float8[]) -> bytea
  */
 Datum
 abacus_sql_draw(PG_FUNCTION_ARGS)
@@ -183,7 +265,7 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	reader = reader_open(PG_GETARG_OID(DRAW_MESH), CurrentMemoryContext);
 	host = reader->host;
-	require_dimension(&reader->header, 2, "Use abacus_draw_section for a cut through it.");
+	header_require_dimension(&reader->header, 2, "Use abacus_draw_section for a cut through it.");
 	drawing.width = pixels(fcinfo, DRAW_WIDTH, 1024, "width");
 	drawing.height = pixels(fcinfo, DRAW_HEIGHT, 0, "height");
 	drawing.attribute = attribute(fcinfo, DRAW_ATTRIBUTE, &reader->header);
@@ -191,6 +273,8 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	drawing.exaggeration = factor(fcinfo, DRAW_EXAGGERATION, "exaggeration");
 	drawing.max_edge = factor(fcinfo, DRAW_MAX_EDGE, "max_edge");
 	range(fcinfo, DRAW_RANGE, &drawing);
+	style(fcinfo, DRAW_STYLE, &drawing);
+	light(fcinfo, DRAW_LIGHT, &drawing);
 	if (drawing.exaggeration > 0 && drawing.attribute < 0)
 		ereport(NOTICE, (errmsg("exaggeration has no effect without an attribute")));
 	window(&reader->header, array(fcinfo, DRAW_LOWER), array(fcinfo, DRAW_UPPER), &drawing);
@@ -204,7 +288,8 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 /*
  * abacus_draw_section(mesh regclass, through float8[], normal float8[],
  * width int, height int, attribute text, edges boolean, lower float8[],
- * upper float8[], exaggeration float8, max_edge float8, range float8[]) -> bytea
+ * upper float8[], exaggeration float8, max_edge float8, range float8[], ramp text,
+ * contours float8, legend text, scale_bar text, transparent boolean) -> bytea
  */
 Datum
 abacus_sql_draw_section(PG_FUNCTION_ARGS)
@@ -220,7 +305,7 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	reader = reader_open(PG_GETARG_OID(SECTION_MESH), CurrentMemoryContext);
 	host = reader->host;
-	require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
+	header_require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
 	shape_point(&reader->header, array(fcinfo, SECTION_THROUGH), "through", section.through);
 	shape_point(&reader->header, array(fcinfo, SECTION_NORMAL), "normal", section.normal);
 	section.exaggeration = PG_ARGISNULL(SECTION_EXAGGERATION) ? 1 :
@@ -231,6 +316,7 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 	drawing.edges = PG_ARGISNULL(SECTION_EDGES) || PG_GETARG_BOOL(SECTION_EDGES);
 	drawing.max_edge = factor(fcinfo, SECTION_MAX_EDGE, "max_edge");
 	range(fcinfo, SECTION_RANGE, &drawing);
+	style(fcinfo, SECTION_STYLE, &drawing);
 	window(&reader->header, array(fcinfo, SECTION_LOWER), array(fcinfo, SECTION_UPPER), &drawing);
 
 	host_run(host, abacus_draw_section, &host->table, &reader->header, &section, &drawing,
@@ -257,26 +343,14 @@ enum
 	VOLUME_LOWER,
 	VOLUME_UPPER,
 	VOLUME_MAX_EDGE,
-	VOLUME_RANGE
+	VOLUME_RANGE,
+	VOLUME_RAMP,
+	VOLUME_LEGEND,
+	VOLUME_TRANSPARENT
 };
 
-/* By the word in SQL. */
-static abacus_ray_mode
-ray_mode(FunctionCallInfo fcinfo, int argument)
-{
-	static const char *const modes[] = {"mean", "max", "min", "sum"};
-	char	   *mode;
-
-	if (PG_ARGISNULL(argument))
-		return ABACUS_RAY_MEAN;
-	mode = text_to_cstring(PG_GETARG_TEXT_PP(argument));
-	for (int i = 0; i < lengthof(modes); i++)
-		if (strcmp(mode, modes[i]) == 0)
-			return (abacus_ray_mode) i;
-	ereport(ERROR,
-			(errcode(ERRCODE_INVALID_PARAMETER_VALUE), errmsg("mode \"%s\" is not known", mode),
-			 errhint("Modes are mean, max, min and sum.")));
-}
+/* By the numbers of the core */
+static const char *const ray_modes[] = {"mean", "max", "min", "sum", NULL};
 
 /* A point or direction of the camera; false if it is not given. */
 static bool
@@ -297,13 +371,15 @@ camera_arguments(FunctionCallInfo fcinfo, const abacus_header *header, abacus_ca
 	camera->has_up = camera_vector(fcinfo, VOLUME_UP, header, "up", camera->up);
 	camera->field_of_view = PG_ARGISNULL(VOLUME_FIELD_OF_VIEW) ? 0
 		: PG_GETARG_FLOAT8(VOLUME_FIELD_OF_VIEW);
-	camera->mode = ray_mode(fcinfo, VOLUME_MODE);
+	camera->mode = word_argument(fcinfo, VOLUME_MODE, ray_modes, "mode",
+								 "Modes are mean, max, min and sum.");
 }
 
 /*
  * abacus_draw_volume(mesh regclass, eye float8[], toward float8[], up float8[],
  * field_of_view float8, width int, height int, attribute text, mode text,
- * lower float8[], upper float8[], max_edge float8, range float8[]) -> bytea
+ * lower float8[], upper float8[], max_edge float8, range float8[], ramp text,
+ * legend text, transparent boolean) -> bytea
  */
 Datum
 abacus_sql_draw_volume(PG_FUNCTION_ARGS)
@@ -318,7 +394,7 @@ abacus_sql_draw_volume(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	reader = reader_open(PG_GETARG_OID(VOLUME_MESH), CurrentMemoryContext);
 	host = reader->host;
-	require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
+	header_require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
 	camera_arguments(fcinfo, &reader->header, &camera);
 	drawing.width = pixels(fcinfo, VOLUME_WIDTH, 1024, "width");
 	drawing.height = pixels(fcinfo, VOLUME_HEIGHT, 0, "height");
@@ -326,6 +402,10 @@ abacus_sql_draw_volume(PG_FUNCTION_ARGS)
 	drawing.max_edge = factor(fcinfo, VOLUME_MAX_EDGE, "max_edge");
 	if (!PG_ARGISNULL(VOLUME_RANGE))
 		shape_range(PG_GETARG_ARRAYTYPE_P(VOLUME_RANGE), "range", drawing.range);
+	if (!PG_ARGISNULL(VOLUME_RAMP))
+		drawing.ramp = ramp_argument(fcinfo, VOLUME_RAMP);
+	drawing.legend = caption(fcinfo, VOLUME_LEGEND);
+	drawing.transparent = is_true(fcinfo, VOLUME_TRANSPARENT);
 	window(&reader->header, array(fcinfo, VOLUME_LOWER), array(fcinfo, VOLUME_UPPER), &drawing);
 
 	progress_begin(&host->progress, PG_GETARG_OID(VOLUME_MESH));

@@ -1,8 +1,7 @@
 /*
  * interpolation.c: the optional arguments of functions that interpolate.
  *
- * NULL is as good as an argument left out. Functions of one place are called
- * for every row, so words are compared where they lie.
+ * NULL is as good as an argument left out.
  */
 #include "postgres.h"
 
@@ -13,6 +12,7 @@
 #include "pg/mesh/header.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/interpolation.h"
+#include "pg/sql/word.h"
 
 /* By the numbers of the core */
 static const char *const methods[] = {"linear", "natural", "nearest", NULL};
@@ -26,26 +26,6 @@ interpolation_of_null(FunctionCallInfo fcinfo, int given)
 		if (PG_ARGISNULL(i))
 			return true;
 	return false;
-}
-
-/* Number of the word that an argument is; of the first one if it is NULL. */
-static int
-word(FunctionCallInfo fcinfo, int argument, const char *const *words, const char *name,
-	 const char *hint)
-{
-	text	   *given;
-
-	if (PG_ARGISNULL(argument))
-		return 0;
-	given = PG_GETARG_TEXT_PP(argument);
-	for (int i = 0; words[i] != NULL; i++)
-		if (strlen(words[i]) == VARSIZE_ANY_EXHDR(given) &&
-			memcmp(words[i], VARDATA_ANY(given), VARSIZE_ANY_EXHDR(given)) == 0)
-			return i;
-	ereport(ERROR,
-			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-			 errmsg("%s \"%s\" is not known", name, text_to_cstring(given)),
-			 errhint("%s", hint)));
 }
 
 void
@@ -64,8 +44,8 @@ interpolation_max_edge(FunctionCallInfo fcinfo, int argument, abacus_interpolati
 void
 interpolation_how(FunctionCallInfo fcinfo, int method, abacus_interpolation *how)
 {
-	how->method = word(fcinfo, method, methods, "method", "Methods are linear, natural and nearest.");
-	how->outside = word(fcinfo, method + 1, outsides, "outside",
+	how->method = word_argument(fcinfo, method, methods, "method", "Methods are linear, natural and nearest.");
+	how->outside = word_argument(fcinfo, method + 1, outsides, "outside",
 						"Outside the mesh the value is null, or that of the nearest vertex.");
 	interpolation_max_edge(fcinfo, method + 2, how);
 }

@@ -1,0 +1,23 @@
+// What tells a picture's scale: the values of its colours, a length.
+#pragma once
+
+#include "draw/palette.hpp"
+#include "draw/picture.hpp"
+
+#include <string>
+
+namespace abacus {
+
+/// The least number of 1, 2 or 5 times a power of ten that is not below x, which is positive.
+double round_step(double x);
+/// A multiple of such a step, with no more digits than it needs.
+std::string number_text(double value, double step);
+
+/// Adds the colours from the one of `low` to the one of `high`, with values beside them and a title
+/// above them, at the lower right.
+void add_legend(Picture &picture, const Palette &palette, double low, double high,
+                const char *title);
+/// Adds a length of so many pixels a unit, at the lower left.
+void add_scale_bar(Picture &picture, double pixels_per_unit, const char *unit);
+
+} // namespace abacus
