@@ -49,6 +49,9 @@ SELECT looks(abacus_draw_volume('solid', width => 80, attribute => 'heat')) AS p
 SELECT count(DISTINCT abacus_draw_volume('solid', '{2,-5,2}', '{2,0,2}', width => 80, attribute => 'heat', mode => mode)) AS different FROM unnest('{mean,max,min,sum}'::text[]) AS mode;
 -- the values of a range; as those that are seen if it has them
 SELECT abacus_draw_volume('solid', width => 40, attribute => 'heat', mode => 'max') <> abacus_draw_volume('solid', width => 40, attribute => 'heat', mode => 'max', range => '{0,100}') AS differs;
+-- other colours, a legend, nothing behind
+SELECT count(DISTINCT abacus_draw_volume('solid', width => 120, attribute => 'heat', ramp => ramp, legend => legend, transparent => transparent)) AS different
+FROM unnest('{strata,viridis,magma}'::text[]) AS ramp, (VALUES (NULL), ('degrees')) AS l (legend), (VALUES (true), (false)) AS t (transparent);
 -- a box of the mesh; the eye amid it; nothing
 SELECT looks(abacus_draw_volume('solid', '{1,1,9}', '{1,1,0}', width => 80, lower => '{0,0,0}', upper => '{2,1,1}')) AS box, looks(abacus_draw_volume('solid', '{1,1,1}', '{2,1,1}', field_of_view => 120, width => 80, attribute => 'depth')) AS amid;
 SELECT looks(abacus_draw_volume('solid', '{1,1,9}', '{1,1,20}', field_of_view => 50, width => 80)) AS behind;
@@ -89,6 +92,8 @@ SELECT * FROM abacus_section('solid', '{0,0,0}', '{0,0,1}');
 SELECT abacus_draw_volume('flat');
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_draw_volume('solid', mode => 'median');
+\echo :LAST_ERROR_SQLSTATE
+SELECT abacus_draw_volume('solid', ramp => 'rainbow');
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_draw_volume('solid', '{1,1,1}', '{1,1,1}');
 \echo :LAST_ERROR_SQLSTATE

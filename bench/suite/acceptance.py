@@ -128,6 +128,13 @@ def space(dimension):
     return measured
 
 
+def surface(results, figure="wall"):
+    """Ratio to VTK of an isosurface in the largest quake set there is."""
+    points = max((m["points"] for m in results.all(what="surface")), default=None)
+    return ratio(*(results.median(figure, what="surface", question="isosurface", engine=engine, points=points)
+                   for engine in ("abacus", "vtk")))
+
+
 WANTED = [
     Timed("2D, 1 M uniform: table to committed mesh ÷ CGAL in core", 1.0, True,
           times("abacus", "cgal", 2, "uniform", 10**6)),
@@ -180,6 +187,7 @@ WANTED = [
     Wanted("… one deleted, ms", 1, True, milliseconds("delete", 2)),
     Wanted("3D, 500,000 points: one point inserted, a transaction, ms", 3, True, milliseconds("insert", 3)),
     Wanted("… one deleted, ms", 3, True, milliseconds("delete", 3)),
+    Timed("`abacus_isosurface`, quake set of 1 M ÷ VTK's contour filter, grid in memory", 1, True, surface),
     Wanted("2D, 1 M points: size after half of them were replaced and VACUUM ÷ fresh", 1.5, True, space(2)),
     Wanted("3D, 500,000 points: … ÷ fresh", 1.5, True, space(3)),
 ]

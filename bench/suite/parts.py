@@ -6,6 +6,7 @@ from edits import Edits, cancelled_builds
 from goose import Goose
 from location import location
 from rows import Rows
+from surfaces import Surfaces
 
 
 def contests(*contests):
@@ -48,6 +49,8 @@ PARTS = [
         2, {"full": (10000000, 1000000), "quick": (500000, 200000), "smoke": (20000, 5000)})),
     Part("locate-3d", "places in a mesh in space, warm and cold", 1.5, location(
         3, {"full": (1000000, 500000), "quick": (100000, 100000), "smoke": (5000, 2000)})),
+    Part("surfaces", "isosurface beside VTK's, section, picture of the inside", 3,
+         Surfaces({"full": 0.218, "quick": 0.1, "smoke": 0.03}).measure),
     Part("goose", "insertion by an R-tree (chapter 2), in the plane", 4, Goose(
         2, {"full": (25000, 50000, 100000, 200000), "quick": (10000, 20000), "smoke": (1000,)}, FEWER).measure),
     Part("goose-3d", "insertion by an R-tree (chapter 2), in space", 4, Goose(

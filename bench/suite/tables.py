@@ -42,6 +42,14 @@ def cold(results):
     return table(("mesh", "question", "heap pages", "leaf pages", "inner pages", "heap and leaf", "runs"), rows)
 
 
+def surfaces(results):
+    engines = {"abacus": "Abacus", "vtk": "VTK"}
+    rows = [(points(m["points"]), m["question"], engines[m["engine"]], f"{m['samples'][0]['answers']:,}",
+             f"{spread(spread_of(m, 'wall'))} s", f"{number(statistics.median(values(m, 'cpu')))} s", len(m["samples"]))
+            for m in results.all(what="surface")]
+    return table(("points", "question", "", "rows or bytes", "wall", "CPU", "runs"), rows)
+
+
 def edits(results):
     rows = []
     for m in results.all(what="edit"):

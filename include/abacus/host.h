@@ -105,7 +105,7 @@ typedef enum abacus_phase
 typedef struct abacus_progress
 {
 	abacus_phase phase;
-	uint64_t done;          /* points (checking: pages) done in this phase */
+	uint64_t done;          /* points (checking: pages; scanning: simplices) done in this phase */
 	uint64_t total;         /* 0 = not known */
 	uint64_t pages_read;
 	uint64_t pages_written;

@@ -60,9 +60,12 @@ CREATE FUNCTION abacus_draw_volume(
     lower double precision[] DEFAULT NULL,
     upper double precision[] DEFAULT NULL,
     max_edge double precision DEFAULT NULL,
-    range double precision[] DEFAULT NULL)
+    range double precision[] DEFAULT NULL,
+    ramp text DEFAULT NULL,
+    legend text DEFAULT NULL,
+    transparent boolean DEFAULT false)
 RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_draw_volume'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
-COMMENT ON FUNCTION abacus_draw_volume(regclass, double precision[], double precision[], double precision[], double precision, integer, integer, text, text, double precision[], double precision[], double precision, double precision[]) IS
+COMMENT ON FUNCTION abacus_draw_volume(regclass, double precision[], double precision[], double precision[], double precision, integer, integer, text, text, double precision[], double precision[], double precision, double precision[], text, text, boolean) IS
     'a PNG of what rays through a mesh of dimension 3, or through its part within the box from lower to upper, meet of an attribute: its mean, max, min or sum; without an attribute how far they go inside';

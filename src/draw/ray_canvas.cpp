@@ -1,5 +1,6 @@
 #include "draw/ray_canvas.hpp"
 
+#include "draw/captions.hpp"
 #include "geometry/tetrahedron_cut.hpp"
 
 #include <algorithm>
@@ -36,6 +37,10 @@ template <class Number> struct Line {
     Number operator()(Number at_x, Number at_y) const { return dx * (at_y - y) - dy * (at_x - x); }
 };
 
+template <class Number> Number centre(std::int32_t pixel) {
+    return static_cast<Number>(pixel) * Camera::steps + Camera::steps / 2;
+}
+
 std::int32_t first_pixel(std::int64_t place) {
     // Its centre is at or after the place.
     const std::int64_t from = place - Camera::steps / 2 + Camera::steps - 1;
@@ -67,10 +72,11 @@ constexpr std::int64_t narrow = std::int64_t{1} << 29;
 
 RayCanvas::RayCanvas(const Host &host, const Camera &camera, abacus_ray_mode mode,
                      const std::optional<Box<3>> &box)
-    : host_(host), camera_(camera), mode_(mode), pixels_(host), depths_(host) {
+    : host_(host), camera_(camera), mode_(mode), pixels_(host), depths_(host), enters_(host) {
     const auto width = static_cast<std::size_t>(camera.width());
     const std::size_t size = width * static_cast<std::size_t>(camera.height());
     pixels_.reserve(size);
+    enters_.resize(width);
     if (box) depths_.reserve(size);
     for (std::int32_t y = 0; y < camera.height(); ++y) {
         host_.poll();
@@ -148,42 +154,99 @@ void RayCanvas::project(const Corners &corners) {
         fill<__int128>(corners, first_x, end_x, first_y, end_y);
 }
 
+/// A facet row by row: what is on the inner side of all of its edges.
+template <class Number> class FacetRows {
+public:
+    /// `first_x` is the pixel from which places in a row are counted.
+    FacetRows(const Facet &facet, const Line<Number> (&lines)[6],
+              const std::array<const Sight *, 4> &corners, std::int32_t first_x)
+        : first_x_(first_x) {
+        Number area = 0; // twice, of either sign
+        for (int i = 0; i < 3; ++i) area += lines[facet.edge[i]](0, 0) * facet.turn[i];
+        const int turn = area > 0 ? 1 : area < 0 ? -1 : 0;
+        exists_ = turn != 0;
+        leaves_ = turn == facet.out;
+        for (int i = 0; i < 3; ++i) {
+            const Line<Number> &line = lines[facet.edge[i]];
+            const int inner = turn * facet.turn[i];
+            edges_[i] = {&line, corners[facet.corner[i]], inner, line.tie * inner > 0 ? 0 : 1,
+                         -line.dy * Camera::steps * inner};
+        }
+    }
+
+    bool exists() const { return exists_; }
+    /// Whether rays leave the tetrahedron here.
+    bool leaves() const { return leaves_; }
+
+    /// Calls visit(x, depth, value) for the pixels of a row before `end`.
+    template <class Visit> void each(std::int32_t y, std::int32_t end, Visit visit) const {
+        Number distance[3]; // from the edge, times its length
+        Number first = 0, count = end - first_x_;
+        for (int i = 0; i < 3; ++i) {
+            const Edge &edge = edges_[i];
+            const Number d = distance[i] =
+                (*edge.line)(centre<Number>(first_x_), centre<Number>(y)) * edge.inner;
+            if (edge.step > 0) {
+                if (d < edge.least)
+                    first = std::max(first, (edge.least - d + edge.step - 1) / edge.step);
+            } else if (d < edge.least) {
+                return;
+            } else if (edge.step < 0) {
+                count = std::min(count, (d - edge.least) / -edge.step + 1);
+            }
+        }
+        if (first >= count) return;
+        for (int i = 0; i < 3; ++i) distance[i] += first * edges_[i].step;
+        for (Number at = first; at < count; ++at) {
+            double sum = 0, depth = 0, value = 0;
+            for (int i = 0; i < 3; ++i) {
+                const Sight &corner = *edges_[i].opposite;
+                const double share = static_cast<double>(distance[i]) * corner.weight;
+                sum += share;
+                depth += share * corner.seen[2];
+                value += share * corner.value;
+                distance[i] += edges_[i].step;
+            }
+            const double inverse = 1 / sum;
+            visit(first_x_ + static_cast<std::int32_t>(at), depth * inverse, value * inverse);
+        }
+    }
+
+private:
+    struct Edge {
+        const Line<Number> *line;
+        const Sight *opposite;
+        int inner;    // sign of the distance inside
+        Number least; // distance of what is inside
+        Number step;  // from one pixel to the next
+    };
+
+    std::int32_t first_x_;
+    bool exists_, leaves_;
+    Edge edges_[3];
+};
+
 template <class Number>
 void RayCanvas::fill(const Corners &corners, std::int32_t left, std::int32_t right,
                      std::int32_t top, std::int32_t bottom) {
     Line<Number> lines[6];
     for (int e = 0; e < 6; ++e) lines[e] = {*corners[ends[e][0]], *corners[ends[e][1]]};
-    const auto centre = [](std::int32_t pixel) {
-        return static_cast<Number>(pixel) * Camera::steps + Camera::steps / 2;
-    };
+    const FacetRows<Number> rows[4] = {{facets[0], lines, corners, left},
+                                       {facets[1], lines, corners, left},
+                                       {facets[2], lines, corners, left},
+                                       {facets[3], lines, corners, left}};
     for (std::int32_t y = top; y < bottom; ++y) {
         if ((y - top) % 16 == 15) host_.poll();
-        for (std::int32_t x = left; x < right; ++x) {
-            Number distance[6]; // from the line, times the length of the edge
-            int side[6];
-            for (int e = 0; e < 6; ++e) {
-                const Number d = distance[e] = lines[e](centre(x), centre(y));
-                side[e] = d > 0 ? 1 : d < 0 ? -1 : lines[e].tie;
-            }
-            std::optional<Hit> enters, leaves;
-            for (const Facet &f : facets) {
-                const int first = side[f.edge[0]] * f.turn[0];
-                if (first == 0 || side[f.edge[1]] * f.turn[1] != first ||
-                    side[f.edge[2]] * f.turn[2] != first)
-                    continue;
-                double sum = 0, depth = 0, value = 0;
-                for (int i = 0; i < 3; ++i) {
-                    const Sight &corner = *corners[f.corner[i]];
-                    const double share =
-                        std::fabs(static_cast<double>(distance[f.edge[i]])) * corner.weight;
-                    sum += share;
-                    depth += share * corner.seen[2];
-                    value += share * corner.value;
-                }
-                (first == f.out ? leaves : enters) = Hit{depth / sum, value / sum};
-            }
-            if (enters && leaves) deposit(x, y, *enters, *leaves);
-        }
+        for (const FacetRows<Number> &facet : rows)
+            if (facet.exists() && !facet.leaves())
+                facet.each(y, right, [&](std::int32_t x, double depth, double value) {
+                    enters_[static_cast<std::size_t>(x)] = {depth, value};
+                });
+        for (const FacetRows<Number> &facet : rows)
+            if (facet.exists() && facet.leaves())
+                facet.each(y, right, [&](std::int32_t x, double depth, double value) {
+                    deposit(x, y, enters_[static_cast<std::size_t>(x)], {depth, value});
+                });
     }
 }
 
@@ -240,36 +303,44 @@ bool RayCanvas::is_blank() const {
     });
 }
 
-Png RayCanvas::png(const Palette &palette, const double (&range)[2]) const {
-    const Color ground = color(0xf4f1ea);
-    const Color unknown = color(0xcfccc6);
+Png RayCanvas::png(const abacus_drawing &drawing) const {
+    const Palette palette = Palette::of(drawing.ramp, ABACUS_RAMP_STRATA);
+    const bool is_transparent = drawing.transparent != 0;
+    constexpr std::uint32_t opaque = 0xff000000;
     const Encoder encode;
-    double low = range[0], high = range[1];
-    if (!(low < high)) {
-        low = std::numeric_limits<double>::infinity();
-        high = -low;
-        for (std::int32_t y = 0; y < camera_.height(); ++y) {
-            host_.poll();
-            for (std::int32_t x = 0; x < camera_.width(); ++x) {
-                low = std::fmin(low, value(x, y)); // NaN does not count
-                high = std::fmax(high, value(x, y));
-            }
-        }
-    }
+    const std::uint32_t ground = is_transparent ? 0 : encode(color(0xf4f1ea));
+    const std::uint32_t unknown = opaque | encode(color(0xcfccc6));
+    const auto [low, high] = range(drawing);
     const Scale scale(low, high);
-    Picture picture(host_, camera_.width(), camera_.height(), /*is_transparent=*/false);
+    Picture picture(host_, camera_.width(), camera_.height(), is_transparent);
     for (std::int32_t y = 0; y < camera_.height(); ++y) {
         host_.poll();
         std::uint32_t *row = picture.row(y);
         for (std::int32_t x = 0; x < camera_.width(); ++x) {
             const double shown = value(x, y);
-            Color c = std::isnan(pixels_[index(x, y)].value) ? unknown : ground;
+            row[x] = std::isnan(pixels_[index(x, y)].value) ? unknown : ground;
             if (!std::isnan(shown))
-                c = palette(low < high ? static_cast<float>(scale(shown)) : 0.5f);
-            row[x] = encode(c);
+                row[x] =
+                    opaque | encode(palette(low < high ? static_cast<float>(scale(shown)) : 0.5f));
         }
     }
+    if (drawing.legend != nullptr && low <= high)
+        add_legend(picture, palette, low, high, drawing.legend);
     return picture.png();
+}
+
+/// The one given, or that of what is seen.
+std::pair<double, double> RayCanvas::range(const abacus_drawing &drawing) const {
+    if (has_range(drawing)) return {drawing.range[0], drawing.range[1]};
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::int32_t y = 0; y < camera_.height(); ++y) {
+        host_.poll();
+        for (std::int32_t x = 0; x < camera_.width(); ++x) {
+            low = std::fmin(low, value(x, y)); // NaN does not count
+            high = std::fmax(high, value(x, y));
+        }
+    }
+    return {low, high};
 }
 
 } // namespace abacus

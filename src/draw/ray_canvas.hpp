@@ -16,7 +16,6 @@
 #pragma once
 
 #include "draw/camera.hpp"
-#include "draw/palette.hpp"
 #include "draw/picture.hpp"
 #include "host/arena.hpp"
 
@@ -37,8 +36,8 @@ public:
     double value(std::int32_t x, std::int32_t y) const;
     /// Whether no ray has met anything.
     bool is_blank() const;
-    /// `range`: values at the ends of the palette; if it is empty, the least and the greatest seen.
-    Png png(const Palette &palette, const double (&range)[2]) const;
+    /// In the colours that the drawing names, with its range and legend.
+    Png png(const abacus_drawing &drawing) const;
 
 private:
     using Corners = std::array<const Sight *, 4>;
@@ -63,6 +62,7 @@ private:
     void fill(const Corners &corners, std::int32_t left, std::int32_t right, std::int32_t top,
               std::int32_t bottom);
     void deposit(std::int32_t x, std::int32_t y, Hit enters, Hit leaves);
+    std::pair<double, double> range(const abacus_drawing &drawing) const;
     std::size_t index(std::int32_t x, std::int32_t y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width()) +
                static_cast<std::size_t>(x);
@@ -73,6 +73,7 @@ private:
     const abacus_ray_mode mode_;
     Arena<Pixel> pixels_;
     Arena<Depths> depths_; // inside the box; empty if there is none
+    Arena<Hit> enters_;    // of the row at hand: where rays enter the tetrahedron
 };
 
 } // namespace abacus

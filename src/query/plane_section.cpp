@@ -22,17 +22,22 @@ CuttingPlane plane_of(const abacus_section_query &query) {
 
 // ---- The region ---------------------------------------------------------------------------
 
-PlaneRegion::PlaneRegion(const CuttingPlane &plane, const Domain<3> &domain)
+PlaneRegion::PlaneRegion(const CuttingPlane &plane, const Box<3> &around)
     : plane_(plane), inside_(plane.through()), slack_(0) {
-    Point<3> foot;
-    for (int i = 0; i < 3; ++i) foot[i] = domain.lower()[i] * 0.5 + domain.upper()[i] * 0.5;
     const Point<3> &n = plane.normal();
-    const double height = plane.height(foot) / (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    for (int i = 0; i < 3; ++i) foot[i] -= n[i] * height;
-    for (const double x : foot)
-        if (!std::isfinite(x)) return;
-    inside_ = foot;
-    slack_ = 1.01 * std::fabs(plane.height(foot)); // heights are not exact
+    const double square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    Point<3> foot;
+    for (int i = 0; i < 3; ++i) foot[i] = around.lower[i] * 0.5 + around.upper[i] * 0.5;
+    // To the plane and back to the box, and so on: that leads to where both are, if they meet.
+    for (int round = 0; round < 20; ++round) {
+        const double way = plane.height(foot) / square;
+        for (int i = 0; i < 3; ++i) foot[i] -= n[i] * way;
+        if (!std::all_of(foot.begin(), foot.end(), [](double x) { return std::isfinite(x); }))
+            break;
+        inside_ = foot;
+        for (int i = 0; i < 3; ++i) foot[i] = std::clamp(foot[i], around.lower[i], around.upper[i]);
+    }
+    slack_ = 1.01 * std::fabs(plane.height(inside_)); // heights are not exact
 }
 
 bool PlaneRegion::may_meet(const Point<3> *const *points, int n) const {
@@ -46,6 +51,7 @@ bool PlaneRegion::may_meet(const Point<3> *const *points, int n) const {
 }
 
 bool PlaneRegion::may_meet(const Box<3> &box) const {
+    if (box.upper[0] < box.lower[0]) return false; // of a page without vertices
     Point<3> lowest, highest;
     for (int i = 0; i < 3; ++i) {
         const bool falls = plane_.normal()[i] < 0;
@@ -60,7 +66,8 @@ bool PlaneRegion::may_meet(const Box<3> &box) const {
 PlaneSection::PlaneSection(const Host &host, const abacus_header &header,
                            const abacus_section_query &query)
     : plane_(plane_of(query)), attribute_(query.attribute), max_edge_(query.max_edge),
-      domain_(domain_of<3>(header)), region_(plane_, domain_), pages_(host, header, &region_) {}
+      domain_(domain_of<3>(header)), region_(plane_, domain_box<3>(header)),
+      pages_(host, header, &region_) {}
 
 bool PlaneSection::next(abacus_polygon &polygon) {
     for (;;) {

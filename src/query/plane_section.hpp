@@ -22,7 +22,8 @@ namespace abacus {
 /// plane as doubles come, is in it.
 class PlaneRegion final : public Region<3> {
 public:
-    PlaneRegion(const CuttingPlane &plane, const Domain<3> &domain);
+    /// `around`: where the points of the mesh are, as far as one knows.
+    PlaneRegion(const CuttingPlane &plane, const Box<3> &around);
 
     Point<3> inside(const Domain<3> &) const override { return inside_; }
     bool may_meet(const Point<3> *const *points, int n) const override;

@@ -20,7 +20,7 @@ public:
         if (camera_.has_parallel_rays()) fit();
     }
 
-    Portrait draw(abacus_ray_mode mode, const double (&range)[2]) {
+    Portrait draw(abacus_ray_mode mode, const abacus_drawing &drawing) {
         RayCanvas canvas(host_, camera_, mode, box_);
         each_page([&](const PageView<3> &page) {
             for (int v = 0; v < page.vertices(); ++v)
@@ -30,7 +30,7 @@ public:
                     canvas.add(sights_[page.corner(s, 0)], sights_[page.corner(s, 1)],
                                sights_[page.corner(s, 2)], sights_[page.corner(s, 3)]);
         });
-        return {canvas.png(Palette::strata(), range), canvas.is_blank()};
+        return {canvas.png(drawing), canvas.is_blank()};
     }
 
 private:
@@ -101,7 +101,7 @@ Portrait draw_rays(const Host &host, const abacus_header &header, const abacus_c
         throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
     const abacus_ray_mode mode = drawing.attribute < 0 ? ABACUS_RAY_SUM : camera.mode;
     RayPortrait portrait(host, header, camera, drawing);
-    return portrait.draw(mode, drawing.range);
+    return portrait.draw(mode, drawing);
 }
 
 } // namespace abacus

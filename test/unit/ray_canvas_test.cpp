@@ -280,9 +280,9 @@ TEST(RayCanvas, PassesOverMissingValues) {
     EXPECT_NEAR(mean.value(0, 4), 7, 1e-12);
     EXPECT_TRUE(std::isnan(mean.value(7, 4)));
     EXPECT_FALSE(mean.is_blank());
-    const double range[2] = {0, 14};
-    const Png png = mean.png(Palette::strata(), range);
-    const Image image = decode(png);
+    abacus_drawing colours = drawing(8, 8);
+    colours.range[1] = 14;
+    const Image image = decode(mean.png(colours));
     EXPECT_NE(image(0, 4), image(7, 4));
     EXPECT_TRUE(RayCanvas(scene.host, seen, ABACUS_RAY_MEAN, std::nullopt).is_blank());
 }

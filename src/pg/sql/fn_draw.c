@@ -123,16 +123,6 @@ window(const abacus_header *mesh, ArrayType *lower, ArrayType *upper, abacus_dra
 	pfree(shape);
 }
 
-static void
-require_dimension(const abacus_header *header, uint32 dimension, const char *hint)
-{
-	if (header->dimension != dimension)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("mesh has dimension %u, not %u", header->dimension, dimension),
-				 errhint("%s", hint)));
-}
-
 /* Whether an argument is given that has to do with values; if there are none, tells so. */
 static bool
 is_given(FunctionCallInfo fcinfo, int argument, const char *name, const abacus_drawing *drawing)
@@ -168,14 +158,26 @@ caption(FunctionCallInfo fcinfo, int argument)
 static const char *const ramps[] = {"terrain", "strata", "viridis", "magma", "cividis", "grey",
 "diverging", NULL};
 
+static abacus_ramp
+ramp_argument(FunctionCallInfo fcinfo, int argument)
+{
+	return ABACUS_RAMP_TERRAIN +
+		word_argument(fcinfo, argument, ramps, "ramp",
+					  "Ramps are terrain, strata, viridis, magma, cividis, grey and diverging.");
+}
+
+static bool
+is_true(FunctionCallInfo fcinfo, int argument)
+{
+	return !PG_ARGISNULL(argument) && PG_GETARG_BOOL(argument);
+}
+
 /* Colours, lines and captions: the arguments from `first` on. */
 static void
 style(FunctionCallInfo fcinfo, int first, abacus_drawing *drawing)
 {
 	if (is_given(fcinfo, first + STYLE_RAMP, "ramp", drawing))
-		drawing->ramp = ABACUS_RAMP_TERRAIN +
-			word_argument(fcinfo, first + STYLE_RAMP, ramps, "ramp",
-						  "Ramps are terrain, strata, viridis, magma, cividis, grey and diverging.");
+		drawing->ramp = ramp_argument(fcinfo, first + STYLE_RAMP);
 	if (is_given(fcinfo, first + STYLE_CONTOURS, "contours", drawing))
 	{
 		drawing->contour_interval = PG_GETARG_FLOAT8(first + STYLE_CONTOURS);
@@ -188,8 +190,7 @@ style(FunctionCallInfo fcinfo, int first, abacus_drawing *drawing)
 	if (is_given(fcinfo, first + STYLE_LEGEND, "legend", drawing))
 		drawing->legend = caption(fcinfo, first + STYLE_LEGEND);
 	drawing->scale_bar = caption(fcinfo, first + STYLE_SCALE_BAR);
-	drawing->transparent = !PG_ARGISNULL(first + STYLE_TRANSPARENT) &&
-		PG_GETARG_BOOL(first + STYLE_TRANSPARENT);
+	drawing->transparent = is_true(fcinfo, first + STYLE_TRANSPARENT);
 }
 
 /* The direction of the light, if given. */
@@ -264,7 +265,7 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	reader = reader_open(PG_GETARG_OID(DRAW_MESH), CurrentMemoryContext);
 	host = reader->host;
-	require_dimension(&reader->header, 2, "Use abacus_draw_section for a cut through it.");
+	header_require_dimension(&reader->header, 2, "Use abacus_draw_section for a cut through it.");
 	drawing.width = pixels(fcinfo, DRAW_WIDTH, 1024, "width");
 	drawing.height = pixels(fcinfo, DRAW_HEIGHT, 0, "height");
 	drawing.attribute = attribute(fcinfo, DRAW_ATTRIBUTE, &reader->header);
@@ -304,7 +305,7 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	reader = reader_open(PG_GETARG_OID(SECTION_MESH), CurrentMemoryContext);
 	host = reader->host;
-	require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
+	header_require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
 	shape_point(&reader->header, array(fcinfo, SECTION_THROUGH), "through", section.through);
 	shape_point(&reader->header, array(fcinfo, SECTION_NORMAL), "normal", section.normal);
 	section.exaggeration = PG_ARGISNULL(SECTION_EXAGGERATION) ? 1 :
@@ -342,26 +343,14 @@ enum
 	VOLUME_LOWER,
 	VOLUME_UPPER,
 	VOLUME_MAX_EDGE,
-	VOLUME_RANGE
+	VOLUME_RANGE,
+	VOLUME_RAMP,
+	VOLUME_LEGEND,
+	VOLUME_TRANSPARENT
 };
 
-/* By the word in SQL. */
-static abacus_ray_mode
-ray_mode(FunctionCallInfo fcinfo, int argument)
-{
-	static const char *const modes[] = {"mean", "max", "min", "sum"};
-	char	   *mode;
-
-	if (PG_ARGISNULL(argument))
-		return ABACUS_RAY_MEAN;
-	mode = text_to_cstring(PG_GETARG_TEXT_PP(argument));
-	for (int i = 0; i < lengthof(modes); i++)
-		if (strcmp(mode, modes[i]) == 0)
-			return (abacus_ray_mode) i;
-	ereport(ERROR,
-			(errcode(ERRCODE_INVALID_PARAMETER_VALUE), errmsg("mode \"%s\" is not known", mode),
-			 errhint("Modes are mean, max, min and sum.")));
-}
+/* By the numbers of the core */
+static const char *const ray_modes[] = {"mean", "max", "min", "sum", NULL};
 
 /* A point or direction of the camera; false if it is not given. */
 static bool
@@ -382,13 +371,15 @@ camera_arguments(FunctionCallInfo fcinfo, const abacus_header *header, abacus_ca
 	camera->has_up = camera_vector(fcinfo, VOLUME_UP, header, "up", camera->up);
 	camera->field_of_view = PG_ARGISNULL(VOLUME_FIELD_OF_VIEW) ? 0
 		: PG_GETARG_FLOAT8(VOLUME_FIELD_OF_VIEW);
-	camera->mode = ray_mode(fcinfo, VOLUME_MODE);
+	camera->mode = word_argument(fcinfo, VOLUME_MODE, ray_modes, "mode",
+								 "Modes are mean, max, min and sum.");
 }
 
 /*
  * abacus_draw_volume(mesh regclass, eye float8[], toward float8[], up float8[],
  * field_of_view float8, width int, height int, attribute text, mode text,
- * lower float8[], upper float8[], max_edge float8, range float8[]) -> bytea
+ * lower float8[], upper float8[], max_edge float8, range float8[], ramp text,
+ * legend text, transparent boolean) -> bytea
  */
 Datum
 abacus_sql_draw_volume(PG_FUNCTION_ARGS)
@@ -403,7 +394,7 @@ abacus_sql_draw_volume(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	reader = reader_open(PG_GETARG_OID(VOLUME_MESH), CurrentMemoryContext);
 	host = reader->host;
-	require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
+	header_require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
 	camera_arguments(fcinfo, &reader->header, &camera);
 	drawing.width = pixels(fcinfo, VOLUME_WIDTH, 1024, "width");
 	drawing.height = pixels(fcinfo, VOLUME_HEIGHT, 0, "height");
@@ -411,6 +402,10 @@ abacus_sql_draw_volume(PG_FUNCTION_ARGS)
 	drawing.max_edge = factor(fcinfo, VOLUME_MAX_EDGE, "max_edge");
 	if (!PG_ARGISNULL(VOLUME_RANGE))
 		shape_range(PG_GETARG_ARRAYTYPE_P(VOLUME_RANGE), "range", drawing.range);
+	if (!PG_ARGISNULL(VOLUME_RAMP))
+		drawing.ramp = ramp_argument(fcinfo, VOLUME_RAMP);
+	drawing.legend = caption(fcinfo, VOLUME_LEGEND);
+	drawing.transparent = is_true(fcinfo, VOLUME_TRANSPARENT);
 	window(&reader->header, array(fcinfo, VOLUME_LOWER), array(fcinfo, VOLUME_UPPER), &drawing);
 
 	progress_begin(&host->progress, PG_GETARG_OID(VOLUME_MESH));
