@@ -29,7 +29,8 @@ Outline<2>::Outline(const Host &host, const abacus_header &header, const abacus_
                     std::size_t memory, std::size_t cache_bytes)
     : reader_(host, header, cache_bytes),
       rings_((require(reader_, kind), reader_), kept_by(kind), memory) {
-    if (kind.fills_holes != 0) nesting_.emplace(reader_, kept_by(kind), rings_, memory);
+    if (kind.fills_holes != 0)
+        nesting_.emplace(reader_, kept_by(kind), rings_, header.simplices + header.ghosts, memory);
 }
 
 bool Outline<2>::next(abacus_outline_row &row) {

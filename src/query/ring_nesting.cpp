@@ -19,9 +19,10 @@ void put_edge(std::uint64_t *words, const Point<2> &from, const Point<2> &to) {
 
 } // namespace
 
-RingNesting::RingNesting(Reader<2> &reader, const Kept &kept, Rings &rings, std::size_t memory)
+RingNesting::RingNesting(Reader<2> &reader, const Kept &kept, Rings &rings, std::uint64_t longest,
+                         std::size_t memory)
     : host_(reader.cache().host()), cache_(reader.cache()), border_(cache_, kept),
-      is_outermost_(host_) {
+      longest_(longest), is_outermost_(host_) {
     is_outermost_.resize(rings.count() / 64 + 1);
     std::fill(is_outermost_.begin(), is_outermost_.end(), 0);
     RecordSort edges(host_, edge_words, edge_key, memory / 3);
@@ -104,7 +105,10 @@ bool RingNesting::follow_ray(Border::Edge &edge) {
     border_.find(edge);
     bool is_at_ray = false;
     if (!turn_to_ray(edge, is_at_ray)) return false;
-    while (is_at_ray) { // across an edge of what is not kept
+    // Across edges of what is not kept.
+    for (std::uint64_t steps = 1; is_at_ray; ++steps) {
+        if (steps % 1024 == 0) cache_.poll();
+        if (steps > longest_) throw_corrupted("A ray through the mesh does not end.");
         border_.make_room<1>({&edge});
         const Link link = cache_.cross(edge.triangle, edge.facet);
         const Handle h = link_simplex(link);

@@ -16,7 +16,9 @@ namespace abacus {
 
 class RingNesting {
 public:
-    RingNesting(Reader<2> &reader, const Kept &kept, Rings &rings, std::size_t memory);
+    /// `longest`: simplices of the mesh, ghosts included. No ray goes through more.
+    RingNesting(Reader<2> &reader, const Kept &kept, Rings &rings, std::uint64_t longest,
+                std::size_t memory);
 
     /// Whether a ring is an outline that lies in no hole.
     bool is_outermost(std::uint64_t ring) const {
@@ -36,6 +38,7 @@ private:
     const Host &host_;
     Cache<2> &cache_;
     Border border_;
+    const std::uint64_t longest_;
     Arena<std::uint64_t> is_outermost_; // a bit each
 };
 

@@ -5,7 +5,15 @@
 #include "support/point_sets.hpp"
 #include "support/triangulations.hpp"
 
-#include <CGAL/Exact_rational.h>
+#include <CGAL/Alpha_shape_2.h>
+#include <CGAL/Alpha_shape_3.h>
+#include <CGAL/Alpha_shape_cell_base_3.h>
+#include <CGAL/Alpha_shape_face_base_2.h>
+#include <CGAL/Alpha_shape_vertex_base_2.h>
+#include <CGAL/Alpha_shape_vertex_base_3.h>
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <abacus/shape.h>
 #include <gtest/gtest.h>
@@ -182,6 +190,70 @@ TEST(Outlines, WithoutHolesAndWhatLiesInThem) {
     const auto without = read<2>(mesh, {0, 1, 0.5, 1}, little);
     ASSERT_EQ(without.back().ring, 2u);
     EXPECT_EQ(without.size(), 4u * 66 + 4 * 5);
+}
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+template <int D> using Sides = std::set<std::set<Point<D>>>;
+
+/// CGAL's regularized alpha shape: its facets.
+Sides<2> cgal_alpha_shape(const std::vector<Point<2>> &points, double alpha) {
+    using Structure = CGAL::Triangulation_data_structure_2<CGAL::Alpha_shape_vertex_base_2<Kernel>,
+                                                           CGAL::Alpha_shape_face_base_2<Kernel>>;
+    using Shape = CGAL::Alpha_shape_2<CGAL::Delaunay_triangulation_2<Kernel, Structure>>;
+    std::vector<Kernel::Point_2> input;
+    for (const Point<2> &p : points) input.emplace_back(p[0], p[1]);
+    const Shape shape(input.begin(), input.end(), alpha, Shape::REGULARIZED);
+    Sides<2> sides;
+    for (auto edge = shape.alpha_shape_edges_begin(); edge != shape.alpha_shape_edges_end();
+         ++edge) {
+        const Kernel::Segment_2 s = shape.segment(*edge);
+        const Point<2> from{s.source().x(), s.source().y()}, to{s.target().x(), s.target().y()};
+        sides.insert(std::set<Point<2>>{from, to});
+    }
+    return sides;
+}
+
+Sides<3> cgal_alpha_shape(const std::vector<Point<3>> &points, double alpha) {
+    using Structure = CGAL::Triangulation_data_structure_3<CGAL::Alpha_shape_vertex_base_3<Kernel>,
+                                                           CGAL::Alpha_shape_cell_base_3<Kernel>>;
+    using Shape = CGAL::Alpha_shape_3<CGAL::Delaunay_triangulation_3<Kernel, Structure>>;
+    std::vector<Kernel::Point_3> input;
+    for (const Point<3> &p : points) input.emplace_back(p[0], p[1], p[2]);
+    const Shape shape(input.begin(), input.end(), alpha, Shape::REGULARIZED);
+    std::vector<Shape::Facet> facets;
+    shape.get_alpha_shape_facets(std::back_inserter(facets), Shape::REGULAR);
+    Sides<3> sides;
+    for (const auto &[cell, left_out] : facets) {
+        std::set<Point<3>> side;
+        for (int i = 0; i < 4; ++i) {
+            const Kernel::Point_3 &p = cell->vertex(i)->point();
+            if (i != left_out) side.insert({p.x(), p.y(), p.z()});
+        }
+        sides.insert(side);
+    }
+    return sides;
+}
+
+template <int D> void expect_alpha_shapes_of_cgal() {
+    Random random(6);
+    std::vector<Point<D>> points(600);
+    for (Point<D> &p : points)
+        for (double &x : p) x = unit(random);
+    MeshOf<D> mesh(0);
+    ASSERT_EQ(mesh.stage(number<D>(points)), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK);
+    for (const double alpha : {0.0004, 0.002, 0.006, 0.02, 1.0}) {
+        Sides<D> sides;
+        for (const Facet<D> &facet : facets_of<D>(read<D>(mesh, {0, 1, alpha, 0}, little)))
+            sides.insert(std::set<Point<D>>(facet.begin(), facet.end()));
+        EXPECT_FALSE(alpha > 0.001 && sides.empty());
+        EXPECT_TRUE(sides == cgal_alpha_shape(points, alpha)) << alpha;
+    }
+}
+
+TEST(Outlines, AreAlphaShapesOfCgal) {
+    expect_alpha_shapes_of_cgal<2>();
+    expect_alpha_shapes_of_cgal<3>();
 }
 
 TEST(Circumradius, IsComparedExactly) {
