@@ -98,7 +98,8 @@ typedef enum abacus_phase
 	ABACUS_PHASE_FLUSHING,     /* writing what the cache still holds */
 	ABACUS_PHASE_CHECKING,
 	ABACUS_PHASE_DELETING,     /* points out of the triangulation */
-	ABACUS_PHASE_LOCATING      /* places in the triangulation */
+	ABACUS_PHASE_LOCATING,     /* places in the triangulation */
+	ABACUS_PHASE_SCANNING      /* pages of the mesh that is read */
 } abacus_phase;
 
 typedef struct abacus_progress

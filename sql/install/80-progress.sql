@@ -36,6 +36,7 @@ SELECT pid,
            WHEN 6 THEN 'checking'
            WHEN 7 THEN 'deleting'
            WHEN 8 THEN 'locating'
+           WHEN 9 THEN 'scanning'
        END AS phase,
        done,
        total,
@@ -46,11 +47,11 @@ SELECT pid,
        pages_read,
        pages_written
 FROM build;
-COMMENT ON VIEW abacus_progress IS 'live figures of the builds, changes, loads, checks and locations of many places that run in any session';
+COMMENT ON VIEW abacus_progress IS 'live figures of the builds, changes, loads, checks, locations of many places and surfaces that run in any session';
 COMMENT ON COLUMN abacus_progress.pid IS 'process id of the session';
 COMMENT ON COLUMN abacus_progress.mesh IS 'the mesh; a number while its creation is not committed, NULL in another database';
-COMMENT ON COLUMN abacus_progress.phase IS 'starting, reading, sorting, staging, inserting, deleting, flushing, checking or locating';
-COMMENT ON COLUMN abacus_progress.done IS 'points or places (checking: pages, each of which is read twice) done in this phase';
+COMMENT ON COLUMN abacus_progress.phase IS 'starting, reading, sorting, staging, inserting, deleting, flushing, checking, locating or scanning';
+COMMENT ON COLUMN abacus_progress.done IS 'points or places (checking: pages, each of which is read twice; scanning: simplices) done in this phase';
 COMMENT ON COLUMN abacus_progress.total IS 'of how many; NULL if not known';
 COMMENT ON COLUMN abacus_progress.per_second IS 'mean rate in this phase';
 COMMENT ON COLUMN abacus_progress.time_left IS 'in this phase, at that rate';

@@ -518,6 +518,27 @@ TEST(Volume, BeyondDoublesIsInfinite) {
     EXPECT_FALSE(std::isfinite(above<2>(mesh, {}, 0).area));
 }
 
+TEST(Volume, ShowsItsProgress) {
+    Surface mesh;
+    mesh.insert_all(raised(points(3000, 22), hill));
+    for (const bool is_alone : {true, false}) {
+        std::vector<abacus_progress> reports;
+        mesh.host.on_progress = [&](const abacus_progress &p) { reports.push_back(p); };
+        if (is_alone)
+            above<2>(mesh, {}, 0);
+        else
+            between(mesh, mesh, window(0, 0, 0.3, 0.3));
+        ASSERT_GE(reports.size(), 2u);
+        EXPECT_EQ(reports.front().phase, ABACUS_PHASE_SCANNING);
+        EXPECT_EQ(reports.front().total, is_alone ? mesh.header.simplices : 0);
+        EXPECT_GT(reports.back().done, 0u);
+        if (is_alone) {
+            EXPECT_EQ(reports.back().done, mesh.header.simplices);
+        }
+        mesh.host.on_progress = {};
+    }
+}
+
 TEST(Volume, SurvivesFailures) {
     Surface first, second;
     first.insert_all(raised(points(1500, 18), hill));
