@@ -168,12 +168,13 @@ private:
 };
 
 /// Adds what lies between two triangles. The smaller one is cut at the edges of the other: so
-/// roundings are those of its own lengths.
+/// roundings are those of its own lengths. Which one that is does not depend on which is the first.
 void add_between(const ValuedSimplex<2> &first, const ValuedSimplex<2> &second,
                  const Box<2> &window, Volume<2> &volume) {
     const Piece<2> whole_first = first.piece(), whole_second = second.piece();
-    const double area = measure(whole_first);
-    const bool is_first_cut = area <= measure(whole_second);
+    const double area = measure(whole_first), second_area = measure(whole_second);
+    const bool is_first_cut =
+        area < second_area || (area == second_area && first.corner <= second.corner);
     const ValuedSimplex<2> &cut = is_first_cut ? first : second,
                            &other = is_first_cut ? second : first;
     const Edges edges(other, cut);

@@ -306,6 +306,13 @@ TEST(Volume, OfGridsThatShareEdges) {
         EXPECT_EQ(between(eight, beside, w).area, 0);
     }
     EXPECT_EQ(between(eight, four, {}).area, 1);
+    // Triangles of equal size: it does not matter which mesh is the first.
+    Surface moved;
+    moved.insert_all(raised(grid(8, 0.03, 1.03), dune));
+    const abacus_volume volume = between(eight, moved, {}), turned = between(moved, eight, {});
+    EXPECT_EQ(volume.area, turned.area);
+    EXPECT_EQ(volume.cut, turned.fill);
+    EXPECT_EQ(volume.fill, turned.cut);
 }
 
 /// Two meshes that share all points have no volume between them, exactly.
