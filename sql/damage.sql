@@ -114,6 +114,8 @@ SELECT query, error_of(query) FROM (VALUES
     ('SELECT count(*) FROM abacus_vertices(''field'')'),
     ('SELECT abacus_draw(''field'', 10)'),
     ('SELECT abacus_draw(''field'', 10, attribute => ''height'', lower => ''{5,5}'', upper => ''{25,25}'')'),
+    ('SELECT abacus_volume(''field'', 0)'),
+    ('SELECT abacus_volume(''field'', ''field'')'),
     ('SELECT count(*) FROM abacus_simplices(''solid'')'),
     ('SELECT count(*) FROM abacus_vertices(''solid'')'),
     ('SELECT abacus_draw_section(''solid'', ''{3.5,3.5,3.5}'', ''{0,0,1}'', 10)')) AS t (query);
@@ -125,6 +127,7 @@ SELECT query, error_of(query) FROM (VALUES
     ('SELECT count(*) FROM abacus_simplices(''field'')'),
     ('SELECT count(*) FROM abacus_vertices(''field'')'),
     ('SELECT abacus_draw(''field'', 10)'),
+    ('SELECT abacus_volume(''field'', ''field'', lower => ''{5,5}'', upper => ''{6,6}'')'),
     ('SELECT abacus_draw(''field'', 10, lower => ''{5,5}'', upper => ''{6,6}'')')) AS t (query);
 ROLLBACK;
 -- a page too many

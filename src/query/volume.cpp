@@ -1,6 +1,7 @@
 #include "query/volume.hpp"
 
 #include "query/cell_scan.hpp"
+#include "sort/pacer.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -8,6 +9,9 @@
 namespace abacus {
 
 namespace {
+
+/// Simplices after which it is time for progress: some milliseconds, between two meshes.
+constexpr std::uint64_t simplices_at_once = 1024;
 
 /// A simplex with its corners in lexicographic order, and their values.
 template <int D> struct ValuedSimplex {
@@ -101,6 +105,24 @@ double surface_of(const Piece<2> &piece) {
 
 double surface_of(const Piece<3> &piece) { return section_area(piece, piece.value); }
 
+/// Calls visit(simplex, values) for each simplex of a window with what its corners carry, and says
+/// how many have been.
+template <int D, class Visit>
+void each_simplex(const Host &host, const abacus_header &header, const abacus_surface &surface,
+                  const abacus_window &window, Visit visit) {
+    Pacer pacer(host);
+    pacer.begin(ABACUS_PHASE_SCANNING, window.kind == ABACUS_NO_WINDOW ? header.simplices : 0);
+    CellScan<D> cells(host, header, window, surface.max_edge);
+    CornerValues values(&surface.attribute, 1);
+    abacus_simplex simplex;
+    std::uint64_t seen = 0;
+    while (cells.next(simplex, &values)) {
+        visit(simplex, values);
+        if (++seen % simplices_at_once == 0) pacer.reached(seen);
+    }
+    pacer.end(seen, {});
+}
+
 // ---- Between two meshes ------------------------------------------------------------------
 
 /// The edges of a triangle, as seen from some corner.
@@ -146,12 +168,13 @@ private:
 };
 
 /// Adds what lies between two triangles. The smaller one is cut at the edges of the other: so
-/// roundings are those of its own lengths.
+/// roundings are those of its own lengths. Which one that is does not depend on which is the first.
 void add_between(const ValuedSimplex<2> &first, const ValuedSimplex<2> &second,
                  const Box<2> &window, Volume<2> &volume) {
     const Piece<2> whole_first = first.piece(), whole_second = second.piece();
-    const double area = measure(whole_first);
-    const bool is_first_cut = area <= measure(whole_second);
+    const double area = measure(whole_first), second_area = measure(whole_second);
+    const bool is_first_cut =
+        area < second_area || (area == second_area && first.corner <= second.corner);
     const ValuedSimplex<2> &cut = is_first_cut ? first : second,
                            &other = is_first_cut ? second : first;
     const Edges edges(other, cut);
@@ -206,17 +229,15 @@ template <int D>
 abacus_volume volume_above(const Host &host, const abacus_header &header,
                            const abacus_surface &surface, double base) {
     const Box<D> window = box_of<D>(surface.window);
-    CellScan<D> cells(host, header, surface.window, surface.max_edge);
-    CornerValues values(&surface.attribute, 1);
-    abacus_simplex simplex;
     Volume<D> volume;
-    while (cells.next(simplex, &values)) {
-        ValuedSimplex<D> cell = cell_of<D>(simplex, values);
-        if (!cell.has_values()) continue;
-        for (double &value : cell.value) value -= base;
-        clip_box<D>(cell.piece(), cell.seen_from_first(window),
-                    [&](const Piece<D> &piece) { volume.add(piece); });
-    }
+    each_simplex<D>(host, header, surface, surface.window,
+                    [&](const abacus_simplex &simplex, const CornerValues &values) {
+                        ValuedSimplex<D> cell = cell_of<D>(simplex, values);
+                        if (!cell.has_values()) return;
+                        for (double &value : cell.value) value -= base;
+                        clip_box<D>(cell.piece(), cell.seen_from_first(window),
+                                    [&](const Piece<D> &piece) { volume.add(piece); });
+                    });
     return volume.sums();
 }
 
@@ -229,25 +250,24 @@ abacus_volume volume_between(const Host &host, const abacus_header &header,
     // A small window needs the pages of its own alone, not those of a hull.
     const abacus_window around =
         surface.window.kind == ABACUS_NO_WINDOW ? window_of(overlaps.around_all()) : surface.window;
-    CellScan<2> cells(host, header, around, surface.max_edge);
-    CornerValues values(&surface.attribute, 1);
-    abacus_simplex simplex;
     Volume<2> volume;
-    while (cells.next(simplex, &values)) {
-        const ValuedSimplex<2> first = cell_of<2>(simplex, values);
-        if (!first.has_values()) continue;
-        Point<2> points[3];
-        Corners<2> corners;
-        for (int i = 0; i < 3; ++i) {
-            std::copy_n(simplex.corner[i], 2, points[i].begin());
-            corners[i] = &points[i];
-        }
-        overlaps.each(corners, [&](const Corners<2> &at, const std::array<double, 3> &heights) {
-            const ValuedSimplex<2> second([&](int i) { return *at[i]; },
-                                          [&](int i) { return heights[i]; });
-            if (second.has_values()) add_between(first, second, window, volume);
+    each_simplex<2>(
+        host, header, surface, around,
+        [&](const abacus_simplex &simplex, const CornerValues &values) {
+            const ValuedSimplex<2> first = cell_of<2>(simplex, values);
+            if (!first.has_values()) return;
+            Point<2> points[3];
+            Corners<2> corners;
+            for (int i = 0; i < 3; ++i) {
+                std::copy_n(simplex.corner[i], 2, points[i].begin());
+                corners[i] = &points[i];
+            }
+            overlaps.each(corners, [&](const Corners<2> &at, const std::array<double, 3> &heights) {
+                const ValuedSimplex<2> second([&](int i) { return *at[i]; },
+                                              [&](int i) { return heights[i]; });
+                if (second.has_values()) add_between(first, second, window, volume);
+            });
         });
-    }
     return volume.sums();
 }
 

@@ -306,6 +306,13 @@ TEST(Volume, OfGridsThatShareEdges) {
         EXPECT_EQ(between(eight, beside, w).area, 0);
     }
     EXPECT_EQ(between(eight, four, {}).area, 1);
+    // Triangles of equal size: it does not matter which mesh is the first.
+    Surface moved;
+    moved.insert_all(raised(grid(8, 0.03, 1.03), dune));
+    const abacus_volume volume = between(eight, moved, {}), turned = between(moved, eight, {});
+    EXPECT_EQ(volume.area, turned.area);
+    EXPECT_EQ(volume.cut, turned.fill);
+    EXPECT_EQ(volume.fill, turned.cut);
 }
 
 /// Two meshes that share all points have no volume between them, exactly.
@@ -516,6 +523,27 @@ TEST(Volume, BeyondDoublesIsInfinite) {
     Surface mesh;
     mesh.insert_all({{1, {0, 0}, {1}}, {2, {1e200, 0}, {1}}, {3, {0, 1e200}, {1}}});
     EXPECT_FALSE(std::isfinite(above<2>(mesh, {}, 0).area));
+}
+
+TEST(Volume, ShowsItsProgress) {
+    Surface mesh;
+    mesh.insert_all(raised(points(3000, 22), hill));
+    for (const bool is_alone : {true, false}) {
+        std::vector<abacus_progress> reports;
+        mesh.host.on_progress = [&](const abacus_progress &p) { reports.push_back(p); };
+        if (is_alone)
+            above<2>(mesh, {}, 0);
+        else
+            between(mesh, mesh, window(0, 0, 0.3, 0.3));
+        ASSERT_GE(reports.size(), 2u);
+        EXPECT_EQ(reports.front().phase, ABACUS_PHASE_SCANNING);
+        EXPECT_EQ(reports.front().total, is_alone ? mesh.header.simplices : 0);
+        EXPECT_GT(reports.back().done, 0u);
+        if (is_alone) {
+            EXPECT_EQ(reports.back().done, mesh.header.simplices);
+        }
+        mesh.host.on_progress = {};
+    }
 }
 
 TEST(Volume, SurvivesFailures) {

@@ -103,7 +103,9 @@ abacus_sql_volume(PG_FUNCTION_ARGS)
 	reader = reader_open(PG_GETARG_OID(OF_MESH), CurrentMemoryContext);
 	host = reader->host;
 	surface_arguments(fcinfo, &reader->header, &surface);
+	progress_begin(&host->progress, PG_GETARG_OID(OF_MESH));
 	host_run(host, abacus_volume_above, &host->table, &reader->header, &surface, base, &volume);
+	progress_end(&host->progress);
 	host_release(host);
 	host_destroy(host);
 	PG_RETURN_DATUM(volume_row(fcinfo, &volume));
@@ -149,12 +151,16 @@ volume_between(FunctionCallInfo fcinfo, Oid other)
 	abacus_volume volume;
 	Reader	   *first = reader_open(PG_GETARG_OID(OF_MESH), CurrentMemoryContext);
 	Reader	   *second = reader_open(other, CurrentMemoryContext);
+	uint32		other_attribute;
 	int			other_name = PG_ARGISNULL(OF_OTHER_ATTRIBUTE) ? OF_ATTRIBUTE : OF_OTHER_ATTRIBUTE;
 
 	require_plane(first);
 	require_plane(second);
 	surface_arguments(fcinfo, &first->header, &surface);
-	measure_between(first, second, &surface, attribute(fcinfo, other_name, &second->header), &volume);
+	other_attribute = attribute(fcinfo, other_name, &second->header);
+	progress_begin(&first->host->progress, PG_GETARG_OID(OF_MESH));
+	measure_between(first, second, &surface, other_attribute, &volume);
+	progress_end(&first->host->progress);
 	host_release(first->host);
 	host_release(second->host);
 	host_destroy(first->host);
