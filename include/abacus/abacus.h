@@ -9,6 +9,7 @@
  *   abacus_build   staged points in, simplex pages out              (§4.12.3-5)
  *   abacus_load    vertices and simplices made elsewhere in, simplex pages out
  *   abacus_mesh    locate and walk over stored pages                (§4.11.3)
+ *                  also rays, profiles, lines of sight (lines.h)
  *   abacus_places  locate many places at once; both also interpolate (interpolate.h)
  *   abacus_scan, abacus_vertex_scan, abacus_check, abacus_draw      whole-mesh readers
  *
@@ -32,6 +33,7 @@
 #include "abacus/header.h"
 #include "abacus/host.h"
 #include "abacus/interpolate.h"
+#include "abacus/lines.h"
 #include "abacus/quake.h"
 #include "abacus/read.h"
 
