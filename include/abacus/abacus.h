@@ -12,6 +12,7 @@
  *                  also rays, profiles, lines of sight (lines.h)
  *   abacus_places  locate many places at once; both also interpolate (interpolate.h)
  *   abacus_scan, abacus_vertex_scan, abacus_check, abacus_draw      whole-mesh readers
+ *   abacus_raster_scan  an attribute as a raster (raster.h)
  *
  * Errors travel by return value only. A host function that fails returns
  * ABACUS_HOST_FAILED and keeps its own error; the core unwinds and returns
@@ -35,6 +36,7 @@
 #include "abacus/interpolate.h"
 #include "abacus/lines.h"
 #include "abacus/quake.h"
+#include "abacus/raster.h"
 #include "abacus/read.h"
 
 #endif

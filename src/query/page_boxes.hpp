@@ -17,7 +17,11 @@ public:
     /// Calls visit(from, to) for intervals of keys, which end at pages, outside of which no
     /// page has p in its box, until it returns false.
     template <class Visit> void around(const Point<D> &p, Visit visit) const {
-        tree_.visit({p, p}, [&](std::size_t i) {
+        meeting({p, p}, visit);
+    }
+    /// The same where no page's box meets this one.
+    template <class Visit> void meeting(const Box<D> &box, Visit visit) const {
+        tree_.visit(box, [&](std::size_t i) {
             return visit(keys_[i], i + 1 < keys_.size() ? keys_[i + 1] : end_key);
         });
     }
