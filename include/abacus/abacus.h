@@ -9,9 +9,11 @@
  *   abacus_build   staged points in, simplex pages out              (§4.12.3-5)
  *   abacus_load    vertices and simplices made elsewhere in, simplex pages out
  *   abacus_mesh    locate and walk over stored pages                (§4.11.3)
+ *                  also rays, profiles, lines of sight (lines.h)
  *   abacus_places  locate many places at once; both also interpolate (interpolate.h)
  *   abacus_isosurface, abacus_sections   surfaces through a mesh
  *   abacus_scan, abacus_vertex_scan, abacus_check, abacus_draw      whole-mesh readers
+ *   abacus_raster_scan  an attribute as a raster (raster.h)
  *
  * Errors travel by return value only. A host function that fails returns
  * ABACUS_HOST_FAILED and keeps its own error; the core unwinds and returns
@@ -34,8 +36,10 @@
 #include "abacus/header.h"
 #include "abacus/host.h"
 #include "abacus/interpolate.h"
+#include "abacus/lines.h"
 #include "abacus/quake.h"
 #include "abacus/raycast.h"
+#include "abacus/raster.h"
 #include "abacus/read.h"
 #include "abacus/surface.h"
 #include "abacus/volume.h"

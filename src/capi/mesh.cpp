@@ -1,35 +1,15 @@
 // Locating, walking and interpolating behind the C interface.
 #include "query/gradient.hpp"
-#include "query/interpolation.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
+#include "capi/mesh.hpp"
 #include "capi/nearest.hpp"
 
 #include <abacus/ask.h>
 #include <abacus/interpolate.h>
-#include <cmath>
-
-struct abacus_mesh {
-    abacus_mesh(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
-        : host(*table), reader(host, header, cache_bytes), interpolation(host, header) {}
-
-    const abacus::Host host;
-    abacus::ByDimension<abacus::Reader> reader;
-    abacus::ByDimension<abacus::Interpolation> interpolation;
-};
 
 namespace {
-
-template <int D> abacus::Point<D> finite_point(const double *point) {
-    abacus::Point<D> p;
-    for (int i = 0; i < D; ++i) {
-        if (!std::isfinite(point[i]))
-            throw abacus::Error(ABACUS_ERROR_ARGUMENT, "a coordinate is not finite");
-        p[i] = point[i] + 0.0; // -0.0 is +0.0
-    }
-    return p;
-}
 
 /// Calls answer(reader, point), which tells whether there is one.
 template <class Answer>
@@ -37,7 +17,7 @@ abacus_status answer_at(abacus_mesh *mesh, const double *point, abacus_error *er
                         Answer answer) {
     return abacus::guard(error, [&] {
         return mesh->reader.visit([&]<int D>(abacus::Reader<D> &reader) {
-            return answer(reader, finite_point<D>(point)) ? ABACUS_OK : ABACUS_END;
+            return answer(reader, abacus::finite_point<D>(point)) ? ABACUS_OK : ABACUS_END;
         });
     });
 }
@@ -99,14 +79,14 @@ abacus_status abacus_mesh_nearest(abacus_mesh *mesh, const double *point, uint64
                                   abacus_nearest_report report, void *context,
                                   abacus_error *error) {
     return abacus::dispatch(mesh->reader, error, [&]<int D>(abacus::Reader<D> &reader) {
-        abacus::report_nearest<D>(reader, 0, finite_point<D>(point), k, report, context);
+        abacus::report_nearest<D>(reader, 0, abacus::finite_point<D>(point), k, report, context);
     });
 }
 
 abacus_status abacus_mesh_star(abacus_mesh *mesh, const double *point, abacus_simplex_report report,
                                void *context, abacus_error *error) {
     return abacus::dispatch(mesh->reader, error, [&]<int D>(abacus::Reader<D> &reader) {
-        reader.star(finite_point<D>(point), [&](const abacus_simplex &simplex) {
+        reader.star(abacus::finite_point<D>(point), [&](const abacus_simplex &simplex) {
             abacus::host::require(report(context, &simplex));
         });
     });

@@ -9,6 +9,7 @@
 // axis is left out.
 #pragma once
 
+#include "geometry/facet_order.hpp"
 #include "geometry/predicates.hpp"
 
 namespace abacus {
@@ -21,9 +22,7 @@ inline bool leads_inside(const Corners<2> &corners, int facet) {
 }
 
 inline bool leads_inside(const Corners<3> &corners, int facet) {
-    // The other corners, such that with the one opposite behind them the order is even.
-    constexpr int others[4][3] = {{1, 3, 2}, {0, 2, 3}, {1, 0, 3}, {0, 1, 2}};
-    const auto &[i, j, k] = others[facet];
+    const auto &[i, j, k] = facet_order<3>[facet];
     const Point<3> &a = *corners[i], &b = *corners[j], &c = *corners[k];
     for (int axis = 0; axis < 3; ++axis) {
         const auto flat = [axis](const Point<3> &p) {

@@ -2,8 +2,7 @@
 
 #include "query/barycentric.hpp"
 #include "query/nearest.hpp"
-
-#include <cmath>
+#include "query/weighted_mean.hpp"
 
 namespace abacus {
 
@@ -87,16 +86,10 @@ template <int D>
 bool Interpolation<D>::values(Reader<D> &reader, const abacus_interpolation &what,
                               const Point<D> &p, double *values) {
     if (!weigh(reader, what, p)) return false;
-    for (std::uint32_t n = 0; n < what.attributes; ++n) {
-        double mean = 0, least = INFINITY, greatest = -INFINITY;
-        for (std::size_t i = 0; i < weights_.size(); ++i) {
-            const double value = values_[i * what.attributes + n];
-            mean += weights_[i].weight * value;
-            least = std::min(least, value);
-            greatest = std::max(greatest, value);
-        }
-        values[n] = std::isnan(mean) ? mean : std::clamp(mean, least, greatest);
-    }
+    for (std::uint32_t n = 0; n < what.attributes; ++n)
+        values[n] = weighted_mean(
+            weights_.size(), [&](std::size_t i) { return weights_[i].weight; },
+            [&](std::size_t i) { return values_[i * what.attributes + n]; });
     return true;
 }
 

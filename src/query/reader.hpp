@@ -75,6 +75,10 @@ public:
     /// Whether the mesh is Delaunay: all of it can be reached by walking then.
     bool is_delaunay() const { return delaunay_; }
     bool is_empty() const { return size_ == 0; }
+    /// Simplices and ghosts.
+    std::uint64_t size() const { return size_; }
+    /// A simplex of the cache as users see it, with what its corners carry.
+    void describe(Handle h, abacus_simplex &simplex, CornerValues *values = nullptr) const;
     /// A flood over the cache, for whoever asks between two calls.
     Flood<D> &flood() { return around_; }
 
@@ -117,7 +121,6 @@ private:
     /// The first of all simplices that contain p, of those in the pages themselves.
     bool search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values,
                       double max_edge);
-    void describe(Handle h, abacus_simplex &simplex, CornerValues *values = nullptr) const;
     /// The simplex with this code and these ids; throws as walk() does.
     Handle named(std::uint64_t code, const std::int64_t *ids);
     /// Whether these are the ids of the simplex's corners, in any order.

@@ -84,6 +84,12 @@ INSERT INTO wanted VALUES
     ('abacus_draw_section', 'mesh regclass, through double precision[], normal double precision[], width integer DEFAULT 1024, height integer DEFAULT NULL::integer, attribute text DEFAULT NULL::text, edges boolean DEFAULT true, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], exaggeration double precision DEFAULT 1, max_edge double precision DEFAULT NULL::double precision, range double precision[] DEFAULT NULL::double precision[], ramp text DEFAULT NULL::text, contours double precision DEFAULT NULL::double precision, legend text DEFAULT NULL::text, scale_bar text DEFAULT NULL::text, transparent boolean DEFAULT false', 'bytea', 's', false, 's'),
     ('abacus_simplices_rows', 'internal', 'internal', 'v', true, 'u'),
     ('abacus_vertices_rows', 'internal', 'internal', 'v', true, 'u'),
+    ('abacus_profile', 'mesh regclass, path double precision[], attribute text DEFAULT NULL::text, OUT distance double precision, OUT x double precision, OUT y double precision, OUT z double precision, OUT value double precision', 'SETOF record', 's', false, 's'),
+    ('abacus_ray', 'mesh regclass, origin double precision[], direction double precision[], OUT enters double precision, OUT leaves double precision, OUT code bigint, OUT v0 bigint, OUT v1 bigint, OUT v2 bigint, OUT v3 bigint', 'SETOF record', 's', true, 's'),
+    ('abacus_visible', 'mesh regclass, observer double precision[], target double precision[], attribute text DEFAULT NULL::text, observer_height double precision DEFAULT 0, target_height double precision DEFAULT 0, OUT visible boolean, OUT x double precision, OUT y double precision, OUT z double precision', 'record', 's', false, 's'),
+    ('abacus_raster', 'mesh regclass, lower double precision[], upper double precision[], width integer, height integer, attribute text DEFAULT NULL::text, method text DEFAULT ''linear''::text, outside text DEFAULT ''null''::text, max_edge double precision DEFAULT NULL::double precision, OUT "row" integer, OUT "values" double precision[]', 'SETOF record', 's', false, 's'),
+    ('abacus_line_rows', 'internal', 'internal', 'v', true, 'u'),
+    ('abacus_raster_rows', 'internal', 'internal', 'v', true, 'u'),
     ('abacus_version', '', 'text', 's', false, 's');
 
 SELECT set_eq(

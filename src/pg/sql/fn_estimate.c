@@ -33,15 +33,17 @@ SQL_FUNCTION(abacus_sql_nearest_rows);
 SQL_FUNCTION(abacus_sql_window_rows);
 SQL_FUNCTION(abacus_sql_range_rows);
 SQL_FUNCTION(abacus_sql_surface_rows);
+SQL_FUNCTION(abacus_sql_line_rows);
+SQL_FUNCTION(abacus_sql_raster_rows);
 
 /* Of fresh builds of uniform points, in the plane and in space (docs/benchmarks.md). */
 #define BYTES_PER_SIMPLEX 12.0
 /* In the plane, by Euler's relation; in space it is 6.7 or so. */
 #define SIMPLICES_PER_VERTEX 2.0
-/* Of n tetrahedra a plane cuts this times n^(2/3). */
-#define CUT_BY_A_PLANE 2.0
 /* Of one that waits to be inserted, without attributes. */
 #define BYTES_PER_WAITING_POINT 32.0
+/* Of n tetrahedra a plane cuts this times n^(2/3). */
+#define CUT_BY_A_PLANE 2.0
 
 /*
  * Whether a table has a file here that can be read. An unlogged table has none on a standby.
@@ -200,19 +202,56 @@ abacus_sql_surface_rows(PG_FUNCTION_ARGS)
 	return answer;
 }
 
+/*
+ * abacus_line_rows(internal) -> internal, for functions that follow a line. Through all of a mesh in
+ * the plane it passes about as many simplices as twice the root of their number; through one in
+ * space it passes fewer.
+ */
+Datum
+abacus_sql_line_rows(PG_FUNCTION_ARGS)
+{
+	SupportRequestRows *request = (SupportRequestRows *) PG_GETARG_POINTER(0);
+	bool		is_estimated = DatumGetPointer(estimate(fcinfo, 1, false)) != NULL;
+
+	if (is_estimated && request->rows > 0)
+		request->rows = Max(1, 2 * sqrt(request->rows));
+	PG_RETURN_POINTER(is_estimated ? request : NULL);
+}
+
+/*
+ * Answers a request for the number of rows where a call has an argument that says so; NULL where it
+ * is not known.
+ */
+static Datum
+estimate_by_argument(FunctionCallInfo fcinfo, int argument)
+{
+	SupportRequestRows *request = (SupportRequestRows *) PG_GETARG_POINTER(0);
+	List	   *arguments;
+	Node	   *count;
+
+	if (!IsA(request, SupportRequestRows) || !is_funcclause(request->node))
+		PG_RETURN_POINTER(NULL);
+	arguments = ((FuncExpr *) request->node)->args;
+	count = estimate_expression_value(request->root,
+									  (Node *) (argument < 0 ? llast(arguments)
+												: list_nth(arguments, argument)));
+	if (!IsA(count, Const))
+		PG_RETURN_POINTER(NULL);
+	request->rows = ((Const *) count)->constisnull ? 0
+		: Max(1, DatumGetInt32(((Const *) count)->constvalue));
+	PG_RETURN_POINTER(request);
+}
+
+/* abacus_raster_rows(internal) -> internal, for abacus_raster: its height */
+Datum
+abacus_sql_raster_rows(PG_FUNCTION_ARGS)
+{
+	return estimate_by_argument(fcinfo, 4);
+}
+
 /* abacus_nearest_rows(internal) -> internal, for abacus_nearest: k, its last argument */
 Datum
 abacus_sql_nearest_rows(PG_FUNCTION_ARGS)
 {
-	SupportRequestRows *request = (SupportRequestRows *) PG_GETARG_POINTER(0);
-	Node	   *k;
-
-	if (!IsA(request, SupportRequestRows) || !is_funcclause(request->node))
-		PG_RETURN_POINTER(NULL);
-	k = estimate_expression_value(request->root,
-								  (Node *) llast(((FuncExpr *) request->node)->args));
-	if (!IsA(k, Const))
-		PG_RETURN_POINTER(NULL);
-	request->rows = ((Const *) k)->constisnull ? 0 : Max(1, DatumGetInt32(((Const *) k)->constvalue));
-	PG_RETURN_POINTER(request);
+	return estimate_by_argument(fcinfo, -1);
 }

@@ -1,0 +1,31 @@
+// What is behind an abacus_mesh.
+#pragma once
+
+#include "query/interpolation.hpp"
+
+#include "capi/dimension.hpp"
+
+#include <cmath>
+
+struct abacus_mesh {
+    abacus_mesh(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
+        : host(*table), reader(host, header, cache_bytes), interpolation(host, header) {}
+
+    const abacus::Host host;
+    abacus::ByDimension<abacus::Reader> reader;
+    abacus::ByDimension<abacus::Interpolation> interpolation;
+};
+
+namespace abacus {
+
+template <int D> Point<D> finite_point(const double *point) {
+    Point<D> p;
+    for (int i = 0; i < D; ++i) {
+        if (!std::isfinite(point[i]))
+            throw Error(ABACUS_ERROR_ARGUMENT, "a coordinate is not finite");
+        p[i] = point[i] + 0.0; // -0.0 is +0.0
+    }
+    return p;
+}
+
+} // namespace abacus
