@@ -85,7 +85,8 @@ files_named() {
         return
     fi
     for file in "sql/$1.sql" "test/isolation/specs/$1.spec" "test/pgtap/$1.sql" "test/tap/$1.pl" \
-        "docs/$1.md" "$1.md" "test/unit/${1%_test}_test.cpp" "test/suite/${1%_test}_test.py"; do
+        "docs/$1.md" "$1.md" "test/unit/${1%_test}_test.cpp" "test/suite/${1%_test}_test.py" \
+        "test/oracle/${1%_test}_test.py"; do
         if [[ -f $file ]]; then echo "$file"; fi
     done
 }
@@ -101,6 +102,7 @@ run_file() {
     *.md) documentation_examples "$1" ;;
     test/unit/*.cpp) unit "$(filter_of_file "$1")" ;;
     test/suite/*.py) report_tests "$name" ;;
+    test/oracle/*.py) oracle_tests "$name" ;;
     *) fail "$1 is no test." ;;
     esac
 }
@@ -112,7 +114,7 @@ one() {
         if [[ $1 == *[.*:]* ]]; then unit "$1"; else unit "*$1*"; fi
         return
     fi
-    if [[ " ${files[*]}" == *.@(sql|spec|pl|md)* && -z ${cluster_folder:-} ]]; then
+    if [[ " ${files[*]}" == *@(.sql|.spec|.pl|.md|test/oracle/)* && -z ${cluster_folder:-} ]]; then
         begin_server
         trap 'tap_end; cluster_stop' EXIT
     fi

@@ -24,6 +24,7 @@ test=(
     libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
     libtet1.5-dev libqhull-dev      # TetGen and Qhull, to compare with
     gnuplot-nox                     # plots of docs/benchmarks.md
+    python3-numpy python3-scipy python3-matplotlib python3-vtk9   # whose answers ours are compared with
     postgresql-15-pgtap libtap-parser-sourcehandler-pgtap-perl libipc-run-perl
 )
 bench=(

@@ -95,3 +95,11 @@ documentation_examples() {
 report_tests() {
     python3 -m unittest discover -s test/suite -p "${1:-*_test.py}"
 }
+
+# Answers against those of SciPy, matplotlib and VTK, in a database of its own; names of files in
+# test/oracle. These are packages of the system's own Python.
+oracle_tests() {
+    run_psql -c "DROP DATABASE IF EXISTS abacus_oracle" -c "CREATE DATABASE abacus_oracle" &&
+        run_psql -d abacus_oracle -c "CREATE EXTENSION abacus" &&
+        PGDATABASE=abacus_oracle /usr/bin/python3 -m unittest discover -s test/oracle -p "${1:-*_test.py}"
+}

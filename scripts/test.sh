@@ -1,8 +1,9 @@
 #!/bin/bash
 # All set-up and all tests, from a clean clone, re-runnable: packages, builds,
 # unit tests (plain and sanitized), a bounded fuzzing run, SQL tests, crashes, the
-# examples of the documentation, comparison with CGAL, random changes against a
-# model, reports of benchmarks, smoke runs of the benchmarks and the evaluation. Logs are left in build/test.
+# examples of the documentation, comparison with CGAL, SciPy, matplotlib and VTK,
+# random changes against a model, reports of benchmarks, smoke runs of the benchmarks
+# and the evaluation. Logs are left in build/test.
 #
 #   test.sh             all suites but tidy
 #   test.sh NAME...     these, after the builds that they need
@@ -32,6 +33,7 @@ declare -A command=(
     [regress]=regression_tests
     [pgtap]=pgtap_tests
     [docs]=documentation_examples
+    [oracles]=oracle_tests
     [tap]=tap_tests
     [acceptance]="scripts/acceptance.sh quick"
     [acceptance-goose]="scripts/acceptance.sh goose"
@@ -44,10 +46,10 @@ declare -A command=(
 # its suites use more than one processor.
 first_builds=(format layout build-extension build)
 first_line=(build-sanitized build-fuzz tidy unit unit-sanitized fuzz)
-second_line=(regress pgtap docs tap acceptance acceptance-goose model reports bench evaluation)
+second_line=(regress pgtap docs oracles tap acceptance acceptance-goose model reports bench evaluation)
 # The builds that a suite needs.
 declare -A needs=([unit]=build [unit-sanitized]=build-sanitized [fuzz]=build-fuzz)
-for name in build regress pgtap docs tap; do needs[$name]=build-extension; done
+for name in build regress pgtap docs oracles tap; do needs[$name]=build-extension; done
 for name in acceptance acceptance-goose model bench evaluation; do needs[$name]=build; done
 
 # choose NAME...: leaves in the lists these, and what they need.
