@@ -8,9 +8,9 @@
 // code, from the last one back (cache_load.cpp).
 #pragma once
 
-#include "load/record_sort.hpp"
 #include "load/records.hpp"
 #include "mesh/cache.hpp"
+#include "sort/record_sort.hpp"
 
 #include <abacus/header.h>
 

@@ -1,8 +1,8 @@
 // Neighbours found by sorting, which brings the two sides of a facet next to each other.
 #pragma once
 
-#include "load/record_sort.hpp"
 #include "load/records.hpp"
+#include "sort/record_sort.hpp"
 
 #include <algorithm>
 

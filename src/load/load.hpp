@@ -32,10 +32,10 @@
 #include "geometry/box_tree.hpp"
 #include "keys/locational_code.hpp"
 #include "load/faults.hpp"
-#include "load/record_sort.hpp"
-#include "load/record_spool.hpp"
 #include "load/records.hpp"
 #include "points/spread.hpp"
+#include "sort/record_sort.hpp"
+#include "sort/record_spool.hpp"
 
 #include <abacus/header.h>
 #include <optional>

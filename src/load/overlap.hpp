@@ -31,9 +31,9 @@
 #include "geometry/box_tree.hpp"
 #include "geometry/contact.hpp"
 #include "load/faults.hpp"
-#include "load/record_sort.hpp"
-#include "load/record_spool.hpp"
 #include "load/records.hpp"
+#include "sort/record_sort.hpp"
+#include "sort/record_spool.hpp"
 
 namespace abacus {
 

@@ -1,4 +1,4 @@
-#include "load/record_sort.hpp"
+#include "sort/record_sort.hpp"
 
 #include <bit>
 #include <cstring>
