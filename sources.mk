@@ -87,6 +87,7 @@ CORE_SOURCES += src/query/reader_around.cpp
 CORE_SOURCES += src/query/simplex_scan.cpp
 CORE_SOURCES += src/query/vertex_scan.cpp
 CORE_SOURCES += src/query/window.cpp
+CORE_SOURCES += src/sort/chain_rank.cpp
 CORE_SOURCES += src/sort/radix_sort.cpp
 CORE_SOURCES += src/sort/record_sort.cpp
 CORE_SOURCES += src/staging/curve_sort.cpp
