@@ -27,6 +27,7 @@
 
 #include "abacus/ask.h"
 #include "abacus/change.h"
+#include "abacus/contours.h"
 #include "abacus/draw.h"
 #include "abacus/goose.h"
 #include "abacus/header.h"
