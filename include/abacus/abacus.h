@@ -31,6 +31,7 @@
 #include "abacus/arrays.h"
 #include "abacus/ask.h"
 #include "abacus/change.h"
+#include "abacus/contours.h"
 #include "abacus/draw.h"
 #include "abacus/goose.h"
 #include "abacus/header.h"

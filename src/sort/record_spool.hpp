@@ -6,7 +6,8 @@
 
 namespace abacus {
 
-/// A spool with a piece of it in memory: first written, then read, as often as need be.
+/// A spool with a piece of it in memory: first written, then read, as often as need be. What is no
+/// more than a piece needs no file.
 class RecordSpool {
 public:
     RecordSpool(const Host &host, std::size_t stride)
@@ -22,13 +23,16 @@ public:
     }
     /// Ends adding, or goes back to the first record.
     void rewind() {
-        if (writing_ && count_ > 0) flush();
+        if (writing_ && spool_.size() > 0 && count_ > 0) flush();
         writing_ = false;
+        at_ = 0;
+        if (spool_.size() == 0) return;
         spool_.rewind(host_);
-        at_ = count_ = 0;
+        count_ = 0;
     }
     const std::uint64_t *next() {
         if (at_ == count_) {
+            if (spool_.size() == 0) return nullptr;
             host_.poll();
             at_ = 0;
             count_ = spool_.read(host_, words_.data(), piece_, stride_);
@@ -39,6 +43,7 @@ public:
     void close() {
         spool_.close(host_);
         words_.reset();
+        count_ = at_ = 0;
     }
 
 private:

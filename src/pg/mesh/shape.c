@@ -82,13 +82,20 @@ shape_attributes(abacus_header *header, ArrayType *names)
 		shape_attribute(header, TextDatumGetCString(elements[i]));
 }
 
+/* Elements of a float8[]. */
+Datum *
+shape_numbers(ArrayType *numbers, const char *what, int *count)
+{
+	return plain_elements(numbers, what, FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
+						  TYPALIGN_DOUBLE, count);
+}
+
 /* Reads a float8[] with as many elements as the mesh has dimensions. */
 void
 shape_point(const abacus_header *header, ArrayType *point, const char *what, double *values)
 {
 	int			count;
-	Datum	   *elements = plain_elements(point, what, FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
-										  TYPALIGN_DOUBLE, &count);
+	Datum	   *elements = shape_numbers(point, what, &count);
 
 	if (count != (int) header->dimension)
 		ereport(ERROR,
@@ -104,8 +111,7 @@ void
 shape_pair(ArrayType *pair, const char *what, double *values)
 {
 	int			count;
-	Datum	   *elements = plain_elements(pair, what, FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
-										  TYPALIGN_DOUBLE, &count);
+	Datum	   *elements = shape_numbers(pair, what, &count);
 
 	if (count != 2)
 		ereport(ERROR,

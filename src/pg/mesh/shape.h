@@ -12,6 +12,7 @@ extern void shape_dimension(abacus_header *header, int32 dimension);
 extern void shape_check_name(const char *name);
 extern void shape_attribute(abacus_header *header, const char *name);
 extern Datum *shape_names(ArrayType *names, const char *what, int *count);
+extern Datum *shape_numbers(ArrayType *numbers, const char *what, int *count);
 extern void shape_attributes(abacus_header *header, ArrayType *names);
 extern void shape_point(const abacus_header *header, ArrayType *point, const char *what,
 						double *values);

@@ -1,0 +1,48 @@
+/*
+ * contours.h: lines of equal value of an attribute in a mesh of the plane, and
+ * the bands between them.
+ */
+#ifndef ABACUS_ABACUS_CONTOURS_H
+#define ABACUS_ABACUS_CONTOURS_H
+
+#include "abacus/ask.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct abacus_contouring
+{
+	uint32_t attribute;  /* its number */
+	int32_t bands;       /* 1: rings around the bands between levels, not lines */
+	double interval;     /* levels are base + n * interval, ... */
+	double base;
+	const double *fixed; /* ... or these, in ascending order, all different and finite, ... */
+	size_t fixed_count;  /* ... unless this is 0 */
+	double max_edge;     /* triangles with a longer edge are left out, unless this is 0 */
+} abacus_contouring;
+
+/*
+ * Gets a line or ring, `count` points of two coordinates each, of which the last one of a closed
+ * one is the first. `value` is the level; of a band the lower one, -infinity below all. `id` counts
+ * lines from 1 on, and bands. May fail as a host function may.
+ */
+typedef abacus_host_status (*abacus_contour_report)(void *context, int64_t id, double value,
+													int32_t closed, const double *path,
+													size_t count);
+/*
+ * Reports all of them within a window, which is no ball, in ascending order of `value`, then in
+ * one that depends on the mesh alone. `memory` bytes, beyond which there are spools, and the
+ * longest line. ABACUS_ERROR (argument) if there are too many levels to be told apart.
+ */
+ABACUS_API abacus_status abacus_contours(const abacus_host *host, const abacus_header *header,
+										 const abacus_window *window,
+										 const abacus_contouring *contouring, size_t memory,
+										 abacus_contour_report report, void *context,
+										 abacus_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

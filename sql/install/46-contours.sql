@@ -1,0 +1,21 @@
+-- Lines of equal value, and the bands between them.
+
+CREATE FUNCTION abacus_contours(
+    mesh regclass,
+    level_interval double precision DEFAULT 100,
+    level_base double precision DEFAULT 0,
+    fixed_levels double precision[] DEFAULT '{}',
+    polygonize boolean DEFAULT false,
+    attribute text DEFAULT NULL,
+    lower double precision[] DEFAULT NULL,
+    upper double precision[] DEFAULT NULL,
+    max_edge double precision DEFAULT NULL,
+    OUT id bigint,
+    OUT value double precision,
+    OUT closed boolean,
+    OUT path double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_contours'
+LANGUAGE C STABLE PARALLEL SAFE COST 100000 ROWS 1000;
+COMMENT ON FUNCTION abacus_contours(regclass, double precision, double precision, double precision[], boolean, text, double precision[], double precision[], double precision) IS
+    'the contours of an attribute in a mesh of dimension 2, or in a window, as whole lines of x, y, x, y, ...; with polygonize the rings around the bands between levels';

@@ -1,0 +1,45 @@
+#include "query/contour_levels.hpp"
+
+#include "host/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace abacus {
+
+std::int64_t ContourLevels::rank(double value) {
+    const std::int64_t rank =
+        how_.fixed_count > 0
+            ? std::upper_bound(how_.fixed, how_.fixed + how_.fixed_count, value) - how_.fixed - 1
+            : multiple_below(value);
+    if (!has_rank_) least_ = greatest_ = rank;
+    has_rank_ = true;
+    least_ = std::min(least_, rank);
+    greatest_ = std::max(greatest_, rank);
+    if (greatest_ - least_ > most)
+        throw Error(ABACUS_ERROR_ARGUMENT, "more than a thousand million levels are asked for",
+                    "The values of the mesh are that many times level_interval apart.",
+                    "Give a greater level_interval, or fixed_levels.");
+    return rank;
+}
+
+std::int64_t ContourLevels::multiple_below(double value) const {
+    const double quotient = std::floor((value - how_.base) / how_.interval);
+    if (std::abs(quotient) < 0x1p52) {
+        // Rounding may have led to the one before or behind.
+        const auto near = static_cast<std::int64_t>(quotient);
+        for (std::int64_t rank = near + 1; rank >= near - 1; --rank)
+            if (level(rank) <= value && value < level(rank + 1)) return rank;
+    }
+    throw Error(ABACUS_ERROR_ARGUMENT, "level_interval is too small for the values of the mesh",
+                "Levels are nearer to one another than numbers of double precision there.",
+                "Give a greater level_interval, or fixed_levels.");
+}
+
+double ContourLevels::level(std::int64_t number) const {
+    if (how_.fixed_count == 0) return how_.base + static_cast<double>(number) * how_.interval;
+    return number < 0 ? -std::numeric_limits<double>::infinity() : how_.fixed[number];
+}
+
+} // namespace abacus

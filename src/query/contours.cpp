@@ -1,0 +1,136 @@
+#include "query/contours.hpp"
+
+#include "query/contour_rings.hpp"
+#include "query/page_simplex.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace abacus {
+
+namespace {
+
+const abacus_contouring &checked(const abacus_header &header, const abacus_contouring &how) {
+    if (header.dimension != 2)
+        throw Error(ABACUS_ERROR_ARGUMENT, "contours need a mesh of dimension 2");
+    return how;
+}
+
+void report_path(abacus_contour_report report, void *context, std::int64_t id, double value,
+                 bool is_closed, const Arena<Point<2>> &path) {
+    host::require(report(context, id, value, is_closed, path.data()->data(), path.size()));
+}
+
+} // namespace
+
+// Two thirds of the memory for what is joined, the rest for the rim.
+Contours::Contours(const Host &host, const abacus_header &header, const abacus_window &window,
+                   const abacus_contouring &contouring, std::size_t memory)
+    : host_(host), how_(checked(header, contouring)), window_(window), bounds_(window),
+      levels_(how_), attribute_(&how_.attribute, 1), pages_(host, header, window_.region()),
+      cut_(bounds_, levels_, how_.bands != 0), pieces_(host, memory / 3 * 2),
+      rims_(host, bounds_, levels_, memory / 3), edges_(host) {}
+
+void Contours::each(abacus_contour_report report, void *context) {
+    read();
+    how_.bands != 0 ? report_bands(report, context) : report_lines(report, context);
+}
+
+void Contours::read() {
+    while (pages_.advance()) {
+        if (!read_values()) continue;
+        if (how_.bands != 0) {
+            edges_.resize(edge_slots);
+            std::fill(edges_.begin(), edges_.end(), PageEdge{});
+        }
+        const Page &page = pages_.page();
+        for (int triangle = 0; triangle < page.simplices(); ++triangle)
+            if (!page.is_ghost(triangle)) read_triangle(triangle);
+        note_rims();
+        pieces_.flush();
+    }
+    if (how_.bands != 0) rims_.finish(pieces_);
+}
+
+bool Contours::read_values() {
+    const Page &page = pages_.page();
+    bool differ = false;
+    int before = -1; // a vertex with a value
+    for (int v = 0; v < page.vertices(); ++v) {
+        attribute_.set(0, [&](int attribute) { return page.attribute(v, attribute); });
+        values_[v] = attribute_.value(0, 0);
+        if (!std::isfinite(values_[v])) {
+            values_[v] = std::numeric_limits<double>::quiet_NaN();
+            continue;
+        }
+        ranks_[v] = levels_.rank(values_[v]);
+        differ = differ || (before >= 0 && ranks_[v] != ranks_[before]);
+        before = v;
+    }
+    return differ || how_.bands != 0;
+}
+
+void Contours::read_triangle(int triangle) {
+    const Page &page = pages_.page();
+    std::array<int, 3> vertices;
+    std::array<double, 3> values;
+    std::array<std::int64_t, 3> ranks;
+    for (int i = 0; i < 3; ++i) {
+        vertices[i] = page.corner(triangle, i);
+        values[i] = values_[vertices[i]];
+        ranks[i] = ranks_[vertices[i]];
+        if (std::isnan(values[i])) return;
+    }
+    if (how_.bands == 0 && ranks[0] == ranks[1] && ranks[0] == ranks[2]) return;
+    const Corners<2> corners = corners_of(page, triangle);
+    for (int i = 0; how_.max_edge > 0 && i < 3; ++i)
+        if (!is_within<2>(how_.max_edge, *corners[i], *corners[(i + 1) % 3])) return;
+    if (!cut_.take(corners, values, ranks)) return;
+    cut_.each([this](const ContourPiece &piece) { pieces_.add(piece); });
+    for (int i = 0; how_.bands != 0 && i < 3; ++i) note_edge(vertices[i], vertices[(i + 1) % 3]);
+}
+
+void Contours::note_edge(int from, int to) {
+    const std::size_t lesser = std::min(from, to), greater = std::max(from, to);
+    for (std::size_t i = lesser * 2654435761 + greater * 40503;; ++i) {
+        PageEdge &edge = edges_[i % edge_slots];
+        const bool is_new = edge.from == edge.to;
+        if (is_new)
+            edge = {static_cast<std::uint16_t>(from), static_cast<std::uint16_t>(to), false};
+        if (is_new || (edge.from == from && edge.to == to)) return;
+        if (edge.from != to || edge.to != from) continue;
+        edge.has_two = true;
+        return;
+    }
+}
+
+/// Of the edges that have one triangle in the page.
+void Contours::note_rims() {
+    const Page &page = pages_.page();
+    for (const PageEdge &edge : edges_)
+        if (edge.from != edge.to && !edge.has_two)
+            rims_.add(page.point(edge.from), values_[edge.from], page.point(edge.to),
+                      values_[edge.to]);
+}
+
+void Contours::report_lines(abacus_contour_report report, void *context) {
+    std::int64_t id = 0;
+    pieces_.each([&](std::int64_t level, bool is_closed, const Arena<Point<2>> &path) {
+        if (path.size() < 2 || (is_closed && path.size() < 3)) return; // a single point
+        report_path(report, context, ++id, levels_.level(level), is_closed, path);
+    });
+}
+
+void Contours::report_bands(abacus_contour_report report, void *context) {
+    ContourRings rings(host_);
+    std::int64_t id = 0, last = 0;
+    pieces_.each([&](std::int64_t band, bool, const Arena<Point<2>> &path) {
+        rings.each(path, [&](const Arena<Point<2>> &ring) {
+            if (id == 0 || band != last) ++id;
+            last = band;
+            report_path(report, context, id, levels_.level(band), true, ring);
+        });
+    });
+}
+
+} // namespace abacus

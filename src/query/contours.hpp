@@ -1,0 +1,57 @@
+// Lines of equal value in a mesh of the plane, and the bands between them.
+//
+// The pages of the window are read once. Each triangle is cut into pieces (contour_cut.hpp), and
+// these are joined (contour_pieces.hpp). A triangle counts that has a finite value at each corner
+// and no edge too long.
+#pragma once
+
+#include "query/contour_pieces.hpp"
+#include "query/contour_rims.hpp"
+#include "query/corner_values.hpp"
+#include "query/window.hpp"
+
+namespace abacus {
+
+class Contours {
+public:
+    Contours(const Host &host, const abacus_header &header, const abacus_window &window,
+             const abacus_contouring &contouring, std::size_t memory);
+
+    /// Reports all lines, or rings, in order; once.
+    void each(abacus_contour_report report, void *context);
+
+private:
+    using Page = PageView<2>;
+
+    /// An edge of a page that has been seen in one triangle, or in two.
+    struct PageEdge {
+        std::uint16_t from, to; // vertices; equal if there is no edge
+        bool has_two;
+    };
+    static constexpr std::size_t edge_slots = 4 * page_vertices<2>;
+
+    void read();
+    /// Reads the values of a page's vertices; false if no line can be there.
+    bool read_values();
+    void read_triangle(int triangle);
+    void note_edge(int from, int to);
+    void note_rims();
+    void report_lines(abacus_contour_report report, void *context);
+    void report_bands(abacus_contour_report report, void *context);
+
+    const Host &host_;
+    const abacus_contouring how_;
+    const Window<2> window_;
+    const ContourWindow bounds_;
+    ContourLevels levels_;
+    CornerValues attribute_;
+    RangeScan<2> pages_;
+    ContourCut cut_;
+    ContourPieces pieces_;
+    ContourRims rims_;
+    std::array<double, page_vertices<2>> values_; // of the page's vertices; NaN: not finite
+    std::array<std::int64_t, page_vertices<2>> ranks_;
+    Arena<PageEdge> edges_; // of the page, hashed
+};
+
+} // namespace abacus
