@@ -1,6 +1,7 @@
 #include "query/outline.hpp"
 
 #include "mesh/bit_column.hpp"
+#include "query/hull_ghost.hpp"
 #include "query/page_flood.hpp"
 
 #include <algorithm>
@@ -77,19 +78,8 @@ void Outline<3>::add(std::array<Corner, 3> corners) {
 }
 
 void Outline<3>::find_hull(const Host &host, const abacus_header &header, Reader<3> &reader) {
-    Point<3> away;
-    away.fill(std::numeric_limits<double>::lowest());
     PageFlood<3> flood(host, header);
-    const Handle h = reader.simplex_around(away);
-    Cache<3> &cache = reader.cache();
-    if (cache.simplex(h).is_ghost()) {
-        flood.reach(cache.lower(h));
-    } else { // it has that point as a corner, and so has a ghost beside it
-        reader.flood().around(cache, h, cache.simplex(h).vertex[0], [&](Handle met) {
-            if (cache.simplex(met).is_ghost()) flood.reach(cache.lower(met));
-            return true;
-        });
-    }
+    flood.reach(reader.cache().lower(hull_ghost<3>(reader)));
     while (flood.advance()) {
         const PageView<3> &page = flood.page();
         for (int s = 0; s < page.simplices(); ++s) {

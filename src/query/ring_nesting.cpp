@@ -75,8 +75,6 @@ bool RingNesting::has_ray(Handle h, int corner) const {
     return !leads_inside(corners, (corner + 1) % 3) && !leads_inside(corners, (corner + 2) % 3);
 }
 
-/// Turns around the edge's first vertex, clockwise, through what is not kept: to the triangle that
-/// the ray goes through, which the edge then is opposite to, or to what is kept. False at infinity.
 bool RingNesting::turn_to_ray(Border::Edge &edge, bool &is_at_ray) {
     Link at = cache_.cross(edge.triangle, edge.facet);
     const VertexIndex v = cache_.simplex(edge.triangle).vertex[(edge.facet + 1) % 3];

@@ -30,8 +30,11 @@ private:
     void add_edge(RecordSort &edges, const Rings::Visit &from, const Point<2> &to) const;
     /// Goes from a ring's first edge to what the ray ends at; false if there is nothing.
     bool follow_ray(Border::Edge &edge);
+    /// Turns around the edge's first vertex, clockwise, through what is not kept: to the triangle
+    /// that the ray goes through, whose edge opposite the vertex it takes, or to an edge of what is
+    /// kept. False at infinity.
     bool turn_to_ray(Border::Edge &edge, bool &is_at_ray);
-    /// The facet by which the ray leaves a triangle at its corner.
+    /// Whether the ray from a corner of a triangle goes through it.
     bool has_ray(Handle h, int corner) const;
     void decide(RecordSort &edges, RecordSort &rays, std::size_t memory);
 

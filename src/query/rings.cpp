@@ -1,6 +1,7 @@
 #include "query/rings.hpp"
 
 #include "mesh/bit_column.hpp"
+#include "query/hull_ghost.hpp"
 
 namespace abacus {
 
@@ -65,17 +66,8 @@ void Rings::add_start(RecordSort &starts, const Border::Edge &edge) {
 
 /// The hull alone: no other page is read.
 void Rings::find_hull(RecordSort &starts) {
-    Point<2> away;
-    away.fill(std::numeric_limits<double>::lowest());
-    Handle h = reader_.simplex_around(away);
-    Border::Edge edge{};
-    if (cache_.simplex(h).is_ghost()) {
-        const Link inside = cache_.cross(h, 2);
-        edge = border_.edge(link_simplex(inside), link_facet(inside));
-    } else { // it has that point as a corner
-        for (int facet = 0; facet < 3; ++facet)
-            if (border_.is_border(h, facet)) edge = border_.edge(h, facet);
-    }
+    const Link inside = cache_.cross(hull_ghost<2>(reader_), 2);
+    const Border::Edge edge = border_.edge(link_simplex(inside), link_facet(inside));
     Border::Edge at = edge, first = edge;
     do {
         at = border_.next(at);

@@ -91,8 +91,7 @@ template <int D> void Voronoi<D>::list_corners() {
 
 template <int D> bool Voronoi<D>::is_own(Link corner) {
     const Handle h = link_simplex(corner);
-    const Key &page = cache_.lower(h);
-    const Key own = page;
+    const Key own = cache_.lower(h);
     bool is_first = true;
     star_.clear();
     reader_.flood().around(cache_, h, cache_.simplex(h).vertex[link_facet(corner)],

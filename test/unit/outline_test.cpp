@@ -192,6 +192,24 @@ TEST(Outlines, WithoutHolesAndWhatLiesInThem) {
     EXPECT_EQ(without.size(), 4u * 66 + 4 * 5);
 }
 
+TEST(Outlines, OfWhatIsAsFarAwayAsCanBe) {
+    constexpr double far = std::numeric_limits<double>::lowest();
+    std::vector<Point<2>> flat{{far, far}};
+    std::vector<Point<3>> solid{{far, far, far}};
+    for (int i = 0; i < 100; ++i) {
+        flat.push_back({double(i % 10), double(i / 10)});
+        solid.push_back({double(i % 5), double(i / 5 % 5), double(i / 25)});
+    }
+    MeshOf<2> plane(0);
+    ASSERT_EQ(plane.stage(number<2>(flat)), ABACUS_OK);
+    ASSERT_EQ(plane.build(), ABACUS_OK) << plane.error.message;
+    expect_outlines<2>(plane, {0});
+    MeshOf<3> space(0);
+    ASSERT_EQ(space.stage(number<3>(solid)), ABACUS_OK);
+    ASSERT_EQ(space.build(), ABACUS_OK) << space.error.message;
+    expect_outlines<3>(space, {0});
+}
+
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 template <int D> using Sides = std::set<std::set<Point<D>>>;
 
