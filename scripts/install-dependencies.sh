@@ -29,6 +29,7 @@ test=(
 )
 bench=(
     postgresql-15-postgis-3
+    gdal-bin                        # gdal_grid, to compare with
     linux-perf                      # tells the functions that take most time
 )
 
