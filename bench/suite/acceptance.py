@@ -135,6 +135,33 @@ def surface(results, figure="wall"):
                    for engine in ("abacus", "vtk")))
 
 
+def asked(question, other, other_engine="abacus"):
+    """Ratio of the times of two questions to a mesh of 1 M points."""
+    def measured(results, figure="wall"):
+        def time(question, engine):
+            return results.median(figure, what="ask", points=10**6, question=question, engine=engine)
+        return ratio(time(question, "abacus"), time(other, other_engine))
+    return measured
+
+
+def rate_of(question, other):
+    """How many places a second, to those of another question."""
+    return asked(other, question)
+
+
+def natural_a_second(results, figure="wall"):
+    seconds = results.median(figure, what="ask", points=10**6, question="natural, a call each")
+    found = results.one(what="ask", points=10**6, question="natural, a call each")
+    return seconds and found["places"] / seconds
+
+
+def window_share(figure):
+    """Of a window of a hundredth of a mesh of 10 M points, to all of it."""
+    def measured(results):
+        return ratio(*(results.median(figure, what="ask", points=10**7, question=question) for question in ("window", "whole")))
+    return measured
+
+
 WANTED = [
     Timed("2D, 1 M uniform: table to committed mesh ÷ CGAL in core", 1.0, True,
           times("abacus", "cgal", 2, "uniform", 10**6)),
@@ -174,6 +201,18 @@ WANTED = [
            habits.times_abacus),
     Wanted("Goose ÷ Abacus, 1 M points, extrapolated by the growth of both", None, True,
            habits.times_abacus_extrapolated),
+    Timed("`abacus_interpolate`, linear, along the curve: rate ÷ that of `abacus_locate`", 0.85, False,
+          rate_of("linear, a call each", "locate, a call each")),
+    Timed("… a million places in one call: rate ÷ that of `abacus_locate`", 0.85, False,
+          rate_of("linear, one call", "locate, one call")),
+    Timed("`abacus_interpolate`, natural, along the curve: places a second", 300000, False, natural_a_second),
+    Timed("A million values in one call, from table to rows ÷ SciPy's `LinearNDInterpolator`, built", 1, True,
+          asked("interpolate", "interpolate", other_engine="scipy")),
+    Timed("… ÷ with its build", 0.1, True, asked("interpolate", "build and interpolate", other_engine="scipy")),
+    Timed("`abacus_contours`, mesh of 1 M, 20 levels ÷ matplotlib's, mesh in memory", 0.5, True,
+          asked("contours", "contours", other_engine="matplotlib")),
+    Wanted("`abacus_cells`, a window of 1 % of a mesh of 10 M ÷ the whole: time", 0.015, True, window_share("wall")),
+    Wanted("… pages", 0.015, True, window_share("pages")),
     Timed("2D, 1 M points into a mesh of 1 M, one statement ÷ first build of the same points", 1.3, True,
           inserted(2)),
     Timed("3D, 500,000 points into a mesh of as many … ÷ first build of the same points", 1.3, True, inserted(3)),

@@ -1,4 +1,5 @@
 """The parts of the suite: what is measured, with how many points, in which mode."""
+from ask import Ask
 from builds import Contest
 from core import core
 from driver import Part
@@ -51,6 +52,8 @@ PARTS = [
         3, {"full": (1000000, 500000), "quick": (100000, 100000), "smoke": (5000, 2000)})),
     Part("surfaces", "isosurface beside VTK's, section, picture of the inside", 3,
          Surfaces({"full": 0.218, "quick": 0.1, "smoke": 0.03}).measure),
+    Part("ask", "values, contours and windows, beside SciPy and matplotlib", 8, Ask(
+        {"full": (1000000, 1000000, 10000000), "quick": (100000, 100000, 1000000), "smoke": (5000, 2000, 20000)}).measure),
     Part("goose", "insertion by an R-tree (chapter 2), in the plane", 4, Goose(
         2, {"full": (25000, 50000, 100000, 200000), "quick": (10000, 20000), "smoke": (1000,)}, FEWER).measure),
     Part("goose-3d", "insertion by an R-tree (chapter 2), in space", 4, Goose(

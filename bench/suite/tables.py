@@ -50,6 +50,20 @@ def surfaces(results):
     return table(("points", "question", "", "rows or bytes", "wall", "CPU", "runs"), rows)
 
 
+ENGINES = {"abacus": "Abacus", "scipy": "SciPy", "matplotlib": "matplotlib"}
+
+
+def asking(results):
+    rows = []
+    for m in results.all(what="ask"):
+        wall, pages = spread_of(m, "wall"), spread_of(m, "pages")
+        rows.append((f"{points(m['points'])} points: {m['question']}", ENGINES[m["engine"]], f"{spread(wall)} s",
+                     f"{number(statistics.median(values(m, 'cpu')))} s" if values(m, "cpu") else "–",
+                     number(m["places"] / wall[0]) if "places" in m and "," in m["question"] else "–",
+                     number(pages and pages[0]), len(m["samples"])))
+    return table(("question", "", "wall", "CPU", "places a second", "pages", "runs"), rows)
+
+
 def edits(results):
     rows = []
     for m in results.all(what="edit"):
