@@ -118,9 +118,7 @@ template <int D> void Build<D>::erase_pages(abacus_page_kind kind) {
 template <int D> void Build<D>::forget_simplices() {
     erase_pages(ABACUS_SIMPLEX_PAGES);
     header_->vertices = header_->duplicates = header_->simplices = header_->ghosts = 0;
-    const abacus_counters counters = core_->cache.counters;
-    core_.emplace(host_, *header_, cache_bytes_);
-    core_->cache.counters = counters;
+    forget_cache();
 }
 
 template std::uint64_t Build<2>::erase(const Point<2> &, Leaving &);

@@ -51,9 +51,7 @@ template <int D> bool Build<D>::has_outgrown_domain(std::uint64_t coming) const 
 }
 
 template <int D> void Build<D>::count_crowded() {
-    const Cache<D> &cache = core_->cache;
-    const Handle h = core_->mesh.recent()[0];
-    if (cache.is_live(h) && !cache.near(h, cache.code(cache.simplex(h)))) ++header_->outside;
+    if (core_->mesh.is_crowded()) ++header_->outside;
 }
 
 template <int D> bool Build<D>::change_domain(const Spread<D> &coming, std::size_t memory) {

@@ -38,12 +38,13 @@ public:
         build_.add(records, n);
     }
     void finish() override {
-        if (build_.has_simplices()) return;
+        if (build_.has_simplices()) return build_.insert_gathered();
         if (!pages_) stage();
         pages_->finish();
         build_.header_->staged = pages_->next();
     }
 
+    std::size_t held_back() const override { return build_.gathered_.size(); }
     abacus_phase phase() const override { return ABACUS_PHASE_INSERTING; }
     PagesMoved pages_moved() const override {
         return {build_.core_->cache.counters.loads, build_.core_->cache.counters.stores};
