@@ -168,8 +168,7 @@ template <int D> void Build<D>::check_attributes(const Stage<D> &stage) const {
 }
 
 template <int D> void Build<D>::take_in(Stage<D> &stage) {
-    Intake intake(*this);
-    begin_to_gather(stage.points());
+    Intake intake(*this, stage.points());
     stage.emit(intake, *header_);
 }
 

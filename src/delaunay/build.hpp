@@ -78,14 +78,14 @@ private:
     void add(const std::uint64_t *records, std::size_t n);
     void insert_some(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n);
     /// So many points come, as far as is known.
-    void begin_to_gather(std::uint64_t points) {
-        done_ = 0;
-        to_do_ = points;
-    }
+    void begin_to_gather(std::uint64_t points);
     void gather(const std::uint64_t *record, std::uint64_t code);
     void insert_gathered();
+    bool is_worth_sharing() const;
     void insert_gathered_here();
     void insert_on_threads(Cuts &cuts);
+    /// Inserts gathered points that threads would put off.
+    void insert_near_borders(const Cuts &cuts);
     void report_pass(std::uint64_t done);
     /// Writes everything and begins with an empty cache.
     void hand_over(const Cuts &cuts);
@@ -148,6 +148,7 @@ private:
     abacus_on_duplicate on_duplicate_ = ABACUS_KEEP;
     bool counts_crowded_ = false; ///< the mesh had vertices before what comes
     Batch gathered_;
+    std::size_t most_gathered_ = 0;      ///< points
     std::uint64_t done_ = 0, to_do_ = 0; ///< gathered points, for reports
     std::chrono::steady_clock::time_point reported_{};
     std::optional<Crew> crew_; ///< the last member: the first to go

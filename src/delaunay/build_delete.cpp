@@ -94,10 +94,10 @@ template <int D> void Build<D>::triangulate_rest() {
                        attributes_);
         rest_->add(record);
     });
-    const std::uint64_t repeated = header_->duplicates;
+    const std::uint64_t repeated = header_->duplicates, vertices = header_->vertices;
     forget_simplices();
     header_->duplicates = repeated; // their vertices come again, and their pages stay
-    Intake intake(*this);
+    Intake intake(*this, vertices);
     rest_->emit(intake);
     rest_.reset();
     insert_waiting(0); // if they had to be staged after all

@@ -93,7 +93,7 @@ template <int D> bool Build<D>::change_domain(const Spread<D> &coming, std::size
     std::array<VertexIndex, D + 1> vertices;
     for (int i = 0; i <= D; ++i) vertices[i] = create(corners[i].data());
     start(vertices);
-    Intake intake(*this);
+    Intake intake(*this, points.points());
     points.emit(intake, shape);
     return true;
 }

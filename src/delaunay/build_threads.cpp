@@ -4,18 +4,21 @@
 // until they take a share of the memory that the build has. A few are inserted here and now, as
 // with one thread: those of early rounds, or a small change. Many are inserted together:
 //
-//   1. The mesh is cut where the threads' intervals begin (cuts.hpp), and all pages are written.
+//   1. The mesh is cut where the threads' intervals begin (cuts.hpp). Points near the borders are
+//      inserted by the session's thread (near_border.hpp), and all pages are written.
 //   2. Each thread inserts the points of its interval, in a cache of its own (interval.hpp), and
 //      writes its pages. The session's thread serves it.
-//   3. Points near borders have been put off, a few in a hundred. Each two intervals are joined,
-//      and what was put off there is inserted in the same way: the border is within, now.
+//   3. Some points near borders have been put off. Each two intervals are joined, and what was
+//      put off there is inserted in the same way: the border is within, now.
 //   4. When there is one interval left, or few points are, the session's thread inserts the rest.
 //
 // Points that equal a vertex are dealt with at the end, in their order, since their pages are
 // those of the session's thread.
 #include "delaunay/build.hpp"
 
+#include "delaunay/near_border.hpp"
 #include "mesh/counters.hpp"
+#include "staging/rounds.hpp"
 
 #include <algorithm>
 #include <deque>
@@ -25,9 +28,11 @@ namespace abacus {
 namespace {
 
 /// Points that are worth the pages written and read again, and the threads.
-template <int D> constexpr std::size_t worth_sharing = D == 2 ? 1 << 16 : 1 << 14;
+template <int D> constexpr std::size_t worth_sharing = D == 2 ? 1 << 16 : 1 << 15;
 /// Share of the memory that gathered points may take.
-constexpr std::size_t gathered_share = 4;
+constexpr std::size_t gathered_share = 3;
+/// Points from which on there is room for all: nothing is moved then.
+constexpr std::size_t worth_reserving = 1 << 15;
 /// For tests: points of an interval on average, unless there would be too many of them.
 constexpr std::size_t tiny_interval = 4, most_tiny_intervals = 256;
 
@@ -64,13 +69,31 @@ private:
     std::atomic<std::uint64_t> done_ = 0;
 };
 
+template <int D> void Build<D>::begin_to_gather(std::uint64_t points) {
+    done_ = 0;
+    to_do_ = points;
+    // In equal parts: a small one at the end would take as many pages again.
+    const std::uint64_t room = std::max<std::uint64_t>(
+        cache_bytes_ / gathered_share / gathered_.bytes(1), worth_sharing<D>);
+    const std::uint64_t parts = std::max<std::uint64_t>(1, (points + room - 1) / room);
+    most_gathered_ = std::max<std::uint64_t>((points + parts - 1) / parts, worth_sharing<D>);
+}
+
 template <int D> void Build<D>::gather(const std::uint64_t *record, std::uint64_t code) {
     const std::size_t n = gathered_.size();
-    const std::size_t bytes = (n + 1) * (record_words(D, attributes_) + 1) * sizeof *record;
-    if (n > 0 && (code < gathered_.code(n - 1) ||
-                  (bytes > cache_bytes_ / gathered_share && n >= worth_sharing<D>)))
-        insert_gathered();
+    if (n > 0 && (code < gathered_.code(n - 1) || n >= most_gathered_)) insert_gathered();
+    if (gathered_.size() == worth_reserving) gathered_.reserve(most_gathered_);
     gathered_.add(record, code);
+}
+
+/// An early round is hardly worth it: its mesh is in memory, and would have to be read again.
+template <int D> bool Build<D>::is_worth_sharing() const {
+    constexpr std::size_t looked_at = 8; // those of the last round are promoted by chance
+    const std::size_t n = gathered_.size();
+    if (n < worth_sharing<D>) return false;
+    for (std::size_t i = 0; i < looked_at; ++i)
+        if (!Rounds<D>::is_promoted(record_point<D>(gathered_.record(i)))) return true;
+    return n >= most_gathered_ / 2;
 }
 
 template <int D> void Build<D>::insert_gathered() {
@@ -79,7 +102,7 @@ template <int D> void Build<D>::insert_gathered() {
     if (host_.has_tiny_intervals())
         cuts.cut_at_random(gathered_,
                            std::max(tiny_interval, gathered_.size() / most_tiny_intervals));
-    else if (gathered_.size() >= worth_sharing<D>)
+    else if (is_worth_sharing())
         cuts.cut_evenly(gathered_, host_.threads());
     if (cuts.size() > 1) insert_on_threads(cuts);
     insert_gathered_here();
@@ -107,8 +130,9 @@ template <int D> void Build<D>::report_pass(std::uint64_t done) {
 
 template <int D> void Build<D>::insert_on_threads(Cuts &cuts) {
     const unsigned threads = host_.threads();
-    const std::size_t least = host_.has_tiny_intervals() ? 1 : worth_sharing<D>;
+    std::size_t least = 1; // points that are worth a pass: of the first one any number
     if (!crew_) crew_.emplace(host_);
+    if (!host_.has_tiny_intervals()) insert_near_borders(cuts);
     hand_over(cuts);
     Batch repeated(host_, record_words(D, attributes_));
     for (; cuts.size() > 1 && gathered_.size() >= least; cuts.join_pairs()) {
@@ -127,12 +151,45 @@ template <int D> void Build<D>::insert_on_threads(Cuts &cuts) {
         }
         done_ += gathered_.size() - put_off;
         gathered_.shorten(put_off);
+        if (!host_.has_tiny_intervals()) least = worth_sharing<D>;
     }
     forget_cache();
     for (std::size_t i = 0; i < repeated.size(); ++i) {
         if (i % 256 == 0) host_.poll();
         add_duplicate(repeated.record(i));
     }
+}
+
+/// Of equal points, which come one after the other, all or none.
+template <int D> void Build<D>::insert_near_borders(const Cuts &cuts) {
+    NearBorder<D> border(domain_, cuts);
+    Batch near(host_, record_words(D, attributes_));
+    const auto insert = [&] {
+        if (near.size() > 0) insert_some(near.record(0), near.begin(), near.size());
+        done_ += near.size();
+        near.shorten(0);
+    };
+    std::size_t kept = 0;
+    Point<D> last{};
+    bool is_near = false;
+    for (std::size_t begin = 0; begin < gathered_.size(); begin += border.together) {
+        const std::size_t end = std::min(begin + border.together, gathered_.size());
+        const bool may_be_near = border.look_at(gathered_, begin, end);
+        for (std::size_t i = begin; i < end; ++i) {
+            const Point<D> p = record_point<D>(gathered_.record(i));
+            if (i == 0 || !(p == last))
+                is_near = may_be_near && border.is_near(p, gathered_.code(i));
+            last = p;
+            if (is_near)
+                near.add(gathered_.record(i), gathered_.code(i));
+            else
+                gathered_.move(i, kept++);
+            if (near.size() == most_at_once) insert();
+        }
+        host_.poll();
+    }
+    insert();
+    gathered_.shorten(kept);
 }
 
 template <int D> void Build<D>::hand_over(const Cuts &cuts) {
@@ -149,6 +206,8 @@ template <int D> void Build<D>::forget_cache() {
     core_->cache.counters = counters;
 }
 
+template void Build<2>::begin_to_gather(std::uint64_t);
+template void Build<3>::begin_to_gather(std::uint64_t);
 template void Build<2>::gather(const std::uint64_t *, std::uint64_t);
 template void Build<3>::gather(const std::uint64_t *, std::uint64_t);
 template void Build<2>::insert_gathered();

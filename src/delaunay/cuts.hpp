@@ -23,6 +23,12 @@ public:
     std::uint64_t last(std::size_t i) const {
         return (i + 1 < size() ? first_[i + 1] : key_word_end) - 1;
     }
+    /// The one that a code is in.
+    std::size_t interval(std::uint64_t code) const {
+        return static_cast<std::size_t>(std::upper_bound(first_.begin(), first_.end(), code) -
+                                        first_.begin()) -
+               1;
+    }
     /// The first point of a batch that is in the interval, or behind it.
     std::size_t begin(std::size_t i, const Batch &batch) const {
         return static_cast<std::size_t>(std::lower_bound(batch.begin(), batch.end(), first_[i]) -

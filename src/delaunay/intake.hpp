@@ -14,8 +14,10 @@ namespace abacus {
 
 template <int D> class Build<D>::Intake final : public RecordSink {
 public:
-    explicit Intake(Build &build)
+    /// So many points come at most.
+    Intake(Build &build, std::uint64_t points)
         : build_(build), stride_(record_words(D, build.attributes_)), held_(build.host_) {
+        build_.begin_to_gather(points);
         if (build_.has_waiting() && !build_.has_simplices()) stage();
     }
 

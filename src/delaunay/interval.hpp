@@ -42,7 +42,15 @@ public:
         for (std::size_t word = 0; word < stride_; ++word) to[word] = record[word];
         codes_.push_back(code);
     }
+    void reserve(std::size_t points) {
+        records_.reserve(points * stride_);
+        codes_.reserve(points);
+    }
     std::size_t size() const { return codes_.size(); }
+    /// What so many points take.
+    std::size_t bytes(std::size_t points) const {
+        return points * (stride_ + 1) * sizeof(std::uint64_t);
+    }
     const std::uint64_t *record(std::size_t i) const { return records_.data() + i * stride_; }
     std::uint64_t code(std::size_t i) const { return codes_[i]; }
     const std::uint64_t *begin() const { return codes_.begin(); }

@@ -116,16 +116,28 @@ TYPED_TEST(Threads, GiveTheMeshOfCgal) {
 }
 
 TYPED_TEST(Threads, ShareMuchWorkEvenly) {
-    // Without the switch for tests: two large intervals, then the rest.
+    // Without the switch for tests: large intervals, then the rest; all at once, or in batches.
     constexpr int D = TypeParam::value;
-    const auto input = this->with_ids(this->uniform(D == 2 ? 150000 : 30000));
-    MeshOf<D> alone(1), mesh(1);
-    mesh.host.set_threads(2, false);
+    auto points = this->uniform(D == 2 ? 150000 : 60000);
+    for (std::size_t i = 0; i < 5000; ++i) points.push_back(points[i * 7]);
+    const auto input = this->with_ids(points);
+    MeshOf<D> alone(1);
     ASSERT_EQ(alone.insert(input), ABACUS_OK);
-    ASSERT_EQ(mesh.insert(input), ABACUS_OK);
-    EXPECT_EQ(mesh.check(), std::vector<std::string>{});
-    EXPECT_TRUE(this->ids(mesh) == this->ids(alone));
-    EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
+    const auto expected = this->ids(alone);
+    for (const std::size_t cache : {ample, ample / 20}) {
+        MeshOf<D> mesh(1, cache);
+        mesh.host.set_threads(2, false);
+        int most = 0;
+        mesh.host.on_progress = [&](const abacus_progress &) {
+            most = std::max(most, threads_now());
+        };
+        ASSERT_EQ(mesh.insert(input), ABACUS_OK);
+        EXPECT_EQ(most, threads_at_first + 2);
+        EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+        EXPECT_TRUE(this->ids(mesh) == expected);
+        EXPECT_EQ(mesh.header.duplicates, 5000u);
+        EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
+    }
 }
 
 TYPED_TEST(Threads, KeepTheFirstOfEqualPoints) {
