@@ -34,10 +34,12 @@ declare -A command=(
     [build-extension]=install_extension
     [build]=build_release
     [build-sanitized]="build_with_clang build/sanitize -DABACUS_SANITIZE=ON"
+    [build-threads]="build_with_clang build/threads -DABACUS_SANITIZE_THREADS=ON"
     [build-fuzz]="build_with_clang build/fuzz -DABACUS_FUZZ=ON"
     [tidy]=tidy_core
     [unit]="unit_tests build/release"
     [unit-sanitized]="unit_tests build/sanitize"
+    [unit-threads]="unit_tests build/threads"
     [fuzz]=fuzz
     [regress]=regression_tests
     [pgtap]=pgtap_tests
@@ -56,14 +58,14 @@ declare -A command=(
 # The order. The second line runs beside the first, since servers mostly wait, and few of
 # its suites use more than one processor.
 first_builds=(format layout build-extension build)
-first_line=(build-sanitized build-fuzz tidy unit unit-sanitized fuzz)
+first_line=(build-sanitized build-threads build-fuzz tidy unit unit-sanitized unit-threads fuzz)
 second_line=(regress pgtap docs oracles tap acceptance acceptance-goose model reports bench evaluation)
 # Then, beside each other.
 other_versions=(postgresql-17 postgresql-18)
 # These take long, or load much: only where they are named.
 not_in_all=(tidy "${other_versions[@]}")
 # The builds that a suite needs.
-declare -A needs=([unit]=build [unit-sanitized]=build-sanitized [fuzz]=build-fuzz)
+declare -A needs=([unit]=build [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-fuzz)
 for name in build regress pgtap docs oracles tap; do needs[$name]=build-extension; done
 for name in acceptance acceptance-goose model bench evaluation "${other_versions[@]}"; do needs[$name]=build; done
 if [[ -n ${ABACUS_SHORT:-} ]]; then needs[acceptance]=build-extension; fi # the oracle was brought

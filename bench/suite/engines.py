@@ -5,6 +5,7 @@ geometry, which is kept nowhere, and to committed and indexed rows; the others r
 same points and build in core (bench/comparators).
 """
 import json
+import os
 import subprocess
 
 import paths
@@ -33,12 +34,13 @@ class Abacus:
 
     def __init__(self, cache):
         self.labels = {"engine": "abacus", "cache": cache}
+        self.settings = {}
 
     def sample(self, points: PointSet):
         server.drop("mesh", "mesh_vertices")
         server.settle()
         megabytes = server.cache_size(self.labels["cache"])
-        with server.Session(abacus__cache_size=f"{megabytes}MB") as session:
+        with server.Session(abacus__cache_size=f"{megabytes}MB", **self.settings) as session:
             sample = session.timed(points.triangulate())
         sample["simplices"] = int(sample.pop("printed"))
         return sample
@@ -46,6 +48,16 @@ class Abacus:
     def details(self):
         """Of the mesh that the last run has left."""
         return server.mesh_sizes()
+
+
+class Threads(Abacus):
+    """The same with the default cache and so many threads, or as many as the machine has processors."""
+
+    def __init__(self, threads):
+        super().__init__("default")
+        count = os.cpu_count() if threads == "all" else int(threads)
+        self.labels["threads"] = str(count)
+        self.settings = {"abacus__threads": str(count)}
 
 
 class PostGIS:
@@ -94,8 +106,10 @@ class KeptPostGIS(PostGIS):
 
 
 def engine(name, say):
-    """Of a name: cgal, tetgen, qhull, postgis, postgis:kept, or abacus:CACHE; None if it is not
-    installed."""
+    """Of a name: cgal, tetgen, qhull, postgis, postgis:kept, abacus:CACHE or threads:COUNT; None if
+    it is not installed."""
+    if name.startswith("threads:"):
+        return Threads(name.removeprefix("threads:"))
     if name.startswith("abacus:"):
         return Abacus(name.removeprefix("abacus:"))
     if not name.startswith("postgis"):

@@ -46,6 +46,11 @@ PARTS = [
                 ("cgal", "abacus:default", "abacus:largest", "tetgen")))),
     Part("2d-100m", "a hundred times as many uniform points, 64 MB of cache", 9, contests(
         BESIDE, Contest(2, "uniform", {"full": 100000000}, ("abacus:64",), FEWER, disk=16 << 30), BESIDE)),
+    Part("threads", "the same builds by one thread, by two, and by all processors", 5, contests(
+        Contest(2, "uniform", {"full": 10000000, "quick": 1000000, "smoke": 100000},
+                ("threads:1", "threads:2", "threads:all"), FEWER, what="threads"),
+        Contest(3, "uniform", {"full": 1000000, "quick": 100000, "smoke": 20000},
+                ("threads:1", "threads:2", "threads:all"), FEWER, what="threads"))),
     Part("locate-2d", "places in a mesh in the plane, warm and cold", 3, location(
         2, {"full": (10000000, 1000000), "quick": (500000, 200000), "smoke": (20000, 5000)})),
     Part("locate-3d", "places in a mesh in space, warm and cold", 1.5, location(

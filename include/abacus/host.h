@@ -171,7 +171,20 @@ typedef struct abacus_host
 	abacus_host_status (*spool_rewind)(void *context, void *spool);
 	abacus_host_status (*spool_read)(void *context, void *spool, void *bytes, size_t size);
 	abacus_host_status (*spool_close)(void *context, void *spool);
+
+	/*
+	 * Threads that the core may compute with; 0 is as 1: the session's alone. With
+	 * tiny_intervals they share even little work, in many pieces cut at random: for tests.
+	 */
+	unsigned threads;
+	int tiny_intervals;
 } abacus_host;
+
+/*
+ * Stops the threads of the core, in the middle of a call too: for a session that ends without
+ * returning from there. Nothing happens if there are none.
+ */
+ABACUS_API void abacus_stop_threads(void);
 
 #ifdef __cplusplus
 }

@@ -59,6 +59,9 @@
 
 namespace abacus {
 
+/// Thrown where a cache that keeps within an interval would have to load a page of another one.
+struct Foreign {};
+
 /// `Owner` derives from this. The member functions that are not defined here are compiled where
 /// the owner instantiates them: see block_cache_code.hpp.
 template <class Owner, BlockDescription Type> class BlockCache {
@@ -159,8 +162,17 @@ public:
         if (bytes() > replacement_.limit()) [[unlikely]]
             shrink();
     }
-    /// Writes every changed block; they stay cached.
-    void flush();
+    /// Writes every changed block; they stay cached. `packs`: they fill up from one another first,
+    /// so that some are saved.
+    void flush(bool packs = true);
+    /// Lets a block, and so a page, begin with this code.
+    void cut(std::uint64_t code);
+    /// From now on pages are loaded only from an interval that they are cut at, its ends included;
+    /// Foreign is thrown where another one would be.
+    void keep_within(std::uint64_t first, std::uint64_t last) {
+        first_code_ = first;
+        codes_beyond_first_ = last - first;
+    }
     /// Records that a block takes, if nothing else is known of it.
     std::uint32_t capacity() const { return capacity_.usual(); }
 
@@ -323,6 +335,7 @@ private:
     std::size_t cached_blocks_ = 0;
     std::array<BlockIndex, 2> at_hand_{no_block, no_block}; // took the last records
     std::uint64_t clock_ = 0; // operations so far, for the replacement
+    std::uint64_t first_code_ = 0, codes_beyond_first_ = ~std::uint64_t{0}; // of what is loaded
 
 protected:
     const Host &host_;

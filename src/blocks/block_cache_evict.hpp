@@ -65,9 +65,9 @@ void BlockCache<Owner, Type>::evict(Arena<BlockIndex> &victims) {
     }
 }
 
-template <class Owner, BlockDescription Type> void BlockCache<Owner, Type>::flush() {
+template <class Owner, BlockDescription Type> void BlockCache<Owner, Type>::flush(bool packs) {
     counters.peak_bytes = std::max<std::uint64_t>(counters.peak_bytes, bytes());
-    for (Key key = first_key;;) {
+    for (Key key = first_key; packs;) {
         const BlockIndex b =
             directory_.contains(key) ? directory_.floor(key) : directory_.after(key);
         if (b == no_block) break;

@@ -170,6 +170,18 @@ BlockIndex BlockCache<Owner, Type>::split_near(BlockIndex b, KeyCut &places, std
 }
 
 template <class Owner, BlockDescription Type>
+void BlockCache<Owner, Type>::cut(std::uint64_t code) {
+    const Key border{code, 0};
+    const BlockIndex b = owner(border);
+    if (b == no_block) throw_corrupted("No page owns a part of the curve.");
+    if (blocks_[b].lower == border) return;
+    KeyCut &places = collect_places(b);
+    const auto is_below = [&](const KeyCut::Place &p) { return p.key.code < code; };
+    const auto upper = std::partition(places.begin(), places.end(), is_below);
+    split_at(b, places, static_cast<std::size_t>(upper - places.begin()), border);
+}
+
+template <class Owner, BlockDescription Type>
 BlockIndex BlockCache<Owner, Type>::halve(BlockIndex b) {
     KeyCut &places = collect_places(b);
     return split_near(b, places, places.size() / 2);

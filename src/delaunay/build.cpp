@@ -34,7 +34,8 @@ template <int D>
 Build<D>::Build(const Host &host, const abacus_header &header, std::size_t cache_bytes)
     : host_(host), attributes_(header.attributes), cache_bytes_(cache_bytes),
       domain_(domain_of<D>(header)), core_(std::in_place, host_, header, cache_bytes),
-      repeated_(std::in_place, host_, domain_, header.attributes) {}
+      repeated_(std::in_place, host_, domain_, header.attributes),
+      gathered_(host_, record_words(D, header.attributes)) {}
 
 template <int D> VertexIndex Build<D>::create(const std::uint64_t *record) {
     return core_->cache.create_vertex(record_point<D>(record), record_id(record),
@@ -49,23 +50,35 @@ template <int D> void Build<D>::start(const std::array<VertexIndex, D + 1> &vert
 template <int D> void Build<D>::add(const std::uint64_t *records, std::size_t n) {
     const std::size_t stride = record_words(D, attributes_);
     // Each code is a chain of table look-ups. In a loop of their own many of these run at once.
-    std::array<std::uint64_t, 64> codes;
+    std::array<std::uint64_t, most_at_once> codes;
     while (n > 0) {
         const std::size_t some = std::min(n, codes.size());
-        core_->cache.expect_last_pass(
-            !Rounds<D>::is_promoted(record_point<D>(records + (some - 1) * stride)));
         for (std::size_t i = 0; i < some; ++i)
             codes[i] = domain_.code(record_point<D>(records + i * stride));
-        for (std::size_t i = 0; i < some; ++i, records += stride) {
-            if (core_->insertion.insert(record_point<D>(records), codes[i], record_id(records),
-                                        record_attributes<D>(records))) {
-                ++header_->vertices;
-                if (counts_crowded_) count_crowded();
-            } else {
-                add_duplicate(records);
-            }
-        }
+        if (host_.threads() > 1)
+            for (std::size_t i = 0; i < some; ++i) gather(records + i * stride, codes[i]);
+        else
+            insert_some(records, codes.data(), some);
+        records += some * stride;
         n -= some;
+    }
+}
+
+/// Not so many that they may be of several rounds.
+template <int D>
+void Build<D>::insert_some(const std::uint64_t *records, const std::uint64_t *codes,
+                           std::size_t n) {
+    const std::size_t stride = record_words(D, attributes_);
+    core_->cache.expect_last_pass(
+        !Rounds<D>::is_promoted(record_point<D>(records + (n - 1) * stride)));
+    for (std::size_t i = 0; i < n; ++i, records += stride) {
+        if (core_->insertion.insert(record_point<D>(records), codes[i], record_id(records),
+                                    record_attributes<D>(records))) {
+            ++header_->vertices;
+            if (counts_crowded_) count_crowded();
+        } else {
+            add_duplicate(records);
+        }
     }
 }
 
@@ -105,13 +118,16 @@ template <int D> void Build<D>::insert_waiting(std::uint64_t limit) {
         start(vertices);
     }
     VertexReader<D> reader(host_, attributes_, from, to, true);
+    begin_to_gather(to - from);
     report(ABACUS_PHASE_INSERTING, 0, to - from);
     while (reader.advance()) {
-        const std::uint64_t done = reader.sequence() - from;
-        if (done % 256 == 0) host_.poll();
-        if (done % report_every == 0) report(ABACUS_PHASE_INSERTING, done, to - from);
+        const std::uint64_t read = reader.sequence() - from;
+        if (read % 256 == 0) host_.poll();
+        if (read % report_every == 0)
+            report(ABACUS_PHASE_INSERTING, read - gathered_.size(), to - from);
         if (!first.contains(reader.sequence())) add(reader.record(), 1);
     }
+    insert_gathered();
     header_->inserted = to;
 }
 
@@ -152,7 +168,7 @@ template <int D> void Build<D>::check_attributes(const Stage<D> &stage) const {
 }
 
 template <int D> void Build<D>::take_in(Stage<D> &stage) {
-    Intake intake(*this);
+    Intake intake(*this, stage.points());
     stage.emit(intake, *header_);
 }
 

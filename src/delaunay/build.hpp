@@ -9,19 +9,26 @@
 // that loses so many points that triangulating the rest costs less is also made anew (outlay.hpp,
 // rest.hpp).
 //
+// With several threads points are gathered as long as they come along the curve, and inserted
+// together (build_threads.cpp).
+//
 // Each change ends with all pages written and the header brought up to date.
 #pragma once
 
+#include "delaunay/cuts.hpp"
 #include "delaunay/first_simplex.hpp"
 #include "delaunay/insertion.hpp"
+#include "delaunay/interval.hpp"
 #include "delaunay/outlay.hpp"
 #include "delaunay/removal.hpp"
 #include "delaunay/rest.hpp"
+#include "host/crew.hpp"
 #include "points/repeated_points.hpp"
 #include "points/vertex_reader.hpp"
 #include "staging/stage.hpp"
 
 #include <abacus/change.h>
+#include <chrono>
 #include <optional>
 
 namespace abacus {
@@ -47,6 +54,7 @@ private:
     class Intake;
     class Distinct;
     class Outlet;
+    class Pass;
 
     /// The triangulation in memory. All of it goes when the mesh collapses.
     struct Core {
@@ -66,7 +74,22 @@ private:
     bool has_waiting() const { return header_->inserted < header_->staged; }
     VertexIndex create(const std::uint64_t *record);
     void start(const std::array<VertexIndex, D + 1> &vertices);
+    /// Adds points, which may be gathered: insert_gathered() comes after the last.
     void add(const std::uint64_t *records, std::size_t n);
+    void insert_some(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n);
+    /// So many points come, as far as is known.
+    void begin_to_gather(std::uint64_t points);
+    void gather(const std::uint64_t *record, std::uint64_t code);
+    void insert_gathered();
+    bool is_worth_sharing() const;
+    void insert_gathered_here();
+    void insert_on_threads(Cuts &cuts);
+    /// Inserts gathered points that threads would put off.
+    void insert_near_borders(const Cuts &cuts);
+    void report_pass(std::uint64_t done);
+    /// Writes everything and begins with an empty cache.
+    void hand_over(const Cuts &cuts);
+    void forget_cache();
     /// Adds a point where there is a vertex.
     void add_duplicate(const std::uint64_t *record);
     /// Takes in the points of a stage.
@@ -103,6 +126,7 @@ private:
     void count_crowded();
     /// With so many points that come.
     bool has_outgrown_domain(std::uint64_t coming) const;
+    static constexpr std::size_t most_at_once = 64; ///< whose codes are computed together
     using Record = std::array<std::uint64_t, record_words(D, ABACUS_MAX_ATTRIBUTES)>;
     /// Chooses another domain, for all points and those to come, and makes the triangulation anew
     /// over it. False if no domain serves them far better.
@@ -123,6 +147,11 @@ private:
     abacus_header *header_ = nullptr;           ///< of the current change
     abacus_on_duplicate on_duplicate_ = ABACUS_KEEP;
     bool counts_crowded_ = false; ///< the mesh had vertices before what comes
+    Batch gathered_;
+    std::size_t most_gathered_ = 0;      ///< points
+    std::uint64_t done_ = 0, to_do_ = 0; ///< gathered points, for reports
+    std::chrono::steady_clock::time_point reported_{};
+    std::optional<Crew> crew_; ///< the last member: the first to go
 };
 
 } // namespace abacus

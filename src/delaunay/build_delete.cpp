@@ -94,10 +94,10 @@ template <int D> void Build<D>::triangulate_rest() {
                        attributes_);
         rest_->add(record);
     });
-    const std::uint64_t repeated = header_->duplicates;
+    const std::uint64_t repeated = header_->duplicates, vertices = header_->vertices;
     forget_simplices();
     header_->duplicates = repeated; // their vertices come again, and their pages stay
-    Intake intake(*this);
+    Intake intake(*this, vertices);
     rest_->emit(intake);
     rest_.reset();
     insert_waiting(0); // if they had to be staged after all
@@ -118,9 +118,7 @@ template <int D> void Build<D>::erase_pages(abacus_page_kind kind) {
 template <int D> void Build<D>::forget_simplices() {
     erase_pages(ABACUS_SIMPLEX_PAGES);
     header_->vertices = header_->duplicates = header_->simplices = header_->ghosts = 0;
-    const abacus_counters counters = core_->cache.counters;
-    core_.emplace(host_, *header_, cache_bytes_);
-    core_->cache.counters = counters;
+    forget_cache();
 }
 
 template std::uint64_t Build<2>::erase(const Point<2> &, Leaving &);

@@ -51,9 +51,7 @@ template <int D> bool Build<D>::has_outgrown_domain(std::uint64_t coming) const 
 }
 
 template <int D> void Build<D>::count_crowded() {
-    const Cache<D> &cache = core_->cache;
-    const Handle h = core_->mesh.recent()[0];
-    if (cache.is_live(h) && !cache.near(h, cache.code(cache.simplex(h)))) ++header_->outside;
+    if (core_->mesh.is_crowded()) ++header_->outside;
 }
 
 template <int D> bool Build<D>::change_domain(const Spread<D> &coming, std::size_t memory) {
@@ -95,7 +93,7 @@ template <int D> bool Build<D>::change_domain(const Spread<D> &coming, std::size
     std::array<VertexIndex, D + 1> vertices;
     for (int i = 0; i <= D; ++i) vertices[i] = create(corners[i].data());
     start(vertices);
-    Intake intake(*this);
+    Intake intake(*this, points.points());
     points.emit(intake, shape);
     return true;
 }

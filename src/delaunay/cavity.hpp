@@ -70,6 +70,8 @@ public:
     void find(const Point<2> &p, Handle first);
     /// Replaces the cavity found last by the star of v, the vertex at its point.
     void fill(VertexIndex v);
+    /// After find() has thrown: the next one begins anew.
+    void give_up() {}
 
 private:
     /// Of a triangle inside, counterclockwise; it ends where the one below it on the stack
@@ -114,6 +116,7 @@ public:
 
     void find(const Point<3> &p, Handle first);
     void fill(VertexIndex v);
+    void give_up();
 
 private:
     /// A facet of a tetrahedron inside, which sees its corners s, t, u counterclockwise.

@@ -195,6 +195,15 @@ void Cavity<3>::begin(const Point<3> &p, Handle first) {
     created[2] = {make_link(h, in[1]), {in[2], in[0], in[3]}, -1, {c, a, u}, {ac, cu, au}};
 }
 
+/// Takes the marks away. A search that has found nothing yet may have left those of the one before,
+/// which are gone: the lists are emptied.
+void Cavity<3>::give_up() {
+    for (const Handle h : inside_) mesh_.marks.set(h, Marks::none);
+    for (const RimFacet &facet : rim_) mesh_.marks.set(link_simplex(facet.outer), Marks::none);
+    inside_.clear();
+    rim_.clear();
+}
+
 void Cavity<3>::fill(VertexIndex v) {
     std::int64_t ghosts = -hollow_out();
     for (const Handle h : inside_) mesh_.marks.set(h, Marks::none);

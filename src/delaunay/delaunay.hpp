@@ -70,6 +70,13 @@ public:
         return -1;
     }
 
+    /// Whether the simplices around the point inserted last share one code with more than a page
+    /// takes.
+    bool is_crowded() const {
+        const Handle h = recent_[0];
+        return cache_.is_live(h) && !cache_.near(h, cache_.code(cache_.simplex(h)));
+    }
+
     /// Ends an operation at a point with this code: simplices go home, the cache is trimmed.
     void finish(std::uint64_t code) {
         if (cache_.settle(code))

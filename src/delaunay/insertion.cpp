@@ -31,16 +31,40 @@ template <int D> Handle Insertion<D>::find_conflict(const Point<D> &p, std::uint
 template <int D>
 bool Insertion<D>::insert(const Point<D> &p, std::uint64_t code, std::int64_t id,
                           const double *attributes) {
-    const Handle first = find_conflict(p, code);
-    if (first == no_handle) {
-        mesh_.finish(code); // what was loaded on the way also counts
-        return false;
+    const bool is_new = find_cavity(p, code);
+    if (is_new) fill_cavity(p, code, id, attributes);
+    mesh_.finish(code); // what was loaded on the way to a vertex also counts
+    return is_new;
+}
+
+template <int D>
+Inserted Insertion<D>::insert_within(const Point<D> &p, std::uint64_t code, std::int64_t id,
+                                     const double *attributes) {
+    bool is_new;
+    try {
+        is_new = find_cavity(p, code);
+    } catch (const Foreign &) {
+        cavity_.give_up();
+        mesh_.finish(code);
+        return Inserted::put_off;
     }
+    if (is_new) fill_cavity(p, code, id, attributes);
+    mesh_.finish(code);
+    return is_new ? Inserted::as_vertex : Inserted::is_vertex;
+}
+
+template <int D> inline bool Insertion<D>::find_cavity(const Point<D> &p, std::uint64_t code) {
+    const Handle first = find_conflict(p, code);
+    if (first == no_handle) return false;
     cavity_.find(p, first);
+    return true;
+}
+
+template <int D>
+inline void Insertion<D>::fill_cavity(const Point<D> &p, std::uint64_t code, std::int64_t id,
+                                      const double *attributes) {
     cavity_.fill(cache_.create_vertex(p, code, id, attributes));
     ++cache_.counters.insertions;
-    mesh_.finish(code);
-    return true;
 }
 
 template <int D> void Insertion<D>::start(const std::array<VertexIndex, D + 1> &vertices) {

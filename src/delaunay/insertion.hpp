@@ -8,6 +8,9 @@
 
 namespace abacus {
 
+/// What has become of a point.
+enum class Inserted { as_vertex, is_vertex, put_off };
+
 template <int D> class Insertion {
 public:
     explicit Insertion(Delaunay<D> &mesh);
@@ -23,9 +26,18 @@ public:
     /// With p's code, where it is known already.
     bool insert(const Point<D> &p, std::uint64_t code, std::int64_t id, const double *attributes);
 
+    /// The same in a cache that keeps within an interval: p is put off, and nothing has changed, if
+    /// a page of another interval would have to be looked into.
+    Inserted insert_within(const Point<D> &p, std::uint64_t code, std::int64_t id,
+                           const double *attributes);
+
 private:
     /// A simplex of p's cavity, or no_handle if p is a vertex.
     Handle find_conflict(const Point<D> &p, std::uint64_t code);
+    /// Finds p's cavity; false if p is a vertex.
+    bool find_cavity(const Point<D> &p, std::uint64_t code);
+    void fill_cavity(const Point<D> &p, std::uint64_t code, std::int64_t id,
+                     const double *attributes);
 
     Delaunay<D> &mesh_;
     Cache<D> &cache_;

@@ -14,8 +14,10 @@ namespace abacus {
 
 template <int D> class Build<D>::Intake final : public RecordSink {
 public:
-    explicit Intake(Build &build)
+    /// So many points come at most.
+    Intake(Build &build, std::uint64_t points)
         : build_(build), stride_(record_words(D, build.attributes_)), held_(build.host_) {
+        build_.begin_to_gather(points);
         if (build_.has_waiting() && !build_.has_simplices()) stage();
     }
 
@@ -38,12 +40,13 @@ public:
         build_.add(records, n);
     }
     void finish() override {
-        if (build_.has_simplices()) return;
+        if (build_.has_simplices()) return build_.insert_gathered();
         if (!pages_) stage();
         pages_->finish();
         build_.header_->staged = pages_->next();
     }
 
+    std::size_t held_back() const override { return build_.gathered_.size(); }
     abacus_phase phase() const override { return ABACUS_PHASE_INSERTING; }
     PagesMoved pages_moved() const override {
         return {build_.core_->cache.counters.loads, build_.core_->cache.counters.stores};

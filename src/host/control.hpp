@@ -11,12 +11,18 @@ public:
     explicit Control(const abacus_host &table) : table_(&table) {}
 
     /// Whether poll() has something to do.
-    bool is_interrupted() const { return *table_->interrupted != 0; }
+    bool is_interrupted() const {
+        return __atomic_load_n(table_->interrupted, __ATOMIC_RELAXED) != 0;
+    }
     /// Serves a pending interrupt; throws if it ends the statement.
     void poll() const {
         if (is_interrupted()) [[unlikely]]
             host::require(table_->poll(table_->context));
     }
+    /// Threads that may compute, at least one: the session's.
+    unsigned threads() const { return table_->threads > 1 ? table_->threads : 1; }
+    /// For tests: threads share even little work, in many pieces cut at random.
+    bool has_tiny_intervals() const { return table_->tiny_intervals != 0; }
     void progress(const abacus_progress &progress) const {
         host::require(table_->progress(table_->context, &progress));
     }

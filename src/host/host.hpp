@@ -2,9 +2,9 @@
 // exceptions. Every floor above takes a Host&, or the part it needs. None calls the C table
 // itself.
 //
-// Threads. A Host is for the session's thread alone, since its functions end in PostgreSQL.
-// Another thread may call Control::is_interrupted(), and may use memory of a ThreadMemory that
-// the session's thread has made. It may use nothing else of the host.
+// Threads. The session's Host is for the session's thread alone, since its functions end in
+// PostgreSQL. Another thread has a Host of its own, whose functions ask the session's thread
+// (desk.hpp), with memory of a ThreadMemory. It may use nothing else of the session's.
 #pragma once
 
 #include "host/control.hpp"

@@ -16,6 +16,8 @@ public:
     }
     /// After the last point.
     virtual void finish() = 0;
+    /// Of the points taken, how many it holds back: nothing has been done with them.
+    virtual std::size_t held_back() const { return 0; }
     /// The name of its work, and the pages that it has moved so far.
     virtual abacus_phase phase() const = 0;
     virtual PagesMoved pages_moved() const = 0;

@@ -51,7 +51,10 @@ private:
     Box<D> survey(Spool &spool);
     void emit(const std::uint64_t *records, const std::uint64_t *order, std::size_t n);
     void emit_as_is(Spool &spool);
-    void handed_on(std::size_t n) { pacer_.reached(done_ += n, sink_.pages_moved()); }
+    void handed_on(std::size_t n) {
+        done_ += n;
+        pacer_.reached(done_ - sink_.held_back(), sink_.pages_moved());
+    }
     void close(Spool &spool);
 
     const Host &host_;

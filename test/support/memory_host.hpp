@@ -63,6 +63,11 @@ public:
     ~MemoryHost();
 
     const abacus_host *table() const { return &table_; }
+    /// The core may use so many threads; `tiny`: for little work, too, in tiny pieces.
+    void set_threads(unsigned threads, bool tiny) {
+        table_.threads = threads;
+        table_.tiny_intervals = tiny;
+    }
     /// For code below the C interface.
     Host host() const { return Host(table_); }
 

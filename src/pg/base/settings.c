@@ -4,8 +4,11 @@
 #include "postgres.h"
 
 #include <limits.h>
+#include <sched.h>
 
+#include "access/parallel.h"
 #include "miscadmin.h"
+#include "postmaster/bgworker_internals.h"
 #include "utils/guc.h"
 
 #include "pg/base/settings.h"
@@ -14,6 +17,8 @@
 static int	cache_size_mb = 128;
 static int	fail_host_call = 0;
 static bool shortcuts = ABACUS_SHORTCUTS != 0;
+static int	threads = 0;
+static bool tiny_intervals = false;
 static bool vacuum_moves_rows = true;
 
 int			setting_calls_to_failure = 0;
@@ -43,6 +48,17 @@ settings_define(void)
 							 NULL,
 							 &shortcuts, ABACUS_SHORTCUTS != 0, PGC_INTERNAL,
 							 GUC_NOT_IN_SAMPLE | GUC_DISALLOW_IN_FILE, NULL, NULL, NULL);
+	DefineCustomIntVariable("abacus.threads",
+							"Sets how many threads compute when many points are inserted.",
+							"0 means as many as max_parallel_maintenance_workers allows beside the "
+							"session's own, and at most as many as there are processors.",
+							&threads, 0, 0, MAX_PARALLEL_WORKER_LIMIT, PGC_USERSET, 0,
+							NULL, NULL, NULL);
+	DefineCustomBoolVariable("abacus.tiny_intervals",
+							 "Makes threads share even little work, in pieces cut at random.",
+							 "For tests.",
+							 &tiny_intervals, false, PGC_SUSET, GUC_NOT_IN_SAMPLE,
+							 NULL, NULL, NULL);
 	DefineCustomBoolVariable("abacus.vacuum_moves_rows",
 							 "Lets VACUUM move the rows of meshes to the beginning of their tables.",
 							 "So it can cut the files.",
@@ -69,6 +85,30 @@ size_t
 setting_query_sort_bytes(void)
 {
 	return (size_t) work_mem * 1024;
+}
+
+/* Processors that this process may run on. */
+static int
+processors(void)
+{
+	cpu_set_t	set;
+
+	return sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : 1;
+}
+
+/* Threads that may compute at once. A parallel worker is one of many already. */
+int
+setting_threads(void)
+{
+	if (IsParallelWorker())
+		return 1;
+	return threads != 0 ? threads : Min(1 + max_parallel_maintenance_workers, processors());
+}
+
+bool
+setting_tiny_intervals(void)
+{
+	return tiny_intervals;
 }
 
 /* Whether VACUUM moves the rows of meshes before it cuts their files. */

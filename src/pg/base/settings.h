@@ -11,6 +11,8 @@ extern void settings_define(void);
 extern size_t setting_cache_bytes(void);
 extern size_t setting_sort_bytes(void);
 extern size_t setting_query_sort_bytes(void);
+extern int	setting_threads(void);
+extern bool setting_tiny_intervals(void);
 extern bool setting_vacuum_moves_rows(void);
 
 #endif

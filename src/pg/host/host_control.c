@@ -1,11 +1,16 @@
 /*
  * host_control.c: what the core hears from the session, and what others hear of its
- * work: interrupts and progress.
+ * work: interrupts, progress, and how many threads may compute.
+ *
+ * The core's threads end before its functions return. A FATAL error ends the session in
+ * the middle of one, so the threads are stopped before anything that they use goes away.
  */
 #include "postgres.h"
 
 #include "miscadmin.h"
+#include "storage/ipc.h"
 
+#include "pg/base/settings.h"
 #include "pg/host/guard.h"
 #include "pg/host/host_parts.h"
 
@@ -31,9 +36,30 @@ host_progress(void *context, const abacus_progress *progress)
 	return ABACUS_HOST_OK;
 }
 
+static void
+stop_threads(int code, Datum arg)
+{
+	abacus_stop_threads();
+}
+
+/* Registered when it may be needed, since processes forget what the postmaster has registered. */
+static void
+stop_threads_at_exit(void)
+{
+	static bool is_registered = false;
+
+	if (!is_registered)
+		before_shmem_exit(stop_threads, (Datum) 0);
+	is_registered = true;
+}
+
 void
 host_control_init(Host *host)
 {
+	host->table.threads = (unsigned) setting_threads();
+	host->table.tiny_intervals = setting_tiny_intervals();
+	if (host->table.threads > 1)
+		stop_threads_at_exit();
 	StaticAssertStmt(sizeof(InterruptPending) == sizeof(int), "the core reads the flag as an int");
 	host->table.interrupted = (const volatile int *) &InterruptPending;
 	host->table.poll = host_poll;

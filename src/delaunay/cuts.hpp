@@ -1,0 +1,73 @@
+// Where points along the curve are cut into intervals, one for each thread.
+//
+// A point near a border is put off, so borders should be short. The border between two parts of
+// the curve is that of the cells where it is cut: the coarser the cell, the shorter (an edge of
+// the domain where the curve is halved, and any number where it is cut just anywhere). So each
+// border is moved, within a share of what a thread gets, to the coarsest cell there is.
+#pragma once
+
+#include "delaunay/interval.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace abacus {
+
+/// Intervals that cover the curve, one after the other, by their first codes.
+class Cuts {
+public:
+    explicit Cuts(const Memory &memory) : first_(memory) { first_.push_back(0); }
+
+    std::size_t size() const { return first_.size(); }
+    std::uint64_t first(std::size_t i) const { return first_[i]; }
+    std::uint64_t last(std::size_t i) const {
+        return (i + 1 < size() ? first_[i + 1] : key_word_end) - 1;
+    }
+    /// The one that a code is in.
+    std::size_t interval(std::uint64_t code) const {
+        return static_cast<std::size_t>(std::upper_bound(first_.begin(), first_.end(), code) -
+                                        first_.begin()) -
+               1;
+    }
+    /// The first point of a batch that is in the interval, or behind it.
+    std::size_t begin(std::size_t i, const Batch &batch) const {
+        return static_cast<std::size_t>(std::lower_bound(batch.begin(), batch.end(), first_[i]) -
+                                        batch.begin());
+    }
+    std::size_t end(std::size_t i, const Batch &batch) const {
+        return i + 1 < size() ? begin(i + 1, batch) : batch.size();
+    }
+
+    /// Into so many intervals at most, with as many points each, more or less.
+    void cut_evenly(const Batch &batch, std::size_t intervals) {
+        const std::size_t n = batch.size(), share = n / intervals, leeway = share / 32;
+        for (std::size_t i = 1; i < intervals; ++i) {
+            const std::uint64_t low = std::max(first_.back(), batch.code(share * i - leeway)),
+                                high = batch.code(std::min(share * i + leeway, n - 1));
+            if (low >= high) continue; // one code, whose points stay together
+            // The border above `low`, up to `high`, that ends in most zeros.
+            const int zeros = std::bit_width(low ^ high) - 1;
+            first_.push_back(high >> zeros << zeros);
+        }
+    }
+    /// For tests: anywhere, into intervals of any length, of so many points on average.
+    void cut_at_random(const Batch &batch, std::size_t points) {
+        std::uint64_t state = batch.size();
+        for (std::size_t i = 0;;) {
+            state = (state ^ state >> 29) * 0xd6e8feb86659fd93 + 1;
+            i += 1 + (state >> 40) % (2 * points);
+            if (i >= batch.size()) return;
+            if (batch.code(i) > first_.back()) first_.push_back(batch.code(i));
+        }
+    }
+    /// Joins each two.
+    void join_pairs() {
+        for (std::size_t i = 0; 2 * i < size(); ++i) first_[i] = first_[2 * i];
+        first_.resize((size() + 1) / 2);
+    }
+
+private:
+    Arena<std::uint64_t> first_;
+};
+
+} // namespace abacus

@@ -1,0 +1,69 @@
+// Which points of a batch lie so near to a border of intervals that threads would put them off.
+//
+// They are better inserted before the threads begin: while the mesh is still coarse and in memory,
+// each is searched for once, and few pages are made twice. It is no more than a guess. A point that
+// it misses is put off, one too many is inserted by one thread instead of several.
+//
+// A point is put off where its cavity, in the mesh of the rounds before, reaches beyond the
+// border. So what counts is the distance between vertices of that mesh. It is guessed from
+// points that follow one another on the curve, which lie together.
+#pragma once
+
+#include "delaunay/cuts.hpp"
+#include "geometry/box.hpp"
+#include "keys/locational_code.hpp"
+#include "points/record.hpp"
+
+#include <cmath>
+
+namespace abacus {
+
+template <int D> class NearBorder {
+public:
+    /// So many points are looked at together.
+    static constexpr std::size_t together = 32;
+
+    NearBorder(const Domain<D> &domain, const Cuts &cuts) : domain_(domain), cuts_(cuts) {}
+
+    /// Looks at the points [begin, end), which are not more than `together`. False if none of them
+    /// is near a border.
+    bool look_at(const Batch &batch, std::size_t begin, std::size_t end) {
+        Box<D> box;
+        for (std::size_t i = begin; i < end; ++i) box.extend(record_point<D>(batch.record(i)));
+        double volume = 1;
+        for (int axis = 0; axis < D; ++axis) volume *= box.upper[axis] - box.lower[axis];
+        const double each = volume / static_cast<double>(end - begin);
+        reach_ = reach_in_steps * (D == 2 ? std::sqrt(each) : std::cbrt(each));
+        const std::size_t interval = cuts_.interval(batch.code(begin));
+        if (interval != cuts_.interval(batch.code(end - 1))) return true;
+        for (int corner = 0; corner < 1 << D; ++corner) {
+            Point<D> p;
+            for (int axis = 0; axis < D; ++axis)
+                p[axis] =
+                    (corner >> axis & 1) != 0 ? box.upper[axis] + reach_ : box.lower[axis] - reach_;
+            if (cuts_.interval(domain_.code(p)) != interval) return true;
+        }
+        return false;
+    }
+    /// Of a point with this code, among those looked at.
+    bool is_near(const Point<D> &p, std::uint64_t code) const {
+        const std::size_t interval = cuts_.interval(code);
+        for (int axis = 0; axis < D; ++axis)
+            for (const double step : {-reach_, reach_}) {
+                Point<D> q = p;
+                q[axis] += step;
+                if (cuts_.interval(domain_.code(q)) != interval) return true;
+            }
+        return false;
+    }
+
+private:
+    /// In distances between neighbours once all points are in. Measured.
+    static constexpr double reach_in_steps = D == 2 ? 6 : 3.5;
+
+    const Domain<D> &domain_;
+    const Cuts &cuts_;
+    double reach_ = 0;
+};
+
+} // namespace abacus

@@ -1,0 +1,83 @@
+// Threads that compute while the session's thread serves them.
+//
+// A database's session is one thread, and its functions may be called by no other. So threads
+// only compute: each has a Host that puts requests for pages on a desk (desk.hpp), which the
+// session's thread serves until all work is done.
+//
+// Invariants
+//   1. No thread outlives run(), whatever ends it; nor stop(), which a session that ends in the
+//      middle of run() calls before anything that threads use goes away.
+//   2. All signals are blocked in the threads: they are the session's.
+//   3. The threads round to nearest, whatever the session does.
+//   4. Threads use memory of memory() alone, and what the session's thread lends them for as long
+//      as it runs them.
+//
+// An error of a thread stops the others, and run() throws it. An error of the host, or an
+// interrupt, is found by the session's thread; it stops all threads and goes on to whoever has
+// called run().
+#pragma once
+
+#include "host/desk.hpp"
+#include "host/memory_resource.hpp"
+#include "host/thread_memory.hpp"
+
+#include <atomic>
+#include <exception>
+#include <list>
+#include <memory_resource>
+#include <thread>
+#include <vector>
+
+namespace abacus {
+
+class Crew {
+public:
+    /// What there is to do, in pieces that do not depend on each other.
+    class Work {
+    public:
+        /// Does a piece, in a thread with this host.
+        virtual void piece(std::size_t number, const Host &host) = 0;
+        /// Called now and then in the session's thread.
+        virtual void meanwhile() {}
+
+    protected:
+        ~Work() = default;
+    };
+
+    explicit Crew(const Host &host);
+    Crew(const Crew &) = delete;
+    Crew &operator=(const Crew &) = delete;
+    ~Crew();
+
+    /// Does all pieces, in so many threads at most. False, and nothing is done, if the system
+    /// grants no thread.
+    bool run(unsigned threads, std::size_t pieces, Work &work);
+    /// Stops and joins the threads, in the middle of run() too. For the session's thread.
+    void stop() noexcept;
+    /// Stops the threads of whatever crew is at work in this process: for a session that ends.
+    static void stop_all() noexcept;
+
+    ThreadMemory &memory() { return memory_; }
+    const Desk &desk() const { return desk_; }
+
+private:
+    void start(unsigned threads);
+    void thread(Courier &courier) noexcept;
+    void keep_failure() noexcept;
+
+    const Host &host_;
+    ThreadMemory memory_;
+    HostMemory host_memory_;
+    Desk desk_;
+    std::pmr::list<Courier> couriers_;
+    std::pmr::vector<std::thread> threads_;
+    Work *work_ = nullptr;
+    std::size_t pieces_ = 0;
+    std::atomic<std::size_t> next_piece_ = 0;
+    std::atomic_flag has_failure_; // the first one counts
+    std::exception_ptr failure_;
+
+    static Crew *at_work_; // the session's thread alone reads and writes it
+};
+
+} // namespace abacus

@@ -1,0 +1,113 @@
+// Where threads leave requests for pages, and the session's thread serves them.
+//
+// Only the session's thread may call the host. Each other thread has a Courier: a host of its
+// own, whose functions put a request into a queue. A page that is stored or erased is copied
+// there, and the thread goes on at once; it waits only for a page that it asks for, or for a place
+// in its queue. The session's thread takes the requests in their order, so a thread finds what it
+// has stored.
+//
+// Where a page is stored is known only once it is. So the thread gets a ticket for its place, and
+// whenever it names the place again the session's thread looks it up.
+//
+// Invariants
+//   1. A request belongs to its thread until it is counted as asked, then to the session's thread
+//      until it is counted as served. The counts change under the lock, the requests outside.
+//   2. The lock is never held while the host is called or anything is computed.
+//   3. Once the desk is closed, every request fails, and no thread waits.
+#pragma once
+
+#include "host/arena.hpp"
+#include "host/host.hpp"
+
+#include <condition_variable>
+#include <mutex>
+
+namespace abacus {
+
+class Courier;
+
+class Desk {
+public:
+    Desk() = default;
+    Desk(const Desk &) = delete;
+    Desk &operator=(const Desk &) = delete;
+
+    /// For the session's thread, while no other uses the desk: so many threads begin to work.
+    void open(unsigned threads);
+    /// From now on all requests fail, and those who wait are woken. For any thread.
+    void close() noexcept;
+    /// For a thread: its work has ended.
+    void leave() noexcept;
+
+    /// For the session's thread: serves what is asked for, or waits for it for a moment. False
+    /// once all threads have left and everything is served. Throws what the host throws.
+    bool serve(const Host &host);
+
+    /// Pages handed to threads and stored for them since open(); for the session's thread.
+    std::uint64_t pages_read() const { return read_; }
+    std::uint64_t pages_written() const { return written_; }
+
+private:
+    friend class Courier;
+
+    /// Serves the courier's next request; false if there is none.
+    bool serve(const Host &host, Courier &courier);
+
+    std::mutex lock_;
+    Courier *first_ = nullptr; // of those that have a place here
+    std::condition_variable asked_;
+    std::size_t open_requests_ = 0; // asked and not served
+    unsigned at_work_ = 0;          // threads
+    std::uint64_t read_ = 0, written_ = 0;
+    volatile int closed_ = 0; // what the threads' hosts show as an interrupt
+};
+
+class Courier {
+public:
+    /// For a thread that uses this memory. Made by the session's thread, for as long as the desk.
+    Courier(Desk &desk, const Memory &memory);
+    Courier(const Courier &) = delete;
+    Courier &operator=(const Courier &) = delete;
+
+    /// The thread's host: memory, interrupts and pages. It has no spools, and reports nothing.
+    const Host &host() const { return host_; }
+
+private:
+    friend class Desk;
+    struct Functions;
+
+    enum class Wish : std::uint8_t { find, fetch, next, first, put, erase };
+    struct Request {
+        Wish wish;
+        abacus_page_kind kind;
+        abacus_page page;
+        std::uint64_t ticket; // for the place of a page that is put
+        abacus_host_status answer;
+        alignas(8) unsigned char bytes[ABACUS_PAGE_BYTES];
+    };
+    static constexpr std::size_t most_requests = 16;
+    /// A location with this bit is a ticket; the host's own have it not.
+    static constexpr std::uint64_t ticket_bit = std::uint64_t{1} << 63;
+
+    /// The thread's next request, once there is room; nullptr if the desk is closed.
+    Request *begin(Wish wish, abacus_page_kind kind, const abacus_page &page);
+    /// Hands it in.
+    void ask();
+    /// Hands it in, and waits for the page.
+    abacus_host_status look(Request *request, abacus_page &page);
+    std::uint64_t new_ticket();
+    /// Where that is for the host.
+    std::uint64_t place(std::uint64_t location) const;
+
+    Desk &desk_;
+    Courier *const next_; // of the desk's
+    const Memory memory_;
+    abacus_host table_{};
+    Host host_;
+    Arena<Request> requests_;     // a ring
+    Arena<std::uint64_t> places_; // by ticket
+    std::size_t asked_ = 0, served_ = 0;
+    std::condition_variable answered_;
+};
+
+} // namespace abacus

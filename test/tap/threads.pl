@@ -1,0 +1,65 @@
+# A session whose threads are at work is terminated, or killed: the server goes on, and the mesh is as it was.
+use strict;
+use warnings;
+
+use PostgreSQL::Test::Cluster;
+use PostgreSQL::Test::Utils;
+use Test::More;
+use Time::HiRes qw(sleep time);
+
+my $node = PostgreSQL::Test::Cluster->new('threads');
+$node->init;
+$node->append_conf('postgresql.conf', "restart_after_crash = on\n");
+$node->start;
+$node->safe_psql('postgres', <<'SQL');
+CREATE EXTENSION abacus;
+CREATE TABLE points AS SELECT i AS id, random() AS x, random() AS y FROM generate_series(1, 200000) AS i;
+SELECT abacus_triangulate('field', 'TABLE points');
+SQL
+my $before = $node->safe_psql('postgres', "SELECT count(*), sum(v0) FROM abacus_simplices('field')");
+
+# Starts an insertion in a session of its own; returns that, and its process once it has threads.
+sub begin_insertion
+{
+	my ($out, $err) = ('', '');
+	my $session = IPC::Run::start(
+		[ 'psql', '-X', '-d', $node->connstr('postgres'), '-c', 'SET abacus.threads = 3', '-c',
+			'SET abacus.tiny_intervals = on', '-c', "SET application_name = 'threads'", '-c',
+			"SELECT abacus_insert('field', 'SELECT id + 1000000, x + 0.3, y + 0.3 FROM points')" ],
+		'>', \$out, '2>', \$err);
+	my $deadline = time() + 120;
+	while (time() < $deadline)
+	{
+		my $pid = $node->safe_psql('postgres',
+			"SELECT pid FROM pg_stat_activity WHERE application_name = 'threads' AND state = 'active'");
+		my @tasks = $pid ? glob("/proc/$pid/task/*") : ();
+		return ($session, $pid) if @tasks > 2;
+		sleep 0.01;
+	}
+	die 'no threads were started';
+}
+
+foreach my $way ('cancel', 'terminate', 'kill')
+{
+	my ($session, $pid) = begin_insertion();
+	my $began = time();
+	if ($way eq 'kill')
+	{
+		kill 'KILL', $pid;
+	}
+	else
+	{
+		$node->safe_psql('postgres', "SELECT pg_${way}_backend($pid)");
+	}
+	$session->finish;
+	cmp_ok(time() - $began, '<', 20, "$way: the session ends soon");
+	$node->poll_query_until('postgres', 'SELECT true') or die 'the server is down';
+	is(-e "/proc/$pid" ? 1 : 0, 0, "$way: its process has gone");
+	is($node->safe_psql('postgres', "SELECT count(*), sum(v0) FROM abacus_simplices('field')"), $before, "$way: the mesh is as it was");
+	is($node->safe_psql('postgres', "SELECT count(*) FROM abacus_check('field')"), 0, "$way: and sound");
+}
+my $log = slurp_file($node->logfile);
+unlike($log, qr/signal 11|signal 6|PANIC/, 'nothing has crashed but what was killed');
+like($log, qr/signal 9/, 'which was');
+$node->stop;
+done_testing();

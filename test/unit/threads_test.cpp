@@ -1,0 +1,260 @@
+// The same mesh from any number of threads, and a clean end whatever fails in any of them.
+#include "support/oracle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <dirent.h>
+#include <random>
+#include <thread>
+
+namespace abacus::test {
+namespace {
+
+constexpr std::size_t little = 300 << 10, ample = 64 << 20;
+
+/// Threads of this process, as the system lists them.
+int threads_now() {
+    int n = 0;
+    DIR *const tasks = opendir("/proc/self/task");
+    while (const dirent *entry = readdir(tasks)) n += entry->d_name[0] != '.';
+    closedir(tasks);
+    return n;
+}
+/// A sanitizer adds one of its own to the first.
+const int threads_at_first = [] {
+    std::thread([] {}).join();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return threads_now();
+}();
+
+/// The system may list a thread for a moment after it has been joined.
+bool all_threads_ended() {
+    for (int tries = 0; tries < 1000; ++tries) {
+        if (threads_now() == threads_at_first) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+}
+
+template <class Dimension> class Threads : public testing::Test {
+protected:
+    static constexpr int D = Dimension::value;
+    using Points = std::vector<Point<D>>;
+
+    Points uniform(int n) {
+        std::uniform_real_distribution<double> unit(0, 1);
+        Points points(n);
+        for (Point<D> &p : points)
+            for (double &x : p) x = unit(random);
+        return points;
+    }
+    std::vector<InputOf<D>> with_ids(const Points &points) {
+        std::vector<InputOf<D>> inputs;
+        for (const Point<D> &p : points)
+            inputs.push_back(
+                {next_id++, p, {std::uniform_real_distribution<double>(0, 1)(random)}});
+        return inputs;
+    }
+    /// Its simplices by ids, and of each simplex the corners: with one thread and with several.
+    static std::vector<std::vector<std::int64_t>> ids(MeshOf<D> &mesh) {
+        std::vector<std::vector<std::int64_t>> result;
+        for (const abacus_simplex &s : mesh.simplices(false)) {
+            result.emplace_back(s.id, s.id + D + 1);
+            std::sort(result.back().begin(), result.back().end());
+        }
+        std::sort(result.begin(), result.end());
+        return result;
+    }
+    /// What inserting these with one thread gives, in a few steps.
+    void expect_same(const std::vector<std::vector<InputOf<D>>> &steps, std::size_t cache_bytes,
+                     abacus_on_duplicate on_duplicate = ABACUS_KEEP) {
+        MeshOf<D> alone(1, cache_bytes);
+        for (const auto &step : steps)
+            ASSERT_EQ(alone.insert(step, 16 << 20, on_duplicate), ABACUS_OK) << alone.error.detail;
+        ASSERT_EQ(alone.check(), std::vector<std::string>{});
+        const auto expected = ids(alone);
+        for (const unsigned threads : {2, 3, 4, 7}) {
+            MeshOf<D> mesh(1, cache_bytes);
+            mesh.host.set_threads(threads, true);
+            for (const auto &step : steps) {
+                ASSERT_EQ(mesh.insert(step, 16 << 20, on_duplicate), ABACUS_OK)
+                    << mesh.error.message << " " << mesh.error.detail;
+                ASSERT_TRUE(all_threads_ended());
+            }
+            EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+            EXPECT_TRUE(ids(mesh) == expected) << threads << " threads";
+            EXPECT_EQ(mesh.header.vertices, alone.header.vertices);
+            EXPECT_EQ(mesh.header.duplicates, alone.header.duplicates);
+            EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
+            EXPECT_EQ(mesh.host.bytes, 0u);
+        }
+    }
+
+    std::mt19937_64 random{17};
+    std::int64_t next_id = 0;
+};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Threads, Dimensions);
+
+TYPED_TEST(Threads, GiveTheSameMeshOfUniformPoints) {
+    for (const std::size_t cache : {little, ample})
+        this->expect_same({this->with_ids(this->uniform(2500)), this->with_ids(this->uniform(1)),
+                           this->with_ids(this->uniform(700))},
+                          cache);
+}
+
+TYPED_TEST(Threads, GiveTheMeshOfCgal) {
+    constexpr int D = TypeParam::value;
+    const auto points = this->uniform(3000);
+    MeshOf<D> mesh(1);
+    mesh.host.set_threads(4, true);
+    ASSERT_EQ(mesh.insert(this->with_ids(points)), ABACUS_OK);
+    EXPECT_EQ(mesh.positions(), cgal_simplices<D>(points));
+}
+
+TYPED_TEST(Threads, ShareMuchWorkEvenly) {
+    // Without the switch for tests: large intervals, then the rest; all at once, or in batches.
+    constexpr int D = TypeParam::value;
+    auto points = this->uniform(D == 2 ? 150000 : 60000);
+    for (std::size_t i = 0; i < 5000; ++i) points.push_back(points[i * 7]);
+    const auto input = this->with_ids(points);
+    MeshOf<D> alone(1);
+    ASSERT_EQ(alone.insert(input), ABACUS_OK);
+    const auto expected = this->ids(alone);
+    for (const std::size_t cache : {ample, ample / 20}) {
+        MeshOf<D> mesh(1, cache);
+        mesh.host.set_threads(2, false);
+        int most = 0;
+        mesh.host.on_progress = [&](const abacus_progress &) {
+            most = std::max(most, threads_now());
+        };
+        ASSERT_EQ(mesh.insert(input), ABACUS_OK);
+        EXPECT_EQ(most, threads_at_first + 2);
+        EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+        EXPECT_TRUE(this->ids(mesh) == expected);
+        EXPECT_EQ(mesh.header.duplicates, 5000u);
+        EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
+    }
+}
+
+TYPED_TEST(Threads, KeepTheFirstOfEqualPoints) {
+    // On a coarse grid: most points are equal to others, and all are cospherical with some.
+    constexpr int D = TypeParam::value;
+    std::vector<Point<D>> points(3000);
+    for (auto &p : points)
+        for (double &x : p) x = double(this->random() % (D == 2 ? 25 : 8));
+    const auto first = this->with_ids(points);
+    std::shuffle(points.begin(), points.end(), this->random);
+    const auto second = this->with_ids(points);
+    for (const auto on_duplicate : {ABACUS_KEEP, ABACUS_REPLACE})
+        this->expect_same({first, second}, little, on_duplicate);
+    MeshOf<D> mesh(1);
+    mesh.host.set_threads(3, true);
+    ASSERT_EQ(mesh.insert(first), ABACUS_OK);
+    EXPECT_EQ(mesh.insert(second, 16 << 20, ABACUS_REFUSE), ABACUS_ERROR);
+    EXPECT_EQ(mesh.error.kind, ABACUS_ERROR_DUPLICATE);
+    EXPECT_EQ(mesh.host.bytes, 0u);
+    EXPECT_TRUE(all_threads_ended());
+}
+
+TYPED_TEST(Threads, TakeDegenerateInput) {
+    constexpr int D = TypeParam::value;
+    std::vector<Point<D>> line, cluster, moment;
+    for (int i = 0; i < 600; ++i) {
+        Point<D> p{};
+        p[0] = p[1] = i;
+        line.push_back(p);
+        for (int axis = 0; axis < D; ++axis)
+            p[axis] = 1e9 + std::ldexp(double(i * (axis + 3) % 97), -20);
+        cluster.push_back(p);
+        // In space each point is a neighbour of every other.
+        for (int axis = 0; axis < D; ++axis) p[axis] = std::pow(i * 0.01, axis + 1);
+        if (D == 2 || i < 120) moment.push_back(p);
+    }
+    Point<D> apart{};
+    apart[D - 1] = -5000;
+    line.push_back(apart);
+    if (D == 3) {
+        apart[1] = 777;
+        line.push_back(apart);
+    }
+    cluster.push_back(apart);
+    moment.push_back(apart);
+    for (const auto *points : {&line, &cluster, &moment})
+        this->expect_same({this->with_ids(*points)}, little);
+}
+
+TYPED_TEST(Threads, BuildWhatWaits) {
+    constexpr int D = TypeParam::value;
+    const auto points = this->uniform(2000);
+    MeshOf<D> mesh(1, little);
+    mesh.host.set_threads(3, true);
+    ASSERT_EQ(mesh.stage(this->with_ids(points)), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.detail;
+    EXPECT_EQ(mesh.positions(), cgal_simplices<D>(points));
+    EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+}
+
+TYPED_TEST(Threads, EndCleanlyWhereverTheHostFails) {
+    constexpr int D = TypeParam::value;
+    const auto first = this->with_ids(this->uniform(300)),
+               more = this->with_ids(this->uniform(300));
+    for (std::uint64_t n = 1, ended = 0; !ended; n += 1 + n / 6) {
+        MeshOf<D> mesh(1, little);
+        mesh.host.set_threads(3, true);
+        ASSERT_EQ(mesh.insert(first), ABACUS_OK);
+        const abacus_header before = mesh.header;
+        mesh.host.fail_at(n);
+        const abacus_status status = mesh.insert(more);
+        ASSERT_TRUE(all_threads_ended());
+        ASSERT_EQ(mesh.host.bytes, 0u);
+        ASSERT_EQ(mesh.host.violations, std::vector<std::string>{});
+        if (status == ABACUS_OK)
+            ended = 1;
+        else {
+            ASSERT_EQ(status, ABACUS_HOST_ERROR) << n;
+            ASSERT_EQ(mesh.header.vertices, before.vertices);
+        }
+    }
+}
+
+TYPED_TEST(Threads, EndCleanlyWhenTheyAreCancelled) {
+    constexpr int D = TypeParam::value;
+    const auto first = this->with_ids(this->uniform(300)),
+               more = this->with_ids(this->uniform(3000));
+    MeshOf<D> mesh(1, little);
+    mesh.host.set_threads(3, true);
+    ASSERT_EQ(mesh.insert(first), ABACUS_OK);
+    bool were_at_work = false;
+    mesh.host.on_progress = [&](const abacus_progress &) {
+        if (threads_now() == threads_at_first) return;
+        were_at_work = true;
+        mesh.host.cancel();
+    };
+    EXPECT_EQ(mesh.insert(more), ABACUS_HOST_ERROR);
+    EXPECT_TRUE(were_at_work);
+    EXPECT_TRUE(all_threads_ended());
+    EXPECT_EQ(mesh.host.bytes, 0u);
+}
+
+TYPED_TEST(Threads, FindDamagedPages) {
+    constexpr int D = TypeParam::value;
+    const auto first = this->with_ids(this->uniform(4000)),
+               more = this->with_ids(this->uniform(3000));
+    MeshOf<D> mesh(1, little);
+    mesh.host.set_threads(3, true);
+    ASSERT_EQ(mesh.insert(first), ABACUS_OK);
+    auto page =
+        std::next(mesh.host.pages.begin(), static_cast<std::ptrdiff_t>(mesh.host.pages.size() / 2));
+    page->second.bytes()[page->second.size / 2] ^= 1;
+    EXPECT_EQ(mesh.insert(more), ABACUS_ERROR);
+    EXPECT_EQ(mesh.error.kind, ABACUS_ERROR_CORRUPTED);
+    EXPECT_TRUE(all_threads_ended());
+    EXPECT_EQ(mesh.host.bytes, 0u);
+}
+
+} // namespace
+} // namespace abacus::test
