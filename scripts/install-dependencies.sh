@@ -41,6 +41,7 @@ test=(
 )
 bench=(
     "postgresql-$version-postgis-3"
+    gdal-bin                        # gdal_grid, to compare with
     linux-perf                      # tells the functions that take most time
 )
 
