@@ -87,14 +87,14 @@ ValueRaster<D>::ValueRaster(const Host &host, const abacus_header &header,
                             const abacus_raster &raster, const abacus_interpolation &how,
                             std::size_t memory, std::size_t cache_bytes)
     : host_(host), header_(header), raster_(raster), width_(raster.upper[0] - raster.lower[0]),
-      height_(raster.upper[1] - raster.lower[1]), how_(how), memory_(memory),
+      height_(raster.upper[1] - raster.lower[1]), how_(how), memory_(memory / 2),
       cache_bytes_(cache_bytes), values_(host), marks_(host), carried_(how_.attribute, 1) {
     if (!std::isfinite(width_ * raster.width) || !std::isfinite(height_ * raster.height))
         throw Error(ABACUS_ERROR_ARGUMENT, "the window is too large for the centres of its pixels",
                     {}, "Ask for a smaller window.");
     const std::size_t row_bytes = raster.width * (sizeof(double) + sizeof(Mark));
     rows_ =
-        static_cast<std::uint32_t>(std::clamp<std::size_t>(memory / row_bytes, 1, raster.height));
+        static_cast<std::uint32_t>(std::clamp<std::size_t>(memory_ / row_bytes, 1, raster.height));
     values_.resize(std::size_t(rows_) * raster.width);
     marks_.resize(std::size_t(rows_) * raster.width);
 }
@@ -266,6 +266,7 @@ void ValueRaster<D>::fill_row(const PageView<D> &page, int simplex, std::uint32_
         described_ = simplex;
     }
     for (std::int64_t column = first; column <= last; ++column) {
+        if (column % 4096 == 0) host_.poll();
         const int facets = column == first  ? at_first
                            : column == last ? at_last
                                             : at_first & at_last;

@@ -71,7 +71,8 @@ private:
     const abacus_raster raster_;
     const double width_, height_; // of the window
     const abacus_interpolation how_;
-    const std::size_t memory_, cache_bytes_;
+    const std::size_t memory_; // half of what there is: a band has it, and the sorting of places
+    const std::size_t cache_bytes_;
     std::uint32_t rows_ = 0;   // of a band, at most
     std::uint32_t first_ = 0;  // row of the band
     std::uint32_t filled_ = 0; // rows from the first one on
