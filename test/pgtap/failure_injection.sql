@@ -92,8 +92,8 @@ SELECT pg_temp.inject('cells of a window', $$ SELECT count(*) FROM abacus_cells(
 SELECT pg_temp.inject('edges', $$ SELECT count(*) FROM abacus_edges('field') $$, 'SELECT true');
 SELECT pg_temp.inject('volume', $$ SELECT abacus_volume('field', 100, 'height') $$, 'SELECT true');
 SELECT pg_temp.inject('volume between', $$ SELECT abacus_volume('field', 'field', 'height') $$, 'SELECT true');
-SELECT pg_temp.inject('contours', $$ SELECT count(*) FROM abacus_contours('field', 2) $$, 'SELECT true');
-SELECT pg_temp.inject('bands', $$ SELECT count(*) FROM abacus_contours('field', 2, polygonize => true, lower => '{100,100}', upper => '{300,300}') $$, 'SELECT true');
+SELECT pg_temp.inject('contours', $$ SELECT count(*) FROM abacus_contours('field', 300) $$, 'SELECT true');
+SELECT pg_temp.inject('bands', $$ SELECT count(*) FROM abacus_contours('field', 300, polygonize => true, lower => '{100,100}', upper => '{300,300}') $$, 'SELECT true');
 SELECT pg_temp.inject('vertices of a range', $$ SELECT count(*) FROM abacus_vertices('field', 'height', 100, 300) $$, 'SELECT true');
 SELECT pg_temp.inject('star', $$ DO 'BEGIN SET LOCAL abacus.cache_size = ''6MB''; PERFORM abacus_star(''field'', x, y) FROM points; END' $$,
     $$ SELECT pg_temp.answers() = (TABLE answer) $$);
