@@ -26,7 +26,8 @@ quick)
         3:uniform:20000 3:grid:15625 3:sphere:5000 3:rounded_sphere:5000 3:wheel:5001
         3:skew_lines:500 3:flat:5000 3:flat_but_one:5000 3:clusters:10000 3:exponents:500
         3:duplicates:50000 3:octree:10000 3:quake:10000)
-    runs=(smallest:made default:shuffled largest:sorted smallest:reversed smallest:grown)
+    runs=(smallest:made default:shuffled largest:sorted smallest:reversed smallest:grown
+        smallest:threads)
     ;;
 full)
     sets=(2:uniform:1000000 2:grid:4000000 2:circle:100000 2:rounded_circle:100000
@@ -37,7 +38,7 @@ full)
         3:wheel:50001 3:skew_lines:2000 3:flat:50000 3:flat_but_one:50000 3:clusters:200000
         3:exponents:5000 3:duplicates:1000000 3:octree:1000000 3:curves:200000)
     runs=(smallest:made 8:made 64:made largest:made default:shuffled smallest:sorted 8:reversed
-        8:grown)
+        8:grown smallest:threads default:threads)
     ;;
 goose)
     sets=(2:uniform:5000 2:grid:4900 2:circle:300 2:rounded_circle:300 2:wheel:301 2:lines:2000
@@ -76,9 +77,10 @@ oracle=$ABACUS_BUILD/release/test/oracle
 compared=0 differing=0
 
 # Builds the mesh of the table points, with its rows in order $1; `grown`: all points but the
-# last one first, and that one in a second step; `goose`: by abacus_goose.
+# last one first, and that one in a second step; `threads`: by many threads, each with a tiny part;
+# `goose`: by abacus_goose.
 build_mesh() {
-    local query="SELECT id, $columns FROM points" grow=()
+    local query="SELECT id, $columns FROM points" grow=() settings=()
     case $1 in
     made) ;;
     goose)
@@ -93,8 +95,9 @@ build_mesh() {
             -c "SELECT abacus_triangulate('mesh')")
         query+=" WHERE id < $count"
         ;;
+    threads) settings=(-c "SET abacus.threads = 7" -c "SET abacus.tiny_intervals = on") ;;
     esac
-    run_psql -o /dev/null -c "SET abacus.cache_size = '${cache}MB'" \
+    run_psql -o /dev/null "${settings[@]}" -c "SET abacus.cache_size = '${cache}MB'" \
         -c "SELECT abacus_triangulate('mesh', '$query', dimension => $dimension)" "${grow[@]}"
 }
 
@@ -110,7 +113,7 @@ compare() {
     fi
     if ((dimension == 3)); then corners+=", v3"; fi
     # Equal points are one vertex, which has the id of the first: where the file has it.
-    case $order in made | grown | goose) first_ids=1 ;; esac
+    case $order in made | grown | threads | goose) first_ids=1 ;; esac
     start=${EPOCHREALTIME/./}
     build_mesh "$order"
     built=${EPOCHREALTIME/./}

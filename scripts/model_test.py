@@ -228,6 +228,8 @@ class World:
         self.done["steps"] += 1
         if self.chance.random() < 0.15:
             self.session.run(f"SET abacus.cache_size = '{self.chance.choice((1, 1, 2, 8, 128))}MB';")
+            self.session.run(f"SET abacus.threads = {self.chance.choice((1, 1, 2, 3, 4, 7))};")
+            self.session.run(f"SET abacus.tiny_intervals = {self.chance.choice(('on', 'off'))};")
             self.session.run(f"SET maintenance_work_mem = '{self.chance.choice((1, 4, 64))}MB';")
         if not self.transaction():
             if self.savepoints is None and self.chance.random() < 0.1:
