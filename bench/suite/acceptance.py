@@ -211,6 +211,8 @@ WANTED = [
     Timed("… ÷ with its build", 0.1, True, asked("interpolate", "build and interpolate", other_engine="scipy")),
     Timed("`abacus_contours`, mesh of 1 M, 20 levels ÷ matplotlib's, mesh in memory", 0.5, True,
           asked("contours", "contours", other_engine="matplotlib")),
+    Timed("`abacus_raster`, 4096² pixels, 1 M points ÷ `gdal_grid` from the points", 0.05, True,
+          asked("raster of 4096²", "raster of 4096²", other_engine="gdal")),
     Wanted("`abacus_cells`, a window of 1 % of a mesh of 10 M ÷ the whole: time", 0.015, True, window_share("wall")),
     Wanted("… pages", 0.015, True, window_share("pages")),
     Timed("2D, 1 M points into a mesh of 1 M, one statement ÷ first build of the same points", 1.3, True,

@@ -1,6 +1,7 @@
-"""A raster of a mesh beside that of gdal_grid, from the same points: for a part that asks a mesh."""
+"""A raster of a mesh beside that of gdal_grid, from the same points."""
 import pathlib
 import resource
+import shutil
 import subprocess
 import tempfile
 import time
@@ -31,18 +32,27 @@ def gdal(folder, pixels):
     return {"wall": round(time.perf_counter() - began, 6), "cpu": round(used() - before, 6)}
 
 
-def raster(suite, size, pixels, runs):
-    """Samples of both, of random points in the unit square, in a square raster."""
-    server.drop("relief", "relief_vertices", "relief_points")
-    server.query(f"SELECT setseed(0.5); CREATE TABLE relief_points AS SELECT id, x, y, sin(20 * x) * cos(20 * y) AS h"
-                 f" FROM (SELECT id, random() AS x, random() AS y FROM generate_series(1, {size}) AS id) AS points")
-    server.query("SELECT abacus_triangulate('relief', 'TABLE relief_points')")
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        (folder / "points.csv").write_text(server.query("COPY (SELECT x, y, h FROM relief_points) TO STDOUT (FORMAT csv, HEADER)") + "\n")
-        (folder / "points.vrt").write_text(LAYER.format(file=folder / "points.csv"))
-        for engine, sample in ("abacus", lambda: abacus(pixels)), ("gdal", lambda: gdal(folder, pixels)):
-            measurement = {"what": "raster", "engine": engine, "points": size, "pixels": pixels, "samples": [sample() for _ in range(runs)]}
-            suite.measurements.append(measurement)
-            suite.say(f"  raster {pixels}² {engine:6} {min(s['cpu'] for s in measurement['samples']):.2f} s of a processor")
-    server.drop("relief", "relief_vertices", "relief_points")
+class Raster:
+    """sizes: points and pixels on a side, of random points in the unit square."""
+
+    def __init__(self, sizes):
+        self.sizes = sizes
+
+    def measure(self, suite):
+        size, pixels = self.sizes[suite.mode]
+        server.drop("relief", "relief_vertices", "relief_points")
+        server.query(f"SELECT setseed(0.5); CREATE TABLE relief_points AS SELECT id, x, y, sin(20 * x) * cos(20 * y) AS h"
+                     f" FROM (SELECT id, random() AS x, random() AS y FROM generate_series(1, {size}) AS id) AS points")
+        server.query("SELECT abacus_triangulate('relief', 'TABLE relief_points')")
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "points.csv").write_text(server.query("COPY (SELECT x, y, h FROM relief_points) TO STDOUT (FORMAT csv, HEADER)") + "\n")
+            (folder / "points.vrt").write_text(LAYER.format(file=folder / "points.csv"))
+            for engine, sample in ("abacus", lambda: abacus(pixels)), ("gdal", lambda: gdal(folder, pixels)):
+                if engine == "gdal" and shutil.which("gdal_grid") is None:
+                    suite.say("  gdal_grid is not installed")
+                    continue
+                measurement = {"what": "ask", "engine": engine, "points": size, "question": f"raster of {pixels}²", "samples": [sample()]}
+                suite.measurements.append(measurement)
+                suite.say(f"  raster of {pixels}² {engine:6} {measurement['samples'][0]['wall']:.2f} s")
+        server.drop("relief", "relief_vertices", "relief_points")

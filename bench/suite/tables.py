@@ -50,7 +50,7 @@ def surfaces(results):
     return table(("points", "question", "", "rows or bytes", "wall", "CPU", "runs"), rows)
 
 
-ENGINES = {"abacus": "Abacus", "scipy": "SciPy", "matplotlib": "matplotlib"}
+ENGINES = {"abacus": "Abacus", "scipy": "SciPy", "matplotlib": "matplotlib", "gdal": "gdal_grid"}
 
 
 def asking(results):
