@@ -11,6 +11,7 @@
  *   abacus_mesh    locate and walk over stored pages                (§4.11.3)
  *   abacus_places  locate many places at once; both also interpolate (interpolate.h)
  *   abacus_scan, abacus_vertex_scan, abacus_check, abacus_draw      whole-mesh readers
+ *   abacus_contours  lines of equal value and the bands between them, in one call
  *
  * Errors travel by return value only. A host function that fails returns
  * ABACUS_HOST_FAILED and keeps its own error; the core unwinds and returns
