@@ -14,6 +14,7 @@
  *   abacus_isosurface, abacus_sections   surfaces through a mesh
  *   abacus_scan, abacus_vertex_scan, abacus_check, abacus_draw      whole-mesh readers
  *   abacus_raster_scan  an attribute as a raster (raster.h)
+ *   abacus_contours  lines of equal value and the bands between them, in one call
  *
  * Errors travel by return value only. A host function that fails returns
  * ABACUS_HOST_FAILED and keeps its own error; the core unwinds and returns
