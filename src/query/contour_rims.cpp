@@ -23,7 +23,7 @@ int part_of_turn(const Point<2> &center, const Point<2> &a, const Point<2> &b) {
 
 ContourRims::ContourRims(const Host &host, const ContourWindow &window, ContourLevels &levels,
                          std::size_t memory)
-    : host_(host), window_(window), levels_(levels), edges_(host, 7, 4, memory / 2),
+    : window_(window), levels_(levels), edges_(host, 7, 4, memory / 2),
       spokes_(host, 7, 5, memory / 2), arrive_(host), leave_(host) {}
 
 void ContourRims::add(const Point<2> &from, double value_from, const Point<2> &to,

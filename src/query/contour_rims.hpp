@@ -39,7 +39,6 @@ private:
     void add_pieces(const Point<2> &vertex, const Spoke &from, const Spoke &to,
                     ContourPieces &pieces) const;
 
-    const Host &host_;
     const ContourWindow &window_;
     ContourLevels &levels_;
     RecordSort edges_;  // the lesser end, the greater, whether it leads there, values
