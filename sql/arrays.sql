@@ -33,3 +33,4 @@ SELECT count(*) FROM abacus_numbered_simplices('empty');
 SELECT count(*) FROM abacus_numbered_simplices(NULL);
 SELECT * FROM abacus_numbered_vertices('points');
 DROP TABLE field, plane, space, steps, empty, points, here CASCADE;
+DROP FUNCTION differ;
