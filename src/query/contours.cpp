@@ -26,8 +26,9 @@ void report_path(abacus_contour_report report, void *context, std::int64_t id, d
 // Two thirds of the memory for what is joined, the rest for the rim.
 Contours::Contours(const Host &host, const abacus_header &header, const abacus_window &window,
                    const abacus_contouring &contouring, std::size_t memory)
-    : host_(host), how_(checked(header, contouring)), window_(window), bounds_(window),
-      levels_(how_), attribute_(&how_.attribute, 1), pages_(host, header, window_.region()),
+    : host_(host), simplices_(header.simplices + header.ghosts), pacer_(host),
+      how_(checked(header, contouring)), window_(window), bounds_(window), levels_(how_),
+      attribute_(&how_.attribute, 1), pages_(host, header, window_.region()),
       cut_(bounds_, levels_, how_.bands != 0), pieces_(host, memory / 3 * 2),
       rims_(host, bounds_, levels_, memory / 3), edges_(host) {}
 
@@ -37,7 +38,10 @@ void Contours::each(abacus_contour_report report, void *context) {
 }
 
 void Contours::read() {
+    std::uint64_t seen = 0; // simplices
+    pacer_.begin(ABACUS_PHASE_SCANNING, window_.region() == nullptr ? simplices_ : 0);
     while (pages_.advance()) {
+        pacer_.reached(seen += static_cast<std::uint64_t>(pages_.page().simplices()));
         if (!read_values()) continue;
         if (how_.bands != 0) {
             edges_.resize(edge_slots);

@@ -9,6 +9,7 @@
 #include "query/contour_rims.hpp"
 #include "query/corner_values.hpp"
 #include "query/window.hpp"
+#include "sort/pacer.hpp"
 
 namespace abacus {
 
@@ -40,6 +41,8 @@ private:
     void report_bands(abacus_contour_report report, void *context);
 
     const Host &host_;
+    const std::uint64_t simplices_; // of the mesh, ghosts included
+    Pacer pacer_;
     const abacus_contouring how_;
     const Window<2> window_;
     const ContourWindow bounds_;

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "query/reader.hpp"
+#include "sort/pacer.hpp"
 
 namespace abacus {
 
@@ -21,14 +22,17 @@ public:
     };
 
     LightEdges(const Host &host, const abacus_header &header, std::size_t cache_bytes)
-        : reader_(host, header, cache_bytes), cache_(reader_.cache()), handles_(host) {}
+        : reader_(host, header, cache_bytes), cache_(reader_.cache()), pacer_(host), handles_(host),
+          simplices_(header.simplices + header.ghosts) {}
 
     /// Calls visit(edge) for all of them.
     template <class Visit> void each(Visit visit) {
         if (reader_.is_empty()) return;
+        std::uint64_t seen = 0; // simplices
+        pacer_.begin(ABACUS_PHASE_SCANNING, simplices_);
         for (Key page = first_key; page < end_key;) {
             cache_.trim();
-            cache_.poll();
+            pacer_.reached(seen += handles_.size());
             handles_.clear();
             page = cache_.visit(page, [&](Handle h) { handles_.push_back(h); });
             for (const Handle h : handles_)
@@ -48,7 +52,9 @@ private:
 
     Reader<D> reader_;
     Cache<D> &cache_;
-    Arena<Handle> handles_; // of a page
+    Pacer pacer_;
+    Arena<Handle> handles_;         // of a page
+    const std::uint64_t simplices_; // of the mesh, ghosts included
 };
 
 extern template class LightEdges<2>;

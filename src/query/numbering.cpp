@@ -3,6 +3,7 @@
 #include "keys/domain_of.hpp"
 #include "mesh/bit_column.hpp"
 #include "query/page_simplex.hpp"
+#include "sort/pacer.hpp"
 
 #include <array>
 #include <bit>
@@ -36,8 +37,12 @@ void sort_names(const Host &host, const abacus_header &header, RecordSort &names
     using Layout = NameLayout<D>;
     const Domain<D> domain = domain_of<D>(header);
     PageScan<D> pages(host, header);
+    Pacer pacer(host);
+    std::uint64_t seen = 0; // simplices
+    pacer.begin(ABACUS_PHASE_SCANNING, header.simplices + header.ghosts);
     for (std::uint64_t number = 1; pages.advance(); ++number) {
         const PageView<D> &page = pages.page();
+        pacer.reached(seen += static_cast<std::uint64_t>(page.simplices()));
         for (int v = 0; v < page.vertices(); ++v) {
             const Point<D> &p = page.point(v);
             std::uint64_t *name = names.add();

@@ -190,8 +190,10 @@ abacus_sql_contours(PG_FUNCTION_ARGS)
 	how.max_edge = window_max_edge(fcinfo, ARGUMENT_MAX_EDGE);
 	window_arguments(fcinfo, ARGUMENT_LOWER, WINDOW_BOX, &reader->header, &window);
 	answers.host = reader->host;
+	progress_begin(&reader->host->progress, PG_GETARG_OID(ARGUMENT_MESH));
 	host_run(reader->host, abacus_contours, &reader->host->table, &reader->header, &window, &how,
 			 setting_query_sort_bytes() + setting_cache_bytes(), put_contour, &answers);
+	progress_end(&reader->host->progress);
 	host_release(reader->host);
 	host_destroy(reader->host);
 	PG_RETURN_NULL();

@@ -46,6 +46,7 @@ begin(FunctionCallInfo fcinfo, bool of_simplices)
 
 	InitMaterializedSRF(fcinfo, 0);
 	reader = reader_open(mesh, CurrentMemoryContext);
+	progress_begin(&reader->host->progress, mesh);
 	host_run(reader->host, abacus_numbered_open, &reader->host->table, &reader->header,
 			 of_simplices, setting_query_sort_bytes(), &numbered);
 	host_own(reader->host, numbered, (void (*) (void *)) abacus_numbered_close);
@@ -55,6 +56,7 @@ begin(FunctionCallInfo fcinfo, bool of_simplices)
 static void
 done(Reader *reader)
 {
+	progress_end(&reader->host->progress);
 	host_release(reader->host);
 	host_destroy(reader->host);
 }

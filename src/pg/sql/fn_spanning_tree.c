@@ -57,8 +57,10 @@ abacus_sql_spanning_tree(PG_FUNCTION_ARGS)
 	InitMaterializedSRF(fcinfo, 0);
 	reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
 	host = answers.host = reader->host;
+	progress_begin(&host->progress, PG_GETARG_OID(0));
 	host_run(host, abacus_spanning_tree, &host->table, &reader->header, setting_query_sort_bytes(),
 			 setting_cache_bytes(), put_edge, &answers);
+	progress_end(&host->progress);
 	host_release(host);
 	host_destroy(host);
 	PG_RETURN_NULL();
