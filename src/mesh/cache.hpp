@@ -100,6 +100,12 @@ public:
         return numbering.number_in_room(vertices_, v);
     }
     /// Makes a numbering valid again after another, which loading a page does, too.
+    /// Numbers vertices anew, in the order of their coordinates.
+    void sort_by_place(typename VertexHeap<D>::Numbering &numbering) {
+        numbering.sort(vertices_, [this](VertexIndex a, VertexIndex b) {
+            return vertices_.point(a) < vertices_.point(b);
+        });
+    }
     void renumber(const typename VertexHeap<D>::Numbering &numbering) {
         numbering.renew(vertices_);
     }

@@ -117,6 +117,11 @@ public:
             return number;
         }
         void reserve(std::size_t n) { list_.reserve(n); }
+        /// Numbers the vertices anew, in this order.
+        template <class Less> void sort(VertexHeap &heap, Less less) {
+            std::sort(list_.begin(), list_.end(), less);
+            renew(heap);
+        }
         /// Makes it the valid one again.
         void renew(VertexHeap &heap) const {
             for (std::size_t i = 0; i < list_.size(); ++i)

@@ -63,6 +63,7 @@ template <int D> void Sibson<D>::see(Cache<D> &cache, const Point<D> &p) {
     numbers_.clear();
     for (const Handle h : zone_)
         for (const VertexIndex v : cache.simplex(h).vertex) cache.number(numbers_, v);
+    cache.sort_by_place(numbers_);
     double extent = 0;
     for (std::size_t i = 0; i < numbers_.size(); ++i)
         for (int axis = 0; axis < D; ++axis)
@@ -78,6 +79,30 @@ template <int D> void Sibson<D>::see(Cache<D> &cache, const Point<D> &p) {
     std::fill(shares_.begin(), shares_.end(), 0.0);
     cache_ = &cache;
     p_ = p;
+}
+
+template <int D> void Sibson<D>::order_zone(Cache<D> &cache) {
+    members_.resize(zone_.size());
+    for (std::size_t n = 0; n < zone_.size(); ++n) {
+        std::array<std::pair<std::uint32_t, std::uint8_t>, D + 1> corners;
+        for (int i = 0; i <= D; ++i)
+            corners[i] = {cache.number(numbers_, cache.simplex(zone_[n]).vertex[i]),
+                          static_cast<std::uint8_t>(i)};
+        std::sort(corners.begin(), corners.end());
+        Member &member = members_[n];
+        for (int i = 0; i <= D; ++i) {
+            member.number[i] = corners[i].first;
+            member.corner[i] = corners[i].second;
+        }
+        member.found = static_cast<std::uint32_t>(n);
+    }
+    std::sort(members_.begin(), members_.end(),
+              [](const Member &a, const Member &b) { return a.number < b.number; });
+    sorted_.resize(zone_.size());
+    for (std::size_t n = 0; n < zone_.size(); ++n)
+        sorted_[n] = {zone_[members_[n].found], static_cast<std::uint32_t>(n)};
+    std::sort(sorted_.begin(), sorted_.end(),
+              [](const Place &a, const Place &b) { return a.simplex < b.simplex; });
 }
 
 /// Of the sphere through so many neighbours, and through p if these are D.
@@ -120,7 +145,11 @@ std::array<std::uint32_t, D> Sibson<D>::facet_of(Cache<D> &cache, Handle h, int 
     } else {
         constexpr std::array<std::array<int, 3>, 4> outward{
             {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-        return {number(outward[facet][0]), number(outward[facet][1]), number(outward[facet][2])};
+        std::array<std::uint32_t, 3> numbers{number(outward[facet][0]), number(outward[facet][1]),
+                                             number(outward[facet][2])};
+        std::rotate(numbers.begin(), std::min_element(numbers.begin(), numbers.end()),
+                    numbers.end());
+        return numbers;
     }
 }
 
@@ -144,14 +173,15 @@ void Sibson<D>::add_side(const std::array<std::uint32_t, D> &facet, const Point<
 }
 
 template <int D> void Sibson<D>::add_simplex(Cache<D> &cache, std::size_t n) {
-    for (int i = 0; i <= D; ++i) {
-        const Handle beyond = beyond_[n * (D + 1) + static_cast<std::size_t>(i)];
+    const Member &member = members_[n];
+    for (const std::uint8_t i : member.corner) {
+        const Handle beyond = beyond_[member.found * std::size_t{D + 1} + i];
         const auto *const at =
             std::lower_bound(sorted_.begin(), sorted_.end(), beyond,
                              [](const Place &place, Handle h) { return place.simplex < h; });
         const bool is_inner = at != sorted_.end() && at->simplex == beyond;
         if (is_inner && at->number < n) continue; // added from there
-        const std::array<std::uint32_t, D> facet = facet_of(cache, zone_[n], i);
+        const std::array<std::uint32_t, D> facet = facet_of(cache, zone_[member.found], i);
         if (is_inner) {
             add_side(facet, centres_[n], centres_[at->number]);
         } else {
@@ -212,18 +242,10 @@ template <int D> bool Sibson<D>::normalize() {
 template <int D> bool Sibson<D>::find(Cache<D> &cache, Handle h, const Point<D> &p) {
     if (!find_zone(cache, h, p)) return false;
     see(cache, p);
-    sorted_.clear();
+    order_zone(cache);
     centres_.clear();
     rim_.clear();
-    for (std::size_t n = 0; n < zone_.size(); ++n) {
-        sorted_.push_back({zone_[n], static_cast<std::uint32_t>(n)});
-        std::array<std::uint32_t, D + 1> corners;
-        for (int i = 0; i <= D; ++i)
-            corners[i] = cache.number(numbers_, cache.simplex(zone_[n]).vertex[i]);
-        centres_.push_back(centre(corners.data(), D + 1));
-    }
-    std::sort(sorted_.begin(), sorted_.end(),
-              [](const Place &a, const Place &b) { return a.simplex < b.simplex; });
+    for (const Member &member : members_) centres_.push_back(centre(member.number.data(), D + 1));
     for (std::size_t n = 0; n < zone_.size(); ++n) {
         if (n % 1024 == 1023) cache.poll();
         add_simplex(cache, n);

@@ -20,6 +20,10 @@
 //
 // The zone is found by the predicates of the triangulation, and so is star-shaped around p, as
 // when p is inserted.
+//
+// Everything is added in an order of the coordinates: that of neighbours, of simplices by their
+// neighbours, and of the corners of each. So the weights are the same to the last bit however the
+// mesh came about, and whichever simplex around p the search began with.
 #pragma once
 
 #include "delaunay/ridges.hpp"
@@ -30,8 +34,8 @@ namespace abacus {
 template <int D> class Sibson {
 public:
     explicit Sibson(const Host &host)
-        : marks_(host), zone_(host), beyond_(host), sorted_(host), numbers_(host), seen_(host),
-          shares_(host), centres_(host), rim_(host), ridges_(host) {}
+        : marks_(host), zone_(host), beyond_(host), members_(host), sorted_(host), numbers_(host),
+          seen_(host), shares_(host), centres_(host), rim_(host), ridges_(host) {}
 
     /// Finds the natural neighbours of p, which lies in the closure of a finite simplex of a
     /// Delaunay mesh, and is no vertex. False if p is on the hull, where cells have no end, or what
@@ -51,7 +55,15 @@ private:
         Point<D> centre; ///< of the sphere through them and p
     };
 
-    /// A simplex of the zone, and its number there.
+    /// A simplex of the zone: its corners by their numbers, the least first, and which corner of
+    /// the stored simplex each is.
+    struct Member {
+        std::array<std::uint32_t, D + 1> number;
+        std::array<std::uint8_t, D + 1> corner;
+        std::uint32_t found; ///< its place in zone_
+    };
+
+    /// A simplex of the zone, and its number among the members.
     struct Place {
         Handle simplex;
         std::uint32_t number;
@@ -59,9 +71,10 @@ private:
 
     bool find_zone(Cache<D> &cache, Handle h, const Point<D> &p);
     void see(Cache<D> &cache, const Point<D> &p);
-    /// The facet of a simplex as of RimFacet.
+    void order_zone(Cache<D> &cache);
+    /// The facet of a simplex as of RimFacet, its least neighbour first.
     std::array<std::uint32_t, D> facet_of(Cache<D> &cache, Handle h, int facet);
-    /// Adds what there is across the facets of the n-th simplex of the zone.
+    /// Adds what there is across the facets of the n-th member.
     void add_simplex(Cache<D> &cache, std::size_t n);
     /// Adds a side, from circumcentre `from` to `to`, of the dual of a facet.
     void add_side(const std::array<std::uint32_t, D> &facet, const Point<D> &from,
@@ -72,13 +85,14 @@ private:
     Point<D> centre(const std::uint32_t *numbers, int n) const;
 
     Marks marks_;
-    Arena<Handle> zone_;
-    Arena<Handle> beyond_; // D + 1 a simplex of the zone, across its facets
-    Arena<Place> sorted_;  // the zone by handles
+    Arena<Handle> zone_;    // as it was found
+    Arena<Handle> beyond_;  // D + 1 a simplex of the zone, across its facets
+    Arena<Member> members_; // the zone in order
+    Arena<Place> sorted_;   // the zone by handles
     typename VertexHeap<D>::Numbering numbers_;
     Arena<Point<D>> seen_; // the neighbours from p, scaled
     Arena<double> shares_;
-    Arena<Point<D>> centres_; // of the zone
+    Arena<Point<D>> centres_; // of the members
     Arena<RimFacet> rim_;
     Ridges ridges_;
     const Cache<D> *cache_ = nullptr; // of the neighbours

@@ -375,6 +375,35 @@ TYPED_TEST(Interpolation, NaturalIsSymmetricInAGrid) {
     for (const auto &[id, weight] : *weights) EXPECT_NEAR(weight, 1.0 / (1 << D), 1e-14);
 }
 
+TYPED_TEST(Interpolation, NaturalIsTheSameToTheBitHoweverTheMeshCameAbout) {
+    constexpr int D = TypeParam::value;
+    const auto together = grid<D>(6);
+    auto points = random_points<D>(400, 13);
+    points.insert(points.end(), together.begin(), together.end());
+    Field<D> field(points);
+    MeshOf<D> other(2); // in three steps, the last points first
+    for (std::size_t step = 3; step-- > 0;) {
+        std::vector<InputOf<D>> input;
+        for (std::size_t i = points.size(); i-- > 0;)
+            if (i % 3 == step)
+                input.push_back(
+                    {static_cast<std::int64_t>(i), points[i], {linear<D>(points[i]), 7}});
+        ASSERT_EQ(other.insert(input), ABACUS_OK) << other.error.detail;
+    }
+    OpenMeshOf<D> open(field, ample), reopened(other, little);
+    Random random(14);
+    for (int i = 0; i < 300; ++i) {
+        Point<D> p = unit_point<D>(random);
+        // In a grid many places lie on facets, and around them spheres pass through many points.
+        for (double &x : p) x = i % 2 == 0 ? 0.1 + 0.8 * x : std::floor(2 + 6 * x) / 2;
+        ASSERT_EQ(weights_at<D>(open, how(ABACUS_NATURAL), p),
+                  weights_at<D>(reopened, how(ABACUS_NATURAL), p));
+        Point<D> elsewhere = unit_point<D>(random); // so that a walk comes from there
+        for (double &x : elsewhere) x *= 5;
+        weights_at<D>(reopened, how(ABACUS_NATURAL), elsewhere);
+    }
+}
+
 TYPED_TEST(Interpolation, NaturalOnTheHullIsLinear) {
     constexpr int D = TypeParam::value;
     Field<D> field(grid<D>(6));
