@@ -18,7 +18,7 @@
 
 namespace abacus {
 
-class ExactSum {
+class LengthSum {
 public:
     void add(double x) {
         std::size_t left = 0;
@@ -74,7 +74,7 @@ template <int D> LengthKey length_key(const Point<D> &a, const Point<D> &b) {
     const double shrink = greatest > 0x1p1020 ? 0x1p-4 : 1;
     for (int i = 0; i < D; ++i) extent = std::max(extent, std::abs(b[i] * shrink - a[i] * shrink));
     const int exponent = std::ilogb(extent);
-    ExactSum sum;
+    LengthSum sum;
     for (int i = 0; i < D; ++i) {
         const double from = a[i] * shrink, to = b[i] * shrink, rounded = to - from;
         const double to_part = rounded + from, from_part = to_part - rounded;

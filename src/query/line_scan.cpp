@@ -66,7 +66,8 @@ void LineScan<D>::fill(Crossing<D> &crossing, Handle h, const FacetPlace<D> &pla
     crossing.at = std::clamp(crossing.at, least, greatest);
     crossing.error = D * place.error * (greatest - least) +
                      1e-14 * std::max(std::fabs(least), std::fabs(greatest));
-    if (crossing.error <= most_error * std::fabs(crossing.at)) [[likely]]
+    if (std::isfinite(crossing.at) && crossing.error <= most_error * std::fabs(crossing.at))
+        [[likely]]
         return;
     crossing.at = exact::parameter<D>(line_, crossing.corner);
     crossing.error = 1e-15 * std::fabs(crossing.at);

@@ -6,8 +6,8 @@
 #include "support/point_sets.hpp"
 #include "support/triangulations.hpp"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Exact_rational.h>
-#include <CGAL/Simple_cartesian.h>
 #include <CGAL/convex_hull_2.h>
 
 #include <gtest/gtest.h>
@@ -111,7 +111,7 @@ double area_of(const abacus_polygon &p, const Point<3> &normal) {
 
 /// The area of the convex hull of all corners.
 double hull_area(const std::vector<abacus_polygon> &polygons, const Point<3> &normal) {
-    using Kernel = CGAL::Simple_cartesian<double>;
+    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
     const Point<3> right = unit_vector(
         cross(normal, std::fabs(normal[0]) < 0.9 ? Point<3>{1, 0, 0} : Point<3>{0, 1, 0}));
     const Point<3> up = cross(normal, right);
