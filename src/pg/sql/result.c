@@ -12,6 +12,7 @@
 #include "utils/tuplestore.h"
 
 #include "abacus/header.h"
+#include "pg/port/port.h"
 #include "pg/sql/result.h"
 
 /* Row type of the function's result, blessed, in the current memory context. */

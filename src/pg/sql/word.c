@@ -8,6 +8,7 @@
 
 #include "utils/builtins.h"
 
+#include "pg/port/port.h"
 #include "pg/sql/word.h"
 
 /* Number of the word that an argument is; of the first one if it is NULL. */
