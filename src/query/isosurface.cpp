@@ -1,6 +1,7 @@
 #include "query/isosurface.hpp"
 
 #include "geometry/tetrahedron_cut.hpp"
+#include "mesh/bit_column.hpp"
 
 #include <bit>
 #include <cmath>
@@ -23,7 +24,7 @@ Isosurface::Isosurface(const Host &host, const abacus_header &header,
                  return page.may_have_attribute(static_cast<int>(query_.attribute), query_.value,
                                                 query_.value);
              }),
-      edges_(host), numbers_(host, memory), pages_made_(host, 1),
+      edges_(host), numbers_(host, 6, memory), pages_made_(host, 1),
       corners_(host, query.carried >= 0 ? 4 : 3), triangles_(host, 1), corners_here_(host) {
     pacer_.begin(ABACUS_PHASE_SCANNING,
                  filter_.region() == nullptr ? header.simplices + header.ghosts : 0);
@@ -95,8 +96,10 @@ std::size_t Isosurface::corner(const PageView<3> &page, int below, int above) {
     const auto attribute = static_cast<int>(query_.attribute);
     const double share =
         share_at(query_.value, page.attribute(from, attribute), page.attribute(to, attribute));
-    numbers_.add(page.point(from), page.point(to));
-    std::uint64_t *word = corners_.add();
+    std::uint64_t *word = numbers_.add(); // by the ends of the edge
+    for (const int end : {from, to})
+        for (const double x : page.point(end)) *word++ = ordered(x);
+    word = corners_.add();
     for (const double x : point_between(page.point(from), page.point(to), share))
         *word++ = std::bit_cast<std::uint64_t>(x);
     if (query_.carried >= 0)
@@ -121,7 +124,7 @@ bool Isosurface::read_page() {
         const std::uint64_t *word = corners_.next();
         for (double &x : corner.point) x = std::bit_cast<double>(*word++);
         corner.value = query_.carried >= 0 ? std::bit_cast<double>(*word) : NAN;
-        corner.number = numbers_.next();
+        corner.number = static_cast<std::int64_t>(numbers_.next());
     }
     return true;
 }

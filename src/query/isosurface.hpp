@@ -2,7 +2,7 @@
 //
 // It is found in one scan of the pages, past those that have no such value. Each page gives its
 // triangles and their corners; of tetrahedra that share an edge the corner there is one. Between
-// pages the numbers of corners tell which are one (corner_numbers.hpp). These are known when all
+// pages the numbers of corners tell which are one (sort/dense_ranks.hpp). These are known when all
 // pages have been read, so triangles and corners wait in spools.
 //
 // A corner is computed from the two vertices of its edge, the lexicographically lesser one first.
@@ -10,8 +10,8 @@
 #pragma once
 
 #include "query/cell_filter.hpp"
-#include "query/corner_numbers.hpp"
 #include "query/page_edges.hpp"
+#include "sort/dense_ranks.hpp"
 #include "sort/record_spool.hpp"
 
 #include <abacus/surface.h>
@@ -64,7 +64,7 @@ private:
 
     std::array<Side, page_vertices<3>> sides_;
     PageEdges edges_;
-    CornerNumbers numbers_;
+    DenseRanks numbers_;
     RecordSpool pages_made_; // corners and triangles of each
     RecordSpool corners_;    // coordinates, and the value that is carried
     RecordSpool triangles_;  // the corners' numbers in their page

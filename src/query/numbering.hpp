@@ -4,12 +4,13 @@
 // Vertices are numbered from 0 in the order of their codes along the curve, of one code by their
 // coordinates: so the numbers are those of the points alone, and near ones are near in the array.
 // No page knows a number. Each page names its vertices; an external sort by code brings the names
-// of a vertex together, and its place among all is the number. A second sort, by page, brings the
-// numbers back to where they are needed. Neither takes memory that grows with the mesh.
+// of a vertex together, and its place among all is the number. Where simplices need the numbers,
+// another sort brings them back to the pages (sort/dense_ranks.hpp).
 #pragma once
 
+#include "keys/locational_code.hpp"
 #include "query/page_scan.hpp"
-#include "sort/record_sort.hpp"
+#include "sort/dense_ranks.hpp"
 
 #include <abacus/arrays.h>
 
@@ -41,15 +42,13 @@ public:
     bool next(abacus_simplex &simplex, std::uint64_t *numbers);
 
 private:
-    void number(std::size_t memory);
     void enter_page();
 
-    const Host &host_;
-    const abacus_header header_;
-    RecordSort places_; // (place, number)
+    const Domain<D> domain_;
+    DenseRanks ranks_; // of what pages name, page by page
     PageScan<D> pages_;
     Arena<std::uint64_t> numbers_; // of the vertices of the page at hand
-    std::uint64_t page_ = 0;       // its number, from 1
+    bool in_page_ = false;
     int at_ = 0;
 };
 
