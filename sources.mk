@@ -179,6 +179,7 @@ PG_SOURCES += src/pg/space/compact.c
 PG_SOURCES += src/pg/space/truncate.c
 PG_SOURCES += src/pg/space/vacuum.c
 PG_SOURCES += src/pg/space/vacuum_moves.c
+PG_SOURCES += src/pg/sql/answers.c
 PG_SOURCES += src/pg/sql/fn_attributes.c
 PG_SOURCES += src/pg/sql/fn_build.c
 PG_SOURCES += src/pg/sql/fn_cells.c

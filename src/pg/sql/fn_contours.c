@@ -20,6 +20,7 @@
 #include "pg/host/guard.h"
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
+#include "pg/sql/answers.h"
 #include "pg/sql/window.h"
 
 SQL_FUNCTION(abacus_sql_contours);
@@ -50,12 +51,6 @@ enum
 
 /* An array of so many points is as large as a value may be. */
 #define MOST_POINTS ((MaxAllocSize - ARR_OVERHEAD_NONULLS(1) - 1024) / (2 * sizeof(float8)))
-
-typedef struct Answers
-{
-	Host	   *host;
-	ReturnSetInfo *set;
-} Answers;
 
 /* Points as a float8[], which is made in one piece: it may be large. */
 static ArrayType *

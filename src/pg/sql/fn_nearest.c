@@ -13,6 +13,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/sql/answers.h"
 #include "pg/sql/place.h"
 #include "pg/sql/places.h"
 #include "pg/sql/result.h"
@@ -40,13 +41,12 @@ enum
 	RANKED_COLUMNS
 };
 
-typedef struct Answers
+/* The vertices near one place come with their attributes. */
+typedef struct NearAnswers
 {
-	Host	   *host;
-	ReturnSetInfo *set;
-	uint32		dimension;
+	Answers		rows;
 	uint32		attributes;
-} Answers;
+} NearAnswers;
 
 static uint64
 count_argument(FunctionCallInfo fcinfo, int argument)
@@ -65,7 +65,8 @@ count_argument(FunctionCallInfo fcinfo, int argument)
 static abacus_host_status
 put_near(void *context, int64_t place, uint64_t rank, const abacus_vertex *vertex, double distance)
 {
-	Answers    *answers = context;
+	NearAnswers *near = context;
+	Answers    *answers = &near->rows;
 	Datum		values[NEAR_COLUMNS];
 	bool		isnull[NEAR_COLUMNS] = {false};
 
@@ -76,7 +77,7 @@ put_near(void *context, int64_t place, uint64_t rank, const abacus_vertex *verte
 		isnull[NEAR_X + i] = i >= answers->dimension;
 		values[NEAR_X + i] = Float8GetDatum(vertex->point[i]);
 	}
-	values[NEAR_ATTRIBUTES] = attribute_array(vertex->attributes, (int) answers->attributes);
+	values[NEAR_ATTRIBUTES] = attribute_array(vertex->attributes, (int) near->attributes);
 	values[NEAR_DISTANCE] = Float8GetDatum(distance);
 	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
 	pfree(DatumGetPointer(values[NEAR_ATTRIBUTES]));
@@ -95,7 +96,7 @@ abacus_sql_nearest(PG_FUNCTION_ARGS)
 	uint64		k = count_argument(fcinfo, 1 + given);
 	double		point[ABACUS_MAX_DIMENSION];
 	CachedMesh *cached;
-	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+	NearAnswers near = {.rows.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
 	InitMaterializedSRF(fcinfo, 0);
 	cached = mesh_cache_get(PG_GETARG_OID(0));
@@ -106,11 +107,11 @@ abacus_sql_nearest(PG_FUNCTION_ARGS)
 				 errhint("Give z with a decimal point or as z => 1: a whole number behind y is "
 						 "taken for k.")));
 	place_arguments_finite(fcinfo, given, cached->dimension, point);
-	answers.host = cached->host;
-	answers.dimension = cached->dimension;
-	answers.attributes = cached->header.attributes;
-	host_run(answers.host, abacus_mesh_nearest, cached->mesh, point, k, put_near, &answers);
-	host_release(answers.host);
+	near.rows.host = cached->host;
+	near.rows.dimension = cached->dimension;
+	near.attributes = cached->header.attributes;
+	host_run(cached->host, abacus_mesh_nearest, cached->mesh, point, k, put_near, &near);
+	host_release(cached->host);
 	PG_RETURN_NULL();
 }
 
@@ -127,10 +128,7 @@ put_ranked(void *context, int64_t place, uint64_t rank, const abacus_vertex *ver
 	values[RANKED_RANK] = Int64GetDatum((int64) rank);
 	values[RANKED_VERTEX] = Int64GetDatum(vertex->id);
 	values[RANKED_DISTANCE] = Float8GetDatum(distance);
-	GUARD_BEGIN();
-	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
-	GUARD_END(answers->host);
-	return ABACUS_HOST_OK;
+	return answers_put(answers, values, isnull);
 }
 
 /* abacus_nearest(mesh regclass, query text, k int) -> id, rank, vertex, distance */

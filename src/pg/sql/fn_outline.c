@@ -11,8 +11,8 @@
 #include "abacus/shape.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
-#include "pg/host/guard.h"
 #include "pg/mesh/reader.h"
+#include "pg/sql/answers.h"
 #include "pg/sql/window.h"
 
 SQL_FUNCTION(abacus_sql_hull);
@@ -50,13 +50,6 @@ alpha_arguments(FunctionCallInfo fcinfo, const abacus_header *header, abacus_out
 		kind->fills_holes = !PG_GETARG_BOOL(2);
 }
 
-typedef struct Answers
-{
-	Host	   *host;
-	ReturnSetInfo *set;
-	uint32		dimension;
-} Answers;
-
 /* Adds a row; called by the core. */
 static abacus_host_status
 put_row(void *context, const abacus_outline_row *row)
@@ -74,10 +67,7 @@ put_row(void *context, const abacus_outline_row *row)
 		if (i < answers->dimension)
 			values[OUTLINE_X + i] = Float8GetDatum(row->point[i]);
 	}
-	GUARD_BEGIN();
-	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
-	GUARD_END(answers->host);
-	return ABACUS_HOST_OK;
+	return answers_put(answers, values, isnull);
 }
 
 static Datum

@@ -7,7 +7,7 @@
 #include "utils/builtins.h"
 
 #include "pg/base/sql_function.h"
-#include "pg/host/guard.h"
+#include "pg/sql/answers.h"
 #include "pg/sql/places.h"
 #include "pg/sql/simplex_row.h"
 
@@ -20,13 +20,6 @@ enum
 	PLACE_SIMPLEX,
 	PLACE_COLUMNS = PLACE_SIMPLEX + SIMPLEX_COLUMNS
 };
-
-typedef struct Answers
-{
-	Host	   *host;
-	ReturnSetInfo *set;
-	uint32		dimension;
-} Answers;
 
 /* Adds the row of a place; called by the core. */
 static abacus_host_status
@@ -42,10 +35,7 @@ put_answer(void *context, int64_t id, const abacus_simplex *simplex)
 	if (simplex != NULL)
 		simplex_columns(simplex, answers->dimension, values + PLACE_SIMPLEX,
 						isnull + PLACE_SIMPLEX);
-	GUARD_BEGIN();
-	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
-	GUARD_END(answers->host);
-	return ABACUS_HOST_OK;
+	return answers_put(answers, values, isnull);
 }
 
 /*

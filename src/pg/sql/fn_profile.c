@@ -9,8 +9,8 @@
 
 #include "abacus/lines.h"
 #include "pg/base/sql_function.h"
-#include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/sql/answers.h"
 #include "pg/sql/interpolation.h"
 #include "pg/sql/line.h"
 
@@ -24,13 +24,6 @@ enum
 	PROFILE_VALUE = PROFILE_X + ABACUS_MAX_DIMENSION,
 	PROFILE_COLUMNS
 };
-
-typedef struct Answers
-{
-	Host	   *host;
-	ReturnSetInfo *set;
-	uint32		dimension;
-} Answers;
 
 /* Adds a place; called by the core. */
 static abacus_host_status
@@ -48,10 +41,7 @@ put_place(void *context, double distance, const double *place, double value)
 	}
 	isnull[PROFILE_VALUE] = isnan(value) != 0;
 	values[PROFILE_VALUE] = Float8GetDatum(value);
-	GUARD_BEGIN();
-	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
-	GUARD_END(answers->host);
-	return ABACUS_HOST_OK;
+	return answers_put(answers, values, isnull);
 }
 
 /* The places of a path, x and y and, in space, z of each. */

@@ -7,8 +7,8 @@
 
 #include "abacus/lines.h"
 #include "pg/base/sql_function.h"
-#include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/sql/answers.h"
 #include "pg/sql/line.h"
 #include "pg/sql/simplex_row.h"
 
@@ -23,13 +23,6 @@ enum
 	RAY_COLUMNS = RAY_SIMPLEX + SIMPLEX_COLUMNS
 };
 
-typedef struct Answers
-{
-	Host	   *host;
-	ReturnSetInfo *set;
-	uint32		dimension;
-} Answers;
-
 /* Adds a simplex; called by the core. */
 static abacus_host_status
 put_simplex(void *context, double enters, double leaves, const abacus_simplex *simplex)
@@ -41,10 +34,7 @@ put_simplex(void *context, double enters, double leaves, const abacus_simplex *s
 	values[RAY_ENTERS] = Float8GetDatum(enters);
 	values[RAY_LEAVES] = Float8GetDatum(leaves);
 	simplex_columns(simplex, answers->dimension, values + RAY_SIMPLEX, isnull + RAY_SIMPLEX);
-	GUARD_BEGIN();
-	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
-	GUARD_END(answers->host);
-	return ABACUS_HOST_OK;
+	return answers_put(answers, values, isnull);
 }
 
 /*

@@ -9,8 +9,8 @@
 #include "abacus/shape.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
-#include "pg/host/guard.h"
 #include "pg/mesh/reader.h"
+#include "pg/sql/answers.h"
 
 SQL_FUNCTION(abacus_sql_spanning_tree);
 
@@ -23,12 +23,6 @@ enum
 	EDGE_COLUMNS
 };
 
-typedef struct Answers
-{
-	Host	   *host;
-	ReturnSetInfo *set;
-} Answers;
-
 /* Adds an edge; called by the core. */
 static abacus_host_status
 put_edge(void *context, const abacus_edge *edge)
@@ -40,10 +34,7 @@ put_edge(void *context, const abacus_edge *edge)
 	values[EDGE_V0] = Int64GetDatum(edge->id[0]);
 	values[EDGE_V1] = Int64GetDatum(edge->id[1]);
 	values[EDGE_LENGTH] = Float8GetDatum(edge->length);
-	GUARD_BEGIN();
-	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
-	GUARD_END(answers->host);
-	return ABACUS_HOST_OK;
+	return answers_put(answers, values, isnull);
 }
 
 /* abacus_spanning_tree(mesh regclass) -> v0, v1, length */

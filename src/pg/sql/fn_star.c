@@ -8,20 +8,13 @@
 
 #include "abacus/ask.h"
 #include "pg/base/sql_function.h"
-#include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/sql/answers.h"
 #include "pg/sql/place.h"
 #include "pg/sql/simplex_row.h"
 
 SQL_FUNCTION(abacus_sql_star);
 SQL_FUNCTION(abacus_sql_neighbours);
-
-typedef struct Answers
-{
-	Host	   *host;
-	ReturnSetInfo *set;
-	uint32		dimension;
-} Answers;
 
 /* Adds a simplex; called by the core. */
 static abacus_host_status
@@ -32,10 +25,7 @@ put_simplex(void *context, const abacus_simplex *simplex)
 	bool		isnull[SIMPLEX_COLUMNS];
 
 	simplex_columns(simplex, answers->dimension, values, isnull);
-	GUARD_BEGIN();
-	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
-	GUARD_END(answers->host);
-	return ABACUS_HOST_OK;
+	return answers_put(answers, values, isnull);
 }
 
 /* abacus_star(mesh regclass, x float8, y float8[, z float8]) -> SETOF abacus_simplex */

@@ -9,6 +9,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/sql/answers.h"
 #include "pg/sql/interpolation.h"
 #include "pg/sql/place.h"
 #include "pg/sql/places.h"
@@ -63,12 +64,6 @@ abacus_sql_weights(PG_FUNCTION_ARGS)
 	}
 	PG_RETURN_NULL();
 }
-
-typedef struct Answers
-{
-	Host	   *host;
-	ReturnSetInfo *set;
-} Answers;
 
 /* Adds the rows of a place; called by the core. */
 static abacus_host_status
