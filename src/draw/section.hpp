@@ -22,6 +22,11 @@ struct Cut {
     double value;
 };
 
+/// A value on the way from one to another; none if one of them is missing.
+inline double between(double a, double b, double share) {
+    return std::isnan(a) || std::isnan(b) ? NAN : std::lerp(a, b, share);
+}
+
 /// The section of a tetrahedron; false if it has none. Leaves the spacing alone.
 inline bool cut_tetrahedron(const Cut (&corner)[4], Patch &patch) {
     const Cut *below[4], *above[4], *on[4];
@@ -49,7 +54,7 @@ inline bool cut_tetrahedron(const Cut (&corner)[4], Patch &patch) {
                std::lerp(a.place.at[1], b.place.at[1], share)},
               0,
               0},
-             std::lerp(a.value, b.value, share)});
+             between(a.value, b.value, share)});
     };
     for (int i = 0; i < level; ++i) add(*on[i]);
     // Of the four edges of a quadrilateral, those that follow one another share a vertex.

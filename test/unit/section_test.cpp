@@ -142,6 +142,23 @@ TEST_F(Section, InterpolatesInsideTetrahedra) {
     }
 }
 
+TEST_F(Section, LacksAValueWhereAVertexOfTheEdgeLacksIt) {
+    const Plane plane(Order({0, 0, 0.5}, {0, 0, 1}));
+    for (const int missing : {0, 1}) { // below the plane, above it
+        Cut cut[4] = {{plane.place({0, 0, 0}), 5},
+                      {plane.place({1, 0, 1}), 5},
+                      {plane.place({0, 1, 1}), 5},
+                      {plane.place({0, 0, 1}), 5}};
+        cut[missing].value = std::numeric_limits<double>::quiet_NaN();
+        Patch patch{};
+        ASSERT_TRUE(cut_tetrahedron(cut, patch));
+        ASSERT_EQ(patch.corners, 3);
+        int lacking = 0;
+        for (int i = 0; i < 3; ++i) lacking += std::isnan(patch.value[i]);
+        EXPECT_EQ(lacking, missing == 0 ? 3 : 1);
+    }
+}
+
 // x, y or z: which of them grows along the picture's axes.
 TEST_F(Section, LiesAsAMapOrASectionDoes) {
     struct Case {
