@@ -218,6 +218,7 @@ PG_SOURCES += src/pg/sql/fn_voronoi.c
 PG_SOURCES += src/pg/sql/fn_weights.c
 PG_SOURCES += src/pg/sql/interpolation.c
 PG_SOURCES += src/pg/sql/line.c
+PG_SOURCES += src/pg/sql/missing.c
 PG_SOURCES += src/pg/sql/place.c
 PG_SOURCES += src/pg/sql/places.c
 PG_SOURCES += src/pg/sql/result.c

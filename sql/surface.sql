@@ -30,6 +30,11 @@ SELECT count(*), min(cardinality(polygon)), max(cardinality(polygon)), bool_and(
 SELECT count(*), max(cardinality(polygon)) > 9 AS quadrilaterals FROM abacus_section('plain', ARRAY[0, 0, 0.3], '{0,0,1}');
 -- without long edges
 SELECT count(*) FROM abacus_section('plain', '{0,0,0.4}', '{0,0,1}', max_edge => 0.1);
+-- a NOTICE where no vertex has a value
+SELECT abacus_triangulate('unknown', 'VALUES (1, 0, 0, 0, NULL::float8), (2, 1, 0, 0, NULL), (3, 0, 1, 0, NULL), (4, 0, 0, 1, NULL)', '{heat}', dimension => 3);
+SELECT count(*) FROM abacus_isosurface('unknown', 1);
+SELECT count(*) FROM abacus_isosurface('solid', 100, 'heat');
+DROP TABLE unknown, unknown_vertices;
 -- nothing of an empty mesh, and of NULL
 SELECT abacus_create('empty', 3, '{a}');
 SELECT (SELECT count(*) FROM abacus_isosurface('empty', 1)) AS surface, (SELECT count(*) FROM abacus_section('empty', '{0,0,0}', '{0,0,1}')) AS section,

@@ -21,6 +21,7 @@
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/answers.h"
+#include "pg/sql/missing.h"
 #include "pg/sql/window.h"
 
 SQL_FUNCTION(abacus_sql_contours);
@@ -189,6 +190,8 @@ abacus_sql_contours(PG_FUNCTION_ARGS)
 	host_run(reader->host, abacus_contours, &reader->host->table, &reader->header, &window, &how,
 			 setting_query_sort_bytes() + setting_cache_bytes(), put_contour, &answers);
 	progress_end(&reader->host->progress);
+	if (tuplestore_tuple_count(answers.set->setResult) == 0)
+		notice_missing_values(reader, how.attribute);
 	host_release(reader->host);
 	host_destroy(reader->host);
 	PG_RETURN_NULL();

@@ -19,6 +19,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/mesh/shape.h"
+#include "pg/sql/missing.h"
 #include "pg/sql/result.h"
 #include "pg/sql/set.h"
 #include "pg/sql/window.h"
@@ -140,6 +141,8 @@ abacus_sql_isosurface(PG_FUNCTION_ARGS)
 	host_run(host, abacus_isosurface, &host->table, &reader->header, &query,
 			 setting_query_sort_bytes(), put_triangle, &triangles);
 	progress_end(&host->progress);
+	if (tuplestore_tuple_count(triangles.set->setResult) == 0)
+		notice_missing_values(reader, query.attribute);
 	host_release(host);
 	host_destroy(host);
 	PG_RETURN_NULL();
