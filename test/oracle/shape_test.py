@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Voronoi cells, outlines and spanning trees against SciPy."""
+"""Voronoi cells, outlines and spanning trees against SciPy and, where it is installed, PostGIS."""
 import collections
 import unittest
 
@@ -55,6 +55,24 @@ class Cells(unittest.TestCase):
 
     def test_in_space(self):
         self.compare(3, 2)
+
+    def test_postgis(self):
+        """Cells that PostGIS has whole: it cuts those at the edge of a larger box."""
+        if not abacus.rows("SELECT FROM pg_available_extensions WHERE name = 'postgis'"):
+            self.skipTest("PostGIS is not installed")
+        abacus.triangulate("cells", clustered(2, 600, 7))
+        abacus.psql("CREATE EXTENSION IF NOT EXISTS postgis")
+        compared, worst = abacus.numbers("""
+            WITH points AS MATERIALIZED (SELECT id, ST_MakePoint(x, y) AS point FROM cells_points),
+                 theirs AS MATERIALIZED (SELECT (ST_Dump(ST_VoronoiPolygons(ST_Collect(point)))).geom AS cell FROM points),
+                 box AS (SELECT ST_Extent(cell) AS box FROM theirs)
+            SELECT count(*), max(abs(ST_Area(cell) / area - 1)) FROM abacus_voronoi('cells') JOIN points ON id = vertex
+                JOIN theirs ON ST_Intersects(cell, point), box,
+                LATERAL (SELECT min(ring[n][1]) AS x0, min(ring[n][2]) AS y0, max(ring[n][1]) AS x1, max(ring[n][2]) AS y1
+                           FROM generate_series(1, array_length(ring, 1)) AS n) AS extent
+            WHERE bounded AND ST_Contains(ST_Envelope(box::geometry), ST_MakeEnvelope(x0, y0, x1, y1))""")[0]
+        self.assertGreater(compared, 600)
+        self.assertLess(worst, 1e-6)
 
     def test_window_takes_the_nearest(self):
         """Places of a window are in the cells of the vertices nearest to them."""
