@@ -94,6 +94,7 @@ CORE_SOURCES += src/quake/balanced_octree.cpp
 CORE_SOURCES += src/quake/basin.cpp
 CORE_SOURCES += src/quake/quake_points.cpp
 CORE_SOURCES += src/query/border.cpp
+CORE_SOURCES += src/query/cavities.cpp
 CORE_SOURCES += src/query/cell_scan.cpp
 CORE_SOURCES += src/query/check.cpp
 CORE_SOURCES += src/query/contour_cut.cpp

@@ -20,11 +20,12 @@ class Mesh:
         self.attributes = session.texts(f"SELECT name FROM abacus_attributes({MESH}) ORDER BY position")
         self.axes = "xyz"[: self.dimension]
 
-    def points(self):
-        """Chunks of (ids, coordinates n x dimension, values n x attributes); a missing value is NaN."""
-        count = len(self.attributes)
-        values = "".join(f", coalesce(attributes[{n + 1}], 'NaN')" for n in range(count))
-        query = f"SELECT id, {', '.join(self.axes)}{values} FROM abacus_numbered_vertices({MESH})"
+    def points(self, source=f"abacus_numbered_vertices({MESH})", extra=(), order=""):
+        """Chunks of (ids, coordinates n x dimension, values n x attributes); a missing value is NaN. `source`, `order`: the vertices joined
+        with something, of which `extra` are columns more."""
+        values = [f"coalesce(attributes[{n + 1}], 'NaN')" for n in range(len(self.attributes))] + list(extra)
+        count = len(values)
+        query = f"SELECT {', '.join(['id', *self.axes, *values])} FROM {source} {order}"
         for chunk in self.session.chunks(query, ["int8"] + ["float8"] * (self.dimension + count)):
             columns = [chunk[f"f{n + 1}"].astype("<f8") for n in range(self.dimension + count)]
             table = numpy.stack(columns, axis=1)

@@ -1,10 +1,10 @@
 """Which writer a file's name asks for."""
 import pathlib
 
-from . import write_2dm, write_geojson, write_npz, write_obj, write_ply, write_vtu
+from . import write_2dm, write_geojson, write_npz, write_obj, write_ply, write_pvd, write_vtu
 from .session import Failed
 
-WRITERS = {suffix: module for module in (write_2dm, write_geojson, write_npz, write_obj, write_ply, write_vtu) for suffix in module.suffixes}
+WRITERS = {suffix: module for module in (write_2dm, write_geojson, write_npz, write_obj, write_ply, write_pvd, write_vtu) for suffix in module.suffixes}
 
 
 def writer(path):

@@ -45,7 +45,12 @@ class Appended:
 def write(mesh, file, z):
     n, m, corners = mesh.vertices, mesh.simplices, mesh.dimension + 1
     taken = {"id", "code", "points", "connectivity", "offsets", "types"}
-    names = [f"{name}_" if name in taken else name for name in mesh.attributes]
+    names = []
+    for name in mesh.attributes:
+        while name in taken:
+            name += "_"
+        taken.add(name)
+        names.append(name)
     data = Appended()
     for name in names:
         data.add(name, "Float64", "<f8", 1, n)

@@ -57,7 +57,7 @@ typedef struct abacus_outline_kind
 	double max_edge;     /* those without a longer edge, unless it is 0 */
 	int32_t has_alpha;   /* 1: those whose circumradius has a square of at most `alpha` */
 	double alpha;
-	int32_t fills_holes; /* 1, in the plane: without holes and what lies in them */
+	int32_t fills_holes; /* 1: without holes, in space cavities, and what lies in them */
 } abacus_outline_kind;
 /* A vertex of a ring, in the plane a polygon, in space a triangle. */
 typedef struct abacus_outline_row
@@ -72,7 +72,8 @@ typedef abacus_host_status (*abacus_outline_report)(void *context, const abacus_
 /*
  * Reports the border of that, ring by ring: counterclockwise, and clockwise around holes; in space
  * counterclockwise seen from outside. Rings come in the order of their least vertices, with which
- * they begin. What is found is sorted in `memory` bytes.
+ * they begin. What is found is sorted in `memory` bytes. ABACUS_ERROR (limit) if these have no room
+ * for the parts, page by page, of what may be cavities to be filled.
  */
 ABACUS_API abacus_status abacus_outline(const abacus_host *host, const abacus_header *header,
 										const abacus_outline_kind *kind, size_t memory,

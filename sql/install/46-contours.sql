@@ -1,5 +1,10 @@
 -- Lines of equal value, and the bands between them.
 
+CREATE FUNCTION abacus_contours_rows(internal) RETURNS internal
+AS 'MODULE_PATHNAME', 'abacus_sql_contours_rows'
+LANGUAGE C STRICT;
+COMMENT ON FUNCTION abacus_contours_rows(internal) IS 'planner support of abacus_contours';
+
 CREATE FUNCTION abacus_contours(
     mesh regclass,
     level_interval double precision DEFAULT 100,
@@ -16,6 +21,6 @@ CREATE FUNCTION abacus_contours(
     OUT path double precision[])
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_contours'
-LANGUAGE C STABLE PARALLEL SAFE COST 100000 ROWS 1000;
+LANGUAGE C STABLE PARALLEL SAFE COST 100000 ROWS 1000 SUPPORT abacus_contours_rows;
 COMMENT ON FUNCTION abacus_contours(regclass, double precision, double precision, double precision[], boolean, text, double precision[], double precision[], double precision) IS
     'the contours of an attribute in a mesh of dimension 2, or in a window, as whole lines of x, y, x, y, ...; with polygonize the rings around the bands between levels';

@@ -14,6 +14,14 @@ public:
         parent_.resize(n);
         for (std::size_t i = 0; i < n; ++i) parent_[i] = static_cast<std::uint32_t>(i);
     }
+    /// One set more; returns its number.
+    std::uint32_t add() {
+        const auto n = static_cast<std::uint32_t>(parent_.size());
+        parent_.push_back(n);
+        return n;
+    }
+    /// Numbers there are.
+    std::size_t size() const { return parent_.size(); }
     std::uint32_t find(std::uint32_t i) {
         while (parent_[i] != i) {
             parent_[i] = parent_[parent_[i]];

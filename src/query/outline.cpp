@@ -49,22 +49,21 @@ bool Outline<2>::next(abacus_outline_row &row) {
 
 Outline<3>::Outline(const Host &host, const abacus_header &header, const abacus_outline_kind &kind,
                     std::size_t memory, std::size_t cache_bytes)
-    : triangles_(host, words, 9, memory) {
-    if (kind.fills_holes != 0)
-        throw Error(ABACUS_ERROR_ARGUMENT, "in space the cavities of an alpha shape stay", "",
-                    "Leave allow_holes out, or give true.");
+    : borders_(host), triangles_(host, words, 9, kind.fills_holes != 0 ? memory / 2 : memory) {
     Reader<3> reader(host, header, cache_bytes);
     require(reader, kind);
     const Kept kept = kept_by(kind);
     if (!reader.is_empty() && kept.is_all() && reader.is_delaunay())
         find_hull(host, header, reader);
-    else if (!reader.is_empty())
+    else if (!reader.is_empty()) {
+        if (kind.fills_holes != 0) cavities_.emplace(host, memory / 2);
         find_border(reader, kept);
+    }
     triangles_.finish();
 }
 
 /// Adds a triangle of corners that are counterclockwise seen from outside.
-void Outline<3>::add(std::array<Corner, 3> corners) {
+void Outline<3>::add(std::array<Corner, 3> corners, std::uint32_t part) {
     const auto least =
         std::min_element(corners.begin(), corners.end(), [](const Corner &a, const Corner &b) {
             return lexicographically_less<3>(a.point, b.point);
@@ -75,6 +74,7 @@ void Outline<3>::add(std::array<Corner, 3> corners) {
         for (int axis = 0; axis < 3; ++axis) record[3 * i + axis] = ordered(corners[i].point[axis]);
         record[9 + i] = static_cast<std::uint64_t>(corners[i].id);
     }
+    record[12] = part;
 }
 
 void Outline<3>::find_hull(const Host &host, const abacus_header &header, Reader<3> &reader) {
@@ -88,40 +88,68 @@ void Outline<3>::find_hull(const Host &host, const abacus_header &header, Reader
             // A ghost is positively oriented around what lies beyond its facet.
             for (int i = 0; i < 3; ++i)
                 corners[i] = {page.point(page.corner(s, i)), page.id(page.corner(s, i))};
-            add(corners);
+            add(corners, 0);
         }
         flood.spread([&](int s, int facet) { return facet < 3 && page.is_ghost(s); });
     }
 }
 
 void Outline<3>::find_border(Reader<3> &reader, const Kept &kept) {
-    constexpr int outward[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
     Cache<3> &cache = reader.cache();
     Arena<Handle> handles(cache.host());
+    Pacer pacer(cache.host());
+    pacer.begin(ABACUS_PHASE_SCANNING, reader.size());
+    std::uint64_t seen = 0;
     for (Key page = first_key; page < end_key;) {
         cache.trim();
-        cache.poll();
         handles.clear();
         page = cache.visit(page, [&](Handle h) { handles.push_back(h); });
+        pacer.reached(seen += handles.size());
+        if (handles.empty()) continue;
+        borders_.clear();
+        if (cavities_) cavities_->begin_page(cache, handles[0]);
         for (const Handle h : handles) {
-            if (!is_kept<3>(kept, cache, h)) continue;
-            for (int facet = 0; facet < 4; ++facet) {
-                if (is_kept<3>(kept, cache, link_simplex(cache.cross(h, facet)))) continue;
-                std::array<Corner, 3> corners;
-                for (int i = 0; i < 3; ++i) {
-                    const VertexIndex v = cache.simplex(h).vertex[outward[facet][i]];
-                    corners[i] = {cache.point(v), cache.vertices().id(v)};
-                }
-                add(corners);
+            if (is_kept<3>(kept, cache, h)) continue;
+            const bool is_ghost = cache.simplex(h).is_ghost();
+            if (cavities_ && is_ghost) cavities_->meet_outside(h);
+            // Ghosts are all outside: what is across their ridges need not be looked at.
+            for (int facet = is_ghost ? 3 : 0; facet < 4; ++facet) {
+                const Handle beyond = link_simplex(cache.cross(h, facet));
+                if (is_kept<3>(kept, cache, beyond))
+                    borders_.push_back(make_link(h, facet));
+                else if (cavities_)
+                    cavities_->meet(h, facet, beyond);
             }
         }
+        add_borders(cache);
+    }
+    if (cavities_) cavities_->finish();
+}
+
+/// Triangles that are counterclockwise seen from the side that is not kept. A ghost is positively
+/// oriented around what lies beyond its facet, which is the last one.
+void Outline<3>::add_borders(Cache<3> &cache) {
+    constexpr int inward[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+    if (cavities_) cavities_->number_page();
+    for (const Link link : borders_) {
+        const Handle h = link_simplex(link);
+        const std::uint32_t part = cavities_ ? cavities_->number(h) : 0;
+        if (part == Cavities::shut_in) continue;
+        std::array<Corner, 3> corners;
+        for (int i = 0; i < 3; ++i) {
+            const VertexIndex v = cache.simplex(h).vertex[inward[link_facet(link)][i]];
+            corners[i] = {cache.point(v), cache.vertices().id(v)};
+        }
+        add(corners, part);
     }
 }
 
 bool Outline<3>::next(abacus_outline_row &row) {
     if (position_ == 3) {
-        const std::uint64_t *const record = triangles_.next();
-        if (record == nullptr) return false;
+        const std::uint64_t *record;
+        do
+            if ((record = triangles_.next()) == nullptr) return false;
+        while (cavities_ && !cavities_->is_outside(static_cast<std::uint32_t>(record[12])));
         std::copy_n(record, words, triangle_.begin());
         position_ = 0;
         ++ring_;

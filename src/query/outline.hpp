@@ -4,6 +4,7 @@
 // three, in the order of their corners.
 #pragma once
 
+#include "query/cavities.hpp"
 #include "query/ring_nesting.hpp"
 
 #include <abacus/shape.h>
@@ -39,14 +40,17 @@ private:
         Point<3> point;
         std::int64_t id;
     };
-    // three points, their ids
-    static constexpr std::size_t words = 12;
+    // three points, their ids, what part of the rest it is the border to
+    static constexpr std::size_t words = 13;
 
-    void add(std::array<Corner, 3> corners);
+    void add(std::array<Corner, 3> corners, std::uint32_t part);
     /// The hull alone: no other page is read.
     void find_hull(const Host &host, const abacus_header &header, Reader<3> &reader);
     void find_border(Reader<3> &reader, const Kept &kept);
+    void add_borders(Cache<3> &cache);
 
+    Arena<Link> borders_; // of a page: facets of what is not kept, beyond which something is
+    std::optional<Cavities> cavities_; // where they are filled
     RecordSort triangles_;
     std::array<std::uint64_t, words> triangle_{};
     std::uint64_t ring_ = 0;

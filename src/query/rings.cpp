@@ -77,16 +77,16 @@ void Rings::find_hull(RecordSort &starts) {
     add_start(starts, first);
 }
 
-void Rings::find_starts_of_page(const Key &page, Arena<Border::Edge> &edges) {
+std::size_t Rings::find_starts_of_page(const Key &page, Arena<Border::Edge> &edges) {
     Arena<Handle> triangles(host_);
     cache_.trim();
-    cache_.poll();
     cache_.visit(page, [&](Handle h) { triangles.push_back(h); });
     for (const Handle h : triangles) {
         if (!border_.is_kept(h)) continue;
         for (int facet = 0; facet < 3; ++facet)
             if (border_.is_border(h, facet)) edges.push_back(border_.edge(h, facet));
     }
+    return triangles.size();
 }
 
 void Rings::find_starts(RecordSort &starts) {
@@ -94,9 +94,12 @@ void Rings::find_starts(RecordSort &starts) {
         find_hull(starts);
     } else if (!reader_.is_empty()) {
         Arena<Border::Edge> edges(host_);
+        Pacer pacer(host_);
+        pacer.begin(ABACUS_PHASE_SCANNING, reader_.size());
+        std::uint64_t seen = 0;
         for (Key page = first_key; page < end_key;) {
             edges.clear();
-            find_starts_of_page(page, edges);
+            pacer.reached(seen += find_starts_of_page(page, edges));
             page = cache_.visit(page, [](Handle) {});
             for (Border::Edge edge : edges) {
                 border_.find(edge);

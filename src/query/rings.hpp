@@ -52,7 +52,8 @@ private:
 
     void find_starts(RecordSort &starts);
     void find_hull(RecordSort &starts);
-    void find_starts_of_page(const Key &page, Arena<Border::Edge> &edges);
+    /// Returns how many simplices the page has.
+    std::size_t find_starts_of_page(const Key &page, Arena<Border::Edge> &edges);
     void add_start(RecordSort &starts, const Border::Edge &edge);
     /// Writes all vertices of all rings, and sorts them by ring and place.
     void walk(RecordSort &starts, RecordSpool &visits, RecordSort &by_place);

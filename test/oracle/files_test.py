@@ -4,6 +4,7 @@ import pathlib
 import subprocess
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 import meshio
 import numpy
@@ -47,6 +48,30 @@ class Files(unittest.TestCase):
         wanted = wanted_points[abacus.simplices(mesh, dimension + 1)].tolist()
         found = points[corners][:, :, :dimension].tolist()
         self.assertEqual(sorted(found), sorted(wanted))
+
+    def test_series(self):
+        """A .pvd of three steps, each a .vtu that VTK reads; vertices without a value have none."""
+        abacus.psql("CREATE TABLE files_series AS SELECT id, step / 4.0 AS at, id * 10 + step AS speed, step AS \"a \"\"b\" "
+                    "FROM generate_series(1, 1500) AS id, generate_series(0, 2) AS step WHERE id % 5 > 0")
+        file = self.export("files_space", "run.pvd", "--series", "TABLE files_series;")
+        sets = list(xml.etree.ElementTree.parse(file).getroot().find("Collection"))
+        self.assertEqual([float(entry.get("timestep")) for entry in sets], [0, 0.25, 0.5])
+        for step, entry in enumerate(sets):
+            reader = vtkXMLUnstructuredGridReader()
+            reader.SetFileName(str(self.at / entry.get("file")))
+            reader.Update()
+            data = reader.GetOutput().GetPointData()
+            ids, speed = (vtk_to_numpy(data.GetArray(name)) for name in ("id", "speed_"))
+            self.assertEqual(len(ids), 1500)
+            numpy.testing.assert_array_equal(speed, numpy.where(ids % 5 > 0, ids * 10 + step, numpy.nan))
+            numpy.testing.assert_array_equal(vtk_to_numpy(data.GetArray("speed")), self.space[ids - 1, 0])
+            self.assertIsNotNone(data.GetArray('a "b'))
+        for query, said in (("SELECT 1 WHERE false", "no rows"), ("SELECT 1, 2", "columns"), ("SELECT id, 1, 2 FROM files_series", "more than once"), ("nonsense", "syntax error")):
+            failed = run("abacus-export", "files_space", self.at / "unwritten.pvd", "--series", query)
+            self.assertEqual(failed.returncode, 1)
+            self.assertIn(said, failed.stderr)
+        self.assertNotEqual(run("abacus-export", "files_space", self.at / "unwritten.pvd").returncode, 0)
+        self.assertEqual([path.name for path in self.at.glob("unwritten*")], [])
 
     def test_ply(self):
         mesh = meshio.read(self.export("files_plane", "m.ply", "--z", "height"))

@@ -52,5 +52,18 @@ SELECT bag_eq('SELECT value, x, y FROM ends WHERE i = 1 AND x = 40', 'SELECT val
 SELECT isnt_empty('SELECT FROM ends WHERE x = 40', 'which they reach');
 SELECT is_empty('SELECT FROM (SELECT unnest(path) AS at FROM windows, abacus_contours(''field'', 3, lower => low, upper => high) WHERE i = 2 AND j = 2) AS p WHERE at < 40 OR at > 60', 'and stay in their window');
 
+-- estimates: by the number of levels
+CREATE FUNCTION pg_temp.expected(query text) RETURNS float8 LANGUAGE plpgsql AS $$
+DECLARE
+    plan json;
+BEGIN
+    EXECUTE 'EXPLAIN (FORMAT JSON) ' || query INTO plan;
+    RETURN plan -> 0 -> 'Plan' ->> 'Plan Rows';
+END $$;
+SELECT is(round(pg_temp.expected($$ SELECT * FROM abacus_contours('field', fixed_levels => '{1,2,3,4,5,6,7,8}') $$)
+                / pg_temp.expected($$ SELECT * FROM abacus_contours('field', fixed_levels => '{1,2}') $$)), 4::float8, 'four times as many levels have four times as many lines');
+SELECT cmp_ok(pg_temp.expected($$ SELECT * FROM abacus_contours('field') $$), '>', pg_temp.expected($$ SELECT * FROM abacus_contours('field', fixed_levels => '{1,2}') $$), 'levels that are not given are some');
+SELECT is(pg_temp.expected($$ SELECT * FROM abacus_contours(NULL) $$), 1::float8, 'of no mesh none');
+
 SELECT * FROM finish();
 ROLLBACK;

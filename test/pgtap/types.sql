@@ -45,6 +45,7 @@ INSERT INTO wanted VALUES
     ('abacus_simplices', 'mesh regclass, center double precision[], radius double precision', 'SETOF abacus_simplex', 's', true, 's'),
     ('abacus_simplices', 'mesh regclass, lower double precision[], upper double precision[]', 'SETOF abacus_simplex', 's', true, 's'),
     ('abacus_edges', 'mesh regclass, center double precision[], radius double precision, max_edge double precision DEFAULT NULL::double precision, OUT v0 bigint, OUT v1 bigint, OUT length double precision', 'SETOF record', 's', false, 's'),
+    ('abacus_contours_rows', 'internal', 'internal', 'v', true, 'u'),
     ('abacus_surface_rows', 'internal', 'internal', 'v', true, 'u'),
     ('abacus_isosurface', 'mesh regclass, value double precision, attribute text DEFAULT NULL::text, carry text DEFAULT NULL::text, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], max_edge double precision DEFAULT NULL::double precision, OUT v0 bigint, OUT v1 bigint, OUT v2 bigint, OUT corners double precision[], OUT "values" double precision[]', 'SETOF record', 's', false, 's'),
     ('abacus_section', 'mesh regclass, through double precision[], normal double precision[], attribute text DEFAULT NULL::text, max_edge double precision DEFAULT NULL::double precision, OUT code bigint, OUT polygon double precision[], OUT "values" double precision[]', 'SETOF record', 's', false, 's'),

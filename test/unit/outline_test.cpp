@@ -192,6 +192,27 @@ TEST(Outlines, WithoutHolesAndWhatLiesInThem) {
     EXPECT_EQ(without.size(), 4u * 66 + 4 * 5);
 }
 
+/// Shells within shells: only the outermost surface is left, and of those beside it.
+TEST(Outlines, WithoutCavitiesAndWhatLiesInThem) {
+    std::vector<Point<3>> points;
+    for (int x = -5; x <= 5; ++x)
+        for (int y = -5; y <= 5; ++y)
+            for (int z = -5; z <= 5; ++z)
+                if (std::max({std::abs(x), std::abs(y), std::abs(z)}) % 4 < 2)
+                    points.push_back({double(x), double(y), double(z)});
+    for (int i = 0; i < 27; ++i)
+        points.push_back({20.0 + i % 3, double(i / 3 % 3), double(i / 9)});
+    MeshOf<3> mesh(0);
+    ASSERT_EQ(mesh.stage(number<3>(points)), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK);
+    const auto with = facets_of<3>(read<3>(mesh, {0, 1, 0.75, 0}, little));
+    const auto without = facets_of<3>(read<3>(mesh, {0, 1, 0.75, 1}, little));
+    EXPECT_TRUE(without == facets_of<3>(read<3>(mesh, {0, 1, 0.75, 1}, 16 << 20)));
+    EXPECT_EQ(without.size(), 2u * 6 * (10 * 10 + 2 * 2)); // of the cube and of the one beside it
+    EXPECT_GT(with.size(), without.size() + 2 * 6 * 2 * 2);
+    EXPECT_TRUE(std::includes(with.begin(), with.end(), without.begin(), without.end()));
+}
+
 TEST(Outlines, OfWhatIsAsFarAwayAsCanBe) {
     constexpr double far = std::numeric_limits<double>::lowest();
     std::vector<Point<2>> flat{{far, far}};

@@ -22,6 +22,7 @@
 #include "nodes/supportnodes.h"
 #include "optimizer/optimizer.h"
 #include "storage/bufmgr.h"
+#include "utils/array.h"
 #include "utils/selfuncs.h"
 
 #include "pg/base/sql_function.h"
@@ -35,6 +36,7 @@ SQL_FUNCTION(abacus_sql_range_rows);
 SQL_FUNCTION(abacus_sql_surface_rows);
 SQL_FUNCTION(abacus_sql_line_rows);
 SQL_FUNCTION(abacus_sql_raster_rows);
+SQL_FUNCTION(abacus_sql_contours_rows);
 
 /* Of fresh builds of uniform points, in the plane and in space (docs/benchmarks.md). */
 #define BYTES_PER_SIMPLEX 12.0
@@ -42,6 +44,11 @@ SQL_FUNCTION(abacus_sql_raster_rows);
 #define SIMPLICES_PER_VERTEX 2.0
 /* Of one that waits to be inserted, without attributes. */
 #define BYTES_PER_WAITING_POINT 32.0
+/* abacus_contours: the argument fixed_levels, */
+#define CONTOURS_FIXED_LEVELS 3
+/* ... levels where it has none, and lines of a level, times the root of the number of triangles. */
+#define LEVELS_OF_A_MAP 20
+#define LINES_OF_A_LEVEL 0.1
 /* Of n tetrahedra a plane cuts this times n^(2/3). */
 #define CUT_BY_A_PLANE 2.0
 
@@ -215,6 +222,40 @@ abacus_sql_line_rows(PG_FUNCTION_ARGS)
 
 	if (is_estimated && request->rows > 0)
 		request->rows = Max(1, 2 * sqrt(request->rows));
+	PG_RETURN_POINTER(is_estimated ? request : NULL);
+}
+
+/* How many levels contours are drawn at; where that is not told, as a map has. */
+static double
+levels_of_call(const SupportRequestRows *request)
+{
+	Node	   *levels = estimate_expression_value(request->root,
+												   (Node *) list_nth(((FuncExpr *) request->node)->args,
+																	 CONTOURS_FIXED_LEVELS));
+	int			count = 0;
+
+	if (IsA(levels, Const) && !((Const *) levels)->constisnull)
+	{
+		ArrayType  *array = DatumGetArrayTypeP(((Const *) levels)->constvalue);
+
+		count = ArrayGetNItems(ARR_NDIM(array), ARR_DIMS(array));
+	}
+	return count > 0 ? count : LEVELS_OF_A_MAP;
+}
+
+/*
+ * abacus_contours_rows(internal) -> internal, for abacus_contours. How many lines a level has
+ * depends on the values alone. On a terrain small hills and hollows add lines, so there are more in a
+ * larger mesh.
+ */
+Datum
+abacus_sql_contours_rows(PG_FUNCTION_ARGS)
+{
+	SupportRequestRows *request = (SupportRequestRows *) PG_GETARG_POINTER(0);
+	bool		is_estimated = DatumGetPointer(estimate(fcinfo, 1, false)) != NULL;
+
+	if (is_estimated && request->rows > 0)
+		request->rows = Max(1, levels_of_call(request) * LINES_OF_A_LEVEL * sqrt(request->rows));
 	PG_RETURN_POINTER(is_estimated ? request : NULL);
 }
 

@@ -88,8 +88,10 @@ outline(FunctionCallInfo fcinfo, bool is_alpha)
 		alpha_arguments(fcinfo, &reader->header, &kind);
 	else
 		kind.max_edge = window_max_edge(fcinfo, 1);
+	progress_begin(&host->progress, PG_GETARG_OID(0));
 	host_run(host, abacus_outline, &host->table, &reader->header, &kind, setting_query_sort_bytes(),
 			 setting_cache_bytes(), put_row, &answers);
+	progress_end(&host->progress);
 	host_release(host);
 	host_destroy(host);
 	PG_RETURN_NULL();
