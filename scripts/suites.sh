@@ -93,7 +93,7 @@ tap_tests() {
 
 # The examples of pages.
 documentation_examples() {
-    if ((!$#)); then set -- docs/sql.md docs/lab.md docs/operations.md README.md; fi
+    if ((!$#)); then set -- docs/sql.md docs/relations.md docs/lab.md docs/operations.md README.md; fi
     scripts/doc_examples.py "$@"
 }
 

@@ -44,6 +44,11 @@ SET max_parallel_workers_per_gather = 2;
 SELECT plan($$ SELECT count(look(x)) FROM places WHERE y = 0.5 AND x < 4 $$);
 TABLE looked EXCEPT TABLE serial_look;
 
+-- foreign tables of a mesh
+SELECT abacus_publish('field', geometry => false);
+SELECT set_config(name, 'on', false) FROM pg_settings WHERE name IN ('force_parallel_mode', 'debug_parallel_query'); -- before 16, and since
+SELECT (SELECT count(*) FROM field_cells) = (SELECT count(*) FROM abacus_simplices('field')) AS cells, (SELECT count(*) FROM field_points WHERE x BETWEEN 3 AND 5) > 0 AS points;
+SELECT set_config(name, 'off', false) FROM pg_settings WHERE name IN ('force_parallel_mode', 'debug_parallel_query');
 -- changes of the own transaction, uncommitted and rolled back, are those of the workers too
 SELECT set_config(name, 'on', false) FROM pg_settings WHERE name IN ('force_parallel_mode', 'debug_parallel_query'); -- before 16, and since
 BEGIN;

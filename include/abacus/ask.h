@@ -15,7 +15,8 @@ typedef enum abacus_window_kind
 {
 	ABACUS_NO_WINDOW = 0,    /* all of the mesh */
 	ABACUS_BOX_WINDOW,       /* from lower to upper */
-	ABACUS_BALL_WINDOW       /* what is at most `radius` from center */
+	ABACUS_BALL_WINDOW,      /* what is at most `radius` from center */
+	ABACUS_BOUNDS_WINDOW     /* what has a bounding box that meets the one from lower to upper */
 } abacus_window_kind;
 
 /* A closed part of the plane or of space; all is finite. */
@@ -42,6 +43,8 @@ ABACUS_API abacus_status abacus_cells_open(const abacus_host *host, const abacus
  */
 ABACUS_API abacus_status abacus_cells_next(abacus_cells *cells, abacus_simplex *simplex,
 										   double *values, abacus_error *error);
+/* How many pages have been read. */
+ABACUS_API uint64_t abacus_cells_pages(const abacus_cells *cells);
 ABACUS_API void abacus_cells_close(abacus_cells *cells);
 
 /*
@@ -78,6 +81,7 @@ typedef struct abacus_edge
 } abacus_edge;
 ABACUS_API abacus_status abacus_faces_next_edge(abacus_faces *faces, abacus_edge *edge,
 												abacus_error *error);
+ABACUS_API uint64_t abacus_faces_pages(const abacus_faces *faces);
 ABACUS_API void abacus_faces_close(abacus_faces *faces);
 
 /* Gets one of several simplices, valid during the call. May fail as a host function may. */

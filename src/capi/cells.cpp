@@ -49,4 +49,8 @@ abacus_status abacus_cells_next(abacus_cells *cells, abacus_simplex *simplex, do
     });
 }
 
+uint64_t abacus_cells_pages(const abacus_cells *cells) {
+    return cells->cells.visit([](const auto &scan) { return scan.pages_read(); });
+}
+
 void abacus_cells_close(abacus_cells *cells) { abacus::destroy_handle(cells); }

@@ -29,6 +29,10 @@ public:
         return flat_ ? visit(*flat_) : visit(*solid_);
     }
 
+    template <class Visit> decltype(auto) visit(Visit &&visit) const {
+        return flat_ ? visit(*flat_) : visit(*solid_);
+    }
+
     template <int D> T<D> &get() {
         if constexpr (D == 2)
             return flat_.value();

@@ -74,4 +74,8 @@ abacus_status abacus_faces_next_edge(abacus_faces *faces, abacus_edge *edge, aba
     });
 }
 
+uint64_t abacus_faces_pages(const abacus_faces *faces) {
+    return faces->faces.visit([](const auto &scan) { return scan.pages_read(); });
+}
+
 void abacus_faces_close(abacus_faces *faces) { abacus::destroy_handle(faces); }

@@ -7,6 +7,7 @@
 
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/fdw/published.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/space/vacuum.h"
 #include "pg/track/tracking.h"
@@ -18,13 +19,21 @@ SQL_FUNCTION(abacus_sql_version);
 
 extern PGDLLEXPORT void _PG_init(void);
 
+/* What is bound to a mesh and comes from a dump. */
+static void
+bind_restored(Relation mesh)
+{
+	tracking_bind_restored(mesh);
+	published_bind_restored(mesh);
+}
+
 void
 _PG_init(void)
 {
 	settings_define();
 	mesh_cache_init();
 	vacuum_init();
-	mesh_tell_of_restored(tracking_bind_restored);
+	mesh_tell_of_restored(bind_restored);
 	pending_init();
 }
 

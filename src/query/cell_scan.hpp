@@ -17,6 +17,7 @@ public:
 
     /// False after the last simplex. `values` gets all attributes, unless it is null.
     bool next(abacus_simplex &simplex, CornerValues *values);
+    std::uint64_t pages_read() const { return pages_.pages_read(); }
 
 private:
     const Domain<D> domain_;

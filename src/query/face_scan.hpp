@@ -38,6 +38,8 @@ public:
     /// The page with the face at hand, and the number of a corner there.
     const PageView<D> &page() const { return pages_.page(); }
     int vertex(int corner) const { return vertices_[corner]; }
+    /// Those of the window, without what the search for owners of faces reads.
+    std::uint64_t pages_read() const { return pages_.pages_read(); }
 
 private:
     FaceScan(const Host &host, const abacus_header &header, const abacus_window &window,

@@ -52,6 +52,7 @@ public:
         abacus_page page{};
         if (!host_.next(ABACUS_SIMPLEX_PAGES, started_ ? &key_ : nullptr, page)) return false;
         started_ = true;
+        ++pages_read_;
         key_ = page.key;
         size_ = page.size;
         std::memcpy(copy_, page.bytes, std::min(size_, sizeof copy_));
@@ -66,6 +67,7 @@ public:
     /// Key under which the current page is stored.
     const Key &key() const { return key_; }
     const PageView<D> &page() const { return view_; }
+    std::uint64_t pages_read() const { return pages_read_; }
 
 private:
     void follow() {
@@ -91,6 +93,7 @@ private:
     std::uint64_t left_; // simplices and ghosts that the header counts beyond the current page
     Key expected_ = first_key;
     bool started_ = false;
+    std::uint64_t pages_read_ = 0;
     Key key_{};
     std::size_t size_ = 0;
     PageView<D> view_;

@@ -93,6 +93,10 @@ public:
     void rewind();
 
     const PageView<D> &page() const { return whole_ ? whole_->page() : flood_->page(); }
+    /// So far, those that were of no use and those read again included.
+    std::uint64_t pages_read() const {
+        return whole_ ? whole_->pages_read() : flood_->pages_read();
+    }
 
 private:
     bool advance_any();

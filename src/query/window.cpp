@@ -1,6 +1,7 @@
 #include "query/window.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace abacus {
 
@@ -27,6 +28,21 @@ template <int D> bool BallRegion<D>::may_meet(const Point<D> *const *points, int
     return may_meet(around);
 }
 
+// The thinnest one has the fewest pages.
+template <int D> Box<D> slab_around(const Box<D> &box) {
+    int thinnest = 0;
+    for (int i = 1; i < D; ++i)
+        if (box.upper[i] * 0.5 - box.lower[i] * 0.5 <
+            box.upper[thinnest] * 0.5 - box.lower[thinnest] * 0.5)
+            thinnest = i;
+    Box<D> slab;
+    for (int i = 0; i < D; ++i) {
+        slab.lower[i] = i == thinnest ? box.lower[i] : -std::numeric_limits<double>::max();
+        slab.upper[i] = i == thinnest ? box.upper[i] : std::numeric_limits<double>::max();
+    }
+    return slab;
+}
+
 template <int D> Window<D>::Window(const abacus_window &window) {
     const auto point = [](const double *from) {
         Point<D> p;
@@ -37,6 +53,9 @@ template <int D> Window<D>::Window(const abacus_window &window) {
         box_region_.emplace(box_.emplace(point(window.lower), point(window.upper)));
     else if (window.kind == ABACUS_BALL_WINDOW)
         ball_region_.emplace(ball_.emplace(Ball<D>{point(window.center), window.radius}));
+    else if (window.kind == ABACUS_BOUNDS_WINDOW)
+        slab_region_.emplace(
+            slab_around<D>(box_.emplace(point(window.lower), point(window.upper))));
 }
 
 template class BallRegion<2>;

@@ -1,4 +1,9 @@
 // What is asked of a mesh by where it is: all of it, a box, or a ball; closed, and decided exactly.
+//
+// Or simplices whose bounding boxes meet a box, as spatial indexes find them. Such a simplex may
+// pass by the box at any distance, and no chain of such simplices need lead to it. But on each axis
+// it reaches from one side of the box to the other or into it; so, being convex, it meets the slab
+// that the box cuts out of one axis. A slab is convex: its pages are found as those of any region.
 #pragma once
 
 #include "geometry/segment.hpp"
@@ -35,6 +40,7 @@ public:
 
     /// Null: all of the mesh.
     const Region<D> *region() const {
+        if (slab_region_) return &*slab_region_;
         if (box_) return &*box_region_;
         return ball_ ? &*ball_region_ : nullptr;
     }
@@ -43,6 +49,7 @@ public:
     }
     /// Whether a finite simplex of positive orientation meets it.
     bool meets(const Corners<D> &corners) const {
+        if (slab_region_) return BoxRegion<D>(*box_).may_meet(corners.data(), D + 1);
         if (box_) return abacus::meets<D>(corners, *box_);
         return !ball_ ||
                (ball_region_->may_meet(corners.data(), D + 1) && abacus::meets<D>(corners, *ball_));
@@ -57,6 +64,7 @@ public:
 private:
     std::optional<Box<D>> box_;
     std::optional<BoxRegion<D>> box_region_;
+    std::optional<BoxRegion<D>> slab_region_; // then bounding boxes are compared with box_
     std::optional<Ball<D>> ball_;
     std::optional<BallRegion<D>> ball_region_;
 };

@@ -90,6 +90,11 @@ INSERT INTO wanted VALUES
     ('abacus_ray', 'mesh regclass, origin double precision[], direction double precision[], OUT enters double precision, OUT leaves double precision, OUT code bigint, OUT v0 bigint, OUT v1 bigint, OUT v2 bigint, OUT v3 bigint', 'SETOF record', 's', true, 's'),
     ('abacus_visible', 'mesh regclass, observer double precision[], target double precision[], attribute text DEFAULT NULL::text, observer_height double precision DEFAULT 0, target_height double precision DEFAULT 0, OUT visible boolean, OUT x double precision, OUT y double precision, OUT z double precision', 'record', 's', false, 's'),
     ('abacus_raster', 'mesh regclass, lower double precision[], upper double precision[], width integer, height integer, attribute text DEFAULT NULL::text, method text DEFAULT ''linear''::text, outside text DEFAULT ''null''::text, max_edge double precision DEFAULT NULL::double precision, OUT "row" integer, OUT "values" double precision[]', 'SETOF record', 's', false, 's'),
+    ('abacus_fdw_handler', '', 'fdw_handler', 'v', true, 's'),
+    ('abacus_fdw_validator', 'options text[], catalog oid', 'void', 'v', true, 's'),
+    ('abacus_published', 'mesh regclass', 'boolean', 'i', true, 's'),
+    ('abacus_publish', 'mesh regclass, cells text DEFAULT NULL::text, points text DEFAULT NULL::text, schema text DEFAULT NULL::text, geometry boolean DEFAULT NULL::boolean, srid integer DEFAULT NULL::integer, z text DEFAULT NULL::text', 'regclass[]', 'v', false, 'u'),
+    ('abacus_unpublish', 'mesh regclass', 'integer', 'v', true, 'u'),
     ('abacus_line_rows', 'internal', 'internal', 'v', true, 'u'),
     ('abacus_raster_rows', 'internal', 'internal', 'v', true, 'u'),
     ('abacus_version', '', 'text', 's', false, 's');
@@ -105,6 +110,7 @@ SELECT is_empty(
        JOIN pg_extension e ON e.oid = d.refobjid AND e.extname = 'abacus' WHERE p.prosecdef $$,
     'nothing runs with its owner''s rights');
 
+SELECT ok(has_server_privilege('public', 'abacus', 'USAGE'), 'everyone may publish');
 SELECT has_view('abacus_progress');
 SELECT ok(has_table_privilege('public', 'abacus_progress', 'SELECT'), 'progress is for everyone');
 SELECT columns_are('abacus_progress', ARRAY['pid', 'mesh', 'phase', 'done', 'total', 'per_second', 'time_left', 'elapsed', 'pages_read', 'pages_written']);

@@ -33,9 +33,16 @@ CREATE SCHEMA s AUTHORIZATION owner;
 SET search_path = public, abacus;
 SELECT abacus_triangulate('field', 'SELECT i, (i * 7919) % 1009 / 1e3, (i * 104729) % 997 / 1e3, i AS height FROM generate_series(1, 6000) AS i UNION ALL SELECT -i, i * 7919 / 1e3, i * 104729 / 1e3, NULL FROM generate_series(1, 9) AS i UNION ALL SELECT -i - 100, i * 7919 / 1e3, i * 104729 / 1e3, 1 FROM generate_series(1, 9) AS i');
 SELECT abacus_stage('field', 'SELECT 7000 + i, i, i * i, 3 FROM generate_series(1, 40) AS i');
+SELECT abacus_publish('field', geometry => false);
+CREATE SCHEMA before;
+SELECT abacus_triangulate('before.named', 'VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1)');
+SELECT abacus_publish('before.named', geometry => false);
+ALTER TABLE before.named RENAME TO renamed;
+ALTER SCHEMA before RENAME TO after;
 GRANT USAGE ON SCHEMA abacus TO owner;
 SET ROLE owner;
 SELECT abacus_triangulate('s."My Mesh"', 'SELECT i, (i * 7919) % 101, (i * 104729) % 97, (i * 31) % 89 FROM generate_series(1, 3000) AS i', dimension => 3);
+SELECT abacus_publish('s."My Mesh"', geometry => false);
 SQL
 my (%content, %bytes, %grown);
 for my $mesh (@meshes)
@@ -46,6 +53,9 @@ for my $mesh (@meshes)
 }
 
 sub vertex_table { return $_[0] =~ s/("?)$/_vertices$1/r; }
+
+# The foreign table of its cells, or of its points.
+sub shown_table { my ($mesh, $what) = @_; return $mesh =~ s/("?)$/_$what$1/r; }
 
 sub grow
 {
@@ -83,7 +93,12 @@ sub examine
 		is(mesh_bytes($node, $database, $mesh) . mesh_bytes($node, $database, $vertices),
 			$bytes{$mesh}, "$what: its pages, byte by byte");
 		is_sound($node, $database, $mesh, "$what: $mesh");
+		is($node->safe_psql($database, "SELECT count(*) FROM " . shown_table($mesh, 'cells')),
+			$node->safe_psql($database, "SELECT count(*) FROM abacus_simplices('$mesh')"), "$what: its cells as a table");
+		my ($status, $out, $err) = $node->psql($database, "DROP TABLE $mesh");
+		like($err, qr/constraint mesh on foreign table .* depends on table/, "$what: no table loses its mesh");
 	}
+	is($node->safe_psql($database, 'SELECT count(*) FROM after.named_points'), 3, "$what: points of a mesh that was renamed");
 	for my $mesh (@meshes)
 	{
 		is(grow($database, $mesh), $grown{$mesh}, "$what: $mesh grows as the origin does");
@@ -92,6 +107,8 @@ sub examine
 		$node->safe_psql($database, "DROP TABLE $mesh");
 		is($node->safe_psql($database, "SELECT to_regclass('" . vertex_table($mesh) . "')"),
 			'', "$what: dropping $mesh drops both");
+		is($node->safe_psql($database, "SELECT to_regclass('" . shown_table($mesh, $_) . "')"),
+			'', "$what: and the table of its $_") for 'cells', 'points';
 	}
 	return;
 }

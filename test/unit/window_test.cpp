@@ -180,6 +180,57 @@ TEST(Window, HasTheSimplicesThatMeetIt) {
     expect_windows_of_meshes<3>();
 }
 
+/// Small windows that pass by, among others, the long simplices along a slanted side of the hull.
+template <int D> void expect_bounds(MeshOf<D> &mesh, int rounds) {
+    Random random(6);
+    const auto all = mesh.simplices(false);
+    std::size_t passed_by = 0;
+    for (int i = 0; i < rounds; ++i) {
+        abacus_window window{}, box{};
+        window.kind = ABACUS_BOUNDS_WINDOW;
+        Box<D> wanted;
+        for (int k = 0; k < D; ++k) {
+            wanted.lower[k] = window.lower[k] = unit(random) * 1.2 - 0.1;
+            wanted.upper[k] = window.upper[k] = window.lower[k] + unit(random) * 0.02;
+        }
+        box = window;
+        box.kind = ABACUS_BOX_WINDOW;
+        std::multiset<Positions<D>> expected;
+        for (const abacus_simplex &s : all) {
+            const Positions<D> at = places<D>(s);
+            Box<D> around;
+            for (const Point<D> &p : at) around.extend(p);
+            if (around.meets(wanted)) expected.insert(at);
+        }
+        EXPECT_TRUE(read<D>(mesh, window, 0) == expected) << i;
+        passed_by += expected.size() - read<D>(mesh, box, 0).size();
+    }
+    EXPECT_GT(passed_by, 15u);
+    EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
+}
+
+template <int D> void expect_bounds_of_meshes() {
+    auto points = uniform<D>(D == 2 ? 6000 : 2000, 7);
+    for (Point<D> &p : points) // the half below a slanted plane, and more and more near a corner
+        if (p[0] < p[1]) std::swap(p[0], p[1]);
+    for (std::size_t i = 0; i < points.size(); i += 2)
+        for (int k = 1; k < D; ++k) points[i][k] *= points[i][k] * points[i][k];
+    MeshOf<D> mesh(0);
+    ASSERT_EQ(mesh.stage(number<D>(points)), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK);
+    expect_bounds<D>(mesh, 60);
+    auto t =
+        keeping<D>(delaunay<D>(points), [](const Point<D> &c) { return c[0] < 0.4 || c[1] > 0.1; });
+    MeshOf<D> loaded(0);
+    ASSERT_EQ(loaded.load(t.vertices, t.simplices), ABACUS_OK) << loaded.error.message;
+    expect_bounds<D>(loaded, 20);
+}
+
+TEST(Window, OfBoundsHasTheSimplicesWhoseBoundingBoxesMeetIt) {
+    expect_bounds_of_meshes<2>();
+    expect_bounds_of_meshes<3>();
+}
+
 TEST(Window, OfAPointIsItsStar) {
     Mesh mesh(0);
     std::vector<Point<2>> points;

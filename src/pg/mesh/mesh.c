@@ -319,6 +319,13 @@ mesh_bind_vertex_table(Oid mesh, Oid vertices)
 	bind_object(RelationRelationId, vertices, mesh);
 }
 
+/* A foreign table that shows a mesh. */
+void
+mesh_bind_shown_table(Oid mesh, Oid table)
+{
+	bind_object(RelationRelationId, table, mesh);
+}
+
 /* The mesh that a trigger is bound to; InvalidOid if none. */
 Oid
 mesh_of_trigger(Oid trigger)

@@ -19,10 +19,13 @@
 #include "catalog/pg_class.h"
 #include "catalog/pg_database.h"
 #include "catalog/pg_namespace.h"
+#include "commands/explain.h"
 #include "commands/tablecmds.h"
 #include "commands/trigger.h"
 #include "commands/vacuum.h"
+#include "executor/executor.h"
 #include "miscadmin.h"
+#include "optimizer/pathnode.h"
 #include "storage/buf_internals.h"
 #include "storage/bufmgr.h"
 #include "storage/proc.h"
@@ -33,6 +36,10 @@
 #include "utils/snapmgr.h"
 #if PG_VERSION_NUM >= 160000
 #include "varatt.h"
+#endif
+#if PG_VERSION_NUM >= 180000
+#include "commands/explain_format.h"
+#include "commands/explain_state.h"
 #endif
 
 #if PG_VERSION_NUM < 180000
@@ -272,6 +279,37 @@ port_refuse_old_snapshot(Snapshot snapshot, Relation rel, Page page)
 #if PG_VERSION_NUM < 170000
 	TestForOldSnapshot(snapshot, rel, page);
 #endif
+}
+
+/* ---- Foreign scans ------------------------------------------------------------- */
+
+/* A path that scans a foreign table in no order (17 asks for clauses, 18 for disabled nodes). */
+static inline ForeignPath *
+port_create_foreignscan_path(PlannerInfo *root, RelOptInfo *rel, double rows, Cost startup,
+							 Cost total, Relids outer)
+{
+#if PG_VERSION_NUM >= 180000
+	return create_foreignscan_path(root, rel, NULL, rows, 0, startup, total, NIL, outer, NULL, NIL,
+								   NIL);
+#elif PG_VERSION_NUM >= 170000
+	return create_foreignscan_path(root, rel, NULL, rows, startup, total, NIL, outer, NULL, NIL, NIL);
+#else
+	return create_foreignscan_path(root, rel, NULL, rows, startup, total, NIL, outer, NULL, NIL);
+#endif
+}
+
+/* With whose rights a foreign scan reads (16 keeps it in the plan). */
+static inline Oid
+port_foreign_scan_user(ForeignScanState *state)
+{
+#if PG_VERSION_NUM >= 160000
+	Oid			user = ((ForeignScan *) state->ss.ps.plan)->checkAsUser;
+#else
+	const Scan *scan = (Scan *) state->ss.ps.plan;
+	Oid			user = exec_rt_fetch(scan->scanrelid, state->ss.ps.state)->checkAsUser;
+#endif
+
+	return OidIsValid(user) ? user : GetUserId();
 }
 
 #endif

@@ -8,6 +8,8 @@
 #include "fmgr.h"
 #include "nodes/execnodes.h"
 
+#include "pg/base/float_array.h"
+
 /* A result with a row for each figure: name, value, description. */
 typedef struct Figures
 {
@@ -16,8 +18,6 @@ typedef struct Figures
 } Figures;
 
 extern TupleDesc result_row_type(FunctionCallInfo fcinfo);
-extern Datum attribute_array(const double *attributes, int count);
-extern Datum float_matrix(const double *values, int rows, int columns);
 extern void put_figure(const Figures *figures, const char *name, double value,
 					   const char *description);
 extern double bytes_of(PGFunction size, Oid relid);

@@ -1,0 +1,99 @@
+/*
+ * analyze.c: ANALYZE of a published mesh. All rows are read, and some are kept at random.
+ */
+#include "postgres.h"
+
+#include "access/htup_details.h"
+#include "commands/vacuum.h"
+#include "miscadmin.h"
+#include "utils/memutils.h"
+#include "utils/sampling.h"
+
+#include "pg/fdw/estimate.h"
+#include "pg/fdw/mesh_rows.h"
+#include "pg/fdw/wrapper.h"
+
+/* Every column that there is. */
+static Bitmapset *
+all_columns(const Published *published)
+{
+	Bitmapset  *all = NULL;
+
+	for (int i = 0; i < published->count; i++)
+		if (published->columns[i].holds != HOLDS_NOTHING)
+			all = bms_add_member(all, i);
+	return all;
+}
+
+/* Keeps `target` rows of all, each as likely as any other. */
+static int
+acquire_sample(Relation table, int level, HeapTuple *sample, int target, double *all,
+			   double *dead)
+{
+	const Bounds whole = {0};
+	TupleDesc	type = RelationGetDescr(table);
+	Published  *published = published_read(table);
+	MeshRows   *rows = mesh_rows_open(table, published, all_columns(published), GetUserId(),
+									  CurrentMemoryContext);
+	Datum	   *values = palloc(type->natts * sizeof(Datum));
+	bool	   *isnull = palloc(type->natts * sizeof(bool));
+	MemoryContext memory = AllocSetContextCreate(CurrentMemoryContext, "Abacus sample",
+												 ALLOCSET_DEFAULT_SIZES);
+	ReservoirStateData reservoir;
+	double		seen = 0;
+	double		to_skip = -1;
+	int			count = 0;
+
+	reservoir_init_selection_state(&reservoir, target);
+	mesh_rows_begin(rows, &whole);
+	for (;; seen++)
+	{
+		MemoryContext old = MemoryContextSwitchTo(memory);
+		bool		is_row = mesh_rows_next(rows, values, isnull);
+		int			place = count;
+
+		MemoryContextSwitchTo(old);
+		if (!is_row)
+			break;
+		if (count == target && to_skip < 0)
+			to_skip = reservoir_get_next_S(&reservoir, seen, target);
+		if (count < target)
+			count++;
+		else if (to_skip-- > 0)
+			place = -1;
+		else
+		{
+			place = (int) (target * sampler_random_fract(&reservoir.randstate));
+			heap_freetuple(sample[place]);
+		}
+		if (place >= 0)
+			sample[place] = heap_form_tuple(type, values, isnull);
+		MemoryContextReset(memory);
+	}
+	mesh_rows_close(rows);
+	MemoryContextDelete(memory);
+	*all = seen;
+	*dead = 0;
+	return count;
+}
+
+static bool
+analyze_table(Relation table, AcquireSampleRowsFunc *acquire, BlockNumber *pages)
+{
+	MeshSize	size;
+	Oid			mesh = published_mesh(table);
+
+	/* a table without its mesh is passed over, with a warning */
+	if (!OidIsValid(mesh))
+		return false;
+	estimate_mesh(published_read(table), table->rd_rel->relowner, &size);
+	*acquire = acquire_sample;
+	*pages = (BlockNumber) size.pages;
+	return true;
+}
+
+void
+wrapper_set_analyze(FdwRoutine *routine)
+{
+	routine->AnalyzeForeignTable = analyze_table;
+}

@@ -1,0 +1,211 @@
+/*
+ * bounds.c: what a scan is limited to, once the values of its conditions are known.
+ *
+ * A point is in all boxes that it must meet, so it is in what they have in common. A cell
+ * may meet two boxes in different places. So cells are looked for by one condition alone:
+ * one that the cell itself must meet, rather than its bounding box, and else by the least
+ * box.
+ */
+#include "postgres.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "pg/fdw/conditions.h"
+#include "pg/fdw/postgis.h"
+#include "pg/port/port.h"
+
+/* Relative error of a distance that PostGIS computes: much less than this. */
+#define DISTANCE_ERROR 1e-9
+
+/* What the conditions seen so far leave. */
+typedef struct Limits
+{
+	Bounds	   *bounds;
+	Content		content;
+	uint32		dimension;
+	double		lower[ABACUS_MAX_DIMENSION];
+	double		upper[ABACUS_MAX_DIMENSION];
+	bool		has_box;
+	ConditionKind kind;			/* of the condition from which the box of cells is */
+	double		least[ABACUS_MAX_ATTRIBUTES];
+	double		greatest[ABACUS_MAX_ATTRIBUTES];
+} Limits;
+
+static void
+limit(Limits *limits, double *least, double *greatest, ConditionKind kind, double value)
+{
+	if (isnan(value))			/* greater than all numbers */
+	{
+		if (kind != CONDITION_GREATEST)
+			limits->bounds->nothing = true;
+		return;
+	}
+	if (kind != CONDITION_GREATEST)
+		*least = Max(*least, value);
+	if (kind != CONDITION_LEAST)
+		*greatest = Min(*greatest, value);
+	if (!(*least <= *greatest))
+		limits->bounds->nothing = true;
+}
+
+/* A number that a column is compared with. */
+static void
+limit_number(Limits *limits, const Condition *condition, double value)
+{
+	int			number = condition->column.number;
+
+	if (condition->column.holds == HOLDS_ATTRIBUTE)
+		limit(limits, &limits->least[number], &limits->greatest[number], condition->kind, value);
+	else if (number < limits->dimension)
+	{
+		limit(limits, &limits->lower[number], &limits->upper[number], condition->kind, value);
+		limits->has_box = true;
+	}
+}
+
+static double
+size_of(const double *lower, const double *upper)
+{
+	return (upper[0] - lower[0]) * (upper[1] - lower[1]);
+}
+
+static void
+limit_points(Limits *limits, const double *lower, const double *upper)
+{
+	limits->has_box = true;
+	for (int k = 0; k < 2; k++)
+	{
+		limits->lower[k] = Max(limits->lower[k], lower[k]);
+		limits->upper[k] = Min(limits->upper[k], upper[k]);
+		if (!(limits->lower[k] <= limits->upper[k]))
+			limits->bounds->nothing = true;
+	}
+}
+
+static void
+limit_cells(Limits *limits, ConditionKind kind, const double *lower, const double *upper)
+{
+	bool		is_first = !limits->has_box;
+	bool		was_box = limits->kind == CONDITION_BOX;
+	bool		is_box = kind == CONDITION_BOX;
+
+	if (!is_first && (was_box == is_box
+					  ? size_of(lower, upper) >= size_of(limits->lower, limits->upper) : is_box))
+		return;
+	limits->has_box = true;
+	limits->kind = kind;
+	for (int k = 0; k < 2; k++)
+	{
+		limits->lower[k] = lower[k];
+		limits->upper[k] = upper[k];
+	}
+}
+
+/* A geometry that the row's own must meet, itself or by its box, or come so near to. */
+static void
+limit_geometry(Limits *limits, ConditionKind kind, Datum geometry, double distance)
+{
+	double		lower[2];
+	double		upper[2];
+
+	switch (geometry_box(geometry, lower, upper))
+	{
+		case GEOMETRY_ANYWHERE:
+			return;
+		case GEOMETRY_NOWHERE:
+			limits->bounds->nothing = true;
+			return;
+		case GEOMETRY_IN_BOX:
+			break;
+	}
+	geometry_box_outward(lower, upper);
+	for (int k = 0; k < 2 && kind == CONDITION_NEAR; k++)
+	{
+		double		reach = distance +
+			DISTANCE_ERROR * (fabs(distance) + fabs(lower[k]) + fabs(upper[k]));
+
+		lower[k] = Max(-DBL_MAX, lower[k] - reach);
+		upper[k] = Min(DBL_MAX, upper[k] + reach);
+	}
+	if (limits->content == CONTENT_POINTS)
+		limit_points(limits, lower, upper);
+	else
+		limit_cells(limits, kind, lower, upper);
+}
+
+static void
+set_window(const Limits *limits, abacus_window *window)
+{
+	if (!limits->has_box)
+		return;
+	window->kind = limits->content == CONTENT_CELLS && limits->kind == CONDITION_BOX
+		? ABACUS_BOUNDS_WINDOW : ABACUS_BOX_WINDOW;
+	for (uint32 i = 0; i < limits->dimension; i++)
+	{
+		window->lower[i] = limits->lower[i];
+		window->upper[i] = limits->upper[i];
+	}
+}
+
+/* The range of one attribute: the first that has both ends, or else the first that has one. */
+static void
+set_range(const Limits *limits, Bounds *bounds)
+{
+	int			most = 0;
+
+	for (uint32 i = 0; i < ABACUS_MAX_ATTRIBUTES; i++)
+	{
+		int			ends = !isinf(limits->least[i]) + !isinf(limits->greatest[i]);
+
+		if (ends <= most)
+			continue;
+		most = ends;
+		bounds->has_range = true;
+		bounds->range.attribute = i;
+		bounds->range.least = limits->least[i];
+		bounds->range.greatest = limits->greatest[i];
+	}
+}
+
+/* What the conditions limit a scan to, those whose values are not known left out. */
+void
+conditions_bounds(List *conditions, Content content, uint32 dimension, ConditionValue value,
+				  void *context, Bounds *bounds)
+{
+	Limits		limits = {.bounds = bounds, .content = content, .dimension = dimension};
+	ListCell   *cell;
+
+	MemSet(bounds, 0, sizeof(*bounds));
+	for (int i = 0; i < ABACUS_MAX_DIMENSION; i++)
+	{
+		limits.lower[i] = -DBL_MAX;
+		limits.upper[i] = DBL_MAX;
+	}
+	for (int i = 0; i < ABACUS_MAX_ATTRIBUTES; i++)
+	{
+		limits.least[i] = -INFINITY;
+		limits.greatest[i] = INFINITY;
+	}
+	foreach(cell, conditions)
+	{
+		Condition  *condition = lfirst(cell);
+		Datum		datum;
+		Datum		distance = Float8GetDatum(0);
+		bool		isnull;
+		bool		distance_isnull = false;
+
+		if (!value(context, foreach_current_index(cell), false, &datum, &isnull) ||
+			(condition->distance != NULL &&
+			 !value(context, foreach_current_index(cell), true, &distance, &distance_isnull)))
+			continue;
+		if (isnull || distance_isnull)
+			bounds->nothing = true; /* these are never true of NULL */
+		else if (condition->column.holds == HOLDS_GEOMETRY)
+			limit_geometry(&limits, condition->kind, datum, DatumGetFloat8(distance));
+		else
+			limit_number(&limits, condition, DatumGetFloat8(datum));
+	}
+	set_window(&limits, &bounds->window);
+	set_range(&limits, bounds);
+}

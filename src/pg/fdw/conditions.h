@@ -1,0 +1,59 @@
+/*
+ * conditions.h: the conditions of a query that tell which pages of a mesh are needed.
+ */
+#ifndef ABACUS_CONDITIONS_H
+#define ABACUS_CONDITIONS_H
+
+#include "nodes/pathnodes.h"
+
+#include "abacus/ask.h"
+#include "pg/fdw/published.h"
+
+typedef enum ConditionKind
+{
+	CONDITION_LEAST,			/* the column is not less than the value */
+	CONDITION_GREATEST,
+	CONDITION_EQUAL,
+	CONDITION_BOX,				/* its box meets that of the value, rounded as PostGIS does */
+	CONDITION_TOUCH,			/* it meets the value itself */
+	CONDITION_NEAR				/* it is no further from the value than a distance */
+} ConditionKind;
+
+/* A column, and what is asked of it. */
+typedef struct Condition
+{
+	ConditionKind kind;
+	Column		column;
+	Expr	   *value;			/* does not depend on the row */
+	Expr	   *distance;		/* of CONDITION_NEAR; else NULL */
+} Condition;
+
+/* A published mesh as a query has it. */
+typedef struct Shown
+{
+	PlannerInfo *root;
+	Index		relation;
+	const Published *published;
+} Shown;
+
+/* What a scan is limited to. */
+typedef struct Bounds
+{
+	bool		nothing;		/* no row can meet the conditions */
+	abacus_window window;
+	bool		has_range;		/* of an attribute; of points only */
+	abacus_range range;
+} Bounds;
+
+/* The value of a condition, or its distance; false if it is not known, as while planning. */
+typedef bool (*ConditionValue) (void *context, int condition, bool distance, Datum *value,
+								bool *isnull);
+
+extern bool condition_of_clause(const Shown *shown, Expr *clause, Condition *condition);
+extern List *conditions_of_clauses(const Shown *shown, List *clauses);
+extern List *conditions_pack(List *conditions, List **expressions);
+extern List *conditions_unpack(List *packed, List *expressions);
+extern void conditions_bounds(List *conditions, Content content, uint32 dimension,
+							  ConditionValue value, void *context, Bounds *bounds);
+
+#endif

@@ -1,0 +1,178 @@
+/*
+ * estimate.c: how many rows and pages of a published mesh a query needs.
+ *
+ * The header tells how many simplices and vertices there are, and in which box. It is read
+ * only where the user has the right to read it. Points are taken as spread evenly over the
+ * box. A cell that meets a window may reach beyond it, so windows are taken as larger by a
+ * cell; and by a page, of pages.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "access/relation.h"
+#include "optimizer/optimizer.h"
+#include "storage/bufmgr.h"
+#include "utils/acl.h"
+#include "utils/rls.h"
+#include "utils/selfuncs.h"
+#include "utils/snapmgr.h"
+
+#include "pg/fdw/estimate.h"
+#include "pg/mesh/mesh.h"
+#include "pg/port/port.h"
+
+/* Of a mesh that the user may not read. */
+#define UNKNOWN_ROWS 100000.0
+#define UNKNOWN_PAGES 100.0
+/* Of a window, or a geometry, that is known only when the query runs. */
+#define UNKNOWN_SHARE 0.001
+
+static bool
+may_read(Oid mesh, Oid user)
+{
+	return ActiveSnapshotSet() && mesh_of_table(mesh) == mesh &&
+		pg_class_aclcheck(mesh, user, ACL_SELECT) == ACLCHECK_OK &&
+		check_enable_rls(mesh, user, true) != RLS_ENABLED;
+}
+
+static double
+pages_of(Oid mesh)
+{
+	Relation	table = relation_open(mesh, AccessShareLock);
+	double		pages = RelationGetNumberOfBlocks(table);
+
+	relation_close(table, NoLock);
+	return Max(1, pages);
+}
+
+/* Reads what is known of a mesh; as its user will, so that errors are the same. */
+void
+estimate_mesh(const Published *published, Oid user, MeshSize *size)
+{
+	Reader	   *reader;
+
+	MemSet(size, 0, sizeof(*size));
+	size->rows = UNKNOWN_ROWS;
+	size->pages = UNKNOWN_PAGES;
+	if (!may_read(published->mesh, user))
+		return;
+	reader = published_open_mesh(published, user, CurrentMemoryContext);
+	size->is_known = true;
+	size->dimension = reader->header.dimension;
+	size->rows = (double) (published->content == CONTENT_CELLS ? reader->header.simplices
+						   : reader->header.vertices);
+	memcpy(size->lower, reader->header.lower, sizeof(size->lower));
+	memcpy(size->upper, reader->header.upper, sizeof(size->upper));
+	size->pages = pages_of(published->mesh);
+	host_destroy(reader->host);
+}
+
+/* Part of the domain that is in a window which is larger by 1/`parts` of the domain on each axis. */
+static double
+part_in_window(const MeshSize *size, const abacus_window *window, double parts, int only_axis)
+{
+	double		part = 1;
+
+	for (uint32 i = 0; i < size->dimension; i++)
+	{
+		double		extent = size->upper[i] - size->lower[i];
+		double		more = parts > 0 ? extent / parts : 0;
+		double		lower = Max(window->lower[i] - more / 2, size->lower[i]);
+		double		upper = Min(window->upper[i] + more / 2, size->upper[i]);
+
+		if (only_axis >= 0 && only_axis != i)
+			continue;
+		if (extent > 0)
+			part *= Max(0, Min(1, (upper - lower) / extent));
+	}
+	return part;
+}
+
+static int
+thinnest_axis(const MeshSize *size, const abacus_window *window)
+{
+	int			axis = 0;
+
+	for (uint32 i = 1; i < size->dimension; i++)
+		if (window->upper[i] / 2 - window->lower[i] / 2 <
+			window->upper[axis] / 2 - window->lower[axis] / 2)
+			axis = (int) i;
+	return axis;
+}
+
+typedef struct PlannedValues
+{
+	PlannerInfo *root;
+	List	   *conditions;
+} PlannedValues;
+
+/* What is known of a condition's value while planning. */
+static bool
+planned_value(void *context, int number, bool distance, Datum *value, bool *isnull)
+{
+	const PlannedValues *values = context;
+	const Condition *condition = list_nth(values->conditions, number);
+	Node	   *node = estimate_expression_value(values->root,
+												 (Node *) (distance ? condition->distance
+														   : condition->value));
+
+	if (!IsA(node, Const))
+		return false;
+	*value = ((Const *) node)->constvalue;
+	*isnull = ((Const *) node)->constisnull;
+	return true;
+}
+
+/* Whether something places the rows that is known only when the query runs. */
+static bool
+has_unknown(PlannedValues *values)
+{
+	ListCell   *cell;
+
+	foreach(cell, values->conditions)
+	{
+		const Condition *condition = lfirst(cell);
+		Datum		value;
+		bool		isnull;
+
+		if (condition->column.holds != HOLDS_ATTRIBUTE &&
+			!planned_value(values, foreach_current_index(cell), false, &value, &isnull))
+			return true;
+	}
+	return false;
+}
+
+/* What part of the mesh conditions leave, by where the rows are. */
+void
+estimate_share(const Shown *shown, const MeshSize *size, List *conditions, Share *share)
+{
+	PlannedValues values = {shown->root, conditions};
+	const Published *published = shown->published;
+	double		per_axis = 1.0 / Max(2, size->dimension);
+	Bounds		bounds;
+
+	conditions_bounds(conditions, published->content, size->is_known ? size->dimension : 2,
+					  planned_value, &values, &bounds);
+	share->rows = share->pages = 1;
+	if (bounds.nothing)
+		share->rows = share->pages = 0;
+	else if (bounds.window.kind != ABACUS_NO_WINDOW && size->is_known)
+	{
+		bool		is_slab = bounds.window.kind == ABACUS_BOUNDS_WINDOW;
+
+		share->rows = part_in_window(size, &bounds.window, published->content == CONTENT_CELLS
+									 ? pow(Max(1, size->rows), per_axis) : 0, -1);
+		share->pages = part_in_window(size, &bounds.window, pow(size->pages, per_axis),
+									  is_slab ? thinnest_axis(size, &bounds.window) : -1);
+	}
+	if (has_unknown(&values))
+	{
+		share->rows = Min(share->rows, UNKNOWN_SHARE);
+		share->pages = Min(share->pages, sqrt(UNKNOWN_SHARE));
+	}
+	/* as RangeScan of the core decides */
+	share->is_whole = share->pages > 0.25;
+	if (share->is_whole)
+		share->pages = 1;
+}

@@ -1,0 +1,285 @@
+/*
+ * fn_publish.c: abacus_publish and abacus_unpublish, a mesh as foreign tables.
+ */
+#include "postgres.h"
+
+#include "catalog/namespace.h"
+#include "catalog/pg_class.h"
+#include "catalog/pg_type.h"
+#include "commands/defrem.h"
+#include "lib/stringinfo.h"
+#include "miscadmin.h"
+#include "utils/array.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+
+#include "pg/base/sql_function.h"
+#include "pg/base/utility.h"
+#include "pg/fdw/postgis.h"
+#include "pg/fdw/published.h"
+#include "pg/mesh/mesh.h"
+#include "pg/mesh/reader.h"
+#include "pg/port/port.h"
+
+SQL_FUNCTION(abacus_sql_publish);
+SQL_FUNCTION(abacus_sql_unpublish);
+
+enum
+{
+	PUBLISH_MESH,
+	PUBLISH_CELLS,
+	PUBLISH_POINTS,
+	PUBLISH_SCHEMA,
+	PUBLISH_GEOMETRY,
+	PUBLISH_SRID,
+	PUBLISH_Z
+};
+
+/* What is published, and how. */
+typedef struct Publishing
+{
+	Oid			mesh;
+	const abacus_header *header;
+	const char *schema;			/* of the foreign tables */
+	const char *functions;		/* schema of ours */
+	const char *geometry;		/* type, with its schema; NULL: no such column */
+	int			srid;
+	int			z;				/* attribute, or -1 */
+} Publishing;
+
+/* The definition of a table while it is written. */
+typedef struct Definition
+{
+	StringInfoData text;
+	List	   *names;			/* of its columns so far */
+} Definition;
+
+static bool
+is_named(const Definition *definition, const char *name)
+{
+	ListCell   *cell;
+
+	foreach(cell, definition->names)
+		if (strcmp(lfirst(cell), name) == 0)
+			return true;
+	return false;
+}
+
+/* Adds a column. A name that another one has gets a number. */
+static void
+add_column(Definition *definition, const char *name, const char *type, const char *holds,
+		   const char *more)
+{
+	const char *unique = name;
+
+	for (int i = 2; is_named(definition, unique); i++)
+		unique = makeObjectName(name, NULL, psprintf("%d", i));
+	definition->names = lappend(definition->names, unconstify(char *, unique));
+	appendStringInfo(&definition->text, "%s %s OPTIONS (" OPTION_HOLDS " '%s'%s), ",
+					 quote_identifier(unique), type, holds, more);
+}
+
+/* Columns of corners or of coordinates, which are named as what they hold. */
+static void
+add_named_columns(Definition *definition, const char *const *names, int count, const char *type)
+{
+	for (int i = 0; i < count; i++)
+		add_column(definition, names[i], type, names[i], "");
+}
+
+static void
+add_attributes(Definition *definition, const abacus_header *header)
+{
+	for (uint32 i = 0; i < header->attributes; i++)
+		add_column(definition, header->names[i], "pg_catalog.float8",
+				   psprintf("attribute %u", i + 1), "");
+}
+
+static void
+add_geometry(Definition *definition, const Publishing *publication, Content content)
+{
+	bool		is_flat = publication->header->dimension == 2;
+	const char *kind = content == CONTENT_POINTS ? "Point" : is_flat ? "Polygon" : "PolyhedralSurface";
+	bool		has_z = !is_flat || publication->z >= 0;
+
+	if (publication->geometry != NULL)
+		add_column(definition, "geom",
+				   psprintf("%s(%s%s, %d)", publication->geometry, kind, has_z ? "Z" : "",
+							publication->srid),
+				   "geometry", publication->z < 0 ? ""
+				   : psprintf(", " OPTION_Z " '%d'", publication->z + 1));
+}
+
+static void
+add_columns(Definition *definition, const Publishing *publication, Content content)
+{
+	static const char *const ids[] = {"code", "v0", "v1", "v2", "v3"};
+	static const char *const arrays[] = {"corners", "values"};
+	static const char *const axes[] = {"x", "y", "z"};
+	int			dimension = (int) publication->header->dimension;
+
+	if (content == CONTENT_CELLS)
+	{
+		add_named_columns(definition, ids, dimension + 2, "pg_catalog.int8");
+		add_named_columns(definition, arrays, lengthof(arrays), "pg_catalog.float8[]");
+	}
+	else
+	{
+		add_column(definition, "id", "pg_catalog.int8", "id", "");
+		add_named_columns(definition, axes, dimension, "pg_catalog.float8");
+	}
+	add_attributes(definition, publication->header);
+	add_geometry(definition, publication, content);
+}
+
+/* Makes one foreign table; returns it. */
+static Oid
+make_table(const Publishing *publication, Content content, const char *name)
+{
+	Definition	definition = {.names = NIL};
+	Oid			table;
+
+	initStringInfo(&definition.text);
+	appendStringInfo(&definition.text, "CREATE FOREIGN TABLE %s (",
+					 quote_qualified_identifier(publication->schema, name));
+	add_columns(&definition, publication, content);
+	appendStringInfo(&definition.text,
+					 "CONSTRAINT mesh CHECK (%s('%u'::pg_catalog.regclass))) "
+					 "SERVER " FDW_SERVER " OPTIONS (" OPTION_CONTENT " '%s')",
+					 quote_qualified_identifier(publication->functions, FDW_MESH_FUNCTION),
+					 publication->mesh, content == CONTENT_CELLS ? "cells" : "points");
+	utility_run(definition.text.data);
+	table = get_relname_relid(name, LookupExplicitNamespace(publication->schema, false));
+	mesh_bind_shown_table(publication->mesh, table);
+	return table;
+}
+
+/* The name that is given for a table, or <mesh>_<what>. */
+static const char *
+table_name(FunctionCallInfo fcinfo, int argument, Oid mesh, const char *what)
+{
+	char	   *name;
+
+	if (PG_ARGISNULL(argument))
+		return makeObjectName(get_rel_name(mesh), NULL, what);
+	name = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+	if (name[0] == '\0' || strlen(name) >= NAMEDATALEN)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_NAME),
+				 errmsg("invalid name \"%s\" of a foreign table", name),
+				 errhint("A name has 1 to %d bytes.", NAMEDATALEN - 1)));
+	return name;
+}
+
+/* The attribute that becomes Z; -1 if none is given. */
+static int
+z_argument(FunctionCallInfo fcinfo, const Publishing *publication)
+{
+	if (PG_ARGISNULL(PUBLISH_Z))
+		return -1;
+	header_require_dimension(publication->header, 2,
+							 "Geometries of a mesh in space have a Z already: leave out z.");
+	return header_find_attribute(publication->header, text_to_cstring(PG_GETARG_TEXT_PP(PUBLISH_Z)));
+}
+
+/* How geometries are published: without an argument if PostGIS is there. */
+static void
+geometry_arguments(FunctionCallInfo fcinfo, Publishing *publication)
+{
+	bool		is_installed = OidIsValid(postgis_geometry());
+	bool		is_wanted = PG_ARGISNULL(PUBLISH_GEOMETRY) ? is_installed
+		: PG_GETARG_BOOL(PUBLISH_GEOMETRY);
+	Oid			schema;
+	const char *name;
+
+	publication->srid = PG_ARGISNULL(PUBLISH_SRID) ? 0 : PG_GETARG_INT32(PUBLISH_SRID);
+	publication->z = z_argument(fcinfo, publication);
+	if (!is_wanted && (publication->z >= 0 || publication->srid != 0))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("srid and z are of geometries, and none are published"),
+				 errhint(is_installed ? "Leave out geometry => false." :
+						 "Geometries need PostGIS: CREATE EXTENSION postgis.")));
+	if (is_wanted && !is_installed)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("the type geometry does not exist"),
+				 errhint("Geometries need PostGIS: CREATE EXTENSION postgis.")));
+	if (!is_wanted)
+		return;
+	name = postgis_type_name(&schema);
+	publication->geometry = quote_qualified_identifier(get_namespace_name(schema), name);
+}
+
+static Datum
+regclass_array(const Oid *tables, int count)
+{
+	Datum		elements[2];
+
+	Assert(count <= lengthof(elements));
+	for (int i = 0; i < count; i++)
+		elements[i] = ObjectIdGetDatum(tables[i]);
+	return PointerGetDatum(construct_array(elements, count, REGCLASSOID, sizeof(Oid), true,
+										   TYPALIGN_INT));
+}
+
+/*
+ * abacus_publish(mesh regclass, cells text, points text, schema text, geometry boolean,
+ * srid integer, z text) -> regclass[]
+ */
+Datum
+abacus_sql_publish(PG_FUNCTION_ARGS)
+{
+	Publishing	publication = {0};
+	const char *cells;
+	const char *points;
+	Reader	   *reader;
+	Oid			tables[2];
+
+	if (PG_ARGISNULL(PUBLISH_MESH))
+		PG_RETURN_NULL();
+	publication.mesh = PG_GETARG_OID(PUBLISH_MESH);
+	reader = reader_open(publication.mesh, CurrentMemoryContext);
+	host_release(reader->host);
+	publication.header = &reader->header;
+	publication.schema = PG_ARGISNULL(PUBLISH_SCHEMA)
+		? get_namespace_name(get_rel_namespace(publication.mesh))
+		: text_to_cstring(PG_GETARG_TEXT_PP(PUBLISH_SCHEMA));
+	publication.functions = get_namespace_name(get_func_namespace(fcinfo->flinfo->fn_oid));
+	geometry_arguments(fcinfo, &publication);
+	cells = table_name(fcinfo, PUBLISH_CELLS, publication.mesh, "cells");
+	points = table_name(fcinfo, PUBLISH_POINTS, publication.mesh, "points");
+	tables[0] = make_table(&publication, CONTENT_CELLS, cells);
+	tables[1] = make_table(&publication, CONTENT_POINTS, points);
+	host_destroy(reader->host);
+	PG_RETURN_DATUM(regclass_array(tables, lengthof(tables)));
+}
+
+static char *
+qualified_name(Oid table)
+{
+	return quote_qualified_identifier(get_namespace_name(get_rel_namespace(table)),
+									  get_rel_name(table));
+}
+
+/* abacus_unpublish(mesh regclass) -> integer: foreign tables of the caller that were dropped */
+Datum
+abacus_sql_unpublish(PG_FUNCTION_ARGS)
+{
+	Oid			mesh = PG_GETARG_OID(0);
+	int			dropped = 0;
+	StringInfoData command;
+	ListCell   *cell;
+
+	/* as mesh_table_open(), but who may drop the tables need not be able to read the mesh */
+	if (mesh_of_table(mesh) != mesh)
+		table_close(mesh_table_open(mesh, MESH_READ), NoLock);
+	initStringInfo(&command);
+	foreach(cell, published_tables(mesh))
+		if (object_ownercheck(RelationRelationId, lfirst_oid(cell), GetUserId()))
+			appendStringInfo(&command, "%s%s", dropped++ == 0 ? "DROP FOREIGN TABLE " : ", ",
+							 qualified_name(lfirst_oid(cell)));
+	if (dropped > 0)
+		utility_run(command.data);
+	PG_RETURN_INT32(dropped);
+}

@@ -1,0 +1,270 @@
+/*
+ * mesh_rows.c: the rows of a published mesh, one by one.
+ *
+ * The core's scan hands out one simplex or vertex at a time, and reads a page when those of
+ * the page before have gone. Between two rows nothing of PostgreSQL is held. So a query that
+ * stops early has read only the pages that it needed.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "utils/memutils.h"
+
+#include "abacus/ask.h"
+#include "pg/base/float_array.h"
+#include "pg/base/settings.h"
+#include "pg/fdw/mesh_rows.h"
+#include "pg/fdw/postgis.h"
+#include "pg/mesh/reader.h"
+
+struct MeshRows
+{
+	const Published *published;
+	const Bitmapset *wanted;	/* columns, from 0; others are NULL */
+	bool		wants_values;	/* of the corners of cells */
+	MemoryContext memory;
+	Reader	   *reader;
+	abacus_cells *cells;		/* one of the two, once begun */
+	abacus_faces *points;
+	uint64		pages;			/* of scans before */
+	GeometryMaker **makers;		/* of columns with geometries */
+};
+
+/* What a row is made of. */
+typedef struct MeshRow
+{
+	uint32		dimension;
+	uint32		attributes;
+	abacus_vertex vertex;
+	abacus_simplex simplex;
+	double		values[(ABACUS_MAX_DIMENSION + 1) * ABACUS_MAX_ATTRIBUTES];
+} MeshRow;
+
+/* ---- Opening ------------------------------------------------------------- */
+
+/* An error if the mesh lacks what a column holds. */
+static void
+check_column(const MeshRows *rows, Relation table, int at)
+{
+	const abacus_header *header = &rows->reader->header;
+	const Column *column = &rows->published->columns[at];
+	bool		has = true;
+
+	if (column->holds == HOLDS_CORNER)
+		has = column->number <= header->dimension;
+	else if (column->holds == HOLDS_COORDINATE)
+		has = column->number < header->dimension;
+	else if (column->holds == HOLDS_ATTRIBUTE || column->holds == HOLDS_GEOMETRY)
+		has = column->number < (int) header->attributes;
+	if (!has)
+		ereport(ERROR,
+				(errcode(ERRCODE_FDW_COLUMN_NAME_NOT_FOUND),
+				 errmsg("mesh has nothing for column \"%s\" of foreign table \"%s\"",
+						NameStr(TupleDescAttr(RelationGetDescr(table), at)->attname),
+						RelationGetRelationName(table)),
+				 errhint("Unpublish the mesh and publish it again.")));
+}
+
+static void
+prepare_columns(MeshRows *rows, Relation table)
+{
+	const Published *published = rows->published;
+
+	rows->makers = palloc0(published->count * sizeof(GeometryMaker *));
+	for (int i = 0; i < published->count; i++)
+	{
+		const Column *column = &published->columns[i];
+
+		if (!bms_is_member(i, rows->wanted))
+			continue;
+		check_column(rows, table, i);
+		if (column->holds == HOLDS_GEOMETRY)
+			rows->makers[i] = geometry_maker(TupleDescAttr(RelationGetDescr(table), i)->atttypmod);
+		rows->wants_values |= column->holds == HOLDS_VALUES || column->holds == HOLDS_ATTRIBUTE ||
+			(column->holds == HOLDS_GEOMETRY && column->number >= 0);
+	}
+}
+
+/*
+ * Opens the mesh for reading under the active snapshot, with the rights of a user. `wanted`:
+ * the columns whose values are asked for, from 0.
+ */
+MeshRows *
+mesh_rows_open(Relation table, const Published *published, const Bitmapset *wanted, Oid user,
+			   MemoryContext parent)
+{
+	MemoryContext memory = AllocSetContextCreate(parent, "Abacus rows", ALLOCSET_SMALL_SIZES);
+	MemoryContext old = MemoryContextSwitchTo(memory);
+	MeshRows   *rows = palloc0(sizeof(MeshRows));
+
+	rows->published = published;
+	rows->wanted = wanted;
+	rows->memory = memory;
+	rows->reader = published_open_mesh(published, user, memory);
+	prepare_columns(rows, table);
+	MemoryContextSwitchTo(old);
+	return rows;
+}
+
+uint32
+mesh_rows_dimension(const MeshRows *rows)
+{
+	return rows->reader->header.dimension;
+}
+
+/* Begins with the first row; may be called again. */
+void
+mesh_rows_begin(MeshRows *rows, const Bounds *bounds)
+{
+	Reader	   *reader = rows->reader;
+	Host	   *host = reader->host;
+
+	rows->pages = mesh_rows_pages(rows);
+	rows->cells = NULL;
+	rows->points = NULL;
+	host_own(host, NULL, NULL);
+	if (bounds->nothing)
+		return;
+	if (rows->published->content == CONTENT_CELLS)
+	{
+		host_run(host, abacus_cells_open, &host->table, &reader->header, &bounds->window, 0.0,
+				 &rows->cells);
+		host_own(host, rows->cells, (void (*) (void *)) abacus_cells_close);
+		return;
+	}
+	if (bounds->has_range)
+		host_run(host, abacus_faces_open_range, &host->table, &reader->header, &bounds->window,
+				 &bounds->range, setting_cache_bytes(), &rows->points);
+	else
+		host_run(host, abacus_faces_open, &host->table, &reader->header, &bounds->window, 0, 0.0,
+				 setting_cache_bytes(), &rows->points);
+	host_own(host, rows->points, (void (*) (void *)) abacus_faces_close);
+}
+
+/* ---- Rows ---------------------------------------------------------------- */
+
+/* An attribute, NaN if it is missing: of a point its value, of a cell the mean of its corners. */
+static double
+attribute(const MeshRows *rows, const MeshRow *row, int number)
+{
+	double		sum = 0;
+
+	if (rows->published->content == CONTENT_POINTS)
+		return row->vertex.attributes[number];
+	for (uint32 i = 0; i <= row->dimension; i++)
+		sum += row->values[i * row->attributes + number];
+	return sum / (row->dimension + 1);
+}
+
+static Datum
+corners(const MeshRow *row)
+{
+	double		corners[(ABACUS_MAX_DIMENSION + 1) * ABACUS_MAX_DIMENSION];
+	uint32		dimension = row->dimension;
+
+	for (uint32 i = 0; i <= dimension; i++)
+		memcpy(corners + i * dimension, row->simplex.corner[i], dimension * sizeof(double));
+	return float_matrix(corners, (int) dimension + 1, (int) dimension);
+}
+
+static Datum
+geometry(const MeshRows *rows, MeshRow *row, GeometryMaker *maker, int number)
+{
+	double		z[ABACUS_MAX_DIMENSION + 1];
+
+	if (rows->published->content == CONTENT_POINTS)
+		return geometry_of_point(maker, row->vertex.point, (int) row->dimension,
+								 number < 0 ? NULL : &row->vertex.attributes[number]);
+	for (uint32 i = 0; number >= 0 && i <= row->dimension; i++)
+		z[i] = row->values[i * row->attributes + number];
+	return geometry_of_cell(maker, row->simplex.corner, (int) row->dimension,
+							number < 0 ? NULL : z);
+}
+
+static Datum
+column_value(const MeshRows *rows, MeshRow *row, int at, bool *isnull)
+{
+	const Column *column = &rows->published->columns[at];
+	double		value;
+
+	switch (column->holds)
+	{
+		case HOLDS_CODE:
+			return Int64GetDatum((int64) row->simplex.code);
+		case HOLDS_CORNER:
+			return Int64GetDatum(row->simplex.id[column->number]);
+		case HOLDS_CORNERS:
+			return corners(row);
+		case HOLDS_VALUES:
+			return float_matrix(row->values, (int) row->dimension + 1, (int) row->attributes);
+		case HOLDS_ID:
+			return Int64GetDatum(row->vertex.id);
+		case HOLDS_COORDINATE:
+			return Float8GetDatum(row->vertex.point[column->number]);
+		case HOLDS_ATTRIBUTE:
+			value = attribute(rows, row, column->number);
+			*isnull = isnan(value) != 0;
+			return Float8GetDatum(value);
+		case HOLDS_GEOMETRY:
+			return geometry(rows, row, rows->makers[at], column->number);
+		case HOLDS_NOTHING:
+			break;
+	}
+	*isnull = true;
+	return (Datum) 0;
+}
+
+/* Gets the next simplex or vertex from the core. */
+static bool
+fetch(MeshRows *rows, MeshRow *row)
+{
+	Host	   *host = rows->reader->host;
+	abacus_status status;
+
+	if (rows->cells != NULL)
+		status = host_run(host, abacus_cells_next, rows->cells, &row->simplex,
+						  rows->wants_values ? row->values : NULL);
+	else if (rows->points != NULL)
+		status = host_run(host, abacus_faces_next_vertex, rows->points, &row->vertex);
+	else
+		return false;
+	host_release(host);
+	return status != ABACUS_END;
+}
+
+/*
+ * The next row, in the current memory context; false after the last. Columns that are not
+ * wanted are NULL.
+ */
+bool
+mesh_rows_next(MeshRows *rows, Datum *values, bool *isnull)
+{
+	MeshRow		row;
+
+	if (!fetch(rows, &row))
+		return false;
+	row.dimension = rows->reader->header.dimension;
+	row.attributes = rows->reader->header.attributes;
+	for (int i = 0; i < rows->published->count; i++)
+	{
+		isnull[i] = !bms_is_member(i, rows->wanted);
+		values[i] = isnull[i] ? (Datum) 0 : column_value(rows, &row, i, &isnull[i]);
+	}
+	return true;
+}
+
+/* How many pages have been read so far. */
+uint64
+mesh_rows_pages(const MeshRows *rows)
+{
+	if (rows->cells != NULL)
+		return rows->pages + abacus_cells_pages(rows->cells);
+	return rows->pages + (rows->points != NULL ? abacus_faces_pages(rows->points) : 0);
+}
+
+void
+mesh_rows_close(MeshRows *rows)
+{
+	MemoryContextDelete(rows->memory);
+}

@@ -1,0 +1,237 @@
+/*
+ * plan.c: how a query on a published mesh is planned.
+ *
+ * There is one path without parameters, and one for each set of other tables from which
+ * conditions on places come: a join may then look for each row of these.
+ */
+#include "postgres.h"
+
+#include "access/sysattr.h"
+#include "access/table.h"
+#include "catalog/pg_class.h"
+#include "miscadmin.h"
+#include "optimizer/cost.h"
+#include "optimizer/optimizer.h"
+#include "optimizer/pathnode.h"
+#include "optimizer/paths.h"
+#include "optimizer/planmain.h"
+#include "optimizer/restrictinfo.h"
+#include "parser/parsetree.h"
+#include "utils/lsyscache.h"
+
+#include "pg/fdw/estimate.h"
+#include "pg/fdw/wrapper.h"
+#include "pg/port/port.h"
+
+/* Simplices of a page that are looked at cost so many operators each. */
+#define OPERATORS_PER_ROW 2.0
+
+/* What planning keeps of a table: fdw_private of its RelOptInfo. */
+typedef struct Planned
+{
+	Shown		shown;
+	MeshSize	size;
+	List	   *conditions;		/* of the query on this table alone */
+	Share		share;
+} Planned;
+
+static void
+get_rel_size(PlannerInfo *root, RelOptInfo *rel, Oid relid)
+{
+	Planned    *planned = palloc0(sizeof(Planned));
+	Relation	table = table_open(relid, NoLock);
+	List	   *others = NIL;
+	ListCell   *cell;
+
+	planned->shown.root = root;
+	planned->shown.relation = rel->relid;
+	planned->shown.published = published_read(table);
+	table_close(table, NoLock);
+	estimate_mesh(planned->shown.published, OidIsValid(rel->userid) ? rel->userid : GetUserId(),
+				  &planned->size);
+	planned->conditions = conditions_of_clauses(&planned->shown, rel->baserestrictinfo);
+	estimate_share(&planned->shown, &planned->size, planned->conditions, &planned->share);
+	rel->fdw_private = planned;
+
+	rel->tuples = planned->size.rows;
+	rel->pages = (BlockNumber) planned->size.pages;
+	set_baserel_size_estimates(root, rel);	/* width, and what conditions cost */
+	foreach(cell, rel->baserestrictinfo)
+	{
+		RestrictInfo *clause = lfirst_node(RestrictInfo, cell);
+		Condition	condition;
+
+		if (!condition_of_clause(&planned->shown, clause->clause, &condition) ||
+			condition.column.holds == HOLDS_ATTRIBUTE)
+			others = lappend(others, clause);
+	}
+	rel->rows = clamp_row_est(rel->tuples * planned->share.rows *
+							  clauselist_selectivity(root, others, 0, JOIN_INNER, NULL));
+}
+
+/* Adds a path that is parameterized by some tables, or by none. */
+static void
+add_scan(PlannerInfo *root, RelOptInfo *rel, const Share *share, Relids outer, double rows)
+{
+	Planned    *planned = rel->fdw_private;
+	double		pages = planned->size.pages * share->pages;
+	double		looked_at = rel->tuples * share->pages;
+	Cost		startup = rel->baserestrictcost.startup + rel->reltarget->cost.startup;
+	Cost		run;
+
+	/* a window begins with a walk to it */
+	if (!share->is_whole)
+		pages = Max(1, pages) + 2;
+	run = pages * (share->is_whole ? seq_page_cost : random_page_cost) +
+		looked_at * OPERATORS_PER_ROW * cpu_operator_cost +
+		rel->tuples * share->rows * (cpu_tuple_cost + rel->baserestrictcost.per_tuple) +
+		rows * rel->reltarget->cost.per_tuple;
+	add_path(rel, (Path *) port_create_foreignscan_path(root, rel, rows, startup, startup + run,
+														outer));
+}
+
+/* Whether a clause from a join is a condition that tells pages. */
+static bool
+places_rows(RelOptInfo *rel, RestrictInfo *clause)
+{
+	Planned    *planned = rel->fdw_private;
+	Condition	condition;
+
+	return condition_of_clause(&planned->shown, clause->clause, &condition);
+}
+
+static bool
+is_coordinate(PlannerInfo *root, RelOptInfo *rel, EquivalenceClass *ec, EquivalenceMember *member,
+			  void *context)
+{
+	const Planned *planned = rel->fdw_private;
+	const Var  *var = (Var *) member->em_expr;
+
+	return IsA(var, Var) && var->varno == rel->relid && var->varattno > 0 &&
+		planned->shown.published->columns[var->varattno - 1].holds == HOLDS_COORDINATE;
+}
+
+/* Sets of other tables from which conditions come that tell pages. */
+static List *
+outer_sets(PlannerInfo *root, RelOptInfo *rel)
+{
+	List	   *clauses = list_copy(rel->joininfo);
+	List	   *sets = NIL;
+	ListCell   *cell;
+
+	if (rel->has_eclass_joins)
+		clauses = list_concat(clauses,
+							  generate_implied_equalities_for_column(root, rel, is_coordinate, NULL,
+																	 rel->lateral_referencers));
+	foreach(cell, clauses)
+	{
+		RestrictInfo *clause = lfirst_node(RestrictInfo, cell);
+		Relids		outer;
+		ListCell   *known;
+
+		if (!join_clause_is_movable_to(clause, rel) || !places_rows(rel, clause))
+			continue;
+		outer = bms_del_member(bms_union(clause->clause_relids, rel->lateral_relids), rel->relid);
+		foreach(known, sets)
+			if (bms_equal(lfirst(known), outer))
+				break;
+		if (!bms_is_empty(outer) && known == NULL)
+			sets = lappend(sets, outer);
+	}
+	return sets;
+}
+
+static void
+get_paths(PlannerInfo *root, RelOptInfo *rel, Oid relid)
+{
+	Planned    *planned = rel->fdw_private;
+	ListCell   *cell;
+
+	add_scan(root, rel, &planned->share, rel->lateral_relids, rel->rows);
+	foreach(cell, outer_sets(root, rel))
+	{
+		Relids		outer = lfirst(cell);
+		ParamPathInfo *info = get_baserel_parampathinfo(root, rel, outer);
+		List	   *clauses = list_concat_copy(info->ppi_clauses, rel->baserestrictinfo);
+		Share		share;
+
+		estimate_share(&planned->shown, &planned->size,
+					   conditions_of_clauses(&planned->shown, clauses), &share);
+		add_scan(root, rel, &share, outer, info->ppi_rows);
+	}
+}
+
+/* Numbers of the columns that a query asks for, from 0. */
+static List *
+wanted_columns(const RelOptInfo *rel, int count)
+{
+	Bitmapset  *used = NULL;
+	List	   *wanted = NIL;
+	ListCell   *cell;
+
+	pull_varattnos((Node *) rel->reltarget->exprs, rel->relid, &used);
+	foreach(cell, rel->baserestrictinfo)
+		pull_varattnos((Node *) lfirst_node(RestrictInfo, cell)->clause, rel->relid, &used);
+	foreach(cell, rel->joininfo)
+		pull_varattnos((Node *) lfirst_node(RestrictInfo, cell)->clause, rel->relid, &used);
+	for (int i = 0; i < count; i++)
+		if (bms_is_member(0 - FirstLowInvalidHeapAttributeNumber, used) ||
+			bms_is_member(i + 1 - FirstLowInvalidHeapAttributeNumber, used))
+			wanted = lappend_int(wanted, i);
+	return wanted;
+}
+
+static ForeignScan *
+get_plan(PlannerInfo *root, RelOptInfo *rel, Oid relid, ForeignPath *path, List *targets,
+		 List *clauses, Plan *outer_plan)
+{
+	Planned    *planned = rel->fdw_private;
+	List	   *expressions;
+	List	   *packed = conditions_pack(conditions_of_clauses(&planned->shown, clauses),
+										 &expressions);
+
+	return make_foreignscan(targets, extract_actual_clauses(clauses, false), rel->relid,
+							expressions,
+							list_make2(wanted_columns(rel, planned->shown.published->count),
+									   packed),
+							NIL, NIL, outer_plan);
+}
+
+/* Refuses to write rows, before the executor does without a hint. */
+static List *
+plan_modify(PlannerInfo *root, ModifyTable *plan, Index target, int subplan)
+{
+	Oid			relid = planner_rt_fetch(target, root)->relid;
+	Relation	table = table_open(relid, NoLock);
+	Oid			mesh = published_mesh(table);
+
+	table_close(table, NoLock);
+	ereport(ERROR,
+			(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+			 errmsg("cannot change foreign table \"%s\": it shows a mesh", get_rel_name(relid)),
+			 OidIsValid(mesh)
+			 ? errhint("Change the mesh \"%s\" with abacus_insert() and abacus_delete(), or the "
+					   "table that it follows.", get_rel_name(mesh)) : 0));
+	return NIL;					/* not reached */
+}
+
+/* Workers cannot read a temporary mesh. */
+static bool
+is_parallel_safe(PlannerInfo *root, RelOptInfo *rel, RangeTblEntry *entry)
+{
+	Relation	table = table_open(entry->relid, NoLock);
+	Oid			mesh = published_mesh(table);
+
+	table_close(table, NoLock);
+	return OidIsValid(mesh) && get_rel_persistence(mesh) != RELPERSISTENCE_TEMP;
+}
+
+void
+wrapper_set_planner(FdwRoutine *routine)
+{
+	routine->GetForeignRelSize = get_rel_size;
+	routine->GetForeignPaths = get_paths;
+	routine->GetForeignPlan = get_plan;
+	routine->PlanForeignModify = plan_modify;
+	routine->IsForeignScanParallelSafe = is_parallel_safe;
+}

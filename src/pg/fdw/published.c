@@ -1,0 +1,314 @@
+/*
+ * published.c: a foreign table that shows a mesh.
+ *
+ * An option would name the mesh as it was called when the table was made. So a constraint
+ * of the table names it, CHECK (abacus_published('mesh')), as a regclass. PostgreSQL keeps
+ * that by the OID: the mesh may be renamed or move to another schema. A dump writes the
+ * name that the mesh has then, and restores the mesh before the table.
+ *
+ * What a column holds is an option of the column. So columns may be renamed or dropped.
+ * Attributes have their numbers there, since they can be renamed as well.
+ */
+#include "postgres.h"
+
+#include "access/genam.h"
+#include "access/htup_details.h"
+#include "access/table.h"
+#include "catalog/dependency.h"
+#include "catalog/indexing.h"
+#include "catalog/pg_class.h"
+#include "catalog/pg_constraint.h"
+#include "catalog/pg_depend.h"
+#include "catalog/pg_proc.h"
+#include "catalog/pg_type.h"
+#include "commands/defrem.h"
+#include "commands/extension.h"
+#include "foreign/fdwapi.h"
+#include "foreign/foreign.h"
+#include "miscadmin.h"
+#include "nodes/primnodes.h"
+#include "utils/fmgroids.h"
+#include "utils/lsyscache.h"
+#include "utils/syscache.h"
+
+#include "pg/fdw/postgis.h"
+#include "pg/fdw/published.h"
+#include "pg/mesh/mesh.h"
+#include "pg/port/port.h"
+
+/* The content that a word names. */
+bool
+published_content(const char *word, Content *content)
+{
+	if (strcmp(word, "cells") == 0)
+		*content = CONTENT_CELLS;
+	else if (strcmp(word, "points") == 0)
+		*content = CONTENT_POINTS;
+	else
+		return false;
+	return true;
+}
+
+/* The number of an attribute, from 0, that a word tells from 1; negative if it tells none. */
+int
+published_number(const char *word)
+{
+	char	   *end;
+	long		number = strtol(word, &end, 10);
+
+	return end != word && *end == '\0' && number >= 1 && number <= ABACUS_MAX_ATTRIBUTES
+		? (int) number - 1 : -1;
+}
+
+/* What a word says that a column holds. */
+bool
+published_holds(const char *word, Column *column)
+{
+	static const struct
+	{
+		const char *word;
+		Column		column;
+	}			words[] = {
+		{"code", {HOLDS_CODE, 0}},
+		{"v0", {HOLDS_CORNER, 0}},
+		{"v1", {HOLDS_CORNER, 1}},
+		{"v2", {HOLDS_CORNER, 2}},
+		{"v3", {HOLDS_CORNER, 3}},
+		{"corners", {HOLDS_CORNERS, 0}},
+		{"values", {HOLDS_VALUES, 0}},
+		{"id", {HOLDS_ID, 0}},
+		{"x", {HOLDS_COORDINATE, 0}},
+		{"y", {HOLDS_COORDINATE, 1}},
+		{"z", {HOLDS_COORDINATE, 2}},
+		{"geometry", {HOLDS_GEOMETRY, -1}},
+	};
+	const char *attribute = "attribute ";
+
+	for (int i = 0; i < lengthof(words); i++)
+		if (strcmp(word, words[i].word) == 0)
+		{
+			*column = words[i].column;
+			return true;
+		}
+	if (strncmp(word, attribute, strlen(attribute)) != 0)
+		return false;
+	column->holds = HOLDS_ATTRIBUTE;
+	column->number = published_number(word + strlen(attribute));
+	return column->number >= 0;
+}
+
+static const char *
+option(List *options, const char *name)
+{
+	ListCell   *cell;
+
+	foreach(cell, options)
+	{
+		DefElem    *element = lfirst(cell);
+
+		if (strcmp(element->defname, name) == 0)
+			return defGetString(element);
+	}
+	return NULL;
+}
+
+/* The type that a column must have. */
+static Oid
+type_of(const Column *column)
+{
+	switch (column->holds)
+	{
+		case HOLDS_CODE:
+		case HOLDS_CORNER:
+		case HOLDS_ID:
+			return INT8OID;
+		case HOLDS_CORNERS:
+		case HOLDS_VALUES:
+			return FLOAT8ARRAYOID;
+		case HOLDS_COORDINATE:
+		case HOLDS_ATTRIBUTE:
+			return FLOAT8OID;
+		default:
+			return postgis_geometry();
+	}
+}
+
+/* Whether cells, or points, have what a column holds. */
+static bool
+belongs(const Column *column, Content content)
+{
+	switch (column->holds)
+	{
+		case HOLDS_CODE:
+		case HOLDS_CORNER:
+		case HOLDS_CORNERS:
+		case HOLDS_VALUES:
+			return content == CONTENT_CELLS;
+		case HOLDS_ID:
+		case HOLDS_COORDINATE:
+			return content == CONTENT_POINTS;
+		default:
+			return true;
+	}
+}
+
+static void
+read_column(Relation table, Content content, Form_pg_attribute attribute, Column *column)
+{
+	List	   *options = GetForeignColumnOptions(RelationGetRelid(table), attribute->attnum);
+	const char *word = option(options, OPTION_HOLDS);
+	const char *z = option(options, OPTION_Z);
+
+	if (word == NULL || !published_holds(word, column) || !belongs(column, content))
+		ereport(ERROR,
+				(errcode(ERRCODE_FDW_INVALID_COLUMN_NAME),
+				 errmsg("column \"%s\" of foreign table \"%s\" shows nothing of the mesh",
+						NameStr(attribute->attname), RelationGetRelationName(table)),
+				 errhint("Drop the column; abacus_publish() makes those that there are.")));
+	if (attribute->atttypid != type_of(column))
+		ereport(ERROR,
+				(errcode(ERRCODE_FDW_INVALID_DATA_TYPE),
+				 errmsg("column \"%s\" of foreign table \"%s\" has another type than it must have",
+						NameStr(attribute->attname), RelationGetRelationName(table)),
+				 errhint("Unpublish the mesh and publish it again.")));
+	if (z != NULL && column->holds == HOLDS_GEOMETRY)
+		column->number = published_number(z);
+}
+
+/* The mesh that a constraint names; InvalidOid if this is no such constraint. */
+static Oid
+mesh_of_check(const char *check)
+{
+	Node	   *expression = stringToNode(check);
+	Oid			function;
+	Node	   *mesh;
+
+	if (!IsA(expression, FuncExpr) || list_length(((FuncExpr *) expression)->args) != 1)
+		return InvalidOid;
+	function = ((FuncExpr *) expression)->funcid;
+	mesh = linitial(((FuncExpr *) expression)->args);
+	if (!IsA(mesh, Const) || ((Const *) mesh)->consttype != REGCLASSOID ||
+		((Const *) mesh)->constisnull ||
+		getExtensionOfObject(ProcedureRelationId, function) != get_extension_oid("abacus", true) ||
+		strcmp(get_func_name(function), FDW_MESH_FUNCTION) != 0)
+		return InvalidOid;
+	return DatumGetObjectId(((Const *) mesh)->constvalue);
+}
+
+/* The mesh that a foreign table shows; InvalidOid if no constraint names it any more. */
+Oid
+published_mesh(Relation table)
+{
+	TupleConstr *constraints = RelationGetDescr(table)->constr;
+	Oid			mesh = InvalidOid;
+
+	for (int i = 0; constraints != NULL && !OidIsValid(mesh) && i < constraints->num_check; i++)
+		mesh = mesh_of_check(constraints->check[i].ccbin);
+	return mesh;
+}
+
+/* Reads what a foreign table shows, in the current memory context. */
+Published *
+published_read(Relation table)
+{
+	TupleDesc	row = RelationGetDescr(table);
+	Published  *published = palloc0(offsetof(Published, columns) + row->natts * sizeof(Column));
+	const char *content = option(GetForeignTable(RelationGetRelid(table))->options, OPTION_CONTENT);
+
+	published->table = RelationGetRelid(table);
+	published->mesh = published_mesh(table);
+	if (!OidIsValid(published->mesh) || content == NULL ||
+		!published_content(content, &published->content))
+		ereport(ERROR,
+				(errcode(ERRCODE_FDW_TABLE_NOT_FOUND),
+				 errmsg("foreign table \"%s\" shows no mesh", RelationGetRelationName(table)),
+				 errdetail("A constraint of the table, CHECK (%s(mesh)), names the mesh, and an "
+						   "option tells its content.", FDW_MESH_FUNCTION),
+				 errhint("Drop the table; abacus_publish() makes such tables.")));
+	published->count = row->natts;
+	for (int i = 0; i < row->natts; i++)
+		if (!TupleDescAttr(row, i)->attisdropped)
+			read_column(table, published->content, TupleDescAttr(row, i), &published->columns[i]);
+	return published;
+}
+
+/*
+ * Opens the mesh for reading under the active snapshot, with the rights of a user. Nothing of
+ * PostgreSQL stays open.
+ */
+Reader *
+published_open_mesh(const Published *published, Oid user, MemoryContext memory)
+{
+	Reader	   *reader;
+	Oid			caller;
+	int			context;
+
+	/* after an error the transaction, or the nested one, takes the user back */
+	GetUserIdAndSecContext(&caller, &context);
+	SetUserIdAndSecContext(user, context | SECURITY_LOCAL_USERID_CHANGE);
+	reader = reader_open(published->mesh, memory);
+	SetUserIdAndSecContext(caller, context);
+	host_release(reader->host);
+	return reader;
+}
+
+/* ---- The tables of a mesh ------------------------------------------------- */
+
+/* The foreign table of ours that has this constraint; InvalidOid if there is none. */
+static Oid
+table_of_constraint(Oid constraint)
+{
+	HeapTuple	tuple = SearchSysCache1(CONSTROID, ObjectIdGetDatum(constraint));
+	Oid			table = InvalidOid;
+
+	if (HeapTupleIsValid(tuple))
+	{
+		table = ((Form_pg_constraint) GETSTRUCT(tuple))->conrelid;
+		ReleaseSysCache(tuple);
+	}
+	if (!OidIsValid(table) || get_rel_relkind(table) != RELKIND_FOREIGN_TABLE ||
+		GetForeignServerIdByRelId(table) != get_foreign_server_oid(FDW_SERVER, true))
+		return InvalidOid;
+	return table;
+}
+
+/* The foreign tables that show a mesh: their constraints depend on it. */
+List *
+published_tables(Oid mesh)
+{
+	Relation	depend = table_open(DependRelationId, AccessShareLock);
+	List	   *tables = NIL;
+	ScanKeyData keys[2];
+	SysScanDesc scan;
+	HeapTuple	tuple;
+
+	ScanKeyInit(&keys[0], Anum_pg_depend_refclassid, BTEqualStrategyNumber, F_OIDEQ,
+				ObjectIdGetDatum(RelationRelationId));
+	ScanKeyInit(&keys[1], Anum_pg_depend_refobjid, BTEqualStrategyNumber, F_OIDEQ,
+				ObjectIdGetDatum(mesh));
+	scan = systable_beginscan(depend, DependReferenceIndexId, true, NULL, 2, keys);
+	while (HeapTupleIsValid(tuple = systable_getnext(scan)))
+	{
+		Form_pg_depend entry = (Form_pg_depend) GETSTRUCT(tuple);
+		Oid			table = entry->classid == ConstraintRelationId
+			? table_of_constraint(entry->objid) : InvalidOid;
+
+		if (OidIsValid(table))
+			tables = list_append_unique_oid(tables, table);
+	}
+	systable_endscan(scan);
+	table_close(depend, AccessShareLock);
+	list_sort(tables, list_oid_cmp);
+	return tables;
+}
+
+/* A dump does not carry what lets a table go with its mesh: see mesh.c. */
+void
+published_bind_restored(Relation mesh)
+{
+	ListCell   *cell;
+
+	foreach(cell, published_tables(RelationGetRelid(mesh)))
+		if (object_ownercheck(RelationRelationId, lfirst_oid(cell), mesh->rd_rel->relowner))
+			mesh_bind_shown_table(RelationGetRelid(mesh), lfirst_oid(cell));
+}

@@ -1,0 +1,66 @@
+/*
+ * published.h: a foreign table that shows a mesh: which mesh, what of it, and what
+ * each column holds.
+ */
+#ifndef ABACUS_PUBLISHED_H
+#define ABACUS_PUBLISHED_H
+
+#include "access/tupdesc.h"
+#include "utils/rel.h"
+
+#include "pg/mesh/reader.h"
+
+#define FDW_NAME "abacus"
+#define FDW_SERVER "abacus"
+/* The function by which a constraint of the table names the mesh. */
+#define FDW_MESH_FUNCTION "abacus_published"
+
+/* Options of a table and of its columns. */
+#define OPTION_CONTENT "content"
+#define OPTION_HOLDS "holds"
+#define OPTION_Z "z"
+
+typedef enum Content
+{
+	CONTENT_CELLS,
+	CONTENT_POINTS
+} Content;
+
+typedef enum Holds
+{
+	HOLDS_NOTHING,				/* a column that was dropped */
+	HOLDS_CODE,
+	HOLDS_CORNER,				/* of a cell: the id of corner `number` */
+	HOLDS_CORNERS,				/* their coordinates */
+	HOLDS_VALUES,				/* their attributes */
+	HOLDS_ID,
+	HOLDS_COORDINATE,			/* of a point: on axis `number` */
+	HOLDS_ATTRIBUTE,			/* `number`: of a point its value, of a cell the mean of its corners */
+	HOLDS_GEOMETRY				/* with attribute `number` as Z, unless that is negative */
+} Holds;
+
+typedef struct Column
+{
+	Holds		holds;
+	int			number;			/* from 0 */
+} Column;
+
+typedef struct Published
+{
+	Oid			table;
+	Oid			mesh;
+	Content		content;
+	int			count;
+	Column		columns[FLEXIBLE_ARRAY_MEMBER];
+} Published;
+
+extern bool published_content(const char *word, Content *content);
+extern bool published_holds(const char *word, Column *column);
+extern int	published_number(const char *word);
+extern Published *published_read(Relation table);
+extern Oid	published_mesh(Relation table);
+extern Reader *published_open_mesh(const Published *published, Oid user, MemoryContext memory);
+extern List *published_tables(Oid mesh);
+extern void published_bind_restored(Relation mesh);
+
+#endif

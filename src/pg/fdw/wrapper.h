@@ -1,0 +1,20 @@
+/*
+ * wrapper.h: the callbacks of the foreign-data wrapper.
+ */
+#ifndef ABACUS_WRAPPER_H
+#define ABACUS_WRAPPER_H
+
+#include "foreign/fdwapi.h"
+
+/* What a plan keeps of a scan: fdw_private. */
+enum
+{
+	PRIVATE_COLUMNS,			/* numbers of those that are wanted, from 0 */
+	PRIVATE_CONDITIONS			/* as conditions_pack() makes them */
+};
+
+extern void wrapper_set_planner(FdwRoutine *routine);
+extern void wrapper_set_executor(FdwRoutine *routine);
+extern void wrapper_set_analyze(FdwRoutine *routine);
+
+#endif

@@ -1,0 +1,107 @@
+-- A mesh as foreign tables with geometries of PostGIS. A condition IS TRUE does not lead to pages: so it tells which rows there must be.
+BEGIN;
+SELECT count(*) > 0 AS has_postgis FROM pg_available_extensions WHERE name = 'postgis' \gset
+\if :has_postgis
+SELECT no_plan();
+SET client_min_messages = warning;
+CREATE EXTENSION IF NOT EXISTS postgis;
+RESET client_min_messages;
+
+CREATE FUNCTION pg_temp.points(first int, last int)
+    RETURNS TABLE (id int, x float8, y float8, z float8) LANGUAGE sql AS
+    $$ SELECT i, i::bigint * 7919 % 100003 / 1e3, i::bigint * 104729 % 100019 / 1e3, i::bigint * 1299709 % 100043 / 1e3
+       FROM generate_series(first, last) AS i $$;
+CREATE FUNCTION pg_temp.plan_of(query text, key text) RETURNS text LANGUAGE plpgsql AS $$
+DECLARE
+    plan jsonb;
+BEGIN
+    EXECUTE 'EXPLAIN (FORMAT JSON, ANALYZE, TIMING OFF) ' || query INTO plan;
+    RETURN jsonb_path_query_first(plan, format('lax $.**."%s"', key)::jsonpath) #>> '{}';
+END $$;
+-- Rows of a table that meet a condition are those that it finds among all.
+CREATE FUNCTION pg_temp.finds(source text, condition text, what text) RETURNS text LANGUAGE sql AS $$
+    SELECT set_eq(format('SELECT * FROM %s WHERE %s', source, condition), format('SELECT * FROM %s WHERE (%s) IS TRUE', source, condition), what)
+$$;
+
+-- A mesh with a slanted side of the hull, along which its triangles are long: their boxes have much in them that they are not.
+SELECT abacus_triangulate('slanted', 'SELECT id, x, CASE WHEN id % 2 = 0 THEN x * (y / 100) ^ 4 ELSE y END AS y, z AS height, id AS number
+    FROM (SELECT id, greatest(x, y) AS x, least(x, y) AS y, z FROM pg_temp.points(1, 6000)) AS p');
+SELECT is(abacus_publish('slanted', srid => 25832, z => 'height')::text, '{slanted_cells,slanted_points}', 'published');
+SELECT set_eq($$ SELECT f_table_name::text, f_geometry_column::text, coord_dimension, srid, type::text FROM geometry_columns WHERE f_table_name LIKE 'slanted%' $$,
+    $$ VALUES ('slanted_cells', 'geom', 3, 25832, 'POLYGON'), ('slanted_points', 'geom', 3, 25832, 'POINT') $$, 'geometry_columns has both');
+SELECT is(count(*), 0::bigint, 'points are what their columns say') FROM slanted_points
+WHERE NOT (ST_X(geom), ST_Y(geom), ST_Z(geom), ST_SRID(geom)) = (x, y, height, 25832);
+SELECT is(count(*), 0::bigint, 'cells are the polygons of their corners') FROM slanted_cells
+WHERE ST_AsBinary(geom) <> ST_AsBinary(ST_MakePolygon(ST_MakeLine(ARRAY(
+    SELECT ST_MakePoint(corners[i % 3 + 1][1], corners[i % 3 + 1][2], "values"[i % 3 + 1][1]) FROM generate_series(0, 3) AS i))));
+SELECT cmp_ok(abs(sum(ST_Area(geom)) / (SELECT ST_Area(ST_ConvexHull(ST_Collect(geom))) FROM slanted_points) - 1), '<', 1e-12::float8, 'they cover the hull once')
+FROM slanted_cells;
+
+-- Windows, as QGIS and GDAL ask for them.
+SELECT pg_temp.finds('slanted_cells', format('geom && ST_MakeEnvelope(%s, %s, %s, %s, 25832)', x, y, x + w, y + w), format('cells in a window of %s at %s', w, n))
+FROM (SELECT n, n * 37 % 100 AS x, n * 61 % 100 AS y, (n % 4) ^ 3 AS w FROM generate_series(1, 24) AS n) AS p;
+SELECT pg_temp.finds('slanted_points', format('geom && ST_SetSRID(''BOX3D(%s %s, %s %s)''::box3d, 25832)', x, y, x + w, y + w), format('points in a window of %s at %s', w, n))
+FROM (SELECT n, n * 37 % 100 AS x, n * 61 % 100 AS y, (n % 4) ^ 3 AS w FROM generate_series(1, 8) AS n) AS p;
+SELECT cmp_ok(pg_temp.plan_of($$ SELECT * FROM slanted_points WHERE geom && ST_MakeEnvelope(50, 10, 51, 11, 25832) $$, 'Mesh Pages Read')::int, '<', 6, 'few pages are read');
+SELECT cmp_ok(pg_temp.plan_of($$ SELECT * FROM slanted_cells WHERE ST_Intersects(geom, ST_MakeEnvelope(50, 10, 51, 11, 25832)) $$, 'Mesh Pages Read')::int, '<', 6, 'of cells as well');
+SELECT cmp_ok((SELECT count(*) FROM slanted_cells WHERE geom && ST_MakeEnvelope(50, 50.5, 50.1, 50.6, 25832)), '>',
+    (SELECT count(*) FROM abacus_cells('slanted', ARRAY[50, 50.5], ARRAY[50.1, 50.6])), 'some boxes meet a window that their cells do not');
+
+-- What holds only where geometries meet.
+SELECT pg_temp.finds('slanted_cells', format(condition, 'ST_Buffer(ST_SetSRID(ST_MakePoint(60, 20), 25832), 7)'), 'cells: ' || condition)
+FROM unnest(ARRAY['ST_Intersects(geom, %s)', 'ST_Intersects(%s, geom)', 'ST_Within(geom, %s)', 'ST_Contains(%s, geom)', 'ST_CoveredBy(geom, %s)',
+    'ST_Overlaps(geom, %s)', 'ST_Touches(geom, %s)', 'ST_DWithin(geom, %s, 1.5)', 'geom @ %s', '%s ~ geom', 'geom ~ %s', 'geom ~= %s', 'geom &&& %s',
+    'geom && %s AND ST_Intersects(geom, ST_Translate(%1$s, 3, 3))']) AS condition;
+SELECT pg_temp.finds('slanted_points', format(condition, 'ST_Buffer(ST_SetSRID(ST_MakePoint(60, 20), 25832), 7)'), 'points: ' || condition)
+FROM unnest(ARRAY['ST_Intersects(geom, %s)', 'ST_Within(geom, %s)', 'ST_DWithin(geom, %s, 1.5)', 'geom && %s AND x > 58 AND y < 21 AND number < 3000',
+    'geom && %s AND height BETWEEN 10 AND 20', 'NOT geom && %s', 'geom && %s OR x < 3']) AS condition;
+SELECT pg_temp.finds('slanted_cells', 'ST_Equals(geom, (SELECT geom FROM slanted_cells ORDER BY v0, v1, v2 LIMIT 1))', 'a cell that is equal');
+SELECT pg_temp.finds(source, condition, source || ': ' || condition)
+FROM unnest(ARRAY['slanted_cells', 'slanted_points']) AS source, unnest(ARRAY['geom && ''SRID=25832;POINT EMPTY''', 'geom && NULL::geometry',
+    'geom && ''SRID=25832;CIRCULARSTRING(40 10, 45 15, 50 10)''::geometry', 'geom && ''SRID=25832;MULTIPOINT(3 1, 5 4)''', 'geom && ''SRID=25832;POINT(-1e300 1e300)''',
+    'geom && ''SRID=25832;LINESTRING(-1e300 0, 1e300 1)''', 'geom && ''SRID=25832;GEOMETRYCOLLECTION Z (POINT Z (50 30 1), LINESTRING Z (52 3 0, 56 31 9))''',
+    'ST_Intersects(geom, ''SRID=25832;TIN M (((40 10 1, 44 10 1, 44 13 1, 40 10 1)))''::geometry)']) AS condition
+WHERE condition !~ 'TIN' OR source = 'slanted_points';
+SELECT throws_ok($$ SELECT count(*) FROM slanted_cells WHERE ST_Intersects(geom, ST_MakeEnvelope(50, 10, 51, 11, 4326)) $$, 'XX000', NULL, 'another SRID');
+-- values that are known at run time
+CREATE TEMP TABLE places AS SELECT n, ST_SetSRID(ST_MakePoint(n * 37 % 100, n * 17 % 50), 25832) AS place FROM generate_series(1, 20) AS n;
+ANALYZE places;
+SELECT set_eq('SELECT n, code, v0 FROM places JOIN slanted_cells ON ST_Intersects(geom, place)',
+    'SELECT n, code, v0 FROM places JOIN slanted_cells ON ST_Intersects(geom, place) IS TRUE', 'a join on places');
+SELECT set_eq('SELECT n, id FROM places JOIN slanted_points ON ST_DWithin(geom, place, n)',
+    'SELECT n, id FROM places JOIN slanted_points ON ST_DWithin(geom, place, n) IS TRUE', 'a join on distances');
+SELECT set_eq('SELECT n, count FROM places, LATERAL (SELECT count(*) FROM slanted_cells WHERE geom && ST_Expand(place, 3)) AS c WHERE count > 0',
+    'SELECT n, count(*) FROM places JOIN slanted_cells ON (geom && ST_Expand(place, 3)) IS TRUE GROUP BY n', 'laterally');
+
+-- A mesh in space; a missing Z; a mesh with a hole; an empty one.
+SELECT abacus_triangulate('rock', 'SELECT *, id AS number FROM pg_temp.points(1, 1500)', dimension => 3);
+SELECT abacus_publish('rock');
+SELECT is(count(*), 0::bigint, 'facets of tetrahedra close them, outward') FROM rock_cells
+WHERE NOT (ST_GeometryType(geom) = 'ST_PolyhedralSurface' AND ST_IsClosed(geom) AND ST_NumGeometries(geom) = 4);
+SELECT pg_temp.finds('rock_cells', 'geom && ST_MakeEnvelope(20, 30, 24, 31)', 'tetrahedra over a window');
+SELECT pg_temp.finds('rock_points', 'geom && ST_MakeEnvelope(20, 30, 54, 61) AND z < 30', 'points of a box');
+SELECT abacus_triangulate('partial', 'VALUES (1, 0, 0, 1), (2, 4, 0, NULL), (3, 0, 4, 3)', '{height}');
+SELECT abacus_publish('partial', z => 'height');
+SELECT results_eq('SELECT ST_AsText(geom), height FROM partial_cells', $$ VALUES ('POLYGON Z ((0 0 1,4 0 NaN,0 4 3,0 0 1))', NULL::float8) $$, 'a missing value is no number');
+SELECT abacus_load('ring', 'SELECT row_number() OVER () - 1, x, y FROM generate_series(0, 40) AS x, generate_series(0, 40) AS y',
+    'SELECT v0, v1, v2 FROM generate_series(0, 39) AS i, generate_series(0, 39) AS j,
+        LATERAL (VALUES (i * 41 + j, (i + 1) * 41 + j, i * 41 + j + 1), ((i + 1) * 41 + j + 1, i * 41 + j + 1, (i + 1) * 41 + j)) AS t (v0, v1, v2)
+     WHERE NOT (i BETWEEN 10 AND 25 AND j BETWEEN 5 AND 30)');
+SELECT abacus_publish('ring', srid => 3857);
+SELECT pg_temp.finds('ring_cells', format('geom && ST_MakeEnvelope(%s, 3, %s, 12, 3857)', x, x + 3), 'a mesh with a hole at ' || x) FROM generate_series(-5, 45, 5) AS x;
+SELECT pg_temp.finds('ring_points', 'geom && ST_MakeEnvelope(8, 3, 12, 9, 3857)', 'its points');
+SELECT is(count(*), 0::bigint, 'nothing in the hole') FROM ring_cells WHERE ST_Intersects(geom, ST_MakeEnvelope(11.5, 6.5, 24, 29, 3857));
+SELECT abacus_create('empty', 2);
+SELECT abacus_publish('empty');
+SELECT is_empty('SELECT FROM empty_cells WHERE geom && ST_MakeEnvelope(0, 0, 1, 1)', 'an empty mesh');
+SELECT is_empty('SELECT FROM empty_points WHERE ST_Intersects(geom, ST_MakeEnvelope(0, 0, 1, 1))', 'its points');
+SELECT throws_ok($$ SELECT abacus_publish('rock', 'a', 'b', z => 'number') $$, '22023', 'mesh has dimension 3, not 2', 'Z is taken');
+SELECT throws_ok($$ SELECT abacus_publish('ring', 'a', 'b', geometry => false, srid => 5) $$, '22023', 'srid and z are of geometries, and none are published', 'no geometry');
+SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', z => 'depth') $$, '42703', NULL, 'no such attribute');
+SELECT lives_ok('ANALYZE slanted_cells, slanted_points, rock_cells', 'ANALYZE');
+SELECT * FROM finish();
+\else
+SELECT plan(1);
+SELECT skip('PostGIS is not installed', 1);
+\endif
+ROLLBACK;
