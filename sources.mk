@@ -205,6 +205,7 @@ PG_SOURCES += src/pg/sql/fn_raster.c
 PG_SOURCES += src/pg/sql/fn_ray.c
 PG_SOURCES += src/pg/sql/fn_sets.c
 PG_SOURCES += src/pg/sql/fn_spanning_tree.c
+PG_SOURCES += src/pg/sql/fn_srid.c
 PG_SOURCES += src/pg/sql/fn_stage.c
 PG_SOURCES += src/pg/sql/fn_star.c
 PG_SOURCES += src/pg/sql/fn_stats.c

@@ -36,6 +36,7 @@ SELECT abacus_stage('field', 'SELECT 7000 + i, i, i * i, 3 FROM generate_series(
 GRANT USAGE ON SCHEMA abacus TO owner;
 SET ROLE owner;
 SELECT abacus_triangulate('s."My Mesh"', 'SELECT i, (i * 7919) % 101, (i * 104729) % 97, (i * 31) % 89 FROM generate_series(1, 3000) AS i', dimension => 3);
+SELECT abacus_set_srid('s."My Mesh"', 2154);
 SQL
 my (%content, %bytes, %grown);
 for my $mesh (@meshes)
@@ -84,6 +85,8 @@ sub examine
 			$bytes{$mesh}, "$what: its pages, byte by byte");
 		is_sound($node, $database, $mesh, "$what: $mesh");
 	}
+	is($node->safe_psql($database, "SELECT abacus_srid('$meshes[0]'), abacus_srid('$meshes[1]')"), '0|2154',
+		"$what: the spatial reference systems");
 	for my $mesh (@meshes)
 	{
 		is(grow($database, $mesh), $grown{$mesh}, "$what: $mesh grows as the origin does");
