@@ -8,7 +8,7 @@
 #   install-dependencies.sh versions  ... and tests of the core: all that another version is tested with
 #   install-dependencies.sh demo      ... and the data of the demo
 #   install-dependencies.sh test      ... and all tests, which run the benchmarks once (default)
-#   install-dependencies.sh bench     ... and PostGIS, to compare with, and perf
+#   install-dependencies.sh bench     ... and GDAL, to compare with, and perf
 set -euo pipefail
 
 version=${ABACUS_POSTGRESQL:-15}
@@ -23,6 +23,7 @@ demo=(
     python-matplotlib-data          # the Jacksboro fault elevation model
 )
 server=(
+    "postgresql-$version-postgis-3" # for abacus_postgis, and to compare with
     "postgresql-$version-pgtap" libtap-parser-sourcehandler-pgtap-perl libipc-run-perl mount
 )
 core=(
@@ -40,7 +41,6 @@ test=(
     mmdebstrap                      # a Debian with another version of PostgreSQL
 )
 bench=(
-    "postgresql-$version-postgis-3"
     gdal-bin                        # gdal_grid, to compare with
     linux-perf                      # tells the functions that take most time
 )

@@ -91,9 +91,12 @@ tap_tests() {
         PERL5OPT=-Msigtrap=die,INT,TERM prove -j "$ABACUS_JOBS" -I "$sources/test/perl" "$@"
 }
 
-# The examples of pages.
+# The examples of pages; those of abacus_postgis where PostGIS is installed.
 documentation_examples() {
-    if ((!$#)); then set -- docs/sql.md docs/relations.md docs/lab.md docs/operations.md README.md; fi
+    if ((!$#)); then
+        set -- docs/sql.md docs/relations.md docs/lab.md docs/operations.md README.md
+        if [[ -e $("$PG_CONFIG" --sharedir)/extension/postgis.control ]]; then set -- "$@" docs/postgis.md; fi
+    fi
     scripts/doc_examples.py "$@"
 }
 

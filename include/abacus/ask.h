@@ -79,8 +79,9 @@ typedef struct abacus_edge
 	int64_t id[2]; /* the lesser one first */
 	double length;
 } abacus_edge;
+/* `ends` gets the coordinates of both ends, in the order of their ids; it may be NULL. */
 ABACUS_API abacus_status abacus_faces_next_edge(abacus_faces *faces, abacus_edge *edge,
-												abacus_error *error);
+												double *ends, abacus_error *error);
 ABACUS_API uint64_t abacus_faces_pages(const abacus_faces *faces);
 ABACUS_API void abacus_faces_close(abacus_faces *faces);
 

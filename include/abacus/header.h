@@ -78,6 +78,9 @@ typedef enum abacus_delaunay
 ABACUS_API const char *abacus_delaunay_clause(abacus_delaunay delaunay);
 ABACUS_API const char *abacus_delaunay_reason(abacus_delaunay delaunay);
 
+/* The greatest number of a spatial reference system, as in PostGIS. */
+#define ABACUS_MAX_SRID 999999
+
 typedef struct abacus_header
 {
 	uint32_t dimension;    /* 2 or 3 */
@@ -97,6 +100,7 @@ typedef struct abacus_header
 	uint64_t ghosts;       /* hull facets; facets of the boundary if not_delaunay */
 	uint32_t not_delaunay; /* an abacus_delaunay. Unless 0 the mesh is read, never changed; its
 							  vertices are listed in staged pages; staged = inserted = vertices */
+	uint32_t srid;         /* spatial reference system of the coordinates, to ABACUS_MAX_SRID; 0: unknown */
 	abacus_counters counters; /* summed over all builds; peak_bytes: the largest */
 	char names[ABACUS_MAX_ATTRIBUTES][ABACUS_NAME_BYTES];
 } abacus_header;

@@ -7,6 +7,7 @@
 
 #include <abacus/ask.h>
 #include <algorithm>
+#include <utility>
 
 struct abacus_faces {
     abacus_faces(const abacus_host *table, const abacus_header &header, const abacus_window &window,
@@ -60,15 +61,21 @@ abacus_status abacus_faces_next_vertex(abacus_faces *faces, abacus_vertex *verte
     });
 }
 
-abacus_status abacus_faces_next_edge(abacus_faces *faces, abacus_edge *edge, abacus_error *error) {
+abacus_status abacus_faces_next_edge(abacus_faces *faces, abacus_edge *edge, double *ends,
+                                     abacus_error *error) {
     return abacus::guard(error, [&] {
         return faces->faces.visit([&]<int D>(abacus::FaceScan<D> &scan) {
             if (!scan.advance()) return ABACUS_END;
             const auto &page = scan.page();
-            const int a = scan.vertex(0), b = scan.vertex(1);
-            edge->id[0] = std::min(page.id(a), page.id(b));
-            edge->id[1] = std::max(page.id(a), page.id(b));
+            int a = scan.vertex(0), b = scan.vertex(1);
+            if (page.id(b) < page.id(a)) std::swap(a, b);
+            edge->id[0] = page.id(a);
+            edge->id[1] = page.id(b);
             edge->length = abacus::distance<D>(page.point(a), page.point(b));
+            if (ends != nullptr) {
+                ends = std::copy(page.point(a).begin(), page.point(a).end(), ends);
+                std::copy(page.point(b).begin(), page.point(b).end(), ends);
+            }
             return ABACUS_OK;
         });
     });

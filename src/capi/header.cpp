@@ -1,6 +1,6 @@
 // The header row of a mesh, as bytes: little-endian, fixed fields, then the
-// names of the attributes. A user can write any bytes into the row, so decoding
-// checks every field; it accepts exactly what encoding can produce.
+// names of the attributes, and last the SRID where there is one. A user can write any bytes into
+// the row, so decoding checks every field; it accepts exactly what encoding can produce.
 #include "capi/guard.hpp"
 
 #include <abacus/header.h>
@@ -135,6 +135,15 @@ void read_names(Reader &read, abacus_header &header) {
     }
 }
 
+/// A mesh without SRID has no word for it.
+void read_srid(Reader &read, abacus_header &header) {
+    if (read.at_end()) return;
+    read(header.srid);
+    if (header.srid == 0 || header.srid > ABACUS_MAX_SRID)
+        throw_corrupted("The header's SRID is out of range.");
+    if (!read.at_end()) throw_corrupted("The header is too long.");
+}
+
 void check_format(std::uint64_t found) {
     if ((found ^ name) << (64 - name_bits) != 0)
         throw_corrupted("The row with the lowest key is no header.");
@@ -163,7 +172,7 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
     for (auto &counter : counters) read(counter);
     std::memcpy(&header.counters, counters, sizeof counters);
     read_names(read, header);
-    if (!read.at_end()) throw_corrupted("The header is too long.");
+    read_srid(read, header);
 }
 
 } // namespace
@@ -179,6 +188,7 @@ size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes) {
     for (const auto counter : counters) write(counter);
     for (unsigned i = 0; i < header->attributes; ++i)
         write.text(header->names[i], ABACUS_NAME_BYTES);
+    if (header->srid != 0) write(header->srid);
     return write.size();
 }
 

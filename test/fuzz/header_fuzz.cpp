@@ -19,8 +19,11 @@ std::vector<std::uint8_t> encode(const abacus_header &header) {
 extern "C" int LLVMFuzzerInitialize(int *argc, char ***argv) {
     abacus_header empty{};
     empty.dimension = 3;
+    abacus_header with_srid = sound_mesh(2).header;
+    with_srid.srid = 4326;
     write_seeds(*argc, *argv,
-                {encode(sound_mesh(2).header), encode(sound_mesh(3).header), encode(empty)});
+                {encode(sound_mesh(2).header), encode(sound_mesh(3).header), encode(empty),
+                 encode(with_srid)});
     return 0;
 }
 

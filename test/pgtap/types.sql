@@ -24,6 +24,8 @@ INSERT INTO wanted VALUES
     ('abacus_insert', 'mesh regclass, query text, on_duplicate text DEFAULT ''keep''::text', 'bigint', 'v', true, 'u'),
     ('abacus_attributes', 'mesh regclass, OUT "position" integer, OUT name text, OUT "least" double precision, OUT "greatest" double precision, OUT nulls bigint', 'SETOF record', 's', true, 's'),
     ('abacus_rename_attribute', 'mesh regclass, attribute text, name text', 'void', 'v', true, 'u'),
+    ('abacus_srid', 'mesh regclass', 'integer', 's', true, 's'),
+    ('abacus_set_srid', 'mesh regclass, srid integer', 'void', 'v', true, 'u'),
     ('abacus_stage', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_track', 'mesh regclass, "table" regclass, columns text[] DEFAULT NULL::text[], synchronize boolean DEFAULT false, deferred boolean DEFAULT false', 'bigint', 'v', false, 'u'),
     ('abacus_tracked', '', 'trigger', 'v', false, 'u'),

@@ -43,6 +43,7 @@ GRANT USAGE ON SCHEMA abacus TO owner;
 SET ROLE owner;
 SELECT abacus_triangulate('s."My Mesh"', 'SELECT i, (i * 7919) % 101, (i * 104729) % 97, (i * 31) % 89 FROM generate_series(1, 3000) AS i', dimension => 3);
 SELECT abacus_publish('s."My Mesh"', geometry => false);
+SELECT abacus_set_srid('s."My Mesh"', 2154);
 SQL
 my (%content, %bytes, %grown);
 for my $mesh (@meshes)
@@ -99,6 +100,8 @@ sub examine
 		like($err, qr/constraint mesh on foreign table .* depends on table/, "$what: no table loses its mesh");
 	}
 	is($node->safe_psql($database, 'SELECT count(*) FROM after.named_points'), 3, "$what: points of a mesh that was renamed");
+	is($node->safe_psql($database, "SELECT abacus_srid('$meshes[0]'), abacus_srid('$meshes[1]')"), '0|2154',
+		"$what: the spatial reference systems");
 	for my $mesh (@meshes)
 	{
 		is(grow($database, $mesh), $grown{$mesh}, "$what: $mesh grows as the origin does");

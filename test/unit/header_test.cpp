@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <random>
@@ -73,6 +74,47 @@ TEST(Header, ComesBackAsItWas) {
         EXPECT_EQ(decoded.simplices, header.simplices);
         EXPECT_EQ(decoded.counters.peak_bytes, UINT64_MAX);
         EXPECT_STREQ(decoded.names[0], attributes > 0 ? "attribute 0" : "");
+    }
+}
+
+TEST(Header, KeepsTheSridBehindTheNames) {
+    for (const unsigned attributes : {0u, 2u, unsigned{ABACUS_MAX_ATTRIBUTES}}) {
+        abacus_header header = full_header(attributes);
+        const auto without = encode(header);
+        for (const std::uint32_t srid : {1u, 4326u, unsigned{ABACUS_MAX_SRID}}) {
+            header.srid = srid;
+            const auto bytes = encode(header);
+            EXPECT_LE(bytes.size(), std::size_t{ABACUS_PAGE_BYTES});
+            // A word more than a header has without one, which is as it always was.
+            ASSERT_EQ(bytes.size(), without.size() + 8);
+            EXPECT_TRUE(std::equal(without.begin(), without.end(), bytes.begin()));
+            abacus_header decoded;
+            ASSERT_TRUE(decodes(bytes, &decoded));
+            EXPECT_EQ(decoded.srid, srid);
+            EXPECT_EQ(encode(decoded), bytes);
+        }
+    }
+}
+
+TEST(Header, AWrongSridIsRefused) {
+    auto bytes = encode(full_header(1));
+    bytes.resize(bytes.size() + 8); // 0 is not written
+    EXPECT_FALSE(decodes(bytes));
+    const std::size_t srid = bytes.size() - 8;
+    bytes[srid] = 1;
+    EXPECT_TRUE(decodes(bytes));
+    auto longer = bytes;
+    longer.resize(longer.size() + 8);
+    EXPECT_FALSE(decodes(longer));
+    bytes[srid + 2] = 0x10; // beyond the greatest
+    EXPECT_FALSE(decodes(bytes));
+    bytes[srid + 2] = 0;
+    bytes[srid + 4] = 1;
+    EXPECT_FALSE(decodes(bytes));
+    for (int cut = 1; cut < 8; ++cut) {
+        auto shorter = bytes;
+        shorter.resize(bytes.size() - cut);
+        EXPECT_FALSE(decodes(shorter));
     }
 }
 

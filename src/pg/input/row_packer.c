@@ -4,8 +4,8 @@
  *
  * A DestReceiver that deforms each slot in place. It packs id, coordinates and attributes, or the
  * ids of a simplex's vertices, into eight-byte words. Columns go by position, as in every function
- * that takes a source query. This is the hot path of staging: it takes a few tens of nanoseconds a
- * row, besides the scan itself.
+ * that takes a source query. In place of the coordinates there may be a point of PostGIS. This is the
+ * hot path of staging: it takes a few tens of nanoseconds a row, besides the scan itself.
  */
 #include "postgres.h"
 
@@ -49,10 +49,39 @@ row_packer_column(const abacus_header *header, int column)
 	return header->names[column - 1 - header->dimension];
 }
 
+#define GEOMETRY_COLUMN 1
+
+/* Whether rows have a geometry in place of coordinates. */
+bool
+row_packer_takes_geometry(TupleDesc desc)
+{
+	return desc->natts > GEOMETRY_COLUMN &&
+		geometry_is_type(TupleDescAttr(desc, GEOMETRY_COLUMN)->atttypid);
+}
+
+static bool
+has_geometry(const RowPacker *packer)
+{
+	return OidIsValid(packer->geometry.type);
+}
+
+/* The word of a record that a column of a row becomes. */
+static int
+word_of(const RowPacker *packer, int column)
+{
+	return has_geometry(packer) && column > GEOMETRY_COLUMN
+		? column + packer->columns - packer->inputs : column;
+}
+
+/* What a column of a row is called. */
 static const char *
 column_name(const RowPacker *packer, int column)
 {
-	return packer->ids > 1 ? corner_names[column] : row_packer_column(packer->header, column);
+	if (packer->ids > 1)
+		return corner_names[column];
+	if (has_geometry(packer) && column == GEOMETRY_COLUMN)
+		return "geometry";
+	return row_packer_column(packer->header, word_of(packer, column));
 }
 
 /* "id, x, y, height" */
@@ -62,33 +91,30 @@ expected_columns(const RowPacker *packer)
 	StringInfoData names;
 
 	initStringInfo(&names);
-	for (int i = 0; i < packer->columns; i++)
+	for (int i = 0; i < packer->inputs; i++)
 		appendStringInfo(&names, "%s%s", i > 0 ? ", " : "", column_name(packer, i));
 	return names.data;
 }
 
-/* A geometry has its coordinates in one value; where they are to be found, or NULL. */
+/* What to do about a geometry where none can be read, or NULL. */
 static char *
 geometry_hint(const RowPacker *packer, const char *column, Oid type)
 {
-	HeapTuple	tuple = SearchSysCache1(TYPEOID, ObjectIdGetDatum(type));
-	bool		is_geometry = false;
+	const char *name;
+	char	   *quoted = unconstify(char *, quote_identifier(column));
 
-	if (HeapTupleIsValid(tuple))
-	{
-		const char *name = NameStr(((Form_pg_type) GETSTRUCT(tuple))->typname);
-
-		is_geometry = strcmp(name, "geometry") == 0 || strcmp(name, "geography") == 0;
-		ReleaseSysCache(tuple);
-	}
-	if (!is_geometry || packer->origin->geometry_hint == NULL)
+	if (packer->origin->geometry_hint == NULL)
 		return NULL;
-	return psprintf(packer->header->dimension == 2
-					? "%2$s, ST_X(%1$s) and ST_Y(%1$s), or use the functions of the extension "
-					"abacus_postgis."
-					: "%2$s, ST_X(%1$s), ST_Y(%1$s) and ST_Z(%1$s), or use the functions of the "
-					"extension abacus_postgis.",
-					quote_identifier(column), packer->origin->geometry_hint);
+	if (geometry_is_type(type))
+		return pstrdup("A geometry stands behind the id, in place of all coordinates.");
+	name = geometry_type_name(type);
+	if (strcmp(name, "geography") == 0)
+		return psprintf("Give a geometry of it, %s::geometry.", quoted);
+	if (strcmp(name, "geometry") != 0)
+		return NULL;
+	return psprintf(packer->header->dimension == 2 ? "%2$s, ST_X(%1$s) and ST_Y(%1$s)."
+					: "%2$s, ST_X(%1$s), ST_Y(%1$s) and ST_Z(%1$s).",
+					quoted, packer->origin->geometry_hint);
 }
 
 static void
@@ -117,7 +143,7 @@ refuse_count(const RowPacker *packer, TupleDesc desc)
 	ereport(ERROR,
 			(errcode(ERRCODE_DATATYPE_MISMATCH),
 			 errmsg("source query returns %d columns, but the mesh takes %d", desc->natts,
-					packer->columns),
+					packer->inputs),
 			 errdetail("Columns go by position: %s.", expected_columns(packer)),
 			 hint != NULL ? errhint("%s", hint) : 0));
 }
@@ -127,6 +153,8 @@ pack_kind(const RowPacker *packer, int column, Form_pg_attribute attribute)
 {
 	bool		is_id = column < packer->ids;
 
+	if (has_geometry(packer) && column == GEOMETRY_COLUMN)
+		return PACK_GEOMETRY;
 	switch (getBaseType(attribute->atttypid))
 	{
 		case INT2OID:
@@ -149,7 +177,8 @@ pack_kind(const RowPacker *packer, int column, Form_pg_attribute attribute)
 			break;
 		case TEXTOID:
 			/* a bare NULL of a query is of this type */
-			if (packer->origin->bare_nulls && column > (int) packer->header->dimension)
+			if (packer->origin->bare_nulls &&
+				word_of(packer, column) > (int) packer->header->dimension)
 				return PACK_NULL;
 			break;
 	}
@@ -195,6 +224,7 @@ to_double(PackKind kind, Datum value)
 		case PACK_NUMERIC:
 			return DatumGetFloat8(DirectFunctionCall1(numeric_float8_no_overflow, value));
 		case PACK_NULL:
+		case PACK_GEOMETRY:
 			break;
 	}
 	pg_unreachable();
@@ -220,9 +250,53 @@ bits(double value)
 static void
 check_nulls(const RowPacker *packer, const TupleTableSlot *slot)
 {
-	for (int i = 0; i < packer->columns; i++)
+	for (int i = 0; i < packer->inputs; i++)
 		if (packer->kinds[i] == PACK_NULL && !slot->tts_isnull[i])
 			refuse_type(packer, i, TupleDescAttr(slot->tts_tupleDescriptor, i));
+}
+
+/* A geometry of another system than the mesh, or than those before it. */
+static void
+refuse_srid(const RowPacker *packer, const char *what, int32 srid)
+{
+	if (packer->header->srid != 0 || !packer->takes_srid)
+		geometry_refuse_srid(what, srid, (int32) packer->header->srid);
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("%s has SRID %d, but those before it have SRID %d", what, srid, packer->srid),
+			 errhint("Transform all of them to one system by ST_Transform.")));
+}
+
+/* The coordinates of a row with a geometry. */
+static void
+pack_geometry(RowPacker *packer, const TupleTableSlot *slot, uint64 *record)
+{
+	const char *what = psprintf("geometry of point " INT64_FORMAT, (int64) record[0]);
+	uint32		dimension = packer->header->dimension;
+	GeometryPoint point;
+
+	if (slot->tts_isnull[GEOMETRY_COLUMN])
+		refuse_value(packer, record, GEOMETRY_COLUMN, true);
+	geometry_point(&packer->geometry, slot->tts_values[GEOMETRY_COLUMN], what, &point);
+	if (point.is_empty)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("%s is empty", what), errhint("%s", packer->origin->value_hint)));
+	if (dimension > 2 && !point.has_z)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("%s has no z, but the mesh has dimension %u", what, dimension),
+				 errhint("ST_Force3DZ(geometry, z) gives it one.")));
+	if (packer->srid < 0)
+		packer->srid = point.srid;
+	if (point.srid != packer->srid)
+		refuse_srid(packer, what, point.srid);
+	for (uint32 i = 0; i < dimension; i++)
+	{
+		if (unlikely(!isfinite(point.at[i])))
+			refuse_value(packer, record, GEOMETRY_COLUMN, false);
+		record[1 + i] = bits(point.at[i]);
+	}
 }
 
 static bool
@@ -230,14 +304,16 @@ receive_row(TupleTableSlot *slot, DestReceiver *self)
 {
 	RowPacker  *packer = (RowPacker *) self;
 	uint64	   *point = packer->points + packer->count * packer->columns;
+	uint64	   *words = point + (packer->columns - packer->inputs); /* of columns behind a geometry */
 	int			coordinates_end = 1 + packer->header->dimension;
+	int			first = packer->ids;
 	MemoryContext old = NULL;
 
 	packer->row++;
-	slot_getsomeattrs(slot, packer->columns);
+	slot_getsomeattrs(slot, packer->inputs);
 	if (unlikely(packer->any_null))
 		check_nulls(packer, slot);
-	if (unlikely(packer->any_numeric))
+	if (unlikely(packer->converts))
 		old = MemoryContextSwitchTo(packer->scratch);
 
 	for (int i = 0; i < packer->ids; i++)
@@ -246,14 +322,20 @@ receive_row(TupleTableSlot *slot, DestReceiver *self)
 			refuse_value(packer, point, i, true);
 		point[i] = (uint64) to_id(packer->kinds[i], slot->tts_values[i]);
 	}
-	for (int i = packer->ids; i < packer->columns; i++)
+	if (has_geometry(packer))
+	{
+		pack_geometry(packer, slot, point);
+		first = GEOMETRY_COLUMN + 1;
+		coordinates_end = first;
+	}
+	for (int i = first; i < packer->inputs; i++)
 	{
 		bool		isnull = slot->tts_isnull[i];
 		double		value = isnull ? NAN : to_double(packer->kinds[i], slot->tts_values[i]);
 
 		if (unlikely(i < coordinates_end && !isfinite(value)))
 			refuse_value(packer, point, i, isnull);
-		point[i] = bits(value);
+		words[i] = bits(value);
 	}
 	packer->count++;
 	if (unlikely(old != NULL))
@@ -271,29 +353,41 @@ shut_down(DestReceiver *self)
 {
 }
 
-/* A packer for the first columns; `more`: others may follow them. */
+/*
+ * A packer for records of so many columns, the first of which are ids; `more`: rows may have others
+ * behind them; `takes_srid`: a mesh without SRID takes that of geometries.
+ */
 static RowPacker *
 create(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int ids, int columns,
-	   bool more, size_t batch)
+	   bool more, bool takes_srid, size_t batch)
 {
 	RowPacker  *packer = palloc0(sizeof(RowPacker));
 
 	packer->origin = origin;
 	packer->header = header;
 	packer->ids = ids;
-	packer->columns = columns;
-	if (desc->natts != columns && !(more && desc->natts > columns))
+	packer->columns = packer->inputs = columns;
+	packer->takes_srid = takes_srid;
+	packer->srid = takes_srid && header->srid == 0 ? -1 : (int32) header->srid;
+	if (ids == 1 && row_packer_takes_geometry(desc))
+	{
+		geometry_open(&packer->geometry, TupleDescAttr(desc, GEOMETRY_COLUMN)->atttypid,
+					  CurrentMemoryContext);
+		packer->inputs -= header->dimension - 1;
+		packer->converts = true;
+	}
+	if (desc->natts != packer->inputs && !(more && desc->natts > packer->inputs))
 		refuse_count(packer, desc);
 	packer->receiver.receiveSlot = receive_row;
 	packer->receiver.rStartup = start_up;
 	packer->receiver.rShutdown = shut_down;
 	packer->receiver.rDestroy = shut_down;
 	packer->receiver.mydest = DestNone;
-	packer->kinds = palloc(columns * sizeof(PackKind));
-	for (int i = 0; i < columns; i++)
+	packer->kinds = palloc(packer->inputs * sizeof(PackKind));
+	for (int i = 0; i < packer->inputs; i++)
 	{
 		packer->kinds[i] = pack_kind(packer, i, TupleDescAttr(desc, i));
-		packer->any_numeric |= packer->kinds[i] == PACK_NUMERIC;
+		packer->converts |= packer->kinds[i] == PACK_NUMERIC;
 		packer->any_null |= packer->kinds[i] == PACK_NULL;
 	}
 	packer->points = palloc(batch * columns * sizeof(uint64));
@@ -302,19 +396,23 @@ create(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int
 	return packer;
 }
 
-/* A packer for rows of a query that are points of the mesh, in the current memory context. */
+/*
+ * A packer for rows of a query that are points of the mesh, in the current memory context;
+ * `takes_srid`: a mesh without SRID takes that of geometries.
+ */
 RowPacker *
-row_packer_create(TupleDesc desc, const abacus_header *header, size_t batch)
+row_packer_create(TupleDesc desc, const abacus_header *header, bool takes_srid, size_t batch)
 {
 	return create(desc, header, &query_of_points, 1, 1 + header->dimension + header->attributes,
-				  false, batch);
+				  false, takes_srid, batch);
 }
 
 /* The same for rows of a query that are places: id and coordinates, whatever else the rows have. */
 RowPacker *
 row_packer_create_places(TupleDesc desc, const abacus_header *header, size_t batch)
 {
-	return create(desc, header, &query_of_points, 1, 1 + header->dimension, true, batch);
+	return create(desc, header, &query_of_points, 1, 1 + header->dimension, true, false,
+				  batch);
 }
 
 /* The same for rows of a table that the mesh follows. */
@@ -322,7 +420,7 @@ RowPacker *
 row_packer_create_tracked(TupleDesc desc, const abacus_header *header, size_t batch)
 {
 	return create(desc, header, &tracked_table, 1, 1 + header->dimension + header->attributes,
-				  false, batch);
+				  false, true, batch);
 }
 
 /* The same for rows of a query that are simplices: ids of their vertices. */
@@ -330,13 +428,13 @@ RowPacker *
 row_packer_create_simplices(TupleDesc desc, const abacus_header *header, size_t batch)
 {
 	return create(desc, header, &query_of_simplices, header->dimension + 1, header->dimension + 1,
-				  false, batch);
+				  false, false, batch);
 }
 
 void
 row_packer_reset(RowPacker *packer)
 {
 	packer->count = 0;
-	if (packer->any_numeric)
+	if (packer->converts)
 		MemoryContextReset(packer->scratch);
 }

@@ -5,8 +5,7 @@
 #ifndef ABACUS_ROW_PACKER_H
 #define ABACUS_ROW_PACKER_H
 
-#include "abacus/header.h"
-
+#include "pg/input/geometry.h"
 #include "tcop/dest.h"
 
 /* How a column's Datum becomes an eight-byte word. */
@@ -18,7 +17,8 @@ typedef enum PackKind
 	PACK_INT4,
 	PACK_INT8,
 	PACK_NUMERIC,
-	PACK_NULL					/* of no type that can be read: NULLs only */
+	PACK_NULL,					/* of no type that can be read: NULLs only */
+	PACK_GEOMETRY				/* all coordinates at once */
 } PackKind;
 
 /* Where rows come from, for messages. */
@@ -37,10 +37,14 @@ typedef struct RowPacker
 	DestReceiver receiver;
 	const RowOrigin *origin;
 	const abacus_header *header;
-	int			columns;		/* id, coordinates, attributes; or ids */
+	int			columns;		/* of a record: id, coordinates, attributes; or ids */
 	int			ids;			/* columns of ids: 1, or all */
+	int			inputs;			/* columns of a row: a geometry stands for all coordinates */
 	PackKind   *kinds;
-	bool		any_numeric;
+	GeometryType geometry;		/* of type InvalidOid: coordinates come one by one */
+	bool		takes_srid;		/* a mesh without SRID takes that of geometries */
+	int32		srid;			/* of geometries: of the mesh, or of the first; -1: none has come */
+	bool		converts;		/* needs memory for conversions */
 	bool		any_null;		/* of kind PACK_NULL */
 	uint64	   *points;			/* records: room for a batch */
 	size_t		count;
@@ -48,8 +52,10 @@ typedef struct RowPacker
 	MemoryContext scratch;		/* of conversions; emptied at each batch */
 } RowPacker;
 
+extern bool row_packer_takes_geometry(TupleDesc desc);
 extern const char *row_packer_column(const abacus_header *header, int column);
-extern RowPacker *row_packer_create(TupleDesc desc, const abacus_header *header, size_t batch);
+extern RowPacker *row_packer_create(TupleDesc desc, const abacus_header *header, bool takes_srid,
+									size_t batch);
 extern RowPacker *row_packer_create_places(TupleDesc desc, const abacus_header *header,
 										   size_t batch);
 extern RowPacker *row_packer_create_tracked(TupleDesc desc, const abacus_header *header,

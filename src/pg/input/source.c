@@ -106,8 +106,8 @@ check_is_query(const char *query)
 			 errmsg("this is no query: \"%.*s%s\"", length, query,
 					query[length] == '\0' ? "" : "..."),
 			 errdetail("A query begins with SELECT, VALUES, TABLE or WITH."),
-			 errhint("Of a geometry give the coordinates, ST_X(geom) and ST_Y(geom), or use the "
-					 "functions of the extension abacus_postgis.")));
+			 errhint("Of a geometry give the coordinates, ST_X(geom) and ST_Y(geom), or, with the "
+					 "extension abacus_postgis, a value of type geometry.")));
 }
 
 /* Parses the query; anything but one plain SELECT is refused. */
@@ -148,18 +148,28 @@ source_columns(const Source *source)
 	return plan_source(source)->resultDesc->natts;
 }
 
+/* The column behind id and coordinates, in place of which there may be a geometry. */
+int
+source_first_attribute(const Source *source, uint32 dimension)
+{
+	return row_packer_takes_geometry(plan_source(source)->resultDesc) ? 2 : 1 + (int) dimension;
+}
+
 const char *
 source_column_name(const Source *source, int column)
 {
 	return NameStr(TupleDescAttr(plan_source(source)->resultDesc, column)->attname);
 }
 
-/* Starts reading points for a mesh with this header. */
+/*
+ * Starts reading points for a mesh with this header, which takes the SRID of geometries if it has
+ * none, and if the points come to stay.
+ */
 void
-source_open(Source *source, const abacus_header *header)
+source_open(Source *source, const abacus_header *header, bool takes_srid)
 {
 	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
-	source->packer = row_packer_create(source->portal->tupDesc, header, ROWS_A_BATCH);
+	source->packer = row_packer_create(source->portal->tupDesc, header, takes_srid, ROWS_A_BATCH);
 }
 
 /* Starts reading places: points without attributes, whatever other columns there are. */

@@ -1,5 +1,6 @@
 /*
- * source.h: the user's query that yields points (id, x, y[, z][, attribute...]), or
+ * source.h: the user's query that yields points (id, x, y[, z][, attribute...]) or (id,
+ * geometry[, attribute...]), or
  * simplices (v0, v1, v2[, v3]).
  */
 #ifndef ABACUS_SOURCE_H
@@ -20,7 +21,8 @@ typedef struct Source
 extern void source_prepare(Source *source, const char *query);
 extern int	source_columns(const Source *source);
 extern const char *source_column_name(const Source *source, int column);
-extern void source_open(Source *source, const abacus_header *header);
+extern int	source_first_attribute(const Source *source, uint32 dimension);
+extern void source_open(Source *source, const abacus_header *header, bool takes_srid);
 extern void source_open_places(Source *source, const abacus_header *header);
 extern void source_open_simplices(Source *source, const abacus_header *header);
 extern size_t source_fetch(Source *source, const uint64 **points);

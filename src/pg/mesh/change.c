@@ -74,18 +74,40 @@ change_add(Change *change, const uint64 *points, size_t count)
 	change->points += count;
 }
 
-/* Reads the points of a query, of the shape that a header describes, into a stage. */
-void
-change_read(Change *change, Source *source, const abacus_header *shape)
+static void
+read_query(Change *change, Source *source, const abacus_header *shape, bool takes_srid)
 {
 	const uint64 *points;
 	size_t		count;
 
-	source_open(source, shape);
+	source_open(source, shape, takes_srid);
 	change_open_stage(change, shape);
 	while ((count = source_fetch(source, &points)) > 0)
 		change_add(change, points, count);
 	source_close(source);
+}
+
+/* Reads the points of a query that come into the mesh into a stage. */
+void
+change_read(Change *change, Source *source)
+{
+	read_query(change, source, change->writer.header, true);
+	change_take_srid(change, source->packer->srid);
+}
+
+/* The same of points to be found in it, of the shape that a header describes. */
+void
+change_read_gone(Change *change, Source *source, const abacus_header *shape)
+{
+	read_query(change, source, shape, false);
+}
+
+/* A mesh without SRID takes that of the geometries that have come; -1: of none. */
+void
+change_take_srid(Change *change, int32 srid)
+{
+	if (srid > 0)
+		change->writer.header->srid = (uint32) srid;
 }
 
 /* Swaps the stage with the one put aside before; the first time there is none. */
@@ -179,7 +201,7 @@ change_insert_query(Oid mesh, Source *source, const char *command, abacus_header
 	Change	   *change = change_begin(mesh, command);
 	uint64		points;
 
-	change_read(change, source, change->writer.header);
+	change_read(change, source);
 	change_insert(change);
 	points = change->points;
 	*header = *change->writer.header;

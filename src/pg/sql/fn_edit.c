@@ -43,7 +43,7 @@ insert_query(Oid mesh, Source *source, abacus_on_duplicate how)
 
 	change->on_duplicate = how;
 	change->may_replace = true;
-	change_read(change, source, change->writer.header);
+	change_read(change, source);
 	change_insert(change);
 	points = change->points;
 	change_end(change);
@@ -74,9 +74,9 @@ delete_query(Oid mesh, Source *source)
 
 	/* id and coordinates say which points; attributes may follow, as in abacus_insert() */
 	*shape = *change->writer.header;
-	if (source_columns(source) == (int) (1 + shape->dimension))
+	if (source_columns(source) == source_first_attribute(source, shape->dimension))
 		shape->attributes = 0;
-	change_read(change, source, shape);
+	change_read_gone(change, source, shape);
 	deleted = change_delete(change, false);
 	change_end(change);
 	return deleted;

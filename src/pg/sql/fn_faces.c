@@ -21,6 +21,7 @@ SQL_FUNCTION(abacus_sql_vertices_in_ball);
 SQL_FUNCTION(abacus_sql_vertices_in_range);
 SQL_FUNCTION(abacus_sql_edges);
 SQL_FUNCTION(abacus_sql_edges_in_ball);
+SQL_FUNCTION(abacus_sql_edge_lines);
 
 /* Columns of abacus_edges */
 enum
@@ -28,6 +29,7 @@ enum
 	EDGE_V0,
 	EDGE_V1,
 	EDGE_LENGTH,
+	EDGE_PATH,					/* where lines are wanted */
 	EDGE_COLUMNS
 };
 
@@ -35,8 +37,15 @@ typedef enum Wanted
 {
 	VERTICES,					/* mesh, and a window */
 	VERTICES_IN_RANGE,			/* mesh, attribute, least, greatest, and a window */
-	EDGES						/* mesh, a window, and max_edge */
+	EDGES,						/* mesh, a window, and max_edge */
+	EDGE_LINES					/* the same, with the coordinates of their ends */
 } Wanted;
+
+static bool
+are_edges(Wanted wanted)
+{
+	return wanted == EDGES || wanted == EDGE_LINES;
+}
 
 /* The range of an attribute: arguments 1 to 3. */
 static void
@@ -61,7 +70,7 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, Wanted wan
 	abacus_window window = {0};
 	abacus_range range;
 	abacus_faces *faces = NULL;
-	double		max_edge = wanted == EDGES ? window_max_edge(fcinfo, 3) : 0;
+	double		max_edge = are_edges(wanted) ? window_max_edge(fcinfo, 3) : 0;
 
 	if (wanted == VERTICES_IN_RANGE)
 		range_arguments(fcinfo, &reader->header, &range);
@@ -70,13 +79,13 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, Wanted wan
 		host_run(host, abacus_faces_open_range, &host->table, &reader->header, &window, &range,
 				 setting_cache_bytes(), &faces);
 	else
-		host_run(host, abacus_faces_open, &host->table, &reader->header, &window, wanted == EDGES,
+		host_run(host, abacus_faces_open, &host->table, &reader->header, &window, are_edges(wanted),
 				 max_edge, setting_cache_bytes(), &faces);
 	host_own(host, faces, (void (*) (void *)) abacus_faces_close);
 }
 
 static Datum
-edge_row(TupleDesc row_type, const abacus_edge *edge)
+edge_row(TupleDesc row_type, const abacus_edge *edge, const double *ends, uint32 dimension)
 {
 	Datum		values[EDGE_COLUMNS];
 	bool		isnull[EDGE_COLUMNS] = {false};
@@ -84,6 +93,8 @@ edge_row(TupleDesc row_type, const abacus_edge *edge)
 	values[EDGE_V0] = Int64GetDatum(edge->id[0]);
 	values[EDGE_V1] = Int64GetDatum(edge->id[1]);
 	values[EDGE_LENGTH] = Float8GetDatum(edge->length);
+	if (row_type->natts > EDGE_PATH)
+		values[EDGE_PATH] = attribute_array(ends, (int) (2 * dimension));
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
 }
 
@@ -95,13 +106,16 @@ next_row(FuncCallContext *set, Wanted wanted, Datum *row)
 	Host	   *host = reader->host;
 	abacus_vertex vertex;
 	abacus_edge edge;
-	abacus_status status = wanted == EDGES ? host_run(host, abacus_faces_next_edge, host->handle, &edge)
+	double		ends[2 * ABACUS_MAX_DIMENSION];
+	abacus_status status = are_edges(wanted)
+		? host_run(host, abacus_faces_next_edge, host->handle, &edge, wanted == EDGES ? NULL : ends)
 		: host_run(host, abacus_faces_next_vertex, host->handle, &vertex);
 
 	host_release(host);
 	if (status == ABACUS_END)
 		return false;
-	*row = wanted == EDGES ? edge_row(set->tuple_desc, &edge)
+	*row = are_edges(wanted)
+		? edge_row(set->tuple_desc, &edge, ends, reader->header.dimension)
 		: vertex_row(set->tuple_desc, &vertex, &reader->header);
 	return true;
 }
@@ -173,4 +187,14 @@ Datum
 abacus_sql_edges_in_ball(PG_FUNCTION_ARGS)
 {
 	return next(fcinfo, WINDOW_BALL, EDGES);
+}
+
+/*
+ * _abacus_edges(mesh regclass, lower float8[], upper float8[], max_edge float8)
+ *     -> v0, v1, length, path
+ */
+Datum
+abacus_sql_edge_lines(PG_FUNCTION_ARGS)
+{
+	return next(fcinfo, WINDOW_BOX, EDGE_LINES);
 }

@@ -103,7 +103,7 @@ triangulate(GooseTable *table, Source *source, abacus_header *header,
 	progress_begin(&host->progress, table->relid);
 	host_run(host, abacus_stage_open, &host->table, header, setting_sort_bytes(), &stage);
 	host_own(host, stage, (void (*) (void *)) abacus_stage_close);
-	source_open(source, header);
+	source_open(source, header, true);
 	while ((count = source_fetch(source, &points)) > 0)
 		host_run(host, abacus_stage_add, stage, points, count);
 	source_close(source);

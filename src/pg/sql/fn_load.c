@@ -71,9 +71,10 @@ read_triangulation(Change *change, Source *vertices, Source *simplices, bool reo
 
 	host_run(host, abacus_load_open, &host->table, header, setting_sort_bytes(), reorient,
 			 &change->load);
-	source_open(vertices, header);
+	source_open(vertices, header, true);
 	while ((count = source_fetch(vertices, &records)) > 0)
 		host_run(host, abacus_load_vertices, change->load, records, count);
+	change_take_srid(change, vertices->packer->srid);
 	source_close(vertices);
 	source_open_simplices(simplices, header);
 	while ((count = source_fetch(simplices, &records)) > 0)
@@ -140,7 +141,7 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 	if (!PG_ARGISNULL(3))
 		shape_attributes(header, PG_GETARG_ARRAYTYPE_P(3));
 	else
-		for (int i = 1 + header->dimension; i < source_columns(&vertices); i++)
+		for (int i = source_first_attribute(&vertices, header->dimension); i < source_columns(&vertices); i++)
 			shape_attribute(header, source_column_name(&vertices, i));
 	shape_domain(header, PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4),
 				 PG_ARGISNULL(5) ? NULL : PG_GETARG_ARRAYTYPE_P(5));

@@ -23,7 +23,7 @@ abacus_sql_stage(PG_FUNCTION_ARGS)
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	change = change_begin(PG_GETARG_OID(0), "abacus_stage()");
 	host = change->writer.host;
-	change_read(change, &source, change->writer.header);
+	change_read(change, &source);
 	host_run(host, abacus_stage_finish, change->stage, change->writer.header);
 	points = change->points;
 	change_end(change);

@@ -122,6 +122,9 @@ put_counts(Figures *figures, const abacus_header *header)
 	put_figure(figures, "outside", (double) header->outside,
 			   "points that the domain does not fit, since it was last chosen");
 	put_delaunay(figures, header->not_delaunay);
+	if (header->srid != 0)
+		put_figure(figures, "srid", header->srid,
+				   "spatial reference system of the coordinates, as PostGIS numbers it");
 }
 
 /*

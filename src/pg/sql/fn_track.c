@@ -223,7 +223,7 @@ read_points(Change *change, const char *query)
 	Source		source;
 
 	source_prepare(&source, query);
-	change_read(change, &source, change->writer.header);
+	change_read(change, &source);
 	source_finish(&source);
 	return change->points;
 }

@@ -204,7 +204,7 @@ note_all_gone(const TriggerData *trigger, const Transition *transition)
 	SetUserIdAndSecContext(writer, security | SECURITY_LOCAL_USERID_CHANGE);
 	source_prepare(&source, tracked_points_of_one_table(trigger->tg_relation, columns,
 														transition->dimension));
-	source_open(&source, transition_shape(transition));
+	source_open(&source, transition_shape(transition), true);
 	while ((count = source_fetch(&source, &points)) > 0)
 		pending_add(pending, true, points, count);
 	source_close(&source);

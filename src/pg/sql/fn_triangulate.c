@@ -58,7 +58,7 @@ abacus_sql_triangulate_query(PG_FUNCTION_ARGS)
 
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	if (PG_ARGISNULL(2))
-		for (int i = 1 + header->dimension; i < source_columns(&source); i++)
+		for (int i = source_first_attribute(&source, header->dimension); i < source_columns(&source); i++)
 			shape_attribute(header, source_column_name(&source, i));
 	mesh = new_mesh(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid), header,
 					"abacus_triangulate()");

@@ -1,0 +1,1 @@
+\echo Use "CREATE EXTENSION abacus_postgis" to load this file. \quit

@@ -1,0 +1,121 @@
+-- Functions of the extension abacus with a point in place of coordinates.
+
+CREATE FUNCTION abacus_locate(mesh regclass, place geometry)
+RETURNS abacus_simplex
+AS 'MODULE_PATHNAME', 'abacus_sql_locate_geometry'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
+COMMENT ON FUNCTION abacus_locate(regclass, geometry) IS
+    'the simplex of a mesh that contains the point; NULL outside the mesh';
+
+CREATE FUNCTION abacus_star(mesh regclass, place geometry)
+RETURNS SETOF abacus_simplex
+AS 'MODULE_PATHNAME', 'abacus_sql_star_geometry'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 6;
+COMMENT ON FUNCTION abacus_star(regclass, geometry) IS
+    'all simplices of a mesh around a vertex, or around any place';
+
+CREATE FUNCTION abacus_nearest(
+    mesh regclass,
+    place geometry,
+    k integer DEFAULT 1,
+    OUT vertex bigint,
+    OUT x double precision,
+    OUT y double precision,
+    OUT z double precision,
+    OUT attributes double precision[],
+    OUT distance double precision)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_nearest_geometry'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 1 SUPPORT abacus_nearest_rows;
+COMMENT ON FUNCTION abacus_nearest(regclass, geometry, integer) IS
+    'the k vertices of a mesh nearest to the point, nearest first';
+
+CREATE FUNCTION abacus_interpolate(
+    mesh regclass,
+    place geometry,
+    attribute text DEFAULT NULL,
+    method text DEFAULT 'linear',
+    outside text DEFAULT 'null',
+    max_edge double precision DEFAULT NULL)
+RETURNS double precision
+AS 'MODULE_PATHNAME', 'abacus_sql_interpolate_geometry'
+LANGUAGE C STABLE PARALLEL SAFE COST 500;
+COMMENT ON FUNCTION abacus_interpolate(regclass, geometry, text, text, text, double precision) IS
+    'the value of an attribute at a place, by the method linear, natural or nearest; NULL outside the mesh, unless outside is nearest, and where a value is missing';
+
+CREATE FUNCTION abacus_weights(
+    mesh regclass,
+    place geometry,
+    method text DEFAULT 'linear',
+    outside text DEFAULT 'null',
+    max_edge double precision DEFAULT NULL,
+    OUT vertex bigint,
+    OUT weight double precision)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_weights_geometry'
+LANGUAGE C STABLE PARALLEL SAFE COST 500 ROWS 3;
+COMMENT ON FUNCTION abacus_weights(regclass, geometry, text, text, double precision) IS
+    'the vertices that abacus_interpolate takes the value at a place from, and their weights, which sum to 1';
+
+CREATE FUNCTION abacus_gradient(
+    mesh regclass,
+    place geometry,
+    attribute text DEFAULT NULL,
+    max_edge double precision DEFAULT NULL)
+RETURNS double precision[]
+AS 'MODULE_PATHNAME', 'abacus_sql_gradient_geometry'
+LANGUAGE C STABLE PARALLEL SAFE COST 500;
+COMMENT ON FUNCTION abacus_gradient(regclass, geometry, text, double precision) IS
+    'the gradient of an attribute in the simplex around a place; NULL outside the mesh and where a value is missing';
+
+CREATE FUNCTION abacus_slope(
+    mesh regclass,
+    place geometry,
+    attribute text DEFAULT NULL,
+    max_edge double precision DEFAULT NULL,
+    OUT slope double precision,
+    OUT aspect double precision)
+RETURNS record
+AS 'MODULE_PATHNAME', 'abacus_sql_slope_geometry'
+LANGUAGE C STABLE PARALLEL SAFE COST 500;
+COMMENT ON FUNCTION abacus_slope(regclass, geometry, text, double precision) IS
+    'how steep an attribute is in the triangle around a place, and where it goes down, in degrees; aspect is clockwise from north, NULL where it is level';
+
+CREATE FUNCTION abacus_visible(
+    mesh regclass,
+    observer geometry,
+    target geometry,
+    attribute text DEFAULT NULL,
+    observer_height double precision DEFAULT 0,
+    target_height double precision DEFAULT 0,
+    OUT visible boolean,
+    OUT x double precision,
+    OUT y double precision,
+    OUT z double precision)
+RETURNS record
+AS 'MODULE_PATHNAME', 'abacus_sql_visible_geometry'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000;
+COMMENT ON FUNCTION abacus_visible(regclass, geometry, geometry, text, double precision, double precision) IS
+    'whether a target is seen from an observer over a terrain, and where the line of sight is blocked first if not; both stand on the ground, or above it';
+
+-- Of two texts in quotes PostgreSQL could not tell whether they are arrays or geometries. They are arrays.
+CREATE FUNCTION abacus_visible(
+    mesh regclass,
+    observer text,
+    target text,
+    attribute text DEFAULT NULL,
+    observer_height double precision DEFAULT 0,
+    target_height double precision DEFAULT 0,
+    OUT visible boolean,
+    OUT x double precision,
+    OUT y double precision,
+    OUT z double precision)
+RETURNS record
+LANGUAGE sql STABLE PARALLEL SAFE COST 10000
+BEGIN ATOMIC
+    SELECT s.visible, s.x, s.y, s.z
+    FROM abacus_visible(mesh, observer::double precision[], target::double precision[], attribute, observer_height,
+                        target_height) AS s;
+END;
+COMMENT ON FUNCTION abacus_visible(regclass, text, text, text, double precision, double precision) IS
+    'the same, with arrays as text';

@@ -1,0 +1,46 @@
+-- Geometries over a terrain.
+
+CREATE FUNCTION abacus_drape(
+    mesh regclass,
+    geom geometry,
+    attribute text DEFAULT NULL,
+    densify boolean DEFAULT false,
+    outside text DEFAULT 'null')
+RETURNS geometry
+AS 'MODULE_PATHNAME', 'abacus_sql_drape'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000;
+COMMENT ON FUNCTION abacus_drape(regclass, geometry, text, boolean, text) IS
+    'points, lines or polygons with an attribute of a mesh of dimension 2 as z; with densify they have a place wherever they cross an edge; z is NaN outside the mesh, unless outside is nearest, and where a value is missing';
+
+CREATE FUNCTION abacus_clip(
+    mesh regclass,
+    area geometry,
+    attribute text DEFAULT NULL,
+    max_edge double precision DEFAULT NULL,
+    OUT code bigint,
+    OUT v0 bigint,
+    OUT v1 bigint,
+    OUT v2 bigint,
+    OUT whole boolean,
+    OUT geom geometry)
+RETURNS SETOF record
+LANGUAGE sql STABLE PARALLEL SAFE
+BEGIN ATOMIC
+    SELECT p.code, p.v0, p.v1, p.v2, p.whole,
+           CASE WHEN p.whole THEN _abacus_cell(p.corners, p."values", p.attribute_number, p.srid)
+                WHEN p.attribute_number IS NULL THEN p.part
+                WHEN _abacus_cell(p.corners, p."values", p.attribute_number, p.srid) IS NOT NULL THEN abacus_drape(mesh, p.part, attribute) END
+    FROM (SELECT t.*, CASE WHEN NOT t.whole THEN ST_CollectionExtract(ST_Intersection(t.cell, t.area), 3) END AS part
+          FROM (SELECT c.code, c.v0, c.v1, c.v2, c.corners, c."values", c.cell, c.attribute_number, c.srid, a.area, ST_Contains(a.area, c.cell) AS whole
+                FROM (SELECT _abacus_area(mesh, area) AS area OFFSET 0) AS a,
+                     LATERAL (SELECT d.*, f.attribute_number, f.srid, _abacus_cell(d.corners, d."values", NULL, f.srid) AS cell
+                              FROM _abacus_facts(mesh, attribute) AS f,
+                                   abacus_cells(mesh, _abacus_lower(mesh, a.area), _abacus_upper(mesh, a.area), max_edge) AS d
+                              OFFSET 0) AS c
+                WHERE NOT ST_IsEmpty(a.area) AND ST_Intersects(a.area, c.cell)
+                OFFSET 0) AS t
+          OFFSET 0) AS p
+    WHERE p.whole OR NOT ST_IsEmpty(p.part);
+END;
+COMMENT ON FUNCTION abacus_clip(regclass, geometry, text, double precision) IS
+    'what the triangles of a mesh of dimension 2 have within polygons: those wholly inside as they are, others cut at the border, with an attribute as z';

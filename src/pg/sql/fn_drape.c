@@ -1,0 +1,247 @@
+/*
+ * fn_drape.c: abacus_drape of the extension abacus_postgis, lines and polygons laid over a
+ * terrain.
+ *
+ * The bytes of a geometry are read and written again, with a z behind the coordinates of each place:
+ * the attribute, linear in each triangle. Between two places of a line the surface bends where the
+ * line crosses an edge, so with `densify` there is a place at each: those of a profile. Where there
+ * is no value z is NaN, which is how PostGIS keeps a z that is not known.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "miscadmin.h"
+
+#include "abacus/interpolate.h"
+#include "abacus/lines.h"
+#include "pg/base/sql_function.h"
+#include "pg/host/guard.h"
+#include "pg/mesh/mesh_cache.h"
+#include "pg/sql/geometry_make.h"
+#include "pg/sql/geometry_place.h"
+#include "pg/sql/interpolation.h"
+#include "pg/sql/word.h"
+
+SQL_FUNCTION(abacus_sql_drape);
+
+/* Arguments */
+enum
+{
+	DRAPE_MESH,
+	DRAPE_GEOMETRY,
+	DRAPE_ATTRIBUTE,
+	DRAPE_DENSIFY,
+	DRAPE_OUTSIDE
+};
+
+/* A place: x, y, z, m */
+typedef struct Place
+{
+	double		at[4];
+} Place;
+
+typedef struct Drape
+{
+	CachedMesh *mesh;
+	abacus_interpolation how;
+	bool		densifies;
+	GeometryBytes in;
+	StringInfoData out;
+	bool		has_m;			/* of the geometry that is being read */
+	size_t		places;			/* written of a line so far */
+	Place		from;			/* the ends of a piece of it */
+	Place		to;
+	bool		has_last;		/* a place between them has come, and waits */
+	Place		last;
+} Drape;
+
+static Place
+read_place(Drape *drape, const GeometryHead *head)
+{
+	Place		place = {{0}};
+
+	place.at[0] = geometry_number(&drape->in);
+	place.at[1] = geometry_number(&drape->in);
+	place.at[2] = NAN;
+	if (head->has_z)
+		(void) geometry_number(&drape->in);
+	if (head->has_m)
+		place.at[3] = geometry_number(&drape->in);
+	return place;
+}
+
+/* Sets z of a place. */
+static void
+lift(Drape *drape, Place *place)
+{
+	CachedMesh *mesh = drape->mesh;
+	double		value = NAN;
+
+	CHECK_FOR_INTERRUPTS();
+	if (!isfinite(place->at[0]) || !isfinite(place->at[1]))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("a coordinate of the geometry is not finite")));
+	if (host_run(mesh->host, abacus_mesh_interpolate, mesh->mesh, &drape->how, place->at, &value) == ABACUS_END)
+		value = NAN;
+	host_release(mesh->host);
+	place->at[2] = value;
+}
+
+static void
+put_place(Drape *drape, const Place *place)
+{
+	geometry_put_numbers(&drape->out, place->at, 3 + drape->has_m);
+	drape->places++;
+}
+
+static bool
+same_place(const double *a, const double *b)
+{
+	return a[0] == b[0] && a[1] == b[1];
+}
+
+static void
+put_last(Drape *drape)
+{
+	if (drape->has_last)
+		put_place(drape, &drape->last);
+	drape->has_last = false;
+}
+
+/*
+ * A place where a piece of a line crosses an edge; called by the core. Where the line leaves the
+ * mesh or comes back there are two, one of them without a value.
+ */
+static abacus_host_status
+cross(void *context, double distance, const double *at, double value)
+{
+	Drape	   *drape = context;
+	double		length = hypot(drape->to.at[0] - drape->from.at[0], drape->to.at[1] - drape->from.at[1]);
+	double		share = length > 0 ? Min(distance / length, 1) : 0;
+
+	if (same_place(at, drape->from.at) || same_place(at, drape->to.at))
+		return ABACUS_HOST_OK;
+	GUARD_BEGIN();
+	if (drape->has_last && same_place(at, drape->last.at))
+	{
+		if (isnan(drape->last.at[2]))
+			drape->last.at[2] = value;
+	}
+	else
+	{
+		put_last(drape);
+		drape->has_last = true;
+		drape->last = (Place) {{at[0], at[1], value,
+			drape->from.at[3] + (drape->to.at[3] - drape->from.at[3]) * share}};
+	}
+	GUARD_END(drape->mesh->host);
+	return ABACUS_HOST_OK;
+}
+
+/* The places between two ends. */
+static void
+put_crossings(Drape *drape)
+{
+	CachedMesh *mesh = drape->mesh;
+	double		path[] = {drape->from.at[0], drape->from.at[1], drape->to.at[0], drape->to.at[1]};
+
+	if (same_place(path, path + 2))
+		return;
+	drape->has_last = false;
+	host_run(mesh->host, abacus_mesh_profile, mesh->mesh, drape->how.attribute[0], path, 2, cross, drape);
+	host_release(mesh->host);
+	put_last(drape);
+}
+
+/* A line, or a ring: the number of places, and these. */
+static void
+drape_line(Drape *drape, const GeometryHead *head)
+{
+	uint32		count = geometry_count(&drape->in);
+	int			at = drape->out.len;
+	uint32		written;
+
+	geometry_put_count(&drape->out, 0);
+	drape->places = 0;
+	for (uint32 i = 0; i < count; i++)
+	{
+		drape->to = read_place(drape, head);
+		lift(drape, &drape->to);
+		if (drape->densifies && i > 0)
+			put_crossings(drape);
+		put_place(drape, &drape->to);
+		drape->from = drape->to;
+	}
+	written = (uint32) drape->places;
+	memcpy(drape->out.data + at, &written, sizeof(written));
+}
+
+static void
+drape_point(Drape *drape, const GeometryHead *head)
+{
+	Place		place = read_place(drape, head);
+
+	if (!isnan(place.at[0]) || !isnan(place.at[1])) /* empty */
+		lift(drape, &place);
+	put_place(drape, &place);
+}
+
+/* A geometry and what is in it. */
+static void
+drape_geometry(Drape *drape, bool inside)
+{
+	GeometryHead head = geometry_head(&drape->in);
+	GeometryHead lifted = head;
+	uint32		count;
+
+	check_stack_depth();
+	if (head.kind < GEOMETRY_POINT || head.kind > GEOMETRY_COLLECTION)
+		geometry_refuse_kind("the geometry", head.kind, "made of points, lines or polygons");
+	if (!inside)
+		geometry_check_srid(&drape->mesh->header, head.srid);
+	lifted.has_z = true;
+	drape->has_m = head.has_m;
+	geometry_put_head(&drape->out, &lifted);
+	if (head.kind == GEOMETRY_POINT)
+		drape_point(drape, &head);
+	else if (head.kind == GEOMETRY_LINE)
+		drape_line(drape, &head);
+	else
+	{
+		count = geometry_count(&drape->in);
+		geometry_put_count(&drape->out, count);
+		for (uint32 i = 0; i < count; i++)
+			if (head.kind == GEOMETRY_POLYGON)
+				drape_line(drape, &head);
+			else
+				drape_geometry(drape, true);
+	}
+}
+
+/*
+ * abacus_drape(mesh regclass, geometry geometry, attribute text, densify boolean, outside text)
+ *     -> geometry
+ */
+Datum
+abacus_sql_drape(PG_FUNCTION_ARGS)
+{
+	static const char *const outsides[] = {"null", "nearest", NULL};
+	const GeometryType *type = geometry_argument_type(fcinfo, DRAPE_GEOMETRY);
+	Drape		drape = {.how = {.method = ABACUS_LINEAR, .max_edge = INFINITY}};
+
+	if (interpolation_of_null(fcinfo, DRAPE_GEOMETRY))
+		PG_RETURN_NULL();
+	drape.mesh = mesh_cache_get(PG_GETARG_OID(DRAPE_MESH));
+	header_require_dimension(&drape.mesh->header, 2,
+							 "A terrain is a mesh in the plane with the height as an attribute.");
+	interpolation_attribute(fcinfo, DRAPE_ATTRIBUTE, &drape.mesh->header, &drape.how);
+	drape.how.outside = word_argument(fcinfo, DRAPE_OUTSIDE, outsides, "outside",
+									  "Outside the mesh the value is null, or that of the nearest vertex.");
+	drape.densifies = !PG_ARGISNULL(DRAPE_DENSIFY) && PG_GETARG_BOOL(DRAPE_DENSIFY);
+	drape.in = geometry_bytes(type, PG_GETARG_DATUM(DRAPE_GEOMETRY));
+	initStringInfo(&drape.out);
+	drape_geometry(&drape, false);
+	PG_RETURN_DATUM(geometry_made(type, &drape.out));
+}

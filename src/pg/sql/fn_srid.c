@@ -1,0 +1,40 @@
+/*
+ * fn_srid.c: abacus_srid and abacus_set_srid, the spatial reference system of a
+ * mesh.
+ *
+ * It is a number in the header. Abacus itself computes with plain coordinates; only
+ * geometries of PostGIS must have the same number.
+ */
+#include "postgres.h"
+
+#include "pg/base/sql_function.h"
+#include "pg/mesh/mesh_cache.h"
+#include "pg/mesh/writer.h"
+
+SQL_FUNCTION(abacus_sql_srid);
+SQL_FUNCTION(abacus_sql_set_srid);
+
+/* abacus_srid(mesh regclass) -> int */
+Datum
+abacus_sql_srid(PG_FUNCTION_ARGS)
+{
+	PG_RETURN_INT32((int32) mesh_cache_get(PG_GETARG_OID(0))->header.srid);
+}
+
+/* abacus_set_srid(mesh regclass, srid int) */
+Datum
+abacus_sql_set_srid(PG_FUNCTION_ARGS)
+{
+	int32		srid = PG_GETARG_INT32(1);
+	Writer		writer;
+
+	if (srid < 0 || srid > ABACUS_MAX_SRID)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("srid must be from 0 to %d, not %d", ABACUS_MAX_SRID, srid),
+				 errhint("0 stands for no spatial reference system.")));
+	writer_begin(&writer, PG_GETARG_OID(0), MESH_WRITE, "abacus_set_srid()");
+	writer.header->srid = (uint32) srid;
+	writer_end(&writer);
+	PG_RETURN_VOID();
+}

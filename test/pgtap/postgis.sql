@@ -1,0 +1,213 @@
+-- The extension abacus_postgis: geometries as sources, as places and windows, and as results, compared
+-- with what PostGIS itself finds.
+SELECT NOT EXISTS (SELECT FROM pg_available_extensions WHERE name = 'postgis') AS absent \gset
+\if :absent
+\echo 1..0 # SKIP PostGIS is not installed
+\quit
+\endif
+BEGIN;
+SELECT no_plan();
+SET client_min_messages = warning;
+-- in a schema of its own, which is not on the path when functions are called
+CREATE SCHEMA gis;
+CREATE EXTENSION postgis SCHEMA gis;
+SET LOCAL search_path = public, gis;
+CREATE EXTENSION abacus_postgis;
+
+SELECT is_empty($$ SELECT p.oid::regprocedure FROM pg_depend d JOIN pg_extension e ON e.oid = d.refobjid AND e.extname = 'abacus_postgis'
+                   JOIN pg_proc p ON p.oid = d.objid WHERE d.classid = 'pg_proc'::regclass AND d.deptype = 'e' AND (obj_description(p.oid, 'pg_proc') IS NULL
+                   OR provolatile <> 's' OR proparallel <> 's') $$, 'all functions have a comment, are stable and parallel safe');
+SELECT is((SELECT extrelocatable FROM pg_extension WHERE extname = 'abacus_postgis'), true, 'it may move');
+
+-- ---- Sources ---------------------------------------------------------------
+
+CREATE TABLE sites (id bigint PRIMARY KEY, geom geometry(Point, 2154), height float8);
+INSERT INTO sites SELECT i, ST_SetSRID(ST_MakePoint((i * 7919) % 1009 / 8.0, (i * 104729) % 997 / 8.0), 2154), (i * 31) % 89 FROM generate_series(1, 2000) AS i;
+SELECT cmp_ok(abacus_triangulate('terrain', 'SELECT id, geom, height FROM sites'), '>', 3900::bigint, 'a mesh of a table with geometries');
+SELECT is(abacus_srid('terrain'), 2154, 'which has their SRID');
+SELECT is((SELECT string_agg(name, ',') FROM abacus_attributes('terrain')), 'height', 'and the columns behind them as attributes');
+SELECT set_eq('SELECT id, x, y, attributes[1] FROM abacus_vertices(''terrain'')', 'SELECT id, ST_X(geom), ST_Y(geom), height FROM sites', 'the points are those of the table');
+SELECT is(abacus_triangulate('plain', 'SELECT id, ST_X(geom), ST_Y(geom) FROM sites'), (SELECT count(*) FROM abacus_simplices('terrain')), 'as many triangles as of coordinates');
+SELECT set_eq('SELECT v0, v1, v2 FROM abacus_simplices(''terrain'')', 'SELECT v0, v1, v2 FROM abacus_simplices(''plain'')', 'and the same ones');
+SELECT is(abacus_srid('plain'), 0, 'of coordinates nobody knows the SRID');
+
+SELECT is(abacus_insert('terrain', $$ SELECT 5000, 'SRID=2154;POINT Z (150 20 7)'::geometry, 3 $$), 1::bigint, 'a z is passed over in the plane');
+SELECT is((SELECT attributes FROM abacus_nearest('terrain', 'SRID=2154;POINT(150 20)'::geometry)), '{3}', 'and is no attribute');
+SELECT is(abacus_delete('terrain', $$ SELECT 5000, 'SRID=2154;POINT(150 20)'::geometry $$), 1::bigint, 'points are deleted by their geometries');
+SELECT abacus_create('staged', 2);
+SELECT abacus_stage('staged', 'SELECT id, geom FROM sites WHERE id <= 3');
+SELECT is(abacus_srid('staged'), 2154, 'staged points give the mesh an SRID, too');
+SELECT is(abacus_load('loaded', 'SELECT id, geom, height FROM sites', 'SELECT v0, v1, v2 FROM abacus_simplices(''plain'')'), abacus_triangulate('terrain'), 'a triangulation with geometries is loaded');
+SELECT is(abacus_srid('loaded'), 2154, 'with their SRID');
+SELECT set_eq($$ SELECT id, v0 FROM abacus_locate('terrain', 'SELECT id, ST_Translate(geom, 0.01, 0.02) FROM sites') $$,
+              $$ SELECT id, v0 FROM abacus_locate('terrain', 'SELECT id, ST_X(geom) + 0.01, ST_Y(geom) + 0.02 FROM sites') $$, 'places of a query are geometries');
+SELECT is((SELECT count(*) FROM abacus_interpolate('terrain', 'SELECT id, geom FROM sites') AS i JOIN sites USING (id) WHERE "values"[1] = height), 2000::bigint, 'for values as well');
+
+SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, ''SRID=4326;POINT(1 2)''::geometry, 3') $$, '22023', 'geometry of point 7 has SRID 4326, but the mesh has SRID 2154', 'another SRID');
+SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, ''POINT(1 2)''::geometry, 3') $$, '22023', 'geometry of point 7 has no SRID, but the mesh has SRID 2154', 'none');
+SELECT throws_ok($$ SELECT abacus_delete('plain', 'SELECT 7, ''SRID=4326;POINT(1 2)''::geometry') $$, '22023', 'geometry of point 7 has SRID 4326, but the mesh has none', 'one where the mesh has none');
+SELECT throws_ok($$ SELECT abacus_locate('plain', 'SELECT 7, ''SRID=4326;POINT(1 2)''::geometry') $$, '22023', 'geometry of point 7 has SRID 4326, but the mesh has none', 'also of places');
+SELECT throws_ok($$ SELECT abacus_triangulate('mixed', 'VALUES (1, ''SRID=4326;POINT(1 2)''::geometry), (8, ''SRID=3857;POINT(1 3)'')') $$, '22023', 'geometry of point 8 has SRID 3857, but those before it have SRID 4326', 'mixed SRIDs');
+SELECT throws_ok($$ SELECT abacus_triangulate('mixed', 'VALUES (1, ''POINT(1 2)''::geometry), (8, ''SRID=3857;POINT(1 3)'')') $$, '22023', 'geometry of point 8 has SRID 3857, but those before it have SRID 0', 'none first, and then one');
+SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, ''SRID=2154;POINT EMPTY''::geometry, 3') $$, '22023', 'geometry of point 7 is empty', 'an empty point');
+SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, ''SRID=2154;LINESTRING(1 2, 3 4)''::geometry, 3') $$, '22023', 'geometry of point 7 is a LineString, not a Point', 'no point');
+SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, ''SRID=2154;MULTIPOINT(1 2)''::geometry, 3') $$, '22023', 'geometry of point 7 is a MultiPoint, not a Point', 'several');
+SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, ''SRID=2154;CIRCULARSTRING(0 0, 1 1, 2 0)''::geometry, 3') $$, '22023', 'geometry of point 7 is a CircularString, not a Point', 'a curve');
+SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, NULL::geometry, 3') $$, '22004', 'geometry of point 7 is NULL', 'NULL');
+SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, ST_SetSRID(ST_MakePoint(1, ''Infinity''), 2154), 3') $$, '22023', 'geometry of point 7 is not finite', 'infinity');
+SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, 1, 2, geom FROM sites') $$, '42804', 'column 4 (height) of the source query has type geometry', 'a geometry elsewhere');
+SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, geom FROM sites') $$, '42804', 'source query returns 2 columns, but the mesh takes 3', 'an attribute is missing');
+SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, geom::geography, 3, 4 FROM sites') $$, '42804', 'column 2 (x) of the source query has type geography', 'geography is not planar');
+SELECT is((SELECT count(*) FROM abacus_vertices('terrain')), 2000::bigint, 'errors change nothing');
+
+-- ---- Places ----------------------------------------------------------------
+
+CREATE TABLE places AS SELECT i AS id, ST_SetSRID(ST_MakePoint((i * 37) % 127 + 0.3, (i * 53) % 125 + 0.7), 2154) AS geom FROM generate_series(1, 200) AS i;
+CREATE VIEW cells AS SELECT * FROM abacus_cells_geom('terrain', attribute => 'height');
+SELECT is((SELECT count(*) FROM places WHERE (abacus_locate('terrain', geom)).code IS NOT NULL), (SELECT count(*) FROM places, (SELECT abacus_hull_geom('terrain') AS hull) AS h WHERE ST_Intersects(places.geom, hull)), 'as many places are located as the hull has');
+SELECT is_empty($$ SELECT FROM places AS p WHERE (abacus_locate('terrain', geom)).code IS NOT NULL AND NOT EXISTS (SELECT FROM cells AS c WHERE c.code = (abacus_locate('terrain', p.geom)).code
+                   AND (c.v0, c.v1, c.v2) = ((abacus_locate('terrain', p.geom)).v0, (abacus_locate('terrain', p.geom)).v1, (abacus_locate('terrain', p.geom)).v2) AND ST_Intersects(c.geom, p.geom)) $$,
+                'each in the triangle that covers it');
+SELECT results_eq($$ SELECT id, abacus_interpolate('terrain', geom), abacus_interpolate('terrain', geom, 'height', 'natural'), abacus_gradient('terrain', geom), abacus_slope('terrain', geom) FROM places ORDER BY id $$,
+                  $$ SELECT id, abacus_interpolate('terrain', ST_X(geom), ST_Y(geom)), abacus_interpolate('terrain', ST_X(geom), ST_Y(geom), 'height', 'natural'), abacus_gradient('terrain', ST_X(geom), ST_Y(geom)), abacus_slope('terrain', ST_X(geom), ST_Y(geom)) FROM places ORDER BY id $$,
+                  'values, gradients and slopes');
+SELECT results_eq($$ SELECT p.id, n.* FROM places AS p, abacus_nearest('terrain', geom, 3) AS n ORDER BY p.id, distance $$,
+                  $$ SELECT p.id, n.* FROM places AS p, abacus_nearest('terrain', ST_X(geom), ST_Y(geom), 3) AS n ORDER BY p.id, distance $$, 'nearest vertices');
+SELECT results_eq($$ SELECT vertex FROM abacus_nearest('terrain', 'SRID=2154;POINT(50.1 50.2)'::geometry, 10) $$,
+                  $$ SELECT id FROM sites ORDER BY ST_Distance(geom, 'SRID=2154;POINT(50.1 50.2)') LIMIT 10 $$, 'those that PostGIS finds');
+SELECT set_eq($$ SELECT p.id, w.* FROM places AS p, abacus_weights('terrain', geom) AS w $$, $$ SELECT p.id, w.* FROM places AS p, abacus_weights('terrain', ST_X(geom), ST_Y(geom)) AS w $$, 'weights');
+SELECT set_eq($$ SELECT p.id, s.* FROM sites AS p, abacus_star('terrain', geom) AS s WHERE p.id < 50 $$, $$ SELECT p.id, s.* FROM sites AS p, abacus_star('terrain', ST_X(geom), ST_Y(geom)) AS s WHERE p.id < 50 $$, 'stars');
+SELECT results_eq($$ SELECT a.id, s.* FROM places AS a, places AS b, abacus_visible('terrain', a.geom, b.geom, observer_height => 2) AS s WHERE b.id = 5 ORDER BY a.id $$,
+                  $$ SELECT a.id, s.* FROM places AS a, places AS b, abacus_visible('terrain', ARRAY[ST_X(a.geom), ST_Y(a.geom)], ARRAY[ST_X(b.geom), ST_Y(b.geom)], observer_height => 2) AS s WHERE b.id = 5 ORDER BY a.id $$, 'lines of sight');
+SELECT lives_ok($$ SELECT abacus_visible('terrain', '{50, 50}', '{60, 60}') $$, 'arrays in quotes are still arrays');
+
+SELECT is(abacus_locate('terrain', NULL::geometry), NULL, 'NULL is nowhere');
+SELECT is(abacus_locate('terrain', 'SRID=2154;POINT EMPTY'::geometry), NULL, 'an empty point as well');
+SELECT is(abacus_interpolate('terrain', 'SRID=2154;POINT EMPTY'::geometry), NULL, 'it has no value');
+SELECT is((SELECT count(*) FROM abacus_nearest('terrain', 'SRID=2154;POINT EMPTY'::geometry)) + (SELECT count(*) FROM abacus_star('terrain', 'SRID=2154;POINT EMPTY'::geometry)) +
+          (SELECT count(*) FROM abacus_weights('terrain', NULL::geometry)), 0::numeric::bigint, 'and no rows');
+SELECT is((abacus_visible('terrain', 'SRID=2154;POINT EMPTY'::geometry, 'SRID=2154;POINT(1 1)')).visible, NULL, 'nothing is seen from it');
+SELECT throws_ok($$ SELECT abacus_locate('terrain', 'SRID=4326;POINT(1 1)'::geometry) $$, '22023', 'the geometry has SRID 4326, but the mesh has SRID 2154', 'another SRID');
+SELECT throws_ok($$ SELECT abacus_locate('terrain', 'POINT(1 1)'::geometry) $$, '22023', 'the geometry has no SRID, but the mesh has SRID 2154', 'none');
+SELECT throws_ok($$ SELECT abacus_interpolate('plain', 'SRID=4326;POINT(1 1)'::geometry, 'h') $$, '22023', 'the geometry has SRID 4326, but the mesh has none', 'one where the mesh has none');
+SELECT throws_ok($$ SELECT abacus_nearest('terrain', 'SRID=2154;POLYGON((0 0, 1 0, 0 1, 0 0))'::geometry) $$, '22023', 'the geometry is a Polygon, not a Point', 'no point');
+SELECT is(abacus_locate('terrain', 'SRID=2154;POINT ZM (50 50 7 8)'::geometry), abacus_locate('terrain', 50, 50), 'z and m are passed over in the plane');
+
+-- ---- Results ---------------------------------------------------------------
+
+SELECT is((SELECT ST_Area(abacus_hull_geom('terrain'))), (SELECT ST_Area(ST_ConvexHull(ST_Collect(geom))) FROM sites), 'the hull is that of PostGIS');
+SELECT ok(ST_Equals(abacus_hull_geom('terrain'), ST_ConvexHull(ST_Collect(geom))), 'everywhere') FROM sites;
+SELECT is((SELECT sum(ST_Area(geom)) FROM cells), ST_Area(abacus_hull_geom('terrain')), 'the areas of the cells are that of the hull');
+SELECT is((SELECT count(*) FROM cells WHERE ST_IsValid(geom) AND ST_SRID(geom) = 2154 AND GeometryType(geom) = 'POLYGON' AND ST_ZMFlag(geom) = 2), (SELECT count(*) FROM abacus_simplices('terrain')), 'cells are valid polygons with z');
+SELECT is_empty($$ SELECT FROM cells, ST_DumpPoints(geom) AS d WHERE NOT EXISTS (SELECT FROM sites AS s WHERE ST_X(s.geom) = ST_X(d.geom) AND ST_Y(s.geom) = ST_Y(d.geom) AND height = ST_Z(d.geom)) $$, 'with the points and heights of the table');
+CREATE TABLE few AS SELECT id, ST_SetSRID(ST_MakePoint(sin(id), cos(id * 1.7)), 2154) AS geom FROM generate_series(1, 300) AS id
+UNION ALL SELECT 1000 + i, ST_SetSRID(ST_MakePoint(4 - i % 2 * 8, 4 - i / 2 * 8), 2154) FROM generate_series(0, 3) AS i;
+SELECT abacus_triangulate('small', 'TABLE few');
+SELECT set_eq($$ SELECT ST_Normalize(geom) FROM abacus_cells_geom('small') $$, $$ SELECT ST_Normalize(d.geom) FROM (SELECT ST_DelaunayTriangles(ST_Collect(geom)) AS g FROM few) AS t, ST_Dump(g) AS d $$, 'the triangles that PostGIS finds');
+SELECT is((SELECT count(*) FROM abacus_cells_geom('terrain', 'SRID=2154;POLYGON EMPTY')), 0::bigint, 'an empty window has nothing');
+SELECT is((SELECT count(*) FROM abacus_cells_geom('terrain', ST_MakeEnvelope(9000, 9000, 9001, 9001, 2154))), 0::bigint, 'nor has one far outside');
+SELECT set_eq($$ SELECT v0, v1, v2 FROM abacus_cells_geom('terrain', ST_MakeEnvelope(30, 30, 40, 35, 2154)) $$, $$ SELECT v0, v1, v2 FROM cells WHERE ST_Intersects(geom, ST_MakeEnvelope(30, 30, 40, 35, 2154)) $$, 'a window has what PostGIS finds in it');
+SELECT throws_ok($$ SELECT * FROM abacus_cells_geom('terrain', ST_MakeEnvelope(30, 30, 40, 35, 4326)) $$, '22023', 'the geometry has SRID 4326, but the mesh has SRID 2154', 'a window of another SRID');
+SELECT throws_ok($$ SELECT * FROM abacus_cells_geom('terrain', attribute => 'depth') $$, '42703', NULL, 'no such attribute');
+SELECT is((SELECT count(*) FROM abacus_cells_geom(NULL)), 0::bigint, 'no mesh, no cells');
+SELECT set_eq($$ SELECT id, geom FROM abacus_vertices_geom('terrain') $$, 'SELECT id, geom FROM sites', 'the points as geometries');
+SELECT set_eq($$ SELECT id FROM abacus_vertices_geom('terrain', ST_MakeEnvelope(30, 30, 40, 35, 2154)) $$, $$ SELECT id FROM sites WHERE geom && ST_MakeEnvelope(30, 30, 40, 35, 2154) $$, 'those of a window');
+SELECT set_eq($$ SELECT v0, v1, ST_Length(geom) FROM abacus_edges_geom('terrain') $$, $$ SELECT v0, v1, length FROM abacus_edges('terrain') $$, 'edges are as long as they are');
+SELECT is_empty($$ SELECT FROM abacus_edges_geom('terrain') AS e JOIN sites AS a ON a.id = v0 JOIN sites AS b ON b.id = v1 WHERE NOT ST_OrderingEquals(e.geom, ST_MakeLine(a.geom, b.geom)) $$, 'and go from the lesser id to the greater');
+SELECT results_eq($$ SELECT id, value, ST_NPoints(geom), ST_IsClosed(geom) FROM abacus_contours_geom('terrain', 10) ORDER BY id $$, $$ SELECT id, value, cardinality(path) / 2, closed FROM abacus_contours('terrain', 10) ORDER BY id $$, 'contours');
+SELECT is((SELECT round(sum(ST_Area(geom))::numeric, 6) FROM abacus_contours_geom('terrain', 10, polygonize => true)), round(ST_Area(abacus_hull_geom('terrain'))::numeric, 6), 'bands fill the hull');
+SELECT is((SELECT count(*) FROM abacus_contours_geom('terrain', 10, polygonize => true) WHERE ST_IsValid(geom) AND GeometryType(geom) = 'MULTIPOLYGON'), (SELECT count(DISTINCT value) FROM abacus_contours('terrain', 10, polygonize => true)), 'and are valid, one a value');
+SELECT is((SELECT round(sum(ST_Area(geom))::numeric, 6) FROM abacus_contours_geom('terrain', 10, polygonize => true, bounds => ST_MakeEnvelope(20, 20, 80, 70, 2154))), 3000.000000, 'those of a window fill it');
+SELECT is((SELECT round(sum(ST_Area(geom))::numeric, 6) FROM abacus_voronoi_geom('terrain', ST_MakeEnvelope(20, 20, 80, 70, 2154)) WHERE ST_IsValid(geom)), 3000.000000, 'so do Voronoi cells');
+SELECT is_empty($$ SELECT FROM abacus_voronoi_geom('terrain', ST_MakeEnvelope(40, 40, 60, 60, 2154)) AS v JOIN sites AS s ON s.id = v.vertex WHERE bounded AND ST_Within(s.geom, ST_MakeEnvelope(40, 40, 60, 60, 2154)) AND NOT ST_Contains(v.geom, s.geom) $$, 'each around its point');
+SELECT results_eq($$ SELECT vertex, neighbour, round(ST_Length(geom)::numeric, 9) FROM abacus_voronoi_facets_geom('terrain', ST_MakeEnvelope(40, 40, 45, 45, 2154)) ORDER BY 1, 2, 3 $$,
+                  $$ SELECT vertex, neighbour, round(size::numeric, 9) FROM abacus_voronoi_facets('terrain', '{40,40}', '{45,45}') ORDER BY 1, 2, 3 $$, 'and between them lines');
+SELECT results_eq($$ SELECT distance, value, ST_X(geom), ST_Y(geom) FROM abacus_profile_geom('terrain', 'SRID=2154;LINESTRING(-5 20, 60 70, 140 30)') $$,
+                  $$ SELECT distance, value, x, y FROM abacus_profile('terrain', '{-5, 20, 60, 70, 140, 30}') $$, 'a profile');
+SELECT is((SELECT count(*) FROM abacus_profile_geom('terrain', 'SRID=2154;LINESTRING EMPTY')), 0::bigint, 'of no line');
+SELECT throws_ok($$ SELECT * FROM abacus_profile_geom('terrain', 'SRID=2154;MULTILINESTRING((0 0, 1 1))') $$, '22023', 'the geometry is a MultiLineString, not a LineString', 'of several');
+SELECT is(ST_Area(abacus_hull_geom('terrain', 4)), (SELECT sum(ST_Area(geom)) FROM abacus_cells_geom('terrain', max_edge => 4)), 'an outline has the area of the cells in it');
+SELECT ok(ST_IsValid(abacus_hull_geom('small', 0.26)) AND ST_NRings(abacus_hull_geom('small', 0.26)) > ST_NumGeometries(abacus_hull_geom('small', 0.26)), 'it is valid, and has holes');
+SELECT ok(ST_Equals(abacus_hull_geom('small', 0.26), (SELECT ST_Union(geom) FROM abacus_cells_geom('small', max_edge => 0.26))), 'it is their union');
+CREATE FUNCTION squared_radius(triangle geometry) RETURNS float8 LANGUAGE sql AS
+$$ SELECT (ST_Distance(a, b) * ST_Distance(b, c) * ST_Distance(c, a) / (4 * ST_Area(triangle))) ^ 2 FROM (SELECT ST_PointN(r, 1) AS a, ST_PointN(r, 2) AS b, ST_PointN(r, 3) AS c FROM ST_ExteriorRing(triangle) AS r) AS corners $$;
+SELECT ok(ST_Equals(abacus_alpha_shape_geom('small', 0.01, true), (SELECT ST_Union(geom) FROM abacus_cells_geom('small') WHERE squared_radius(geom) <= 0.01)), 'an alpha shape has the triangles with small circumcircles');
+SELECT ok(ST_Equals(abacus_alpha_shape_geom('small', 'Infinity'), abacus_hull_geom('small')), 'or all of them');
+
+-- ---- Drape and clip --------------------------------------------------------
+
+CREATE TABLE road AS SELECT 'SRID=2154;LINESTRING(10 10, 60 70, 110 30)'::geometry AS geom;
+SELECT is(ST_NPoints(abacus_drape('terrain', geom)), 3, 'a draped line has its own places') FROM road;
+SELECT ok(ST_Force2D(abacus_drape('terrain', geom)) = geom AND ST_SRID(abacus_drape('terrain', geom)) = 2154, 'where they were') FROM road;
+SELECT is_empty($$ SELECT FROM road, ST_DumpPoints(abacus_drape('terrain', geom, densify => true)) AS d WHERE abs(ST_Z(d.geom) - abacus_interpolate('terrain', ST_Force2D(d.geom))) > 1e-6 $$, 'z is the height of the terrain');
+SELECT is(ST_NPoints(abacus_drape('terrain', geom, 'height', true)), (SELECT count(*)::int FROM abacus_profile_geom('terrain', geom)), 'densified it has a place at each edge') FROM road;
+SELECT is(ST_NPoints(abacus_drape('terrain', geom, 'height', true)), 2 + (SELECT count(*)::int FROM abacus_edges_geom('terrain') AS e WHERE ST_Crosses(e.geom, road.geom)), 'that PostGIS finds') FROM (SELECT 'SRID=2154;LINESTRING(10.03 10.07, 60.01 70.09)'::geometry AS geom) AS road;
+SELECT is(ST_AsText(abacus_drape('terrain', 'SRID=2154;POINT(-50 -50)')), 'POINT Z (-50 -50 NaN)', 'outside there is no z');
+SELECT is(ST_Z(abacus_drape('terrain', 'SRID=2154;POINT(-50 -50)', outside => 'nearest')), (SELECT attributes[1] FROM abacus_nearest('terrain', -50, -50)), 'or that of the nearest point');
+SELECT is((SELECT count(*) FROM ST_DumpPoints(abacus_drape('terrain', 'SRID=2154;LINESTRING(-20 50, 50 50)', densify => true)) AS d WHERE ST_Z(d.geom) = 'NaN'), 1::bigint, 'a line that comes in has a z from the border on');
+SELECT is(ST_AsText(abacus_drape('terrain', 'SRID=2154;LINESTRING M (50 50 10, 50 50 20)', densify => true), 0), format('LINESTRING ZM (50 50 %1$s 10,50 50 %1$s 20)', round(abacus_interpolate('terrain', 50, 50)::numeric)), 'm is kept, and lines of no length are');
+SELECT ok(ST_IsValid(abacus_drape('terrain', ST_Buffer('SRID=2154;POINT(60 60)', 20), densify => true)) AND ST_IsClosed(ST_ExteriorRing(abacus_drape('terrain', ST_Buffer('SRID=2154;POINT(60 60)', 20), densify => true))), 'polygons stay closed and valid');
+SELECT is(ST_AsText(abacus_drape('terrain', 'SRID=2154;GEOMETRYCOLLECTION(POINT EMPTY, MULTILINESTRING EMPTY, POLYGON EMPTY)')), 'GEOMETRYCOLLECTION Z (POINT Z EMPTY,MULTILINESTRING Z EMPTY,POLYGON Z EMPTY)', 'empty geometries stay so');
+SELECT throws_ok($$ SELECT abacus_drape('terrain', 'SRID=2154;CIRCULARSTRING(0 0, 1 1, 2 0)') $$, '22023', 'the geometry is a CircularString, not made of points, lines or polygons', 'curves are refused');
+SELECT throws_ok($$ SELECT abacus_drape('terrain', 'SRID=4326;POINT(1 1)') $$, '22023', 'the geometry has SRID 4326, but the mesh has SRID 2154', 'another SRID');
+
+CREATE TABLE field AS SELECT ST_Difference(ST_Buffer('SRID=2154;POINT(60 60)', 30), ST_Buffer('SRID=2154;POINT(70 60)', 9)) AS geom;
+SELECT is((SELECT round(sum(ST_Area(c.geom))::numeric, 6) FROM field, abacus_clip('terrain', field.geom) AS c), (SELECT round(ST_Area(geom)::numeric, 6) FROM field), 'clipped cells fill the area');
+SELECT is_empty($$ SELECT FROM field, abacus_clip('terrain', field.geom) AS c WHERE NOT ST_IsValid(c.geom) OR ST_Dimension(c.geom) <> 2 OR ST_SRID(c.geom) <> 2154 $$, 'and are valid');
+SELECT set_eq($$ SELECT v0, v1, v2 FROM field, abacus_clip('terrain', field.geom) AS c WHERE whole $$, $$ SELECT v0, v1, v2 FROM field, cells AS c WHERE ST_Contains(field.geom, c.geom) $$, 'those wholly inside are whole');
+SELECT is_empty($$ SELECT FROM field, abacus_clip('terrain', field.geom, 'height') AS c JOIN cells USING (v0, v1, v2) WHERE whole AND NOT ST_OrderingEquals(c.geom, cells.geom) $$, 'as they are');
+SELECT is_empty($$ SELECT FROM field, abacus_clip('terrain', field.geom, 'height') AS c, ST_DumpPoints(c.geom) AS d WHERE abs(ST_Z(d.geom) - abacus_interpolate('terrain', ST_Force2D(d.geom))) > 1e-6 $$, 'all with the height of the terrain');
+SELECT is((SELECT count(*) FROM abacus_clip('terrain', 'SRID=2154;POLYGON EMPTY')), 0::bigint, 'an empty area has none');
+SELECT is((SELECT count(*) FROM abacus_clip('terrain', ST_MakeEnvelope(9000, 9000, 9001, 9001, 2154))), 0::bigint, 'nor has one far outside');
+SELECT is((SELECT count(*) FROM abacus_clip('terrain', NULL)), 0::bigint, 'nor has NULL');
+SELECT throws_ok($$ SELECT * FROM abacus_clip('terrain', 'SRID=2154;LINESTRING(0 0, 1 1)') $$, '22023', 'the geometry is a LineString, not a Polygon or MultiPolygon', 'a line is no area');
+SELECT throws_ok($$ SELECT * FROM abacus_clip('terrain', ST_MakeEnvelope(0, 0, 1, 1, 4326)) $$, '22023', 'the geometry has SRID 4326, but the mesh has SRID 2154', 'another SRID');
+
+-- ---- In space --------------------------------------------------------------
+
+CREATE TABLE rock AS SELECT 100 * x + 10 * y + z AS id, ST_MakePoint(x, y, -z) AS geom, 300 + 40 * z + 10 * x AS vs FROM generate_series(0, 8) AS x, generate_series(0, 8) AS y, generate_series(0, 4) AS z;
+SELECT is(abacus_triangulate('rocks', 'TABLE rock', dimension => 3), 1536::bigint, 'points with z make tetrahedra');
+SELECT is((SELECT count(*) FROM abacus_cells_geom('rocks') WHERE GeometryType(geom) = 'POLYHEDRALSURFACE' AND ST_NumGeometries(geom) = 4 AND ST_IsClosed(geom)), 1536::bigint, 'which are closed surfaces');
+SELECT is(abacus_interpolate('rocks', ST_MakePoint(1.25, 2, -0.5)), 332.5::float8, 'a value in space');
+SELECT is(abacus_locate('rocks', ST_MakePoint(1.25, 2.3, -0.4)), abacus_locate('rocks', 1.25, 2.3, -0.4), 'a tetrahedron');
+SELECT is((SELECT count(*) FROM abacus_cells_geom('rocks', ST_MakeEnvelope(1.2, 1.2, 1.4, 1.4))), (SELECT count(*) FROM abacus_cells('rocks', ARRAY[1.2, 1.2, -1000], ARRAY[1.4, 1.4, 1000])), 'a window without z goes from the bottom to the top');
+SELECT is((SELECT count(*) FROM abacus_cells_geom('rocks', 'LINESTRING Z (1.2 1.2 -0.6, 1.4 1.4 -0.4)')), (SELECT count(*) FROM abacus_cells('rocks', ARRAY[1.2, 1.2, -0.6], ARRAY[1.4, 1.4, -0.4])), 'one with z is a box');
+SELECT is(ST_NumGeometries(abacus_hull_geom('rocks')), (SELECT count(DISTINCT ring)::int FROM abacus_hull('rocks')), 'the hull is a TIN');
+SELECT ok(ST_IsClosed(abacus_hull_geom('rocks')) AND GeometryType(abacus_hull_geom('rocks')) = 'TIN', 'closed');
+SELECT is((SELECT count(*) FROM abacus_isosurface_geom('rocks', 345) WHERE GeometryType(geom) = 'TRIANGLE'), (SELECT count(*) FROM abacus_isosurface('rocks', 345)), 'an isosurface');
+SELECT is((SELECT round(sum(ST_Area(ST_MakePolygon(ST_MakeLine(ARRAY(SELECT ST_MakePoint(ST_Y(d.geom), ST_Z(d.geom)) FROM ST_DumpPoints(s.geom) AS d)))))::numeric, 9) FROM abacus_section_geom('rocks', 'POINT Z (0.5 0 0)', '{1,0,0}') AS s), 32.000000000, 'a section');
+SELECT is((SELECT count(*) FROM abacus_voronoi_facets_geom('rocks') WHERE vertex = 111 AND GeometryType(geom) = 'POLYGON' AND ST_ZMFlag(geom) = 2), 6::bigint, 'facets of Voronoi cells');
+SELECT throws_ok($$ SELECT abacus_locate('rocks', ST_MakePoint(1, 2)) $$, '22023', 'the geometry has no z, but the mesh has dimension 3', 'z is missing');
+SELECT throws_ok($$ SELECT abacus_insert('rocks', 'SELECT 9, ST_MakePoint(1, 2), 300') $$, '22023', 'geometry of point 9 has no z, but the mesh has dimension 3', 'of a point as well');
+SELECT throws_ok($$ SELECT abacus_drape('rocks', ST_MakePoint(1, 2)) $$, '22023', 'mesh has dimension 3, not 2', 'nothing is draped in space');
+SELECT throws_ok($$ SELECT * FROM abacus_clip('rocks', ST_MakeEnvelope(0, 0, 1, 1)) $$, '22023', 'mesh has dimension 3, not 2', 'nor clipped');
+
+-- ---- Schemas and privileges ------------------------------------------------
+
+SET LOCAL search_path = pg_catalog;
+SELECT count(*) AS clipped FROM public.abacus_clip('public.terrain', 'SRID=2154;POLYGON((50 50, 60 50, 60 60, 50 50))'::gis.geometry, 'height') \gset
+SET LOCAL search_path = public, gis;
+SELECT is(:clipped::bigint, (SELECT count(*) FROM cells WHERE ST_Area(ST_Intersection(geom, 'SRID=2154;POLYGON((50 50, 60 50, 60 60, 50 50))'::geometry)) > 0), 'no search_path is needed');
+CREATE SCHEMA elsewhere;
+ALTER EXTENSION abacus_postgis SET SCHEMA elsewhere;
+SELECT is((SELECT count(*) FROM elsewhere.abacus_edges_geom('small')), (SELECT count(*) FROM abacus_edges('small')), 'nor when it has moved');
+ALTER EXTENSION abacus_postgis SET SCHEMA public;
+CREATE ROLE abacus_gis_user;
+GRANT USAGE ON SCHEMA gis TO abacus_gis_user;
+SET ROLE abacus_gis_user;
+SELECT throws_ok($$ SELECT abacus_locate('terrain', 'SRID=2154;POINT(1 1)'::geometry) $$, '42501', 'permission denied for table terrain', 'without SELECT a mesh is not asked');
+SELECT throws_ok($$ SELECT * FROM abacus_cells_geom('terrain') $$, '42501', 'permission denied for table terrain', 'nor are its cells');
+SELECT throws_ok($$ SELECT abacus_drape('terrain', 'SRID=2154;POINT(1 1)') $$, '42501', 'permission denied for table terrain', 'nor its heights');
+SELECT throws_ok($$ SELECT abacus_cells_geom('terrain', ST_MakeEnvelope(0, 0, 1, 1, 4326)) $$, '42501', 'permission denied for table terrain', 'nor its SRID');
+RESET ROLE;
+
+-- wrong arguments of what is inside
+SELECT throws_ok($$ SELECT _abacus_line('{1,2,3}', 2, 0) $$, '2202E', NULL, 'half a place');
+SELECT throws_ok($$ SELECT _abacus_line('{1,2,3,NULL}', 2, 0) $$, '2202E', NULL, 'a NULL');
+SELECT throws_ok($$ SELECT _abacus_cell('{1,2,3}', '{}', NULL, 0) $$, '2202E', NULL, 'half a cell');
+SELECT throws_ok($$ SELECT _abacus_cell('{1,2,3,4,5,6}', '{1,2,3}', 2, 0) $$, '2202E', NULL, 'no such attribute');
+SELECT throws_ok($$ SELECT _abacus_corner('terrain', 2154, '{1}') $$, '2202E', NULL, 'half a corner');
+SELECT throws_ok($$ SELECT _abacus_triangles('{1,2}', 0) $$, '2202E', NULL, 'half a triangle');
+
+SELECT * FROM finish();
+ROLLBACK;
