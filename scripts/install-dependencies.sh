@@ -13,7 +13,7 @@ set -euo pipefail
 
 version=${ABACUS_POSTGRESQL:-15}
 packages=(
-    make g++ pkg-config libxxhash-dev
+    make g++ pkg-config libxxhash-dev libprotozero-dev
     "postgresql-$version" "postgresql-server-dev-$version"
     libcgal-dev libgmp-dev libmpfr-dev libcairo2-dev
 )
@@ -36,12 +36,12 @@ test=(
     clang-format clang-tidy
     gnuplot-nox                     # plots of docs/benchmarks.md
     python3-numpy python3-scipy python3-matplotlib python3-vtk9   # whose answers ours are compared with
+    gdal-bin                        # reads tiles; gdal_grid, to compare with
     python3-meshio                  # reads and writes the files of meshes
     mmdebstrap                      # a Debian with another version of PostgreSQL
 )
 bench=(
     "postgresql-$version-postgis-3"
-    gdal-bin                        # gdal_grid, to compare with
     linux-perf                      # tells the functions that take most time
 )
 
