@@ -38,12 +38,16 @@ test=(
     python3-numpy python3-scipy python3-matplotlib python3-vtk9   # whose answers ours are compared with
     gdal-bin                        # reads tiles; gdal_grid, to compare with
     python3-meshio                  # reads and writes the files of meshes
+    chromium                        # shows the viewer's page, without a screen
     mmdebstrap                      # a Debian with another version of PostgreSQL
 )
 bench=(
     "postgresql-$version-postgis-3"
     linux-perf                      # tells the functions that take most time
 )
+
+# Node.js may come from elsewhere.
+command -v npm >/dev/null || test+=(nodejs npm)
 
 case ${1:-test} in
 build) ;;
