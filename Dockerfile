@@ -4,7 +4,7 @@ ARG POSTGRESQL=17
 FROM postgres:${POSTGRESQL} AS build
 ARG POSTGRESQL
 RUN apt-get update && apt-get install -y --no-install-recommends \
-    g++ make pkg-config libcairo2-dev libcgal-dev libgmp-dev libmpfr-dev libxxhash-dev \
+    g++ make pkg-config libcairo2-dev libcgal-dev libgmp-dev libmpfr-dev libxxhash-dev libprotozero-dev \
     "postgresql-server-dev-${POSTGRESQL}"
 COPY . /abacus
 RUN mkdir /build && cd /build && make -j"$(nproc)" -f /abacus/Makefile.pgxs && \

@@ -10,7 +10,7 @@ if [[ ${ABACUS_CHROOT:-} != arm64 ]]; then # not in there yet
     exec scripts/chroot.sh arm64 scripts/arm64_test.sh "$@"
 fi
 
-packages=(cmake make pkg-config g++-aarch64-linux-gnu qemu-user libxxhash-dev:arm64 libcgal-dev
+packages=(cmake make pkg-config g++-aarch64-linux-gnu qemu-user libxxhash-dev:arm64 libprotozero-dev libcgal-dev
     {libgmp,libmpfr,libcairo2,libgtest,libgmock,libpng}-dev:arm64)
 if ! dpkg-query -W "${packages[@]}" >/dev/null 2>&1; then
     export DEBIAN_FRONTEND=noninteractive

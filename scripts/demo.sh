@@ -5,14 +5,20 @@
 # becomes a shaded terrain. In space, a million points of an earthquake model become
 # tetrahedra, which tell the ground under seismographs. Pictures are left in build/demo.
 #
-#   demo.sh          everything (a few minutes)
-#   demo.sh quick    shorelines at a fifth of the resolution, a coarser earthquake model
+#   demo.sh [--view]        everything (a few minutes); --view then shows the meshes in a browser
+#   demo.sh quick [--view]  shorelines at a fifth of the resolution, a coarser earthquake model
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh
 
-resolution=f frequency=0.25
-if [[ ${1:-} == quick ]]; then resolution=h frequency=0.1; fi
+resolution=f frequency=0.25 view=
+for word in "$@"; do
+    case $word in
+    quick) resolution=h frequency=0.1 ;;
+    --view) view=1 ;;
+    *) fail "usage: $0 [quick] [--view]" ;;
+    esac
+done
 pictures=$ABACUS_BUILD/demo
 summary=()
 
@@ -188,3 +194,13 @@ note_mesh shorelines
 note_mesh quake
 heading "Times and sizes"
 printf '%s\n' "${summary[@]}"
+
+# Until Ctrl+C; the server of the database ends with this script.
+if [[ -n $view ]]; then
+    heading "The meshes in a browser"
+    viewer/serve --build
+    viewer/serve --mesh shorelines --srid 4326 --port 8080 &
+    viewer/serve --mesh terrain --port 8081 &
+    viewer/serve --mesh quake --port 8082 &
+    wait
+fi

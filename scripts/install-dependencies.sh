@@ -8,12 +8,12 @@
 #   install-dependencies.sh versions  ... and tests of the core: all that another version is tested with
 #   install-dependencies.sh demo      ... and the data of the demo
 #   install-dependencies.sh test      ... and all tests, which run the benchmarks once (default)
-#   install-dependencies.sh bench     ... and GDAL, to compare with, and perf
+#   install-dependencies.sh bench     ... and perf
 set -euo pipefail
 
 version=${ABACUS_POSTGRESQL:-15}
 packages=(
-    make g++ pkg-config libxxhash-dev
+    make g++ pkg-config libxxhash-dev libprotozero-dev
     "postgresql-$version" "postgresql-server-dev-$version"
     libcgal-dev libgmp-dev libmpfr-dev libcairo2-dev
 )
@@ -37,13 +37,17 @@ test=(
     clang-format clang-tidy
     gnuplot-nox                     # plots of docs/benchmarks.md
     python3-numpy python3-scipy python3-matplotlib python3-vtk9   # whose answers ours are compared with
+    gdal-bin                        # reads tiles; gdal_grid, to compare with
     python3-meshio                  # reads and writes the files of meshes
+    chromium                        # shows the viewer's page, without a screen
     mmdebstrap                      # a Debian with another version of PostgreSQL
 )
 bench=(
-    gdal-bin                        # gdal_grid, to compare with
     linux-perf                      # tells the functions that take most time
 )
+
+# Node.js may come from elsewhere.
+command -v npm >/dev/null || test+=(nodejs npm)
 
 case ${1:-test} in
 build) ;;

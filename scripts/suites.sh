@@ -91,6 +91,21 @@ tap_tests() {
         PERL5OPT=-Msigtrap=die,INT,TERM prove -j "$ABACUS_JOBS" -I "$sources/test/perl" "$@"
 }
 
+# The viewer: its server, and its page in a browser without a screen. Status 77 if its packages are not
+# there and cannot be had.
+viewer_tests() {
+    if ! viewer/serve --build; then
+        npm ping >/dev/null 2>&1 && return 1
+        echo "skipped: npm's registry, which has the packages of the viewer, cannot be reached"
+        return 77
+    fi
+    run_psql -c "DROP DATABASE IF EXISTS abacus_viewer" -c "CREATE DATABASE abacus_viewer" &&
+        run_psql -d abacus_viewer -c "CREATE EXTENSION abacus" &&
+        # shellcheck disable=SC2086 # a pattern
+        PGDATABASE=abacus_viewer node --test --test-reporter=tap --test-concurrency=1 \
+            test/viewer/${1:-*}.test.js
+}
+
 # The examples of pages; those of abacus_postgis where PostGIS is installed.
 documentation_examples() {
     if ((!$#)); then

@@ -45,6 +45,7 @@ declare -A command=(
     [pgtap]=pgtap_tests
     [docs]=documentation_examples
     [oracles]=oracle_tests
+    [viewer]=viewer_tests
     [tap]="tap_tests ${ABACUS_SHORT:+$short_tap}"
     [acceptance]="scripts/acceptance.sh quick ${ABACUS_SHORT:+$short_sets}"
     [acceptance-goose]="scripts/acceptance.sh goose"
@@ -59,14 +60,14 @@ declare -A command=(
 # its suites use more than one processor.
 first_builds=(format layout build-extension build)
 first_line=(build-sanitized build-threads build-fuzz tidy unit unit-sanitized unit-threads fuzz)
-second_line=(regress pgtap docs oracles tap acceptance acceptance-goose model reports bench evaluation)
+second_line=(regress pgtap docs oracles viewer tap acceptance acceptance-goose model reports bench evaluation)
 # Then, beside each other.
 other_versions=(postgresql-17 postgresql-18)
 # These take long, or load much: only where they are named.
 not_in_all=(tidy "${other_versions[@]}")
 # The builds that a suite needs.
 declare -A needs=([unit]=build [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-fuzz)
-for name in build regress pgtap docs oracles tap; do needs[$name]=build-extension; done
+for name in build regress pgtap docs oracles viewer tap; do needs[$name]=build-extension; done
 for name in acceptance acceptance-goose model bench evaluation "${other_versions[@]}"; do needs[$name]=build; done
 if [[ -n ${ABACUS_SHORT:-} ]]; then needs[acceptance]=build-extension; fi # the oracle was brought
 
@@ -125,7 +126,7 @@ suite() {
 
 # The line of a log that says how much was tested.
 summary() {
-    grep -E -o '[0-9]+% tests passed.*|All [0-9]+ tests passed|^Files=.*Tests=[0-9]+|^[0-9]+ examples.*|^[0-9]+ meshes compared.*|^[0-9]+ steps in .*|^Done [0-9]+ runs.*|^Ran [0-9]+ tests.*|^[0-9]+ passed, [0-9]+ failed' "$1" |
+    grep -E -o '[0-9]+% tests passed.*|All [0-9]+ tests passed|^Files=.*Tests=[0-9]+|^[0-9]+ examples.*|^[0-9]+ meshes compared.*|^[0-9]+ steps in .*|^Done [0-9]+ runs.*|^Ran [0-9]+ tests.*|^# pass [0-9]+|^[0-9]+ passed, [0-9]+ failed' "$1" |
         tail -n 1
 }
 
@@ -179,18 +180,19 @@ second_begin() {
 second_run() {
     local name
     trap 'exit "${#second_line[@]}"' INT # with none of what is left
-    passed=0 failed=0
+    passed=0 failed=0 skipped=0
     for name in "${second_line[@]}"; do suite "$name"; done
-    exit "$failed"
+    exit $((failed + 16 * skipped))
 }
 
 # Waits for the second line, and counts its suites: its exit status is the number of those that
-# failed, or that of all if it was interrupted.
+# failed, and 16 for each that was skipped, or the number of all if it was interrupted.
 second_end() {
-    local count=${#second_line[@]} lost=0
-    wait "$second" || lost=$?
-    if ((lost > count)); then lost=$count; fi
-    passed=$((passed + count - lost)) failed=$((failed + lost))
+    local count=${#second_line[@]} status=0 lost left
+    wait "$second" || status=$?
+    lost=$((status % 16)) left=$((status / 16))
+    if ((lost + left > count)); then lost=$count left=0; fi
+    passed=$((passed + count - lost - left)) failed=$((failed + lost)) skipped=$((skipped + left))
     tap_end
     trap cluster_stop EXIT
 }

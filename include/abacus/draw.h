@@ -44,6 +44,10 @@ typedef struct abacus_drawing
 	const char *legend;        /* the colours and their values, with this above them, the unit of
 	                              values or a title, in UTF-8; NULL = none */
 	const char *scale_bar;     /* a length, in this unit of coordinates, in UTF-8; NULL = none */
+	int32_t is_geographic;     /* 1: coordinates are longitude and latitude in degrees, and the
+	                              window is of Web Mercator, measured in degrees of longitude */
+	double density;            /* without an attribute: triangles a pixel that look of middle
+	                              density; 0 = as is fitting */
 } abacus_drawing;
 
 typedef struct abacus_picture

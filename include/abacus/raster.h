@@ -14,6 +14,8 @@ extern "C" {
  * Pixels between two corners of a window: row 0 is the one with the greatest y. Column i and row j
  * have their centre at lower[0] + (i + 0.5) * (upper[0] - lower[0]) / width and
  * upper[1] - (j + 0.5) * (upper[1] - lower[1]) / height. In space both corners have the same z.
+ * With is_geographic the mesh has longitude and latitude, in degrees, and y of the corners and centres
+ * are of Web Mercator, in degrees of longitude; the mesh has dimension 2.
  */
 typedef struct abacus_raster
 {
@@ -21,6 +23,7 @@ typedef struct abacus_raster
 	double upper[ABACUS_MAX_DIMENSION];
 	uint32_t width;
 	uint32_t height;
+	int32_t is_geographic;
 } abacus_raster;
 
 /*

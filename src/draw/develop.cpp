@@ -36,6 +36,12 @@ public:
             high_ += missing * 0.5f;
         }
     }
+    /// To a mean density, so that pictures side by side have the same.
+    void fit(double mean) {
+        const auto middle = static_cast<float>(std::log2(mean));
+        low_ = middle - least_range / 2;
+        high_ = middle + least_range / 2;
+    }
     /// Place in the palette.
     float operator()(float density) const {
         return (static_cast<float>(bin(density)) / per_octave - low_) / (high_ - low_);
@@ -97,13 +103,16 @@ Picture Canvas::mesh() const {
     const Finish finish(ground, drawing_.transparent != 0);
     Picture picture(*host_, drawing_.width, drawing_.height, drawing_.transparent != 0);
     Exposure exposure;
-    for (std::int32_t y = 0; y < drawing_.height; ++y) {
+    for (std::int32_t y = 0; y < drawing_.height && !(drawing_.density > 0); ++y) {
         host_->poll();
         const Pixel *pixel = &pixels_[index(0, y)];
         for (const Pixel *const end = pixel + drawing_.width; pixel != end; ++pixel)
             if (pixel->covered > least_covered) exposure.add(pixel->count / pixel->covered);
     }
-    exposure.fit();
+    if (drawing_.density > 0)
+        exposure.fit(drawing_.density);
+    else
+        exposure.fit();
     for (std::int32_t y = 0; y < drawing_.height; ++y) {
         host_->poll();
         const Pixel *pixel = &pixels_[index(0, y)];

@@ -2,6 +2,7 @@
 
 #include "draw/section.hpp"
 #include "geometry/longer_edge.hpp"
+#include "geometry/map_plane.hpp"
 #include "query/range_scan.hpp"
 
 #include <array>
@@ -41,20 +42,25 @@ class FlatView : public MeshView<2> {
 public:
     static constexpr double unit = 1; // of coordinates, in the picture
 
-    explicit FlatView(const abacus_drawing &drawing) : MeshView(drawing) {}
+    explicit FlatView(const abacus_drawing &drawing)
+        : MeshView(drawing), plane_(drawing.is_geographic != 0) {}
 
     void enter(const PageView<2> &) {}
     bool show(const PageView<2> &page, int simplex, Patch &patch) const {
         if (page.is_ghost(simplex) || is_too_long(page, simplex, 3)) return false;
         for (int i = 0; i < 3; ++i) {
             const int v = page.corner(simplex, i);
-            const Point<2> p = page.point(v);
+            const Point<2> p = plane_.project(page.point(v));
             patch.corner[i][0] = p[0];
             patch.corner[i][1] = p[1];
             patch.value[i] = value(page, v);
         }
         return true;
     }
+
+private:
+    // Only of a tile a plane of its own; else what is drawn are coordinates.
+    const MapPlane plane_;
 };
 
 /// The sections of the tetrahedra of a mesh by a plane.
@@ -199,8 +205,9 @@ Portrait draw_mesh(const Host &host, const abacus_header &header, const abacus_d
         return draw<2>(host, header, drawing, 0, nullptr, FlatView(drawing), ABACUS_RAMP_TERRAIN);
     const std::int32_t margin = Canvas::margin_of(drawing);
     const abacus_drawing wider = widened(drawing, margin);
-    const BoxRegion<2> region(
-        Box<2>({wider.lower[0], wider.lower[1]}, {wider.upper[0], wider.upper[1]}));
+    const MapPlane plane(drawing.is_geographic != 0);
+    const BoxRegion<2> region(plane.unproject(
+        Box<2>({wider.lower[0], wider.lower[1]}, {wider.upper[0], wider.upper[1]})));
     return draw<2>(host, header, drawing, margin, &region, FlatView(drawing), ABACUS_RAMP_TERRAIN);
 }
 

@@ -2,8 +2,10 @@
 
 #include "geometry/facet_order.hpp"
 #include "geometry/longer_edge.hpp"
+#include "geometry/map_plane.hpp"
 #include "points/record.hpp"
 #include "query/barycentric.hpp"
+#include "query/hull_box.hpp"
 #include "query/page_flood.hpp"
 #include "query/page_simplex.hpp"
 #include "query/places.hpp"
@@ -88,7 +90,8 @@ ValueRaster<D>::ValueRaster(const Host &host, const abacus_header &header,
                             std::size_t memory, std::size_t cache_bytes)
     : host_(host), header_(header), raster_(raster), width_(raster.upper[0] - raster.lower[0]),
       height_(raster.upper[1] - raster.lower[1]), how_(how), memory_(memory / 2),
-      cache_bytes_(cache_bytes), values_(host), marks_(host), carried_(how_.attribute, 1) {
+      cache_bytes_(cache_bytes), latitudes_(host), values_(host), marks_(host),
+      carried_(how_.attribute, 1) {
     if (!std::isfinite(width_ * raster.width) || !std::isfinite(height_ * raster.height))
         throw Error(ABACUS_ERROR_ARGUMENT, "the window is too large for the centres of its pixels",
                     {}, "Ask for a smaller window.");
@@ -97,6 +100,8 @@ ValueRaster<D>::ValueRaster(const Host &host, const abacus_header &header,
         static_cast<std::uint32_t>(std::clamp<std::size_t>(memory_ / row_bytes, 1, raster.height));
     values_.resize(std::size_t(rows_) * raster.width);
     marks_.resize(std::size_t(rows_) * raster.width);
+    for (std::uint32_t row = 0; raster.is_geographic != 0 && row < raster.height; ++row)
+        latitudes_.push_back(MapPlane::latitude(evenly(row)));
 }
 
 template <int D> const double *ValueRaster<D>::next() {
@@ -110,12 +115,26 @@ template <int D> const double *ValueRaster<D>::next() {
 }
 
 template <int D> void ValueRaster<D>::fill_band() {
-    const bool is_linear = how_.method == ABACUS_LINEAR;
+    const bool is_finer = is_finer_than_pixels();
+    const bool is_linear = how_.method == ABACUS_LINEAR && !is_finer;
     const bool has_value_outside = how_.outside == ABACUS_OUTSIDE_NEAREST;
+    if (is_finer && !has_value_outside && !extent_)
+        extent_ = hull_box<D>(host_, header_, cache_bytes_);
     std::fill(values_.begin(), values_.end(), NAN);
     std::fill(marks_.begin(), marks_.end(), is_linear && !has_value_outside ? filled : asked);
     if (is_linear && header_.simplices > 0) fill_linear();
     ask();
+}
+
+template <int D> bool ValueRaster<D>::is_finer_than_pixels() const {
+    // A place takes as long as so many simplices that have nothing to fill.
+    constexpr double most_read = 8;
+    if (D == 3 || header_.has_domain == 0) return false;
+    double pixels = 1; // in the domain
+    for (int axis = 0; axis < 2; ++axis)
+        pixels *= (header_.upper[axis] / 2 - header_.lower[axis] / 2) * 2 /
+                  (axis == 0 ? width_ / raster_.width : height_ / raster_.height);
+    return static_cast<double>(header_.simplices) > most_read * pixels;
 }
 
 // ---- Asked for as places ----------------------------------------------------------------
@@ -136,8 +155,10 @@ template <int D> void ValueRaster<D>::ask() {
         const Mark *marks = marks_.data() + std::size_t(row - first_) * raster_.width;
         for (std::uint32_t column = 0; column < raster_.width; ++column) {
             if (marks[column] != asked) continue;
+            const Point<D> place = centre(row, column);
+            if (extent_ && !extent_->contains(place)) continue;
             const std::int64_t id = std::int64_t(row - first_) * raster_.width + column;
-            fill_record<D>(records.data() + count++ * words, id, centre(row, column), nullptr, 0);
+            fill_record<D>(records.data() + count++ * words, id, place, nullptr, 0);
             if (count == at_once) flush();
         }
     }
@@ -201,7 +222,8 @@ template <int D> void ValueRaster<D>::fill_from(const PageView<D> &page, int sim
     if (D == 3 && (box.upper[2] < raster_.lower[2] || raster_.lower[2] < box.lower[2])) return;
     // Rows whose centres are between the least and the greatest y; the guess is put right.
     const std::int64_t begin = first_, end = std::int64_t(first_) + filled_;
-    const double guess = (raster_.upper[1] - box.upper[1]) / height_ * raster_.height - 0.5;
+    const double top = latitudes_.empty() ? box.upper[1] : MapPlane::mercator(box.upper[1]);
+    const double guess = (raster_.upper[1] - top) / height_ * raster_.height - 0.5;
     auto row = static_cast<std::int64_t>(
         std::clamp(guess, static_cast<double>(begin), static_cast<double>(end)));
     while (row > begin && y(row - 1) <= box.upper[1]) --row;

@@ -6,7 +6,8 @@
 // the value is computed from it as Interpolation does, to the last bit. A centre at a vertex has
 // the vertex's value, whichever simplex it is taken from. The other centres on borders have several
 // simplices, and which of them counts locate() decides: these pixels are marked. After that they
-// are asked for as many places are (places.hpp), and so are all pixels of the other methods.
+// are asked for as many places are (places.hpp), and so are all pixels of the other methods, and
+// of a raster that is much coarser than the mesh.
 //
 // Which centres of a row are in a simplex is decided exactly, but not for each: between two that
 // are, all are. Where these two are is computed in doubles with a bound on the error, and then
@@ -35,6 +36,8 @@ private:
     enum Mark : std::uint8_t { filled, asked };
 
     void fill_band();
+    /// Whether there are so many simplices that it takes less time to ask for each centre.
+    bool is_finer_than_pixels() const;
     void fill_linear();
     void ask();
     void fill_from(const PageView<D> &page);
@@ -56,6 +59,9 @@ private:
         return raster_.lower[0] + (static_cast<double>(column) + 0.5) * width_ / raster_.width;
     }
     double y(std::int64_t row) const {
+        return latitudes_.empty() ? evenly(row) : latitudes_[static_cast<std::size_t>(row)];
+    }
+    double evenly(std::int64_t row) const {
         return raster_.upper[1] - (static_cast<double>(row) + 0.5) * height_ / raster_.height;
     }
     Point<D> centre(std::uint32_t row, std::int64_t column) const {
@@ -77,6 +83,9 @@ private:
     std::uint32_t first_ = 0;  // row of the band
     std::uint32_t filled_ = 0; // rows from the first one on
     std::uint32_t next_ = 0;
+    std::optional<Box<D>>
+        extent_;              // outside of which there is no value, where that is worth knowing
+    Arena<double> latitudes_; // of the rows, if they are not even
     Arena<double> values_;
     Arena<Mark> marks_;
     std::optional<PageBoxes<D>> boxes_; // of a mesh that is not Delaunay

@@ -139,8 +139,8 @@ TEST(ValueRaster, OfSlivers) {
     abacus_interpolation how{};
     how.attributes = 1;
     how.max_edge = no_max_edge;
-    expect_raster<2>(mesh, {{1e6 - 1, 4e6 - 1e-7}, {1e6 + 101, 4e6 + 2e-6}, 80, 80}, how, ample);
-    expect_raster<2>(mesh, {{1e6 - 1, 4e6 - 1}, {1e6 + 101, 4e6 + 5}, 80, 80}, how, ample);
+    expect_raster<2>(mesh, {{1e6 - 1, 4e6 - 1e-7}, {1e6 + 101, 4e6 + 2e-6}, 80, 80, 0}, how, ample);
+    expect_raster<2>(mesh, {{1e6 - 1, 4e6 - 1}, {1e6 + 101, 4e6 + 5}, 80, 80, 0}, how, ample);
 }
 
 } // namespace

@@ -15,13 +15,12 @@
 #include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
+#include "pg/sql/drawing.h"
 #include "pg/sql/word.h"
 
 SQL_FUNCTION(abacus_sql_draw);
 SQL_FUNCTION(abacus_sql_draw_section);
 SQL_FUNCTION(abacus_sql_draw_volume);
-
-#define MAX_PIXELS 16384
 
 /* Arguments of both, in a row */
 enum
@@ -69,41 +68,6 @@ enum
 	SECTION_STYLE
 };
 
-static int32
-pixels(FunctionCallInfo fcinfo, int argument, int32 otherwise, const char *name)
-{
-	int32		value;
-
-	if (PG_ARGISNULL(argument))
-		return otherwise;
-	value = PG_GETARG_INT32(argument);
-	if (value < 1 || value > MAX_PIXELS)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("%s must be between 1 and %d pixels, not %d", name, MAX_PIXELS, value)));
-	return value;
-}
-
-static double
-factor(FunctionCallInfo fcinfo, int argument, const char *name)
-{
-	double		value = PG_ARGISNULL(argument) ? 0 : PG_GETARG_FLOAT8(argument);
-
-	if (!isfinite(value) || value < 0)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("%s must be a finite number, at least 0", name)));
-	return value;
-}
-
-static int
-attribute(FunctionCallInfo fcinfo, int argument, const abacus_header *header)
-{
-	if (PG_ARGISNULL(argument))
-		return -1;
-	return header_find_attribute(header, text_to_cstring(PG_GETARG_TEXT_PP(argument)));
-}
-
 static ArrayType *
 array(FunctionCallInfo fcinfo, int argument)
 {
@@ -123,25 +87,6 @@ window(const abacus_header *mesh, ArrayType *lower, ArrayType *upper, abacus_dra
 	pfree(shape);
 }
 
-/* Whether an argument is given that has to do with values; if there are none, tells so. */
-static bool
-is_given(FunctionCallInfo fcinfo, int argument, const char *name, const abacus_drawing *drawing)
-{
-	if (PG_ARGISNULL(argument))
-		return false;
-	if (drawing->attribute < 0)
-		ereport(NOTICE, (errmsg("%s has no effect without an attribute", name)));
-	return true;
-}
-
-/* The values at the ends of the colours, if given. */
-static void
-range(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing)
-{
-	if (is_given(fcinfo, argument, "range", drawing))
-		shape_range(PG_GETARG_ARRAYTYPE_P(argument), "range", drawing->range);
-}
-
 /* A text in the core's encoding; NULL if it is not given. */
 static const char *
 caption(FunctionCallInfo fcinfo, int argument)
@@ -154,18 +99,6 @@ caption(FunctionCallInfo fcinfo, int argument)
 	return pg_server_to_any(given, (int) strlen(given), PG_UTF8);
 }
 
-/* By the numbers of the core, which begin with 1 */
-static const char *const ramps[] = {"terrain", "strata", "viridis", "magma", "cividis", "grey",
-"diverging", NULL};
-
-static abacus_ramp
-ramp_argument(FunctionCallInfo fcinfo, int argument)
-{
-	return ABACUS_RAMP_TERRAIN +
-		word_argument(fcinfo, argument, ramps, "ramp",
-					  "Ramps are terrain, strata, viridis, magma, cividis, grey and diverging.");
-}
-
 static bool
 is_true(FunctionCallInfo fcinfo, int argument)
 {
@@ -176,18 +109,9 @@ is_true(FunctionCallInfo fcinfo, int argument)
 static void
 style(FunctionCallInfo fcinfo, int first, abacus_drawing *drawing)
 {
-	if (is_given(fcinfo, first + STYLE_RAMP, "ramp", drawing))
-		drawing->ramp = ramp_argument(fcinfo, first + STYLE_RAMP);
-	if (is_given(fcinfo, first + STYLE_CONTOURS, "contours", drawing))
-	{
-		drawing->contour_interval = PG_GETARG_FLOAT8(first + STYLE_CONTOURS);
-		if (!isfinite(drawing->contour_interval) || drawing->contour_interval <= 0)
-			ereport(ERROR,
-					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-					 errmsg("contours must be a finite number above 0"),
-					 errhint("It is the difference of values from one line to the next.")));
-	}
-	if (is_given(fcinfo, first + STYLE_LEGEND, "legend", drawing))
+	drawing_ramp(fcinfo, first + STYLE_RAMP, drawing);
+	drawing_contours(fcinfo, first + STYLE_CONTOURS, drawing);
+	if (drawing_is_given(fcinfo, first + STYLE_LEGEND, "legend", drawing))
 		drawing->legend = caption(fcinfo, first + STYLE_LEGEND);
 	drawing->scale_bar = caption(fcinfo, first + STYLE_SCALE_BAR);
 	drawing->transparent = is_true(fcinfo, first + STYLE_TRANSPARENT);
@@ -227,26 +151,6 @@ tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cell
 			 errhint("Those with an edge longer than max_edge are left out.") : 0));
 }
 
-/* Ends the reading; the picture becomes a bytea. */
-static bytea *
-finish(Host *host, const abacus_picture *picture)
-{
-	size_t		size = picture->size;
-	bytea	   *result;
-
-	if (size > MaxAllocSize - VARHDRSZ)
-		ereport(ERROR,
-				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED), errmsg("picture is too large"),
-				 errhint("Draw fewer pixels.")));
-	result = palloc(VARHDRSZ + size);
-	SET_VARSIZE(result, VARHDRSZ + size);
-	memcpy(VARDATA(result), picture->png, size);
-	host->table.resize(host, picture->png, 0);
-	host_release(host);
-	host_destroy(host);
-	return result;
-}
-
 /*
  * abacus_draw(mesh regclass, width int, height int, lower float8[],
  * upper float8[], attribute text, edges boolean, exaggeration float8,
@@ -266,13 +170,13 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	reader = reader_open(PG_GETARG_OID(DRAW_MESH), CurrentMemoryContext);
 	host = reader->host;
 	header_require_dimension(&reader->header, 2, "Use abacus_draw_section for a cut through it.");
-	drawing.width = pixels(fcinfo, DRAW_WIDTH, 1024, "width");
-	drawing.height = pixels(fcinfo, DRAW_HEIGHT, 0, "height");
-	drawing.attribute = attribute(fcinfo, DRAW_ATTRIBUTE, &reader->header);
+	drawing.width = drawing_pixels(fcinfo, DRAW_WIDTH, 1024, "width");
+	drawing.height = drawing_pixels(fcinfo, DRAW_HEIGHT, 0, "height");
+	drawing.attribute = drawing_attribute(fcinfo, DRAW_ATTRIBUTE, &reader->header);
 	drawing.edges = PG_ARGISNULL(DRAW_EDGES) || PG_GETARG_BOOL(DRAW_EDGES);
-	drawing.exaggeration = factor(fcinfo, DRAW_EXAGGERATION, "exaggeration");
-	drawing.max_edge = factor(fcinfo, DRAW_MAX_EDGE, "max_edge");
-	range(fcinfo, DRAW_RANGE, &drawing);
+	drawing.exaggeration = drawing_factor(fcinfo, DRAW_EXAGGERATION, "exaggeration");
+	drawing.max_edge = drawing_factor(fcinfo, DRAW_MAX_EDGE, "max_edge");
+	drawing_range(fcinfo, DRAW_RANGE, &drawing);
 	style(fcinfo, DRAW_STYLE, &drawing);
 	light(fcinfo, DRAW_LIGHT, &drawing);
 	if (drawing.exaggeration > 0 && drawing.attribute < 0)
@@ -282,7 +186,7 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	host_run(host, abacus_draw, &host->table, &reader->header, &drawing, &picture);
 	if (picture.is_blank)
 		tell_blank(reader, &drawing, "triangles", "in the window");
-	PG_RETURN_BYTEA_P(finish(host, &picture));
+	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
 }
 
 /*
@@ -310,12 +214,12 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 	shape_point(&reader->header, array(fcinfo, SECTION_NORMAL), "normal", section.normal);
 	section.exaggeration = PG_ARGISNULL(SECTION_EXAGGERATION) ? 1 :
 		PG_GETARG_FLOAT8(SECTION_EXAGGERATION);
-	drawing.width = pixels(fcinfo, SECTION_WIDTH, 1024, "width");
-	drawing.height = pixels(fcinfo, SECTION_HEIGHT, 0, "height");
-	drawing.attribute = attribute(fcinfo, SECTION_ATTRIBUTE, &reader->header);
+	drawing.width = drawing_pixels(fcinfo, SECTION_WIDTH, 1024, "width");
+	drawing.height = drawing_pixels(fcinfo, SECTION_HEIGHT, 0, "height");
+	drawing.attribute = drawing_attribute(fcinfo, SECTION_ATTRIBUTE, &reader->header);
 	drawing.edges = PG_ARGISNULL(SECTION_EDGES) || PG_GETARG_BOOL(SECTION_EDGES);
-	drawing.max_edge = factor(fcinfo, SECTION_MAX_EDGE, "max_edge");
-	range(fcinfo, SECTION_RANGE, &drawing);
+	drawing.max_edge = drawing_factor(fcinfo, SECTION_MAX_EDGE, "max_edge");
+	drawing_range(fcinfo, SECTION_RANGE, &drawing);
 	style(fcinfo, SECTION_STYLE, &drawing);
 	window(&reader->header, array(fcinfo, SECTION_LOWER), array(fcinfo, SECTION_UPPER), &drawing);
 
@@ -325,7 +229,7 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 		tell_blank(reader, &drawing, "tetrahedra",
 				   PG_ARGISNULL(SECTION_LOWER) ? "cut by the plane" :
 				   "cut by the plane in the window");
-	PG_RETURN_BYTEA_P(finish(host, &picture));
+	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
 }
 
 /* Arguments of abacus_draw_volume */
@@ -396,14 +300,14 @@ abacus_sql_draw_volume(PG_FUNCTION_ARGS)
 	host = reader->host;
 	header_require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
 	camera_arguments(fcinfo, &reader->header, &camera);
-	drawing.width = pixels(fcinfo, VOLUME_WIDTH, 1024, "width");
-	drawing.height = pixels(fcinfo, VOLUME_HEIGHT, 0, "height");
-	drawing.attribute = attribute(fcinfo, VOLUME_ATTRIBUTE, &reader->header);
-	drawing.max_edge = factor(fcinfo, VOLUME_MAX_EDGE, "max_edge");
+	drawing.width = drawing_pixels(fcinfo, VOLUME_WIDTH, 1024, "width");
+	drawing.height = drawing_pixels(fcinfo, VOLUME_HEIGHT, 0, "height");
+	drawing.attribute = drawing_attribute(fcinfo, VOLUME_ATTRIBUTE, &reader->header);
+	drawing.max_edge = drawing_factor(fcinfo, VOLUME_MAX_EDGE, "max_edge");
 	if (!PG_ARGISNULL(VOLUME_RANGE))
 		shape_range(PG_GETARG_ARRAYTYPE_P(VOLUME_RANGE), "range", drawing.range);
 	if (!PG_ARGISNULL(VOLUME_RAMP))
-		drawing.ramp = ramp_argument(fcinfo, VOLUME_RAMP);
+		drawing.ramp = drawing_ramp_argument(fcinfo, VOLUME_RAMP);
 	drawing.legend = caption(fcinfo, VOLUME_LEGEND);
 	drawing.transparent = is_true(fcinfo, VOLUME_TRANSPARENT);
 	window(&reader->header, array(fcinfo, VOLUME_LOWER), array(fcinfo, VOLUME_UPPER), &drawing);
@@ -413,5 +317,5 @@ abacus_sql_draw_volume(PG_FUNCTION_ARGS)
 	progress_end(&host->progress);
 	if (picture.is_blank)
 		tell_blank(reader, &drawing, "tetrahedra", "met by a ray");
-	PG_RETURN_BYTEA_P(finish(host, &picture));
+	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
 }

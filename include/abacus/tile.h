@@ -1,0 +1,78 @@
+/*
+ * tile.h: a mesh of dimension 2 as tiles of web maps.
+ *
+ * Tiles of zoom z are a grid of 2^z by 2^z squares over the map of the world, a square; x counts
+ * from the west, y from the north.
+ */
+#ifndef ABACUS_ABACUS_TILE_H
+#define ABACUS_ABACUS_TILE_H
+
+#include "abacus/draw.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct abacus_tile
+{
+	int32_t zoom, x, y;
+	int32_t is_geographic; /* 1: the mesh has longitude and latitude in degrees, and the map is of Web
+							  Mercator; 0: the map is of the mesh's coordinates */
+	double lower[2];       /* if not: the map's lower left corner */
+	double side;           /* ... and its side */
+} abacus_tile;
+
+/* Memory for sorting places, and for a cache of simplices. */
+typedef struct abacus_tile_memory
+{
+	size_t sort, cache;
+} abacus_tile_memory;
+
+/*
+ * A picture, as of abacus_draw; the drawing's width is that of the tile in pixels, its window and
+ * height are not read. With an attribute it must have a range. Where a pixel has several triangles
+ * it shows the one at its centre.
+ */
+ABACUS_API abacus_status abacus_tile_picture(const abacus_host *host, const abacus_header *header,
+											 const abacus_tile *tile, const abacus_drawing *drawing,
+											 const abacus_tile_memory *memory,
+											 abacus_picture *picture, abacus_error *error);
+
+typedef struct abacus_tile_terrain_kind
+{
+	int32_t width;      /* pixels */
+	uint32_t attribute; /* heights in metres */
+	double max_edge;    /* outside of triangles with a longer edge; 0 = none */
+	double fill;        /* height where there is no mesh */
+} abacus_tile_terrain_kind;
+
+/* Heights as colours of a PNG: 256 red + green + blue / 256 - 32768 ("terrarium"). */
+ABACUS_API abacus_status abacus_tile_terrain(const abacus_host *host, const abacus_header *header,
+											 const abacus_tile *tile,
+											 const abacus_tile_terrain_kind *kind,
+											 const abacus_tile_memory *memory,
+											 abacus_picture *picture, abacus_error *error);
+
+typedef struct abacus_tile_vector_kind
+{
+	int32_t attribute;       /* what triangles, vertices and contours have as value; -1 = none */
+	double contour_interval; /* 0 = no contours */
+	double max_edge;         /* leave out triangles with a longer edge; 0 = none */
+} abacus_tile_vector_kind;
+
+/*
+ * A Mapbox vector tile; `picture` gets its bytes. Its layers are triangles, vertices, contours and
+ * hull. Of a tile with many triangles it has no triangles and vertices, and contours between
+ * samples.
+ */
+ABACUS_API abacus_status abacus_tile_vector(const abacus_host *host, const abacus_header *header,
+											const abacus_tile *tile,
+											const abacus_tile_vector_kind *kind,
+											const abacus_tile_memory *memory,
+											abacus_picture *picture, abacus_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

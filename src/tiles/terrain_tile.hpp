@@ -1,0 +1,13 @@
+// A tile of a mesh as heights: a picture whose colours are numbers.
+#pragma once
+
+#include "draw/picture.hpp"
+#include "tiles/tile_window.hpp"
+
+namespace abacus {
+
+/// Throws an Error (argument) if there is no such tile.
+Png terrain_tile(const Host &host, const abacus_header &header, const abacus_tile &tile,
+                 const abacus_tile_terrain_kind &kind, const abacus_tile_memory &memory);
+
+} // namespace abacus

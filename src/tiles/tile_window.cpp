@@ -1,0 +1,58 @@
+#include "tiles/tile_window.hpp"
+
+namespace abacus {
+
+TileWindow::TileWindow(const abacus_tile &tile, const abacus_header &header)
+    : plane_(tile.is_geographic != 0) {
+    if (header.has_domain != 0 && (header.lower[1] > 90 || header.upper[1] < -90))
+        plane_.project({header.lower[0], header.lower[1]});
+    if (tile.zoom < 0 || tile.zoom > most_zoom)
+        throw Error(ABACUS_ERROR_ARGUMENT, "zoom of the tile is out of range",
+                    "It is " + std::to_string(tile.zoom) + "; it must be from 0 to " +
+                        std::to_string(most_zoom) + ".");
+    const std::int64_t tiles = std::int64_t{1} << tile.zoom;
+    for (const std::int32_t place : {tile.x, tile.y})
+        if (place < 0 || place >= tiles)
+            throw Error(ABACUS_ERROR_ARGUMENT, "there is no such tile",
+                        "Tile " + std::to_string(tile.zoom) + "/" + std::to_string(tile.x) + "/" +
+                            std::to_string(tile.y) +
+                            " is none: at this zoom x and y are from 0 to " +
+                            std::to_string(tiles - 1) + ".");
+    const double lower[2] = {tile.is_geographic != 0 ? -180 : tile.lower[0],
+                             tile.is_geographic != 0 ? -180 : tile.lower[1]};
+    const double side = tile.is_geographic != 0 ? 360 : tile.side;
+    if (!(side > 0 && std::isfinite(lower[0] + side) && std::isfinite(lower[1] + side)))
+        throw Error(ABACUS_ERROR_ARGUMENT, "the map of the world has no area, or is not finite");
+    // Sides that tiles share are the same numbers.
+    const auto place = [&](int axis, std::int64_t n) {
+        return lower[axis] + side * (static_cast<double>(n) / static_cast<double>(tiles));
+    };
+    box_ = {{place(0, tile.x), place(1, tiles - tile.y - 1)},
+            {place(0, tile.x + 1), place(1, tiles - tile.y)}};
+    side_ = side / static_cast<double>(tiles);
+}
+
+Box<2> TileWindow::wider(double margin) const {
+    Box<2> box = box_;
+    for (int axis = 0; axis < 2; ++axis) {
+        box.lower[axis] -= margin * side_;
+        box.upper[axis] += margin * side_;
+    }
+    return box;
+}
+
+double TileWindow::mean_triangles(const abacus_header &header, double side) const {
+    if (header.has_domain == 0) return 0;
+    double area = 1;
+    for (int axis = 0; axis < 2; ++axis) {
+        double lower = header.lower[axis], upper = header.upper[axis];
+        if (axis == 1 && plane_.is_geographic()) {
+            lower = MapPlane::mercator(lower);
+            upper = MapPlane::mercator(upper);
+        }
+        area *= std::fmax(upper - lower, 1e-300) / side;
+    }
+    return static_cast<double>(header.simplices) / area;
+}
+
+} // namespace abacus

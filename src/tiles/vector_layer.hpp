@@ -1,0 +1,89 @@
+// A layer of a vector tile: features of whole coordinates with tags, as version 2 of the Mapbox
+// Vector Tile specification has them. x grows to the right and y downwards, from 0 to extent;
+// coordinates beyond are in the tile's buffer.
+//
+// Values are numbers of a table of the layer, each in it once. The table is made at the end: all
+// values, sorted.
+#pragma once
+
+#include "tiles/tile_buffer.hpp"
+
+#include <array>
+#include <bit>
+#include <compare>
+#include <initializer_list>
+#include <span>
+
+namespace abacus {
+
+inline constexpr std::int32_t tile_extent = 4096;
+
+struct TilePoint {
+    std::int32_t x, y;
+    auto operator<=>(const TilePoint &) const = default;
+};
+
+class VectorLayer {
+public:
+    /// `keys` of the tags, and `name`, live as long as the layer.
+    VectorLayer(const Host &host, const char *name, std::initializer_list<const char *> keys)
+        : name_(name), features_(host), geometry_(host), tags_(host) {
+        for (const char *key : keys) keys_[key_count_++] = key;
+    }
+
+    void begin_point(TilePoint p);
+    /// A polygon, its corners clockwise as seen.
+    void begin_polygon(std::span<const TilePoint> corners);
+    void begin_lines();
+    /// Another line of the feature.
+    void add_line(std::span<const TilePoint> points);
+
+    // Tags of the feature begun last.
+    void tag(std::uint32_t key, std::int64_t value) {
+        tag(key, true, std::bit_cast<std::uint64_t>(value));
+    }
+    /// None if it is no number.
+    void tag(std::uint32_t key, double value) {
+        if (value == value) tag(key, false, std::bit_cast<std::uint64_t>(value + 0.0));
+    }
+
+    bool empty() const { return features_.empty(); }
+    /// Adds the layer to a tile, unless it has no feature.
+    void write(const Host &host, TileWriter &tile);
+
+private:
+    static constexpr std::size_t most_keys = 4;
+
+    enum class Kind : std::uint32_t { point = 1, lines = 2, polygon = 3 };
+    struct Feature {
+        Kind kind;
+        std::uint32_t geometry, tags; // where they begin
+    };
+    struct Value {
+        bool is_integer;
+        std::uint64_t bits;
+        auto operator<=>(const Value &) const = default;
+    };
+    struct Tag {
+        std::uint32_t key;
+        Value value;
+    };
+
+    void begin(Kind kind);
+    void tag(std::uint32_t key, bool is_integer, std::uint64_t bits) {
+        tags_.push_back({key, {is_integer, bits}});
+    }
+    /// From where the pen is, there.
+    void go(TilePoint p);
+    void write_feature(TileWriter &layer, std::size_t i, std::span<const Value> values) const;
+
+    const char *const name_;
+    std::array<const char *, most_keys> keys_{};
+    std::size_t key_count_ = 0;
+    Arena<Feature> features_;
+    Arena<std::uint32_t> geometry_;
+    Arena<Tag> tags_;
+    TilePoint pen_{};
+};
+
+} // namespace abacus

@@ -1,0 +1,321 @@
+#include "tiles/vector_tile.hpp"
+
+#include "geometry/longer_edge.hpp"
+#include "query/outline.hpp"
+#include "query/page_simplex.hpp"
+#include "tiles/tile_lines.hpp"
+#include "tiles/tile_samples.hpp"
+
+#include <optional>
+
+namespace abacus {
+
+namespace {
+
+// Squares of samples along a side of a tile, with one more on each side.
+constexpr std::uint32_t squares = 64;
+// Segments of contours, at most: with more the interval is doubled.
+constexpr double most_segments = 30000;
+
+constexpr double margin = double{tile_buffer} / tile_extent;
+
+struct Corner {
+    Point<2> at; // in the tile
+    double value;
+    std::int64_t id;
+};
+using Triangle = std::array<Corner, 3>; // counterclockwise where y points up
+
+class Maker {
+public:
+    Maker(const Host &host, const abacus_header &header, const TileWindow &window,
+          const abacus_tile_vector_kind &kind, const abacus_tile_memory &memory)
+        : host_(host), header_(header), window_(window), kind_(kind), memory_(memory),
+          triangles_(host), hull_(host), bytes_(host) {}
+
+    Png make() {
+        if (!read() || !write_all()) {
+            sample();
+            find_hull();
+            write_overview();
+        }
+        Png result(host_);
+        result.append(reinterpret_cast<const unsigned char *>(bytes_.data()), bytes_.size());
+        return result;
+    }
+
+private:
+    Point<2> place(const Point<2> &in_plane) const {
+        const double units = tile_extent / window_.side();
+        return {(in_plane[0] - window_.box().lower[0]) * units,
+                (window_.box().upper[1] - in_plane[1]) * units};
+    }
+    Point<2> place_of_vertex(const Point<2> &p) const { return place(window_.plane().project(p)); }
+    static bool meets_tile(const Point<2> &a, const Point<2> &b, const Point<2> &c) {
+        Box<2> box;
+        for (const Point<2> *p : {&a, &b, &c}) box.extend(*p);
+        return box.meets(buffered_tile());
+    }
+
+    bool read();
+    bool read(const PageView<2> &page);
+    void sample();
+    void find_hull();
+    void add_triangles(VectorLayer &layer) const;
+    void add_vertices(VectorLayer &layer) const;
+    void add_contours(VectorLayer &layer) const;
+    double interval() const;
+    void write_overview();
+    bool write_all();
+
+    const Host &host_;
+    const abacus_header &header_;
+    const TileWindow &window_;
+    const abacus_tile_vector_kind &kind_;
+    const abacus_tile_memory &memory_;
+    Arena<Triangle> triangles_;
+    TileLines hull_;
+    TileBuffer bytes_;
+};
+
+// ---- What the tile has -------------------------------------------------------------------------
+
+/// All triangles; false if there are too many.
+bool Maker::read() {
+    if (window_.mean_triangles(header_, window_.side()) > 4 * most_tile_triangles) return false;
+    const BoxRegion<2> region(window_.in_mesh(margin));
+    RangeScan<2> pages(host_, header_, &region);
+    while (pages.advance())
+        if (!read(pages.page())) return false;
+    return true;
+}
+
+bool Maker::read(const PageView<2> &page) {
+    for (int s = 0; s < page.simplices(); ++s) {
+        const bool is_ghost = page.is_ghost(s);
+        Triangle triangle{};
+        for (int i = 0; i < (is_ghost ? 2 : 3); ++i) {
+            const int v = page.corner(s, i);
+            triangle[i] = {place_of_vertex(page.point(v)),
+                           kind_.attribute >= 0 ? page.attribute(v, kind_.attribute) : NAN,
+                           page.id(v)};
+        }
+        if (is_ghost) {
+            hull_.add(0, triangle[1].at, triangle[0].at); // as the triangle beside it sees it
+            continue;
+        }
+        if (!meets_tile(triangle[0].at, triangle[1].at, triangle[2].at)) continue;
+        if (kind_.max_edge > 0 &&
+            has_longer_edge<2>(3, kind_.max_edge, [&](int i) -> const Point<2> & {
+                return page.point(page.corner(s, i));
+            }))
+            continue;
+        if (triangles_.size() == most_tile_triangles) return false;
+        triangles_.push_back(triangle);
+    }
+    return true;
+}
+
+/// Two triangles a square of a grid on which the attribute is known.
+void Maker::sample() {
+    triangles_.clear();
+    if (kind_.attribute < 0 || !(kind_.contour_interval > 0)) return;
+    constexpr std::uint32_t points = squares + 3; // from the corner of the square beside the tile
+    // Samples are at the centres of pixels, so these are half a square away.
+    const Box<2> box = window_.wider(1.5 / squares);
+    ValueRaster<2> rows =
+        tile_samples(host_, header_, window_, box, points,
+                     {static_cast<std::uint32_t>(kind_.attribute), kind_.max_edge}, memory_);
+    constexpr double step = double{tile_extent} / squares;
+    std::array<double, points> above{}, here{};
+    for (std::uint32_t y = 0; y < points; ++y) {
+        std::copy_n(rows.next(), points, here.begin());
+        const auto corner = [&](std::uint32_t x, bool is_above) {
+            return Corner{{(x - 1.0) * step, (y - (is_above ? 2.0 : 1.0)) * step},
+                          (is_above ? above : here)[x],
+                          0};
+        };
+        for (std::uint32_t x = 0; y > 0 && x + 1 < points; ++x) {
+            triangles_.push_back({corner(x, false), corner(x + 1, false), corner(x, true)});
+            triangles_.push_back({corner(x + 1, true), corner(x, true), corner(x + 1, false)});
+        }
+        above = here;
+    }
+}
+
+/// By walking around it. In a mesh that is not Delaunay all pages would have to be read.
+void Maker::find_hull() {
+    hull_.clear();
+    if (header_.not_delaunay != 0) return;
+    Outline<2> outline(host_, header_, {}, memory_.sort, memory_.cache);
+    abacus_outline_row row;
+    std::optional<Point<2>> first, last;
+    while (outline.next(row)) {
+        const Point<2> here = place_of_vertex({row.point[0], row.point[1]});
+        if (last) hull_.add(0, *last, here);
+        if (!first) first = here;
+        last = here;
+    }
+    if (first) hull_.add(0, *last, *first);
+    outline.close();
+}
+
+// ---- Layers ------------------------------------------------------------------------------------
+
+/// Cuts a polygon at a line of an axis: what is on the side of `sign`.
+std::size_t cut(const std::array<Point<2>, 8> &polygon, std::size_t size, int axis, double at,
+                double sign, std::array<Point<2>, 8> &result) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+        const Point<2> &a = polygon[i], &b = polygon[(i + 1) % size];
+        const bool is_in = (a[axis] - at) * sign >= 0, next_is_in = (b[axis] - at) * sign >= 0;
+        if (is_in) result[count++] = a;
+        if (is_in == next_is_in) continue;
+        Point<2> crossing;
+        crossing[axis] = at;
+        crossing[1 - axis] =
+            std::lerp(a[1 - axis], b[1 - axis], (at - a[axis]) / (b[axis] - a[axis]));
+        result[count++] = crossing;
+    }
+    return count;
+}
+
+void Maker::add_triangles(VectorLayer &layer) const {
+    const Box<2> box = buffered_tile();
+    for (const Triangle &triangle : triangles_) {
+        std::array<Point<2>, 8> polygon, other; // a corner more for each side of the box
+        std::size_t size = 3;
+        for (std::size_t i = 0; i < 3; ++i) polygon[i] = triangle[i].at;
+        for (int axis = 0; axis < 2; ++axis) {
+            size = cut(polygon, size, axis, box.lower[axis], 1, other);
+            size = cut(other, size, axis, box.upper[axis], -1, polygon);
+        }
+        std::array<TilePoint, 8> ring;
+        std::size_t corners = 0;
+        for (std::size_t i = 0; i < size; ++i) {
+            const TilePoint corner = rounded(polygon[i]);
+            if (corners == 0 || corner != ring[corners - 1]) ring[corners++] = corner;
+        }
+        while (corners > 1 && ring[corners - 1] == ring[0]) --corners;
+        std::int64_t area = 0; // y points down: that of a ring that turns clockwise as seen
+        for (std::size_t i = 0, j = corners - 1; i < corners; j = i++)
+            area += std::int64_t{ring[i].x} * ring[j].y - std::int64_t{ring[j].x} * ring[i].y;
+        if (area <= 0) continue; // what rounding has made flat
+        std::reverse(ring.begin(), ring.begin() + corners);
+        layer.begin_polygon({ring.data(), corners});
+        double sum = 0;
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            layer.tag(i, triangle[i].id);
+            sum += triangle[i].value / 3;
+        }
+        layer.tag(3, sum);
+    }
+}
+
+void Maker::add_vertices(VectorLayer &layer) const {
+    Arena<Corner> corners(host_);
+    const Box<2> box = buffered_tile();
+    for (const Triangle &triangle : triangles_)
+        for (const Corner &corner : triangle)
+            if (box.contains(corner.at)) corners.push_back(corner);
+    const auto key = [](const Corner &c) { return std::tuple(c.at, c.id); };
+    std::sort(corners.begin(), corners.end(),
+              [&](const Corner &a, const Corner &b) { return key(a) < key(b); });
+    const Corner *last = nullptr;
+    for (const Corner &corner : corners) {
+        if (last != nullptr && key(*last) == key(corner)) continue;
+        last = &corner;
+        layer.begin_point(rounded(corner.at));
+        layer.tag(0, corner.id);
+        layer.tag(1, corner.value);
+    }
+}
+
+/// Calls visit(least, greatest) for the triangles that have values.
+template <class Visit> void each_range(const Arena<Triangle> &triangles, Visit visit) {
+    for (const Triangle &t : triangles) {
+        const auto [least, most] = std::minmax({t[0].value, t[1].value, t[2].value});
+        if (std::isfinite(t[0].value + t[1].value + t[2].value)) visit(t, least, most);
+    }
+}
+
+/// The one that is asked for, times a power of two.
+double Maker::interval() const {
+    double interval = kind_.contour_interval;
+    for (;;) {
+        double count = 0;
+        each_range(triangles_, [&](const Triangle &, double least, double most) {
+            count += std::floor(most / interval) - std::floor(least / interval);
+        });
+        if (count <= most_segments) return interval;
+        interval *= 2;
+    }
+}
+
+// A corner at a level counts as above it. A line goes from where the border rises above the level
+// to where it falls below, so higher ground is to the right.
+void Maker::add_contours(VectorLayer &layer) const {
+    if (!(kind_.contour_interval > 0)) return;
+    const double step = interval();
+    TileLines lines(host_);
+    each_range(triangles_, [&](const Triangle &t, double least, double most) {
+        host_.poll();
+        const double below = std::floor(least / step), count = std::floor(most / step) - below;
+        for (int n = 1; n <= count; ++n) {
+            const double level = (below + n) * step;
+            Point<2> rise{}, fall{};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Corner &from = t[i], &to = t[(i + 1) % 3];
+                const bool is_above = to.value >= level;
+                if ((from.value >= level) == is_above) continue;
+                // Upwards, so that both triangles of an edge find the same point.
+                const Corner &low = is_above ? from : to, &high = is_above ? to : from;
+                const double share = (level - low.value) / (high.value - low.value);
+                (is_above ? rise : fall) = {std::lerp(low.at[0], high.at[0], share),
+                                            std::lerp(low.at[1], high.at[1], share)};
+            }
+            lines.add(level, rise, fall);
+        }
+    });
+    lines.put_into(layer, 0);
+}
+
+void Maker::write_overview() {
+    TileWriter tile(bytes_);
+    VectorLayer contours(host_, "contours", {"value"}), hull(host_, "hull", {});
+    add_contours(contours);
+    contours.write(host_, tile);
+    hull_.put_into(hull, -1);
+    hull.write(host_, tile);
+}
+
+/// False, with nothing written, if that is too large.
+bool Maker::write_all() {
+    VectorLayer triangles(host_, "triangles", {"v0", "v1", "v2", "value"});
+    VectorLayer vertices(host_, "vertices", {"id", "value"});
+    add_triangles(triangles);
+    add_vertices(vertices);
+    {
+        TileWriter tile(bytes_);
+        triangles.write(host_, tile);
+        vertices.write(host_, tile);
+    }
+    write_overview();
+    if (bytes_.size() <= most_tile_bytes) return true;
+    bytes_.clear();
+    return false;
+}
+
+} // namespace
+
+Png vector_tile(const Host &host, const abacus_header &header, const abacus_tile &tile,
+                const abacus_tile_vector_kind &kind, const abacus_tile_memory &memory) {
+    const TileWindow window(tile, header);
+    if (kind.attribute >= static_cast<std::int32_t>(header.attributes))
+        throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
+    if (!(std::isfinite(kind.contour_interval) && kind.contour_interval >= 0))
+        throw Error(ABACUS_ERROR_ARGUMENT, "interval of the contours is negative or not finite");
+    return Maker(host, header, window, kind, memory).make();
+}
+
+} // namespace abacus

@@ -1,0 +1,268 @@
+// The server of the viewer: answers are those of SQL; bad input, missing rights, other names,
+// clients that go away, and changes that are undone.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import http from "node:http";
+import { after, before, test } from "node:test";
+import { connection } from "../../viewer/conninfo.js";
+import { Database } from "../../viewer/database.js";
+import { connect, eventually, makeMeshes, psql, serve } from "./support.js";
+
+let plane, space, editing;
+before(async () => {
+    makeMeshes();
+    plane = await serve("terrain");
+    space = await serve("rock");
+    editing = await serve("public.terrain", { edit: true });
+});
+after(async () => {
+    for (const server of [plane, space, editing]) await server?.stop();
+});
+
+const count = () => Number(psql("SELECT value FROM abacus_stats('terrain') WHERE name = 'vertices'"));
+
+test("what it says of a place is what SQL says", async () => {
+    const { status, body } = await plane.get("/api/locate?x=400817.5&y=5200740.25");
+    assert.equal(status, 200);
+    assert.equal(body.simplex.ids.join("|"), psql("SELECT v0, v1, v2 FROM abacus_locate('terrain', 400817.5, 5200740.25)"));
+    for (const method of ["linear", "natural", "nearest"])
+        assert.equal(body.values[method], Number(psql(`SELECT abacus_interpolate('terrain', 400817.5, 5200740.25, method => '${method}')`)));
+    body.neighbours.forEach((one, facet) => assert.equal(one.ids.join("|"), psql(`SELECT v0, v1, v2 FROM abacus_walk('terrain', abacus_locate('terrain', 400817.5, 5200740.25), ${facet})`)));
+    assert.equal(String(body.nearest.vertex), psql("SELECT vertex FROM abacus_nearest('terrain', 400817.5, 5200740.25)"));
+    const outside = await plane.get("/api/locate?x=0&y=0");
+    assert.equal(outside.body.simplex, null);
+});
+
+test("tetrahedra, sections, surfaces and rays are those of SQL", async () => {
+    const { body } = await space.get("/api/locate?x=5.3&y=4.6&z=-3");
+    assert.equal(body.simplex.ids.join("|"), psql("SELECT v0, v1, v2, v3 FROM abacus_locate('rock', 5.3, 4.6, -3)"));
+    assert.equal(body.neighbours.length, 4);
+    body.neighbours.forEach((one, facet) => assert.equal(one.ids.join("|"), psql(`SELECT v0, v1, v2, v3 FROM abacus_walk('rock', abacus_locate('rock', 5.3, 4.6, -3), ${facet})`)));
+    const length = async (path, sql) => assert.equal((await space.get(path)).body.length, Number(psql(`SELECT count(*) FROM ${sql}`)));
+    await length("/api/section?through=5,5,-3&normal=0,0,1", "abacus_section('rock', '{5,5,-3}', '{0,0,1}')");
+    await length("/api/isosurface?value=450", "abacus_isosurface('rock', 450)");
+    await length("/api/ray?origin=-5,5,-3&direction=1,0,0.01", "abacus_ray('rock', '{-5,5,-3}', '{1,0,0.01}')");
+    await length("/api/hull", "abacus_hull('rock')");
+});
+
+test("lines are those of SQL", async () => {
+    const { body } = await plane.get("/api/profile?path=400100,5200100,401000,5200900,401500,5200200");
+    assert.equal(body.length, Number(psql("SELECT count(*) FROM abacus_profile('terrain', '{400100,5200100,401000,5200900,401500,5200200}')")));
+    const { body: seen } = await plane.get("/api/sight?from=400100,5200100&to=401500,5201000&observer=2");
+    assert.equal(String(seen.visible)[0], psql("SELECT visible FROM abacus_visible('terrain', '{400100,5200100}', '{401500,5201000}', observer_height => 2)"));
+});
+
+test("tiles have an ETag, and are sent again only when the mesh has changed", async () => {
+    for (const [kind, type] of [["picture", "image/png"], ["vector", "application/x-protobuf"], ["terrain", "image/png"]]) {
+        const url = `${editing.origin}/tiles/${kind}/10/512/511?contours=100`;
+        const first = await fetch(url);
+        assert.equal(first.status, 200);
+        assert.equal(first.headers.get("content-type"), type);
+        assert.ok((await first.arrayBuffer()).byteLength > 0);
+        const known = { headers: { "If-None-Match": first.headers.get("etag") } };
+        assert.equal((await fetch(url, known)).status, 304);
+        psql("SELECT abacus_insert('terrain', 'SELECT 1, 400815.5, 5200741.5, 900')");
+        assert.equal((await fetch(url, known)).status, 200);
+        psql("SELECT abacus_delete('terrain', 'SELECT 1, 400815.5, 5200741.5')");
+    }
+});
+
+test("bad input is an error that says what is wrong", async () => {
+    const before = count();
+    for (const path of ["locate", "locate?x=1", "locate?x=1&y=NaN", "locate?x=Infinity&y=0", "locate?x=1&y=0x10", "locate?x=1&y=1e999", "locate?x=1;2&y=2",
+        "locate?x=1&y=2&attribute=depth", "profile", "profile?path=1,2", "profile?path=1,2,3,4,5", "profile?path=1,2,a,b", `profile?path=${"1,".repeat(5000)}1`,
+        "sight?from=1,2", "sight?from=1,2&to=3", "sight?from=1,2&to=3,4&observer=high"]) {
+        const { status, body } = await plane.get(`/api/${path}`);
+        assert.equal(status, 400, path);
+        assert.ok(body.error.length > 5, path);
+    }
+    for (const path of ["section?through=1,2,3", "section?through=1,2,3&normal=0,0,0", "isosurface", "isosurface?value=x", "ray?origin=1,2&direction=1,2,3"])
+        assert.equal((await space.get(`/api/${path}`)).status, 400, path);
+    for (const path of ["picture/3/8/0", "vector/31/0/0", "terrain/3/0/99999999999", "picture/3/0/0?ramp=pink", "vector/3/0/0?contours=-1", "vector/3/0/0?contours=many"])
+        assert.equal((await plane.get(`/tiles/${path}`)).status, 400, path);
+    for (const path of ["/api/", "/api/drop", "/api/__proto__", "/api/constructor", "/tiles/picture/a/b/c", "/tiles/sql/0/0/0", "/assets/../server.js", "/assets/..%2fserver.js",
+        "/server.js", "/assets/node_modules", "/.git/config", "/assets/nothing.js"])
+        assert.equal((await plane.get(path)).status, 404, path);
+    assert.equal((await space.get("/tiles/picture/0/0/0")).status, 404);
+    assert.equal((await plane.get("/api/info", { method: "POST" })).status, 405);
+    assert.equal(count(), before);
+});
+
+test("SQL in parameters is text", async () => {
+    const before = count();
+    const attack = "height'); DROP TABLE terrain; --";
+    for (const path of [`/api/locate?x=400817&y=5200740&attribute=${encodeURIComponent(attack)}`, `/tiles/picture/3/4/3?ramp=${encodeURIComponent(attack)}`,
+        `/api/profile?path=1,2,3,4&attribute=${encodeURIComponent(attack)}`, `/api/locate?x=${encodeURIComponent("1); DROP TABLE terrain; --")}&y=1`])
+        assert.equal((await plane.get(path)).status, 400, path);
+    await assert.rejects(serve("terrain; DROP TABLE terrain"), /invalid name syntax|does not exist/);
+    await assert.rejects(serve("pg_class"), /not a mesh/);
+    assert.equal(count(), before);
+});
+
+test("it reads only, and says which pages may do what", async () => {
+    assert.equal((await plane.post("begin")).status, 403);
+    assert.equal((await plane.post("insert", { id: 1, at: [1, 2] })).status, 403);
+    assert.equal((await plane.get("/edit/begin")).status, 405);
+    const { headers } = await fetch(plane.origin);
+    assert.match(headers.get("content-security-policy"), /default-src 'none'/);
+    assert.doesNotMatch(headers.get("content-security-policy"), /unsafe|https?:|\*/);
+    assert.equal(headers.get("x-content-type-options"), "nosniff");
+    const database = new Database({}, { timeout: 5000, edit: false });
+    try {
+        await assert.rejects(database.rows(null, "CREATE TABLE written ()", []), { code: "25006" });
+        await assert.rejects(database.open(), { status: 403 });
+    } finally {
+        await database.end();
+    }
+});
+
+test("functions are those of the extension, whatever else is called so", async () => {
+    psql("SET client_min_messages = warning; CREATE SCHEMA nearer; CREATE FUNCTION nearer.abacus_stats(regclass) RETURNS TABLE (name text, value float8) LANGUAGE sql AS $$ SELECT 'dimension', 7 $$");
+    const before = process.env.PGOPTIONS;
+    process.env.PGOPTIONS = "-c search_path=nearer,public";
+    try {
+        const server = await serve("terrain");
+        const { body } = await server.get("/api/info");
+        await server.stop();
+        assert.equal(body.dimension, 2);
+        assert.equal(body.simplices, 5968);
+    } finally {
+        if (before === undefined) delete process.env.PGOPTIONS;
+        else process.env.PGOPTIONS = before;
+        psql("SET client_min_messages = warning; DROP SCHEMA nearer CASCADE");
+    }
+});
+
+test("another name that leads here is refused", async () => {
+    const { port } = new URL(plane.origin);
+    const status = await new Promise((resolve) => http.get({ host: "127.0.0.1", port, path: "/api/info", headers: { Host: "evil.example" } }, (response) => resolve(response.resume().statusCode)));
+    assert.equal(status, 421);
+});
+
+test("a role without SELECT sees nothing", async () => {
+    psql("SET client_min_messages = warning; DROP ROLE IF EXISTS regress_viewer; CREATE ROLE regress_viewer LOGIN");
+    await assert.rejects(serve("terrain", { dbname: "user=regress_viewer" }), /permission denied/);
+    psql("GRANT SELECT ON terrain, terrain_vertices TO regress_viewer");
+    const server = await serve("terrain", { dbname: "user=regress_viewer", edit: true });
+    try {
+        assert.equal((await server.get("/api/locate?x=400817&y=5200740")).status, 200);
+        const { body: { session } } = await server.post("begin");
+        const refused = await server.post("insert", { id: 1, at: [400817.5, 5200740.5] }, session);
+        assert.equal(refused.status, 403);
+        psql("REVOKE SELECT ON terrain, terrain_vertices FROM regress_viewer");
+        for (const path of ["/api/info", "/api/locate?x=400817&y=5200740", "/tiles/picture/3/4/3"]) {
+            const { status, body } = await server.get(path);
+            assert.equal(status, 403, path);
+            assert.deepEqual(Object.keys(body), ["error"]);
+        }
+    } finally {
+        await server.stop();
+        psql("DROP ROLE regress_viewer");
+    }
+});
+
+test("a client that goes away cancels what it asked", async () => {
+    const locker = await connect(), watcher = await connect();
+    const waiting = async () => (await watcher.query("SELECT count(*)::int AS n FROM pg_stat_activity WHERE application_name = 'abacus viewer' AND wait_event_type = 'Lock'")).rows[0].n;
+    try {
+        await locker.query("BEGIN; LOCK TABLE terrain IN ACCESS EXCLUSIVE MODE");
+        const gone = new AbortController();
+        const asked = fetch(`${plane.origin}/api/locate?x=400817&y=5200740`, { signal: gone.signal }).catch((error) => error.name);
+        await eventually(async () => (await waiting()) === 1, "a request waits");
+        gone.abort();
+        assert.equal(await asked, "AbortError");
+        await eventually(async () => (await waiting()) === 0, "nothing waits any more");
+    } finally {
+        await locker.query("ROLLBACK");
+        await locker.end();
+        await watcher.end();
+    }
+    assert.equal((await plane.get("/api/locate?x=400817&y=5200740")).status, 200);
+});
+
+test("a statement has a limit on its time", async () => {
+    const server = await serve("terrain", { timeout: 1 });
+    const locker = await connect();
+    try {
+        await locker.query("BEGIN; LOCK TABLE terrain IN ACCESS EXCLUSIVE MODE");
+        assert.deepEqual(await server.get("/api/info"), { status: 504, body: { error: "that took too long" } });
+    } finally {
+        await locker.query("ROLLBACK");
+        await locker.end();
+        await server.stop();
+    }
+});
+
+test("connections that are gone are replaced", async () => {
+    psql("SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE application_name = 'abacus viewer'");
+    await eventually(async () => (await plane.get("/api/locate?x=400817&y=5200740")).status === 200, "an answer");
+});
+
+test("changes are seen by their session alone until they are saved", async () => {
+    const before = count(), at = [400817.5, 5200740.5];
+    const { body: { session } } = await editing.post("begin");
+    const seen = async (headers) => (await editing.get(`/api/star?x=${at[0]}&y=${at[1]}`, { headers })).body.length;
+    assert.deepEqual((await editing.post("insert", { id: "77", at }, session)).body, { changes: 1 });
+    assert.ok((await seen({ "X-Session": session })) > 2);
+    assert.equal(await seen({}), 1);
+    assert.equal((await editing.post("insert", { id: "78", at }, session)).status, 409);
+    assert.deepEqual((await editing.post("move", { id: "77", at, to: [400818.5, 5200741.5] }, session)).body, { changes: 2 });
+    assert.deepEqual((await editing.post("undo", {}, session)).body, { changes: 2 });
+    assert.equal(count(), before);
+    assert.equal(await seen({ "X-Session": session }), 1);
+
+    await editing.post("insert", { id: "77", at, values: [1234.5] }, session);
+    assert.deepEqual((await editing.post("save", {}, session)).body, { changes: 1 });
+    assert.equal(psql(`SELECT vertex, attributes FROM abacus_nearest('terrain', ${at})`), "77|{1234.5}");
+    assert.equal((await editing.post("remove", { id: "78", at }, session)).status, 409);
+    await editing.post("remove", { id: "77", at }, session);
+    await editing.post("save", {}, session);
+    assert.equal(count(), before);
+});
+
+test("changes that make no sense change nothing", async () => {
+    const { body: { session } } = await editing.post("begin");
+    await editing.post("insert", { id: "77", at: [400817.5, 5200740.5] }, session);
+    for (const [name, body] of [["insert", {}], ["insert", { id: "x", at: [1, 2] }], ["insert", { id: "1", at: [1] }], ["insert", { id: "1", at: ["1", "2"] }],
+        ["insert", { id: "1", at: [1, null] }], ["insert", { id: "1", at: [1, 2], values: [1, 2] }], ["insert", { id: "1', 0, 0); DROP TABLE terrain; --", at: [1, 2] }],
+        ["insert", { id: "1", at: [1, 2], values: ["1); DROP TABLE terrain"] }], ["move", { id: "77", at: [400817.5, 5200740.5] }]])
+        assert.equal((await editing.post(name, body, session)).status, 400, JSON.stringify(body));
+    assert.equal((await editing.post("drop", { id: "1", at: [1, 2] }, session)).status, 404);
+    assert.equal((await editing.post("insert", { id: "1", at: [1, 2] }, "no such session")).status, 410);
+    assert.equal((await editing.get("/edit/begin", { method: "POST", body: "id=1" })).status, 415);
+    assert.equal((await editing.get("/edit/begin", { method: "POST", body: "{", headers: { "Content-Type": "application/json" } })).status, 400);
+    assert.deepEqual((await editing.post("undo", {}, session)).body, { changes: 1 }); // those before are still there to be undone
+});
+
+test("what a session has not saved is undone when it ends", async () => {
+    const before = count();
+    const { body: { session } } = await editing.post("begin");
+    await editing.post("insert", { id: "77", at: [400817.5, 5200740.5] }, session);
+    await editing.post("end", {}, session);
+    assert.equal((await editing.post("save", {}, session)).status, 410);
+    const { body: { session: other } } = await editing.post("begin");
+    await editing.post("insert", { id: "77", at: [400817.5, 5200740.5] }, other);
+    psql("SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE application_name = 'abacus viewer' AND state = 'idle in transaction'");
+    await eventually(async () => (await editing.post("save", {}, other)).status === 410, "the session has ended");
+    assert.equal(count(), before);
+});
+
+test("connection strings are read as libpq does", () => {
+    assert.deepEqual(connection("host=/tmp dbname='my db' user=o\\'neil password='it''s'".replace("''s", "\\'s")), { host: "/tmp", database: "my db", user: "o'neil", password: "it's" });
+    assert.deepEqual(connection("gis"), { database: "gis" });
+    assert.deepEqual(connection("postgresql://localhost/gis"), { connectionString: "postgresql://localhost/gis" });
+    assert.deepEqual(connection(undefined), {});
+    assert.throws(() => connection("host=a colour=b"), /does not know/);
+    assert.throws(() => connection("host=a b"), /cannot read/);
+});
+
+test("the command says what is wrong", () => {
+    const run = (...words) => spawnSync(process.execPath, [new URL("../../viewer/server.js", import.meta.url).pathname, ...words], { encoding: "utf8" });
+    for (const [words, message] of [[[], /--mesh is missing/], [["--mesh", "terrain", "--srid", "25832"], /--srid must be/], [["--mesh", "terrain", "--port", "x"], /--port must be/],
+        [["--mesh", "nothing", "--port", "0"], /relation "nothing" does not exist/], [["--mesh", "terrain", "-d", "dbname=nothing"], /database "nothing" does not exist/], [["--wrong"], /Unknown option/]]) {
+        const { status, stderr } = run(...words);
+        assert.equal(status, 1, String(words));
+        assert.match(stderr, message);
+    }
+    assert.match(run("--help").stdout, /usage/);
+});

@@ -1,0 +1,52 @@
+// What the tests of the viewer share: meshes in the database that the environment names, and
+// servers that show them.
+import { execFileSync } from "node:child_process";
+import { createRequire } from "node:module";
+import { start } from "../../viewer/server.js";
+
+export const packages = createRequire(new URL("../../viewer/package.json", import.meta.url));
+const pg = packages("pg");
+
+/** What psql says, without headings. */
+export const psql = (text) =>
+    execFileSync("psql", ["-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-c", text], { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] }).trim();
+
+export function makeMeshes() {
+    psql("SET client_min_messages = warning; DROP TABLE IF EXISTS terrain, globe, rock CASCADE");
+    psql(`SELECT abacus_triangulate('terrain', 'SELECT 1000 * i + j AS id, 400000 + 30 * i + (i * 7919 + j * 104729) % 13 AS x,
+              5200000 + 30 * j + (i * 31 + j * 17) % 11 AS y, 900 + 300 * sin(i / 9.0) * cos(j / 11.0) + i AS height
+              FROM generate_series(0, 59) AS i, generate_series(0, 49) AS j')`);
+    psql(`SELECT abacus_triangulate('globe', 'SELECT 1000 * i + j AS id, 7 + i / 50.0 + sin(i * 3 + j) / 300 AS lon, 46 + j / 50.0 + cos(i + 5 * j) / 300 AS lat
+              FROM generate_series(0, 29) AS i, generate_series(0, 29) AS j')`);
+    psql(`SELECT abacus_triangulate('rock', 'SELECT 10000 * i + 100 * j + k AS id, i + sin(j * k) / 4 AS x, j + cos(i * k) / 4 AS y, -k + sin(i + j) / 4 AS z,
+              300 + 40 * k + 10 * i + 30 * sin(j) AS vs
+              FROM generate_series(0, 12) AS i, generate_series(0, 10) AS j, generate_series(0, 6) AS k', dimension => 3)`);
+}
+
+/** A server of a mesh at any port; fetch() asks it. */
+export async function serve(mesh, options = {}) {
+    const { port, stop } = await start({ mesh, srid: 0, edit: false, timeout: 20, port: 0, host: "127.0.0.1", ...options });
+    const origin = `http://127.0.0.1:${port}`;
+    const get = async (path, more) => {
+        const response = await fetch(origin + path, more);
+        return { status: response.status, body: await response.json() };
+    };
+    const post = (name, body, session) => get(`/edit/${name}`, { method: "POST", body: JSON.stringify(body ?? {}),
+        headers: { "Content-Type": "application/json", ...(session && { "X-Session": session }) } });
+    return { origin, stop, get, post };
+}
+
+/** A session of its own, for locks and looks at what others do. */
+export async function connect() {
+    const client = new pg.Client({});
+    await client.connect();
+    return client;
+}
+
+export async function eventually(condition, what) {
+    for (let i = 0; i < 100; ++i) {
+        if (await condition()) return;
+        await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+    throw new Error(`not within five seconds: ${what}`);
+}

@@ -1,0 +1,27 @@
+// A profile as a picture: the value along the way, with a dot at each edge that is crossed.
+import { made, number, table } from "./common.js";
+
+const width = 360, height = 180, margin = { left: 46, right: 8, top: 10, bottom: 22 };
+
+export function chart(rows, name) {
+    const known = rows.filter((row) => row.value !== null);
+    const values = known.map((row) => row.value);
+    const low = Math.min(...values), high = Math.max(...values), length = rows.at(-1).distance;
+    const x = (distance) => margin.left + (distance / (length || 1)) * (width - margin.left - margin.right);
+    const y = (value) => height - margin.bottom - ((value - low) / (high - low || 1)) * (height - margin.top - margin.bottom);
+    let path = "", isOpen = false;
+    for (const row of rows) {
+        if (row.value !== null) path += `${isOpen ? "L" : "M"}${x(row.distance).toFixed(2)},${y(row.value).toFixed(2)}`;
+        isOpen = row.value !== null;
+    }
+    const text = (at, words, anchor) => made("text", { class: "axis", x: at[0], y: at[1], "text-anchor": anchor }, words);
+    const dots = known.map((row) => made("circle", { class: "crossing", cx: x(row.distance).toFixed(2), cy: y(row.value).toFixed(2), r: rows.length > 150 ? 1 : 2 },
+        made("title", {}, `${number(row.value)} after ${number(row.distance)}`)));
+    const words = `Profile of ${name}: ${known.length} places over ${number(length)}, from ${number(low)} to ${number(high)}`;
+    const picture = made("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": words }, made("path", { class: "line", d: path }), ...dots,
+        ...(known.length ? [text([margin.left - 4, y(high) + 4], number(Number(high.toPrecision(5))), "end"), text([margin.left - 4, y(low)], number(Number(low.toPrecision(5))), "end")] : []),
+        text([margin.left, height - 6], "0", "start"), text([width - margin.right, height - 6], number(Number(length.toPrecision(5))), "end"));
+    const details = made("details", {}, made("summary", {}, "As a table"),
+        table(rows.map((row) => [number(row.distance), number(row.x), number(row.y), number(row.value)]), ["distance", "x", "y", name]));
+    return { picture, details, words };
+}

@@ -1,0 +1,149 @@
+// What a browser may ask: each path with the parameters that it takes, checked before anything is
+// sent to the database.
+import { edits, plane, space } from "./queries.js";
+import { Refused } from "./database.js";
+
+const mostRows = 200_000, mostPathPlaces = 1000;
+
+const wrong = (message) => new Refused(400, message);
+
+export class Parameters {
+    constructor(search) { this.search = search; }
+    text(name) {
+        const value = this.search.get(name);
+        return value === null || value === "" ? null : value;
+    }
+    number(name, otherwise) {
+        const text = this.text(name);
+        if (text === null && otherwise !== undefined) return otherwise;
+        const value = Number(text);
+        if (text === null || !/^[-+0-9.eE]+$/.test(text) || !Number.isFinite(value)) throw wrong(`${name} must be a number`);
+        return value;
+    }
+    numbers(name, least, most) {
+        const parts = (this.text(name) ?? "").split(",");
+        if (parts.length < least || parts.length > most) throw wrong(`${name} must be from ${least} to ${most} numbers`);
+        return parts.map((part) => new Parameters(new URLSearchParams([[name, part]])).number(name));
+    }
+}
+
+/** Rows of a query that asks for one more than there may be. */
+async function bounded(query, values) {
+    const rows = await query(values.text, [...values.values, mostRows + 1]);
+    if (rows.length > mostRows) throw new Refused(413, `the answer has more than ${mostRows} rows`, "Ask for a smaller part of the mesh.");
+    return rows;
+}
+
+/** Places, their simplex with corners and neighbours, and what the mesh says of values there. */
+async function locate(query, mesh, sql, at, attribute) {
+    const dimension = at.length, count = dimension + 1;
+    const [found] = await query(sql.locate, at);
+    const answer = { place: at, simplex: null, neighbours: [], values: {} };
+    [answer.nearest] = await query(sql.nearest, at);
+    for (const { method, value } of mesh.attributes.length ? await query(sql.values, [...at, attribute]) : [])
+        answer.values[method] = value;
+    if (!found) return answer;
+    const ids = (row) => [row.v0, row.v1, row.v2, row.v3].slice(0, count);
+    const cells = await query(sql.cells, at);
+    const cell = cells.find((row) => row.code === found.code && String(ids(row)) === String(ids(found)));
+    answer.simplex = { code: cell.code, ids: ids(cell), corners: cell.corners, values: cell.values };
+    const key = (corners) => corners.map(String).sort().join(";");
+    const around = new Map();
+    for (const corner of cell.corners) for (const row of await query(sql.cells, corner)) around.set(key(row.corners), row);
+    around.delete(key(cell.corners));
+    for (let facet = 0; facet < count; ++facet) {
+        const facets = cell.corners.filter((_, i) => i !== facet).map(String);
+        const row = [...around.values()].find((other) => facets.every((corner) => other.corners.map(String).includes(corner)));
+        answer.neighbours.push(row ? { ids: ids(row), corners: row.corners } : null);
+    }
+    return answer;
+}
+
+const at = (p, dimension) => ["x", "y", "z"].slice(0, dimension).map((axis) => p.number(axis));
+const attributeOf = (p, mesh) => p.text("attribute") ?? mesh.attributes[0]?.name ?? null;
+
+export const planeReads = {
+    locate: (p, query, mesh) => locate(query, mesh, plane, at(p, 2), attributeOf(p, mesh)),
+    star: (p, query) => query(plane.cells, at(p, 2)),
+    profile: async (p, query, mesh) => {
+        const path = p.numbers("path", 4, 2 * mostPathPlaces);
+        if (path.length % 2) throw wrong("path must have an x and a y for each place");
+        return bounded(query, { text: plane.profile, values: [path, attributeOf(p, mesh)] });
+    },
+    sight: async (p, query, mesh) =>
+        (await query(plane.sight, [...p.numbers("from", 2, 2), ...p.numbers("to", 2, 2), attributeOf(p, mesh),
+            p.number("observer", 0), p.number("target", 0)]))[0],
+};
+
+export const spaceReads = {
+    locate: (p, query, mesh) => locate(query, mesh, space, at(p, 3), attributeOf(p, mesh)),
+    star: (p, query) => query(space.cells, at(p, 3)),
+    section: (p, query, mesh) => bounded(query, { text: space.section,
+        values: [p.numbers("through", 3, 3), p.numbers("normal", 3, 3), attributeOf(p, mesh)] }),
+    isosurface: (p, query, mesh) => bounded(query, { text: space.isosurface, values: [p.number("value"), attributeOf(p, mesh)] }),
+    ray: (p, query) => bounded(query, { text: space.ray, values: [p.numbers("origin", 3, 3), p.numbers("direction", 3, 3)] }),
+    hull: (p, query) => bounded(query, { text: space.hull, values: [] }),
+};
+
+/** A tile: its statement and parameters. */
+export function tile(kind, z, x, y, p, mesh) {
+    const place = [z, x, y].map((text) => {
+        if (!/^\d{1,10}$/.test(text) || Number(text) > 2 ** 31 - 1) throw wrong("there is no such tile");
+        return Number(text);
+    });
+    const attribute = attributeOf(p, mesh);
+    const values = [...place, mesh.srid, mesh.world, attribute];
+    const found = mesh.attributes.find((one) => one.name === attribute);
+    const contours = attribute === null ? null : p.number("contours", 0) || null;
+    if (kind === "terrain") return { text: plane.terrain, values: [...values, found?.least ?? 0] };
+    if (kind === "vector") return { text: plane.vector, values: [...values, contours] };
+    const low = found?.least ?? null, high = found?.greatest ?? null;
+    const range = low === null ? null : [low, high > low ? high : low + 1];
+    return { text: plane.picture, values: [...values, range, attribute === null ? null : p.text("ramp"), contours,
+        attribute === null ? 0 : p.number("exaggeration", 0), p.text("edges") !== "no"] };
+}
+
+// ---- Changes ------------------------------------------------------------------------------------
+
+const id = (value) => {
+    if (!/^-?\d{1,18}$/.test(String(value))) throw wrong("id must be a whole number");
+    return String(value);
+};
+const place = (value, dimension) => {
+    if (!Array.isArray(value) || value.length !== dimension || !value.every((x) => typeof x === "number" && Number.isFinite(x)))
+        throw wrong(`a place must be ${dimension} numbers`);
+    return value;
+};
+const numbersOrNull = (value, count) => {
+    if (!Array.isArray(value) || value.length !== count || !value.every((x) => x === null || (typeof x === "number" && Number.isFinite(x))))
+        throw wrong(`values must be ${count} numbers`);
+    return value;
+};
+
+/** Changes of the mesh, each with its body; they answer with the triangles around the place. */
+export function change(name, body, mesh) {
+    const { dimension, attributes } = mesh;
+    const sql = edits(dimension, attributes.length > 0);
+    const at = place(body.at, dimension), number = id(body.id);
+    const insert = async (query, where, given) => {
+        const values = !attributes.length ? [] : [given ? numbersOrNull(given, attributes.length)
+            : (await query(sql.interpolate, where))[0]?.values ?? attributes.map(() => null)];
+        await query(sql.insert, [number, ...where, ...values]);
+    };
+    const remove = async (query) => {
+        const [vertex] = await query((dimension === 2 ? plane : space).nearest, at);
+        if (vertex?.vertex !== number || vertex.distance !== 0) throw new Refused(409, `no vertex with the id ${number} is at this place`);
+        await query(sql.remove, [number, ...at]);
+    };
+    const actions = {
+        insert: (query) => insert(query, at, body.values),
+        remove,
+        move: async (query) => {
+            const to = place(body.to, dimension);
+            await remove(query);
+            await insert(query, to, body.values);
+        },
+    };
+    if (!Object.hasOwn(actions, name)) throw new Refused(404, "no such change");
+    return actions[name];
+}

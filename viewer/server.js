@@ -1,0 +1,206 @@
+// The server of the viewer: files of the page, what the page asks about one mesh, and its tiles.
+// It listens on this machine only, unless --host says otherwise. docs/viewer.md tells what it does
+// to be safe.
+import { createServer } from "node:http";
+import { readFile } from "node:fs/promises";
+import { parseArgs } from "node:util";
+import { connection } from "./conninfo.js";
+import { Database, Refused } from "./database.js";
+import { change, Parameters, planeReads, spaceReads, tile } from "./requests.js";
+import { plane, space } from "./queries.js";
+
+const usage = `usage: viewer/serve --mesh NAME [-d CONNINFO] [options]
+
+  --mesh NAME        the mesh, as in SQL: terrain, gis.terrain, '"TIN North"'
+  -d, --dbname TEXT  a database or connection string, as psql takes it; else PGHOST and so on
+  --srid N           coordinates are 4326, longitude and latitude, or 3857, Web Mercator; without it
+                     the mesh is shown on a map of its own
+  --edit             points may be added, moved and deleted
+  --timeout SECONDS  of a statement (30)
+  --port N           (8080; 0: any)
+  --host NAME        address to listen at (127.0.0.1)
+`;
+
+const types = { html: "text/html; charset=utf-8", css: "text/css; charset=utf-8", js: "text/javascript", mjs: "text/javascript" };
+const headers = {
+    "Content-Security-Policy": "default-src 'none'; script-src 'self'; worker-src 'self' blob:; style-src 'self'; " +
+        "img-src 'self' blob: data:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Resource-Policy": "same-origin",
+};
+const mostBody = 100_000;
+
+/** What is known of the mesh; anew when it has changed. */
+class Mesh {
+    constructor(database, options) { Object.assign(this, { database, options }); }
+
+    static async open(database, options) {
+        const mesh = new Mesh(database, options);
+        mesh.oid = await database.resolve(options.mesh);
+        const [{ value }] = await database.rows(null, "SELECT value FROM abacus_stats($1::oid::regclass) WHERE name = 'dimension'", [mesh.oid]);
+        mesh.dimension = value;
+        return mesh;
+    }
+
+    query(token, signal) {
+        return (text, values = []) => this.database.rows(token, text, [this.oid, ...values], signal);
+    }
+
+    async describe(query) {
+        const [{ etag }] = await query(plane.etag);
+        if (this.known?.etag === etag) return this.known;
+        const [{ name, stats, attributes, extent }] = await query(this.dimension === 2 ? plane.info : space.info);
+        const lower = extent.slice(0, this.dimension), upper = extent.slice(3, 3 + this.dimension);
+        const { srid } = this.options;
+        // A map of its own: the mesh is in the middle, and takes a thousandth of it.
+        const side = 1024 * Math.max(1e-300, ...upper.map((x, i) => x - lower[i]));
+        const world = srid || lower[0] === null ? null : [(lower[0] + upper[0] - side) / 2, (lower[1] + upper[1] - side) / 2, side];
+        this.known = { etag, name, dimension: this.dimension, ...stats, attributes, lower, upper, srid: srid || 4326, world,
+            edit: Boolean(this.options.edit && stats.changeable) };
+        return this.known;
+    }
+}
+
+async function body(request) {
+    if (request.headers["content-type"] !== "application/json") throw new Refused(415, "send JSON");
+    let text = "";
+    for await (const part of request) if ((text += part).length > mostBody) throw new Refused(413, "that is too much");
+    try {
+        return JSON.parse(text || "{}");
+    } catch {
+        throw new Refused(400, "this is no JSON");
+    }
+}
+
+function send(response, status, type, content, more = {}) {
+    response.writeHead(status, { ...headers, "Content-Type": type, "Cache-Control": "no-cache", ...more });
+    response.end(content);
+}
+const json = (response, value) => send(response, 200, types.js.replace("text/javascript", "application/json"), JSON.stringify(value));
+
+async function sendTile(request, response, url, mesh, query) {
+    const [, kind, z, x, y] = url.pathname.match(/^\/tiles\/(picture|vector|terrain)\/(\d+)\/(\d+)\/(\d+)$/) ?? [];
+    if (!kind || mesh.dimension !== 2) throw new Refused(404, "there is nothing here");
+    const known = await mesh.describe(query);
+    const etag = `"${known.etag}-${Buffer.from(url.search).toString("base64url")}"`;
+    if (request.headers["if-none-match"] === etag) return send(response, 304, "image/png", undefined, { ETag: etag });
+    const { text, values } = tile(kind, z, x, y, new Parameters(url.searchParams), known);
+    const [{ tile: bytes }] = await query(text, values);
+    send(response, 200, kind === "vector" ? "application/x-protobuf" : "image/png", bytes, { ETag: etag });
+}
+
+async function read(response, url, mesh, query) {
+    const known = await mesh.describe(query);
+    const name = url.pathname.slice("/api/".length);
+    if (name === "info") return json(response, known);
+    const reads = mesh.dimension === 2 ? planeReads : spaceReads;
+    if (!Object.hasOwn(reads, name)) throw new Refused(404, "there is nothing here");
+    json(response, await reads[name](new Parameters(url.searchParams), query, known));
+}
+
+async function edit(request, response, url, mesh, token) {
+    const { database } = mesh, name = url.pathname.slice("/edit/".length);
+    const given = await body(request); // JSON, which no form of another site can send
+    if (!database.edit) throw new Refused(403, "the viewer was started without --edit");
+    if (name === "begin") return json(response, { session: await database.open() });
+    const editor = database.editor(token);
+    if (name === "save" || name === "undo") return json(response, { changes: await editor[name]() });
+    if (name === "end") return json(response, (await editor.close(), {}));
+    const known = await mesh.describe(mesh.query(token));
+    const task = change(name, given, known);
+    await editor.change((query) => task((text, values) => query(text, [mesh.oid, ...values])));
+    json(response, { changes: editor.changes });
+}
+
+async function sendFile(response, url, mesh) {
+    const name = url.pathname === "/" ? "index.html" : url.pathname.slice("/assets/".length);
+    const known = /^[a-z-]+\.(html|css|js|mjs)$/.exec(name);
+    if (!known || (url.pathname !== "/" && !url.pathname.startsWith("/assets/"))) throw new Refused(404, "there is nothing here");
+    const content = await readFile(new URL(`dist/${name}`, import.meta.url)).catch(() => { throw new Refused(404, "there is nothing here"); });
+    send(response, 200, types[known[1]], name === "index.html" ? String(content).replaceAll("DIMENSION", mesh.dimension === 2 ? "plane" : "space") : content);
+}
+
+/** What a client is told of an error: what PostgreSQL says of its arguments, and nothing of the server. */
+function explain(error) {
+    if (error instanceof Refused) return error;
+    if (error.code === "42501") return new Refused(403, error.message);
+    if (error.code === "23505") return new Refused(409, error.message);
+    if (error.code === "57014") return new Refused(504, "that took too long");
+    if (/^(22|42|54|55|40|25)/.test(error.code ?? "")) return new Refused(400, error.message, error.hint);
+    console.error(error);
+    return /^(08|57P|53|E[A-Z]+$)/.test(error.code ?? "") || !error.code ? new Refused(503, "the database cannot be reached") : new Refused(500, "the database cannot answer");
+}
+
+function handler(mesh, hosts) {
+    return async (request, response) => {
+        const gone = new AbortController();
+        response.on("close", () => { if (!response.writableEnded) gone.abort(); });
+        try {
+            // A name that leads here from elsewhere is none of ours.
+            if (!hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""))) throw new Refused(421, "this server has another name");
+            const url = new URL(request.url, "http://viewer");
+            const token = request.headers["x-session"] || null;
+            const query = mesh.query(token, gone.signal);
+            if (url.pathname.startsWith("/edit/")) {
+                if (request.method !== "POST") throw new Refused(405, "send it by POST");
+                return await edit(request, response, url, mesh, token);
+            }
+            if (request.method !== "GET") throw new Refused(405, "only reading is possible here");
+            if (url.pathname.startsWith("/tiles/")) return await sendTile(request, response, url, mesh, query);
+            if (url.pathname.startsWith("/api/")) return await read(response, url, mesh, query);
+            await sendFile(response, url, mesh);
+        } catch (error) {
+            if (response.writableEnded || gone.signal.aborted) return;
+            const { status, message, hint } = explain(error);
+            send(response, status, "application/json", JSON.stringify({ error: message, hint }));
+        }
+    };
+}
+
+export async function start(options) {
+    const database = new Database(connection(options.dbname), { timeout: options.timeout * 1000, edit: options.edit });
+    const mesh = await Mesh.open(database, options).catch(async (error) => {
+        await database.end();
+        throw error;
+    });
+    const server = createServer(handler(mesh, new Set(["localhost", "127.0.0.1", "[::1]", options.host])));
+    await new Promise((resolve, reject) => server.once("error", reject).listen(options.port, options.host, resolve));
+    return { port: server.address().port, stop: async () => {
+        server.closeAllConnections();
+        await new Promise((resolve) => server.close(resolve));
+        await database.end();
+    } };
+}
+
+function commandLine() {
+    const { values } = parseArgs({ options: {
+        mesh: { type: "string" }, dbname: { type: "string", short: "d" }, srid: { type: "string", default: "0" },
+        edit: { type: "boolean", default: false }, timeout: { type: "string", default: "30" },
+        port: { type: "string", default: "8080" }, host: { type: "string", default: "127.0.0.1" }, help: { type: "boolean" } } });
+    const number = (name, least, most) => {
+        const value = Number(values[name]);
+        if (!Number.isInteger(value) || value < least || value > most) throw new Error(`--${name} must be a whole number from ${least} to ${most}`);
+        return value;
+    };
+    if (values.help) return null;
+    if (!values.mesh) throw new Error("--mesh is missing");
+    const srid = number("srid", 0, 99999);
+    if (![0, 3857, 4326].includes(srid)) throw new Error("--srid must be 4326 or 3857; without it the mesh is shown on a map of its own");
+    return { ...values, srid, timeout: number("timeout", 1, 86400), port: number("port", 0, 65535) };
+}
+
+if (process.argv[1] === new URL(import.meta.url).pathname) {
+    try {
+        const options = commandLine();
+        if (!options) console.log(usage);
+        else {
+            const { port, stop } = await start(options);
+            console.log(`Mesh ${options.mesh} is at http://localhost:${port}/  (Ctrl+C ends)`);
+            for (const signal of ["SIGINT", "SIGTERM"]) process.once(signal, () => stop().then(() => process.exit(0)));
+        }
+    } catch (error) {
+        console.error(`viewer: ${error.message}${error.code?.startsWith?.("ERR_PARSE") ? `\n${usage}` : ""}`);
+        process.exit(1);
+    }
+}
