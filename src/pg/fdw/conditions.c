@@ -60,8 +60,8 @@ kind_of_postgis(const char *name, ConditionKind *kind)
 }
 
 /* The column of the table that an expression is; holds nothing if it is none. */
-static Column
-column_of(const Shown *shown, Node *expression)
+Column
+condition_column(const Shown *shown, Node *expression)
 {
 	const Column none = {HOLDS_NOTHING, 0};
 	const Var  *var;
@@ -108,7 +108,7 @@ static bool
 set(const Shown *shown, Node *column, Node *value, Node *distance, ConditionKind kind,
 	Condition *condition)
 {
-	condition->column = column_of(shown, column);
+	condition->column = condition_column(shown, column);
 	condition->kind = kind;
 	condition->value = (Expr *) value;
 	condition->distance = (Expr *) distance;

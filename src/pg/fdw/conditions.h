@@ -49,6 +49,7 @@ typedef struct Bounds
 typedef bool (*ConditionValue) (void *context, int condition, bool distance, Datum *value,
 								bool *isnull);
 
+extern Column condition_column(const Shown *shown, Node *expression);
 extern bool condition_of_clause(const Shown *shown, Expr *clause, Condition *condition);
 extern List *conditions_of_clauses(const Shown *shown, List *clauses);
 extern List *conditions_pack(List *conditions, List **expressions);
