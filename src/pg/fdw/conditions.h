@@ -43,6 +43,9 @@ typedef struct Bounds
 	abacus_window window;
 	bool		has_range;		/* of an attribute; of points only */
 	abacus_range range;
+	bool		has_codes;		/* of cells: a stretch of the curve instead of the window */
+	uint64		least_code;
+	uint64		greatest_code;
 } Bounds;
 
 /* The value of a condition, or its distance; false if it is not known, as while planning. */

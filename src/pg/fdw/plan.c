@@ -125,14 +125,13 @@ places_rows(RelOptInfo *rel, RestrictInfo *clause)
 }
 
 static bool
-is_coordinate(PlannerInfo *root, RelOptInfo *rel, EquivalenceClass *ec, EquivalenceMember *member,
+is_place(PlannerInfo *root, RelOptInfo *rel, EquivalenceClass *ec, EquivalenceMember *member,
 			  void *context)
 {
 	const Planned *planned = rel->fdw_private;
-	const Var  *var = (Var *) member->em_expr;
+	Column		column = condition_column(&planned->shown, (Node *) member->em_expr);
 
-	return IsA(var, Var) && var->varno == rel->relid && var->varattno > 0 &&
-		planned->shown.published->columns[var->varattno - 1].holds == HOLDS_COORDINATE;
+	return column.holds == HOLDS_COORDINATE || column.holds == HOLDS_CODE;
 }
 
 /* Sets of other tables from which conditions come that tell pages. */
@@ -145,7 +144,7 @@ outer_sets(PlannerInfo *root, RelOptInfo *rel)
 
 	if (rel->has_eclass_joins)
 		clauses = list_concat(clauses,
-							  generate_implied_equalities_for_column(root, rel, is_coordinate, NULL,
+							  generate_implied_equalities_for_column(root, rel, is_place, NULL,
 																	 rel->lateral_referencers));
 	foreach(cell, clauses)
 	{

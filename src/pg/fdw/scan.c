@@ -214,6 +214,9 @@ explain_scan(ForeignScanState *state, ExplainState *es)
 		ExplainPropertyText("Window", "nothing", es);
 	else if (!scan->has_begun && is_any_unknown(scan))
 		ExplainPropertyText("Window", "at run time", es);
+	else if (bounds.has_codes)
+		ExplainPropertyText("Codes", psprintf("from " UINT64_FORMAT " to " UINT64_FORMAT,
+											  bounds.least_code, bounds.greatest_code), es);
 	else if (bounds.window.kind != ABACUS_NO_WINDOW)
 		explain_window(&bounds.window, scan->has_begun ? mesh_rows_dimension(scan->rows)
 					   : ABACUS_MAX_DIMENSION, es);
