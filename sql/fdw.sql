@@ -19,6 +19,12 @@ EXPLAIN (COSTS OFF) SELECT id FROM field_points WHERE depth >= 2 AND depth < 4;
 EXPLAIN (COSTS OFF) SELECT id FROM field_points WHERE x > 3 AND x < 2;
 EXPLAIN (COSTS OFF) SELECT id FROM field_points WHERE x + 1 > 3 OR y < 2;
 EXPLAIN (COSTS OFF, VERBOSE) SELECT height FROM field_cells WHERE v0 = 1;
+EXPLAIN (COSTS OFF) SELECT v0 FROM field_cells WHERE code BETWEEN 5 AND 5000000000000;
+EXPLAIN (COSTS OFF) SELECT v0 FROM field_cells WHERE 5::smallint <= code;
+SELECT count(*) FROM field_cells WHERE code < 0;
+SELECT count(*) FROM field_cells WHERE code > -2 AND code <= 9223372036854775807;
+SELECT count(*) FROM field_cells WHERE code = NULL;
+SELECT count(*) FROM field_cells AS c JOIN abacus_simplices('field') AS s ON s.code = c.code AND (s.v0, s.v1, s.v2) = (c.v0, c.v1, c.v2);
 SELECT id FROM field_points WHERE x BETWEEN 2 AND 4 AND y <= 1 ORDER BY id;
 SELECT id FROM field_points WHERE x > 2 AND 4 >= x AND y < 1 ORDER BY id;
 SELECT id FROM field_points WHERE height > 20 ORDER BY id;
@@ -47,6 +53,17 @@ EXPLAIN (COSTS OFF) SELECT w.id, p.id FROM wells AS w JOIN large_points AS p ON 
 SELECT w.id, p.id FROM wells AS w JOIN large_points AS p ON p.x = w.x AND p.y = w.id::float8 ORDER BY 1, 2;
 SELECT w.id, p.n FROM wells AS w, LATERAL (SELECT count(*) AS n FROM field_points AS p WHERE p.x <= w.x) AS p ORDER BY 1;
 SELECT id FROM field_points WHERE x > (SELECT avg(x) FROM wells) ORDER BY id;
+-- the nearest to a place
+EXPLAIN (COSTS OFF) SELECT id FROM large_points ORDER BY point(x, y) <-> point '(50.2,50.4)' LIMIT 3;
+SELECT id FROM large_points ORDER BY point(x, y) <-> point '(50.2,50.4)' LIMIT 3;
+SELECT id, level FROM large_points WHERE level = 3 ORDER BY '(50.2,50.4)' <-> point(x, y) LIMIT 4;
+EXPLAIN (COSTS OFF) SELECT id FROM large_points ORDER BY point(x, y) <-> '(50,50)', id LIMIT 5;
+SELECT id FROM large_points ORDER BY point(x, y) <-> '(50,50)', id LIMIT 5;
+SELECT w.id, p.id FROM wells AS w, LATERAL (SELECT id FROM large_points ORDER BY point(x, y) <-> '(9.2,9.3)', id LIMIT w.id) AS p ORDER BY 1, 2;
+SELECT count(*) FROM (SELECT id FROM large_points ORDER BY point(x, y) <-> '(-7,1e9)' LIMIT 20000) AS p;
+EXPLAIN (COSTS OFF) SELECT id FROM large_points ORDER BY point(y, x) <-> point '(50.2,50.4)' LIMIT 3;
+EXPLAIN (COSTS OFF) SELECT id FROM large_points ORDER BY point(x, y) <-> point '(50.2,50.4)' DESC LIMIT 3;
+EXPLAIN (COSTS OFF) SELECT id FROM large_points ORDER BY point(x, y) <-> point '(50.2,Infinity)' LIMIT 3;
 -- a cursor, backward too; it keeps what it saw
 BEGIN;
 DECLARE c SCROLL CURSOR FOR SELECT id FROM field_points WHERE x >= 0 ORDER BY id;

@@ -37,6 +37,11 @@ typedef struct abacus_cells abacus_cells;
 ABACUS_API abacus_status abacus_cells_open(const abacus_host *host, const abacus_header *header,
 										   const abacus_window *window, double max_edge,
 										   abacus_cells **cells, abacus_error *error);
+/* The simplices with codes from `least` to `greatest`, page by page in key order. */
+ABACUS_API abacus_status abacus_cells_open_stretch(const abacus_host *host,
+												   const abacus_header *header, uint64_t least,
+												   uint64_t greatest, abacus_cells **cells,
+												   abacus_error *error);
 /*
  * `values` gets the attributes of the corners, corner by corner: of each all that the mesh has. It
  * may be NULL.

@@ -14,6 +14,11 @@ struct abacus_cells {
         : host(*table), values(all.data(), header.attributes),
           cells(host, header, window, max_edge) {}
 
+    abacus_cells(const abacus_host *table, const abacus_header &header, std::uint64_t least,
+                 std::uint64_t greatest)
+        : host(*table), values(all.data(), header.attributes),
+          cells(host, header, least, greatest) {}
+
     static constexpr std::array<std::uint32_t, ABACUS_MAX_ATTRIBUTES> all = [] {
         std::array<std::uint32_t, ABACUS_MAX_ATTRIBUTES> numbers;
         std::iota(numbers.begin(), numbers.end(), 0u);
@@ -30,6 +35,15 @@ abacus_status abacus_cells_open(const abacus_host *host, const abacus_header *he
                                 abacus_error *error) {
     return abacus::guard(error, [&] {
         *cells = abacus::create_handle<abacus_cells>(host, *header, *window, max_edge);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_cells_open_stretch(const abacus_host *host, const abacus_header *header,
+                                        uint64_t least, uint64_t greatest, abacus_cells **cells,
+                                        abacus_error *error) {
+    return abacus::guard(error, [&] {
+        *cells = abacus::create_handle<abacus_cells>(host, *header, least, greatest);
         return ABACUS_OK;
     });
 }

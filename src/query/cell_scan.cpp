@@ -8,21 +8,35 @@ namespace abacus {
 template <int D>
 CellScan<D>::CellScan(const Host &host, const abacus_header &header, const abacus_window &window,
                       double max_edge)
-    : domain_(domain_of<D>(header)), filter_(window, max_edge),
-      pages_(host, header, filter_.region()) {}
+    : domain_(domain_of<D>(header)), filter_(window, max_edge) {
+    pages_.emplace(host, header, filter_.region());
+}
+
+template <int D>
+CellScan<D>::CellScan(const Host &host, const abacus_header &header, std::uint64_t least,
+                      std::uint64_t greatest)
+    : domain_(domain_of<D>(header)), filter_({}, 0), least_(least), greatest_(greatest) {
+    stretch_.emplace(host, header, least, greatest);
+}
+
+template <int D> bool CellScan<D>::wants(int simplex) const {
+    if (page().is_ghost(simplex)) return false;
+    if (!stretch_) return filter_.wants(page(), simplex);
+    const std::uint64_t code = code_of(page(), simplex, domain_);
+    return least_ <= code && code <= greatest_;
+}
 
 template <int D> bool CellScan<D>::next(abacus_simplex &simplex, CornerValues *values) {
     for (;;) {
         if (!in_page_) {
-            if (!pages_.advance()) return false;
+            if (!advance()) return false;
             in_page_ = true;
             at_ = 0;
         }
-        const PageView<D> &page = pages_.page();
-        while (at_ < page.simplices()) {
+        while (at_ < page().simplices()) {
             const int s = at_++;
-            if (page.is_ghost(s) || !filter_.wants(page, s)) continue;
-            describe(page, s, domain_, simplex, values);
+            if (!wants(s)) continue;
+            describe(page(), s, domain_, simplex, values);
             return true;
         }
         in_page_ = false;

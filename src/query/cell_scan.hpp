@@ -1,11 +1,14 @@
-// The simplices of a window with what their corners carry, page by page.
+// The simplices of a window, or of a stretch of the curve, with what their corners carry, page by
+// page.
 #pragma once
 
 #include "keys/locational_code.hpp"
 #include "query/cell_filter.hpp"
 #include "query/corner_values.hpp"
+#include "query/stretch_scan.hpp"
 
 #include <abacus/ask.h>
+#include <optional>
 
 namespace abacus {
 
@@ -15,14 +18,27 @@ public:
     CellScan(const Host &host, const abacus_header &header, const abacus_window &window,
              double max_edge);
 
+    /// Those with codes from `least` to `greatest`, page by page in key order.
+    CellScan(const Host &host, const abacus_header &header, std::uint64_t least,
+             std::uint64_t greatest);
+
     /// False after the last simplex. `values` gets all attributes, unless it is null.
     bool next(abacus_simplex &simplex, CornerValues *values);
-    std::uint64_t pages_read() const { return pages_.pages_read(); }
+    std::uint64_t pages_read() const {
+        return stretch_ ? stretch_->pages_read() : pages_->pages_read();
+    }
 
 private:
+    bool advance() { return stretch_ ? stretch_->advance() : pages_->advance(); }
+    const PageView<D> &page() const { return stretch_ ? stretch_->page() : pages_->page(); }
+    bool wants(int simplex) const;
+
     const Domain<D> domain_;
     const CellFilter<D> filter_;
-    RangeScan<D> pages_;
+    std::uint64_t least_ = 0, greatest_ = 0; // of a stretch
+    // One of the two.
+    std::optional<RangeScan<D>> pages_;
+    std::optional<StretchScan<D>> stretch_;
     bool in_page_ = false;
     int at_ = 0;
 };

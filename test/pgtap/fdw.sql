@@ -34,6 +34,14 @@ FROM unnest(ARRAY['x BETWEEN 10 AND 20 AND y BETWEEN 30 AND 31', 'x < 3', 'y >= 
     'x BETWEEN 1000 AND 2000 AND y BETWEEN 1000 AND 2000', 'x < y AND x < 10', 'x IN (7.919, 15.838)', 'NOT x < 90']) AS condition;
 SELECT set_eq(format('SELECT * FROM solid_points WHERE %s', condition), format('SELECT * FROM solid_points WHERE (%s) IS TRUE', condition), 'in space: ' || condition)
 FROM unnest(ARRAY['z < 4', 'x BETWEEN 10 AND 20 AND y BETWEEN 30 AND 51 AND z > 70', 'x > 1e300', 'level > 38', 'level > 38 AND z < 10']) AS condition;
+-- stretches of the curve
+SELECT set_eq(format('SELECT * FROM %s_cells WHERE %s', mesh, condition), format('SELECT * FROM %s_cells WHERE (%s) IS TRUE', mesh, condition), mesh || ': ' || condition)
+FROM (SELECT 'flat' AS mesh, code, n FROM (SELECT code, row_number() OVER (ORDER BY code, v0, v1) AS n FROM flat_cells) AS c WHERE n % 9000 = 1
+      UNION ALL SELECT 'solid', code, n FROM (SELECT code, row_number() OVER (ORDER BY code, v0, v1) AS n FROM solid_cells) AS c WHERE n % 9000 = 1) AS c,
+    unnest(ARRAY[format('code = %s', code), format('code BETWEEN %s AND %s', code, code + 10000000000000000), format('code > %s', code), format('%s > code', code + 1)]) AS condition;
+SELECT cmp_ok(pg_temp.plan_of(format('SELECT * FROM flat_cells WHERE code = %s', max(code)), 'Mesh Pages Read'), '<=', 2::float8, 'pages of a code') FROM flat_cells;
+SELECT is(sum(n), (SELECT count(*) FROM flat_cells)::numeric, 'slices make the whole')
+FROM generate_series(0, 3) AS i, LATERAL (SELECT count(*) AS n FROM flat_cells WHERE code BETWEEN i * (1::bigint << 60) AND (i + 1) * (1::bigint << 60) - 1) AS c;
 -- pages of a window alone are read; after the first rows none
 SELECT cmp_ok(pg_temp.plan_of('SELECT * FROM flat_points WHERE x BETWEEN 50 AND 51 AND y BETWEEN 50 AND 51', 'Mesh Pages Read'), '<', 6::float8, 'pages of a window');
 SELECT cmp_ok(pg_temp.plan_of('SELECT * FROM flat_points', 'Mesh Pages Read'), '>', 25::float8, 'all pages');
@@ -53,6 +61,10 @@ ANALYZE wells;
 SELECT cmp_ok(pg_temp.plan_of('SELECT * FROM wells AS w JOIN flat_points AS p ON p.x BETWEEN w.x - 0.1 AND w.x + 0.1 AND p.y BETWEEN w.x - 0.1 AND w.x + 0.1', 'Mesh Pages Read'), '<', 16::float8, 'pages of a join');
 SELECT set_eq('SELECT w.x, p.id FROM wells AS w JOIN flat_points AS p ON p.x BETWEEN w.x - 1 AND w.x + 1 AND p.y BETWEEN w.x - 1 AND w.x + 1',
     'SELECT w.x, p.id FROM wells AS w JOIN flat_points AS p ON (p.x BETWEEN w.x - 1 AND w.x + 1 AND p.y BETWEEN w.x - 1 AND w.x + 1) IS TRUE', 'its rows');
+CREATE TEMP TABLE codes AS SELECT code, v0, v1 FROM abacus_simplices('flat') WHERE v0 % 900 = 1;
+ANALYZE codes;
+SELECT set_eq('SELECT code, v0, v1 FROM codes JOIN flat_cells USING (code, v0, v1)', 'TABLE codes', 'a join on codes');
+SELECT cmp_ok(pg_temp.plan_of('SELECT code FROM codes JOIN flat_cells USING (code) LIMIT 1', 'Mesh Pages Read'), '<=', 2::float8, 'its pages');
 -- a cursor keeps what it saw while the mesh changes; an error within it is one, and a rollback brings back
 SAVEPOINT before;
 DECLARE reader CURSOR FOR SELECT id FROM flat_points;

@@ -73,6 +73,14 @@ SELECT set_eq('SELECT n, id FROM places JOIN slanted_points ON ST_DWithin(geom, 
 SELECT set_eq('SELECT n, count FROM places, LATERAL (SELECT count(*) FROM slanted_cells WHERE geom && ST_Expand(place, 3)) AS c WHERE count > 0',
     'SELECT n, count(*) FROM places JOIN slanted_cells ON (geom && ST_Expand(place, 3)) IS TRUE GROUP BY n', 'laterally');
 
+-- The nearest to a place.
+SELECT results_eq(format('SELECT id FROM slanted_points WHERE %s ORDER BY geom <-> %L LIMIT 50', condition, place),
+    format('SELECT id FROM (SELECT id, ST_Distance(geom, %L) AS distance FROM slanted_points WHERE %s OFFSET 0) AS p ORDER BY distance LIMIT 50', place, condition),
+    'nearest to ' || ST_AsText(place) || ' where ' || condition)
+FROM (SELECT ST_SetSRID(ST_MakePoint(n * 37 % 150, n * 61 % 120), 25832) AS place FROM generate_series(1, 5) AS n) AS p, unnest(ARRAY['true', 'number::int % 7 = 0', 'x < 30', 'x < 1']) AS condition;
+SELECT is(pg_temp.plan_of($$ SELECT id FROM slanted_points ORDER BY geom <-> 'SRID=25832;POINT(50 3)' LIMIT 5 $$, 'Nearest to'), '50, 3', 'by the mesh');
+SELECT is(pg_temp.plan_of($$ SELECT id FROM slanted_points ORDER BY geom <-> 'SRID=25832;LINESTRING(50 3, 4 5)' LIMIT 5 $$, 'Nearest to'), NULL, 'not to a line');
+
 -- A mesh in space; a missing Z; a mesh with a hole; an empty one.
 SELECT abacus_triangulate('rock', 'SELECT *, id AS number FROM pg_temp.points(1, 1500)', dimension => 3);
 SELECT abacus_publish('rock');

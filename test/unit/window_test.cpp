@@ -231,6 +231,47 @@ TEST(Window, OfBoundsHasTheSimplicesWhoseBoundingBoxesMeetIt) {
     expect_bounds_of_meshes<3>();
 }
 
+template <int D> void expect_stretches(MeshOf<D> &mesh) {
+    const Host host = mesh.host.host();
+    std::vector<std::uint64_t> codes;
+    for (const abacus_simplex &s : mesh.simplices(false)) codes.push_back(s.code);
+    std::sort(codes.begin(), codes.end());
+    Random random(8);
+    for (int i = 0; i < 60; ++i) {
+        std::uint64_t least = codes[random() % codes.size()], greatest = least;
+        if (i % 3 == 1) greatest = codes[random() % codes.size()];
+        if (i % 5 == 1) ++least;
+        if (i % 7 == 1) least = 0;
+        if (i % 11 == 1) greatest = UINT64_MAX;
+        std::vector<std::uint64_t> expected, found;
+        for (const std::uint64_t code : codes)
+            if (least <= code && code <= greatest) expected.push_back(code);
+        CellScan<D> scan(host, mesh.header, least, greatest);
+        abacus_simplex simplex;
+        while (scan.next(simplex, nullptr)) found.push_back(simplex.code);
+        std::sort(found.begin(), found.end());
+        EXPECT_EQ(found, expected);
+    }
+}
+
+TEST(Stretch, HasTheSimplicesWithItsCodes) {
+    auto points = uniform<2>(4000, 9);
+    for (int i = 0; i < 1500; ++i) // far below the resolution of the domain: many share a code
+        points.push_back({0.5 + (i % 40) * 1e-12, 0.5 + (i / 40) * 1e-12});
+    MeshOf<2> mesh(0);
+    ASSERT_EQ(mesh.stage(number<2>(points)), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK);
+    expect_stretches<2>(mesh);
+    MeshOf<3> solid(0);
+    ASSERT_EQ(solid.stage(number<3>(uniform<3>(1500, 10))), ABACUS_OK);
+    ASSERT_EQ(solid.build(), ABACUS_OK);
+    expect_stretches<3>(solid);
+    MeshOf<2> empty(0);
+    const Host host = empty.host.host();
+    abacus_simplex simplex;
+    EXPECT_FALSE((CellScan<2>(host, empty.header, 0, UINT64_MAX).next(simplex, nullptr)));
+}
+
 TEST(Window, OfAPointIsItsStar) {
     Mesh mesh(0);
     std::vector<Point<2>> points;

@@ -83,10 +83,12 @@ analyze_table(Relation table, AcquireSampleRowsFunc *acquire, BlockNumber *pages
 	MeshSize	size;
 	Oid			mesh = published_mesh(table);
 
-	/* a table without its mesh is passed over, with a warning */
+	/* a table without its mesh, or whose owner may not read it, is passed over with a warning */
 	if (!OidIsValid(mesh))
 		return false;
 	estimate_mesh(published_read(table), table->rd_rel->relowner, &size);
+	if (!size.is_known)
+		return false;
 	*acquire = acquire_sample;
 	*pages = (BlockNumber) size.pages;
 	return true;

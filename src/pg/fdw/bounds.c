@@ -11,6 +11,9 @@
 #include <float.h>
 #include <math.h>
 
+#include "catalog/pg_type.h"
+#include "nodes/nodeFuncs.h"
+
 #include "pg/fdw/conditions.h"
 #include "pg/fdw/postgis.h"
 #include "pg/port/port.h"
@@ -30,6 +33,8 @@ typedef struct Limits
 	ConditionKind kind;			/* of the condition from which the box of cells is */
 	double		least[ABACUS_MAX_ATTRIBUTES];
 	double		greatest[ABACUS_MAX_ATTRIBUTES];
+	int64		least_code;
+	int64		greatest_code;
 } Limits;
 
 static void
@@ -62,6 +67,22 @@ limit_number(Limits *limits, const Condition *condition, double value)
 		limit(limits, &limits->lower[number], &limits->upper[number], condition->kind, value);
 		limits->has_box = true;
 	}
+}
+
+/* An integer of any size that a code is compared with. */
+static void
+limit_code(Limits *limits, const Condition *condition, Datum datum)
+{
+	Oid			type = exprType((Node *) condition->value);
+	int64		value = type == INT2OID ? DatumGetInt16(datum)
+		: type == INT4OID ? DatumGetInt32(datum) : DatumGetInt64(datum);
+
+	if (condition->kind != CONDITION_GREATEST)
+		limits->least_code = Max(limits->least_code, value);
+	if (condition->kind != CONDITION_LEAST)
+		limits->greatest_code = Min(limits->greatest_code, value);
+	if (limits->least_code > limits->greatest_code)
+		limits->bounds->nothing = true;
 }
 
 static double
@@ -168,6 +189,19 @@ set_range(const Limits *limits, Bounds *bounds)
 	}
 }
 
+/* A stretch of the curve, if it has both ends or there is no window. */
+static void
+set_codes(const Limits *limits, Bounds *bounds)
+{
+	bool		has_end = limits->greatest_code < PG_INT64_MAX;
+	bool		has_begin = limits->least_code > 0;
+
+	bounds->has_codes = !bounds->nothing && (has_begin || has_end) &&
+		((has_begin && has_end) || !limits->has_box);
+	bounds->least_code = (uint64) limits->least_code;
+	bounds->greatest_code = (uint64) limits->greatest_code;
+}
+
 /* What the conditions limit a scan to, those whose values are not known left out. */
 void
 conditions_bounds(List *conditions, Content content, uint32 dimension, ConditionValue value,
@@ -182,6 +216,7 @@ conditions_bounds(List *conditions, Content content, uint32 dimension, Condition
 		limits.lower[i] = -DBL_MAX;
 		limits.upper[i] = DBL_MAX;
 	}
+	limits.greatest_code = PG_INT64_MAX;
 	for (int i = 0; i < ABACUS_MAX_ATTRIBUTES; i++)
 	{
 		limits.least[i] = -INFINITY;
@@ -203,9 +238,12 @@ conditions_bounds(List *conditions, Content content, uint32 dimension, Condition
 			bounds->nothing = true; /* these are never true of NULL */
 		else if (condition->column.holds == HOLDS_GEOMETRY)
 			limit_geometry(&limits, condition->kind, datum, DatumGetFloat8(distance));
+		else if (condition->column.holds == HOLDS_CODE)
+			limit_code(&limits, condition, datum);
 		else
 			limit_number(&limits, condition, DatumGetFloat8(datum));
 	}
 	set_window(&limits, &bounds->window);
 	set_range(&limits, bounds);
+	set_codes(&limits, bounds);
 }

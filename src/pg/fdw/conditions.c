@@ -1,7 +1,8 @@
 /*
  * conditions.c: the conditions of a query that tell which pages of a mesh are needed.
  *
- * Of points: comparisons of a coordinate or an attribute with a value. Of all geometries: the
+ * Of points: comparisons of a coordinate or an attribute with a value. Of cells: comparisons
+ * of the code. Of all geometries: the
  * operators and functions of PostGIS that hold only where the geometries, or their boxes,
  * meet. The value may be a constant, a parameter or anything else that does not depend on
  * the row.
@@ -60,8 +61,8 @@ kind_of_postgis(const char *name, ConditionKind *kind)
 }
 
 /* The column of the table that an expression is; holds nothing if it is none. */
-static Column
-column_of(const Shown *shown, Node *expression)
+Column
+condition_column(const Shown *shown, Node *expression)
 {
 	const Column none = {HOLDS_NOTHING, 0};
 	const Var  *var;
@@ -83,11 +84,11 @@ is_fixed(const Shown *shown, Node *expression)
 		!contain_volatile_functions(expression) && !contain_subplans(expression);
 }
 
-/* A comparison of doubles: what it asks of its left side. */
+/* A comparison of a column of a type with a number: what it asks of the column, its left side. */
 static bool
-kind_of_comparison(Oid operator, ConditionKind *kind)
+kind_of_comparison(Oid operator, Oid type, ConditionKind *kind)
 {
-	Oid			family = lookup_type_cache(FLOAT8OID, TYPECACHE_BTREE_OPFAMILY)->btree_opf;
+	Oid			family = lookup_type_cache(type, TYPECACHE_BTREE_OPFAMILY)->btree_opf;
 	int			strategy;
 	Oid			left;
 	Oid			right;
@@ -95,7 +96,7 @@ kind_of_comparison(Oid operator, ConditionKind *kind)
 	if (!op_in_opfamily(operator, family))
 		return false;
 	get_op_opfamily_properties(operator, family, false, &strategy, &left, &right);
-	if (left != FLOAT8OID || right != FLOAT8OID)
+	if (left != type || (type == FLOAT8OID && right != FLOAT8OID))
 		return false;
 	*kind = strategy == BTEqualStrategyNumber ? CONDITION_EQUAL
 		: strategy == BTLessStrategyNumber || strategy == BTLessEqualStrategyNumber
@@ -108,7 +109,7 @@ static bool
 set(const Shown *shown, Node *column, Node *value, Node *distance, ConditionKind kind,
 	Condition *condition)
 {
-	condition->column = column_of(shown, column);
+	condition->column = condition_column(shown, column);
 	condition->kind = kind;
 	condition->value = (Expr *) value;
 	condition->distance = (Expr *) distance;
@@ -119,17 +120,20 @@ set(const Shown *shown, Node *column, Node *value, Node *distance, ConditionKind
 static bool
 of_comparison(const Shown *shown, OpExpr *clause, Condition *condition)
 {
+	bool		of_points = shown->published->content == CONTENT_POINTS;
+	Oid			type = of_points ? FLOAT8OID : INT8OID;
 	ConditionKind kind;
 	Oid			commuted = get_commutator(clause->opno);
 
-	if (shown->published->content != CONTENT_POINTS || list_length(clause->args) != 2)
+	if (list_length(clause->args) != 2)
 		return false;
-	if ((kind_of_comparison(clause->opno, &kind) &&
+	if ((kind_of_comparison(clause->opno, type, &kind) &&
 		 set(shown, linitial(clause->args), lsecond(clause->args), NULL, kind, condition)) ||
-		(OidIsValid(commuted) && kind_of_comparison(commuted, &kind) &&
+		(OidIsValid(commuted) && kind_of_comparison(commuted, type, &kind) &&
 		 set(shown, lsecond(clause->args), linitial(clause->args), NULL, kind, condition)))
-		return condition->column.holds == HOLDS_COORDINATE ||
-			condition->column.holds == HOLDS_ATTRIBUTE;
+		return condition->column.holds == HOLDS_CODE || (of_points &&
+														 (condition->column.holds == HOLDS_COORDINATE ||
+														  condition->column.holds == HOLDS_ATTRIBUTE));
 	return false;
 }
 

@@ -43,12 +43,16 @@ typedef struct Bounds
 	abacus_window window;
 	bool		has_range;		/* of an attribute; of points only */
 	abacus_range range;
+	bool		has_codes;		/* of cells: a stretch of the curve instead of the window */
+	uint64		least_code;
+	uint64		greatest_code;
 } Bounds;
 
 /* The value of a condition, or its distance; false if it is not known, as while planning. */
 typedef bool (*ConditionValue) (void *context, int condition, bool distance, Datum *value,
 								bool *isnull);
 
+extern Column condition_column(const Shown *shown, Node *expression);
 extern bool condition_of_clause(const Shown *shown, Expr *clause, Condition *condition);
 extern List *conditions_of_clauses(const Shown *shown, List *clauses);
 extern List *conditions_pack(List *conditions, List **expressions);

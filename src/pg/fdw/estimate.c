@@ -28,6 +28,10 @@
 /* Of a window, or a geometry, that is known only when the query runs. */
 #define UNKNOWN_SHARE 0.001
 
+/* Codes that there are. */
+#define CODES_IN_THE_PLANE 0x1p62
+#define CODES_IN_SPACE 0x1p63
+
 static bool
 may_read(Oid mesh, Oid user)
 {
@@ -165,6 +169,13 @@ estimate_share(const Shown *shown, const MeshSize *size, List *conditions, Share
 									 ? pow(Max(1, size->rows), per_axis) : 0, -1);
 		share->pages = part_in_window(size, &bounds.window, pow(size->pages, per_axis),
 									  is_slab ? thinnest_axis(size, &bounds.window) : -1);
+	}
+	if (bounds.has_codes)
+	{
+		share->rows = ((double) bounds.greatest_code - (double) bounds.least_code + 1) /
+			(size->dimension == 3 ? CODES_IN_SPACE : CODES_IN_THE_PLANE);
+		share->rows = Min(1, Max(share->rows, 1 / Max(1, size->rows)));
+		share->pages = Min(1, share->rows + 1 / size->pages);
 	}
 	if (has_unknown(&values))
 	{

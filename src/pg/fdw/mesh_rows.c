@@ -15,6 +15,7 @@
 #include "pg/base/float_array.h"
 #include "pg/base/settings.h"
 #include "pg/fdw/mesh_rows.h"
+#include "pg/fdw/nearest.h"
 #include "pg/fdw/postgis.h"
 #include "pg/mesh/reader.h"
 
@@ -27,6 +28,7 @@ struct MeshRows
 	Reader	   *reader;
 	abacus_cells *cells;		/* one of the two, once begun */
 	abacus_faces *points;
+	Nearest    *nearest;		/* or instead of them */
 	uint64		pages;			/* of scans before */
 	GeometryMaker **makers;		/* of columns with geometries */
 };
@@ -113,6 +115,19 @@ mesh_rows_dimension(const MeshRows *rows)
 	return rows->reader->header.dimension;
 }
 
+/* Ends what was begun. */
+static void
+end(MeshRows *rows)
+{
+	rows->pages = mesh_rows_pages(rows);
+	rows->cells = NULL;
+	rows->points = NULL;
+	host_own(rows->reader->host, NULL, NULL);
+	if (rows->nearest != NULL)
+		nearest_end(rows->nearest);
+	rows->nearest = NULL;
+}
+
 /* Begins with the first row; may be called again. */
 void
 mesh_rows_begin(MeshRows *rows, const Bounds *bounds)
@@ -120,16 +135,17 @@ mesh_rows_begin(MeshRows *rows, const Bounds *bounds)
 	Reader	   *reader = rows->reader;
 	Host	   *host = reader->host;
 
-	rows->pages = mesh_rows_pages(rows);
-	rows->cells = NULL;
-	rows->points = NULL;
-	host_own(host, NULL, NULL);
+	end(rows);
 	if (bounds->nothing)
 		return;
 	if (rows->published->content == CONTENT_CELLS)
 	{
-		host_run(host, abacus_cells_open, &host->table, &reader->header, &bounds->window, 0.0,
-				 &rows->cells);
+		if (bounds->has_codes)
+			host_run(host, abacus_cells_open_stretch, &host->table, &reader->header,
+					 bounds->least_code, bounds->greatest_code, &rows->cells);
+		else
+			host_run(host, abacus_cells_open, &host->table, &reader->header, &bounds->window, 0.0,
+					 &rows->cells);
 		host_own(host, rows->cells, (void (*) (void *)) abacus_cells_close);
 		return;
 	}
@@ -233,24 +249,51 @@ fetch(MeshRows *rows, MeshRow *row)
 	return status != ABACUS_END;
 }
 
+static void
+make_row(const MeshRows *rows, MeshRow *row, Datum *values, bool *isnull)
+{
+	row->dimension = rows->reader->header.dimension;
+	row->attributes = rows->reader->header.attributes;
+	for (int i = 0; i < rows->published->count; i++)
+	{
+		isnull[i] = !bms_is_member(i, rows->wanted);
+		values[i] = isnull[i] ? (Datum) 0 : column_value(rows, row, i, &isnull[i]);
+	}
+}
+
+static void
+make_nearest_row(void *context, const abacus_vertex *vertex, Datum *values, bool *isnull)
+{
+	MeshRow		row;
+
+	row.vertex = *vertex;
+	make_row(context, &row, values, isnull);
+}
+
+/* Begins with the point that is nearest to a place in the plane; about `first` are wanted. */
+void
+mesh_rows_begin_nearest(MeshRows *rows, Relation table, Oid user, const double *place,
+						uint64 first)
+{
+	end(rows);
+	rows->nearest = nearest_begin(table, rows->published->mesh, user, place, first,
+								  make_nearest_row, rows, rows->memory);
+}
+
 /*
- * The next row, in the current memory context; false after the last. Columns that are not
- * wanted are NULL.
+ * The next row, in the current memory context or valid until the one after it; false after the
+ * last. Columns that are not wanted are NULL.
  */
 bool
 mesh_rows_next(MeshRows *rows, Datum *values, bool *isnull)
 {
 	MeshRow		row;
 
+	if (rows->nearest != NULL)
+		return nearest_next(rows->nearest, values, isnull);
 	if (!fetch(rows, &row))
 		return false;
-	row.dimension = rows->reader->header.dimension;
-	row.attributes = rows->reader->header.attributes;
-	for (int i = 0; i < rows->published->count; i++)
-	{
-		isnull[i] = !bms_is_member(i, rows->wanted);
-		values[i] = isnull[i] ? (Datum) 0 : column_value(rows, &row, i, &isnull[i]);
-	}
+	make_row(rows, &row, values, isnull);
 	return true;
 }
 
@@ -266,5 +309,6 @@ mesh_rows_pages(const MeshRows *rows)
 void
 mesh_rows_close(MeshRows *rows)
 {
+	end(rows);
 	MemoryContextDelete(rows->memory);
 }

@@ -15,6 +15,8 @@ extern MeshRows *mesh_rows_open(Relation table, const Published *published,
 								const Bitmapset *wanted, Oid user, MemoryContext parent);
 extern uint32 mesh_rows_dimension(const MeshRows *rows);
 extern void mesh_rows_begin(MeshRows *rows, const Bounds *bounds);
+extern void mesh_rows_begin_nearest(MeshRows *rows, Relation table, Oid user, const double *place,
+									uint64 first);
 extern bool mesh_rows_next(MeshRows *rows, Datum *values, bool *isnull);
 extern uint64 mesh_rows_pages(const MeshRows *rows);
 extern void mesh_rows_close(MeshRows *rows);

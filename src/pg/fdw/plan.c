@@ -20,8 +20,14 @@
 #include "utils/lsyscache.h"
 
 #include "pg/fdw/estimate.h"
+#include "pg/fdw/order.h"
 #include "pg/fdw/wrapper.h"
 #include "pg/port/port.h"
+
+/* What it costs to find one more of the nearest vertices, in rows. */
+#define ROWS_PER_NEAREST 20.0
+/* Of those more are found at once than this only when they are asked for. */
+#define MOST_AT_FIRST 1000
 
 /* Simplices of a page that are looked at cost so many operators each. */
 #define OPERATORS_PER_ROW 2.0
@@ -86,8 +92,26 @@ add_scan(PlannerInfo *root, RelOptInfo *rel, const Share *share, Relids outer, d
 		looked_at * OPERATORS_PER_ROW * cpu_operator_cost +
 		rel->tuples * share->rows * (cpu_tuple_cost + rel->baserestrictcost.per_tuple) +
 		rows * rel->reltarget->cost.per_tuple;
-	add_path(rel, (Path *) port_create_foreignscan_path(root, rel, rows, startup, startup + run,
-														outer));
+	add_path(rel, (Path *) port_create_foreignscan_path(root, rel, rows, startup, startup + run, NIL,
+														outer, NIL));
+}
+
+/* Adds a path that gives the nearest points first, for a query with a limit that wants these. */
+static void
+add_nearest(PlannerInfo *root, RelOptInfo *rel)
+{
+	Planned    *planned = rel->fdw_private;
+	Expr	   *place = planned->size.is_known && planned->size.dimension == 2 && root->limit_tuples > 0
+		? order_place(&planned->shown, rel) : NULL;
+	double		per_row = cpu_tuple_cost * ROWS_PER_NEAREST + rel->baserestrictcost.per_tuple;
+	Cost		startup = rel->baserestrictcost.startup + rel->reltarget->cost.startup +
+		random_page_cost * Min(10, planned->size.pages);
+	Cost		total = startup + rel->tuples * per_row + rel->rows * rel->reltarget->cost.per_tuple;
+
+	if (place != NULL && bms_is_empty(rel->lateral_relids))
+		add_path(rel, (Path *) port_create_foreignscan_path(root, rel, rel->rows, startup, total,
+															list_make1(linitial(root->query_pathkeys)),
+															NULL, list_make1(place)));
 }
 
 /* Whether a clause from a join is a condition that tells pages. */
@@ -101,14 +125,13 @@ places_rows(RelOptInfo *rel, RestrictInfo *clause)
 }
 
 static bool
-is_coordinate(PlannerInfo *root, RelOptInfo *rel, EquivalenceClass *ec, EquivalenceMember *member,
+is_place(PlannerInfo *root, RelOptInfo *rel, EquivalenceClass *ec, EquivalenceMember *member,
 			  void *context)
 {
 	const Planned *planned = rel->fdw_private;
-	const Var  *var = (Var *) member->em_expr;
+	Column		column = condition_column(&planned->shown, (Node *) member->em_expr);
 
-	return IsA(var, Var) && var->varno == rel->relid && var->varattno > 0 &&
-		planned->shown.published->columns[var->varattno - 1].holds == HOLDS_COORDINATE;
+	return column.holds == HOLDS_COORDINATE || column.holds == HOLDS_CODE;
 }
 
 /* Sets of other tables from which conditions come that tell pages. */
@@ -121,7 +144,7 @@ outer_sets(PlannerInfo *root, RelOptInfo *rel)
 
 	if (rel->has_eclass_joins)
 		clauses = list_concat(clauses,
-							  generate_implied_equalities_for_column(root, rel, is_coordinate, NULL,
+							  generate_implied_equalities_for_column(root, rel, is_place, NULL,
 																	 rel->lateral_referencers));
 	foreach(cell, clauses)
 	{
@@ -148,6 +171,7 @@ get_paths(PlannerInfo *root, RelOptInfo *rel, Oid relid)
 	ListCell   *cell;
 
 	add_scan(root, rel, &planned->share, rel->lateral_relids, rel->rows);
+	add_nearest(root, rel);
 	foreach(cell, outer_sets(root, rel))
 	{
 		Relids		outer = lfirst(cell);
@@ -189,11 +213,17 @@ get_plan(PlannerInfo *root, RelOptInfo *rel, Oid relid, ForeignPath *path, List 
 	List	   *expressions;
 	List	   *packed = conditions_pack(conditions_of_clauses(&planned->shown, clauses),
 										 &expressions);
+	List	   *nearest = NIL;
 
+	if (path->fdw_private != NIL)
+	{
+		nearest = list_make1_int((int) Min(root->limit_tuples, MOST_AT_FIRST));
+		expressions = list_concat(expressions, path->fdw_private);
+	}
 	return make_foreignscan(targets, extract_actual_clauses(clauses, false), rel->relid,
 							expressions,
-							list_make2(wanted_columns(rel, planned->shown.published->count),
-									   packed),
+							list_make3(wanted_columns(rel, planned->shown.published->count),
+									   packed, nearest),
 							NIL, NIL, outer_plan);
 }
 

@@ -16,6 +16,7 @@
 #include "utils/rel.h"
 
 #include "pg/fdw/mesh_rows.h"
+#include "pg/fdw/order.h"
 #include "pg/fdw/wrapper.h"
 #include "pg/port/port.h"
 
@@ -28,6 +29,7 @@ typedef struct MeshScan
 	ExprContext *context;
 	Oid			user;
 	MeshRows   *rows;			/* NULL: not opened yet */
+	uint64		nearest;		/* how many to look for at first; 0: in no order */
 	bool		has_begun;
 	Bounds		bounds;			/* once begun */
 } MeshScan;
@@ -45,6 +47,8 @@ begin_scan(ForeignScanState *state, int flags)
 	scan->conditions = conditions_unpack(list_nth(plan->fdw_private, PRIVATE_CONDITIONS),
 										 plan->fdw_exprs);
 	scan->values = ExecInitExprList(plan->fdw_exprs, (PlanState *) state);
+	if (list_nth(plan->fdw_private, PRIVATE_NEAREST) != NIL)
+		scan->nearest = linitial_int(list_nth(plan->fdw_private, PRIVATE_NEAREST));
 	scan->context = state->ss.ps.ps_ExprContext;
 	scan->user = port_foreign_scan_user(state);
 	state->fdw_state = scan;
@@ -71,15 +75,33 @@ value_now(void *context, int number, bool distance, Datum *value, bool *isnull)
 	return true;
 }
 
+/* The place from which the nearest rows are wanted: the last expression, a constant. */
+static void
+read_place(ForeignScanState *state, double *place)
+{
+	const Const *constant = llast_node(Const, ((ForeignScan *) state->ss.ps.plan)->fdw_exprs);
+
+	(void) order_read_place(constant->consttype, constant->constvalue, place);
+}
+
 static void
 begin_rows(ForeignScanState *state, MeshScan *scan)
 {
+	double		place[2] = {0, 0};
+
 	if (scan->rows == NULL)
 		scan->rows = mesh_rows_open(state->ss.ss_currentRelation, scan->published, scan->wanted,
 									scan->user, state->ss.ps.state->es_query_cxt);
 	conditions_bounds(scan->conditions, scan->published->content,
 					  mesh_rows_dimension(scan->rows), value_now, scan, &scan->bounds);
-	mesh_rows_begin(scan->rows, &scan->bounds);
+	if (scan->nearest > 0 && !scan->bounds.nothing)
+	{
+		read_place(state, place);
+		mesh_rows_begin_nearest(scan->rows, state->ss.ss_currentRelation, scan->user, place,
+								scan->nearest);
+	}
+	else
+		mesh_rows_begin(scan->rows, &scan->bounds);
 	scan->has_begun = true;
 }
 
@@ -172,6 +194,7 @@ static void
 explain_scan(ForeignScanState *state, ExplainState *es)
 {
 	MeshScan   *scan = state->fdw_state;
+	double		place[2];
 	Bounds		bounds;
 
 	ExplainPropertyText("Mesh", get_rel_name(scan->published->mesh), es);
@@ -180,10 +203,20 @@ explain_scan(ForeignScanState *state, ExplainState *es)
 	else
 		conditions_bounds(scan->conditions, scan->published->content, ABACUS_MAX_DIMENSION,
 						  constant_value, scan, &bounds);
+	if (scan->nearest > 0)
+	{
+		read_place(state, place);
+		ExplainPropertyText("Nearest to", psprintf("%s, %s", end_of_range(place[0]),
+												   end_of_range(place[1])), es);
+		return;
+	}
 	if (bounds.nothing)
 		ExplainPropertyText("Window", "nothing", es);
 	else if (!scan->has_begun && is_any_unknown(scan))
 		ExplainPropertyText("Window", "at run time", es);
+	else if (bounds.has_codes)
+		ExplainPropertyText("Codes", psprintf("from " UINT64_FORMAT " to " UINT64_FORMAT,
+											  bounds.least_code, bounds.greatest_code), es);
 	else if (bounds.window.kind != ABACUS_NO_WINDOW)
 		explain_window(&bounds.window, scan->has_begun ? mesh_rows_dimension(scan->rows)
 					   : ABACUS_MAX_DIMENSION, es);

@@ -10,7 +10,8 @@
 enum
 {
 	PRIVATE_COLUMNS,			/* numbers of those that are wanted, from 0 */
-	PRIVATE_CONDITIONS			/* as conditions_pack() makes them */
+	PRIVATE_CONDITIONS,			/* as conditions_pack() makes them */
+	PRIVATE_NEAREST				/* how many to look for at first, if the nearest rows are wanted */
 };
 
 extern void wrapper_set_planner(FdwRoutine *routine);

@@ -14,6 +14,7 @@
 
 #include "access/genam.h"
 #include "access/heapam.h"
+#include "access/stratnum.h"
 #include "access/tableam.h"
 #include "catalog/index.h"
 #include "catalog/pg_class.h"
@@ -283,18 +284,30 @@ port_refuse_old_snapshot(Snapshot snapshot, Relation rel, Page page)
 
 /* ---- Foreign scans ------------------------------------------------------------- */
 
-/* A path that scans a foreign table in no order (17 asks for clauses, 18 for disabled nodes). */
-static inline ForeignPath *
-port_create_foreignscan_path(PlannerInfo *root, RelOptInfo *rel, double rows, Cost startup,
-							 Cost total, Relids outer)
+/* Whether rows with a key of an order come with the least first (18 compares, others have strategies). */
+static inline bool
+port_pathkey_ascends(const PathKey *key)
 {
 #if PG_VERSION_NUM >= 180000
-	return create_foreignscan_path(root, rel, NULL, rows, 0, startup, total, NIL, outer, NULL, NIL,
-								   NIL);
-#elif PG_VERSION_NUM >= 170000
-	return create_foreignscan_path(root, rel, NULL, rows, startup, total, NIL, outer, NULL, NIL, NIL);
+	return key->pk_cmptype == COMPARE_LT;
 #else
-	return create_foreignscan_path(root, rel, NULL, rows, startup, total, NIL, outer, NULL, NIL);
+	return key->pk_strategy == BTLessStrategyNumber;
+#endif
+}
+
+/* A path that scans a foreign table (17 asks for clauses, 18 for disabled nodes). */
+static inline ForeignPath *
+port_create_foreignscan_path(PlannerInfo *root, RelOptInfo *rel, double rows, Cost startup,
+							 Cost total, List *order, Relids outer, List *more)
+{
+#if PG_VERSION_NUM >= 180000
+	return create_foreignscan_path(root, rel, NULL, rows, 0, startup, total, order, outer, NULL,
+								   NIL, more);
+#elif PG_VERSION_NUM >= 170000
+	return create_foreignscan_path(root, rel, NULL, rows, startup, total, order, outer, NULL, NIL,
+								   more);
+#else
+	return create_foreignscan_path(root, rel, NULL, rows, startup, total, order, outer, NULL, more);
 #endif
 }
 
