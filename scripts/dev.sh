@@ -86,7 +86,7 @@ files_named() {
     fi
     for file in "sql/$1.sql" "test/isolation/specs/$1.spec" "test/pgtap/$1.sql" "test/tap/$1.pl" \
         "docs/$1.md" "$1.md" "test/unit/${1%_test}_test.cpp" "test/suite/${1%_test}_test.py" \
-        "test/oracle/${1%_test}_test.py"; do
+        "test/oracle/${1%_test}_test.py" "test/viewer/$1.test.js"; do
         if [[ -f $file ]]; then echo "$file"; fi
     done
 }
@@ -103,6 +103,7 @@ run_file() {
     test/unit/*.cpp) unit "$(filter_of_file "$1")" ;;
     test/suite/*.py) report_tests "$name" ;;
     test/oracle/*.py) oracle_tests "$name" ;;
+    test/viewer/*.js) viewer_tests "${name%.test.js}" ;;
     *) fail "$1 is no test." ;;
     esac
 }
@@ -114,7 +115,7 @@ one() {
         if [[ $1 == *[.*:]* ]]; then unit "$1"; else unit "*$1*"; fi
         return
     fi
-    if [[ " ${files[*]}" == *@(.sql|.spec|.pl|.md|test/oracle/)* && -z ${cluster_folder:-} ]]; then
+    if [[ " ${files[*]}" == *@(.sql|.spec|.pl|.md|test/oracle/|test/viewer/)* && -z ${cluster_folder:-} ]]; then
         begin_server
         trap 'tap_end; cluster_stop' EXIT
     fi

@@ -1,9 +1,9 @@
 #!/bin/bash
 # All set-up and all tests, from a clean clone, re-runnable: packages, builds,
 # unit tests (plain and sanitized), a bounded fuzzing run, SQL tests, crashes, the
-# examples of the documentation, comparison with CGAL, SciPy, matplotlib and VTK,
-# random changes against a model, reports of benchmarks, smoke runs of the benchmarks
-# and the evaluation. Logs are left in build/test.
+# examples of the documentation, comparison with CGAL, SciPy, matplotlib and VTK, the
+# viewer in a browser without a screen, random changes against a model, reports of
+# benchmarks, smoke runs of the benchmarks and the evaluation. Logs are left in build/test.
 #
 #   test.sh             all suites but tidy and other versions
 #   test.sh NAME...     these, after the builds that they need; `all` are those of above

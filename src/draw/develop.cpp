@@ -38,7 +38,7 @@ public:
     }
     /// To a mean density, so that pictures side by side have the same.
     void fit(double mean) {
-        const auto middle = static_cast<float>(std::log2(mean));
+        const float middle = static_cast<float>(bin(static_cast<float>(mean))) / per_octave;
         low_ = middle - least_range / 2;
         high_ = middle + least_range / 2;
     }

@@ -9,7 +9,6 @@
 #include "tiles/vector_layer.hpp"
 
 #include <cmath>
-#include <tuple>
 
 namespace abacus {
 

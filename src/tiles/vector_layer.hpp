@@ -10,9 +10,9 @@
 
 #include <array>
 #include <bit>
-#include <compare>
 #include <initializer_list>
 #include <span>
+#include <tuple>
 
 namespace abacus {
 
@@ -20,7 +20,8 @@ inline constexpr std::int32_t tile_extent = 4096;
 
 struct TilePoint {
     std::int32_t x, y;
-    auto operator<=>(const TilePoint &) const = default;
+    bool operator==(const TilePoint &) const = default;
+    bool operator<(const TilePoint &p) const { return std::tie(x, y) < std::tie(p.x, p.y); }
 };
 
 class VectorLayer {
@@ -62,7 +63,10 @@ private:
     struct Value {
         bool is_integer;
         std::uint64_t bits;
-        auto operator<=>(const Value &) const = default;
+        bool operator==(const Value &) const = default;
+        bool operator<(const Value &v) const {
+            return std::tie(is_integer, bits) < std::tie(v.is_integer, v.bits);
+        }
     };
     struct Tag {
         std::uint32_t key;

@@ -82,7 +82,6 @@ private:
 
 /// All triangles; false if there are too many.
 bool Maker::read() {
-    if (window_.mean_triangles(header_, window_.side()) > 4 * most_tile_triangles) return false;
     const BoxRegion<2> region(window_.in_mesh(margin));
     RangeScan<2> pages(host_, header_, &region);
     while (pages.advance())

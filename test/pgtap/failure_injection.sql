@@ -105,6 +105,13 @@ RESET work_mem;
 SELECT pg_temp.inject('check', $$ SELECT count(*) FROM abacus_check('field') $$,
     $$ SELECT NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
 SELECT pg_temp.inject('draw', $$ SELECT abacus_draw('field', 100) $$, 'SELECT true');
+-- tiles, by all triangles and by samples
+SELECT pg_temp.inject('picture tile', $$ SELECT abacus_tile_picture('field', 0, 0, 0, world => '{0,0,400}', attribute => 'height', range => '{0,500}', contours => 50) $$, 'SELECT true');
+SELECT pg_temp.inject('sampled picture tile', $$ SELECT abacus_tile_picture('field', 0, 0, 0, world => '{0,0,400}', size => 10, attribute => 'height', range => '{0,500}') $$, 'SELECT true');
+SELECT pg_temp.inject('vector tile', $$ SELECT abacus_tile_vector('field', 2, 1, 1, world => '{0,0,400}', attribute => 'height', contours => 20) $$, 'SELECT true');
+SELECT pg_temp.inject('vector tile of many', $$ SELECT abacus_tile_vector('field', 0, 0, 0, world => '{-2000,-2000,4000}', attribute => 'height', contours => 20) $$, 'SELECT true');
+SELECT pg_temp.inject('terrain tile', $$ SELECT abacus_tile_terrain('field', 0, 0, 0, world => '{0,0,400}', size => 64, attribute => 'height') $$, 'SELECT true');
+SELECT pg_temp.inject('tile functions', $$ SELECT abacus_tiles('field', world => '{0,0,400}', attribute => 'height') $$, $$ SELECT to_regproc('field_mvt') IS NULL $$);
 SELECT abacus_triangulate('solid', 'SELECT id, x, y, (id * 37) % 101 FROM points', dimension => 3);
 SELECT pg_temp.inject('draw a section', $$ SELECT abacus_draw_section('solid', '{0,0,50}', '{1,2,3}', 100) $$, 'SELECT true');
 SELECT pg_temp.inject('section', $$ SELECT count(*) FROM abacus_section('solid', '{0,0,50}', '{1,2,3}') $$, 'SELECT true');

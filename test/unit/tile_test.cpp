@@ -449,6 +449,29 @@ TEST(PictureTile, WithoutAttributeHasOneBrightness) {
         for (int x = 0; x < 64; ++x) EXPECT_LE(difference(quarter(x, y), whole(x, y)), 1);
 }
 
+/// What is as fine as the mesh as a mean has the middle of the colours, drawn or sampled.
+TEST(PictureTile, WithoutAttributeHasAMiddle) {
+    const auto mesh = mesh_of(30000, 1);
+    const Host host = mesh->host.host();
+    const Palette palette = Palette::shore();
+    const Encoder encode;
+    for (const int zoom : {7, 11}) {
+        abacus_drawing drawing = coloured(64);
+        drawing.attribute = -1;
+        const Image image = decode(
+            draw_picture_tile(host, mesh->header, tile_at(zoom, 7.5, 46.5), drawing, plenty).png);
+        double light = 0, pixels = 0;
+        for (int i = 0; i < 64 * 64; ++i)
+            if (image.alphas[i] == 255) {
+                light += sum(image.pixels[i]);
+                ++pixels;
+            }
+        ASSERT_GT(pixels, 50) << zoom;
+        EXPECT_GT(light / pixels, sum(encode(palette(0.3f)))) << zoom;
+        EXPECT_LT(light / pixels, sum(encode(palette(0.7f)))) << zoom;
+    }
+}
+
 TEST(PictureTile, OfWebMercatorIsTheDrawingOfItsWindow) {
     MeshOf<2> mesh(1);
     std::vector<InputOf<2>> input;

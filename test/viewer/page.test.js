@@ -162,18 +162,20 @@ test("a point is added, moved and deleted; undo and save", async () => {
     const vertices = () => psql("SELECT value FROM abacus_stats('terrain') WHERE name = 'vertices'");
     await open("terrain");
     const before = vertices();
+    for (let i = 0; i < 4; ++i) await page.getByRole("button", { name: "Zoom in" }).click();
+    await page.waitForTimeout(700);
     await choose(/adds a point/);
     await page.getByLabel("Id of a new point").fill("4711");
-    await askAt(400817.5, 5200740.5);
+    await askAt(400892.5, 5200741.5);
     assert.match(await says(/4711 is added/), /\d+ triangles are around it/);
     await take("edit");
     await choose(/moves a point/);
-    await askAt(400817.5, 5200740.5);
+    await askAt(400892.5, 5200741.5);
     await says(/4711 is taken/);
-    await askAt(400819.5, 5200741.5);
+    await askAt(400893.5, 5200740.5);
     await says(/4711 is moved/);
     await choose(/deletes the nearest/);
-    await askAt(400819.5, 5200741.5);
+    await askAt(400893.5, 5200740.5);
     await says(/4711 is deleted/);
     assert.equal(await page.locator("#changes").innerText(), "3 not saved");
     assert.equal(vertices(), before); // for others
@@ -181,12 +183,12 @@ test("a point is added, moved and deleted; undo and save", async () => {
     await says(/Undone: 3 changes/);
     await choose(/adds a point/);
     await page.getByLabel("Id of a new point").fill("4712");
-    await askAt(400817.5, 5200740.5);
+    await askAt(400892.5, 5200741.5);
     await says(/4712 is added/);
     await page.getByRole("button", { name: "Save" }).click();
     await says(/Saved: 1 change/);
     assert.equal(Number(vertices()), Number(before) + 1);
-    psql("SELECT abacus_delete('terrain', 'SELECT 4712, 400817.5, 5200740.5')");
+    psql("SELECT abacus_delete('terrain', 'SELECT 4712, 400892.5, 5200741.5')");
 });
 
 test("every control has a name, and what is wrong is said", async () => {
@@ -253,13 +255,22 @@ test("a surface of one value, and a ray", async () => {
     await take("space");
 });
 
-test("a point in space is added and undone", async () => {
+test("a point in space is added, moved and deleted; undo", async () => {
     await open("rock");
     const before = psql("SELECT value FROM abacus_stats('rock') WHERE name = 'vertices'");
     await choose(/adds a point/);
+    await page.getByLabel("Id of a new point").fill("4711");
     await askAt(5.25, 4.5, -3.1);
-    assert.match(await says(/is added/), /\d+ tetrahedra are around it/);
+    assert.match(await says(/4711 is added/), /\d+ tetrahedra are around it/);
+    await choose(/moves a point/);
+    await askAt(5.25, 4.5, -3.1);
+    await says(/4711 is taken/);
+    await askAt(5.26, 4.51, -3.2);
+    await says(/4711 is moved/);
+    await choose(/deletes the nearest/);
+    await askAt(5.26, 4.51, -3.2);
+    await says(/4711 is deleted/);
     await page.getByRole("button", { name: "Undo" }).click();
-    await says(/Undone: 1 change/);
+    await says(/Undone: 3 changes/);
     assert.equal(psql("SELECT value FROM abacus_stats('rock') WHERE name = 'vertices'"), before);
 });

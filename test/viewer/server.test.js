@@ -2,6 +2,7 @@
 // clients that go away, and changes that are undone.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
+import { readFileSync } from "node:fs";
 import http from "node:http";
 import { after, before, test } from "node:test";
 import { connection } from "../../viewer/conninfo.js";
@@ -254,6 +255,16 @@ test("connection strings are read as libpq does", () => {
     assert.deepEqual(connection(undefined), {});
     assert.throws(() => connection("host=a colour=b"), /does not know/);
     assert.throws(() => connection("host=a b"), /cannot read/);
+});
+
+test("packages have fixed versions and a hash, and come from npm's registry", () => {
+    const { packages } = JSON.parse(readFileSync(new URL("../../viewer/package-lock.json", import.meta.url)));
+    const { dependencies, devDependencies } = packages[""];
+    for (const version of Object.values({ ...dependencies, ...devDependencies })) assert.match(version, /^\d+\.\d+\.\d+$/);
+    for (const [name, one] of Object.entries(packages).filter(([name]) => name !== "")) {
+        assert.match(one.resolved ?? "https://registry.npmjs.org/", /^https:\/\/registry\.npmjs\.org\//, name);
+        assert.match(one.integrity, /^sha512-/, name);
+    }
 });
 
 test("the command says what is wrong", () => {

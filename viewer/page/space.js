@@ -145,7 +145,7 @@ function moveTo(value) {
 
 // ---- Tools -------------------------------------------------------------------------------------
 
-let found = null;
+let found = null, moved = null;
 
 async function locate(place) {
     found = await ask("locate", named({ x: place[0], y: place[1], z: place[2] }));
@@ -173,6 +173,12 @@ async function ray(place, from) {
         ...(rows.length ? [table(rows.slice(0, 12).map((row) => [row.enters.toPrecision(5), row.leaves.toPrecision(5), [row.v0, row.v1, row.v2, row.v3].join(" ")]), ["enters", "leaves", "tetrahedron"])] : [])]);
 }
 
+async function nearest([x, y, z]) {
+    const { nearest: vertex } = await ask("locate", named({ x, y, z }));
+    if (!vertex) throw new Error("the mesh has no vertex");
+    return { ...vertex, at: [vertex.x, vertex.y, vertex.z] };
+}
+
 async function showStar(place, words) {
     const star = await ask("star", { x: place[0], y: place[1], z: place[2] });
     mesh = await ask("info");
@@ -187,10 +193,19 @@ const editors = {
         await showStar(place, `Point ${id} is added.`);
     },
     async remove(place) {
-        const { nearest } = await ask("locate", named({ x: place[0], y: place[1], z: place[2] }));
-        const where = [nearest.x, nearest.y, nearest.z];
-        await change("remove", { id: nearest.vertex, at: where });
-        await showStar(where, `Point ${nearest.vertex} is deleted; its place is in a tetrahedron again.`);
+        const vertex = await nearest(place);
+        await change("remove", { id: vertex.vertex, at: vertex.at });
+        await showStar(vertex.at, `Point ${vertex.vertex} is deleted; its place is in a tetrahedron again.`);
+    },
+    async move(place) {
+        if (!moved) {
+            moved = await nearest(place);
+            return say(`Point ${moved.vertex} is taken. Where shall it go?`);
+        }
+        const vertex = moved;
+        moved = null;
+        await change("move", { id: vertex.vertex, at: vertex.at, to: place, values: vertex.attributes ?? undefined });
+        await showStar(place, `Point ${vertex.vertex} is moved.`);
     },
 };
 const use = (place, from = toMesh(camera.position)) => answering(() => ({ locate, ray, ...editors })[tool()](place, from));
@@ -245,6 +260,11 @@ element("tools").addEventListener("submit", (event) => {
     const place = ["x", "y", "z"].map((id) => element(id).valueAsNumber);
     if (place.some(Number.isNaN)) return say("x, y and z must be numbers.", "error");
     use(place);
+});
+element("tools").addEventListener("change", ({ target }) => {
+    if (target.name !== "tool") return;
+    moved = null;
+    say("Click a place of the plane.");
 });
 element("cut").addEventListener("input", () => moveTo(Number(element("cut").value)));
 element("axis").addEventListener("change", () => moveTo(500));
