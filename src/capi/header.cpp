@@ -6,6 +6,7 @@
 #include <abacus/header.h>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 namespace abacus {
@@ -21,6 +22,8 @@ constexpr std::uint64_t count_limit = std::uint64_t{1} << 62;
 // The counters are fields of one type without gaps: they go as an array.
 constexpr std::size_t counter_count = sizeof(abacus_counters) / sizeof(std::uint64_t);
 static_assert(sizeof(abacus_counters) == counter_count * sizeof(std::uint64_t));
+/// Headers may have been written before the last of them were counted.
+constexpr std::size_t least_counters = offsetof(abacus_counters, passes) / sizeof(std::uint64_t);
 
 class Writer {
 public:
@@ -64,12 +67,11 @@ public:
         value = std::bit_cast<double>(bits);
     }
     const char *text(std::size_t size) { return reinterpret_cast<const char *>(take(size)); }
-    bool at_end() const { return at_ == end_; }
+    std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
 
 private:
     const unsigned char *take(std::size_t size) {
-        if (size > static_cast<std::size_t>(end_ - at_))
-            throw_corrupted("The header is too short.");
+        if (size > left()) throw_corrupted("The header is too short.");
         at_ += size;
         return at_ - size;
     }
@@ -159,11 +161,14 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
         throw_corrupted("The header has " + std::to_string(header.attributes) + " attributes.");
     check_domain(header);
     check_counts(header);
-    std::uint64_t counters[counter_count];
-    for (auto &counter : counters) read(counter);
+    std::uint64_t counters[counter_count]{};
+    const std::size_t names = header.attributes * std::size_t{ABACUS_NAME_BYTES};
+    const bool has_least = read.left() == names + least_counters * sizeof *counters;
+    for (std::size_t i = 0; i < (has_least ? least_counters : counter_count); ++i)
+        read(counters[i]);
     std::memcpy(&header.counters, counters, sizeof counters);
     read_names(read, header);
-    if (!read.at_end()) throw_corrupted("The header is too long.");
+    if (read.left() > 0) throw_corrupted("The header is too long.");
 }
 
 } // namespace
