@@ -48,6 +48,7 @@ SELECT pg_temp.same($$ SELECT * FROM abacus_interpolate('plane', 'SELECT id, x, 
 SELECT pg_temp.same($$ SELECT * FROM abacus_interpolate('plane', 'SELECT id, x, y FROM places', method => 'natural') $$, 'natural');
 SELECT pg_temp.same($$ SELECT * FROM abacus_nearest('plane', 'SELECT id, x, y FROM places', 4) $$, 'nearest');
 SELECT pg_temp.same($$ SELECT * FROM abacus_weights('plane', 'SELECT id, x, y FROM places', method => 'natural') $$, 'weights');
+SELECT pg_temp.same($$ SELECT * FROM abacus_raster('plane', '{0, 0}', '{900, 900}', 30, 20, method => 'natural') $$, 'pixels');
 
 -- faults
 SELECT pg_temp.same($$ SELECT count(*) FROM (SELECT * FROM abacus_check('plane') UNION ALL SELECT * FROM abacus_check('space')) f $$,
