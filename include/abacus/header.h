@@ -52,6 +52,9 @@ typedef struct abacus_counters
 	uint64_t translation_ns;   /* time between the two representations, host calls included */
 	uint64_t total_ns;         /* time in the core, host calls included */
 	uint64_t peak_bytes;       /* largest amount of memory the cache held */
+	uint64_t passes;           /* of several threads over points */
+	uint64_t put_off;          /* points that a pass left to the next one */
+	uint64_t waited_ns;        /* time that threads waited for the session's, of all together */
 } abacus_counters;
 
 /* ---- Header of a mesh ----------------------------------------------------- */

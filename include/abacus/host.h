@@ -109,6 +109,7 @@ typedef struct abacus_progress
 	uint64_t total;         /* 0 = not known */
 	uint64_t pages_read;
 	uint64_t pages_written;
+	uint32_t threads;       /* at work beside the session's; 0 = the session's alone works */
 } abacus_progress;
 
 /* ---- The host: what a database gives the core ---------------------------- */
@@ -178,6 +179,8 @@ typedef struct abacus_host
 	 */
 	unsigned threads;
 	int tiny_intervals;
+	/* Bytes that threads may have in all; 0 = any number. For tests, as if memory ran out. */
+	size_t most_thread_bytes;
 } abacus_host;
 
 /*

@@ -18,7 +18,8 @@ WITH build AS (
            extract(epoch FROM clock_timestamp()) - 946684800.0 - s.param18::numeric / 1e6 AS phase_seconds,
            extract(epoch FROM clock_timestamp()) - 946684800.0 - s.param19::numeric / 1e6 AS seconds,
            s.param2 AS pages_read,
-           s.param3 AS pages_written
+           s.param3 AS pages_written,
+           greatest(s.param8, 1::bigint) AS threads
     FROM pg_catalog.pg_stat_get_progress_info('CREATE INDEX') AS s,
          pg_catalog.pg_database AS d
     WHERE d.datname = current_database()
@@ -45,7 +46,8 @@ SELECT pid,
            AS time_left,
        make_interval(secs => seconds::double precision) AS elapsed,
        pages_read,
-       pages_written
+       pages_written,
+       threads
 FROM build;
 COMMENT ON VIEW abacus_progress IS 'live figures of the builds, changes, loads, checks, locations of many places and surfaces that run in any session';
 COMMENT ON COLUMN abacus_progress.pid IS 'process id of the session';
@@ -58,4 +60,5 @@ COMMENT ON COLUMN abacus_progress.time_left IS 'in this phase, at that rate';
 COMMENT ON COLUMN abacus_progress.elapsed IS 'since the function began';
 COMMENT ON COLUMN abacus_progress.pages_read IS 'pages read back into the cache';
 COMMENT ON COLUMN abacus_progress.pages_written IS 'pages written';
+COMMENT ON COLUMN abacus_progress.threads IS 'threads that compute at this moment: 1 is the session''s; several work for it, and it serves them';
 GRANT SELECT ON abacus_progress TO PUBLIC;

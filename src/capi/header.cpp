@@ -6,6 +6,7 @@
 #include <abacus/header.h>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 namespace abacus {
@@ -21,6 +22,8 @@ constexpr std::uint64_t count_limit = std::uint64_t{1} << 62;
 // The counters are fields of one type without gaps: they go as an array.
 constexpr std::size_t counter_count = sizeof(abacus_counters) / sizeof(std::uint64_t);
 static_assert(sizeof(abacus_counters) == counter_count * sizeof(std::uint64_t));
+/// Headers may have been written before the last of them were counted.
+constexpr std::size_t least_counters = offsetof(abacus_counters, passes) / sizeof(std::uint64_t);
 
 class Writer {
 public:
@@ -64,12 +67,11 @@ public:
         value = std::bit_cast<double>(bits);
     }
     const char *text(std::size_t size) { return reinterpret_cast<const char *>(take(size)); }
-    bool at_end() const { return at_ == end_; }
+    std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
 
 private:
     const unsigned char *take(std::size_t size) {
-        if (size > static_cast<std::size_t>(end_ - at_))
-            throw_corrupted("The header is too short.");
+        if (size > left()) throw_corrupted("The header is too short.");
         at_ += size;
         return at_ - size;
     }
@@ -137,11 +139,11 @@ void read_names(Reader &read, abacus_header &header) {
 
 /// A mesh without SRID has no word for it.
 void read_srid(Reader &read, abacus_header &header) {
-    if (read.at_end()) return;
+    if (read.left() == 0) return;
     read(header.srid);
     if (header.srid == 0 || header.srid > ABACUS_MAX_SRID)
         throw_corrupted("The header's SRID is out of range.");
-    if (!read.at_end()) throw_corrupted("The header is too long.");
+    if (read.left() > 0) throw_corrupted("The header is too long.");
 }
 
 void check_format(std::uint64_t found) {
@@ -168,8 +170,10 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
         throw_corrupted("The header has " + std::to_string(header.attributes) + " attributes.");
     check_domain(header);
     check_counts(header);
-    std::uint64_t counters[counter_count];
-    for (auto &counter : counters) read(counter);
+    std::uint64_t counters[counter_count]{};
+    const std::size_t names = header.attributes * std::size_t{ABACUS_NAME_BYTES};
+    const bool has_all = read.left() >= names + sizeof counters;
+    for (std::size_t i = 0; i < (has_all ? counter_count : least_counters); ++i) read(counters[i]);
     std::memcpy(&header.counters, counters, sizeof counters);
     read_names(read, header);
     read_srid(read, header);

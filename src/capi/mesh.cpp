@@ -79,7 +79,12 @@ abacus_status abacus_mesh_nearest(abacus_mesh *mesh, const double *point, uint64
                                   abacus_nearest_report report, void *context,
                                   abacus_error *error) {
     return abacus::dispatch(mesh->reader, error, [&]<int D>(abacus::Reader<D> &reader) {
-        abacus::report_nearest<D>(reader, 0, abacus::finite_point<D>(point), k, report, context);
+        const auto p = abacus::finite_point<D>(point);
+        std::uint64_t rank = 0;
+        abacus::Nearest<D>(reader).find(p, k, [&](const std::uint64_t *record) {
+            const double distance = abacus::distance<D>(p, abacus::record_point<D>(record));
+            abacus::report_vertex<D>(0, ++rank, record, distance, report, context);
+        });
     });
 }
 

@@ -1,6 +1,5 @@
 // Many places behind the C interface.
 #include "query/places.hpp"
-#include "query/interpolation.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
@@ -16,6 +15,130 @@ struct abacus_places {
     const abacus::Host host;
     abacus::ByDimension<abacus::Places> places;
 };
+
+namespace abacus {
+namespace {
+
+template <int D> class Locating final : public Question<D> {
+public:
+    Locating(abacus_place_report report, void *context) : report_(report), context_(context) {}
+
+    std::size_t words() const override { return 1 + sizeof(abacus_simplex) / 8; }
+    bool is_quick() const override { return true; }
+    void answer(Answerer<D> &by, const Point<D> &p, Tape &tape) const override {
+        abacus_simplex simplex{};
+        const std::uint64_t is_inside = by.reader.locate(p, simplex);
+        tape.put(is_inside);
+        if (is_inside != 0) tape.put(simplex);
+    }
+    void tell(std::int64_t id, Tape::Player &answers) const override {
+        const bool is_inside = answers.take<std::uint64_t>() != 0;
+        host::require(report_(context_, id, is_inside ? &answers.take<abacus_simplex>() : nullptr));
+    }
+
+private:
+    const abacus_place_report report_;
+    void *const context_;
+};
+
+template <int D> class Interpolating final : public Question<D> {
+public:
+    Interpolating(const abacus_interpolation &interpolation, abacus_values_report report,
+                  void *context)
+        : interpolation_(interpolation), report_(report), context_(context) {}
+
+    std::size_t words() const override { return 1 + interpolation_.attributes; }
+    bool is_quick() const override { return interpolation_.method == ABACUS_LINEAR; }
+    void answer(Answerer<D> &by, const Point<D> &p, Tape &tape) const override {
+        std::array<double, ABACUS_MAX_ATTRIBUTES> values;
+        const std::uint64_t is_inside =
+            by.interpolation.values(by.reader, interpolation_, p, values.data());
+        tape.put(is_inside);
+        if (is_inside != 0) tape.put(values.data(), interpolation_.attributes);
+    }
+    void tell(std::int64_t id, Tape::Player &answers) const override {
+        const bool is_inside = answers.take<std::uint64_t>() != 0;
+        const double *values =
+            is_inside ? answers.take<double>(interpolation_.attributes) : nullptr;
+        host::require(report_(context_, id, values));
+    }
+
+private:
+    const abacus_interpolation &interpolation_;
+    const abacus_values_report report_;
+    void *const context_;
+};
+
+template <int D> class Weighing final : public Question<D> {
+public:
+    Weighing(const abacus_interpolation &interpolation, abacus_weights_report report, void *context)
+        : interpolation_(interpolation), report_(report), context_(context) {}
+
+    std::size_t words() const override {
+        // A place among uniform vertices has 6 natural neighbours, in space 16.
+        const std::size_t weights =
+            interpolation_.method == ABACUS_NATURAL ? (D == 2 ? 8 : 20) : D + 1;
+        return 1 + weights * sizeof(abacus_weight) / 8;
+    }
+    bool is_quick() const override { return interpolation_.method == ABACUS_LINEAR; }
+    void answer(Answerer<D> &by, const Point<D> &p, Tape &tape) const override {
+        const bool is_inside = by.interpolation.weigh(by.reader, interpolation_, p);
+        const Arena<abacus_weight> &weights = by.interpolation.weights();
+        const std::uint64_t n = is_inside ? weights.size() : 0;
+        tape.put(n);
+        tape.put(weights.data(), n);
+    }
+    void tell(std::int64_t id, Tape::Player &answers) const override {
+        const auto n = answers.take<std::uint64_t>();
+        host::require(report_(context_, id, answers.take<abacus_weight>(n), n));
+    }
+
+private:
+    const abacus_interpolation &interpolation_;
+    const abacus_weights_report report_;
+    void *const context_;
+};
+
+template <int D> class Nearing final : public Question<D> {
+public:
+    Nearing(const abacus_header &header, std::uint64_t k, abacus_nearest_report report,
+            void *context)
+        : record_words_(record_words(D, header.attributes)),
+          words_(1 + std::min({k, header.vertices, most_counted}) * (1 + record_words_)), k_(k),
+          report_(report), context_(context) {}
+
+    std::size_t words() const override { return words_; }
+    void answer(Answerer<D> &by, const Point<D> &p, Tape &tape) const override {
+        const std::size_t at = tape.size();
+        std::uint64_t n = 0;
+        tape.put(n);
+        Nearest<D>(by.reader).find(p, k_, [&](const std::uint64_t *record) {
+            tape.put(distance<D>(p, record_point<D>(record)));
+            tape.put(record, record_words_);
+            ++n;
+        });
+        tape.set(at, n);
+    }
+    void tell(std::int64_t id, Tape::Player &answers) const override {
+        const auto n = answers.take<std::uint64_t>();
+        for (std::uint64_t rank = 1; rank <= n; ++rank) {
+            const auto from = answers.take<double>();
+            report_vertex<D>(id, rank, answers.take<std::uint64_t>(record_words_), from, report_,
+                             context_);
+        }
+    }
+
+private:
+    static constexpr std::uint64_t most_counted = std::uint64_t{1} << 32; // far too many anyway
+
+    const std::size_t record_words_, words_;
+    const std::uint64_t k_;
+    const abacus_nearest_report report_;
+    void *const context_;
+};
+
+} // namespace
+} // namespace abacus
 
 abacus_status abacus_places_open(const abacus_host *host, const abacus_header *header,
                                  size_t memory, size_t cache_bytes, abacus_places **places,
@@ -33,12 +156,8 @@ abacus_status abacus_places_add(abacus_places *places, const uint64_t *records, 
 
 abacus_status abacus_places_locate(abacus_places *places, abacus_place_report report, void *context,
                                    abacus_error *error) {
-    return abacus::dispatch(places->places, error, [&](auto &all) {
-        abacus_simplex simplex{};
-        all.each([&](auto &reader, std::int64_t id, const auto &place) {
-            const bool is_inside = reader.locate(place, simplex);
-            abacus::host::require(report(context, id, is_inside ? &simplex : nullptr));
-        });
+    return abacus::dispatch(places->places, error, [&]<int D>(abacus::Places<D> &all) {
+        all.each(abacus::Locating<D>(report, context));
     });
 }
 
@@ -47,12 +166,7 @@ abacus_status abacus_places_interpolate(abacus_places *places,
                                         abacus_values_report report, void *context,
                                         abacus_error *error) {
     return abacus::dispatch(places->places, error, [&]<int D>(abacus::Places<D> &all) {
-        abacus::Interpolation<D> found(places->host);
-        std::array<double, ABACUS_MAX_ATTRIBUTES> values;
-        all.each([&](auto &reader, std::int64_t id, const auto &place) {
-            const bool is_inside = found.values(reader, *interpolation, place, values.data());
-            abacus::host::require(report(context, id, is_inside ? values.data() : nullptr));
-        });
+        all.each(abacus::Interpolating<D>(*interpolation, report, context));
     });
 }
 
@@ -60,21 +174,14 @@ abacus_status abacus_places_weigh(abacus_places *places, const abacus_interpolat
                                   abacus_weights_report report, void *context,
                                   abacus_error *error) {
     return abacus::dispatch(places->places, error, [&]<int D>(abacus::Places<D> &all) {
-        abacus::Interpolation<D> found(places->host);
-        all.each([&](auto &reader, std::int64_t id, const auto &place) {
-            const bool is_inside = found.weigh(reader, *interpolation, place);
-            abacus::host::require(report(context, id, found.weights().data(),
-                                         is_inside ? found.weights().size() : 0));
-        });
+        all.each(abacus::Weighing<D>(*interpolation, report, context));
     });
 }
 
 abacus_status abacus_places_nearest(abacus_places *places, uint64_t k, abacus_nearest_report report,
                                     void *context, abacus_error *error) {
     return abacus::dispatch(places->places, error, [&]<int D>(abacus::Places<D> &all) {
-        all.each([&](abacus::Reader<D> &reader, std::int64_t id, const abacus::Point<D> &place) {
-            abacus::report_nearest<D>(reader, id, place, k, report, context);
-        });
+        all.each(abacus::Nearing<D>(all.header(), k, report, context));
     });
 }
 

@@ -249,7 +249,7 @@ template <int D> bool Build<D>::rekey(std::size_t memory, abacus_header &header)
 template <int D>
 void Build<D>::report(abacus_phase phase, std::uint64_t done, std::uint64_t total) {
     const abacus_counters &counters = core_->cache.counters;
-    host_.progress({phase, done, total, counters.loads, counters.stores});
+    host_.progress({phase, done, total, counters.loads, counters.stores, 0});
 }
 
 template class Build<2>;

@@ -125,7 +125,8 @@ template <int D> void Build<D>::report_pass(std::uint64_t done) {
     const abacus_counters &counters = core_->cache.counters;
     const Desk &desk = crew_->desk();
     host_.progress({ABACUS_PHASE_INSERTING, done_ + done, to_do_,
-                    counters.loads + desk.pages_read(), counters.stores + desk.pages_written()});
+                    counters.loads + desk.pages_read(), counters.stores + desk.pages_written(),
+                    desk.at_work()});
 }
 
 template <int D> void Build<D>::insert_on_threads(Cuts &cuts) {
@@ -149,6 +150,10 @@ template <int D> void Build<D>::insert_on_threads(Cuts &cuts) {
                 repeated.add(gathered_.record(i), gathered_.code(i));
             for (const std::size_t i : results.put_off) gathered_.move(i, put_off++);
         }
+        abacus_counters &counters = core_->cache.counters;
+        ++counters.passes;
+        counters.put_off += put_off;
+        counters.waited_ns += crew_->desk().waited();
         done_ += gathered_.size() - put_off;
         gathered_.shorten(put_off);
         if (!host_.has_tiny_intervals()) least = worth_sharing<D>;

@@ -4,6 +4,8 @@
 
 #include "host/error.hpp"
 
+#include <cstddef>
+
 namespace abacus {
 
 class Control {
@@ -23,6 +25,8 @@ public:
     unsigned threads() const { return table_->threads > 1 ? table_->threads : 1; }
     /// For tests: threads share even little work, in many pieces cut at random.
     bool has_tiny_intervals() const { return table_->tiny_intervals != 0; }
+    /// For tests: bytes that threads may have in all; 0: any number.
+    std::size_t most_thread_bytes() const { return table_->most_thread_bytes; }
     void progress(const abacus_progress &progress) const {
         host::require(table_->progress(table_->context, &progress));
     }

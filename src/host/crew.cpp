@@ -33,7 +33,8 @@ Crew *Crew::at_work_ = nullptr;
 Crew::Crew(const Host &host)
     : host_(host), host_memory_(host), couriers_(&host_memory_), threads_(&host_memory_) {
     // What the threads may hold is theirs to decide, as it is the session's: caches have budgets.
-    memory_.reserve(std::numeric_limits<std::size_t>::max() / 2);
+    const std::size_t any = std::numeric_limits<std::size_t>::max() / 2;
+    memory_.reserve(host.most_thread_bytes() != 0 ? host.most_thread_bytes() : any);
 }
 
 Crew::~Crew() { stop(); }
@@ -66,7 +67,7 @@ bool Crew::run(unsigned threads, std::size_t pieces, Work &work) {
         return false;
     }
     try {
-        while (desk_.serve(host_)) work.meanwhile();
+        while (desk_.serve(host_, !work.is_busy())) work.meanwhile();
     } catch (...) {
         stop();
         throw;
@@ -92,7 +93,8 @@ void Crew::start(unsigned threads) {
 void Crew::thread(Courier &courier) noexcept {
     std::fesetround(FE_TONEAREST);
     try {
-        for (std::size_t n; (n = next_piece_++) < pieces_;) work_->piece(n, courier.host());
+        for (std::size_t n; (n = next_piece_++) < pieces_; desk_.ring())
+            work_->piece(n, courier.host());
     } catch (...) {
         keep_failure();
         desk_.close();

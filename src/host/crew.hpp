@@ -22,9 +22,12 @@
 #include "host/thread_memory.hpp"
 
 #include <atomic>
+#include <cstdlib>
+#include <deque>
 #include <exception>
 #include <list>
 #include <memory_resource>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -39,6 +42,8 @@ public:
         virtual void piece(std::size_t number, const Host &host) = 0;
         /// Called now and then in the session's thread.
         virtual void meanwhile() {}
+        /// Whether meanwhile() has more to do, and is to be called soon.
+        virtual bool is_busy() const { return false; }
 
     protected:
         ~Work() = default;
@@ -54,6 +59,8 @@ public:
     bool run(unsigned threads, std::size_t pieces, Work &work);
     /// Stops and joins the threads, in the middle of run() too. For the session's thread.
     void stop() noexcept;
+    /// For a thread: meanwhile() is to be called soon.
+    void ring() noexcept { desk_.ring(); }
     /// Stops the threads of whatever crew is at work in this process: for a session that ends.
     static void stop_all() noexcept;
 
@@ -78,6 +85,38 @@ private:
     std::exception_ptr failure_;
 
     static Crew *at_work_; // the session's thread alone reads and writes it
+};
+
+/// What each thread of a crew keeps from piece to piece. It is made in that thread, with its
+/// host, and goes before the crew does.
+template <class T> class OfEachThread {
+public:
+    OfEachThread(const Host &host, unsigned threads) : memory_(host), slots_(threads, &memory_) {}
+
+    /// That of the thread with this host; `args` are for the first time.
+    template <class... Args> T &get(const Host &host, Args &&...args) {
+        for (Slot &slot : slots_) {
+            const Host *owner = nullptr;
+            if (!slot.owner.compare_exchange_strong(owner, &host) && owner != &host) continue;
+            if (!slot.value) slot.value.emplace(host, std::forward<Args>(args)...);
+            return *slot.value;
+        }
+        std::abort(); // there are no more threads than slots
+    }
+    /// Of all threads that have one; for the session's thread, between two runs.
+    template <class Visit> void each(Visit visit) {
+        for (Slot &slot : slots_)
+            if (slot.value) visit(*slot.value);
+    }
+
+private:
+    struct Slot {
+        std::atomic<const Host *> owner = nullptr;
+        std::optional<T> value;
+    };
+
+    HostMemory memory_;
+    std::pmr::deque<Slot> slots_;
 };
 
 } // namespace abacus

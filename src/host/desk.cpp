@@ -1,6 +1,7 @@
 #include "host/desk.hpp"
 
-#include <chrono>
+#include "host/stopwatch.hpp"
+
 #include <cstring>
 
 namespace abacus {
@@ -13,8 +14,9 @@ constexpr std::chrono::milliseconds longest_wait{20};
 void Desk::open(unsigned threads) {
     const std::lock_guard guard(lock_);
     open_requests_ = 0;
-    read_ = written_ = 0;
+    read_ = written_ = waited_ = 0;
     at_work_ = threads;
+    is_rung_ = false;
     __atomic_store_n(&closed_, 0, __ATOMIC_RELAXED);
 }
 
@@ -32,10 +34,29 @@ void Desk::leave() noexcept {
     asked_.notify_all();
 }
 
-bool Desk::serve(const Host &host) {
+unsigned Desk::at_work() const {
+    const std::lock_guard guard(lock_);
+    return at_work_;
+}
+
+std::uint64_t Desk::waited() const {
+    const std::lock_guard guard(lock_);
+    return waited_;
+}
+
+void Desk::ring() noexcept {
+    const std::lock_guard guard(lock_);
+    is_rung_ = true;
+    asked_.notify_all();
+}
+
+bool Desk::serve(const Host &host, bool may_wait) {
     {
         std::unique_lock guard(lock_);
-        asked_.wait_for(guard, longest_wait, [&] { return open_requests_ > 0 || at_work_ == 0; });
+        if (may_wait)
+            asked_.wait_for(guard, longest_wait,
+                            [&] { return open_requests_ > 0 || at_work_ == 0 || is_rung_; });
+        is_rung_ = false;
         if (open_requests_ == 0 && at_work_ == 0) return false;
     }
     host.poll();
@@ -167,11 +188,16 @@ Courier::Courier(Desk &desk, const Memory &memory)
     desk.first_ = this;
 }
 
+template <class IsReady> void Courier::wait(std::unique_lock<std::mutex> &guard, IsReady is_ready) {
+    if (desk_.closed_ != 0 || is_ready()) return;
+    const Stopwatch watch(desk_.waited_);
+    answered_.wait(guard, [&] { return desk_.closed_ != 0 || is_ready(); });
+}
+
 Courier::Request *Courier::begin(Wish wish, abacus_page_kind kind, const abacus_page &page) {
     {
         std::unique_lock guard(desk_.lock_);
-        answered_.wait(guard,
-                       [&] { return desk_.closed_ != 0 || asked_ - served_ < most_requests; });
+        wait(guard, [&] { return asked_ - served_ < most_requests; });
         if (desk_.closed_ != 0) return nullptr;
     }
     Request &request = requests_[asked_ % most_requests];
@@ -192,7 +218,7 @@ abacus_host_status Courier::look(Request *request, abacus_page &page) {
     if (request == nullptr) return ABACUS_HOST_FAILED;
     ask();
     std::unique_lock guard(desk_.lock_);
-    answered_.wait(guard, [&] { return desk_.closed_ != 0 || asked_ == served_; });
+    wait(guard, [&] { return asked_ == served_; });
     if (asked_ != served_) return ABACUS_HOST_FAILED;
     page = request->page;
     return request->answer;

@@ -38,14 +38,21 @@ public:
     void close() noexcept;
     /// For a thread: its work has ended.
     void leave() noexcept;
+    /// For a thread: there is something to do for the session's thread besides pages.
+    void ring() noexcept;
 
-    /// For the session's thread: serves what is asked for, or waits for it for a moment. False
-    /// once all threads have left and everything is served. Throws what the host throws.
-    bool serve(const Host &host);
+    /// For the session's thread: serves what is asked for, or waits for it or a ring for a moment,
+    /// if it may. False once all threads have left and everything is served. Throws what the host
+    /// throws.
+    bool serve(const Host &host, bool may_wait = true);
 
     /// Pages handed to threads and stored for them since open(); for the session's thread.
     std::uint64_t pages_read() const { return read_; }
     std::uint64_t pages_written() const { return written_; }
+    /// Threads that have not left.
+    unsigned at_work() const;
+    /// Nanoseconds that threads have waited here since open(), of all together.
+    std::uint64_t waited() const;
 
 private:
     friend class Courier;
@@ -53,12 +60,14 @@ private:
     /// Serves the courier's next request; false if there is none.
     bool serve(const Host &host, Courier &courier);
 
-    std::mutex lock_;
+    mutable std::mutex lock_;
     Courier *first_ = nullptr; // of those that have a place here
     std::condition_variable asked_;
     std::size_t open_requests_ = 0; // asked and not served
     unsigned at_work_ = 0;          // threads
+    bool is_rung_ = false;
     std::uint64_t read_ = 0, written_ = 0;
+    std::uint64_t waited_ = 0;
     volatile int closed_ = 0; // what the threads' hosts show as an interrupt
 };
 
@@ -89,6 +98,8 @@ private:
     /// A location with this bit is a ticket; the host's own have it not.
     static constexpr std::uint64_t ticket_bit = std::uint64_t{1} << 63;
 
+    /// Waits until the desk is closed or is_ready().
+    template <class IsReady> void wait(std::unique_lock<std::mutex> &guard, IsReady is_ready);
     /// The thread's next request, once there is room; nullptr if the desk is closed.
     Request *begin(Wish wish, abacus_page_kind kind, const abacus_page &page);
     /// Hands it in.

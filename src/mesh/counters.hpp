@@ -17,7 +17,8 @@ constexpr abacus_counters &operator+=(abacus_counters &sum, const abacus_counter
         &C::incircle_tests, &C::incircle_hits, &C::walks,          &C::created,
         &C::deleted,        &C::loads,         &C::stores,         &C::rewrites,
         &C::splits,         &C::merges,        &C::evictions,      &C::eviction_batches,
-        &C::bytes_read,     &C::bytes_written, &C::translation_ns, &C::total_ns};
+        &C::bytes_read,     &C::bytes_written, &C::translation_ns, &C::total_ns,
+        &C::passes,         &C::put_off,       &C::waited_ns};
     constexpr std::array greatest{&C::peak_bytes};
     static_assert((added.size() + greatest.size()) * sizeof(uint64_t) == sizeof(C));
     for (const auto counter : added) sum.*counter += more.*counter;

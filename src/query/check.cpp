@@ -1,57 +1,52 @@
 #include "query/check.hpp"
 
-#include "delaunay/cached_conflict.hpp"
 #include "keys/domain_of.hpp"
-#include "query/page_simplex.hpp"
+#include "query/check_threads.hpp"
 
-#include <cstdio>
-#include <limits>
+#include <optional>
 
 namespace abacus {
 
 template <int D>
 Check<D>::Check(const Host &host, const abacus_header &header, std::size_t cache_bytes,
                 std::size_t limit)
-    : host_(host), header_(header), cache_bytes_(cache_bytes), limit_(limit), memory_(host),
-      domain_(domain_of<D>(header)), faults_(&memory_) {
+    : host_(host), header_(header), cache_bytes_(cache_bytes), domain_(domain_of<D>(header)),
+      faults_(host, limit) {
     check_header();
-    check_pages();
-    // A mesh with broken pages has no topology to speak of. Where only checksums and boxes are
-    // wrong, the other passes may tell what has been changed.
-    const auto is_sound = [&] { return faults_.size() == contents_; };
-    if (is_sound() && pages_ > 0) run("link", [&] { check_topology(); });
-    if (is_sound()) run("point", [&] { check_repeated_points(); });
-    if (is_sound())
-        run("point",
-            [&] { header.not_delaunay != 0 ? check_listed_vertices() : check_waiting_points(); });
-}
-
-template <int D> void Check<D>::fault(const char *kind, const Key &key, const char *message) {
-    if (faults_.size() >= limit_) return;
-    abacus_fault fault{key, kind, {}};
-    std::snprintf(fault.message, sizeof fault.message, "%s", message);
-    faults_.push_back(fault);
-}
-
-template <int D> void Check<D>::fault_of_content(const char *kind, const char *message) {
+    std::optional<Together> together;
+    if (Together::is_worth_while(host, header)) together.emplace(*this);
+    if (!together || !together->check_pages()) check_pages();
+    is_counted_ = true;
+    if (counts_.simplices != header_.simplices || counts_.ghosts != header_.ghosts)
+        faults_.add("count", first_key, "The header counts other simplices than the pages hold.");
     const std::size_t before = faults_.size();
-    fault(kind, at_key_, message);
-    contents_ += faults_.size() - before;
-}
-
-template <int D> template <class Pass> void Check<D>::run(const char *kind, Pass pass) {
-    try {
-        pass();
-    } catch (const Error &error) {
-        if (error.kind != ABACUS_ERROR_CORRUPTED) throw;
-        fault(kind, at_key_, error.detail.c_str());
+    check_links_and_points(together ? &*together : nullptr);
+    // Two pages that differ about a vertex are found where the cache has both. In a Delaunay mesh
+    // it has them at some time: all pages around a vertex are loaded together. In another one it
+    // may not, and what is found otherwise is reported as if it had been looked for alone.
+    if (together && header.not_delaunay != 0 && faults_.size() > before) {
+        faults_.shorten(before);
+        check_links_and_points(nullptr);
     }
 }
 
-template <int D> void Check<D>::report(std::uint64_t pages) {
+template <int D> void Check<D>::check_links_and_points(Together *together) {
+    // A mesh with broken pages has no topology to speak of. Where only checksums and boxes are
+    // wrong, the other passes may tell what has been changed.
+    const auto is_sound = [&] { return faults_.is_sound(); };
+    if (is_sound() && pages_ > 0 && (together == nullptr || !together->check_topology()))
+        faults_.run("link", [&] { check_topology(); });
+    if (is_sound()) faults_.run("point", [&] { check_repeated_points(); });
+    if (is_sound())
+        faults_.run("point", [&] {
+            header_.not_delaunay != 0 ? check_listed_vertices() : check_waiting_points();
+        });
+}
+
+template <int D> void Check<D>::report(std::uint64_t pages, unsigned threads) {
     // Every page is read twice; how many there are is known after the first time.
     const std::uint64_t total = is_counted_ ? 2 * pages_ : 0;
-    if (pages % 64 == 0) host_.progress({ABACUS_PHASE_CHECKING, pages, total, pages, 0});
+    host_.progress({ABACUS_PHASE_CHECKING, pages, total, pages, 0, threads});
 }
 
 /// What need not hold of a header that can be read; the rest capi/header.cpp has seen to.
@@ -59,141 +54,49 @@ template <int D> void Check<D>::check_header() {
     const abacus_header &h = header_;
     if (D == 2 && h.simplices > 0 && h.not_delaunay == 0 &&
         h.simplices + h.ghosts + 2 != 2 * h.vertices)
-        fault("euler", first_key, "Vertices, triangles and hull edges do not add up.");
+        faults_.add("euler", first_key, "Vertices, triangles and hull edges do not add up.");
 }
 
 template <int D> void Check<D>::check_pages() {
     Key expected = first_key;
-    bool expecting = true; // not after a page that tells nothing
+    bool is_expecting = true; // not after a page that tells nothing
+    PageCheck<D> check(domain_, faults_);
     PageScan<D> scan(host_, header_);
+    pages_ = 0;
     while (scan.fetch()) {
-        at_key_ = scan.key();
-        report(++pages_);
-        bool sound = false;
-        run("page", [&] {
-            if (!scan.parse_unsealed())
-                fault_of_content("checksum", "A page has been changed since it was written.");
-            sound = true;
-        });
-        if (sound) {
-            if (!(scan.page().lower() == scan.key()))
-                fault("interval", at_key_, "A page is stored under another page's key.");
-            if (expecting && !(scan.page().lower() == expected))
-                fault("interval", at_key_, "The pages leave out or share a part of the curve.");
-            expected = scan.page().upper();
-            check_page(scan.page());
+        faults_.at = scan.key();
+        report_some(++pages_);
+        const bool is_read = check.read(scan.bytes(), scan.size(), header_.attributes);
+        if (is_read) {
+            if (is_expecting && !(check.page().lower() == expected))
+                faults_.add("interval", "The pages leave out or share a part of the curve.");
+            expected = check.page().upper();
+            check.check();
         }
-        expecting = sound;
+        is_expecting = is_read;
     }
-    is_counted_ = true;
-    if (pages_ > 0 && expecting && !(expected == end_key))
-        fault("interval", at_key_, "The last page does not reach the end of the curve.");
-    if (simplices_ != header_.simplices || ghosts_ != header_.ghosts)
-        fault("count", first_key, "The header counts other simplices than the pages hold.");
-}
-
-template <int D> void Check<D>::check_page(const PageView<D> &page) {
-    page_vertices_ += static_cast<std::uint64_t>(page.vertices());
-    check_simplices(page);
-    for (int patch = 0; patch < page.patches(); ++patch) check_box(page, patch);
-    bool has_parts = false;
-    for (int i = 0; i < page.links(); ++i) has_parts = has_parts || page.link_part(i) != 0;
-    if (page.has_parts() && !has_parts)
-        fault("link", at_key_, "A page has room for parts of keys but none in it.");
-}
-
-template <int D> void Check<D>::check_simplices(const PageView<D> &page) {
-    for (int s = 0; s < page.simplices(); ++s) {
-        const bool ghost = page.is_ghost(s);
-        ++(ghost ? ghosts_ : simplices_);
-        const std::uint64_t code = code_of(page, s, domain_);
-        // Parts are compared by the topology pass, which has to compute them.
-        const Key lowest{code, 0}, highest{code, key_word_end - 1};
-        if (highest < page.lower() || page.upper() <= lowest)
-            fault("key", at_key_, "A simplex lies in a page that does not own its key.");
-        if (!ghost && orientation<D>(corners_of(page, s)) <= 0)
-            fault("orientation", at_key_, "A simplex is flat or negatively oriented.");
-    }
-}
-
-template <int D> void Check<D>::check_box(const PageView<D> &page, int patch) {
-    const auto simplices = page.simplices_of(patch);
-    for (int axis = 0; axis < D; ++axis) {
-        Column::Prefix least = std::numeric_limits<Column::Prefix>::max(), greatest = -1;
-        for (int s = simplices.begin; s < simplices.end; ++s)
-            for (int i = 0; i < D + !page.is_ghost(s); ++i) {
-                const auto vertex = static_cast<std::size_t>(page.corner(s, i));
-                const Column::Prefix prefix = page.ranks(axis).prefix_at(vertex);
-                least = std::min(least, prefix);
-                greatest = std::max(greatest, prefix);
-            }
-        if (page.patch(patch).least[axis] != least || page.patch(patch).greatest[axis] != greatest)
-            fault_of_content("page",
-                             "The box of a patch of simplices is not that of its vertices.");
-    }
+    if (pages_ > 0 && is_expecting && !(expected == end_key))
+        faults_.add("interval", "The last page does not reach the end of the curve.");
+    counts_ = check.counts();
 }
 
 template <int D> void Check<D>::check_topology() {
-    Reader<D> reader(host_, header_,
-                     {.budget = cache_bytes_, .verify_links = true, .verify_checksums = false});
-    Cache<D> &cache = reader.cache();
-    OwnVertices<D> own(cache);
-    Stars<D> stars(cache);
-    std::uint64_t pages = 0;
-    for (Key key = first_key; key < end_key;) {
-        at_key_ = key;
-        const Key next = cache.visit(key, [&](Handle h) {
-            if (!cache.is_home(h))
-                fault("key", at_key_, "A simplex lies in a page that does not own its key.");
-            check_simplex(cache, h);
-        });
-        if (header_.not_delaunay == 0)
-            own.collect(key, [&](VertexIndex v, const Arena<Handle> &star) {
-                if (!stars.add(v, star))
-                    fault("overlap", at_key_, "Simplices wind around a vertex or an edge twice.");
-            });
-        key = next;
-        cache.trim();
-        host_.poll();
-        report(pages_ + ++pages);
-    }
-    if (header_.not_delaunay == 0) check_whole(stars);
+    TopologyCheck<D> check(host_, header_, cache_bytes_, faults_);
+    std::uint64_t pages = pages_;
+    check.check(first_key, end_key, [&] {
+        report_some(++pages);
+        return true;
+    });
+    if (header_.not_delaunay == 0) check_stars(check.stars().counts());
 }
 
-template <int D> void Check<D>::check_whole(const Stars<D> &stars) {
-    if (stars.count() != header_.vertices)
-        fault("count", first_key, "The header counts other vertices than the pages hold.");
-    if (stars.corners() != (D + 1) * simplices_ + D * ghosts_)
-        fault("overlap", first_key, "A vertex has two separate stars.");
-    else if (stars.are_wound_once() && stars.least() != 1)
-        fault("overlap", first_key, "The mesh is in more than one piece.");
-}
-
-template <int D> void Check<D>::check_simplex(Cache<D> &cache, Handle h) {
-    for (int i = 0; i <= D; ++i) {
-        const Link link = cache.cross(h, i); // throws unless it leads to a true neighbour
-        const Simplex<D> &neighbour = cache.simplex(link_simplex(link));
-        const VertexIndex opposite = neighbour.vertex[link_facet(link)];
-        if (opposite == infinite_vertex || header_.not_delaunay != 0) continue;
-        check_empty_sphere(cache, cache.simplex(h), cache.point(opposite));
-    }
-}
-
-template <int D>
-void Check<D>::check_empty_sphere(const Cache<D> &cache, const Simplex<D> &s,
-                                  const Point<D> &opposite) {
-    switch (side_of<D>(cache, s, opposite)) {
-    case Side::outside:
-        break;
-    case Side::vertex:
-        fault("vertex", at_key_, "Two vertices have the same coordinates.");
-        break;
-    case Side::inside:
-        if (s.is_ghost())
-            fault("hull", at_key_, "The convex hull is not convex.");
-        else
-            fault("delaunay", at_key_, "A vertex lies inside a circumsphere.");
-    }
+template <int D> void Check<D>::check_stars(const StarCounts &stars) {
+    if (stars.count != header_.vertices)
+        faults_.add("count", first_key, "The header counts other vertices than the pages hold.");
+    if (stars.corners != (D + 1) * counts_.simplices + D * counts_.ghosts)
+        faults_.add("overlap", first_key, "A vertex has two separate stars.");
+    else if (stars.are_wound_once && stars.least != 1)
+        faults_.add("overlap", first_key, "The mesh is in more than one piece.");
 }
 
 template <int D> void Check<D>::check_repeated_points() {
@@ -201,14 +104,14 @@ template <int D> void Check<D>::check_repeated_points() {
     RepeatedReader<D> points(host_, domain_, header_.attributes);
     std::uint64_t count = 0;
     for (; points.advance(); ++count) {
-        at_key_ = points.key();
+        faults_.at = points.key();
         if (!mesh.vertex_at(record_point<D>(points.record())))
-            fault("point", at_key_, "A repeated point equals no vertex of the mesh.");
+            faults_.add("point", "A repeated point equals no vertex of the mesh.");
         if (points.serial() >= header_.serials)
-            fault("count", at_key_, "A repeated point has a serial number yet to be given.");
+            faults_.add("count", "A repeated point has a serial number yet to be given.");
     }
     if (count != header_.duplicates)
-        fault("count", first_key, "The header counts other repeated points than there are.");
+        faults_.add("count", first_key, "The header counts other repeated points than there are.");
 }
 
 /// A reader goes from a page to the one with the next point; who begins with a point further on
@@ -216,15 +119,15 @@ template <int D> void Check<D>::check_repeated_points() {
 template <int D> void Check<D>::check_follows(const Key &last, const Key &at) {
     abacus_page page;
     if (at == last || !host_.next(ABACUS_STAGED_PAGES, &last, page) || page.key == at) return;
-    fault("point", page.key, "A page of points lies where another one has its points.");
+    faults_.add("point", page.key, "A page of points lies where another one has its points.");
 }
 
 template <int D> void Check<D>::check_waiting_points() {
-    at_key_ = {header_.inserted, 0};
+    faults_.at = {header_.inserted, 0};
     VertexReader<D> points(host_, header_.attributes, header_.inserted, header_.staged);
-    Key last = at_key_;
+    Key last = faults_.at;
     while (points.advance()) {
-        at_key_ = {points.sequence(), 0};
+        faults_.at = {points.sequence(), 0};
         if (points.sequence() > header_.inserted) check_follows(last, points.page_key());
         last = points.page_key();
     }
@@ -232,11 +135,11 @@ template <int D> void Check<D>::check_waiting_points() {
     abacus_page first, page;
     if (!host_.next(ABACUS_STAGED_PAGES, nullptr, first)) return;
     if (header_.inserted == header_.staged)
-        fault("count", first.key, "There are points that wait, and the header counts none.");
+        faults_.add("count", first.key, "There are points that wait, and the header counts none.");
     else if (!host_.find(ABACUS_STAGED_PAGES, begin, page) || !(page.key == first.key))
-        fault("count", first.key, "There are points before the first that waits.");
+        faults_.add("count", first.key, "There are points before the first that waits.");
     else if (host_.next(ABACUS_STAGED_PAGES, &last, page))
-        fault("count", page.key, "There are points behind the last that waits.");
+        faults_.add("count", page.key, "There are points behind the last that waits.");
 }
 
 template <int D> void Check<D>::check_listed_vertices() {
@@ -247,24 +150,24 @@ template <int D> void Check<D>::check_listed_vertices() {
     std::array<std::uint64_t, 1 + D> place{}, previous{};
     Key last = first_key;
     while (list.advance()) {
-        at_key_ = {list.sequence(), 0};
+        faults_.at = {list.sequence(), 0};
         check_follows(last, list.page_key());
         last = list.page_key();
         place[0] = domain_.code(list.point());
         std::copy_n(list.record() + 1, D, place.begin() + 1);
         if (list.sequence() > 0 && place <= previous)
-            fault("vertex", at_key_, "The list of vertices is not in order.");
+            faults_.add("vertex", "The list of vertices is not in order.");
         previous = place;
         const std::uint64_t pages = mesh.pages_with(list.record());
         if (pages == 0)
-            fault("vertex", at_key_, "A vertex of the list is none of the mesh, or another one.");
+            faults_.add("vertex", "A vertex of the list is none of the mesh, or another one.");
         in_pages += pages;
     }
-    if (in_pages != page_vertices_)
-        fault("vertex", first_key, "The mesh has vertices that are not in the list.");
+    if (in_pages != counts_.vertices)
+        faults_.add("vertex", first_key, "The mesh has vertices that are not in the list.");
     abacus_page page;
     if (host_.next(ABACUS_STAGED_PAGES, &last, page))
-        fault("count", page.key, "There are pages behind the list of vertices.");
+        faults_.add("count", page.key, "There are pages behind the list of vertices.");
 }
 
 template class Check<2>;

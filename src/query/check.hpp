@@ -28,19 +28,17 @@
 //
 // Locally Delaunay across every facet is globally Delaunay (Delaunay 1934), and under the
 // perturbation unique, where no place is covered twice: see query/stars.hpp.
+//
+// In a large mesh several threads look at pages and follow links (check_threads.cpp).
 #pragma once
 
 #include "points/repeated_points.hpp"
 #include "points/vertex_reader.hpp"
+#include "query/page_check.hpp"
 #include "query/page_scan.hpp"
-#include "query/reader.hpp"
-#include "query/stars.hpp"
-
-#include "host/memory_resource.hpp"
+#include "query/topology_check.hpp"
 
 #include <abacus/read.h>
-#include <memory_resource>
-#include <vector>
 
 namespace abacus {
 
@@ -58,41 +56,34 @@ public:
     }
 
 private:
+    class Together;
+
     void check_header();
     void check_pages();
-    void check_page(const PageView<D> &page);
-    void check_simplices(const PageView<D> &page);
-    void check_box(const PageView<D> &page, int patch);
+    /// The passes that need a mesh of sound pages; links by several threads if there are any.
+    void check_links_and_points(Together *together);
     void check_topology();
-    void check_simplex(Cache<D> &cache, Handle h);
-    void check_whole(const Stars<D> &stars);
+    /// What the stars of all vertices tell together.
+    void check_stars(const StarCounts &stars);
     void check_repeated_points();
     void check_follows(const Key &last, const Key &at);
     void check_waiting_points();
     void check_listed_vertices();
-    void check_empty_sphere(const Cache<D> &cache, const Simplex<D> &s, const Point<D> &opposite);
 
-    /// Keeps a fault, if there is room for more.
-    void fault(const char *kind, const Key &key, const char *message);
-    /// One of what the current page says of its content, which may well hold together.
-    void fault_of_content(const char *kind, const char *message);
-    /// Runs a pass; a page so damaged that the pass cannot go on is a fault of its own.
-    template <class Pass> void run(const char *kind, Pass pass);
-    void report(std::uint64_t pages);
+    void report(std::uint64_t pages, unsigned threads = 0);
+    void report_some(std::uint64_t pages) {
+        if (pages % 64 == 0) report(pages);
+    }
 
     const Host &host_;
     const abacus_header &header_;
-    std::size_t cache_bytes_, limit_;
-    HostMemory memory_;
+    std::size_t cache_bytes_;
     Domain<D> domain_;
-    std::pmr::vector<abacus_fault> faults_;
+    FaultList faults_;
     std::size_t at_ = 0;
-    Key at_key_{}; // of the current page
     std::uint64_t pages_ = 0;
     bool is_counted_ = false; // pages_ are all
-    std::uint64_t simplices_ = 0, ghosts_ = 0;
-    std::size_t contents_ = 0;        // of the faults so far, those of fault_of_content()
-    std::uint64_t page_vertices_ = 0; // of all pages
+    typename PageCheck<D>::Counts counts_;
 };
 
 } // namespace abacus

@@ -59,13 +59,10 @@ public:
         return true;
     }
     void parse() { view_.read(copy_, size_, static_cast<int>(attributes_)); }
-    /// The same whatever the checksum is; false if that is wrong.
-    bool parse_unsealed() {
-        view_.read(copy_, size_, static_cast<int>(attributes_), PageView<D>::Checksum::ignore);
-        return page_is_sealed(copy_, size_);
-    }
-    /// Key under which the current page is stored.
+    /// Key under which the current page is stored, and its bytes.
     const Key &key() const { return key_; }
+    const unsigned char *bytes() const { return copy_; }
+    std::size_t size() const { return size_; }
     const PageView<D> &page() const { return view_; }
     std::uint64_t pages_read() const { return pages_read_; }
 

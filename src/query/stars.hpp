@@ -31,6 +31,22 @@
 
 namespace abacus {
 
+/// What stars tell together, of all vertices or of some.
+struct StarCounts {
+    std::uint64_t count = 0;
+    std::uint64_t corners = 0; ///< of simplices, that they are
+    std::uint64_t least = 0;   ///< vertices without a lesser neighbour
+    bool are_wound_once = true;
+
+    StarCounts &operator+=(const StarCounts &more) {
+        count += more.count;
+        corners += more.corners;
+        least += more.least;
+        are_wound_once = are_wound_once && more.are_wound_once;
+        return *this;
+    }
+};
+
 template <int D> class Stars {
 public:
     explicit Stars(Cache<D> &cache)
@@ -39,28 +55,23 @@ public:
     /// Looks at all simplices around a vertex, none of which has been evicted. False if they wind
     /// around it, or around an edge from there to a greater vertex, more than once.
     bool add(VertexIndex v, const Arena<Handle> &star) {
-        ++count_;
-        corners_ += star.size();
+        ++counts_.count;
+        counts_.corners += star.size();
         neighbours_.clear();
         turns_.resize(D == 2);
         std::fill(turns_.begin(), turns_.end(), Turn{});
         bool has_lesser = false;
         for (const Handle h : star) has_lesser |= turn(cache_.simplex(h), v);
-        least_ += !has_lesser;
+        counts_.least += !has_lesser;
         const bool once = std::all_of(turns_.begin(), turns_.end(), [](const Turn &t) {
             return t.ghosts == 0 ? t.changes == 2 : t.ghosts == 2 && t.changes <= 1;
         });
-        are_wound_once_ &= once;
+        counts_.are_wound_once &= once;
         return once;
     }
 
-    /// Whether add() has always been true.
-    bool are_wound_once() const { return are_wound_once_; }
-    /// Stars so far, the corners of simplices that they are, and how many of their vertices have
-    /// no lesser neighbour.
-    std::uint64_t count() const { return count_; }
-    std::uint64_t corners() const { return corners_; }
-    std::uint64_t least() const { return least_; }
+    /// Of the stars so far.
+    const StarCounts &counts() const { return counts_; }
 
 private:
     /// Around a ridge: wedges whose sides lie on different sides of the line or plane, and ghosts.
@@ -130,8 +141,7 @@ private:
     }
 
     Cache<D> &cache_;
-    std::uint64_t count_ = 0, corners_ = 0, least_ = 0;
-    bool are_wound_once_ = true;
+    StarCounts counts_;
     typename VertexHeap<D>::Numbering neighbours_; // of the current vertex, in space
     Arena<Turn> turns_;                            // around it, or around the edges to those
 };

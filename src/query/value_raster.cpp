@@ -82,6 +82,27 @@ template <int D> int facets_at(const Corners<D> &corners, const Point<D> &p) {
     return facets;
 }
 
+/// The value at a pixel, whose number is its id as a place.
+template <int D> class PixelValue final : public Question<D> {
+public:
+    PixelValue(const abacus_interpolation &how, double *values) : how_(how), values_(values) {}
+
+    std::size_t words() const override { return 1; }
+    bool is_quick() const override { return how_.method == ABACUS_LINEAR; }
+    void answer(Answerer<D> &by, const Point<D> &p, Tape &tape) const override {
+        double value;
+        const bool has_value = by.interpolation.values(by.reader, how_, p, &value);
+        tape.put(has_value ? value : NAN);
+    }
+    void tell(std::int64_t id, Tape::Player &answers) const override {
+        values_[id] = answers.take<double>();
+    }
+
+private:
+    const abacus_interpolation &how_;
+    double *const values_;
+};
+
 } // namespace
 
 template <int D>
@@ -164,12 +185,7 @@ template <int D> void ValueRaster<D>::ask() {
     }
     flush();
     if (!places) return;
-    Interpolation<D> found(host_);
-    places->each([&](Reader<D> &reader, std::int64_t id, const Point<D> &place) {
-        double value;
-        if (found.values(reader, how_, place, &value))
-            values_[static_cast<std::size_t>(id)] = value;
-    });
+    places->each(PixelValue<D>(how_, values_.data()));
 }
 
 // ---- Filled by simplices ------------------------------------------------------------------

@@ -68,6 +68,8 @@ public:
         table_.threads = threads;
         table_.tiny_intervals = tiny;
     }
+    /// Threads may have so many bytes in all; 0: any number.
+    void limit_threads(std::size_t bytes) { table_.most_thread_bytes = bytes; }
     /// For code below the C interface.
     Host host() const { return Host(table_); }
 

@@ -1,7 +1,7 @@
 // A mesh to be damaged, again and again, and healed after each time.
 #pragma once
 
-#include "support/oracle.hpp"
+#include "support/checked_by_threads.hpp"
 #include "support/page_editor.hpp"
 
 #include <abacus/header.h>
@@ -45,10 +45,12 @@ public:
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
     }
 
-    /// The faults after `damage`; the mesh is sound again afterwards.
-    std::vector<std::string> faults(const std::function<void()> &damage) {
+    /// The faults after `damage`; the mesh is sound again afterwards. `by_threads`: several threads
+    /// have to find the same.
+    std::vector<std::string> faults(const std::function<void()> &damage, bool by_threads = false) {
         damage();
         const std::vector<std::string> found = mesh.check();
+        if (by_threads) expect_same_faults_by_threads(mesh);
         EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
         EXPECT_EQ(mesh.host.bytes, 0u);
         mesh.host.pages = pages_;
@@ -58,7 +60,7 @@ public:
         return found;
     }
     void expect_fault(const char *what, const char *kind, const std::function<void()> &damage) {
-        const std::vector<std::string> found = faults(damage);
+        const std::vector<std::string> found = faults(damage, true);
         const std::string start = std::string(kind) + ": ";
         const bool has_kind = std::any_of(found.begin(), found.end(), [&](const std::string &f) {
             return f.compare(0, start.size(), start) == 0;

@@ -130,6 +130,25 @@ TEST(Header, OfAnEmptyMesh) {
     EXPECT_EQ(decoded.upper[2], 0);
 }
 
+TEST(Header, OfAMeshFromBeforeThreadsWereCounted) {
+    for (const unsigned attributes : {0u, 1u, unsigned{ABACUS_MAX_ATTRIBUTES}}) {
+        abacus_header header = full_header(attributes);
+        const auto before = encode(header);
+        header.counters.passes = 1;
+        header.counters.put_off = 2;
+        header.counters.waited_ns = 3;
+        auto bytes = encode(header);
+        abacus_header decoded;
+        ASSERT_TRUE(decodes(bytes, &decoded));
+        EXPECT_EQ(decoded.counters.waited_ns, 3u);
+        const auto names = bytes.end() - attributes * ABACUS_NAME_BYTES;
+        bytes.erase(names - 24, names); // as it was written then
+        ASSERT_TRUE(decodes(bytes, &decoded));
+        EXPECT_EQ(decoded.counters.peak_bytes, UINT64_MAX);
+        EXPECT_EQ(encode(decoded), before);
+    }
+}
+
 TEST(Header, AnotherFormatIsSaid) {
     auto bytes = encode(full_header(1));
     ASSERT_EQ(std::string(bytes.begin(), bytes.begin() + 6), "ABACUS");

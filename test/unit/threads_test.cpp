@@ -1,43 +1,17 @@
 // The same mesh from any number of threads, and a clean end whatever fails in any of them.
 #include "support/oracle.hpp"
+#include "support/running_threads.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <dirent.h>
 #include <random>
-#include <thread>
 
 namespace abacus::test {
 namespace {
 
 constexpr std::size_t little = 300 << 10, ample = 64 << 20;
-
-/// Threads of this process, as the system lists them.
-int threads_now() {
-    int n = 0;
-    DIR *const tasks = opendir("/proc/self/task");
-    while (const dirent *entry = readdir(tasks)) n += entry->d_name[0] != '.';
-    closedir(tasks);
-    return n;
-}
-/// A sanitizer adds one of its own to the first.
-const int threads_at_first = [] {
-    std::thread([] {}).join();
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    return threads_now();
-}();
-
-/// The system may list a thread for a moment after it has been joined.
-bool all_threads_ended() {
-    for (int tries = 0; tries < 1000; ++tries) {
-        if (threads_now() == threads_at_first) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return false;
-}
 
 template <class Dimension> class Threads : public testing::Test {
 protected:
@@ -219,6 +193,46 @@ TYPED_TEST(Threads, EndCleanlyWhereverTheHostFails) {
             ASSERT_EQ(mesh.header.vertices, before.vertices);
         }
     }
+}
+
+TYPED_TEST(Threads, EndCleanlyWhenTheirMemoryRunsOut) {
+    constexpr int D = TypeParam::value;
+    const auto first = this->with_ids(this->uniform(300)),
+               more = this->with_ids(this->uniform(300));
+    int failures = 0;
+    for (std::size_t kilobytes = 4;; kilobytes += 1 + kilobytes / 6, ++failures) {
+        MeshOf<D> mesh(1, little);
+        mesh.host.set_threads(3, true);
+        ASSERT_EQ(mesh.insert(first), ABACUS_OK);
+        const abacus_header before = mesh.header;
+        mesh.host.limit_threads(kilobytes << 10);
+        const abacus_status status = mesh.insert(more);
+        ASSERT_TRUE(all_threads_ended());
+        ASSERT_EQ(mesh.host.bytes, 0u);
+        ASSERT_EQ(mesh.host.violations, std::vector<std::string>{});
+        if (status == ABACUS_OK) break;
+        ASSERT_EQ(status, ABACUS_ERROR);
+        ASSERT_EQ(mesh.error.kind, ABACUS_ERROR_MEMORY) << mesh.error.message;
+        ASSERT_EQ(mesh.header.vertices, before.vertices);
+    }
+    EXPECT_GT(failures, 5);
+}
+
+TYPED_TEST(Threads, AreCounted) {
+    constexpr int D = TypeParam::value;
+    MeshOf<D> mesh(1, little);
+    ASSERT_EQ(mesh.insert(this->with_ids(this->uniform(500))), ABACUS_OK);
+    EXPECT_EQ(mesh.header.counters.passes, 0u);
+    EXPECT_EQ(mesh.header.counters.waited_ns, 0u);
+    mesh.host.set_threads(3, true);
+    std::uint32_t most = 0;
+    mesh.host.on_progress = [&](const abacus_progress &p) { most = std::max(most, p.threads); };
+    ASSERT_EQ(mesh.insert(this->with_ids(this->uniform(3000))), ABACUS_OK);
+    EXPECT_GT(mesh.header.counters.passes, 1u);
+    EXPECT_GT(mesh.header.counters.put_off, 100u);
+    EXPECT_GT(mesh.header.counters.waited_ns, 0u);
+    EXPECT_GT(most, 0u);
+    EXPECT_LE(most, 3u);
 }
 
 TYPED_TEST(Threads, EndCleanlyWhenTheyAreCancelled) {

@@ -21,6 +21,7 @@
 /* Slots that CREATE INDEX leaves free; the view's param numbers are one higher. */
 #define PROGRESS_ABACUS_PAGES_READ 1
 #define PROGRESS_ABACUS_PAGES_WRITTEN 2
+#define PROGRESS_ABACUS_THREADS 7
 #define PROGRESS_ABACUS_PHASE_START 17	/* microseconds since 2000-01-01 */
 #define PROGRESS_ABACUS_START 18
 #define PROGRESS_ABACUS_MAGIC 19
@@ -71,13 +72,15 @@ progress_report(Progress *state, const abacus_progress *progress)
 {
 	static const int slots[] = {
 		PROGRESS_CREATEIDX_SUBPHASE, PROGRESS_CREATEIDX_TUPLES_TOTAL,
-		PROGRESS_CREATEIDX_TUPLES_DONE, PROGRESS_ABACUS_PAGES_READ, PROGRESS_ABACUS_PAGES_WRITTEN
+		PROGRESS_CREATEIDX_TUPLES_DONE, PROGRESS_ABACUS_PAGES_READ, PROGRESS_ABACUS_PAGES_WRITTEN,
+		PROGRESS_ABACUS_THREADS
 	};
 	int64		values[] = {
 		progress->phase, (int64) (state->total != 0 ? state->total : progress->total),
 		(int64) (state->earlier_done + progress->done),
 		(int64) (state->earlier_read + progress->pages_read),
-		(int64) (state->earlier_written + progress->pages_written)
+		(int64) (state->earlier_written + progress->pages_written),
+		progress->threads
 	};
 
 	if (!state->active)

@@ -58,6 +58,10 @@ put_counters(Figures *figures, const abacus_counters *counters, bool reading)
 		"nanoseconds spent between pages and memory, reading and writing included"},
 		{"total_ns", counters->total_ns, true, "nanoseconds spent in the core"},
 		{"peak_bytes", counters->peak_bytes, true, "largest amount of memory the cache held"},
+		{"passes", counters->passes, false, "passes of several threads over points"},
+		{"put_off", counters->put_off, false, "points that such a pass left to the next one"},
+		{"waited_ns", counters->waited_ns, false,
+		"nanoseconds that threads waited for the session's, of all together"},
 	};
 
 	for (int i = 0; i < lengthof(rows); i++)

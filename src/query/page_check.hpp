@@ -1,0 +1,46 @@
+// What has to hold of a page by itself, and how much is in all that have been looked at.
+#pragma once
+
+#include "keys/locational_code.hpp"
+#include "mesh/page_format.hpp"
+#include "query/fault_list.hpp"
+
+namespace abacus {
+
+template <int D> class PageCheck {
+public:
+    PageCheck(const Domain<D> &domain, FaultList &faults) : domain_(domain), faults_(faults) {}
+
+    /// Decodes the page that is stored under faults.at; false if it tells nothing.
+    bool read(const unsigned char *bytes, std::size_t size, unsigned attributes);
+    /// Looks at what is in the page that was read, whose bytes are still there.
+    void check();
+    const PageView<D> &page() const { return page_; }
+
+    struct Counts {
+        std::uint64_t simplices = 0, ghosts = 0;
+        std::uint64_t vertices = 0; ///< of all pages: one that is on several counts for each
+
+        Counts &operator+=(const Counts &more) {
+            simplices += more.simplices;
+            ghosts += more.ghosts;
+            vertices += more.vertices;
+            return *this;
+        }
+    };
+    const Counts &counts() const { return counts_; }
+
+private:
+    void check_simplices();
+    void check_box(int patch);
+
+    const Domain<D> domain_;
+    FaultList &faults_;
+    PageView<D> page_;
+    Counts counts_;
+};
+
+extern template class PageCheck<2>;
+extern template class PageCheck<3>;
+
+} // namespace abacus
