@@ -182,6 +182,84 @@ SELECT throws_ok($$ SELECT abacus_insert('rocks', 'SELECT 9, ST_MakePoint(1, 2),
 SELECT throws_ok($$ SELECT abacus_drape('rocks', ST_MakePoint(1, 2)) $$, '22023', 'mesh has dimension 3, not 2', 'nothing is draped in space');
 SELECT throws_ok($$ SELECT * FROM abacus_clip('rocks', ST_MakeEnvelope(0, 0, 1, 1)) $$, '22023', 'mesh has dimension 3, not 2', 'nor clipped');
 
+-- ---- Tables that a mesh follows --------------------------------------------
+
+CREATE FUNCTION differences(mesh regclass, "table" regclass) RETURNS bigint LANGUAGE plpgsql AS $$
+DECLARE
+    here text := format('SELECT id, ST_X(geom), ST_Y(geom), height FROM %s WHERE geom IS NOT NULL', "table");
+    there text := format('SELECT id, x, y, attributes[1] FROM abacus_vertices(%L)', mesh);
+    n bigint;
+BEGIN
+    EXECUTE format('SELECT (SELECT count(*) FROM (%1$s EXCEPT ALL %2$s) a) + (SELECT count(*) FROM (%2$s EXCEPT ALL %1$s) b) + (SELECT count(*) FROM abacus_check(%3$L))', here, there, mesh) INTO n;
+    RETURN n;
+END $$;
+CREATE TABLE wells (id int PRIMARY KEY, name text, geom geometry, height float8);
+INSERT INTO wells SELECT i, 'well', ST_SetSRID(ST_MakePoint((i * 37) % 101, (i * 53) % 97), 2154), i FROM generate_series(1, 300) AS i;
+INSERT INTO wells VALUES (1000, 'nowhere', NULL, 5);
+SELECT abacus_create('followed', 2, '{height}');
+SELECT is(abacus_track('followed', 'wells'), 300::bigint, 'a table with one geometry is tracked');
+SELECT is(abacus_srid('followed'), 2154, 'and its SRID taken');
+SELECT is(differences('followed', 'wells'), 0::bigint, 'with all its points');
+INSERT INTO wells SELECT i, 'new', ST_SetSRID(ST_MakePoint(i * 0.7, i * 0.3), 2154), i FROM generate_series(2000, 2100) AS i;
+SELECT is(differences('followed', 'wells'), 0::bigint, 'INSERT');
+UPDATE wells SET geom = ST_Translate(geom, 0.1, 0.2) WHERE id % 7 = 0;
+SELECT is(differences('followed', 'wells'), 0::bigint, 'UPDATE of geometries');
+UPDATE wells SET geom = NULL WHERE id % 11 = 0;
+UPDATE wells SET geom = 'SRID=2154;POINT(3 4)', height = 6 WHERE id = 1000;
+UPDATE wells SET height = height + 1 WHERE id % 5 = 0;
+SELECT is(differences('followed', 'wells'), 0::bigint, 'points lose and get their place, and other heights');
+UPDATE wells SET name = 'old', geom = geom;
+DELETE FROM wells WHERE id % 3 = 0;
+SELECT is(differences('followed', 'wells'), 0::bigint, 'DELETE');
+SELECT throws_ok($$ INSERT INTO wells VALUES (3000, 'far', 'SRID=4326;POINT(5 43)', 1) $$, '22023', 'geometry of point 3000 has SRID 4326, but the mesh has SRID 2154', 'another SRID');
+SELECT throws_ok($$ INSERT INTO wells VALUES (3000, 'empty', 'SRID=2154;POINT EMPTY', 1) $$, '22023', 'geometry of point 3000 is empty', 'an empty point');
+SELECT throws_ok($$ UPDATE wells SET geom = ST_Buffer(geom, 1) WHERE id = 1000 $$, '22023', 'geometry of point 1000 is a Polygon, not a Point', 'no point');
+SELECT abacus_untrack('followed', 'wells');
+DELETE FROM wells WHERE id % 4 = 0;
+SELECT throws_like($$ SELECT abacus_track('followed', 'wells') $$, '%does not hold the points of table%', 'a mesh that is not in step');
+SELECT lives_ok($$ SELECT abacus_track('followed', 'wells', '{id,geom,height}', synchronize => true) $$, 'is brought in step');
+SELECT is(differences('followed', 'wells'), 0::bigint, 'by the coordinates');
+SELECT abacus_untrack('followed', 'wells');
+INSERT INTO wells VALUES (3000, 'far', 'SRID=4326;POINT(5 43)', 1);
+SELECT throws_ok($$ SELECT abacus_track('followed', 'wells', synchronize => true) $$, '22023', 'geometry of point 3000 has SRID 4326, but the mesh has SRID 2154', 'unless it is of another SRID');
+DELETE FROM wells WHERE id = 3000;
+SELECT abacus_track('followed', 'wells', '{id,geom,height}', synchronize => true);
+TRUNCATE wells;
+SELECT is((SELECT count(*) FROM abacus_vertices('followed')), 0::bigint, 'TRUNCATE');
+SELECT throws_ok($$ SELECT abacus_track('followed', 'wells', '{id,geom}') $$, '2202E', 'columns has 2 elements, but points of the mesh have 3', 'an attribute is missing');
+SELECT throws_ok($$ SELECT abacus_track('followed', 'wells', '{id,height,geom}') $$, '2202E', 'columns has 3 elements, but points of the mesh have 4', 'a geometry elsewhere');
+CREATE TABLE pairs (id int, a geometry, b geometry);
+SELECT abacus_create('paired', 2);
+SELECT throws_ok($$ SELECT abacus_track('paired', 'pairs') $$, '42703', 'column "x" of table "pairs" does not exist', 'of two geometries one must be named');
+SELECT is(abacus_track('paired', 'pairs', '{id,b}'), 0::bigint, 'which can be done');
+INSERT INTO pairs SELECT i, NULL, ST_SetSRID(ST_MakePoint(i, i * i), 3857) FROM generate_series(1, 9) AS i;
+SELECT is(abacus_srid('paired'), 3857, 'the SRID of the first statement is taken');
+SELECT throws_ok($$ INSERT INTO pairs VALUES (10, NULL, 'SRID=4326;POINT(5 43)') $$, '22023', 'geometry of point 10 has SRID 4326, but the mesh has SRID 3857', 'and holds for the next');
+
+-- at commit, and with partitions
+CREATE TABLE parts (id int, geom geometry, height float8) PARTITION BY RANGE (id);
+CREATE TABLE parts_low PARTITION OF parts FOR VALUES FROM (0) TO (100);
+CREATE TABLE parts_high PARTITION OF parts FOR VALUES FROM (100) TO (1000);
+SELECT abacus_create('late', 2, '{height}');
+SELECT abacus_track('late', 'parts', deferred => true);
+INSERT INTO parts SELECT i, ST_SetSRID(ST_MakePoint((i * 37) % 101, (i * 53) % 97), 2154), i FROM generate_series(1, 300) AS i;
+SELECT throws_ok($$ INSERT INTO parts VALUES (301, 'SRID=4326;POINT(5 43)', 1) $$, '22023', 'geometry of point 301 has SRID 4326, but the mesh has SRID 2154', 'geometries that wait for the commit have one SRID');
+UPDATE parts SET geom = ST_Translate(geom, 0.5, 0.5), id = id + 90 WHERE id < 50;
+DELETE FROM parts WHERE id % 9 = 0;
+SET CONSTRAINTS ALL IMMEDIATE;
+SELECT is(differences('late', 'parts'), 0::bigint, 'a mesh that follows partitions at commit');
+SELECT is(abacus_srid('late'), 2154, 'takes their SRID');
+TRUNCATE parts_low;
+SET CONSTRAINTS ALL IMMEDIATE;
+SELECT is(differences('late', 'parts'), 0::bigint, 'and follows when one is emptied');
+CREATE TABLE caves (id int, geom geometry(PointZ, 2154));
+SELECT abacus_create('deep', 3);
+SELECT abacus_track('deep', 'caves');
+INSERT INTO caves SELECT i, ST_SetSRID(ST_MakePoint((i * 37) % 101, (i * 53) % 97, i % 89), 2154) FROM generate_series(1, 100) AS i;
+DELETE FROM caves WHERE id = 50;
+SELECT is((SELECT count(*) FROM (SELECT id, ST_X(geom), ST_Y(geom), ST_Z(geom) FROM caves EXCEPT SELECT id, x, y, z FROM abacus_vertices('deep')) AS d), 0::bigint, 'in space');
+SELECT is(abacus_track('deep', 'caves'), 99::bigint, 'tracked again it is in step');
+
 -- ---- Schemas and privileges ------------------------------------------------
 
 SET LOCAL search_path = pg_catalog;
