@@ -260,6 +260,26 @@ DELETE FROM caves WHERE id = 50;
 SELECT is((SELECT count(*) FROM (SELECT id, ST_X(geom), ST_Y(geom), ST_Z(geom) FROM caves EXCEPT SELECT id, x, y, z FROM abacus_vertices('deep')) AS d), 0::bigint, 'in space');
 SELECT is(abacus_track('deep', 'caves'), 99::bigint, 'tracked again it is in step');
 
+-- ---- Rasters ---------------------------------------------------------------
+
+SELECT EXISTS (SELECT FROM pg_available_extensions WHERE name = 'postgis_raster') AS rasters \gset
+\if :rasters
+CREATE EXTENSION postgis_raster SCHEMA gis;
+CREATE EXTENSION abacus_postgis_raster;
+CREATE TABLE pictures AS SELECT * FROM (VALUES ('north up', ST_MakeEmptyRaster(40, 25, -3, 120, 3, -2.5, 0, 0, 2154)), ('upside down', ST_MakeEmptyRaster(40, 25, -3, 20, 3, 2.5, 0, 0, 2154)), ('turned', ST_MakeEmptyRaster(40, 25, 20, 60, 2, 1.5, 0.5, -0.75, 2154))) AS p (name, rast);
+CREATE VIEW pixels AS SELECT name, p.* FROM (SELECT name, abacus_raster('terrain', rast) AS rast FROM pictures) AS r, ST_PixelAsCentroids(rast, 1, true) AS p;
+SELECT is((SELECT count(*) FROM pixels WHERE name = 'north up' AND abs(val - abacus_interpolate('terrain', geom)) < 1e-9), (SELECT count(*) FROM pictures, ST_PixelAsCentroids(ST_AddBand(rast, '8BUI'), 1, false) WHERE name = 'north up' AND abacus_interpolate('terrain', geom) IS NOT NULL), 'a raster has the values of the mesh');
+SELECT is((SELECT count(*) FROM pixels WHERE val = abacus_interpolate('terrain', geom)), (SELECT count(*) FROM pictures, ST_PixelAsCentroids(ST_AddBand(rast, '8BUI'), 1, false) WHERE abacus_interpolate('terrain', geom) IS NOT NULL), 'whichever way it is turned');
+SELECT is((SELECT count(*) FROM pixels), (SELECT count(*) FROM pixels WHERE abacus_interpolate('terrain', geom) IS NOT NULL), 'and no data outside');
+SELECT is_empty($$ SELECT FROM pictures WHERE (ST_Width(rast), ST_Height(rast), ST_GeoReference(rast), ST_SRID(rast)) <> (SELECT ST_Width(r), ST_Height(r), ST_GeoReference(r), ST_SRID(r) FROM abacus_raster('terrain', rast) AS r) $$, 'it lies where the other one does');
+SELECT is((SELECT ST_Count(abacus_raster('terrain', rast, 'height', outside => 'nearest')) FROM pictures WHERE name = 'north up'), 1000::bigint, 'with outside => nearest all pixels have a value');
+SELECT is(abacus_raster('terrain', NULL::raster), NULL, 'of no raster');
+SELECT is(abacus_raster('terrain', ST_MakeEmptyRaster(0, 0, 0, 0, 1, -1, 0, 0, 2154)), NULL, 'of an empty one');
+SELECT throws_ok($$ SELECT abacus_raster('terrain', ST_MakeEmptyRaster(4, 4, 0, 0, 1, -1, 0, 0, 4326)) $$, '22023', 'the geometry has SRID 4326, but the mesh has SRID 2154', 'of one of another SRID');
+SELECT throws_ok($$ SELECT abacus_raster('rocks', ST_MakeEmptyRaster(4, 4, 0, 0, 1, -1, 0, 0, 0)) $$, '22023', 'mesh has dimension 3, not 2', 'of a mesh in space');
+SELECT is((SELECT count(*) FROM abacus_raster('terrain', '{0,0}', '{4,3}', 2, 2)), 2::bigint, 'rows of arrays are still there');
+\endif
+
 -- ---- Schemas and privileges ------------------------------------------------
 
 SET LOCAL search_path = pg_catalog;
