@@ -193,6 +193,7 @@ PG_SOURCES += src/pg/sql/fn_edit.c
 PG_SOURCES += src/pg/sql/fn_estimate.c
 PG_SOURCES += src/pg/sql/fn_faces.c
 PG_SOURCES += src/pg/sql/fn_geometry.c
+PG_SOURCES += src/pg/sql/fn_geometry_nest.c
 PG_SOURCES += src/pg/sql/fn_geometry_place.c
 PG_SOURCES += src/pg/sql/fn_goose.c
 PG_SOURCES += src/pg/sql/fn_gradient.c

@@ -134,6 +134,17 @@ $$ SELECT (ST_Distance(a, b) * ST_Distance(b, c) * ST_Distance(c, a) / (4 * ST_A
 SELECT ok(ST_Equals(abacus_alpha_shape_geom('small', 0.01, true), (SELECT ST_Union(geom) FROM abacus_cells_geom('small') WHERE squared_radius(geom) <= 0.01)), 'an alpha shape has the triangles with small circumcircles');
 SELECT ok(ST_Equals(abacus_alpha_shape_geom('small', 'Infinity'), abacus_hull_geom('small')), 'or all of them');
 
+-- holes that touch each other and the outline, islands in them, vertical edges, holes with one least place
+CREATE TABLE puzzle AS SELECT 'POLYGON((0 0, 30 0, 30 30, 0 30, 0 20, 0 10, 0 0), (0 10, 0.5 20, 5 15, 0 10), (10 10, 10 20, 20 20, 20 10, 10 10), (20 20, 21 25, 25 21, 20 20), (20 20, 25 19, 22 15, 20 20), (20 10, 28 5, 20 2, 20 10))'::geometry AS land,
+    'POLYGON((11 11, 19 11, 19 19, 11 19, 11 11), (12 12, 12 18, 18 18, 18 12, 12 12))'::geometry AS island, 'POLYGON((13 13, 17 13, 17 17, 13 17, 13 13), (13 13, 15 15, 14 13.5, 13 13), (13 13, 13.5 14, 15 16, 13 13))'::geometry AS inner_island,
+    'POLYGON((40 0, 50 0, 50 10, 40 10, 40 0))'::geometry AS elsewhere;
+CREATE VIEW puzzle_rings AS SELECT ST_Collect(d.geom ORDER BY md5(ST_AsText(d.geom))) AS rings, ST_Collect(ARRAY[land, island, inner_island, elsewhere]) AS solved
+FROM puzzle, LATERAL (SELECT ST_Boundary(ST_ForcePolygonCCW(p)) AS lines FROM unnest(ARRAY[land, island, inner_island, elsewhere]) AS p) AS b, ST_Dump(ST_Multi(lines)) AS d GROUP BY land, island, inner_island, elsewhere;
+SELECT ok(ST_IsValid(solved), 'a puzzle of rings') FROM puzzle_rings;
+SELECT is(ST_AsText(ST_Normalize(_abacus_nest(rings))), ST_AsText(ST_Normalize(solved)), 'is put together') FROM puzzle_rings;
+SELECT is(ST_AsText(ST_Normalize(_abacus_nest(ST_Affine(rings, a, b, -b, a, 0, 0)))), ST_AsText(ST_Normalize(ST_Affine(solved, a, b, -b, a, 0, 0))), format('turned by %s, %s', a, b))
+FROM puzzle_rings, (VALUES (-1, 0), (0, 1), (0, -1), (2, 1), (-3, 1), (1, -5)) AS turns (a, b);
+
 -- ---- Drape and clip --------------------------------------------------------
 
 CREATE TABLE road AS SELECT 'SRID=2154;LINESTRING(10 10, 60 70, 110 30)'::geometry AS geom;
@@ -300,6 +311,11 @@ SELECT throws_ok($$ SELECT abacus_cells_geom('terrain', ST_MakeEnvelope(0, 0, 1,
 RESET ROLE;
 
 -- wrong arguments of what is inside
+SELECT throws_ok($$ SELECT _abacus_nest('LINESTRING(0 0, 1 1)') $$, '22023', NULL, 'no rings');
+SELECT throws_ok($$ SELECT _abacus_nest('MULTILINESTRING((0 0, 0 9, 9 0, 0 0))') $$, '22023', 'a hole is in no outline', 'a hole alone');
+SELECT is(ST_AsText(_abacus_nest('MULTILINESTRING((0 0, 9 0, 9 0, 0 9, 0 0, 0 0))')), 'POLYGON((0 0,9 0,0 9,0 0))', 'places that are repeated');
+SELECT throws_ok($$ SELECT _abacus_nest('MULTILINESTRING Z ((0 0 0, 0 9 0, 9 0 0, 0 0 0))') $$, '22023', NULL, 'rings in space');
+SELECT is(ST_AsText(_abacus_nest('MULTILINESTRING((0 0, 0 0, 0 0), (0 0, 1 1, 0 0, 0 0), EMPTY)')), 'MULTIPOLYGON EMPTY', 'a ring without area');
 SELECT throws_ok($$ SELECT _abacus_line('{1,2,3}', 2, 0) $$, '2202E', NULL, 'half a place');
 SELECT throws_ok($$ SELECT _abacus_line('{1,2,3,NULL}', 2, 0) $$, '2202E', NULL, 'a NULL');
 SELECT throws_ok($$ SELECT _abacus_cell('{1,2,3}', '{}', NULL, 0) $$, '2202E', NULL, 'half a cell');
