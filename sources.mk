@@ -159,6 +159,7 @@ PG_SOURCES += src/pg/host/host_spools.c
 PG_SOURCES += src/pg/host/progress.c
 PG_SOURCES += src/pg/host/spool.c
 PG_SOURCES += src/pg/input/geometry.c
+PG_SOURCES += src/pg/input/row_errors.c
 PG_SOURCES += src/pg/input/row_packer.c
 PG_SOURCES += src/pg/input/source.c
 PG_SOURCES += src/pg/mesh/change.c
