@@ -80,6 +80,13 @@ ABACUS_API abacus_status abacus_outline(const abacus_host *host, const abacus_he
 										size_t cache_bytes, abacus_outline_report report,
 										void *context, abacus_error *error);
 
+/*
+ * On which side of the line from a to b the point c lies in the plane, exactly: 1 left, -1 right, 0 on
+ * it. Finite doubles.
+ */
+ABACUS_API abacus_status abacus_orientation(const double *a, const double *b, const double *c,
+											int *side, abacus_error *error);
+
 /* Gets an edge of a tree, valid during the call. May fail as a host function may. */
 typedef abacus_host_status (*abacus_edge_report)(void *context, const abacus_edge *edge);
 /*

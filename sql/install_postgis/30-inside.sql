@@ -96,6 +96,13 @@ LANGUAGE C STABLE STRICT PARALLEL SAFE COST 50;
 COMMENT ON FUNCTION _abacus_triangles(double precision[], integer) IS
     'inside abacus_postgis: a triangle in space, or a TIN of several';
 
+CREATE FUNCTION _abacus_nest(rings geometry)
+RETURNS geometry
+AS 'MODULE_PATHNAME', 'abacus_sql_geometry_nest'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000;
+COMMENT ON FUNCTION _abacus_nest(geometry) IS
+    'inside abacus_postgis: polygons of rings, counterclockwise around what is inside and clockwise around holes';
+
 CREATE FUNCTION _abacus_edges(
     mesh regclass,
     lower double precision[] DEFAULT NULL,

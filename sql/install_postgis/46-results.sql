@@ -84,7 +84,7 @@ BEGIN ATOMIC
                          _abacus_lower(mesh, bounds), _abacus_upper(mesh, bounds), max_edge) AS c
     WHERE polygonize IS NOT TRUE AND ST_IsEmpty(bounds) IS NOT TRUE
     UNION ALL
-    SELECT c.id, min(c.value), ST_Multi(ST_BuildArea(ST_Collect(_abacus_line(c.path, 2, f.srid))))
+    SELECT c.id, min(c.value), ST_Multi(_abacus_nest(ST_Collect(_abacus_line(c.path, 2, f.srid))))
     FROM _abacus_facts(mesh, NULL) AS f,
          abacus_contours(mesh, level_interval, level_base, fixed_levels, true, attribute,
                          _abacus_lower(mesh, bounds), _abacus_upper(mesh, bounds), max_edge) AS c
@@ -153,7 +153,7 @@ CREATE FUNCTION abacus_hull_geom(mesh regclass, max_edge double precision DEFAUL
 RETURNS geometry
 LANGUAGE sql STABLE PARALLEL SAFE COST 1000000
 BEGIN ATOMIC
-    SELECT coalesce(ST_BuildArea(ST_Collect(_abacus_line(r.places, 2, f.srid, true)) FILTER (WHERE f.dimension = 2)),
+    SELECT coalesce(_abacus_nest(ST_Collect(_abacus_line(r.places, 2, f.srid, true)) FILTER (WHERE f.dimension = 2)),
                     _abacus_triangles(array_agg(r.places ORDER BY r.ring) FILTER (WHERE f.dimension = 3), min(f.srid)))
     FROM _abacus_facts(mesh, NULL) AS f,
          (SELECT h.ring, array_agg(CASE WHEN h.z IS NULL THEN ARRAY[h.x, h.y] ELSE ARRAY[h.x, h.y, h.z] END ORDER BY h.position) AS places
@@ -169,7 +169,7 @@ CREATE FUNCTION abacus_alpha_shape_geom(
 RETURNS geometry
 LANGUAGE sql STABLE PARALLEL SAFE COST 1000000
 BEGIN ATOMIC
-    SELECT coalesce(ST_BuildArea(ST_Collect(_abacus_line(r.places, 2, f.srid, true)) FILTER (WHERE f.dimension = 2)),
+    SELECT coalesce(_abacus_nest(ST_Collect(_abacus_line(r.places, 2, f.srid, true)) FILTER (WHERE f.dimension = 2)),
                     _abacus_triangles(array_agg(r.places ORDER BY r.ring) FILTER (WHERE f.dimension = 3), min(f.srid)))
     FROM _abacus_facts(mesh, NULL) AS f,
          (SELECT h.ring, array_agg(CASE WHEN h.z IS NULL THEN ARRAY[h.x, h.y] ELSE ARRAY[h.x, h.y, h.z] END ORDER BY h.position) AS places

@@ -1,6 +1,8 @@
 // Hulls and closer outlines behind the C interface.
 #include "query/outline.hpp"
 
+#include "geometry/predicates.hpp"
+
 #include "capi/dimension.hpp"
 #include "capi/guard.hpp"
 
@@ -16,6 +18,15 @@ abacus_status abacus_outline(const abacus_host *table, const abacus_header *head
             while (rings.next(row)) abacus::host::require(report(context, &row));
             rings.close();
         });
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_orientation(const double *a, const double *b, const double *c, int *side,
+                                 abacus_error *error) {
+    return abacus::guard(error, [&] {
+        const auto point = [](const double *from) { return abacus::Point<2>{from[0], from[1]}; };
+        *side = abacus::orientation(point(a), point(b), point(c));
         return ABACUS_OK;
     });
 }

@@ -134,6 +134,17 @@ $$ SELECT (ST_Distance(a, b) * ST_Distance(b, c) * ST_Distance(c, a) / (4 * ST_A
 SELECT ok(ST_Equals(abacus_alpha_shape_geom('small', 0.01, true), (SELECT ST_Union(geom) FROM abacus_cells_geom('small') WHERE squared_radius(geom) <= 0.01)), 'an alpha shape has the triangles with small circumcircles');
 SELECT ok(ST_Equals(abacus_alpha_shape_geom('small', 'Infinity'), abacus_hull_geom('small')), 'or all of them');
 
+-- holes that touch each other and the outline, islands in them, vertical edges, holes with one least place
+CREATE TABLE puzzle AS SELECT 'POLYGON((0 0, 30 0, 30 30, 0 30, 0 20, 0 10, 0 0), (0 10, 0.5 20, 5 15, 0 10), (10 10, 10 20, 20 20, 20 10, 10 10), (20 20, 21 25, 25 21, 20 20), (20 20, 25 19, 22 15, 20 20), (20 10, 28 5, 20 2, 20 10))'::geometry AS land,
+    'POLYGON((11 11, 19 11, 19 19, 11 19, 11 11), (12 12, 12 18, 18 18, 18 12, 12 12))'::geometry AS island, 'POLYGON((13 13, 17 13, 17 17, 13 17, 13 13), (13 13, 15 15, 14 13.5, 13 13), (13 13, 13.5 14, 15 16, 13 13))'::geometry AS inner_island,
+    'POLYGON((40 0, 50 0, 50 10, 40 10, 40 0))'::geometry AS elsewhere;
+CREATE VIEW puzzle_rings AS SELECT ST_Collect(d.geom ORDER BY md5(ST_AsText(d.geom))) AS rings, ST_Collect(ARRAY[land, island, inner_island, elsewhere]) AS solved
+FROM puzzle, LATERAL (SELECT ST_Boundary(ST_ForcePolygonCCW(p)) AS lines FROM unnest(ARRAY[land, island, inner_island, elsewhere]) AS p) AS b, ST_Dump(ST_Multi(lines)) AS d GROUP BY land, island, inner_island, elsewhere;
+SELECT ok(ST_IsValid(solved), 'a puzzle of rings') FROM puzzle_rings;
+SELECT is(ST_AsText(ST_Normalize(_abacus_nest(rings))), ST_AsText(ST_Normalize(solved)), 'is put together') FROM puzzle_rings;
+SELECT is(ST_AsText(ST_Normalize(_abacus_nest(ST_Affine(rings, a, b, -b, a, 0, 0)))), ST_AsText(ST_Normalize(ST_Affine(solved, a, b, -b, a, 0, 0))), format('turned by %s, %s', a, b))
+FROM puzzle_rings, (VALUES (-1, 0), (0, 1), (0, -1), (2, 1), (-3, 1), (1, -5)) AS turns (a, b);
+
 -- ---- Drape and clip --------------------------------------------------------
 
 CREATE TABLE road AS SELECT 'SRID=2154;LINESTRING(10 10, 60 70, 110 30)'::geometry AS geom;
@@ -182,6 +193,104 @@ SELECT throws_ok($$ SELECT abacus_insert('rocks', 'SELECT 9, ST_MakePoint(1, 2),
 SELECT throws_ok($$ SELECT abacus_drape('rocks', ST_MakePoint(1, 2)) $$, '22023', 'mesh has dimension 3, not 2', 'nothing is draped in space');
 SELECT throws_ok($$ SELECT * FROM abacus_clip('rocks', ST_MakeEnvelope(0, 0, 1, 1)) $$, '22023', 'mesh has dimension 3, not 2', 'nor clipped');
 
+-- ---- Tables that a mesh follows --------------------------------------------
+
+CREATE FUNCTION differences(mesh regclass, "table" regclass) RETURNS bigint LANGUAGE plpgsql AS $$
+DECLARE
+    here text := format('SELECT id, ST_X(geom), ST_Y(geom), height FROM %s WHERE geom IS NOT NULL', "table");
+    there text := format('SELECT id, x, y, attributes[1] FROM abacus_vertices(%L)', mesh);
+    n bigint;
+BEGIN
+    EXECUTE format('SELECT (SELECT count(*) FROM (%1$s EXCEPT ALL %2$s) a) + (SELECT count(*) FROM (%2$s EXCEPT ALL %1$s) b) + (SELECT count(*) FROM abacus_check(%3$L))', here, there, mesh) INTO n;
+    RETURN n;
+END $$;
+CREATE TABLE wells (id int PRIMARY KEY, name text, geom geometry, height float8);
+INSERT INTO wells SELECT i, 'well', ST_SetSRID(ST_MakePoint((i * 37) % 101, (i * 53) % 97), 2154), i FROM generate_series(1, 300) AS i;
+INSERT INTO wells VALUES (1000, 'nowhere', NULL, 5);
+SELECT abacus_create('followed', 2, '{height}');
+SELECT is(abacus_track('followed', 'wells'), 300::bigint, 'a table with one geometry is tracked');
+SELECT is(abacus_srid('followed'), 2154, 'and its SRID taken');
+SELECT is(differences('followed', 'wells'), 0::bigint, 'with all its points');
+INSERT INTO wells SELECT i, 'new', ST_SetSRID(ST_MakePoint(i * 0.7, i * 0.3), 2154), i FROM generate_series(2000, 2100) AS i;
+SELECT is(differences('followed', 'wells'), 0::bigint, 'INSERT');
+UPDATE wells SET geom = ST_Translate(geom, 0.1, 0.2) WHERE id % 7 = 0;
+SELECT is(differences('followed', 'wells'), 0::bigint, 'UPDATE of geometries');
+UPDATE wells SET geom = NULL WHERE id % 11 = 0;
+UPDATE wells SET geom = 'SRID=2154;POINT(3 4)', height = 6 WHERE id = 1000;
+UPDATE wells SET height = height + 1 WHERE id % 5 = 0;
+SELECT is(differences('followed', 'wells'), 0::bigint, 'points lose and get their place, and other heights');
+UPDATE wells SET name = 'old', geom = geom;
+DELETE FROM wells WHERE id % 3 = 0;
+SELECT is(differences('followed', 'wells'), 0::bigint, 'DELETE');
+SELECT throws_ok($$ INSERT INTO wells VALUES (3000, 'far', 'SRID=4326;POINT(5 43)', 1) $$, '22023', 'geometry of point 3000 has SRID 4326, but the mesh has SRID 2154', 'another SRID');
+SELECT throws_ok($$ INSERT INTO wells VALUES (3000, 'empty', 'SRID=2154;POINT EMPTY', 1) $$, '22023', 'geometry of point 3000 is empty', 'an empty point');
+SELECT throws_ok($$ UPDATE wells SET geom = ST_Buffer(geom, 1) WHERE id = 1000 $$, '22023', 'geometry of point 1000 is a Polygon, not a Point', 'no point');
+SELECT abacus_untrack('followed', 'wells');
+DELETE FROM wells WHERE id % 4 = 0;
+SELECT throws_like($$ SELECT abacus_track('followed', 'wells') $$, '%does not hold the points of table%', 'a mesh that is not in step');
+SELECT lives_ok($$ SELECT abacus_track('followed', 'wells', '{id,geom,height}', synchronize => true) $$, 'is brought in step');
+SELECT is(differences('followed', 'wells'), 0::bigint, 'by the coordinates');
+SELECT abacus_untrack('followed', 'wells');
+INSERT INTO wells VALUES (3000, 'far', 'SRID=4326;POINT(5 43)', 1);
+SELECT throws_ok($$ SELECT abacus_track('followed', 'wells', synchronize => true) $$, '22023', 'geometry of point 3000 has SRID 4326, but the mesh has SRID 2154', 'unless it is of another SRID');
+DELETE FROM wells WHERE id = 3000;
+SELECT abacus_track('followed', 'wells', '{id,geom,height}', synchronize => true);
+TRUNCATE wells;
+SELECT is((SELECT count(*) FROM abacus_vertices('followed')), 0::bigint, 'TRUNCATE');
+SELECT throws_ok($$ SELECT abacus_track('followed', 'wells', '{id,geom}') $$, '2202E', 'columns has 2 elements, but points of the mesh have 3', 'an attribute is missing');
+SELECT throws_ok($$ SELECT abacus_track('followed', 'wells', '{id,height,geom}') $$, '2202E', 'columns has 3 elements, but points of the mesh have 4', 'a geometry elsewhere');
+CREATE TABLE pairs (id int, a geometry, b geometry);
+SELECT abacus_create('paired', 2);
+SELECT throws_ok($$ SELECT abacus_track('paired', 'pairs') $$, '42703', 'column "x" of table "pairs" does not exist', 'of two geometries one must be named');
+SELECT is(abacus_track('paired', 'pairs', '{id,b}'), 0::bigint, 'which can be done');
+INSERT INTO pairs SELECT i, NULL, ST_SetSRID(ST_MakePoint(i, i * i), 3857) FROM generate_series(1, 9) AS i;
+SELECT is(abacus_srid('paired'), 3857, 'the SRID of the first statement is taken');
+SELECT throws_ok($$ INSERT INTO pairs VALUES (10, NULL, 'SRID=4326;POINT(5 43)') $$, '22023', 'geometry of point 10 has SRID 4326, but the mesh has SRID 3857', 'and holds for the next');
+
+-- at commit, and with partitions
+CREATE TABLE parts (id int, geom geometry, height float8) PARTITION BY RANGE (id);
+CREATE TABLE parts_low PARTITION OF parts FOR VALUES FROM (0) TO (100);
+CREATE TABLE parts_high PARTITION OF parts FOR VALUES FROM (100) TO (1000);
+SELECT abacus_create('late', 2, '{height}');
+SELECT abacus_track('late', 'parts', deferred => true);
+INSERT INTO parts SELECT i, ST_SetSRID(ST_MakePoint((i * 37) % 101, (i * 53) % 97), 2154), i FROM generate_series(1, 300) AS i;
+SELECT throws_ok($$ INSERT INTO parts VALUES (301, 'SRID=4326;POINT(5 43)', 1) $$, '22023', 'geometry of point 301 has SRID 4326, but the mesh has SRID 2154', 'geometries that wait for the commit have one SRID');
+UPDATE parts SET geom = ST_Translate(geom, 0.5, 0.5), id = id + 90 WHERE id < 50;
+DELETE FROM parts WHERE id % 9 = 0;
+SET CONSTRAINTS ALL IMMEDIATE;
+SELECT is(differences('late', 'parts'), 0::bigint, 'a mesh that follows partitions at commit');
+SELECT is(abacus_srid('late'), 2154, 'takes their SRID');
+TRUNCATE parts_low;
+SET CONSTRAINTS ALL IMMEDIATE;
+SELECT is(differences('late', 'parts'), 0::bigint, 'and follows when one is emptied');
+CREATE TABLE caves (id int, geom geometry(PointZ, 2154));
+SELECT abacus_create('deep', 3);
+SELECT abacus_track('deep', 'caves');
+INSERT INTO caves SELECT i, ST_SetSRID(ST_MakePoint((i * 37) % 101, (i * 53) % 97, i % 89), 2154) FROM generate_series(1, 100) AS i;
+DELETE FROM caves WHERE id = 50;
+SELECT is((SELECT count(*) FROM (SELECT id, ST_X(geom), ST_Y(geom), ST_Z(geom) FROM caves EXCEPT SELECT id, x, y, z FROM abacus_vertices('deep')) AS d), 0::bigint, 'in space');
+SELECT is(abacus_track('deep', 'caves'), 99::bigint, 'tracked again it is in step');
+
+-- ---- Rasters ---------------------------------------------------------------
+
+SELECT EXISTS (SELECT FROM pg_available_extensions WHERE name = 'postgis_raster') AS rasters \gset
+\if :rasters
+CREATE EXTENSION postgis_raster SCHEMA gis;
+CREATE EXTENSION abacus_postgis_raster;
+CREATE TABLE pictures AS SELECT * FROM (VALUES ('north up', ST_MakeEmptyRaster(40, 25, -3, 120, 3, -2.5, 0, 0, 2154)), ('upside down', ST_MakeEmptyRaster(40, 25, -3, 20, 3, 2.5, 0, 0, 2154)), ('turned', ST_MakeEmptyRaster(40, 25, 20, 60, 2, 1.5, 0.5, -0.75, 2154))) AS p (name, rast);
+CREATE VIEW pixels AS SELECT name, p.* FROM (SELECT name, abacus_raster('terrain', rast) AS rast FROM pictures) AS r, ST_PixelAsCentroids(rast, 1, true) AS p;
+SELECT is((SELECT count(*) FROM pixels WHERE name = 'north up' AND abs(val - abacus_interpolate('terrain', geom)) < 1e-9), (SELECT count(*) FROM pictures, ST_PixelAsCentroids(ST_AddBand(rast, '8BUI'), 1, false) WHERE name = 'north up' AND abacus_interpolate('terrain', geom) IS NOT NULL), 'a raster has the values of the mesh');
+SELECT is((SELECT count(*) FROM pixels WHERE val = abacus_interpolate('terrain', geom)), (SELECT count(*) FROM pictures, ST_PixelAsCentroids(ST_AddBand(rast, '8BUI'), 1, false) WHERE abacus_interpolate('terrain', geom) IS NOT NULL), 'whichever way it is turned');
+SELECT is((SELECT count(*) FROM pixels), (SELECT count(*) FROM pixels WHERE abacus_interpolate('terrain', geom) IS NOT NULL), 'and no data outside');
+SELECT is_empty($$ SELECT FROM pictures WHERE (ST_Width(rast), ST_Height(rast), ST_GeoReference(rast), ST_SRID(rast)) <> (SELECT ST_Width(r), ST_Height(r), ST_GeoReference(r), ST_SRID(r) FROM abacus_raster('terrain', rast) AS r) $$, 'it lies where the other one does');
+SELECT is((SELECT ST_Count(abacus_raster('terrain', rast, 'height', outside => 'nearest')) FROM pictures WHERE name = 'north up'), 1000::bigint, 'with outside => nearest all pixels have a value');
+SELECT is(abacus_raster('terrain', NULL::raster), NULL, 'of no raster');
+SELECT is(abacus_raster('terrain', ST_MakeEmptyRaster(0, 0, 0, 0, 1, -1, 0, 0, 2154)), NULL, 'of an empty one');
+SELECT throws_ok($$ SELECT abacus_raster('terrain', ST_MakeEmptyRaster(4, 4, 0, 0, 1, -1, 0, 0, 4326)) $$, '22023', 'the geometry has SRID 4326, but the mesh has SRID 2154', 'of one of another SRID');
+SELECT throws_ok($$ SELECT abacus_raster('rocks', ST_MakeEmptyRaster(4, 4, 0, 0, 1, -1, 0, 0, 0)) $$, '22023', 'mesh has dimension 3, not 2', 'of a mesh in space');
+SELECT is((SELECT count(*) FROM abacus_raster('terrain', '{0,0}', '{4,3}', 2, 2)), 2::bigint, 'rows of arrays are still there');
+\endif
+
 -- ---- Schemas and privileges ------------------------------------------------
 
 SET LOCAL search_path = pg_catalog;
@@ -202,6 +311,11 @@ SELECT throws_ok($$ SELECT abacus_cells_geom('terrain', ST_MakeEnvelope(0, 0, 1,
 RESET ROLE;
 
 -- wrong arguments of what is inside
+SELECT throws_ok($$ SELECT _abacus_nest('LINESTRING(0 0, 1 1)') $$, '22023', NULL, 'no rings');
+SELECT throws_ok($$ SELECT _abacus_nest('MULTILINESTRING((0 0, 0 9, 9 0, 0 0))') $$, '22023', 'a hole is in no outline', 'a hole alone');
+SELECT is(ST_AsText(_abacus_nest('MULTILINESTRING((0 0, 9 0, 9 0, 0 9, 0 0, 0 0))')), 'POLYGON((0 0,9 0,0 9,0 0))', 'places that are repeated');
+SELECT throws_ok($$ SELECT _abacus_nest('MULTILINESTRING Z ((0 0 0, 0 9 0, 9 0 0, 0 0 0))') $$, '22023', NULL, 'rings in space');
+SELECT is(ST_AsText(_abacus_nest('MULTILINESTRING((0 0, 0 0, 0 0), (0 0, 1 1, 0 0, 0 0), EMPTY)')), 'MULTIPOLYGON EMPTY', 'a ring without area');
 SELECT throws_ok($$ SELECT _abacus_line('{1,2,3}', 2, 0) $$, '2202E', NULL, 'half a place');
 SELECT throws_ok($$ SELECT _abacus_line('{1,2,3,NULL}', 2, 0) $$, '2202E', NULL, 'a NULL');
 SELECT throws_ok($$ SELECT _abacus_cell('{1,2,3}', '{}', NULL, 0) $$, '2202E', NULL, 'half a cell');

@@ -21,6 +21,7 @@
 #include "catalog/pg_type.h"
 #include "commands/extension.h"
 #include "port/pg_bswap.h"
+#include "utils/builtins.h"
 #include "utils/lsyscache.h"
 #include "utils/memutils.h"
 #include "utils/syscache.h"
@@ -46,6 +47,21 @@ geometry_type_name(Oid type)
 		ReleaseSysCache(tuple);
 	}
 	return name;
+}
+
+/* The name of a function of PostGIS in SQL, where the type geometry of these values is. */
+char *
+geometry_function(Oid type, const char *name)
+{
+	HeapTuple	tuple = SearchSysCache1(TYPEOID, ObjectIdGetDatum(getBaseType(type)));
+	char	   *qualified;
+
+	if (!HeapTupleIsValid(tuple))
+		elog(ERROR, "cache lookup failed for type %u", type);
+	qualified = quote_qualified_identifier(get_namespace_name(((Form_pg_type) GETSTRUCT(tuple))->typnamespace),
+										   name);
+	ReleaseSysCache(tuple);
+	return qualified;
 }
 
 /* Whether a type is geometry of PostGIS, or a domain over it. */

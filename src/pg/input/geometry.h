@@ -58,6 +58,7 @@ typedef struct GeometryHead
 
 extern bool geometry_is_type(Oid type);
 extern const char *geometry_type_name(Oid type);
+extern char *geometry_function(Oid type, const char *name);
 extern void geometry_open(GeometryType *type, Oid oid, MemoryContext memory);
 extern const GeometryType *geometry_type(Oid oid);
 extern const char *geometry_kind(uint32 kind);

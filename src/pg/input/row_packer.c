@@ -11,19 +11,13 @@
 
 #include <math.h>
 
-#include "access/htup_details.h"
 #include "catalog/pg_type.h"
 #include "executor/tuptable.h"
-#include "lib/stringinfo.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 #include "utils/memutils.h"
-#include "utils/syscache.h"
 
-#include "pg/input/row_packer.h"
-
-static const char *const coordinate_names[ABACUS_MAX_DIMENSION] = {"x", "y", "z"};
-static const char *const corner_names[ABACUS_MAX_DIMENSION + 1] = {"v0", "v1", "v2", "v3"};
+#include "pg/input/row_errors.h"
 
 static const RowOrigin query_of_points = {
 	"the source query", "the source query", "Cast the column in the query.",
@@ -38,19 +32,6 @@ static const RowOrigin tracked_table = {
 	"Track generated columns", "A row without a point has NULL for a coordinate.", false
 };
 
-/* What a column is called in messages, and in tables by default. */
-const char *
-row_packer_column(const abacus_header *header, int column)
-{
-	if (column == 0)
-		return "id";
-	if (column <= (int) header->dimension)
-		return coordinate_names[column - 1];
-	return header->names[column - 1 - header->dimension];
-}
-
-#define GEOMETRY_COLUMN 1
-
 /* Whether rows have a geometry in place of coordinates. */
 bool
 row_packer_takes_geometry(TupleDesc desc)
@@ -59,101 +40,12 @@ row_packer_takes_geometry(TupleDesc desc)
 		geometry_is_type(TupleDescAttr(desc, GEOMETRY_COLUMN)->atttypid);
 }
 
-static bool
-has_geometry(const RowPacker *packer)
-{
-	return OidIsValid(packer->geometry.type);
-}
-
-/* The word of a record that a column of a row becomes. */
-static int
-word_of(const RowPacker *packer, int column)
-{
-	return has_geometry(packer) && column > GEOMETRY_COLUMN
-		? column + packer->columns - packer->inputs : column;
-}
-
-/* What a column of a row is called. */
-static const char *
-column_name(const RowPacker *packer, int column)
-{
-	if (packer->ids > 1)
-		return corner_names[column];
-	if (has_geometry(packer) && column == GEOMETRY_COLUMN)
-		return "geometry";
-	return row_packer_column(packer->header, word_of(packer, column));
-}
-
-/* "id, x, y, height" */
-static char *
-expected_columns(const RowPacker *packer)
-{
-	StringInfoData names;
-
-	initStringInfo(&names);
-	for (int i = 0; i < packer->inputs; i++)
-		appendStringInfo(&names, "%s%s", i > 0 ? ", " : "", column_name(packer, i));
-	return names.data;
-}
-
-/* What to do about a geometry where none can be read, or NULL. */
-static char *
-geometry_hint(const RowPacker *packer, const char *column, Oid type)
-{
-	const char *name;
-	char	   *quoted = unconstify(char *, quote_identifier(column));
-
-	if (packer->origin->geometry_hint == NULL)
-		return NULL;
-	if (geometry_is_type(type))
-		return pstrdup("A geometry stands behind the id, in place of all coordinates.");
-	name = geometry_type_name(type);
-	if (strcmp(name, "geography") == 0)
-		return psprintf("Give a geometry of it, %s::geometry.", quoted);
-	if (strcmp(name, "geometry") != 0)
-		return NULL;
-	return psprintf(packer->header->dimension == 2 ? "%2$s, ST_X(%1$s) and ST_Y(%1$s)."
-					: "%2$s, ST_X(%1$s), ST_Y(%1$s) and ST_Z(%1$s).",
-					quoted, packer->origin->geometry_hint);
-}
-
-static void
-refuse_type(const RowPacker *packer, int column, Form_pg_attribute attribute)
-{
-	bool		is_id = column < packer->ids;
-	char	   *hint = geometry_hint(packer, NameStr(attribute->attname), attribute->atttypid);
-
-	ereport(ERROR,
-			(errcode(ERRCODE_DATATYPE_MISMATCH),
-			 errmsg("column %d (%s) of %s has type %s", column + 1, column_name(packer, column),
-					packer->origin->columns_of, format_type_be(attribute->atttypid)),
-			 is_id ? errdetail("An id is smallint, integer or bigint.")
-			 : errdetail("Coordinates and attributes are double precision, real, numeric or integers."),
-			 errhint("%s", hint != NULL ? hint : packer->origin->type_hint)));
-}
-
-static void
-refuse_count(const RowPacker *packer, TupleDesc desc)
-{
-	char	   *hint = NULL;
-
-	for (int i = 0; hint == NULL && i < desc->natts; i++)
-		hint = geometry_hint(packer, NameStr(TupleDescAttr(desc, i)->attname),
-							 TupleDescAttr(desc, i)->atttypid);
-	ereport(ERROR,
-			(errcode(ERRCODE_DATATYPE_MISMATCH),
-			 errmsg("source query returns %d columns, but the mesh takes %d", desc->natts,
-					packer->inputs),
-			 errdetail("Columns go by position: %s.", expected_columns(packer)),
-			 hint != NULL ? errhint("%s", hint) : 0));
-}
-
 static PackKind
 pack_kind(const RowPacker *packer, int column, Form_pg_attribute attribute)
 {
 	bool		is_id = column < packer->ids;
 
-	if (has_geometry(packer) && column == GEOMETRY_COLUMN)
+	if (row_has_geometry(packer) && column == GEOMETRY_COLUMN)
 		return PACK_GEOMETRY;
 	switch (getBaseType(attribute->atttypid))
 	{
@@ -178,32 +70,12 @@ pack_kind(const RowPacker *packer, int column, Form_pg_attribute attribute)
 		case TEXTOID:
 			/* a bare NULL of a query is of this type */
 			if (packer->origin->bare_nulls &&
-				word_of(packer, column) > (int) packer->header->dimension)
+				row_word(packer, column) > (int) packer->header->dimension)
 				return PACK_NULL;
 			break;
 	}
-	refuse_type(packer, column, attribute);
+	row_refuse_type(packer, column, attribute);
 	return PACK_INT8;			/* not reached */
-}
-
-/* A NULL, and what is not a number, has no place; the error says which point it was. */
-static void
-refuse_value(const RowPacker *packer, const uint64 *point, int column, bool isnull)
-{
-	const char *name = column_name(packer, column);
-	const char *hint = packer->origin->value_hint;
-
-	if (isnull && column < packer->ids)
-		ereport(ERROR,
-				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
-				 errmsg("%s is NULL in row " UINT64_FORMAT " of %s", name, packer->row,
-						packer->origin->rows_of),
-				 errhint("%s", hint)));
-	ereport(ERROR,
-			(errcode(isnull ? ERRCODE_NULL_VALUE_NOT_ALLOWED : ERRCODE_INVALID_PARAMETER_VALUE),
-			 errmsg("%s of point " INT64_FORMAT " is %s", name, (int64) point[0],
-					isnull ? "NULL" : "not finite"),
-			 errhint("%s", hint)));
 }
 
 static double
@@ -252,19 +124,7 @@ check_nulls(const RowPacker *packer, const TupleTableSlot *slot)
 {
 	for (int i = 0; i < packer->inputs; i++)
 		if (packer->kinds[i] == PACK_NULL && !slot->tts_isnull[i])
-			refuse_type(packer, i, TupleDescAttr(slot->tts_tupleDescriptor, i));
-}
-
-/* A geometry of another system than the mesh, or than those before it. */
-static void
-refuse_srid(const RowPacker *packer, const char *what, int32 srid)
-{
-	if (packer->header->srid != 0 || !packer->takes_srid)
-		geometry_refuse_srid(what, srid, (int32) packer->header->srid);
-	ereport(ERROR,
-			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-			 errmsg("%s has SRID %d, but those before it have SRID %d", what, srid, packer->srid),
-			 errhint("Transform all of them to one system by ST_Transform.")));
+			row_refuse_type(packer, i, TupleDescAttr(slot->tts_tupleDescriptor, i));
 }
 
 /* The coordinates of a row with a geometry. */
@@ -276,7 +136,7 @@ pack_geometry(RowPacker *packer, const TupleTableSlot *slot, uint64 *record)
 	GeometryPoint point;
 
 	if (slot->tts_isnull[GEOMETRY_COLUMN])
-		refuse_value(packer, record, GEOMETRY_COLUMN, true);
+		row_refuse_value(packer, record, GEOMETRY_COLUMN, true);
 	geometry_point(&packer->geometry, slot->tts_values[GEOMETRY_COLUMN], what, &point);
 	if (point.is_empty)
 		ereport(ERROR,
@@ -290,11 +150,11 @@ pack_geometry(RowPacker *packer, const TupleTableSlot *slot, uint64 *record)
 	if (packer->srid < 0)
 		packer->srid = point.srid;
 	if (point.srid != packer->srid)
-		refuse_srid(packer, what, point.srid);
+		row_refuse_srid(packer, what, point.srid);
 	for (uint32 i = 0; i < dimension; i++)
 	{
 		if (unlikely(!isfinite(point.at[i])))
-			refuse_value(packer, record, GEOMETRY_COLUMN, false);
+			row_refuse_value(packer, record, GEOMETRY_COLUMN, false);
 		record[1 + i] = bits(point.at[i]);
 	}
 }
@@ -319,10 +179,10 @@ receive_row(TupleTableSlot *slot, DestReceiver *self)
 	for (int i = 0; i < packer->ids; i++)
 	{
 		if (unlikely(slot->tts_isnull[i]))
-			refuse_value(packer, point, i, true);
+			row_refuse_value(packer, point, i, true);
 		point[i] = (uint64) to_id(packer->kinds[i], slot->tts_values[i]);
 	}
-	if (has_geometry(packer))
+	if (row_has_geometry(packer))
 	{
 		pack_geometry(packer, slot, point);
 		first = GEOMETRY_COLUMN + 1;
@@ -334,7 +194,7 @@ receive_row(TupleTableSlot *slot, DestReceiver *self)
 		double		value = isnull ? NAN : to_double(packer->kinds[i], slot->tts_values[i]);
 
 		if (unlikely(i < coordinates_end && !isfinite(value)))
-			refuse_value(packer, point, i, isnull);
+			row_refuse_value(packer, point, i, isnull);
 		words[i] = bits(value);
 	}
 	packer->count++;
@@ -377,7 +237,7 @@ create(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int
 		packer->converts = true;
 	}
 	if (desc->natts != packer->inputs && !(more && desc->natts > packer->inputs))
-		refuse_count(packer, desc);
+		row_refuse_count(packer, desc);
 	packer->receiver.receiveSlot = receive_row;
 	packer->receiver.rStartup = start_up;
 	packer->receiver.rShutdown = shut_down;

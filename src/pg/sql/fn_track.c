@@ -236,9 +236,14 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 	abacus_header *header = change->writer.header;
 	char	   *here = tracked_points_of_table(table, columns, header->dimension, true);
 	char	   *there = tracked_points_of_mesh(mesh, header, extension_namespace);
+	char	   *elsewhere = tracked_points_of_other_srid(table, columns, header);
+	uint32		srid = header->srid;
 	uint64		missing;
 	uint64		surplus;
 
+	/* the first of these is an error, unless the mesh has no SRID and takes it */
+	if (elsewhere != NULL)
+		read_points(change, elsewhere);
 	/* both are read before the mesh changes, since a query would see it half changed */
 	missing = read_points(change, psprintf("%s EXCEPT ALL %s", here, there));
 	change_swap_stages(change);
@@ -258,7 +263,7 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 	change_swap_stages(change);
 	if (surplus > 0)
 		change_delete(change, true);
-	return missing + surplus > 0;
+	return missing + surplus > 0 || srid != header->srid;
 }
 
 /*

@@ -88,8 +88,12 @@ follow(const TriggerData *trigger, Transition *transition, Change *change)
 
 	in_step_check_shape(change->writer.header, transition->dimension, transition->columns,
 						trigger->tg_trigger->tgname);
+	transition->srid = change->writer.header->srid;
 	if (transition->new.rows != NULL && stage(transition, true, change) > 0)
+	{
+		change_take_srid(change, transition_srid(transition));
 		change_insert(change);
+	}
 	if (transition->old.rows == NULL || (gone = stage(transition, false, change)) == 0)
 		return;
 	/* the point of another row at the place must not be taken for one that is missing */
@@ -152,8 +156,10 @@ note_statement(const TriggerData *trigger, Transition *transition)
 {
 	Pending    *pending = open_pending(trigger, transition);
 
+	transition->srid = pending_srid(pending);
 	transition_send(transition, true, note_new, pending);
 	transition_send(transition, false, note_gone, pending);
+	pending_take_srid(pending, transition_srid(transition));
 }
 
 /* What is kept from row to row of a statement. */
@@ -174,13 +180,15 @@ note_row(FunctionCallInfo fcinfo)
 		MemoryContext old = MemoryContextSwitchTo(fcinfo->flinfo->fn_mcxt);
 
 		notes = palloc(sizeof(RowNotes));
-		notes->transition = transition_open_for_rows(trigger);
+		notes->transition = transition_open(trigger);
 		notes->pending = open_pending(trigger, notes->transition);
+		transition_open_rows(notes->transition, pending_srid(notes->pending));
 		fcinfo->flinfo->fn_extra = notes;
 		MemoryContextSwitchTo(old);
 	}
 	transition_send_row(notes->transition, trigger, true, note_new, notes->pending);
 	transition_send_row(notes->transition, trigger, false, note_gone, notes->pending);
+	pending_take_srid(notes->pending, transition_srid(notes->transition));
 }
 
 /* Notes that the rows of a partition or child, which is going to be truncated, are gone. */
@@ -197,7 +205,7 @@ note_all_gone(const TriggerData *trigger, const Transition *transition)
 	Oid			user;
 	int			security;
 
-	for (int i = 0; i < transition->columns; i++)
+	for (int i = 0; i < transition->inputs; i++)
 		columns = lappend(columns, transition->names[i]);
 	GetUserIdAndSecContext(&user, &security);
 	/* a user who may truncate it may lack the right to read it */

@@ -19,6 +19,20 @@ in_step_check_shape(const abacus_header *header, int dimension, int columns, con
 				 errhint("Drop the trigger, and call abacus_track().")));
 }
 
+/*
+ * Whether geometries that have come are of the system of the mesh. If it has none it takes theirs; 0
+ * and -1: they have none, or there were none.
+ */
+void
+in_step_check_srid(Change *change, int32 srid)
+{
+	uint32		wanted = change->writer.header->srid;
+
+	if (srid > 0 && wanted != 0 && srid != (int32) wanted)
+		geometry_refuse_srid("a geometry of the tracked table", srid, (int32) wanted);
+	change_take_srid(change, srid);
+}
+
 /* Whether all points have been deleted that are gone from the table. */
 void
 in_step_check_deleted(const Change *change, const char *table, uint64 gone, uint64 deleted)

@@ -57,6 +57,7 @@ struct Pending
 	char	   *trigger;
 	int			dimension;
 	int			columns;		/* of a point */
+	uint32		srid;			/* of the mesh, or of geometries that have been noted; 0: none */
 	PointLog   *log;
 	Extent		extent;
 	List	   *saved;			/* the innermost transaction's first */
@@ -72,21 +73,41 @@ static bool immediate = false;
 
 /* ---- Notes of statements ------------------------------------------------- */
 
+/* The SRID of a mesh as the statement sees it. */
+static uint32
+srid_of_mesh(Oid mesh)
+{
+	Host	   *host = mesh_host_create(CurrentMemoryContext, mesh, MESH_WRITE);
+	abacus_header *header = palloc(sizeof(abacus_header));
+	uint32		srid;
+
+	header_read(host, header, NULL);
+	srid = header->srid;
+	host_release(host);
+	host_destroy(host);
+	pfree(header);
+	return srid;
+}
+
 /*
  * Raises an error now, and not at commit, if the mesh cannot be changed with the rights of this
  * user. It stays locked as by any writer. Otherwise DROP TABLE could lock it, and then wait for the
- * table, which we have locked.
+ * table, which we have locked. Returns the SRID of the mesh if that is wanted.
  */
-static void
-check_mesh(Oid mesh, Oid user)
+static uint32
+check_mesh(Oid mesh, Oid user, bool wants_srid)
 {
 	Oid			current;
 	int			security;
+	uint32		srid = 0;
 
 	GetUserIdAndSecContext(&current, &security);
 	SetUserIdAndSecContext(user, security | SECURITY_LOCAL_USERID_CHANGE);
 	table_close(mesh_table_open(mesh, MESH_WRITE), NoLock);
+	if (wants_srid)
+		srid = srid_of_mesh(mesh);
 	SetUserIdAndSecContext(current, security);
+	return srid;
 }
 
 /* The notes of a mesh that is changed with the rights of this user. */
@@ -94,15 +115,18 @@ Pending *
 pending_open(Oid mesh, Oid user, const TriggerData *trigger, const Transition *transition)
 {
 	Pending    *pending = all;
+	uint32		srid = check_mesh(mesh, user, transition->inputs < transition->columns);
 	MemoryContext old;
 
-	check_mesh(mesh, user);
 	while (pending != NULL && !(pending->mesh == mesh && pending->user == user &&
 								pending->dimension == transition->dimension &&
 								pending->columns == transition->columns))
 		pending = pending->next;
 	if (pending != NULL)
+	{
+		pending_take_srid(pending, (int32) srid);
 		return pending;
+	}
 	old = MemoryContextSwitchTo(TopTransactionContext);
 	pending = palloc0(sizeof(Pending));
 	pending->mesh = mesh;
@@ -111,11 +135,27 @@ pending_open(Oid mesh, Oid user, const TriggerData *trigger, const Transition *t
 	pending->trigger = pstrdup(trigger->tg_trigger->tgname);
 	pending->dimension = transition->dimension;
 	pending->columns = transition->columns;
+	pending->srid = srid;
 	pending->log = point_log_create(TopTransactionContext);
 	pending->next = all;
 	all = pending;
 	MemoryContextSwitchTo(old);
 	return pending;
+}
+
+/* Of the mesh, or of the geometries that have been noted; 0: none, or not known. */
+uint32
+pending_srid(const Pending *pending)
+{
+	return pending->srid;
+}
+
+/* A mesh without SRID will take that of the geometries that have been noted; -1: of none. */
+void
+pending_take_srid(Pending *pending, int32 srid)
+{
+	if (srid > 0)
+		pending->srid = (uint32) srid;
 }
 
 /* Before the extent changes. */
@@ -210,6 +250,7 @@ change_mesh(Pending *pending)
 
 	in_step_check_shape(change->writer.header, pending->dimension, pending->columns,
 						pending->trigger);
+	in_step_check_srid(change, (int32) pending->srid);
 	if (pending->extent.came > 0)
 	{
 		stage(pending, false, change);

@@ -10,6 +10,8 @@ typedef struct Pending Pending;
 
 extern Pending *pending_open(Oid mesh, Oid user, const TriggerData *trigger,
 							  const Transition *transition);
+extern uint32 pending_srid(const Pending *pending);
+extern void pending_take_srid(Pending *pending, int32 srid);
 extern void pending_add(Pending *pending, bool gone, const uint64 *points, size_t count);
 extern void pending_forget(Oid mesh);
 extern bool pending_is_immediate(void);

@@ -13,31 +13,92 @@
 #include "pg/mesh/shape.h"
 #include "pg/track/tracked_points.h"
 
+/* The type of a column, InvalidOid if there is none of this name. */
+static Oid
+column_type(Relation table, const char *name)
+{
+	AttrNumber	number = get_attnum(RelationGetRelid(table), name);
+
+	return number <= 0 ? InvalidOid : TupleDescAttr(RelationGetDescr(table), number - 1)->atttypid;
+}
+
+/* The type of the geometry that some columns have in place of coordinates, InvalidOid if none. */
+static Oid
+geometry_of(Relation table, List *names)
+{
+	Oid			type = list_length(names) > 1 ? column_type(table, lsecond(names)) : InvalidOid;
+
+	return OidIsValid(type) && geometry_is_type(type) ? type : InvalidOid;
+}
+
+/* How many columns have the place of a point. */
+static int
+place_columns(Relation table, List *names, int dimension)
+{
+	return OidIsValid(geometry_of(table, names)) ? 1 : dimension;
+}
+
+static List *
+given_names(ArrayType *given, const abacus_header *header, Relation table)
+{
+	List	   *names = NIL;
+	int			count;
+	Datum	   *elements = shape_names(given, "columns", &count);
+	int			wanted;
+
+	for (int i = 0; i < count; i++)
+		names = lappend(names, TextDatumGetCString(elements[i]));
+	wanted = 1 + place_columns(table, names, header->dimension) + header->attributes;
+	if (count != wanted)
+		ereport(ERROR,
+				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
+				 errmsg("columns has %d elements, but points of the mesh have %d", count, wanted),
+				 errdetail("They are id, coordinates and attributes, as in a source query.")));
+	return names;
+}
+
+/* The one column of a table that is a geometry; NULL if there is none, or several. */
+static char *
+only_geometry(Relation table)
+{
+	TupleDesc	desc = RelationGetDescr(table);
+	char	   *found = NULL;
+
+	for (int i = 0; i < desc->natts; i++)
+	{
+		Form_pg_attribute attribute = TupleDescAttr(desc, i);
+
+		if (attribute->attisdropped || !geometry_is_type(attribute->atttypid))
+			continue;
+		if (found != NULL)
+			return NULL;
+		found = pstrdup(NameStr(attribute->attname));
+	}
+	return found;
+}
+
+/* The names that the mesh has, and in a table without x its geometry. */
+static List *
+default_names(const abacus_header *header, Relation table)
+{
+	char	   *geometry = OidIsValid(column_type(table, row_packer_column(header, 1))) ? NULL
+		: only_geometry(table);
+	List	   *names = NIL;
+
+	for (int i = 0; i < (int) (1 + header->dimension + header->attributes); i++)
+		if (geometry == NULL || i == 0 || i > (int) header->dimension)
+			names = lappend(names, pstrdup(row_packer_column(header, i)));
+		else if (i == 1)
+			names = lappend(names, geometry);
+	return names;
+}
+
 /* Names of the columns of a point: as given, or as the mesh names its own. */
 static List *
 column_names(ArrayType *given, const abacus_header *header, Relation table)
 {
-	int			wanted = 1 + header->dimension + header->attributes;
-	List	   *names = NIL;
+	List	   *names = given != NULL ? given_names(given, header, table) : default_names(header, table);
 	ListCell   *cell;
-
-	if (given != NULL)
-	{
-		int			count;
-		Datum	   *elements = shape_names(given, "columns", &count);
-
-		if (count != wanted)
-			ereport(ERROR,
-					(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
-					 errmsg("columns has %d elements, but points of the mesh have %d", count,
-							wanted),
-					 errdetail("They are id, coordinates and attributes, as in a source query.")));
-		for (int i = 0; i < count; i++)
-			names = lappend(names, TextDatumGetCString(elements[i]));
-	}
-	else
-		for (int i = 0; i < wanted; i++)
-			names = lappend(names, pstrdup(row_packer_column(header, i)));
 
 	foreach(cell, names)
 		if (get_attnum(RelationGetRelid(table), lfirst(cell)) <= 0)
@@ -101,33 +162,53 @@ as_packed(Relation table, const char *column)
 		: psprintf("%s::pg_catalog.float8", value);
 }
 
+/* The coordinates of a geometry. */
+static void
+append_coordinates(StringInfo query, Oid type, const char *column, int dimension)
+{
+	static const char *const functions[ABACUS_MAX_DIMENSION] = {"st_x", "st_y", "st_z"};
+
+	for (int i = 0; i < dimension; i++)
+		appendStringInfo(query, "%s%s(t.%s)", i > 0 ? ", " : "", geometry_function(type, functions[i]),
+						 quote_identifier(column));
+}
+
+/* A column of a point as the mesh has it. */
+static void
+append_packed(StringInfo query, Relation table, List *columns, int number, int dimension)
+{
+	const char *name = list_nth(columns, number);
+	Oid			geometry = geometry_of(table, columns);
+
+	if (number == 0)
+		appendStringInfo(query, "t.%s::pg_catalog.int8", quote_identifier(name));
+	else if (number == 1 && OidIsValid(geometry))
+		append_coordinates(query, geometry, name, dimension);
+	else if (number <= place_columns(table, columns, dimension))
+		appendStringInfoString(query, as_packed(table, name));
+	else
+		appendStringInfo(query, "CASE WHEN (%1$s) OPERATOR(pg_catalog.<>) "
+						 "'NaN'::pg_catalog.float8 THEN %1$s END", as_packed(table, name));
+}
+
 static char *
 select_points(Relation table, List *columns, int dimension, bool packed, const char *from)
 {
 	StringInfoData query;
-	ListCell   *cell;
 
 	initStringInfo(&query);
-	foreach(cell, columns)
+	for (int i = 0; i < list_length(columns); i++)
 	{
-		int			i = foreach_current_index(cell);
-		const char *name = lfirst(cell);
-
 		appendStringInfoString(&query, i == 0 ? "SELECT " : ", ");
-		if (!packed)
-			appendStringInfo(&query, "t.%s", quote_identifier(name));
-		else if (i == 0)
-			appendStringInfo(&query, "t.%s::pg_catalog.int8", quote_identifier(name));
-		else if (i <= dimension)
-			appendStringInfoString(&query, as_packed(table, name));
+		if (packed)
+			append_packed(&query, table, columns, i, dimension);
 		else
-			appendStringInfo(&query, "CASE WHEN (%1$s) OPERATOR(pg_catalog.<>) "
-							 "'NaN'::pg_catalog.float8 THEN %1$s END", as_packed(table, name));
+			appendStringInfo(&query, "t.%s", quote_identifier(list_nth(columns, i)));
 	}
 	appendStringInfo(&query, " %s %s AS t WHERE ", from,
 					 quote_qualified_identifier(get_namespace_name(RelationGetNamespace(table)),
 												RelationGetRelationName(table)));
-	for (int i = 1; i <= dimension; i++)
+	for (int i = 1; i <= place_columns(table, columns, dimension); i++)
 		appendStringInfo(&query, "%st.%s IS NOT NULL", i > 1 ? " AND " : "",
 						 quote_identifier(list_nth(columns, i)));
 	return query.data;
@@ -141,6 +222,23 @@ char *
 tracked_points_of_table(Relation table, List *columns, int dimension, bool packed)
 {
 	return select_points(table, columns, dimension, packed, "FROM");
+}
+
+/*
+ * SELECT of the points of the table whose geometries are of another system than the mesh; NULL if it
+ * has no geometries.
+ */
+char *
+tracked_points_of_other_srid(Relation table, List *columns, const abacus_header *header)
+{
+	Oid			geometry = geometry_of(table, columns);
+
+	if (!OidIsValid(geometry))
+		return NULL;
+	return psprintf("%s AND %s(t.%s) OPERATOR(pg_catalog.<>) %u",
+					select_points(table, columns, header->dimension, false, "FROM"),
+					geometry_function(geometry, "st_srid"), quote_identifier(lsecond(columns)),
+					header->srid);
 }
 
 /* SELECT of the points in the table alone. */

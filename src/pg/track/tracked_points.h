@@ -12,6 +12,8 @@
 
 extern List *tracked_columns(ArrayType *given, const abacus_header *header, Relation table);
 extern char *tracked_points_of_table(Relation table, List *columns, int dimension, bool packed);
+extern char *tracked_points_of_other_srid(Relation table, List *columns,
+										  const abacus_header *header);
 extern char *tracked_points_of_one_table(Relation table, List *columns, int dimension);
 extern char *tracked_points_of_mesh(Oid mesh, const abacus_header *header,
 									Oid extension_namespace);

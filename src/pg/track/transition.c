@@ -49,9 +49,11 @@ transition_shape(const Transition *transition)
 	abacus_header *shape = palloc0(sizeof(abacus_header));
 
 	shape->dimension = transition->dimension;
+	shape->srid = transition->srid;
 	shape->attributes = transition->columns - 1 - transition->dimension;
 	for (uint32 i = 0; i < shape->attributes; i++)
-		strlcpy(shape->names[i], transition->names[1 + transition->dimension + i], ABACUS_NAME_BYTES);
+		strlcpy(shape->names[i], transition->names[transition->inputs - shape->attributes + i],
+				ABACUS_NAME_BYTES);
 	return shape;
 }
 
@@ -86,6 +88,15 @@ fetch_row(TransitionRows *rows)
 	return tuplestore_gettupleslot(rows->rows, true, false, rows->slot);
 }
 
+static void
+refuse_arguments(const TriggerData *trigger)
+{
+	ereport(ERROR,
+			(errcode(ERRCODE_E_R_I_E_TRIGGER_PROTOCOL_VIOLATED),
+			 errmsg("trigger \"%s\" has wrong arguments", trigger->tg_trigger->tgname),
+			 errhint("Make it with abacus_track().")));
+}
+
 /* Opens the transition tables of a trigger that tracking_create() has made. */
 Transition *
 transition_open(const TriggerData *trigger)
@@ -94,18 +105,15 @@ transition_open(const TriggerData *trigger)
 	TupleDesc	desc = RelationGetDescr(trigger->tg_relation);
 	char	  **names = trigger->tg_trigger->tgargs + TRACKING_ARGUMENT_COLUMNS;
 
-	transition->columns = trigger->tg_trigger->tgnargs - TRACKING_ARGUMENT_COLUMNS;
+	transition->inputs = trigger->tg_trigger->tgnargs - TRACKING_ARGUMENT_COLUMNS;
 	transition->dimension = read_dimension(trigger->tg_trigger->tgargs[TRACKING_ARGUMENT_DIMENSION],
 										   &transition->deferred);
-	if (transition->dimension == 0 || transition->columns < 1 + transition->dimension ||
-		transition->columns > 1 + transition->dimension + ABACUS_MAX_ATTRIBUTES)
-		ereport(ERROR,
-				(errcode(ERRCODE_E_R_I_E_TRIGGER_PROTOCOL_VIOLATED),
-				 errmsg("trigger \"%s\" has wrong arguments", trigger->tg_trigger->tgname),
-				 errhint("Make it with abacus_track().")));
-	transition->numbers = palloc(transition->columns * sizeof(AttrNumber));
-	transition->points = CreateTemplateTupleDesc(transition->columns);
-	for (int i = 0; i < transition->columns; i++)
+	if (transition->dimension == 0 || transition->inputs < 2 ||
+		transition->inputs > 1 + transition->dimension + ABACUS_MAX_ATTRIBUTES)
+		refuse_arguments(trigger);
+	transition->numbers = palloc(transition->inputs * sizeof(AttrNumber));
+	transition->points = CreateTemplateTupleDesc(transition->inputs);
+	for (int i = 0; i < transition->inputs; i++)
 	{
 		AttrNumber	number = get_attnum(RelationGetRelid(trigger->tg_relation), names[i]);
 
@@ -119,6 +127,12 @@ transition_open(const TriggerData *trigger)
 		transition->numbers[i] = number;
 		TupleDescCopyEntry(transition->points, i + 1, desc, number);
 	}
+	transition->columns = transition->inputs;
+	if (row_packer_takes_geometry(transition->points))
+		transition->columns += transition->dimension - 1;
+	if (transition->columns < 1 + transition->dimension ||
+		transition->columns > 1 + transition->dimension + ABACUS_MAX_ATTRIBUTES)
+		refuse_arguments(trigger);
 	transition->point = MakeSingleTupleTableSlot(transition->points, &TTSOpsVirtual);
 	transition->names = names;
 	open_rows(&transition->old, trigger->tg_oldtable, desc);
@@ -137,7 +151,9 @@ rewind_all(Transition *transition)
 static bool
 is_point(const Transition *transition, TupleTableSlot *slot)
 {
-	for (int i = 1; i <= transition->dimension; i++)
+	int			places = transition->dimension - (transition->columns - transition->inputs);
+
+	for (int i = 1; i <= places; i++)
 		if (slot_attisnull(slot, transition->numbers[i]))
 			return false;
 	return true;
@@ -146,7 +162,7 @@ is_point(const Transition *transition, TupleTableSlot *slot)
 static bool
 is_same_point(const Transition *transition)
 {
-	for (int i = 0; i < transition->columns; i++)
+	for (int i = 0; i < transition->inputs; i++)
 	{
 		Form_pg_attribute attribute = TupleDescAttr(transition->points, i);
 		bool		old_null;
@@ -198,6 +214,13 @@ open_packer(Transition *transition, size_t batch)
 													   transition_shape(transition), batch);
 }
 
+/* The SRID of the geometries that have been sent on; -1 if there were none. */
+int32
+transition_srid(const Transition *transition)
+{
+	return transition->packer == NULL ? -1 : transition->packer->srid;
+}
+
 /* The point of a row to the packer. */
 static void
 pack(const Transition *transition, TupleTableSlot *row)
@@ -206,7 +229,7 @@ pack(const Transition *transition, TupleTableSlot *row)
 	RowPacker  *packer = transition->packer;
 
 	ExecClearTuple(point);
-	for (int i = 0; i < transition->columns; i++)
+	for (int i = 0; i < transition->inputs; i++)
 		point->tts_values[i] = slot_getattr(row, transition->numbers[i], &point->tts_isnull[i]);
 	ExecStoreVirtualTuple(point);
 	packer->receiver.receiveSlot(point, &packer->receiver);
@@ -243,21 +266,19 @@ transition_send(Transition *transition, bool new, PointSink sink, void *context)
 }
 
 /*
- * Opened for a trigger that is called for each row. What is needed from row to row lives in the current
- * memory context: the one in which the trigger is called is emptied after each row.
+ * Makes ready for a trigger that is called for each row. What is needed from row to row lives in the
+ * current memory context: the one in which the trigger is called is emptied after each row.
  */
-Transition *
-transition_open_for_rows(const TriggerData *trigger)
+void
+transition_open_rows(Transition *transition, uint32 srid)
 {
-	Transition *transition = transition_open(trigger);
-
+	transition->srid = srid;
 	open_packer(transition, 1);
-	return transition;
 }
 
 /*
  * Sends on the point of the row with which a trigger for each row is called, if it counts. The
- * transition is one that transition_open_for_rows() has opened.
+ * transition is one that transition_open_rows() has made ready.
  */
 void
 transition_send_row(Transition *transition, const TriggerData *trigger, bool new, PointSink sink,

@@ -22,8 +22,10 @@ typedef struct Transition
 {
 	TransitionRows old;
 	TransitionRows new;
-	int			columns;
+	int			columns;		/* of a point: id, coordinates, attributes */
+	int			inputs;			/* ... in the table: a geometry stands for all coordinates */
 	int			dimension;
+	uint32		srid;			/* of the mesh, for geometries; 0: it has none, or is not known yet */
 	bool		deferred;		/* the mesh follows at commit */
 	char	  **names;			/* of the columns of points */
 	AttrNumber *numbers;		/* of these columns, in the table */
@@ -41,8 +43,9 @@ typedef void (*PointSink) (void *context, const uint64 *points, size_t count);
 #define TRACKING_ARGUMENT_COLUMNS 2
 
 extern Transition *transition_open(const TriggerData *trigger);
-extern Transition *transition_open_for_rows(const TriggerData *trigger);
+extern void transition_open_rows(Transition *transition, uint32 srid);
 extern const abacus_header *transition_shape(const Transition *transition);
+extern int32 transition_srid(const Transition *transition);
 extern bool transition_changes(Transition *transition);
 extern uint64 transition_send(Transition *transition, bool new, PointSink sink, void *context);
 extern void transition_send_row(Transition *transition, const TriggerData *trigger, bool new,

@@ -1,0 +1,1 @@
+\echo Use "CREATE EXTENSION abacus_postgis_raster" to load this file. \quit

@@ -1,0 +1,45 @@
+-- A mesh as a raster of PostGIS.
+
+-- The values of a raster whose rows go down and whose columns go right, as abacus_raster has them, and of
+-- any other one pixel by pixel: an array of rows.
+CREATE FUNCTION _abacus_pixels(
+    mesh regclass,
+    template raster,
+    attribute text,
+    method text,
+    outside text,
+    max_edge double precision)
+RETURNS double precision[]
+LANGUAGE sql STABLE PARALLEL SAFE COST 1000000
+RETURN CASE
+    WHEN ST_SkewX(template) = 0 AND ST_SkewY(template) = 0 AND ST_ScaleX(template) > 0 AND ST_ScaleY(template) < 0 THEN
+        (SELECT array_agg(r."values" ORDER BY r."row")
+         FROM abacus_raster(mesh, _abacus_lower(mesh, ST_Envelope(template)), _abacus_upper(mesh, ST_Envelope(template)),
+                            ST_Width(template), ST_Height(template), attribute, method, outside, max_edge) AS r)
+    ELSE
+        (SELECT array_agg(r."values" ORDER BY r."row")
+         FROM (SELECT y AS "row",
+                      array_agg(abacus_interpolate(mesh,
+                                    ST_SetSRID(ST_MakePoint(ST_RasterToWorldCoordX(template, x, y) + (ST_ScaleX(template) + ST_SkewX(template)) / 2,
+                                                            ST_RasterToWorldCoordY(template, x, y) + (ST_SkewY(template) + ST_ScaleY(template)) / 2),
+                                               ST_SRID(template)), attribute, method, outside, max_edge) ORDER BY x) AS "values"
+               FROM generate_series(1, ST_Height(template)) AS y, generate_series(1, ST_Width(template)) AS x
+               GROUP BY y) AS r)
+END;
+COMMENT ON FUNCTION _abacus_pixels(regclass, raster, text, text, text, double precision) IS
+    'inside abacus_postgis_raster: the values at the centres of the pixels of a raster, row by row';
+
+CREATE FUNCTION abacus_raster(
+    mesh regclass,
+    template raster,
+    attribute text DEFAULT NULL,
+    method text DEFAULT 'linear',
+    outside text DEFAULT 'null',
+    max_edge double precision DEFAULT NULL)
+RETURNS raster
+LANGUAGE sql STABLE PARALLEL SAFE COST 1000000
+RETURN CASE WHEN NOT ST_IsEmpty(template) AND _abacus_area(mesh, ST_Envelope(template)) IS NOT NULL THEN
+    ST_SetValues(ST_AddBand(ST_MakeEmptyRaster(template), 1, '64BF', '-1.7976931348623157e308'::double precision, '-1.7976931348623157e308'::double precision),
+                 1, 1, 1, _abacus_pixels(mesh, template, attribute, method, outside, max_edge)) END;
+COMMENT ON FUNCTION abacus_raster(regclass, raster, text, text, text, double precision) IS
+    'a raster with the pixels of another one and an attribute of a mesh of dimension 2 at their centres, as abacus_interpolate finds it; no data where there is none';

@@ -1,0 +1,138 @@
+/*
+ * row_errors.c: what the columns of source rows are called, and errors about them.
+ */
+#include "postgres.h"
+
+#include "lib/stringinfo.h"
+#include "utils/builtins.h"
+
+#include "pg/input/row_errors.h"
+
+static const char *const coordinate_names[ABACUS_MAX_DIMENSION] = {"x", "y", "z"};
+static const char *const corner_names[ABACUS_MAX_DIMENSION + 1] = {"v0", "v1", "v2", "v3"};
+
+/* What a column is called in messages, and in tables by default. */
+const char *
+row_packer_column(const abacus_header *header, int column)
+{
+	if (column == 0)
+		return "id";
+	if (column <= (int) header->dimension)
+		return coordinate_names[column - 1];
+	return header->names[column - 1 - header->dimension];
+}
+
+/* The word of a record that a column of a row becomes. */
+int
+row_word(const RowPacker *packer, int column)
+{
+	return row_has_geometry(packer) && column > GEOMETRY_COLUMN
+		? column + packer->columns - packer->inputs : column;
+}
+
+/* What a column of a row is called. */
+static const char *
+column_name(const RowPacker *packer, int column)
+{
+	if (packer->ids > 1)
+		return corner_names[column];
+	if (row_has_geometry(packer) && column == GEOMETRY_COLUMN)
+		return "geometry";
+	return row_packer_column(packer->header, row_word(packer, column));
+}
+
+/* "id, x, y, height" */
+static char *
+expected_columns(const RowPacker *packer)
+{
+	StringInfoData names;
+
+	initStringInfo(&names);
+	for (int i = 0; i < packer->inputs; i++)
+		appendStringInfo(&names, "%s%s", i > 0 ? ", " : "", column_name(packer, i));
+	return names.data;
+}
+
+/* What to do about a geometry where none can be read, or NULL. */
+static char *
+geometry_hint(const RowPacker *packer, const char *column, Oid type)
+{
+	const char *name;
+	char	   *quoted = unconstify(char *, quote_identifier(column));
+
+	if (packer->origin->geometry_hint == NULL)
+		return NULL;
+	if (geometry_is_type(type))
+		return pstrdup("A geometry stands behind the id, in place of all coordinates.");
+	name = geometry_type_name(type);
+	if (strcmp(name, "geography") == 0)
+		return psprintf("Give a geometry of it, %s::geometry.", quoted);
+	if (strcmp(name, "geometry") != 0)
+		return NULL;
+	return psprintf(packer->header->dimension == 2 ? "%2$s, ST_X(%1$s) and ST_Y(%1$s)."
+					: "%2$s, ST_X(%1$s), ST_Y(%1$s) and ST_Z(%1$s).",
+					quoted, packer->origin->geometry_hint);
+}
+
+void
+row_refuse_type(const RowPacker *packer, int column, Form_pg_attribute attribute)
+{
+	bool		is_id = column < packer->ids;
+	char	   *hint = geometry_hint(packer, NameStr(attribute->attname), attribute->atttypid);
+
+	ereport(ERROR,
+			(errcode(ERRCODE_DATATYPE_MISMATCH),
+			 errmsg("column %d (%s) of %s has type %s", column + 1, column_name(packer, column),
+					packer->origin->columns_of, format_type_be(attribute->atttypid)),
+			 is_id ? errdetail("An id is smallint, integer or bigint.")
+			 : errdetail("Coordinates and attributes are double precision, real, numeric or integers."),
+			 errhint("%s", hint != NULL ? hint : packer->origin->type_hint)));
+}
+
+void
+row_refuse_count(const RowPacker *packer, TupleDesc desc)
+{
+	char	   *hint = NULL;
+
+	for (int i = 0; hint == NULL && i < desc->natts; i++)
+		hint = geometry_hint(packer, NameStr(TupleDescAttr(desc, i)->attname),
+							 TupleDescAttr(desc, i)->atttypid);
+	ereport(ERROR,
+			(errcode(ERRCODE_DATATYPE_MISMATCH),
+			 errmsg("source query returns %d columns, but the mesh takes %d", desc->natts,
+					packer->inputs),
+			 errdetail("Columns go by position: %s.", expected_columns(packer)),
+			 hint != NULL ? errhint("%s", hint) : 0));
+}
+
+/* A NULL, and what is not a number, has no place; the error says which point it was. */
+void
+row_refuse_value(const RowPacker *packer, const uint64 *point, int column, bool isnull)
+{
+	const char *name = column_name(packer, column);
+	const char *hint = packer->origin->value_hint;
+
+	if (isnull && column < packer->ids)
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("%s is NULL in row " UINT64_FORMAT " of %s", name, packer->row,
+						packer->origin->rows_of),
+				 errhint("%s", hint)));
+	ereport(ERROR,
+			(errcode(isnull ? ERRCODE_NULL_VALUE_NOT_ALLOWED : ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("%s of point " INT64_FORMAT " is %s", name, (int64) point[0],
+					isnull ? "NULL" : "not finite"),
+			 errhint("%s", hint)));
+}
+
+/* A geometry of another system than the mesh, or than those before it. */
+void
+row_refuse_srid(const RowPacker *packer, const char *what, int32 srid)
+{
+	if (packer->header->srid != 0 || !packer->takes_srid)
+		geometry_refuse_srid(what, srid, (int32) packer->header->srid);
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("%s has SRID %d, but those before it have SRID %d", what, srid, packer->srid),
+			 errhint("Transform all of them to one system by ST_Transform.")));
+}
