@@ -1,6 +1,7 @@
 # The one list of sources: read by Makefile.pgxs (make) and CMakeLists.txt
 # (line by line). One file a line.
 CORE_SOURCES += src/blocks/key_cut.cpp
+CORE_SOURCES += src/blocks/page_seal.cpp
 CORE_SOURCES += src/blocks/replacement.cpp
 CORE_SOURCES += src/capi/build.cpp
 CORE_SOURCES += src/capi/cells.cpp
@@ -16,6 +17,8 @@ CORE_SOURCES += src/capi/lines.cpp
 CORE_SOURCES += src/capi/load.cpp
 CORE_SOURCES += src/capi/mesh.cpp
 CORE_SOURCES += src/capi/numbered.cpp
+CORE_SOURCES += src/capi/octree.cpp
+CORE_SOURCES += src/capi/octree_read.cpp
 CORE_SOURCES += src/capi/outline.cpp
 CORE_SOURCES += src/capi/places.cpp
 CORE_SOURCES += src/capi/quake.cpp
@@ -85,6 +88,13 @@ CORE_SOURCES += src/mesh/page_format.cpp
 CORE_SOURCES += src/mesh/page_order.cpp
 CORE_SOURCES += src/mesh/page_writer.cpp
 CORE_SOURCES += src/mesh/probing.cpp
+CORE_SOURCES += src/octree/balance.cpp
+CORE_SOURCES += src/octree/grow.cpp
+CORE_SOURCES += src/octree/octant_page.cpp
+CORE_SOURCES += src/octree/octree_cache.cpp
+CORE_SOURCES += src/octree/octree_edit.cpp
+CORE_SOURCES += src/octree/octree_load.cpp
+CORE_SOURCES += src/octree/octree_nodes.cpp
 CORE_SOURCES += src/points/leaving.cpp
 CORE_SOURCES += src/points/repeated_points.cpp
 CORE_SOURCES += src/points/spread.cpp

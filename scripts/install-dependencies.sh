@@ -36,6 +36,7 @@ test=(
     clang-format clang-tidy
     gnuplot-nox                     # plots of docs/benchmarks.md
     python3-numpy python3-scipy python3-matplotlib python3-vtk9   # whose answers ours are compared with
+    libp4est-dev libopenmpi-dev     # p4est, whose octrees ours are compared with
     python3-meshio                  # reads and writes the files of meshes
     mmdebstrap                      # a Debian with another version of PostgreSQL
 )
