@@ -27,15 +27,26 @@ static const char *const corner_names[ABACUS_MAX_DIMENSION + 1] = {"v0", "v1", "
 
 static const RowOrigin query_of_points = {
 	"the source query", "the source query", "Cast the column in the query.",
-	"Give its coordinates", "Leave such points out with a WHERE clause.", true
+	"Give its coordinates", "Leave such points out with a WHERE clause.", true,
+	"mesh", "id", "An id", NULL, false
 };
 static const RowOrigin query_of_simplices = {
 	"the source query", "the source query", "Cast the column in the query.",
-	NULL, "Leave such simplices out with a WHERE clause.", false
+	NULL, "Leave such simplices out with a WHERE clause.", false,
+	"mesh", "id", "An id", NULL, false
 };
 static const RowOrigin tracked_table = {
 	"the tracked table", "the statement", "Track other columns, generated ones for instance.",
-	"Track generated columns", "A row without a point has NULL for a coordinate.", false
+	"Track generated columns", "A row without a point has NULL for a coordinate.", false,
+	"mesh", "id", "An id", NULL, false
+};
+#define QUERY_OF_OCTANTS "the source query", "the source query", "Cast the column in the query.", \
+	"Give its coordinates", "Leave such rows out with a WHERE clause.", true, "octree"
+static const RowOrigin queries_of_octants[] = {
+	[OCTANT_LEAVES] = {QUERY_OF_OCTANTS, "code", "A code", "level", true},
+	[OCTANT_VALUES] = {QUERY_OF_OCTANTS, "code", "A code", NULL, true},
+	[OCTANT_PLACES] = {QUERY_OF_OCTANTS, "level", "A level", NULL, true},
+	[OCTANT_POINTS] = {QUERY_OF_OCTANTS, "id", "An id", NULL, false}
 };
 
 /* What a column is called in messages, and in tables by default. */
@@ -52,7 +63,13 @@ row_packer_column(const abacus_header *header, int column)
 static const char *
 column_name(const RowPacker *packer, int column)
 {
-	return packer->ids > 1 ? corner_names[column] : row_packer_column(packer->header, column);
+	if (packer->ids > 1)
+		return corner_names[column];
+	if (column == 0)
+		return packer->origin->id;
+	if (column == 1 && packer->origin->level != NULL)
+		return packer->origin->level;
+	return row_packer_column(packer->header, column);
 }
 
 /* "id, x, y, height" */
@@ -101,7 +118,7 @@ refuse_type(const RowPacker *packer, int column, Form_pg_attribute attribute)
 			(errcode(ERRCODE_DATATYPE_MISMATCH),
 			 errmsg("column %d (%s) of %s has type %s", column + 1, column_name(packer, column),
 					packer->origin->columns_of, format_type_be(attribute->atttypid)),
-			 is_id ? errdetail("An id is smallint, integer or bigint.")
+			 is_id ? errdetail("%s is smallint, integer or bigint.", packer->origin->an_id)
 			 : errdetail("Coordinates and attributes are double precision, real, numeric or integers."),
 			 errhint("%s", hint != NULL ? hint : packer->origin->type_hint)));
 }
@@ -116,8 +133,8 @@ refuse_count(const RowPacker *packer, TupleDesc desc)
 							 TupleDescAttr(desc, i)->atttypid);
 	ereport(ERROR,
 			(errcode(ERRCODE_DATATYPE_MISMATCH),
-			 errmsg("source query returns %d columns, but the mesh takes %d", desc->natts,
-					packer->columns),
+			 errmsg("source query returns %d columns, but the %s takes %d", desc->natts,
+					packer->origin->whole, packer->columns),
 			 errdetail("Columns go by position: %s.", expected_columns(packer)),
 			 hint != NULL ? errhint("%s", hint) : 0));
 }
@@ -164,11 +181,11 @@ refuse_value(const RowPacker *packer, const uint64 *point, int column, bool isnu
 	const char *name = column_name(packer, column);
 	const char *hint = packer->origin->value_hint;
 
-	if (isnull && column < packer->ids)
+	if (packer->origin->by_number || (isnull && column < packer->ids))
 		ereport(ERROR,
-				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
-				 errmsg("%s is NULL in row " UINT64_FORMAT " of %s", name, packer->row,
-						packer->origin->rows_of),
+				(errcode(isnull ? ERRCODE_NULL_VALUE_NOT_ALLOWED : ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("%s is %s in row " UINT64_FORMAT " of %s", name,
+						isnull ? "NULL" : "not finite", packer->row, packer->origin->rows_of),
 				 errhint("%s", hint)));
 	ereport(ERROR,
 			(errcode(isnull ? ERRCODE_NULL_VALUE_NOT_ALLOWED : ERRCODE_INVALID_PARAMETER_VALUE),
@@ -331,6 +348,20 @@ row_packer_create_simplices(TupleDesc desc, const abacus_header *header, size_t 
 {
 	return create(desc, header, &query_of_simplices, header->dimension + 1, header->dimension + 1,
 				  false, batch);
+}
+
+/*
+ * The same for rows of a query that are for an octree. Of leaves and values `header` says nothing
+ * but what attributes there are.
+ */
+RowPacker *
+row_packer_create_octants(TupleDesc desc, const abacus_header *header, OctantRows rows, size_t batch)
+{
+	bool		has_attributes = rows == OCTANT_LEAVES || rows == OCTANT_VALUES;
+
+	return create(desc, header, &queries_of_octants[rows], 1,
+				  1 + header->dimension + (has_attributes ? header->attributes : 0),
+				  rows == OCTANT_POINTS, batch);
 }
 
 void

@@ -23,6 +23,7 @@ extern const char *source_column_name(const Source *source, int column);
 extern void source_open(Source *source, const abacus_header *header);
 extern void source_open_places(Source *source, const abacus_header *header);
 extern void source_open_simplices(Source *source, const abacus_header *header);
+extern void source_open_octants(Source *source, const abacus_header *header, OctantRows rows);
 extern size_t source_fetch(Source *source, const uint64 **points);
 extern void source_close(Source *source);
 extern void source_finish(Source *source);
