@@ -108,6 +108,11 @@ SELECT abacus_draw('quad', 100) IS NULL;
 CALL abacus_build('quad');
 SELECT (abacus_octree_locate('quad', 1, 1)).level, (abacus_locate('mesh', 1, 1)).v0 IS NOT NULL;
 
+SELECT name, least, greatest, nulls FROM abacus_attributes('quad');
+SELECT abacus_rename_attribute('quad', 'v', 'w');
+SELECT name FROM abacus_attributes('quad');
+SELECT abacus_rename_attribute('quad', 'v', 'w');
+
 -- figures
 SELECT name, value, description FROM abacus_stats('quad') WHERE name IN ('dimension', 'attributes', 'levels', 'leaves', 'stores');
 SELECT count(*) FROM abacus_stats('quad') WHERE name LIKE 'session_%';

@@ -86,6 +86,7 @@ template <int D> void OctreeCache<D>::split(Handle h) {
 template <int D> std::uint64_t OctreeCache<D>::merge(const Octant<D> &merged) {
     if (octant(find(merged.code)).level <= merged.level) return 1;
     std::uint64_t leaves = 0;
+    this->poll();
     for (int i = 0; i < Octant<D>::children; ++i) leaves += merge(merged.child(i));
     // Now its children are leaves, perhaps on several pages.
     std::array<Handle, Octant<D>::children> family;

@@ -49,6 +49,7 @@ public:
                     const Handle h = next_in(layer, from);
                     if (h == no_handle) break;
                     from = cache_.octant(h).end();
+                    cache_.poll();
                     visit(axis, side, h);
                 }
             }

@@ -120,7 +120,7 @@ writer_prevent_read_only(Oid mesh, const char *command)
 }
 
 static void
-begin(Writer *writer, Oid mesh, MeshAccess access, abacus_type type, const char *command,
+begin(Writer *writer, Oid mesh, MeshAccess access, uint32 type, const char *command,
 	  bool in_trigger)
 {
 	writer_prevent_read_only(mesh, command);
@@ -145,11 +145,11 @@ writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command)
 	begin(writer, mesh, access, ABACUS_MESH, command, false);
 }
 
-/* The same of an octree, for changing. */
+/* The same of another type, or of any, for changing. */
 void
-writer_begin_octree(Writer *writer, Oid octree, const char *command)
+writer_begin_of(Writer *writer, Oid mesh, uint32 type, const char *command)
 {
-	begin(writer, octree, MESH_WRITE, ABACUS_OCTREE, command, false);
+	begin(writer, mesh, MESH_WRITE, type, command, false);
 }
 
 /*

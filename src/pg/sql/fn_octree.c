@@ -96,7 +96,7 @@ static void
 begin(OctreeChange *change, FunctionCallInfo fcinfo, const char *command)
 {
 	source_prepare(&change->source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	writer_begin_octree(&change->writer, PG_GETARG_OID(0), command);
+	writer_begin_of(&change->writer, PG_GETARG_OID(0), ABACUS_OCTREE, command);
 }
 
 /* Hands the rows of the query to the core's handle. */
@@ -308,7 +308,7 @@ abacus_sql_octree_balance(PG_FUNCTION_ARGS)
 	int32		across;
 	int64		leaves;
 
-	writer_begin_octree(&writer, PG_GETARG_OID(0), "abacus_octree_balance()");
+	writer_begin_of(&writer, PG_GETARG_OID(0), ABACUS_OCTREE, "abacus_octree_balance()");
 	across = across_what(PG_GETARG_TEXT_PP(1), writer.header->dimension);
 	open_growth(&writer);
 	host_run(writer.host, abacus_octree_growth_balance, writer.host->handle, across,

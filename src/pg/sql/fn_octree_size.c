@@ -73,7 +73,8 @@ run(SizeQuery *query, size_t count, const double *const *centers, double *sizes)
 	if (SPI_processed != 1 || SPI_tuptable->tupdesc->natts != 1)
 		refuse_answer("It returned another number of rows or columns than one.");
 	if (SPI_gettypeid(SPI_tuptable->tupdesc, 1) != FLOAT8ARRAYOID)
-		refuse_answer("Its column is no double precision[].");
+		refuse_answer(psprintf("It returned a value of type %s.",
+							   format_type_be(SPI_gettypeid(SPI_tuptable->tupdesc, 1))));
 	answer = SPI_getbinval(SPI_tuptable->vals[0], SPI_tuptable->tupdesc, 1, &isnull);
 	if (isnull)
 		refuse_answer("It returned NULL.");
@@ -110,7 +111,7 @@ abacus_sql_octree_from_size(PG_FUNCTION_ARGS)
 	int64		leaves;
 
 	SPI_connect();
-	writer_begin_octree(&writer, PG_GETARG_OID(0), "abacus_octree_from_size()");
+	writer_begin_of(&writer, PG_GETARG_OID(0), ABACUS_OCTREE, "abacus_octree_from_size()");
 	host = query.host = writer.host;
 	query.dimension = writer.header->dimension;
 	query.plan = SPI_prepare(text_to_cstring(PG_GETARG_TEXT_PP(1)), (int) query.dimension, types);
