@@ -36,12 +36,32 @@ template <int D> void Growth<D>::read(SplitOctants<D> &octants) {
 }
 
 template <int D> void Growth<D>::to_levels(abacus_header &header) {
-    SplitOctants<D> wanted(host_);
     places_.finish();
+    if (places_.size() < header_.leaves / leaves_a_place) {
+        split_in_place(header);
+        return;
+    }
+    SplitOctants<D> wanted(host_);
     while (const std::uint64_t *place = places_.next())
         wanted.split_to(place[0], static_cast<int>(place[1]));
     places_.close();
     grow(wanted, header);
+}
+
+template <int D> void Growth<D>::split_in_place(abacus_header &header) {
+    OctreeCache<D> cache(host_, header_, memory_);
+    while (const std::uint64_t *place = places_.next()) {
+        for (;;) {
+            const Handle h = cache.find(place[0]);
+            if (cache.octant(h).level >= static_cast<int>(place[1])) break;
+            cache.split(h);
+            header.leaves += Octant<D>::children - 1;
+        }
+        host_.poll();
+    }
+    places_.close();
+    cache.flush();
+    add_counters(cache.counters, header);
 }
 
 template <int D> void Growth<D>::to_points(std::uint64_t most, abacus_header &header) {

@@ -36,8 +36,14 @@ public:
     void to_balance(int across, abacus_header &header);
 
 private:
+    /// With fewer places pages are changed one by one, so that a small change of a large octree is
+    /// cheap; with more, it is cheaper to read them all in order.
+    static constexpr std::uint64_t leaves_a_place = 256;
+
     struct Asker;
 
+    /// Splits the leaves at the places through a cache.
+    void split_in_place(abacus_header &header);
     /// What is split in the octree as it is, rewound.
     void read(SplitOctants<D> &octants);
     /// Grows the octree by a set, which is closed.

@@ -66,17 +66,7 @@ template <int D> std::uint64_t OctreeEdit<D>::set(abacus_header &header) {
 template <int D> void OctreeEdit<D>::finish(abacus_header &header) {
     changes_.close();
     cache_.flush();
-    header.counters.loads += cache_.counters.loads;
-    header.counters.stores += cache_.counters.stores;
-    header.counters.rewrites += cache_.counters.rewrites;
-    header.counters.splits += cache_.counters.splits;
-    header.counters.merges += cache_.counters.merges;
-    header.counters.evictions += cache_.counters.evictions;
-    header.counters.eviction_batches += cache_.counters.eviction_batches;
-    header.counters.bytes_read += cache_.counters.bytes_read;
-    header.counters.bytes_written += cache_.counters.bytes_written;
-    header.counters.translation_ns += cache_.counters.translation_ns;
-    header.counters.peak_bytes = std::max(header.counters.peak_bytes, cache_.counters.peak_bytes);
+    add_counters(cache_.counters, header);
 }
 
 template class OctreeEdit<2>;

@@ -153,8 +153,7 @@ template <int D> void compare_nodes(StoredOctree<D> &octree, typename Foreign<D>
     for (const auto &[node, other] : hanging) {
         const auto begin = nodes[node].anchor.begin(), end = begin + nodes[node].anchors;
         require(std::find(begin, end,
-                          static_cast<std::uint64_t>(ours[static_cast<std::size_t>(other)])) !=
-                    end,
+                          static_cast<std::uint64_t>(ours[static_cast<std::size_t>(other)])) != end,
                 "anchors of a node that hangs");
     }
     Foreign<D>::destroy(foreign);
@@ -185,8 +184,7 @@ template <int D> Cells quake(std::mt19937_64 &random) {
     Cells cells;
     for (int i = 0; i < (D == 2 ? 3000 : 1500); ++i) {
         Cell<D> cell;
-        for (std::uint32_t &x : cell)
-            x = static_cast<std::uint32_t>(random() % axis_cells<D>);
+        for (std::uint32_t &x : cell) x = static_cast<std::uint32_t>(random() % axis_cells<D>);
         const double depth = std::ldexp(static_cast<double>(random() % 1000), -10);
         cell[D - 1] = static_cast<std::uint32_t>(depth * depth * depth * (axis_cells<D> - 1));
         if (i % 3 == 0) cell[0] = cell[D - 1] / 2 + static_cast<std::uint32_t>(axis_cells<D> / 3);

@@ -301,6 +301,20 @@ TYPED_TEST(Octrees, are_split_and_merged_in_place) {
     expect_sound(octree);
 }
 
+TYPED_TEST(Octrees, are_grown_in_place_at_few_places) {
+    constexpr int D = TypeParam::value;
+    Coded<D> octree;
+    octree.host->calls = {};
+    const auto pages = octree.host->pages.size();
+    const auto cells = random_cells<D>(octree.random, 2, D == 2 ? 14 : 11);
+    octree.split_to(cells);
+    EXPECT_LE(octree.host->calls.find + octree.host->calls.next, 4u) << "of " << pages;
+    for (const auto &[cell, level] : cells) octree.model.split_to(cell, level);
+    EXPECT_EQ(octree.list(), octree.model.list());
+    EXPECT_EQ(octree.header.leaves, octree.model.leaves.size());
+    expect_sound(octree);
+}
+
 TYPED_TEST(Octrees, are_loaded_leaf_by_leaf) {
     constexpr int D = TypeParam::value;
     Coded<D> octree;
