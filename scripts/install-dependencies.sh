@@ -38,6 +38,7 @@ test=(
     gnuplot-nox                     # plots of docs/benchmarks.md
     python3-numpy python3-scipy python3-matplotlib python3-vtk9   # whose answers ours are compared with
     gdal-bin                        # reads tiles; gdal_grid, to compare with
+    libp4est-dev libopenmpi-dev     # p4est, whose octrees ours are compared with
     python3-meshio                  # reads and writes the files of meshes
     chromium                        # shows the viewer's page, without a screen
     mmdebstrap                      # a Debian with another version of PostgreSQL

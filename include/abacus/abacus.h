@@ -39,6 +39,7 @@
 #include "abacus/host.h"
 #include "abacus/interpolate.h"
 #include "abacus/lines.h"
+#include "abacus/octree.h"
 #include "abacus/quake.h"
 #include "abacus/raycast.h"
 #include "abacus/raster.h"

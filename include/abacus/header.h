@@ -23,6 +23,9 @@ enum
 	ABACUS_REPEATED_PAGES
 };
 
+/* Leaves of an octree: in the same place as the simplices of a mesh, for it has none. */
+#define ABACUS_OCTANT_PAGES ABACUS_SIMPLEX_PAGES
+
 /* ---- Counters (chapter 5 of the dissertation) --------------------------- */
 
 typedef struct abacus_counters
@@ -84,8 +87,16 @@ ABACUS_API const char *abacus_delaunay_reason(abacus_delaunay delaunay);
 /* The greatest number of a spatial reference system, as in PostGIS. */
 #define ABACUS_MAX_SRID 999999
 
+/* What the pages are of. */
+typedef enum abacus_type
+{
+	ABACUS_MESH = 0,
+	ABACUS_OCTREE              /* or a quadtree */
+} abacus_type;
+
 typedef struct abacus_header
 {
+	uint32_t type;         /* an abacus_type */
 	uint32_t dimension;    /* 2 or 3 */
 	uint32_t attributes;   /* number of attributes, 0 to ABACUS_MAX_ATTRIBUTES */
 	uint32_t has_domain;   /* 0 until given or taken from the first points */
@@ -104,6 +115,8 @@ typedef struct abacus_header
 	uint32_t not_delaunay; /* an abacus_delaunay. Unless 0 the mesh is read, never changed; its
 							  vertices are listed in staged pages; staged = inserted = vertices */
 	uint32_t srid;         /* spatial reference system of the coordinates, to ABACUS_MAX_SRID; 0: unknown */
+	uint32_t levels;       /* of an octree: the finest that a leaf may have; it has a domain, ... */
+	uint64_t leaves;       /* ... leaves, stamp and counters, and nothing else of the above */
 	abacus_counters counters; /* summed over all builds; peak_bytes: the largest */
 	char names[ABACUS_MAX_ATTRIBUTES][ABACUS_NAME_BYTES];
 } abacus_header;

@@ -348,7 +348,7 @@ template <class Owner, BlockDescription Type>
 template <class Visit>
 Key BlockCache<Owner, Type>::visit(const Key &key, Visit visit) {
     const BlockIndex b = owner(key);
-    if (b == no_block) throw_corrupted("No page owns a part of the curve.");
+    if (b == no_block) throw_corrupted("No page owns a part of the curve.", Type::whole);
     blocks_[b].used_at = ++clock_; // page by page is an order of use, too
     // What visit() loads goes to other blocks: this one keeps its records.
     for_each_record(b, visit);

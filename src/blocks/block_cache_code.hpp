@@ -87,7 +87,7 @@ BlockIndex BlockCache<Owner, Type>::owner(const Key &key) {
     abacus_page page{};
     if (!host_.find(Type::page_kind, key, page)) return no_block;
     const BlockIndex b = load(page);
-    if (!blocks_[b].owns(key)) throw_corrupted("No page owns a part of the curve.");
+    if (!blocks_[b].owns(key)) throw_corrupted("No page owns a part of the curve.", Type::whole);
     return b;
 }
 
@@ -98,12 +98,12 @@ BlockIndex BlockCache<Owner, Type>::load(const abacus_page &page) {
     const PageContents contents = self().open_page(page);
     ABACUS_ASSERT(contents.records <= slots);
     if (!(contents.lower == page.key))
-        throw_corrupted("A page is stored under another page's key.");
+        throw_corrupted("A page is stored under another page's key.", Type::whole);
     const BlockIndex before = directory_.floor(contents.lower);
     const BlockIndex after = directory_.after(contents.lower);
     if ((before != no_block && contents.lower < blocks_[before].upper) ||
         (after != no_block && blocks_[after].lower < contents.upper))
-        throw_corrupted("Two pages own the same part of the curve.");
+        throw_corrupted("Two pages own the same part of the curve.", Type::whole);
 
     const BlockIndex b = new_block(Block::cached);
     Block &block = blocks_[b];
@@ -121,7 +121,7 @@ BlockIndex BlockCache<Owner, Type>::nearest_with_records(std::uint64_t code) {
     // A page can be empty, the first one above all, when the domain reaches beyond the data.
     const auto place = [&](Key key) -> Block & { // a copy: it may be in a block
         const BlockIndex b = owner(key);
-        if (b == no_block) throw_corrupted("No page owns a part of the curve.");
+        if (b == no_block) throw_corrupted("No page owns a part of the curve.", Type::whole);
         return blocks_[b];
     };
     const Key key{code, 0};

@@ -64,7 +64,7 @@ void BlockCache<Owner, Type>::bring_home(std::uint64_t code) {
                 make_room(to, code);
                 to = home(slots_[h]);
             }
-            if (to == no_block) throw_corrupted("No page owns a part of the curve.");
+            if (to == no_block) throw_corrupted("No page owns a part of the curve.", Type::whole);
             move(h, to);
         }
     }
@@ -108,7 +108,8 @@ KeyCut &BlockCache<Owner, Type>::collect_places(BlockIndex b) {
     for (const KeyCut::Place &place : places_)
         if (!blocks_[b].owns(place.key))
             throw_corrupted(std::string(Type::a_record) +
-                            " lies in a page that does not own its key.");
+                                " lies in a page that does not own its key.",
+                            Type::whole);
     return places_;
 }
 
@@ -173,7 +174,7 @@ template <class Owner, BlockDescription Type>
 void BlockCache<Owner, Type>::cut(std::uint64_t code) {
     const Key border{code, 0};
     const BlockIndex b = owner(border);
-    if (b == no_block) throw_corrupted("No page owns a part of the curve.");
+    if (b == no_block) throw_corrupted("No page owns a part of the curve.", Type::whole);
     if (blocks_[b].lower == border) return;
     KeyCut &places = collect_places(b);
     const auto is_below = [&](const KeyCut::Place &p) { return p.key.code < code; };

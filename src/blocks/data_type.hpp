@@ -76,9 +76,10 @@ concept BlockDescription = BlockRecord<typename T::Record> && CountsBlocks<typen
     { T::handles_end } -> std::convertible_to<std::uint64_t>;
     /// Under which the host stores its pages.
     { T::page_kind } -> std::convertible_to<abacus_page_kind>;
-    /// For messages: "A leaf", "leaves".
+    /// For messages: "A leaf", "leaves", "octree".
     { T::a_record } -> std::convertible_to<const char *>;
     { T::records } -> std::convertible_to<const char *>;
+    { T::whole } -> std::convertible_to<const char *>;
 };
 
 template <class O, class T>

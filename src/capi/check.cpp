@@ -1,5 +1,6 @@
 // Verification behind the C interface.
 #include "query/check.hpp"
+#include "octree/octree_check.hpp"
 
 #include "capi/dimension.hpp"
 #include "capi/guard.hpp"
@@ -10,10 +11,19 @@
 struct abacus_check {
     abacus_check(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes,
                  std::size_t limit)
-        : host(*table), check(host, header, cache_bytes, limit) {}
+        : host(*table) {
+        if (header.type == ABACUS_OCTREE)
+            octree.emplace(host, header, cache_bytes, limit);
+        else
+            mesh.emplace(host, header, cache_bytes, limit);
+    }
+    template <class Visit> abacus_status visit(Visit visit) {
+        return octree ? octree->visit(visit) : mesh->visit(visit);
+    }
 
     const abacus::Host host;
-    abacus::ByDimension<abacus::Check> check;
+    std::optional<abacus::ByDimension<abacus::Check>> mesh;
+    std::optional<abacus::ByDimension<abacus::OctreeCheck>> octree;
 };
 
 abacus_status abacus_check_open(const abacus_host *host, const abacus_header *header,
@@ -26,8 +36,7 @@ abacus_status abacus_check_open(const abacus_host *host, const abacus_header *he
 }
 
 abacus_status abacus_check_next(abacus_check *check, abacus_fault *fault) {
-    return check->check.visit(
-        [&](auto &faults) { return faults.next(*fault) ? ABACUS_OK : ABACUS_END; });
+    return check->visit([&](auto &faults) { return faults.next(*fault) ? ABACUS_OK : ABACUS_END; });
 }
 
 void abacus_check_close(abacus_check *check) { abacus::destroy_handle(check); }

@@ -3,7 +3,7 @@
 // the row, so decoding checks every field; it accepts exactly what encoding can produce.
 #include "capi/guard.hpp"
 
-#include <abacus/header.h>
+#include <abacus/octree.h>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -16,6 +16,8 @@ namespace {
 /// all its pages together. The number is raised when any of them changes.
 constexpr std::uint64_t name = 0x535543414241, format = 3;
 constexpr int name_bits = 48;
+/// That of an octree begins with the bytes "OCTREE" and a format of its own.
+constexpr std::uint64_t octree_name = 0x454552544f43ull, octree_format = 1;
 /// Counts and sequence numbers are bigint in the database, and so is the sum of two.
 constexpr std::uint64_t count_limit = std::uint64_t{1} << 62;
 
@@ -97,6 +99,15 @@ template <class Header, class Visit> void visit_fields(Header &header, Visit &vi
     visit(header.ghosts);
     visit(header.not_delaunay);
 }
+template <class Header, class Visit> void visit_octree_fields(Header &header, Visit &visit) {
+    visit(header.dimension);
+    visit(header.attributes);
+    visit(header.levels);
+    for (auto &value : header.lower) visit(value);
+    for (auto &value : header.upper) visit(value);
+    visit(header.stamp);
+    visit(header.leaves);
+}
 
 void check_domain(abacus_header &header) {
     if (header.has_domain > 1) throw_corrupted("The header's domain is neither set nor unset.");
@@ -146,9 +157,33 @@ void read_srid(Reader &read, abacus_header &header) {
     if (read.left() > 0) throw_corrupted("The header is too long.");
 }
 
+void check_octree(abacus_header &header) {
+    header.has_domain = 1;
+    check_domain(header);
+    for (unsigned i = 0; i < header.dimension; ++i)
+        if (!(header.lower[i] < header.upper[i]) ||
+            !std::isfinite(header.upper[i] - header.lower[i]))
+            throw_corrupted("The header's domain is empty.", "octree");
+    if (header.levels > abacus_octree_levels(header.dimension))
+        throw_corrupted("The header has too many levels.", "octree");
+    if (header.leaves == 0 || header.leaves >= count_limit)
+        throw_corrupted("The header's count of leaves is not valid.", "octree");
+}
+
+void check_octree_format(std::uint64_t found) {
+    if (found >> name_bits != octree_format)
+        throw Error(ABACUS_ERROR_STATE, "octree is stored in format " +
+                                            std::to_string(found >> name_bits) +
+                                            ", but this version of Abacus reads format " +
+                                            std::to_string(octree_format));
+}
+
+bool has_name(std::uint64_t found, std::uint64_t name) {
+    return (found ^ name) << (64 - name_bits) == 0;
+}
+
 void check_format(std::uint64_t found) {
-    if ((found ^ name) << (64 - name_bits) != 0)
-        throw_corrupted("The row with the lowest key is no header.");
+    if (!has_name(found, name)) throw_corrupted("The row with the lowest key is no header.");
     if (found >> name_bits != format)
         throw Error(ABACUS_ERROR_STATE,
                     "mesh is stored in format " + std::to_string(found >> name_bits) +
@@ -162,14 +197,25 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
     Reader read(bytes, size);
     std::uint64_t found;
     read(found);
-    check_format(found);
-    visit_fields(header, read);
+    const bool is_octree = has_name(found, octree_name);
+    header.type = is_octree ? ABACUS_OCTREE : ABACUS_MESH;
+    if (is_octree) {
+        check_octree_format(found);
+        visit_octree_fields(header, read);
+    } else {
+        check_format(found);
+        visit_fields(header, read);
+    }
     if (header.dimension < 2 || header.dimension > ABACUS_MAX_DIMENSION)
         throw_corrupted("The header's dimension is " + std::to_string(header.dimension) + ".");
     if (header.attributes > ABACUS_MAX_ATTRIBUTES)
         throw_corrupted("The header has " + std::to_string(header.attributes) + " attributes.");
-    check_domain(header);
-    check_counts(header);
+    if (is_octree) {
+        check_octree(header);
+    } else {
+        check_domain(header);
+        check_counts(header);
+    }
     std::uint64_t counters[counter_count]{};
     const std::size_t names = header.attributes * std::size_t{ABACUS_NAME_BYTES};
     const bool has_all = read.left() >= names + sizeof counters;
@@ -185,8 +231,13 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
 size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes) {
     using namespace abacus;
     Writer write(bytes);
-    write(name | format << name_bits);
-    visit_fields(*header, write);
+    if (header->type == ABACUS_OCTREE) {
+        write(octree_name | octree_format << name_bits);
+        visit_octree_fields(*header, write);
+    } else {
+        write(name | format << name_bits);
+        visit_fields(*header, write);
+    }
     std::uint64_t counters[counter_count];
     std::memcpy(counters, &header->counters, sizeof counters);
     for (const auto counter : counters) write(counter);

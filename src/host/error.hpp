@@ -24,10 +24,12 @@ public:
     std::string hint;
 };
 
-/// Stored bytes that the core did not write.
-[[noreturn]] inline void throw_corrupted(const std::string &detail) {
-    throw Error(ABACUS_ERROR_CORRUPTED, "mesh is corrupted", detail,
-                "Run abacus_check on the mesh; restore it from a backup or build it anew.");
+/// Stored bytes that the core did not write. `whole` is what they are of.
+[[noreturn]] inline void throw_corrupted(const std::string &detail,
+                                         const std::string &whole = "mesh") {
+    throw Error(ABACUS_ERROR_CORRUPTED, whole + " is corrupted", detail,
+                "Run abacus_check on the " + whole +
+                    "; restore it from a backup or build it anew.");
 }
 
 namespace host {

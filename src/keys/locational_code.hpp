@@ -49,11 +49,38 @@ template <int D> constexpr std::uint64_t spread_bits(std::uint64_t x) {
     return x;
 }
 
+/// The reverse: takes bit i from bit D*i.
+template <int D> constexpr std::uint32_t gather_bits(std::uint64_t x) {
+    if constexpr (D == 2) {
+        x &= 0x5555555555555555ull;
+        x = (x | x >> 1) & 0x3333333333333333ull;
+        x = (x | x >> 2) & 0x0f0f0f0f0f0f0f0full;
+        x = (x | x >> 4) & 0x00ff00ff00ff00ffull;
+        x = (x | x >> 8) & 0x0000ffff0000ffffull;
+        x = (x | x >> 16) & 0xffffffffull;
+    } else {
+        x &= 0x1249249249249249ull;
+        x = (x | x >> 2) & 0x10c30c30c30c30c3ull;
+        x = (x | x >> 4) & 0x100f00f00f00f00full;
+        x = (x | x >> 8) & 0x001f0000ff0000ffull;
+        x = (x | x >> 16) & 0x001f00000000ffffull;
+        x = (x | x >> 32) & 0x1fffff;
+    }
+    return static_cast<std::uint32_t>(x);
+}
+
 /// Morton code of a cell: axis 0 in the least significant bit of each group.
 template <int D> constexpr std::uint64_t morton(const Cell<D> &cell) {
     std::uint64_t code = 0;
     for (int i = 0; i < D; ++i) code |= spread_bits<D>(cell[i]) << i;
     return code;
+}
+
+/// The cell with this Morton code.
+template <int D> constexpr Cell<D> morton_cell(std::uint64_t code) {
+    Cell<D> cell;
+    for (int i = 0; i < D; ++i) cell[i] = gather_bits<D>(code >> i);
+    return cell;
 }
 
 /// Locational code of a cell: its place on the Hilbert curve.

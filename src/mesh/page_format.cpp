@@ -6,9 +6,6 @@
 #include <limits>
 #include <string>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 namespace abacus {
 
 namespace {
@@ -26,17 +23,6 @@ constexpr const char *not_finite = "A simplex page has a coordinate that is not 
 constexpr const char *minus_zero = "A simplex page has a coordinate of minus zero.";
 
 } // namespace
-
-void seal_page(unsigned char *bytes, std::size_t size) {
-    const std::uint64_t checksum = XXH3_64bits(bytes, size - checksum_bytes);
-    std::memcpy(bytes + size - checksum_bytes, &checksum, sizeof checksum);
-}
-
-bool page_is_sealed(const unsigned char *bytes, std::size_t size) {
-    std::uint64_t stored;
-    std::memcpy(&stored, bytes + size - checksum_bytes, sizeof stored);
-    return stored == XXH3_64bits(bytes, size - checksum_bytes);
-}
 
 template <int D>
 void PageView<D>::read_header(const unsigned char *bytes, std::size_t size, int attributes) {

@@ -2,7 +2,7 @@
 //
 //   header      what is in it, the interval [lower, upper) of keys it owns
 //   patches     for each, how far corners and vertices go, and the box of its vertices
-//   heads       of the columns (mesh/bit_column.hpp): ranks of the vertices on each axis, their
+//   heads       of the columns (blocks/bit_column.hpp): ranks of the vertices on each axis, their
 //               ids, each attribute, codes of vertices in other pages, parts of the links'
 //               keys, which are all 0 in most meshes
 //   steps       D + 1 bits a simplex, see below
@@ -31,9 +31,10 @@
 // attribute, a small move of a vertex.
 #pragma once
 
+#include "blocks/bit_column.hpp"
+#include "blocks/page_seal.hpp"
 #include "geometry/point.hpp"
 #include "keys/key.hpp"
-#include "mesh/bit_column.hpp"
 #include "mesh/page_tree.hpp"
 #include "mesh/simplex.hpp"
 
@@ -73,12 +74,6 @@ static_assert(sizeof(PagePatch<2>) == 12 && sizeof(PagePatch<3>) == 16);
 constexpr std::size_t patches_of(std::size_t simplices) {
     return (simplices + patch_simplices - 1) / patch_simplices;
 }
-
-inline constexpr std::size_t checksum_bytes = sizeof(std::uint64_t);
-/// Writes the checksum into a page that is otherwise complete; `size` includes it.
-void seal_page(unsigned char *bytes, std::size_t size);
-/// Whether a page of at least checksum_bytes ends with its checksum.
-bool page_is_sealed(const unsigned char *bytes, std::size_t size);
 
 /// Vertices of a page are at most as many as simplices of a block.
 template <int D> inline constexpr std::uint32_t page_vertices = block_slots<D>;

@@ -24,7 +24,7 @@ template <int D> struct SimplexBlocks {
     static constexpr std::uint32_t slots = block_slots<D>;
     static constexpr std::uint64_t handles_end = 1u << 29; // a link has 29 bits for the handle
     static constexpr abacus_page_kind page_kind = ABACUS_SIMPLEX_PAGES;
-    static constexpr const char *a_record = "A simplex", *records = "simplices";
+    static constexpr const char *a_record = "A simplex", *records = "simplices", *whole = "mesh";
 };
 static_assert(BlockDescription<SimplexBlocks<2>> && BlockDescription<SimplexBlocks<3>>);
 

@@ -1,6 +1,6 @@
 #include "query/cavities.hpp"
 
-#include "mesh/bit_column.hpp"
+#include "blocks/bit_column.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "query/contour_pieces.hpp"
 
-#include "mesh/bit_column.hpp"
+#include "blocks/bit_column.hpp"
 #include "sort/chain_rank.hpp"
 
 #include <algorithm>

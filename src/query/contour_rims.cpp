@@ -1,6 +1,6 @@
 #include "query/contour_rims.hpp"
 
-#include "mesh/bit_column.hpp"
+#include "blocks/bit_column.hpp"
 
 #include <bit>
 

@@ -1,7 +1,7 @@
 #include "query/face_scan.hpp"
 
+#include "blocks/bit_column.hpp"
 #include "geometry/direction.hpp"
-#include "mesh/bit_column.hpp"
 #include "query/page_simplex.hpp"
 
 #include <algorithm>

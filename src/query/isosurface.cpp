@@ -1,7 +1,7 @@
 #include "query/isosurface.hpp"
 
+#include "blocks/bit_column.hpp"
 #include "geometry/tetrahedron_cut.hpp"
-#include "mesh/bit_column.hpp"
 
 #include <bit>
 #include <cmath>

@@ -7,8 +7,8 @@
 // squares apart that agree in their first 212 bits. The exponent of the first comes before all.
 #pragma once
 
+#include "blocks/bit_column.hpp"
 #include "geometry/point.hpp"
-#include "mesh/bit_column.hpp"
 
 #include <algorithm>
 #include <array>

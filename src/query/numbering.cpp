@@ -1,7 +1,7 @@
 #include "query/numbering.hpp"
 
+#include "blocks/bit_column.hpp"
 #include "keys/domain_of.hpp"
-#include "mesh/bit_column.hpp"
 #include "query/page_simplex.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "query/outline.hpp"
 
-#include "mesh/bit_column.hpp"
+#include "blocks/bit_column.hpp"
 #include "query/hull_ghost.hpp"
 #include "query/page_flood.hpp"
 

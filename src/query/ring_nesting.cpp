@@ -1,7 +1,7 @@
 #include "query/ring_nesting.hpp"
 
+#include "blocks/bit_column.hpp"
 #include "geometry/direction.hpp"
-#include "mesh/bit_column.hpp"
 
 namespace abacus {
 

@@ -1,6 +1,6 @@
 #include "query/spanning_tree.hpp"
 
-#include "mesh/bit_column.hpp"
+#include "blocks/bit_column.hpp"
 #include "query/disjoint_sets.hpp"
 
 #include <bit>

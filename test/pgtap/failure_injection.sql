@@ -57,6 +57,33 @@ SELECT pg_temp.inject('growing', $$ SELECT abacus_triangulate('field') $$,
     $$ SELECT (SELECT count(*) FROM abacus_simplices('field')) = (SELECT count(*) FROM abacus_simplices('made')) $$);
 SELECT is_empty($$ SELECT * FROM abacus_check('field') $$, 'the grown mesh is sound');
 
+-- octrees
+SELECT isnt(abacus_octree_create('tree', 2, '{0,0}', '{1009,1009}', '{v}'), NULL, 'an octree');
+SELECT pg_temp.inject('an octree from points', $$ SELECT abacus_octree_from_points('tree', 'SELECT id, x, y FROM points', 1) $$,
+    $$ SELECT count(*) = 1 FROM abacus_octants('tree') $$);
+CREATE TEMP TABLE leaves AS SELECT * FROM abacus_octants('tree');
+SELECT pg_temp.inject('balance', $$ SELECT abacus_octree_balance('tree') $$,
+    $$ SELECT count(*) = (SELECT count(*) FROM leaves) FROM abacus_octants('tree') $$);
+SELECT pg_temp.inject('refining by a query',
+    $$ SELECT abacus_octree_from_size('tree', 'SELECT array_agg(CASE WHEN x < 300 THEN 12.0::float8 END ORDER BY n) FROM unnest($1, $2) WITH ORDINALITY AS c(x, y, n)') $$,
+    $$ SELECT NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
+SELECT abacus_octree_balance('tree');
+DROP TABLE leaves;
+CREATE TEMP TABLE leaves AS SELECT * FROM abacus_octants('tree');
+SELECT pg_temp.inject('an update of leaves', $$ SELECT abacus_octree_update('tree', 'SELECT code, level FROM leaves') $$,
+    $$ SELECT count(*) = 0 FROM abacus_octants('tree') WHERE attributes[1] IS NOT NULL $$);
+SELECT pg_temp.inject('nodes', $$ SELECT count(*) FROM abacus_octree_nodes('tree') $$, 'SELECT true');
+SELECT pg_temp.inject('elements', $$ SELECT count(*) FROM abacus_octree_elements('tree') $$, 'SELECT true');
+SELECT pg_temp.inject('a window of leaves', $$ SELECT count(*) FROM abacus_octants('tree', '{100,100}', '{200,200}') $$, 'SELECT true');
+SELECT pg_temp.inject('leaves at places', $$ SELECT sum((abacus_octree_locate('tree', x, y)).level) FROM points $$, 'SELECT true');
+SELECT isnt(abacus_octree_create('again', 2, '{0,0}', '{1009,1009}', '{v}'), NULL, 'another one');
+SELECT pg_temp.inject('loading', $$ SELECT abacus_octree_from_rows('again', 'SELECT code, level, attributes[1] FROM abacus_octants(''tree'')') $$,
+    $$ SELECT count(*) = 1 FROM abacus_octants('again') $$);
+SELECT bag_eq($$ SELECT * FROM abacus_octants('again') $$, $$ SELECT * FROM abacus_octants('tree') $$, 'the same leaves');
+SELECT pg_temp.inject('merging', $$ SELECT abacus_octree_coarsen('tree', 'SELECT 3, x, y FROM points') $$,
+    $$ SELECT count(*) = (SELECT count(*) FROM leaves) FROM abacus_octants('tree') $$);
+SELECT is_empty($$ SELECT * FROM abacus_check('tree') $$, 'the octree is sound');
+
 -- meshes made elsewhere, Delaunay and not
 CREATE TABLE triangles AS SELECT v0, v1, v2 FROM abacus_simplices('made');
 SELECT pg_temp.inject('load', $$ SELECT abacus_load('loaded', 'SELECT id, x, y FROM abacus_vertices(''made'')', 'TABLE triangles') $$,

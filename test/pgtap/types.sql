@@ -16,9 +16,32 @@ SELECT results_eq(
     $$ VALUES ('code', 'bigint'), ('v0', 'bigint'), ('v1', 'bigint'), ('v2', 'bigint'), ('v3', 'bigint') $$,
     'columns of abacus_simplex');
 
+SELECT has_type('abacus_octant');
+SELECT results_eq(
+    $$ SELECT attname::text COLLATE "default", format_type(atttypid, NULL) FROM pg_attribute
+       WHERE attrelid = (SELECT typrelid FROM pg_type WHERE typname = 'abacus_octant') ORDER BY attnum $$,
+    $$ VALUES ('code', 'bigint'), ('level', 'integer'), ('lower', 'double precision[]'), ('upper', 'double precision[]'),
+              ('attributes', 'double precision[]') $$,
+    'columns of abacus_octant');
+
 CREATE TEMP TABLE wanted (name text, arguments text, result text, volatility "char", strict boolean, parallel "char");
 INSERT INTO wanted VALUES
     ('abacus_create', 'mesh text, dimension integer, attributes text[] DEFAULT ''{}''::text[], lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[]', 'regclass', 'v', false, 'u'),
+    ('abacus_octant_rows', 'internal', 'internal', 'v', true, 'u'),
+    ('abacus_octants', 'octree regclass, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[]', 'SETOF abacus_octant', 's', false, 's'),
+    ('abacus_octree_balance', 'octree regclass, across text DEFAULT ''corners''::text', 'bigint', 'v', true, 'u'),
+    ('abacus_octree_coarsen', 'octree regclass, query text', 'bigint', 'v', true, 'u'),
+    ('abacus_octree_create', 'octree text, dimension integer, lower double precision[], upper double precision[], attributes text[] DEFAULT ''{}''::text[], levels integer DEFAULT NULL::integer', 'regclass', 'v', false, 'u'),
+    ('abacus_octree_elements', 'octree regclass, OUT element bigint, OUT nodes bigint[], OUT code bigint, OUT level integer, OUT attributes double precision[]', 'SETOF record', 's', true, 's'),
+    ('abacus_octree_from_points', 'octree regclass, query text, most_in_leaf integer', 'bigint', 'v', true, 'u'),
+    ('abacus_octree_from_rows', 'octree regclass, query text', 'bigint', 'v', true, 'u'),
+    ('abacus_octree_from_size', 'octree regclass, query text', 'bigint', 'v', true, 'u'),
+    ('abacus_octree_locate', 'octree regclass, x double precision, y double precision', 'abacus_octant', 's', true, 's'),
+    ('abacus_octree_locate', 'octree regclass, x double precision, y double precision, z double precision', 'abacus_octant', 's', true, 's'),
+    ('abacus_octree_neighbours', 'octree regclass, octant bigint, OUT axis integer, OUT side integer, OUT code bigint, OUT level integer, OUT lower double precision[], OUT upper double precision[], OUT attributes double precision[]', 'SETOF record', 's', true, 's'),
+    ('abacus_octree_nodes', 'octree regclass, OUT node bigint, OUT point double precision[], OUT anchors bigint[]', 'SETOF record', 's', true, 's'),
+    ('abacus_octree_refine', 'octree regclass, query text', 'bigint', 'v', true, 'u'),
+    ('abacus_octree_update', 'octree regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_delete', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_load', 'mesh text, vertices text, simplices text, attributes text[] DEFAULT NULL::text[], lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], reorient boolean DEFAULT true, retriangulate boolean DEFAULT false', 'bigint', 'v', false, 'u'),
     ('abacus_insert', 'mesh regclass, query text, on_duplicate text DEFAULT ''keep''::text', 'bigint', 'v', true, 'u'),

@@ -41,7 +41,7 @@ struct EntryBlocks {
     static constexpr std::uint32_t slots = 512;
     static constexpr std::uint64_t handles_end = 1u << 30;
     static constexpr abacus_page_kind page_kind = ABACUS_SIMPLEX_PAGES;
-    static constexpr const char *a_record = "An entry", *records = "entries";
+    static constexpr const char *a_record = "An entry", *records = "entries", *whole = "ledger";
 };
 
 class Ledger : public BlockCache<Ledger, EntryBlocks> {

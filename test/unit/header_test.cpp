@@ -149,6 +149,43 @@ TEST(Header, OfAMeshFromBeforeThreadsWereCounted) {
     }
 }
 
+TEST(Header, OfAnOctreeComesBackAsItWas) {
+    abacus_header header{};
+    header.type = ABACUS_OCTREE;
+    header.dimension = 3;
+    header.attributes = 2;
+    header.levels = 21;
+    header.leaves = 15;
+    header.stamp = UINT64_MAX;
+    header.counters.peak_bytes = 12345;
+    for (int i = 0; i < 3; ++i) header.upper[i] = i + 1;
+    std::strcpy(header.names[0], "vs");
+    std::strcpy(header.names[1], "vp");
+    const auto bytes = encode(header);
+    abacus_header decoded;
+    ASSERT_TRUE(decodes(bytes, &decoded));
+    EXPECT_EQ(encode(decoded), bytes);
+    EXPECT_EQ(decoded.type, unsigned{ABACUS_OCTREE});
+    EXPECT_EQ(decoded.leaves, 15u);
+    EXPECT_EQ(decoded.upper[2], 3);
+    EXPECT_STREQ(decoded.names[1], "vp");
+
+    const auto refused = [&](auto change) {
+        abacus_header changed = header;
+        change(changed);
+        return !decodes(encode(changed));
+    };
+    EXPECT_TRUE(refused([](abacus_header &h) { h.levels = 22; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.leaves = 0; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.upper[1] = h.lower[1]; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.lower[0] = -1e308, h.upper[0] = 1e308; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.dimension = 4; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.names[0][0] = 0; }));
+    auto shorter = bytes;
+    shorter.pop_back();
+    EXPECT_FALSE(decodes(shorter));
+}
+
 TEST(Header, AnotherFormatIsSaid) {
     auto bytes = encode(full_header(1));
     ASSERT_EQ(std::string(bytes.begin(), bytes.begin() + 6), "ABACUS");

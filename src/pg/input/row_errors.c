@@ -38,6 +38,10 @@ column_name(const RowPacker *packer, int column)
 		return corner_names[column];
 	if (row_has_geometry(packer) && column == GEOMETRY_COLUMN)
 		return "geometry";
+	if (column == 0)
+		return packer->origin->id;
+	if (column == 1 && packer->origin->level != NULL)
+		return packer->origin->level;
 	return row_packer_column(packer->header, row_word(packer, column));
 }
 
@@ -62,7 +66,7 @@ geometry_hint(const RowPacker *packer, const char *column, Oid type)
 
 	if (packer->origin->geometry_hint == NULL)
 		return NULL;
-	if (geometry_is_type(type))
+	if (geometry_is_type(type) && !packer->origin->by_number)
 		return pstrdup("A geometry stands behind the id, in place of all coordinates.");
 	name = geometry_type_name(type);
 	if (strcmp(name, "geography") == 0)
@@ -84,7 +88,7 @@ row_refuse_type(const RowPacker *packer, int column, Form_pg_attribute attribute
 			(errcode(ERRCODE_DATATYPE_MISMATCH),
 			 errmsg("column %d (%s) of %s has type %s", column + 1, column_name(packer, column),
 					packer->origin->columns_of, format_type_be(attribute->atttypid)),
-			 is_id ? errdetail("An id is smallint, integer or bigint.")
+			 is_id ? errdetail("%s is smallint, integer or bigint.", packer->origin->an_id)
 			 : errdetail("Coordinates and attributes are double precision, real, numeric or integers."),
 			 errhint("%s", hint != NULL ? hint : packer->origin->type_hint)));
 }
@@ -99,8 +103,8 @@ row_refuse_count(const RowPacker *packer, TupleDesc desc)
 							 TupleDescAttr(desc, i)->atttypid);
 	ereport(ERROR,
 			(errcode(ERRCODE_DATATYPE_MISMATCH),
-			 errmsg("source query returns %d columns, but the mesh takes %d", desc->natts,
-					packer->inputs),
+			 errmsg("source query returns %d columns, but the %s takes %d", desc->natts,
+					packer->origin->whole, packer->inputs),
 			 errdetail("Columns go by position: %s.", expected_columns(packer)),
 			 hint != NULL ? errhint("%s", hint) : 0));
 }
@@ -112,11 +116,11 @@ row_refuse_value(const RowPacker *packer, const uint64 *point, int column, bool 
 	const char *name = column_name(packer, column);
 	const char *hint = packer->origin->value_hint;
 
-	if (isnull && column < packer->ids)
+	if (packer->origin->by_number || (isnull && column < packer->ids))
 		ereport(ERROR,
-				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
-				 errmsg("%s is NULL in row " UINT64_FORMAT " of %s", name, packer->row,
-						packer->origin->rows_of),
+				(errcode(isnull ? ERRCODE_NULL_VALUE_NOT_ALLOWED : ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("%s is %s in row " UINT64_FORMAT " of %s", name,
+						isnull ? "NULL" : "not finite", packer->row, packer->origin->rows_of),
 				 errhint("%s", hint)));
 	ereport(ERROR,
 			(errcode(isnull ? ERRCODE_NULL_VALUE_NOT_ALLOWED : ERRCODE_INVALID_PARAMETER_VALUE),

@@ -21,15 +21,26 @@
 
 static const RowOrigin query_of_points = {
 	"the source query", "the source query", "Cast the column in the query.",
-	"Give its coordinates", "Leave such points out with a WHERE clause.", true
+	"Give its coordinates", "Leave such points out with a WHERE clause.", true,
+	"mesh", "id", "An id", NULL, false
 };
 static const RowOrigin query_of_simplices = {
 	"the source query", "the source query", "Cast the column in the query.",
-	NULL, "Leave such simplices out with a WHERE clause.", false
+	NULL, "Leave such simplices out with a WHERE clause.", false,
+	"mesh", "id", "An id", NULL, false
 };
 static const RowOrigin tracked_table = {
 	"the tracked table", "the statement", "Track other columns, generated ones for instance.",
-	"Track generated columns", "A row without a point has NULL for a coordinate.", false
+	"Track generated columns", "A row without a point has NULL for a coordinate.", false,
+	"mesh", "id", "An id", NULL, false
+};
+#define QUERY_OF_OCTANTS "the source query", "the source query", "Cast the column in the query.", \
+	"Give its coordinates", "Leave such rows out with a WHERE clause.", true, "octree"
+static const RowOrigin queries_of_octants[] = {
+	[OCTANT_LEAVES] = {QUERY_OF_OCTANTS, "code", "A code", "level", true},
+	[OCTANT_VALUES] = {QUERY_OF_OCTANTS, "code", "A code", NULL, true},
+	[OCTANT_PLACES] = {QUERY_OF_OCTANTS, "level", "A level", NULL, true},
+	[OCTANT_POINTS] = {QUERY_OF_OCTANTS, "id", "An id", NULL, false}
 };
 
 /* Whether rows have a geometry in place of coordinates. */
@@ -229,7 +240,7 @@ create(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int
 	packer->columns = packer->inputs = columns;
 	packer->takes_srid = takes_srid;
 	packer->srid = takes_srid && header->srid == 0 ? -1 : (int32) header->srid;
-	if (ids == 1 && row_packer_takes_geometry(desc))
+	if (ids == 1 && !origin->by_number && row_packer_takes_geometry(desc))
 	{
 		geometry_open(&packer->geometry, TupleDescAttr(desc, GEOMETRY_COLUMN)->atttypid,
 					  CurrentMemoryContext);
@@ -289,6 +300,20 @@ row_packer_create_simplices(TupleDesc desc, const abacus_header *header, size_t 
 {
 	return create(desc, header, &query_of_simplices, header->dimension + 1, header->dimension + 1,
 				  false, false, batch);
+}
+
+/*
+ * The same for rows of a query that are for an octree. Of leaves and values `header` says nothing
+ * but what attributes there are.
+ */
+RowPacker *
+row_packer_create_octants(TupleDesc desc, const abacus_header *header, OctantRows rows, size_t batch)
+{
+	bool		has_attributes = rows == OCTANT_LEAVES || rows == OCTANT_VALUES;
+
+	return create(desc, header, &queries_of_octants[rows], 1,
+				  1 + header->dimension + (has_attributes ? header->attributes : 0),
+				  rows == OCTANT_POINTS, true, batch);
 }
 
 void

@@ -30,7 +30,21 @@ typedef struct RowOrigin
 	const char *geometry_hint;	/* ... that is a geometry: begins a sentence, or NULL */
 	const char *value_hint;		/* ... and a row that cannot be placed */
 	bool		bare_nulls;		/* an attribute may be NULL without a cast */
+	const char *whole;			/* what the rows are for */
+	const char *id;				/* the first column */
+	const char *an_id;			/* what a value of it is */
+	const char *level;			/* the second column, if it is no coordinate */
+	bool		by_number;		/* a row is told by its number, not by its id */
 } RowOrigin;
+
+/* What rows of octants are. */
+typedef enum OctantRows
+{
+	OCTANT_LEAVES,				/* code, level, attributes */
+	OCTANT_VALUES,				/* code, attributes */
+	OCTANT_PLACES,				/* level, coordinates */
+	OCTANT_POINTS				/* id, coordinates, whatever else there is */
+} OctantRows;
 
 typedef struct RowPacker
 {
@@ -62,6 +76,8 @@ extern RowPacker *row_packer_create_tracked(TupleDesc desc, const abacus_header 
 											size_t batch);
 extern RowPacker *row_packer_create_simplices(TupleDesc desc, const abacus_header *header,
 											  size_t batch);
+extern RowPacker *row_packer_create_octants(TupleDesc desc, const abacus_header *header,
+											OctantRows rows, size_t batch);
 extern void row_packer_reset(RowPacker *packer);
 
 #endif

@@ -108,6 +108,26 @@ header_decode(Host *host, const StoredPage *row, abacus_header *header)
 	host_check(host, header_try_decode(host, row, header));
 }
 
+/* An error if the pages are of another type than the caller takes. */
+void
+header_require_type(Host *host, const abacus_header *header)
+{
+	const MeshPages *pages = mesh_pages(host);
+	const char *name = RelationGetRelationName(pages->simplices.heap);
+
+	if (pages->type == ANY_TYPE || pages->type == header->type)
+		return;
+	if (header->type == ABACUS_OCTREE)
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 errmsg("\"%s\" is an octree, not a mesh", name),
+				 errhint("Functions for octrees are abacus_octants() and those that begin with abacus_octree_.")));
+	ereport(ERROR,
+			(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+			 errmsg("\"%s\" is a mesh, not an octree", name),
+			 errhint("Octrees are made with abacus_octree_create().")));
+}
+
 /* Finds and decodes the header, which must be there; its place goes to *tid unless NULL. */
 void
 header_read(Host *host, abacus_header *header, ItemPointer tid)
@@ -125,6 +145,7 @@ header_read(Host *host, abacus_header *header, ItemPointer tid)
 	if (tid != NULL)
 		*tid = row.tid;
 	header_decode(host, &row, header);
+	header_require_type(host, header);
 }
 
 /*

@@ -19,6 +19,7 @@ extern void header_read(Host *host, abacus_header *header, ItemPointer tid);
 extern void header_rewrite(Host *host, const abacus_header *header, ItemPointer tid);
 extern void header_update(Host *host, abacus_header *header, ItemPointer tid);
 
+extern void header_require_type(Host *host, const abacus_header *header);
 extern void header_require_dimension(const abacus_header *header, uint32 dimension,
 									 const char *hint);
 extern int	header_attribute(const abacus_header *header, const char *name);

@@ -119,6 +119,7 @@ drop(Entry *entry)
 
 	entry->cached.host = NULL;
 	entry->cached.mesh = NULL;
+	entry->cached.octree = NULL;
 	entry->valid.set = false;
 	if (host != NULL)
 		host_destroy(host);
@@ -154,24 +155,44 @@ take_entry(Oid relid)
 	return oldest;
 }
 
-/* Opens the mesh's handle in a free or outdated entry. */
 static void
 open_mesh(Entry *entry, const abacus_header *header)
 {
 	Host	   *host = entry->cached.host;
 	abacus_mesh *mesh = NULL;
 
-	entry->bytes = setting_cache_bytes();
 	host_run(host, abacus_mesh_open, &host->table, header, entry->bytes, &mesh);
 	host_own(host, mesh, (void (*) (void *)) abacus_mesh_close);
 	entry->cached.mesh = mesh;
+}
+
+static void
+open_octree(Entry *entry, const abacus_header *header)
+{
+	Host	   *host = entry->cached.host;
+	abacus_octree *octree = NULL;
+
+	host_run(host, abacus_octree_open, &host->table, header, entry->bytes, &octree);
+	host_own(host, octree, (void (*) (void *)) abacus_octree_close);
+	entry->cached.octree = octree;
+}
+
+/* Opens the handle in a free or outdated entry. */
+static void
+open_handle(Entry *entry, const abacus_header *header)
+{
+	entry->bytes = setting_cache_bytes();
+	if (header->type == ABACUS_OCTREE)
+		open_octree(entry, header);
+	else
+		open_mesh(entry, header);
 	entry->cached.dimension = header->dimension;
 	entry->cached.header = *header;
 }
 
 /* Makes the entry for `relid` valid under the active snapshot. */
 static Entry *
-validate(Oid relid, Entry *entry)
+validate(Oid relid, Entry *entry, abacus_type type)
 {
 	Relation	rel;
 	abacus_header header;
@@ -196,15 +217,19 @@ validate(Oid relid, Entry *entry)
 	}
 	host = entry->cached.host;
 	host->busy = true;			/* until all went well */
+	mesh_pages(host)->type = ANY_TYPE;
 	header_read(host, &header, NULL);
 	mesh_pages_expect_moves(mesh_pages(host));
 	host->busy = true;
-	if (entry->cached.mesh == NULL || entry->stamp != header.stamp)
+	mesh_pages(host)->type = type;
+	header_require_type(host, &header);
+	if (host->handle == NULL || entry->stamp != header.stamp)
 	{
 		/* the old handle must not be found under the new stamp, whatever happens */
 		host_own(host, NULL, NULL);
 		entry->cached.mesh = NULL;
-		open_mesh(entry, &header);
+		entry->cached.octree = NULL;
+		open_handle(entry, &header);
 		entry->stamp = header.stamp;
 	}
 	entry->user = GetUserId();
@@ -217,19 +242,32 @@ validate(Oid relid, Entry *entry)
 	return entry;
 }
 
-/* The session's handle for reading a mesh as the active snapshot sees it. */
-CachedMesh *
-mesh_cache_get(Oid relid)
+/* The session's entry for reading a mesh or an octree as the active snapshot sees it. */
+static inline CachedMesh *
+get(Oid relid, abacus_type type)
 {
 	Entry	   *entry = find(relid);
 
 	if (unlikely(entry == NULL || entry->cached.host->busy || entry->user != GetUserId() ||
 				 entry->statement != GetCurrentStatementStartTimestamp() ||
 				 entry->bytes != setting_cache_bytes() ||
+				 entry->cached.header.type != type ||
 				 !same_snapshot(&entry->valid, GetActiveSnapshot())))
-		entry = validate(relid, entry);
+		entry = validate(relid, entry, type);
 	entry->last_use = ++uses;
 	return &entry->cached;
+}
+
+CachedMesh *
+mesh_cache_get(Oid relid)
+{
+	return get(relid, ABACUS_MESH);
+}
+
+CachedMesh *
+mesh_cache_get_octree(Oid relid)
+{
+	return get(relid, ABACUS_OCTREE);
 }
 
 /* What the session has of a mesh now, or NULL. */

@@ -10,9 +10,13 @@
 #include "pg/mesh/mesh.h"
 #include "pg/store/page_table.h"
 
+/* Of pages that may be of any type: those that are moved, or looked at. */
+#define ANY_TYPE UINT32_MAX
+
 typedef struct MeshPages
 {
 	Oid			mesh;
+	uint32		type;			/* an abacus_type: what the header must be of, or ANY_TYPE */
 	MeshAccess	access;
 	PageTable	simplices;
 	PageTable	vertices;		/* its OID is looked up when first needed */

@@ -10,6 +10,7 @@
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
+#include "abacus/octree.h"
 #include "pg/mesh/header.h"
 #include "pg/mesh/new_mesh.h"
 #include "pg/mesh/new_table.h"
@@ -42,7 +43,7 @@ describe_table(Oid table, const char *what, Oid type_namespace, const char *type
 }
 
 /*
- * Makes the two tables of a mesh and writes its header. CREATE TABLE runs as
+ * Makes the two tables of a mesh, or of an octree, and writes its header. CREATE TABLE runs as
  * the caller and checks what it always checks: privileges, names taken.
  * `command` names the function for messages.
  */
@@ -54,6 +55,7 @@ new_mesh(text *name, Oid extension_namespace, abacus_header *header, const char 
 	Oid			namespace;
 	Oid			mesh;
 	Oid			vertices;
+	bool		is_octree = header->type == ABACUS_OCTREE;
 	Host	   *host;
 
 	PreventCommandIfReadOnly(command);
@@ -72,14 +74,18 @@ new_mesh(text *name, Oid extension_namespace, abacus_header *header, const char 
 	create_table(namespace, vertices_name, extension_namespace, VERTEX_PAGE_TYPE, "first, part");
 	mesh = new_table_id(namespace, range->relname);
 	vertices = new_table_id(namespace, vertices_name);
-	describe_table(mesh, "pages of a mesh: see abacus_simplices()", extension_namespace,
+	describe_table(mesh, is_octree ? "pages of an octree: see abacus_octants()"
+				   : "pages of a mesh: see abacus_simplices()", extension_namespace,
 				   SIMPLEX_PAGE_TYPE);
-	describe_table(vertices, "points of a mesh that wait or are repeated: see abacus_vertices()",
+	describe_table(vertices, is_octree ? "no pages: it belongs to an octree"
+				   : "points of a mesh that wait or are repeated: see abacus_vertices()",
 				   extension_namespace, VERTEX_PAGE_TYPE);
 	mesh_bind_vertex_table(mesh, vertices);
 	CommandCounterIncrement();
 
 	host = mesh_host_create(CurrentMemoryContext, mesh, MESH_WRITE);
+	if (is_octree)
+		host_run(host, abacus_octree_root, &host->table, header);
 	header_insert(host, header);
 	host_release(host);
 	host_destroy(host);

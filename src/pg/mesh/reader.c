@@ -16,10 +16,18 @@
 Reader *
 reader_open(Oid mesh, MemoryContext memory)
 {
+	return reader_open_of(mesh, ABACUS_MESH, memory);
+}
+
+/* The same of another type, or of any. */
+Reader *
+reader_open_of(Oid mesh, uint32 type, MemoryContext memory)
+{
 	Relation	table = mesh_table_open(mesh, MESH_READ);
 	Reader	   *reader = MemoryContextAllocZero(memory, sizeof(Reader));
 
 	reader->host = mesh_host_create(memory, mesh, MESH_READ);
+	mesh_pages(reader->host)->type = type;
 	header_read(reader->host, &reader->header, NULL);
 	table_close(table, NoLock);
 	return reader;

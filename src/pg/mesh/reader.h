@@ -13,5 +13,6 @@ typedef struct Reader
 } Reader;
 
 extern Reader *reader_open(Oid mesh, MemoryContext memory);
+extern Reader *reader_open_of(Oid mesh, uint32 type, MemoryContext memory);
 
 #endif

@@ -100,8 +100,8 @@ shape_point(const abacus_header *header, ArrayType *point, const char *what, dou
 	if (count != (int) header->dimension)
 		ereport(ERROR,
 				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
-				 errmsg("%s has %d elements, but the mesh has dimension %u", what, count,
-						header->dimension)));
+				 errmsg("%s has %d elements, but the %s has dimension %u", what, count,
+						header->type == ABACUS_OCTREE ? "octree" : "mesh", header->dimension)));
 	for (int i = 0; i < count; i++)
 		values[i] = DatumGetFloat8(elements[i]);
 }

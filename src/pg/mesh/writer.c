@@ -120,12 +120,15 @@ writer_prevent_read_only(Oid mesh, const char *command)
 }
 
 static void
-begin(Writer *writer, Oid mesh, MeshAccess access, const char *command, bool in_trigger)
+begin(Writer *writer, Oid mesh, MeshAccess access, uint32 type, const char *command,
+	  bool in_trigger)
 {
 	writer_prevent_read_only(mesh, command);
 	PreventCommandIfParallelMode(command);
 
 	writer->host = mesh_host_create(CurrentMemoryContext, mesh, access);
+	if (access != MESH_MOVE)
+		mesh_pages(writer->host)->type = type;
 	writer->header = MemoryContextAlloc(writer->host->home, sizeof(abacus_header));
 	open_and_lock(writer, in_trigger);
 	progress_begin(&writer->host->progress, mesh);
@@ -139,7 +142,14 @@ begin(Writer *writer, Oid mesh, MeshAccess access, const char *command, bool in_
 void
 writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command)
 {
-	begin(writer, mesh, access, command, false);
+	begin(writer, mesh, access, ABACUS_MESH, command, false);
+}
+
+/* The same of another type, or of any, for changing. */
+void
+writer_begin_of(Writer *writer, Oid mesh, uint32 type, const char *command)
+{
+	begin(writer, mesh, MESH_WRITE, type, command, false);
 }
 
 /*
@@ -149,7 +159,7 @@ writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command)
 void
 writer_begin_in_trigger(Writer *writer, Oid mesh, const char *command)
 {
-	begin(writer, mesh, MESH_WRITE, command, true);
+	begin(writer, mesh, MESH_WRITE, ABACUS_MESH, command, true);
 }
 
 /*

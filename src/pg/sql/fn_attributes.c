@@ -1,9 +1,9 @@
 /*
  * fn_attributes.c: abacus_attributes and abacus_rename_attribute, the attributes
- * of a mesh and their names.
+ * of a mesh or an octree and their names.
  *
- * The names are in the header. The values are only in the points, so all points are
- * read.
+ * The names are in the header. The values are only in the points or the leaves, so all of these
+ * are read.
  */
 #include "postgres.h"
 
@@ -12,6 +12,7 @@
 #include "funcapi.h"
 #include "utils/builtins.h"
 
+#include "abacus/octree.h"
 #include "abacus/read.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
@@ -73,6 +74,26 @@ read_values(Reader *reader, Values *values)
 			count_value(&values[i], vertex.attributes[i]);
 }
 
+/* The same of an octree: reads all leaves. */
+static void
+read_octree_values(Reader *reader, Values *values)
+{
+	Host	   *host = reader->host;
+	uint32		attributes = reader->header.attributes;
+	abacus_window all = {0};
+	abacus_octree_scan *scan = NULL;
+	abacus_octant octant;
+
+	for (uint32 i = 0; i < attributes; i++)
+		values[i] = (Values) {NAN, NAN, 0};
+	host_run(host, abacus_octree_scan_open, &host->table, &reader->header, &all,
+			 setting_cache_bytes(), &scan);
+	host_own(host, scan, (void (*) (void *)) abacus_octree_scan_close);
+	while (host_run(host, abacus_octree_scan_next, scan, &octant) == ABACUS_OK)
+		for (uint32 i = 0; i < attributes; i++)
+			count_value(&values[i], octant.values[i]);
+}
+
 /* abacus_attributes(mesh regclass) -> position, name, least, greatest, nulls */
 Datum
 abacus_sql_attributes(PG_FUNCTION_ARGS)
@@ -82,9 +103,11 @@ abacus_sql_attributes(PG_FUNCTION_ARGS)
 	Values	   *all;
 
 	InitMaterializedSRF(fcinfo, 0);
-	reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
+	reader = reader_open_of(PG_GETARG_OID(0), ANY_TYPE, CurrentMemoryContext);
 	all = palloc(Max(1, reader->header.attributes) * sizeof(Values));
-	if (reader->header.attributes > 0)
+	if (reader->header.attributes > 0 && reader->header.type == ABACUS_OCTREE)
+		read_octree_values(reader, all);
+	else if (reader->header.attributes > 0)
 		read_values(reader, all);
 	for (uint32 i = 0; i < reader->header.attributes; i++)
 	{
@@ -115,7 +138,7 @@ abacus_sql_rename_attribute(PG_FUNCTION_ARGS)
 	int			number;
 
 	shape_check_name(name);
-	writer_begin(&writer, PG_GETARG_OID(0), MESH_WRITE, "abacus_rename_attribute()");
+	writer_begin_of(&writer, PG_GETARG_OID(0), ANY_TYPE, "abacus_rename_attribute()");
 	header = writer.header;
 	number = header_find_attribute(header, attribute);
 	if (header_attribute(header, name) >= 0)

@@ -100,6 +100,7 @@ begin_check(Oid mesh, int32 limit, MemoryContext memory)
 	abacus_header header;
 
 	checking->host = mesh_host_create(memory, mesh, MESH_READ);
+	mesh_pages(checking->host)->type = ANY_TYPE;
 	if (read_header(checking, &header))
 	{
 		look_before_pages(checking);

@@ -32,6 +32,7 @@ SQL_FUNCTION(abacus_sql_simplices_rows);
 SQL_FUNCTION(abacus_sql_vertices_rows);
 SQL_FUNCTION(abacus_sql_nearest_rows);
 SQL_FUNCTION(abacus_sql_window_rows);
+SQL_FUNCTION(abacus_sql_octant_rows);
 SQL_FUNCTION(abacus_sql_range_rows);
 SQL_FUNCTION(abacus_sql_surface_rows);
 SQL_FUNCTION(abacus_sql_line_rows);
@@ -40,6 +41,8 @@ SQL_FUNCTION(abacus_sql_contours_rows);
 
 /* Of fresh builds of uniform points, in the plane and in space (docs/benchmarks.md). */
 #define BYTES_PER_SIMPLEX 12.0
+/* Of octrees without attributes. */
+#define BYTES_PER_LEAF 0.5
 /* In the plane, by Euler's relation; in space it is 6.7 or so. */
 #define SIMPLICES_PER_VERTEX 2.0
 /* Of one that waits to be inserted, without attributes. */
@@ -175,6 +178,24 @@ abacus_sql_window_rows(PG_FUNCTION_ARGS)
 		PG_RETURN_POINTER(NULL);
 	is_whole = is_null_argument(request, 1) && is_null_argument(request, 2);
 	return estimate(fcinfo, is_whole ? 1 : DEFAULT_RANGE_INEQ_SEL, false);
+}
+
+/*
+ * abacus_octant_rows(internal) -> internal, for leaves of an octree, all or those of a window, and
+ * for its nodes and elements.
+ */
+Datum
+abacus_sql_octant_rows(PG_FUNCTION_ARGS)
+{
+	SupportRequestRows *request = (SupportRequestRows *) PG_GETARG_POINTER(0);
+	bool		is_whole;
+
+	if (!IsA(request, SupportRequestRows) || !is_funcclause(request->node))
+		PG_RETURN_POINTER(NULL);
+	is_whole = list_length(((FuncExpr *) request->node)->args) < 3 ||
+		(is_null_argument(request, 1) && is_null_argument(request, 2));
+	return estimate(fcinfo, (is_whole ? 1 : DEFAULT_RANGE_INEQ_SEL) *
+					BYTES_PER_SIMPLEX / BYTES_PER_LEAF, false);
 }
 
 /*

@@ -11,6 +11,7 @@
 #include "utils/fmgrprotos.h"
 #include "utils/lsyscache.h"
 
+#include "abacus/octree.h"
 #include "abacus/read.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
@@ -106,6 +107,29 @@ put_delaunay(Figures *figures, abacus_delaunay delaunay)
 }
 
 static void
+put_octree_counts(Figures *figures, const abacus_header *header)
+{
+	put_figure(figures, "dimension", header->dimension, "2 for a quadtree, 3 for an octree");
+	put_figure(figures, "attributes", header->attributes, "attributes of a leaf");
+	put_figure(figures, "levels", header->levels, "the finest level that a leaf may have");
+	put_figure(figures, "leaves", (double) header->leaves, "leaves of the octree");
+}
+
+/* Its table has octants where that of a mesh has simplices. */
+static void
+put_octree_sizes(Figures *figures, const Reader *reader)
+{
+	Oid			octree = mesh_pages(reader->host)->mesh;
+	double		table = bytes_of(pg_table_size, octree);
+	double		index = bytes_of(pg_indexes_size, octree);
+
+	put_figure(figures, "octant_table_bytes", table, "size of the table of octants");
+	put_figure(figures, "octant_index_bytes", index, "size of its page index");
+	put_figure(figures, "bytes_per_leaf", (table + index) / reader->header.leaves,
+			   "table of octants and index, per leaf");
+}
+
+static void
 put_counts(Figures *figures, const abacus_header *header)
 {
 	double		inserted = (double) header->vertices + (double) header->duplicates;
@@ -160,21 +184,34 @@ abacus_sql_stats(PG_FUNCTION_ARGS)
 {
 	Oid			mesh = PG_GETARG_OID(0);
 	Figures		figures = {(ReturnSetInfo *) fcinfo->resultinfo, ""};
-	Reader	   *reader = reader_open(mesh, CurrentMemoryContext);
+	Reader	   *reader = reader_open_of(mesh, ANY_TYPE, CurrentMemoryContext);
+	bool		is_octree = reader->header.type == ABACUS_OCTREE;
 	Oid			vertices = mesh_pages_vertex_table(mesh_pages(reader->host));
 	const CachedMesh *cached = mesh_cache_peek(mesh);
 
-	report_domain(reader);
+	if (!is_octree)
+		report_domain(reader);
 	host_release(reader->host);
 	InitMaterializedSRF(fcinfo, 0);
-	put_counts(&figures, &reader->header);
-	put_sizes(&figures, reader, vertices);
+	if (is_octree)
+	{
+		put_octree_counts(&figures, &reader->header);
+		put_octree_sizes(&figures, reader);
+	}
+	else
+	{
+		put_counts(&figures, &reader->header);
+		put_sizes(&figures, reader, vertices);
+	}
 	put_counters(&figures, &reader->header.counters, false);
 	if (cached != NULL)
 	{
 		abacus_counters counters;
 
-		abacus_mesh_counters(cached->mesh, &counters);
+		if (cached->octree != NULL)
+			abacus_octree_counters(cached->octree, &counters);
+		else
+			abacus_mesh_counters(cached->mesh, &counters);
 		figures.prefix = "session_";
 		put_counters(&figures, &counters, true);
 	}

@@ -14,8 +14,16 @@ Reader *
 set_begin(FunctionCallInfo fcinfo, FuncCallContext *set,
 		  TupleDesc (*row_type) (FunctionCallInfo fcinfo))
 {
+	return set_begin_of(fcinfo, set, ABACUS_MESH, row_type);
+}
+
+/* The same of what is of another type. */
+Reader *
+set_begin_of(FunctionCallInfo fcinfo, FuncCallContext *set, uint32 type,
+			 TupleDesc (*row_type) (FunctionCallInfo fcinfo))
+{
 	MemoryContext old = MemoryContextSwitchTo(set->multi_call_memory_ctx);
-	Reader	   *reader = reader_open(PG_GETARG_OID(0), set->multi_call_memory_ctx);
+	Reader	   *reader = reader_open_of(PG_GETARG_OID(0), type, set->multi_call_memory_ctx);
 
 	set->tuple_desc = row_type(fcinfo);
 	set->user_fctx = reader;

@@ -10,4 +10,7 @@
 extern Reader *set_begin(FunctionCallInfo fcinfo, FuncCallContext *set,
 						 TupleDesc (*row_type) (FunctionCallInfo fcinfo));
 
+extern Reader *set_begin_of(FunctionCallInfo fcinfo, FuncCallContext *set, uint32 type,
+							TupleDesc (*row_type) (FunctionCallInfo fcinfo));
+
 #endif

@@ -1,0 +1,140 @@
+-- Quadtrees and octrees.
+
+CREATE TYPE abacus_octant AS (code bigint, level integer, lower double precision[], upper double precision[], attributes double precision[]);
+COMMENT ON TYPE abacus_octant IS 'leaf of a quadtree or an octree: a box with its lower sides and without its upper ones';
+COMMENT ON COLUMN abacus_octant.code IS 'Morton code of its lower corner on the grid of the finest level';
+COMMENT ON COLUMN abacus_octant.level IS 'how often the domain was halved: 0 is all of it';
+COMMENT ON COLUMN abacus_octant.lower IS 'its lower corner';
+COMMENT ON COLUMN abacus_octant.upper IS 'its upper corner';
+COMMENT ON COLUMN abacus_octant.attributes IS 'its attributes, in the order in which the octree was made with them';
+
+CREATE FUNCTION abacus_octree_create(
+    octree text,
+    dimension integer,
+    lower double precision[],
+    upper double precision[],
+    attributes text[] DEFAULT '{}',
+    levels integer DEFAULT NULL)
+RETURNS regclass
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_create'
+LANGUAGE C VOLATILE PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_octree_create(text, integer, double precision[], double precision[], text[], integer) IS
+    'makes a quadtree (dimension 2) or an octree (3) over a domain, with one leaf; levels: the finest that a leaf may have';
+
+CREATE FUNCTION abacus_octree_from_points(octree regclass, query text, most_in_leaf integer)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_from_points'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_octree_from_points(regclass, text, integer) IS
+    'splits leaves until none has more than so many points of a query (id, x, y[, z]); returns the number of leaves';
+
+CREATE FUNCTION abacus_octree_from_size(octree regclass, query text)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_from_size'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_octree_from_size(regclass, text) IS
+    'splits leaves that are longer than a query says: it gets the centers of many as arrays $1, $2[, $3] and returns an array of sizes; returns the number of leaves';
+
+CREATE FUNCTION abacus_octree_from_rows(octree regclass, query text)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_from_rows'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_octree_from_rows(regclass, text) IS
+    'loads a linear octree, leaf by leaf (code, level[, attribute...]), into a new octree; returns the number of leaves';
+
+CREATE FUNCTION abacus_octree_refine(octree regclass, query text)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_refine'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_octree_refine(regclass, text) IS
+    'splits leaves until those at the places of a query (level, x, y[, z]) are of these levels or finer; returns the number of leaves';
+
+CREATE FUNCTION abacus_octree_coarsen(octree regclass, query text)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_coarsen'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_octree_coarsen(regclass, text) IS
+    'merges leaves until those at the places of a query (level, x, y[, z]) are of these levels or coarser; returns the number of leaves';
+
+CREATE FUNCTION abacus_octree_update(octree regclass, query text)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_update'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_octree_update(regclass, text) IS
+    'gives leaves attributes: rows (code, attribute...) of a query; returns how many leaves there were';
+
+CREATE FUNCTION abacus_octree_balance(octree regclass, across text DEFAULT 'corners')
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_balance'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_octree_balance(regclass, text) IS
+    'splits leaves, as few as can be, until those that touch across faces, edges or corners differ by one level at most; returns the number of leaves';
+
+CREATE FUNCTION abacus_octant_rows(internal) RETURNS internal
+AS 'MODULE_PATHNAME', 'abacus_sql_octant_rows'
+LANGUAGE C STRICT;
+COMMENT ON FUNCTION abacus_octant_rows(internal) IS 'planner support of functions that return leaves of an octree';
+
+CREATE FUNCTION abacus_octree_locate(octree regclass, x double precision, y double precision)
+RETURNS abacus_octant
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_locate'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100;
+COMMENT ON FUNCTION abacus_octree_locate(regclass, double precision, double precision) IS
+    'the leaf of a quadtree that has a place; NULL outside the domain';
+
+CREATE FUNCTION abacus_octree_locate(octree regclass, x double precision, y double precision, z double precision)
+RETURNS abacus_octant
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_locate'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100;
+COMMENT ON FUNCTION abacus_octree_locate(regclass, double precision, double precision, double precision) IS
+    'the leaf of an octree that has a place; NULL outside the domain';
+
+CREATE FUNCTION abacus_octants(
+    octree regclass,
+    lower double precision[] DEFAULT NULL,
+    upper double precision[] DEFAULT NULL)
+RETURNS SETOF abacus_octant
+AS 'MODULE_PATHNAME', 'abacus_sql_octants'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 100000 SUPPORT abacus_octant_rows;
+COMMENT ON FUNCTION abacus_octants(regclass, double precision[], double precision[]) IS
+    'the leaves of an octree, or those that meet a window, along the curve';
+
+CREATE FUNCTION abacus_octree_neighbours(
+    octree regclass,
+    octant bigint,
+    OUT axis integer,
+    OUT side integer,
+    OUT code bigint,
+    OUT level integer,
+    OUT lower double precision[],
+    OUT upper double precision[],
+    OUT attributes double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_neighbours'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 6;
+COMMENT ON FUNCTION abacus_octree_neighbours(regclass, bigint) IS
+    'the leaves that share a piece of a face with a leaf, given by its code: axis 1, 2 or 3, side -1 (below) or 1 (above)';
+
+CREATE FUNCTION abacus_octree_nodes(
+    octree regclass,
+    OUT node bigint,
+    OUT point double precision[],
+    OUT anchors bigint[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_nodes'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 100000 SUPPORT abacus_octant_rows;
+COMMENT ON FUNCTION abacus_octree_nodes(regclass) IS
+    'the corners of the leaves of a balanced octree, numbered from 0 along the curve; anchors: of one that hangs the 2 or 4 nodes that it lies in the middle of';
+
+CREATE FUNCTION abacus_octree_elements(
+    octree regclass,
+    OUT element bigint,
+    OUT nodes bigint[],
+    OUT code bigint,
+    OUT level integer,
+    OUT attributes double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_elements'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 100000 SUPPORT abacus_octant_rows;
+COMMENT ON FUNCTION abacus_octree_elements(regclass) IS
+    'the leaves of an octree, numbered from 0 along the curve, by the numbers of their 4 or 8 corners, x fastest';

@@ -1,0 +1,62 @@
+// Changes of an octree as a whole: each says which octants are to be split, and grow() rewrites the
+// pages in which leaves are.
+#pragma once
+
+#include "octree/balance.hpp"
+#include "octree/grid.hpp"
+#include "octree/leaf_scan.hpp"
+#include "octree/leaf_writer.hpp"
+
+#include <abacus/octree.h>
+
+namespace abacus {
+
+/// Writes the one leaf of a new octree, without attributes.
+template <int D> void create_root(const Host &host, abacus_header &header);
+
+/// Grows an octree until it is the least one that serves what it is told, and no leaf is lost that
+/// there was. A leaf that is split leaves its attributes to its children.
+template <int D> class Growth {
+public:
+    Growth(const Host &host, const abacus_header &header, std::size_t memory)
+        : host_(host), memory_(memory), levels_(static_cast<int>(header.levels)), header_(header),
+          grid_(header), places_(host, 2, 2, memory / 2) {}
+
+    /// A place, and the coarsest level of the leaf that has it. Throws Error (argument) outside the
+    /// domain and for a level that no leaf may have.
+    void add(const Point<D> &place, std::int64_t level = 0);
+
+    /// The levels hold for the places that were added.
+    void to_levels(abacus_header &header);
+    /// At most so many of the places that were added in a leaf, unless it is as fine as may be.
+    void to_points(std::uint64_t most, abacus_header &header);
+    /// Leaves are no longer than `sizes` tells; see abacus_octree_sizes.
+    void to_sizes(abacus_octree_sizes sizes, void *context, abacus_header &header);
+    /// Neighbours across faces (1), edges (2) and corners (D) differ by a level at most.
+    void to_balance(int across, abacus_header &header);
+
+private:
+    /// With fewer places pages are changed one by one, so that a small change of a large octree is
+    /// cheap; with more, it is cheaper to read them all in order.
+    static constexpr std::uint64_t leaves_a_place = 256;
+
+    struct Asker;
+
+    /// Splits the leaves at the places through a cache.
+    void split_in_place(abacus_header &header);
+    /// What is split in the octree as it is, rewound.
+    void read(SplitOctants<D> &octants);
+    /// Grows the octree by a set, which is closed.
+    void grow(SplitOctants<D> &wanted, abacus_header &header);
+    /// The leaves are those of a rewound set that has all that are split now; closes it.
+    void rewrite(SplitOctants<D> &octants, abacus_header &header);
+
+    const Host &host_;
+    const std::size_t memory_;
+    const int levels_;
+    const abacus_header header_;
+    Grid<D> grid_;
+    RecordSort places_; // code, level
+};
+
+} // namespace abacus

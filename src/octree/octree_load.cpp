@@ -1,0 +1,70 @@
+#include "octree/octree_load.hpp"
+
+#include "octree/outside.hpp"
+
+#include <cstring>
+#include <string>
+
+namespace abacus {
+namespace {
+
+[[noreturn]] void refuse(const std::string &detail) {
+    throw Error(ABACUS_ERROR_ARGUMENT, "the octants do not tile the domain", detail);
+}
+
+std::string row(std::uint64_t number) { return "row " + std::to_string(number); }
+
+} // namespace
+
+template <int D>
+void OctreeLoad<D>::add(std::uint64_t code, std::int64_t level, const double *values) {
+    const std::uint64_t number = leaves_.size() + 1;
+    if (level < 0 || level > static_cast<std::int64_t>(header_.levels))
+        throw_no_level(level, static_cast<int>(header_.levels));
+    const Octant<D> leaf{code, static_cast<int>(level)};
+    if (code >= domain_cells<D> || !leaf.is_aligned())
+        throw Error(ABACUS_ERROR_ARGUMENT,
+                    "no octant of level " + std::to_string(level) + " has the code " +
+                        std::to_string(static_cast<std::int64_t>(code)),
+                    "It is in " + row(number) + ".");
+    std::uint64_t *const record = leaves_.add();
+    record[0] = code;
+    record[1] = static_cast<std::uint64_t>(level);
+    record[2] = number;
+    std::memcpy(record + 3, values, header_.attributes * sizeof *values);
+}
+
+template <int D> void OctreeLoad<D>::write(abacus_header &header) {
+    LeafScan<D> before(host_, header_);
+    if (header_.leaves != 1 || !before.next_page())
+        throw Error(ABACUS_ERROR_STATE, "the octree has leaves already",
+                    "Rows are loaded into a new octree.");
+    LeafWriter<D> writer(host_, header_);
+    writer.begin(0, before.location());
+    leaves_.finish();
+    std::uint64_t end = 0, last = 0, n = 0;
+    while (const std::uint64_t *record = leaves_.next()) {
+        const Octant<D> leaf{record[0], static_cast<int>(record[1])};
+        if (leaf.code < end)
+            refuse("The octant of " + row(record[2]) + " overlaps that of " + row(last) + ".");
+        if (leaf.code > end)
+            refuse("There is a gap before the octant of " + row(record[2]) +
+                   (n == 0 ? "." : ", behind that of " + row(last) + "."));
+        writer.add(leaf, reinterpret_cast<const double *>(record + 3), true);
+        end = leaf.end();
+        last = record[2];
+        ++n;
+    }
+    if (n == 0) refuse("There are none.");
+    if (end != domain_cells<D>) refuse("There is a gap behind the octant of " + row(last) + ".");
+    leaves_.close();
+    writer.end(key_word_end);
+    header.leaves = n;
+    header.counters.stores += writer.pages();
+    header.counters.bytes_written += writer.bytes();
+}
+
+template class OctreeLoad<2>;
+template class OctreeLoad<3>;
+
+} // namespace abacus

@@ -1,0 +1,150 @@
+/*
+ * fn_octree_read.c: leaves of octrees: at a place, of a window, beside a leaf.
+ */
+#include "postgres.h"
+
+#include "funcapi.h"
+
+#include "abacus/octree.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
+#include "pg/mesh/mesh_cache.h"
+#include "pg/sql/answers.h"
+#include "pg/sql/octant_row.h"
+#include "pg/sql/place.h"
+#include "pg/sql/result.h"
+#include "pg/sql/set.h"
+#include "pg/sql/window.h"
+
+SQL_FUNCTION(abacus_sql_octree_locate);
+SQL_FUNCTION(abacus_sql_octree_neighbours);
+SQL_FUNCTION(abacus_sql_octants);
+
+/* The row type of a function that is called for many rows, looked up once. */
+static TupleDesc
+kept_row_type(FunctionCallInfo fcinfo)
+{
+	FmgrInfo   *function = fcinfo->flinfo;
+
+	if (function->fn_extra == NULL)
+	{
+		MemoryContext old = MemoryContextSwitchTo(function->fn_mcxt);
+
+		function->fn_extra = result_row_type(fcinfo);
+		MemoryContextSwitchTo(old);
+	}
+	return function->fn_extra;
+}
+
+/* An error unless there are as many coordinates as the octree has dimensions. */
+static void
+check_coordinates(int given, uint32 dimension)
+{
+	if (given != (int) dimension)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("z is %s, but the octree has dimension %u",
+						dimension == 2 ? "given" : "missing", dimension),
+				 dimension == 2 ? errhint("Leave z out.")
+				 : errhint("Give all three coordinates of the place.")));
+}
+
+/* abacus_octree_locate(octree regclass, x float8, y float8[, z float8]) -> abacus_octant */
+Datum
+abacus_sql_octree_locate(PG_FUNCTION_ARGS)
+{
+	double		place[ABACUS_MAX_DIMENSION];
+	CachedMesh *cached = mesh_cache_get_octree(PG_GETARG_OID(0));
+	Host	   *host = cached->host;
+	abacus_octant octant;
+	abacus_status status;
+
+	check_coordinates(PG_NARGS() - 1, cached->dimension);
+	if (!place_arguments(fcinfo, PG_NARGS() - 1, cached->dimension, place))
+		PG_RETURN_NULL();		/* outside of any domain */
+	status = host_run(host, abacus_octree_locate, cached->octree, place, &octant);
+	host_release(host);
+	if (status == ABACUS_END)
+		PG_RETURN_NULL();
+	PG_RETURN_DATUM(octant_row(kept_row_type(fcinfo), &octant, &cached->header));
+}
+
+/* What the report of a neighbour needs. */
+typedef struct Neighbours
+{
+	Answers		answers;
+	const abacus_header *header;
+} Neighbours;
+
+/* Adds a neighbour; called by the core. */
+static abacus_host_status
+put_neighbour(void *context, int32_t axis, int32_t side, const abacus_octant *octant)
+{
+	Neighbours *neighbours = context;
+	Datum		values[2 + OCTANT_COLUMNS];
+	bool		isnull[2 + OCTANT_COLUMNS] = {false};
+
+	values[0] = Int32GetDatum(axis + 1);
+	values[1] = Int32GetDatum(side);
+	octant_columns(octant, neighbours->header, values + 2);
+	return answers_put(&neighbours->answers, values, isnull);
+}
+
+/*
+ * abacus_octree_neighbours(octree regclass, code bigint)
+ *     -> axis, side, code, level, lower, upper, attributes
+ */
+Datum
+abacus_sql_octree_neighbours(PG_FUNCTION_ARGS)
+{
+	Neighbours	neighbours = {.answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo}};
+	CachedMesh *cached;
+
+	InitMaterializedSRF(fcinfo, 0);
+	cached = mesh_cache_get_octree(PG_GETARG_OID(0));
+	neighbours.answers.host = cached->host;
+	neighbours.header = &cached->header;
+	host_run(cached->host, abacus_octree_neighbours, cached->octree,
+			 (uint64) PG_GETARG_INT64(1), put_neighbour, &neighbours);
+	host_release(cached->host);
+	PG_RETURN_NULL();
+}
+
+static void
+begin_octants(FunctionCallInfo fcinfo, FuncCallContext *set)
+{
+	Reader	   *reader = set_begin_of(fcinfo, set, ABACUS_OCTREE, result_row_type);
+	Host	   *host = reader->host;
+	abacus_window window = {0};
+	abacus_octree_scan *scan = NULL;
+
+	window_arguments(fcinfo, 1, WINDOW_BOX, &reader->header, &window);
+	host_run(host, abacus_octree_scan_open, &host->table, &reader->header, &window,
+			 setting_cache_bytes(), &scan);
+	host_own(host, scan, (void (*) (void *)) abacus_octree_scan_close);
+}
+
+/* abacus_octants(octree regclass, lower float8[], upper float8[]) -> SETOF abacus_octant */
+Datum
+abacus_sql_octants(PG_FUNCTION_ARGS)
+{
+	FuncCallContext *set;
+	Reader	   *reader;
+	abacus_octant octant;
+	abacus_status status;
+
+	if (SRF_IS_FIRSTCALL())
+	{
+		set = SRF_FIRSTCALL_INIT();
+		if (PG_ARGISNULL(0))
+			SRF_RETURN_DONE(set);
+		begin_octants(fcinfo, set);
+	}
+	set = SRF_PERCALL_SETUP();
+	reader = set->user_fctx;
+	status = host_run(reader->host, abacus_octree_scan_next, reader->host->handle, &octant);
+	host_release(reader->host);
+	if (status == ABACUS_END)
+		SRF_RETURN_DONE(set);
+	SRF_RETURN_NEXT(set, octant_row(set->tuple_desc, &octant, &reader->header));
+}

@@ -1,0 +1,26 @@
+/*
+ * octant_row.h: rows of octants.
+ */
+#ifndef ABACUS_OCTANT_ROW_H
+#define ABACUS_OCTANT_ROW_H
+
+#include "access/tupdesc.h"
+
+#include "abacus/octree.h"
+
+/* Columns of the composite type abacus_octant */
+enum
+{
+	OCTANT_CODE,
+	OCTANT_LEVEL,
+	OCTANT_LOWER,
+	OCTANT_UPPER,
+	OCTANT_ATTRIBUTES,
+	OCTANT_COLUMNS
+};
+
+extern void octant_columns(const abacus_octant *octant, const abacus_header *header, Datum *values);
+extern Datum octant_row(TupleDesc row_type, const abacus_octant *octant,
+						const abacus_header *header);
+
+#endif

@@ -1,0 +1,446 @@
+// Octrees against a model in memory: growth, balance, places, windows, neighbours, edits.
+#include "octree/octree_check.hpp"
+#include "octree/octree_edit.hpp"
+#include "octree/octree_load.hpp"
+#include "support/octree_model.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace abacus::test {
+namespace {
+
+template <class T> class Octrees : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Octrees, Dimensions);
+
+template <int D> void expect_sound(const StoredOctree<D> &octree) {
+    const Host h = octree.host->host();
+    OctreeCheck<D> check(h, octree.header, 0, 10);
+    abacus_fault fault;
+    while (check.next(fault)) ADD_FAILURE() << fault.kind << ": " << fault.message;
+    EXPECT_THAT(octree.host->violations, testing::IsEmpty());
+}
+
+TYPED_TEST(Octrees, octants_are_arithmetic) {
+    constexpr int D = TypeParam::value;
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 10000; ++i) {
+        const std::uint64_t cell = random() % domain_cells<D>, other = random() % domain_cells<D>;
+        const int level = static_cast<int>(random() % finest_level<D>);
+        const auto octant = Octant<D>{cell, finest_level<D>}.ancestor(level);
+        ASSERT_EQ(morton<D>(octant.cell()), octant.code);
+        ASSERT_TRUE(octant.contains(cell) && octant.is_aligned());
+        const int child = static_cast<int>(random() % Octant<D>::children);
+        ASSERT_EQ(octant.child(child).parent(), octant);
+        ASSERT_EQ(octant.child(child).number(), child);
+        int common = 0;
+        while (common < finest_level<D> &&
+               Octant<D>{cell, finest_level<D>}.ancestor(common + 1).contains(other))
+            ++common;
+        ASSERT_EQ(nearest_common<D>(cell, other).level, common);
+    }
+}
+
+TYPED_TEST(Octrees, are_grown_to_levels) {
+    constexpr int D = TypeParam::value;
+    std::mt19937_64 random(2);
+    for (const int n : {0, 1, 20, 500}) {
+        StoredOctree<D> octree;
+        OctreeModel<D> model;
+        for (int round = 0; round < 3; ++round) {
+            const auto cells = random_cells<D>(random, n, round == 2 ? finest_level<D> : 6);
+            octree.split_to(cells);
+            for (const auto &[cell, level] : cells) model.split_to(cell, level);
+            ASSERT_EQ(octree.list(), model.list());
+            ASSERT_EQ(octree.header.leaves, model.leaves.size());
+            expect_sound(octree);
+        }
+    }
+}
+
+TYPED_TEST(Octrees, are_balanced_as_little_as_can_be) {
+    constexpr int D = TypeParam::value;
+    std::mt19937_64 random(3);
+    for (int across = 1; across <= D; ++across)
+        for (const int kind : {0, 1, 2, 3}) {
+            StoredOctree<D> octree;
+            OctreeModel<D> model;
+            auto cells = random_cells<D>(random, kind == 0 ? 30 : 2, kind == 0 ? 7 : 12);
+            // One deep corner: by the middle of the domain, and by a corner of it.
+            if (kind == 2) cells = {{domain_cells<D> / 2 - 1, finest_level<D>}};
+            if (kind == 3) cells = {{0, finest_level<D>}, {domain_cells<D> - 1, 9}};
+            octree.split_to(cells);
+            for (const auto &[cell, level] : cells) model.split_to(cell, level);
+            octree.balance(across);
+            model.balance(across);
+            ASSERT_EQ(octree.list(), model.list()) << across << ' ' << kind;
+            ASSERT_EQ(octree.header.leaves, model.leaves.size());
+            expect_sound(octree);
+        }
+}
+
+TYPED_TEST(Octrees, hold_so_many_points_in_a_leaf) {
+    constexpr int D = TypeParam::value;
+    std::mt19937_64 random(4);
+    for (const std::uint64_t most : {1, 3, 40}) {
+        StoredOctree<D> octree;
+        octree.header.levels = 12;
+        OctreeModel<D> model;
+        std::vector<std::uint64_t> cells;
+        for (int i = 0; i < 2000; ++i)
+            cells.push_back(random() % (domain_cells<D> >> (random() % 40)));
+        cells.resize(2100, cells[0]); // the same place, again and again
+        const Host h = octree.host->host();
+        Growth<D> growth(h, octree.header, StoredOctree<D>::memory);
+        for (const std::uint64_t cell : cells) growth.add(octree.place(cell));
+        growth.to_points(most, octree.header);
+        for (bool done = false; !done;) {
+            done = true;
+            std::map<std::uint64_t, std::uint64_t> points;
+            for (const std::uint64_t cell : cells) ++points[model.find(cell).code];
+            for (const auto &[code, n] : points)
+                if (n > most && model.find(code).level < 12) {
+                    model.split(model.find(code));
+                    done = false;
+                }
+        }
+        ASSERT_EQ(octree.list(), model.list());
+        expect_sound(octree);
+    }
+}
+
+struct Ball {
+    std::uint64_t asked = 0;
+};
+
+template <int D>
+abacus_host_status size_near_center(void *context, std::size_t count, const double *const *centers,
+                                    const double *, double *sizes) {
+    static_cast<Ball *>(context)->asked += count;
+    for (std::size_t k = 0; k < count; ++k) {
+        double square = 0;
+        for (int i = 0; i < D; ++i) square += (centers[i][k] - 0.3) * (centers[i][k] - 0.3);
+        sizes[k] = 0.02 + std::sqrt(square) / 3;
+    }
+    return ABACUS_HOST_OK;
+}
+
+TYPED_TEST(Octrees, are_as_fine_as_a_function_tells) {
+    constexpr int D = TypeParam::value;
+    std::mt19937_64 random(5);
+    StoredOctree<D> octree;
+    OctreeModel<D> model;
+    const auto cells = random_cells<D>(random, 20, 4);
+    octree.split_to(cells);
+    for (const auto &[cell, level] : cells) model.split_to(cell, level);
+    const Host h = octree.host->host();
+    Ball ball;
+    Growth<D>(h, octree.header, StoredOctree<D>::memory)
+        .to_sizes(size_near_center<D>, &ball, octree.header);
+    for (bool done = false; !done;) {
+        done = true;
+        for (const Octant<D> &leaf : model.list()) {
+            const Point<D> center = Grid<D>(octree.header).center(leaf);
+            const double *centers[D];
+            for (int i = 0; i < D; ++i) centers[i] = &center[i];
+            double size;
+            Ball ignored;
+            size_near_center<D>(&ignored, 1, centers, nullptr, &size);
+            if (std::ldexp(1.0, -leaf.level) <= size) continue;
+            model.split(leaf);
+            done = false;
+        }
+    }
+    ASSERT_EQ(octree.list(), model.list());
+    EXPECT_GT(ball.asked, model.leaves.size() / 2);
+    expect_sound(octree);
+}
+
+/// An octree of some ten thousand leaves with an attribute, its own code, on several pages.
+template <int D> struct Coded : StoredOctree<D> {
+    OctreeModel<D> model;
+    std::mt19937_64 random{6};
+
+    Coded() : StoredOctree<D>(2) {
+        const auto cells = random_cells<D>(random, 3000, D == 2 ? 10 : 7);
+        this->split_to(cells);
+        for (const auto &[cell, level] : cells) model.split_to(cell, level);
+        const Host h = this->host->host();
+        OctreeEdit<D> edit(h, this->header, this->memory, std::size_t{1} << 20);
+        for (const auto &[code, level] : model.leaves) {
+            const double values[2] = {static_cast<double>(code >> 12), level + 0.1};
+            edit.set_at(code, values);
+        }
+        EXPECT_EQ(edit.set(this->header), model.leaves.size());
+        EXPECT_GT(this->host->pages.size(), 5u);
+    }
+};
+
+TYPED_TEST(Octrees, locate_and_keep_attributes) {
+    constexpr int D = TypeParam::value;
+    Coded<D> octree;
+    const Host h = octree.host->host();
+    for (const std::size_t budget : {std::size_t{1}, std::size_t{1} << 22}) {
+        OctreeReader<D> reader(h, octree.header, budget);
+        for (int i = 0; i < 2000; ++i) {
+            const std::uint64_t cell = octree.random() % domain_cells<D>;
+            const Handle found = reader.locate(octree.place(cell));
+            const Octant<D> leaf = reader.cache().octant(found);
+            ASSERT_EQ(leaf, octree.model.find(cell));
+            ASSERT_EQ(reader.cache().values(found)[0], static_cast<double>(leaf.code >> 12));
+            ASSERT_EQ(reader.cache().values(found)[1], leaf.level + 0.1);
+        }
+        Point<D> outside{};
+        outside[D - 1] = 1.5;
+        EXPECT_EQ(reader.locate(outside), no_handle);
+        outside[D - 1] = 1;
+        EXPECT_NE(reader.locate(outside), no_handle) << "the upper end belongs to the last leaf";
+    }
+    expect_sound(octree);
+}
+
+TYPED_TEST(Octrees, give_the_leaves_of_a_window) {
+    constexpr int D = TypeParam::value;
+    Coded<D> octree;
+    const Host h = octree.host->host();
+    const Grid<D> grid(octree.header);
+    for (int round = 0; round < 60; ++round) {
+        Point<D> lower, upper;
+        for (int i = 0; i < D; ++i) {
+            lower[i] = static_cast<double>(octree.random() % 1000) / 900 - 0.05;
+            upper[i] = lower[i] + static_cast<double>(octree.random() % 1000) / 3000;
+            if (round % 3 == 0) lower[i] = upper[i] = std::round(lower[i] * 8) / 8;
+        }
+        std::vector<Octant<D>> expected, found;
+        for (const Octant<D> &leaf : octree.model.list()) {
+            const Point<D> a = grid.lower(leaf), b = grid.upper(leaf);
+            bool meets = true;
+            for (int i = 0; i < D; ++i)
+                meets =
+                    meets && a[i] <= upper[i] && (lower[i] < b[i] || (lower[i] == 1 && b[i] == 1));
+            if (meets) expected.push_back(leaf);
+        }
+        OctreeScan<D> scan(h, octree.header, lower, upper, std::size_t{1} << 20);
+        for (Handle leaf; (leaf = scan.next()) != no_handle;)
+            found.push_back(scan.reader().cache().octant(leaf));
+        ASSERT_EQ(found, expected) << round;
+    }
+}
+
+TYPED_TEST(Octrees, know_the_neighbours_of_a_leaf) {
+    constexpr int D = TypeParam::value;
+    Coded<D> octree;
+    const Host h = octree.host->host();
+    OctreeReader<D> reader(h, octree.header, std::size_t{1} << 20);
+    const auto leaves = octree.model.list();
+    for (int round = 0; round < 40; ++round) {
+        const Octant<D> leaf = octree.model.find(octree.random() % domain_cells<D>);
+        std::set<std::tuple<int, int, std::uint64_t>> expected, found;
+        for (const Octant<D> &other : leaves) {
+            // Boxes that overlap on all axes but one, where one ends and the other begins.
+            const Cell<D> a = leaf.cell(), b = other.cell();
+            int axis = -1, side = 0, meets = 0;
+            for (int i = 0; i < D; ++i)
+                if (a[i] + leaf.edge() == b[i] || b[i] + other.edge() == a[i])
+                    axis = i, side = a[i] < b[i] ? 1 : -1;
+                else
+                    meets += a[i] < b[i] + other.edge() && b[i] < a[i] + leaf.edge();
+            if (axis >= 0 && meets == D - 1) expected.insert({axis, side, other.code});
+        }
+        reader.neighbours(leaf.code, [&](int axis, int side, Handle other) {
+            EXPECT_TRUE(found.insert({axis, side, reader.cache().octant(other).code}).second);
+        });
+        ASSERT_EQ(found, expected);
+    }
+}
+
+TYPED_TEST(Octrees, are_split_and_merged_in_place) {
+    constexpr int D = TypeParam::value;
+    Coded<D> octree;
+    const Host h = octree.host->host();
+    OctreeModel<D> &model = octree.model;
+    {
+        OctreeCache<D> cache(h, octree.header, std::size_t{1} << 18);
+        for (int round = 0; round < 600; ++round) {
+            const std::uint64_t cell = octree.random() % domain_cells<D>;
+            const Octant<D> leaf = model.find(cell);
+            if (octree.random() % 2 == 0 && leaf.level < finest_level<D>) {
+                cache.split(cache.find(cell));
+                model.split(leaf);
+            } else {
+                const int level = static_cast<int>(octree.random() % 9) + (D == 2 ? 2 : 1);
+                const auto merged = Octant<D>{cell, finest_level<D>}.ancestor(level);
+                std::uint64_t before = 1;
+                if (leaf.level > level) {
+                    const auto begin = model.leaves.lower_bound(merged.code),
+                               end = model.leaves.lower_bound(merged.end());
+                    before = static_cast<std::uint64_t>(std::distance(begin, end));
+                    model.leaves.erase(begin, end);
+                    model.leaves[merged.code] = level;
+                }
+                ASSERT_EQ(cache.merge(merged), before);
+            }
+            if (round % 50 == 0) {
+                ASSERT_EQ(cache.check_invariants(), nullptr);
+            }
+        }
+        cache.flush();
+    }
+    octree.header.leaves = model.leaves.size();
+    ASSERT_EQ(octree.list(), model.list());
+    expect_sound(octree);
+    // And as a whole.
+    OctreeEdit<D> edit(h, octree.header, octree.memory, std::size_t{1} << 18);
+    edit.merge_at({}, 0);
+    EXPECT_EQ(edit.merge(octree.header), model.leaves.size());
+    EXPECT_EQ(octree.list(), std::vector<Octant<D>>(1));
+    expect_sound(octree);
+}
+
+TYPED_TEST(Octrees, are_grown_in_place_at_few_places) {
+    constexpr int D = TypeParam::value;
+    Coded<D> octree;
+    octree.host->calls = {};
+    const auto pages = octree.host->pages.size();
+    const auto cells = random_cells<D>(octree.random, 2, D == 2 ? 14 : 11);
+    octree.split_to(cells);
+    EXPECT_LE(octree.host->calls.find + octree.host->calls.next, 4u) << "of " << pages;
+    for (const auto &[cell, level] : cells) octree.model.split_to(cell, level);
+    EXPECT_EQ(octree.list(), octree.model.list());
+    EXPECT_EQ(octree.header.leaves, octree.model.leaves.size());
+    expect_sound(octree);
+}
+
+TYPED_TEST(Octrees, are_loaded_leaf_by_leaf) {
+    constexpr int D = TypeParam::value;
+    Coded<D> octree;
+    auto leaves = octree.model.list();
+    const auto load = [&](const std::vector<Octant<D>> &rows) {
+        StoredOctree<D> loaded(1);
+        const Host h = loaded.host->host();
+        OctreeLoad<D> load(h, loaded.header, loaded.memory);
+        for (const Octant<D> &row : rows) {
+            const double value = row.level;
+            load.add(row.code, row.level, &value);
+        }
+        load.write(loaded.header);
+        expect_sound(loaded);
+        LeafScan<D> scan(h, loaded.header);
+        while (scan.next()) EXPECT_EQ(scan.values()[0], scan.leaf().level);
+        return loaded.list();
+    };
+    std::vector<Octant<D>> shuffled = leaves;
+    std::shuffle(shuffled.begin(), shuffled.end(), octree.random);
+    EXPECT_EQ(load(shuffled), leaves);
+
+    const auto detail = [&](const std::vector<Octant<D>> &rows) -> std::string {
+        try {
+            load(rows);
+        } catch (const Error &error) {
+            EXPECT_EQ(error.kind, ABACUS_ERROR_ARGUMENT);
+            return error.detail;
+        }
+        return "no error";
+    };
+    auto rows = leaves;
+    rows.erase(rows.begin() + 3);
+    EXPECT_EQ(detail(rows), "There is a gap before the octant of row 4, behind that of row 3.");
+    rows = leaves;
+    rows.push_back(leaves[7].parent());
+    EXPECT_THAT(detail(rows), testing::HasSubstr("overlaps that of row"));
+    rows = leaves;
+    rows.pop_back();
+    EXPECT_THAT(detail(rows), testing::HasSubstr("There is a gap behind the octant of row"));
+    EXPECT_EQ(detail({}), "There are none.");
+    EXPECT_EQ(detail({leaves.begin() + 1, leaves.end()}),
+              "There is a gap before the octant of row 1.");
+}
+
+TYPED_TEST(Octrees, do_not_depend_on_order_and_memory) {
+    constexpr int D = TypeParam::value;
+    std::mt19937_64 random(7);
+    auto cells = random_cells<D>(random, 4000, D == 2 ? 11 : 8);
+    StoredOctree<D> a, b;
+    a.split_to(cells);
+    std::shuffle(cells.begin(), cells.end(), random);
+    b.split_to(cells);
+    a.balance(D, std::size_t{64} << 20);
+    b.balance(D, 1); // the least that a sort takes
+    EXPECT_EQ(a.list(), b.list());
+    EXPECT_TRUE(b.host->spools.empty());
+    ASSERT_EQ(a.host->pages.size(), b.host->pages.size());
+    // At most two bytes a leaf.
+    std::size_t bytes = 0;
+    for (const auto &[key, page] : a.host->pages) bytes += page.size;
+    EXPECT_LE(bytes, a.header.leaves);
+}
+
+TYPED_TEST(Octrees, do_not_trust_their_pages) {
+    constexpr int D = TypeParam::value;
+    const Coded<D> octree;
+    std::mt19937_64 random(8);
+    int refused = 0;
+    for (int round = 0; round < 120; ++round) {
+        StoredOctree<D> forged(2);
+        forged.host->restore(*octree.host);
+        forged.header = octree.header;
+        auto page = std::next(forged.host->pages.begin(),
+                              static_cast<long>(random() % forged.host->pages.size()));
+        for (std::uint64_t n = 1 + random() % 3; n > 0; --n)
+            page->second.bytes()[random() % (round % 2 ? page->second.size : 60)] ^=
+                static_cast<unsigned char>(1u << random() % 8);
+        if (round % 4 != 0) seal_page(page->second.bytes(), page->second.size);
+        try {
+            const Host h = forged.host->host();
+            OctreeReader<D> reader(h, forged.header, 1);
+            const std::uint64_t begin = page->first.code;
+            for (int i = 0; i < 20; ++i)
+                reader.find(
+                    std::min(begin + random() % (domain_cells<D> >> 6), domain_cells<D> - 1));
+            forged.balance(D);
+        } catch (const Error &error) {
+            ASSERT_EQ(error.kind, ABACUS_ERROR_CORRUPTED) << error.what();
+            EXPECT_STREQ(error.what(), "octree is corrupted");
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 60);
+}
+
+TYPED_TEST(Octrees, survive_failures_of_the_host) {
+    constexpr int D = TypeParam::value;
+    const Coded<D> octree;
+    for (std::uint64_t n = 1;; n += 1 + n / 4) {
+        StoredOctree<D> failing(2);
+        failing.host->restore(*octree.host);
+        failing.header = octree.header;
+        failing.host->fail_at(n);
+        bool failed = false;
+        try {
+            failing.balance(D, 1);
+            const Host h = failing.host->host();
+            OctreeEdit<D> edit(h, failing.header, 1, 1);
+            for (int i = 0; i < 50; ++i)
+                edit.merge_at(
+                    failing.place(
+                        octree.model.find(static_cast<std::uint64_t>(i) * (domain_cells<D> / 50))
+                            .code),
+                    3);
+            edit.merge(failing.header);
+        } catch (const HostFailure &) {
+            failed = true;
+        }
+        ASSERT_THAT(failing.host->violations, testing::IsEmpty());
+        if (!failed) {
+            EXPECT_GT(n, 20u);
+            break;
+        }
+    }
+}
+
+} // namespace
+} // namespace abacus::test
