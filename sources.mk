@@ -271,6 +271,7 @@ PG_SOURCES += src/pg/sql/fn_voronoi.c
 PG_SOURCES += src/pg/sql/fn_weights.c
 PG_SOURCES += src/pg/sql/geometry_make.c
 PG_SOURCES += src/pg/sql/geometry_place.c
+PG_SOURCES += src/pg/sql/geometry_rings.c
 PG_SOURCES += src/pg/sql/interpolation.c
 PG_SOURCES += src/pg/sql/line.c
 PG_SOURCES += src/pg/sql/missing.c

@@ -145,6 +145,25 @@ SELECT is(ST_AsText(ST_Normalize(_abacus_nest(rings))), ST_AsText(ST_Normalize(s
 SELECT is(ST_AsText(ST_Normalize(_abacus_nest(ST_Affine(rings, a, b, -b, a, 0, 0)))), ST_AsText(ST_Normalize(ST_Affine(solved, a, b, -b, a, 0, 0))), format('turned by %s, %s', a, b))
 FROM puzzle_rings, (VALUES (-1, 0), (0, 1), (0, -1), (2, 1), (-3, 1), (1, -5)) AS turns (a, b);
 
+-- many rings that touch one another, and edges exactly at a level
+CREATE TABLE crowd (seed int, what text, valid boolean, area float8, wanted float8);
+DO $$
+BEGIN
+    FOR seed IN 1..6 LOOP
+        DROP TABLE IF EXISTS steps, step_points;
+        CREATE TABLE step_points AS SELECT x * 100 + y AS id, ST_MakePoint(x, y) AS geom, (x * 37 + y * 53 + x * y * seed) % 6 AS h
+        FROM generate_series(0, 30) AS x, generate_series(0, 30) AS y WHERE (x * x + 3 * y + x * y * seed) % 3 > 0;
+        PERFORM abacus_triangulate('steps', 'TABLE step_points');
+        INSERT INTO crowd SELECT seed, 'outline', ST_IsValid(g), ST_Area(g), (SELECT sum(ST_Area(geom)) FROM abacus_cells_geom('steps', max_edge => 2)) FROM abacus_hull_geom('steps', 2) AS g;
+        INSERT INTO crowd SELECT seed, 'bands', bool_and(ST_IsValid(geom)), sum(ST_Area(geom)), ST_Area(abacus_hull_geom('steps')) FROM abacus_contours_geom('steps', 1, polygonize => true);
+        INSERT INTO crowd SELECT seed, 'band', ST_IsValid(geom), ST_Area(geom), (SELECT sum(ST_Area(ST_MakePolygon(line)) * CASE WHEN ST_IsPolygonCCW(ST_MakePolygon(line)) THEN 1 ELSE -1 END)
+            FROM (SELECT _abacus_line(path, 2, 0) AS line FROM abacus_contours('steps', 1, polygonize => true) AS r WHERE r.value = b.value) AS l) FROM abacus_contours_geom('steps', 1, polygonize => true) AS b;
+    END LOOP;
+END $$;
+SELECT cmp_ok((SELECT count(*) FROM crowd), '>', 36::bigint, 'outlines and bands whose rings touch');
+SELECT is_empty($$ SELECT * FROM crowd WHERE NOT valid $$, 'are valid');
+SELECT is_empty($$ SELECT * FROM crowd WHERE abs(area - wanted) > 1e-6 $$, 'and have the areas of their cells and rings');
+
 -- ---- Drape and clip --------------------------------------------------------
 
 CREATE TABLE road AS SELECT 'SRID=2154;LINESTRING(10 10, 60 70, 110 30)'::geometry AS geom;

@@ -13,29 +13,14 @@
  */
 #include "postgres.h"
 
-#include <math.h>
-
 #include "miscadmin.h"
 
-#include "abacus/shape.h"
 #include "pg/base/sql_function.h"
 #include "pg/sql/geometry_make.h"
 #include "pg/sql/geometry_place.h"
+#include "pg/sql/geometry_rings.h"
 
 SQL_FUNCTION(abacus_sql_geometry_nest);
-
-#define NO_RING ((size_t) -1)
-
-typedef struct Ring
-{
-	size_t		first;			/* its vertices, the first of which is not repeated */
-	size_t		count;
-	size_t		least;			/* the least vertex */
-	bool		is_hole;
-	size_t		below;			/* ring whose edge is next below a hole's least vertex */
-	size_t		next;			/* the next hole of the same outline */
-	size_t		holes;			/* the first hole of an outline */
-} Ring;
 
 /* An edge, with the lesser one of its ends first. */
 typedef struct Edge
@@ -47,35 +32,11 @@ typedef struct Edge
 
 typedef struct Nesting
 {
-	double	   *places;			/* x, y of all vertices */
-	size_t		vertices;
-	size_t	   *ring_of;		/* of a vertex */
-	Ring	   *rings;
-	size_t		count;
+	Rings		rings;
 	Edge	   *edges;			/* those that the sweep line meets, from bottom to top */
 	size_t		met;
 	size_t		room;
 } Nesting;
-
-static int
-compare_places(const double *a, const double *b)
-{
-	if (a[0] != b[0])
-		return a[0] < b[0] ? -1 : 1;
-	return (a[1] > b[1]) - (a[1] < b[1]);
-}
-
-static int
-side(const double *a, const double *b, const double *c)
-{
-	abacus_error error;
-	int			sign = 0;
-
-	if (abacus_orientation(a, b, c, &sign, &error) != ABACUS_OK)
-		ereport(ERROR,
-				(errcode(ERRCODE_INTERNAL_ERROR), errmsg_internal("%s", error.message)));
-	return sign;
-}
 
 /* Which of two edges that a sweep line meets is the lower one. */
 static int
@@ -83,17 +44,17 @@ compare_edges(const Edge *a, const Edge *b)
 {
 	int			sign;
 
-	if (compare_places(a->from, b->from) <= 0)
+	if (places_compare(a->from, b->from) <= 0)
 	{
-		sign = -side(a->from, a->to, b->from);
+		sign = -places_side(a->from, a->to, b->from);
 		if (sign == 0)
-			sign = -side(a->from, a->to, b->to);
+			sign = -places_side(a->from, a->to, b->to);
 	}
 	else
 	{
-		sign = side(b->from, b->to, a->from);
+		sign = places_side(b->from, b->to, a->from);
 		if (sign == 0)
-			sign = side(b->from, b->to, a->to);
+			sign = places_side(b->from, b->to, a->to);
 	}
 	return sign != 0 ? sign : (a->ring > b->ring) - (a->ring < b->ring);
 }
@@ -153,32 +114,23 @@ remove_edge(Nesting *nesting, const Edge *edge)
 	memmove(nesting->edges + at, nesting->edges + at + 1, (nesting->met - at) * sizeof(Edge));
 }
 
-/* The vertex so many further along its ring. */
-static size_t
-along(const Nesting *nesting, size_t vertex, size_t steps)
-{
-	const Ring *ring = &nesting->rings[nesting->ring_of[vertex]];
-
-	return ring->first + (vertex - ring->first + steps) % ring->count;
-}
-
 /* The edge from a vertex to the next one of its ring, or that to it. */
 static Edge
 edge_at(const Nesting *nesting, size_t vertex, bool outgoing)
 {
-	size_t		ring = nesting->ring_of[vertex];
-	size_t		other = along(nesting, vertex, outgoing ? 1 : nesting->rings[ring].count - 1);
-	const double *a = nesting->places + 2 * vertex;
-	const double *b = nesting->places + 2 * other;
+	size_t		ring = nesting->rings.ring_of[vertex];
+	size_t		other = ring_along(&nesting->rings, vertex, outgoing ? 1 : nesting->rings.rings[ring].count - 1);
+	const double *a = nesting->rings.places + 2 * vertex;
+	const double *b = nesting->rings.places + 2 * other;
 
-	return compare_places(a, b) < 0 ? (Edge) {a, b, ring} : (Edge) {b, a, ring};
+	return places_compare(a, b) < 0 ? (Edge) {a, b, ring} : (Edge) {b, a, ring};
 }
 
 /* Adds the edges that begin at a vertex, or removes those that end there. */
 static void
 pass_vertex(Nesting *nesting, size_t vertex, bool begins)
 {
-	const double *place = nesting->places + 2 * vertex;
+	const double *place = nesting->rings.places + 2 * vertex;
 
 	for (int i = 0; i < 2; i++)
 	{
@@ -195,7 +147,7 @@ pass_vertex(Nesting *nesting, size_t vertex, bool begins)
 static void
 look_below(Nesting *nesting, size_t vertex)
 {
-	Ring	   *ring = &nesting->rings[nesting->ring_of[vertex]];
+	Ring	   *ring = &nesting->rings.rings[nesting->rings.ring_of[vertex]];
 	Edge		a = edge_at(nesting, vertex, true);
 	Edge		b = edge_at(nesting, vertex, false);
 	size_t		at = edges_below(nesting, compare_edges(&a, &b) < 0 ? &a : &b);
@@ -203,29 +155,19 @@ look_below(Nesting *nesting, size_t vertex)
 	ring->below = at == 0 ? NO_RING : nesting->edges[at - 1].ring;
 }
 
-static int
-compare_vertices(const void *a, const void *b, void *places)
-{
-	return compare_places((double *) places + 2 * *(const size_t *) a,
-						  (double *) places + 2 * *(const size_t *) b);
-}
-
 /* Finds what is below each hole. */
 static void
 sweep(Nesting *nesting)
 {
-	size_t	   *order = MemoryContextAllocHuge(CurrentMemoryContext, nesting->vertices * sizeof(size_t));
+	size_t	   *order = rings_order(&nesting->rings);
 	size_t		end;
 
-	for (size_t i = 0; i < nesting->vertices; i++)
-		order[i] = i;
-	qsort_arg(order, nesting->vertices, sizeof(size_t), compare_vertices, nesting->places);
-	for (size_t begin = 0; begin < nesting->vertices; begin = end)
+	for (size_t begin = 0; begin < nesting->rings.vertices; begin = end)
 	{
 		CHECK_FOR_INTERRUPTS();
 		/* all vertices at one place */
-		for (end = begin + 1; end < nesting->vertices &&
-			 compare_vertices(&order[begin], &order[end], nesting->places) == 0; end++)
+		for (end = begin + 1; end < nesting->rings.vertices &&
+			 places_compare(nesting->rings.places + 2 * order[begin], nesting->rings.places + 2 * order[end]) == 0; end++)
 			;
 		for (size_t i = begin; i < end; i++)
 			pass_vertex(nesting, order[i], false);
@@ -233,7 +175,7 @@ sweep(Nesting *nesting)
 			pass_vertex(nesting, order[i], true);
 		for (size_t i = begin; i < end; i++)
 		{
-			const Ring *ring = &nesting->rings[nesting->ring_of[order[i]]];
+			const Ring *ring = &nesting->rings.rings[nesting->rings.ring_of[order[i]]];
 
 			if (ring->is_hole && ring->least == order[i])
 				look_below(nesting, order[i]);
@@ -241,65 +183,33 @@ sweep(Nesting *nesting)
 	}
 }
 
-/*
- * Reads a ring, its last place left out, and others that are equal to the one before. False if it
- * has no area.
- */
-static bool
-read_ring(Nesting *nesting, GeometryBytes *bytes, Ring *ring)
-{
-	uint32		count = geometry_count(bytes);
-	size_t		number = (size_t) (ring - nesting->rings);
-
-	*ring = (Ring) {.first = nesting->vertices, .below = NO_RING, .next = NO_RING, .holes = NO_RING};
-	ring->least = ring->first;
-	for (uint32 i = 0; i < count; i++)
-	{
-		double	   *place = nesting->places + 2 * nesting->vertices;
-
-		place[0] = geometry_number(bytes);
-		place[1] = geometry_number(bytes);
-		if (i + 1 == count || (ring->count > 0 && compare_places(place - 2, place) == 0))
-			continue;
-		if (compare_places(place, nesting->places + 2 * ring->least) < 0)
-			ring->least = nesting->vertices;
-		nesting->ring_of[nesting->vertices++] = number;
-		ring->count++;
-	}
-	while (ring->count > 1 && compare_places(nesting->places + 2 * ring->first,
-											 nesting->places + 2 * (nesting->vertices - 1)) == 0)
-	{
-		nesting->vertices--;
-		ring->count--;
-	}
-	if (ring->count < 3)
-	{
-		nesting->vertices = ring->first;
-		return false;
-	}
-	ring->is_hole = side(nesting->places + 2 * along(nesting, ring->least, ring->count - 1),
-						 nesting->places + 2 * ring->least,
-						 nesting->places + 2 * along(nesting, ring->least, 1)) < 0;
-	return true;
-}
-
+/* Reads the rings, the last place of each left out. */
 static void
-read_rings(Nesting *nesting, GeometryBytes *bytes)
+read_rings(Rings *rings, GeometryBytes *bytes)
 {
-	size_t		most = (size_t) (bytes->end - bytes->at) / (2 * sizeof(double)) + 1;
-
+	size_t		most = (size_t) (bytes->end - bytes->at) / (2 * sizeof(double));
 	uint32		count = geometry_count(bytes);
 
-	nesting->rings = MemoryContextAllocHuge(CurrentMemoryContext, ((size_t) count + 1) * sizeof(Ring));
-	nesting->places = MemoryContextAllocHuge(CurrentMemoryContext, 2 * most * sizeof(double));
-	nesting->ring_of = MemoryContextAllocHuge(CurrentMemoryContext, most * sizeof(size_t));
+	rings_begin(rings, count, most);
 	for (uint32 i = 0; i < count; i++)
 	{
 		GeometryHead head = geometry_head(bytes);
+		uint32		places;
 
 		if (head.kind != GEOMETRY_LINE || head.has_z || head.has_m)
 			geometry_refuse_kind("a ring", head.kind, "a LineString in the plane");
-		nesting->count += read_ring(nesting, bytes, &nesting->rings[nesting->count]);
+		places = geometry_count(bytes);
+		rings_begin_one(rings);
+		for (uint32 j = 0; j < places; j++)
+		{
+			double		place[2];
+
+			place[0] = geometry_number(bytes);
+			place[1] = geometry_number(bytes);
+			if (j + 1 < places)
+				rings_add_place(rings, place);
+		}
+		rings_end_one(rings);
 	}
 }
 
@@ -309,10 +219,10 @@ outline_of(const Nesting *nesting, size_t hole)
 {
 	size_t		ring = hole;
 
-	for (size_t steps = 0; nesting->rings[ring].is_hole; steps++)
+	for (size_t steps = 0; nesting->rings.rings[ring].is_hole; steps++)
 	{
-		ring = nesting->rings[ring].below;
-		if (steps == nesting->count || ring == NO_RING)
+		ring = nesting->rings.rings[ring].below;
+		if (steps == nesting->rings.count || ring == NO_RING)
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 					 errmsg("a hole is in no outline"),
@@ -327,9 +237,9 @@ share_holes(Nesting *nesting)
 {
 	size_t		outlines = 0;
 
-	for (size_t i = nesting->count; i-- > 0;)
+	for (size_t i = nesting->rings.count; i-- > 0;)
 	{
-		Ring	   *hole = &nesting->rings[i];
+		Ring	   *hole = &nesting->rings.rings[i];
 		size_t		outline;
 
 		outlines += !hole->is_hole;
@@ -337,15 +247,15 @@ share_holes(Nesting *nesting)
 			continue;
 		outline = outline_of(nesting, i);
 		/* holes that ask later have a short way */
-		for (size_t at = i; nesting->rings[at].is_hole;)
+		for (size_t at = i; nesting->rings.rings[at].is_hole;)
 		{
-			size_t		next = nesting->rings[at].below;
+			size_t		next = nesting->rings.rings[at].below;
 
-			nesting->rings[at].below = outline;
+			nesting->rings.rings[at].below = outline;
 			at = next;
 		}
-		hole->next = nesting->rings[outline].holes;
-		nesting->rings[outline].holes = i;
+		hole->next = nesting->rings.rings[outline].holes;
+		nesting->rings.rings[outline].holes = i;
 	}
 	return outlines;
 }
@@ -354,8 +264,8 @@ static void
 put_ring(const Nesting *nesting, const Ring *ring, StringInfo bytes)
 {
 	geometry_put_count(bytes, ring->count + 1);
-	geometry_put_numbers(bytes, nesting->places + 2 * ring->first, 2 * ring->count);
-	geometry_put_numbers(bytes, nesting->places + 2 * ring->first, 2);
+	geometry_put_numbers(bytes, nesting->rings.places + 2 * ring->first, 2 * ring->count);
+	geometry_put_numbers(bytes, nesting->rings.places + 2 * ring->first, 2);
 }
 
 static void
@@ -364,13 +274,13 @@ put_polygon(const Nesting *nesting, const Ring *outline, int32 srid, StringInfo 
 	GeometryHead head = {GEOMETRY_POLYGON, srid};
 	size_t		rings = 1;
 
-	for (size_t i = outline->holes; i != NO_RING; i = nesting->rings[i].next)
+	for (size_t i = outline->holes; i != NO_RING; i = nesting->rings.rings[i].next)
 		rings++;
 	geometry_put_head(bytes, &head);
 	geometry_put_count(bytes, rings);
 	put_ring(nesting, outline, bytes);
-	for (size_t i = outline->holes; i != NO_RING; i = nesting->rings[i].next)
-		put_ring(nesting, &nesting->rings[i], bytes);
+	for (size_t i = outline->holes; i != NO_RING; i = nesting->rings.rings[i].next)
+		put_ring(nesting, &nesting->rings.rings[i], bytes);
 }
 
 /* _abacus_nest(rings geometry) -> geometry: of a MultiLineString a Polygon, or of several outlines a MultiPolygon */
@@ -382,12 +292,14 @@ abacus_sql_geometry_nest(PG_FUNCTION_ARGS)
 	GeometryHead head = geometry_head(&bytes);
 	GeometryHead several = {GEOMETRY_MULTIPOLYGON, head.srid};
 	Nesting		nesting = {.room = 64};
+	Rings		given;
 	StringInfoData made;
 	size_t		outlines;
 
 	if (head.kind != GEOMETRY_MULTILINE)
 		geometry_refuse_kind("the geometry", head.kind, "a MultiLineString");
-	read_rings(&nesting, &bytes);
+	read_rings(&given, &bytes);
+	nesting.rings = rings_traced(&given);
 	nesting.edges = palloc(nesting.room * sizeof(Edge));
 	sweep(&nesting);
 	outlines = share_holes(&nesting);
@@ -397,8 +309,8 @@ abacus_sql_geometry_nest(PG_FUNCTION_ARGS)
 		geometry_put_head(&made, &several);
 		geometry_put_count(&made, outlines);
 	}
-	for (size_t i = 0; i < nesting.count; i++)
-		if (!nesting.rings[i].is_hole)
-			put_polygon(&nesting, &nesting.rings[i], outlines == 1 ? head.srid : 0, &made);
+	for (size_t i = 0; i < nesting.rings.count; i++)
+		if (!nesting.rings.rings[i].is_hole)
+			put_polygon(&nesting, &nesting.rings.rings[i], outlines == 1 ? head.srid : 0, &made);
 	PG_RETURN_DATUM(geometry_made(type, &made));
 }
