@@ -52,6 +52,30 @@ SELECT abacus_insert('plane2', 'SELECT id, x, y, z FROM points WHERE id <= 200',
 \echo :LAST_ERROR_SQLSTATE
 SELECT differ('plane', 'plane2');
 
+-- Points leave: vertices, those that others at their place follow, some twice, some that are not there.
+DO $$
+DECLARE
+    n int;
+    mesh text;
+    deleted bigint;
+BEGIN
+    FOREACH n IN ARRAY ARRAY[1, 2, 3, 4, 7] LOOP
+        PERFORM set_config('abacus.threads', n::text, false);
+        FOREACH mesh IN ARRAY ARRAY['plane', 'space', 'stepwise'] LOOP
+            deleted := abacus_delete(concat(mesh, nullif(n, 1))::regclass, 'SELECT id, x, y, z FROM points WHERE id % 3 > 0
+                UNION ALL SELECT id + 9000, x, y, z FROM points WHERE id % 4 = 0 UNION ALL SELECT id, x + 0.5, y, z FROM points');
+            ASSERT deleted = CASE mesh WHEN 'stepwise' THEN 1161 ELSE 1125 END, format('%s: %s', mesh, deleted);
+        END LOOP;
+    END LOOP;
+END $$;
+SELECT n, differ('plane', ('plane' || n)::regclass) AS plane, differ('space', ('space' || n)::regclass) AS space,
+       differ('stepwise', ('stepwise' || n)::regclass) AS stepwise
+FROM unnest(ARRAY[2, 3, 4, 7]) n;
+SELECT mesh, f.* FROM unnest(ARRAY[2, 3, 4, 7]) n, LATERAL (VALUES ('plane' || n), ('space' || n), ('stepwise' || n)) m (mesh),
+    LATERAL abacus_check(mesh::regclass) f;
+SELECT abacus_delete('space4', 'SELECT id, x, y, z FROM points');
+SELECT count(*) FROM abacus_simplices('space4');
+
 -- The settings.
 SET abacus.threads = -1;
 SET abacus.threads = 2000;

@@ -1,4 +1,5 @@
 """Parts that change a mesh: many points in a statement, one in a transaction, and cancelled builds."""
+import os
 import pathlib
 import statistics
 import subprocess
@@ -19,13 +20,16 @@ class Edits:
     def __init__(self, dimension, sizes):
         self.dimension, self.sizes = dimension, sizes
 
-    def measure(self, suite):
+    def begin(self, suite):
         self.suite, self.size = suite, self.sizes[suite.mode]
         self.points = PointSet(self.dimension, "uniform", 2 * self.size)
         self.labels = {"dimension": self.dimension, "set": "uniform", "points": self.size}
         self.points.create_table()
         self.select = f"SELECT id, {self.points.columns} FROM points WHERE"
         self.make = self.points.triangulate(f" WHERE id <= {self.size}")
+
+    def measure(self, suite):
+        self.begin(suite)
         runs = {"full": 3, "quick": 1, "smoke": 1}[suite.mode]
         self.insert_many(runs)
         self.delete_many(runs)
@@ -52,10 +56,10 @@ class Edits:
         self.suite.measurements.append({"what": "edit", "change": change, **self.labels, **figures,
                                         "samples": samples})
 
-    def changed(self, change, condition, count):
+    def changed(self, change, condition, count, **settings):
         """A sample of one statement that changes many points of a fresh mesh."""
         self.fresh_mesh()
-        with server.Session() as session:
+        with server.Session(**settings) as session:
             sample = session.timed(f"SELECT abacus_{change}('mesh', '{self.select} {condition}')")
         if int(sample.pop("printed")) != count:
             raise server.Failure(f"abacus_{change} did not change {count} points")
@@ -170,6 +174,19 @@ class Edits:
         self.suite.say(f"  {change} one point: {1000 * statistics.median(seconds):.2f} ms")
         self.record(f"{change} one", [{"wall": round(statistics.median(seconds), 6)}], transactions=count,
                     percentile99=ordered[len(ordered) * 99 // 100])
+
+
+class SharedDeletes(Edits):
+    """Half of the points of a mesh leave: by one thread, by two, and by all processors."""
+
+    def measure(self, suite):
+        self.begin(suite)
+        count = self.size // 2
+        for threads in sorted({1, 2, os.cpu_count()}):
+            samples = [self.changed("delete", f"id <= {self.size} AND id % 2 = 0", count, abacus__threads=threads)
+                       for _ in range({"full": 3, "quick": 1, "smoke": 1}[suite.mode])]
+            self.record("delete shared many", samples, changed=count, threads=threads)
+        server.drop("mesh", "mesh_vertices", "points")
 
 
 def cancelled_builds(dimension, sizes):

@@ -3,7 +3,7 @@ from ask import Ask
 from builds import Contest
 from core import core
 from driver import Part
-from edits import Edits, cancelled_builds
+from edits import Edits, SharedDeletes, cancelled_builds
 from goose import Goose
 from location import location
 from rasters import Raster
@@ -48,13 +48,15 @@ PARTS = [
                 ("cgal", "abacus:default", "abacus:largest", "tetgen")))),
     Part("2d-100m", "a hundred times as many uniform points, 64 MB of cache", 9, contests(
         BESIDE, Contest(2, "uniform", {"full": 100000000}, ("abacus:64",), FEWER, disk=16 << 30), BESIDE)),
-    Part("threads", "the same builds, checks and locations by one thread, by two, and by all processors", 7, contests(
+    Part("threads", "the same builds, deletions, checks and locations by one thread, by two, and by all processors", 8, contests(
         Contest(2, "uniform", {"full": 10000000, "quick": 1000000, "smoke": 100000},
                 ("threads:1", "threads:2", "threads:all"), FEWER, what="threads"),
         Contest(3, "uniform", {"full": 1000000, "quick": 100000, "smoke": 20000},
                 ("threads:1", "threads:2", "threads:all"), FEWER, what="threads"),
         SharedReading(2, {"full": (1000000, 1000000), "quick": (200000, 200000), "smoke": (40000, 20000)}, FEWER),
-        SharedReading(3, {"full": (500000, 500000), "quick": (50000, 100000), "smoke": (20000, 20000)}, FEWER))),
+        SharedReading(3, {"full": (500000, 500000), "quick": (50000, 100000), "smoke": (20000, 20000)}, FEWER),
+        SharedDeletes(2, {"full": 10000000, "quick": 1000000, "smoke": 100000}),
+        SharedDeletes(3, {"full": 1000000, "quick": 100000, "smoke": 20000}))),
     Part("locate-2d", "places in a mesh in the plane, warm and cold", 3, location(
         2, {"full": (10000000, 1000000), "quick": (500000, 200000), "smoke": (20000, 5000)})),
     Part("locate-3d", "places in a mesh in space, warm and cold", 1.5, location(

@@ -69,8 +69,10 @@ def edits(results):
     for m in results.all(what="edit"):
         if m["change"].endswith("many"):
             wall = spread_of(m, "wall")
+            threads = m.get("threads")
+            by = f" by {threads} thread{'s' * (threads > 1)}" if threads else ""
             how = f"from one tile to all {m['tiles']}, a statement each" if "tiles" in m else "in one statement"
-            rows.append((mesh_name(m), f"{m['change'].split()[0]} {m['changed']:,} {how}",
+            rows.append((mesh_name(m), f"{m['change'].split()[0]} {m['changed']:,} {how}{by}",
                          f"{spread(wall)} s", f"{number(1e6 * wall[0] / m['changed'])} µs",
                          f"{number(spread_of(m, 'wal')[0] / m['changed'])}"))
         elif m["change"].endswith("one"):

@@ -173,6 +173,8 @@ public:
         first_code_ = first;
         codes_beyond_first_ = last - first;
     }
+    /// Whether a code is in that interval.
+    bool keeps(std::uint64_t code) const { return code - first_code_ <= codes_beyond_first_; }
     /// Records that a block takes, if nothing else is known of it.
     std::uint32_t capacity() const { return capacity_.usual(); }
 

@@ -82,7 +82,7 @@ template <class Owner, BlockDescription Type>
 BlockIndex BlockCache<Owner, Type>::owner(const Key &key) {
     const BlockIndex cached = cached_owner(key);
     if (cached != no_block) return cached;
-    if (key.code - first_code_ > codes_beyond_first_) throw Foreign{};
+    if (!keeps(key.code)) throw Foreign{};
     const Stopwatch stopwatch(counters.translation_ns);
     abacus_page page{};
     if (!host_.find(Type::page_kind, key, page)) return no_block;

@@ -48,17 +48,32 @@ template <int D> void Build<D>::start(const std::array<VertexIndex, D + 1> &vert
 }
 
 template <int D> void Build<D>::add(const std::uint64_t *records, std::size_t n) {
+    if (host_.threads() > 1) return gather(records, n);
+    with_codes(records, n,
+               [&](const std::uint64_t *some, const std::uint64_t *codes, std::size_t count) {
+                   insert_some(some, codes, count);
+               });
+}
+
+template <int D> void Build<D>::gather(const std::uint64_t *records, std::size_t n) {
     const std::size_t stride = record_words(D, attributes_);
-    // Each code is a chain of table look-ups. In a loop of their own many of these run at once.
+    with_codes(records, n,
+               [&](const std::uint64_t *some, const std::uint64_t *codes, std::size_t count) {
+                   for (std::size_t i = 0; i < count; ++i) gather_one(some + i * stride, codes[i]);
+               });
+}
+
+// Each code is a chain of table look-ups. In a loop of their own many of these run at once.
+template <int D>
+template <class Take>
+void Build<D>::with_codes(const std::uint64_t *records, std::size_t n, Take take) const {
+    const std::size_t stride = record_words(D, attributes_);
     std::array<std::uint64_t, most_at_once> codes;
     while (n > 0) {
         const std::size_t some = std::min(n, codes.size());
         for (std::size_t i = 0; i < some; ++i)
             codes[i] = domain_.code(record_point<D>(records + i * stride));
-        if (host_.threads() > 1)
-            for (std::size_t i = 0; i < some; ++i) gather(records + i * stride, codes[i]);
-        else
-            insert_some(records, codes.data(), some);
+        take(records, codes.data(), some);
         records += some * stride;
         n -= some;
     }
@@ -127,7 +142,7 @@ template <int D> void Build<D>::insert_waiting(std::uint64_t limit) {
             report(ABACUS_PHASE_INSERTING, read - gathered_.size(), to - from);
         if (!first.contains(reader.sequence())) add(reader.record(), 1);
     }
-    insert_gathered();
+    change_gathered();
     header_->inserted = to;
 }
 
@@ -211,10 +226,12 @@ std::uint64_t Build<D>::remove(Stage<D> &stage, bool exactly, abacus_header &hea
     change(header, [&] {
         const std::uint64_t points = stage.points();
         insert_waiting(0);
-        Outlet outlet(*this, stage, exactly);
-        if (has_simplices() || has_waiting()) stage.emit(outlet, header, true);
+        if (has_simplices() || has_waiting()) {
+            Outlet outlet(*this, stage, exactly);
+            stage.emit(outlet, header, true);
+            taken = outlet.taken();
+        }
         if (rest_) triangulate_rest();
-        taken = outlet.taken();
         return points;
     });
     return taken;

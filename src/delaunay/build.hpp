@@ -9,8 +9,8 @@
 // that loses so many points that triangulating the rest costs less is also made anew (outlay.hpp,
 // rest.hpp).
 //
-// With several threads points are gathered as long as they come along the curve, and inserted
-// together (build_threads.cpp).
+// With several threads points are gathered as long as they come along the curve, and inserted or
+// taken away together (build_threads.cpp).
 //
 // Each change ends with all pages written and the header brought up to date.
 #pragma once
@@ -74,16 +74,26 @@ private:
     bool has_waiting() const { return header_->inserted < header_->staged; }
     VertexIndex create(const std::uint64_t *record);
     void start(const std::array<VertexIndex, D + 1> &vertices);
-    /// Adds points, which may be gathered: insert_gathered() comes after the last.
+    /// Adds points, which may be gathered: change_gathered() comes after the last.
     void add(const std::uint64_t *records, std::size_t n);
+    /// Calls take(records, codes, n) for some points after the other, with their codes.
+    template <class Take>
+    void with_codes(const std::uint64_t *records, std::size_t n, Take take) const;
     void insert_some(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n);
     /// So many points come, as far as is known.
     void begin_to_gather(std::uint64_t points);
-    void gather(const std::uint64_t *record, std::uint64_t code);
-    void insert_gathered();
+    void gather(const std::uint64_t *records, std::size_t n);
+    void gather_one(const std::uint64_t *record, std::uint64_t code);
+    /// Inserts what has been gathered, or takes it away.
+    void change_gathered();
+    std::size_t thread_cache_bytes() const;
     bool is_worth_sharing() const;
+    Cuts cuts_for_threads() const;
     void insert_gathered_here();
-    void insert_on_threads(Cuts &cuts);
+    void remove_gathered_here();
+    void change_on_threads(Cuts &cuts);
+    /// Adds the points that the threads have left to the session's to `left`.
+    void run_passes(Cuts &cuts, Batch &left, const typename Interval<D>::Removing *how);
     /// Inserts gathered points that threads would put off.
     void insert_near_borders(const Cuts &cuts);
     void report_pass(std::uint64_t done);
@@ -144,6 +154,7 @@ private:
     std::optional<Core> core_;                  ///< always there; optional, to be made anew
     std::optional<RepeatedPoints<D>> repeated_; ///< as well
     std::optional<Rest<D>> rest_;               ///< while removals are put off
+    Outlet *outlet_ = nullptr;                  ///< while points leave
     abacus_header *header_ = nullptr;           ///< of the current change
     abacus_on_duplicate on_duplicate_ = ABACUS_KEEP;
     bool counts_crowded_ = false; ///< the mesh had vertices before what comes

@@ -10,12 +10,11 @@ namespace abacus {
 template <int D> std::uint64_t Build<D>::erase(const Point<D> &p, Leaving &leaving) {
     if (rest_ && rest_->has_left_out(p)) return 0;
     const bool is_repeated = header_->duplicates > 0 && repeated_->contains(p);
-    if (!is_repeated && leaving.is_one()) return erase_vertex(p, &leaving);
+    if (!is_repeated) return erase_vertex(p, &leaving);
     leaving.begin();
     const auto more = core_->removal.offer(p, leaving);
-    if (!more && is_repeated) throw_corrupted("A repeated point equals no vertex of the mesh.");
-    if (!more) return 0;
-    if (*more && is_repeated) repeated_->offer(p, leaving);
+    if (!more) throw_corrupted("A repeated point equals no vertex of the mesh.");
+    if (*more) repeated_->offer(p, leaving);
     leaving.decide();
     const std::uint64_t taken = repeated_->take(p, leaving);
     if (taken > header_->duplicates)

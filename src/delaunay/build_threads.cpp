@@ -1,22 +1,28 @@
-// Points inserted by several threads.
+// Points inserted, or taken away, by several threads.
 //
-// Points come in rounds, each along the curve. They are gathered until the next one lies behind, or
-// until they take a share of the memory that the build has. A few are inserted here and now, as
-// with one thread: those of early rounds, or a small change. Many are inserted together:
+// Points come in rounds, each along the curve. Those that come are gathered until the next round
+// begins; those that leave, in rounds from the last to the first, are gathered over all rounds: the
+// mesh is in no memory yet, and is read once. Either until they take a share of the memory that the
+// build has. A few are dealt with here and now, as with one thread: those of early rounds, or a
+// small change. Many are dealt with together:
 //
 //   1. The mesh is cut where the threads' intervals begin (cuts.hpp). Points near the borders are
 //      inserted by the session's thread (near_border.hpp), and all pages are written.
-//   2. Each thread inserts the points of its interval, in a cache of its own (interval.hpp), and
-//      writes its pages. The session's thread serves it.
+//   2. Each thread inserts or takes away the points of its interval, in a cache of its own
+//      (interval.hpp), and writes its pages. The session's thread serves it.
 //   3. Some points near borders have been put off. Each two intervals are joined, and what was
-//      put off there is inserted in the same way: the border is within, now.
-//   4. When there is one interval left, or few points are, the session's thread inserts the rest.
+//      put off there is dealt with in the same way: the border is within, now.
+//   4. When there is one interval left, or few points are, the session's thread does the rest.
 //
-// Points that equal a vertex are dealt with at the end, in their order, since their pages are
-// those of the session's thread.
+// Points that equal a vertex are inserted at the end, in their order, since their pages are those
+// of the session's thread. So points leave at the end that are at a place with such points.
+//
+// No points near borders leave first. The session's thread would have to read the mesh for them,
+// and the stars of the full mesh are small.
 #include "delaunay/build.hpp"
 
 #include "delaunay/near_border.hpp"
+#include "delaunay/outlet.hpp"
 #include "mesh/counters.hpp"
 #include "staging/rounds.hpp"
 
@@ -41,8 +47,9 @@ constexpr std::size_t tiny_interval = 4, most_tiny_intervals = 256;
 /// One pass of all threads: each takes one interval after the other.
 template <int D> class Build<D>::Pass final : public Crew::Work {
 public:
-    Pass(Build &build, const Cuts &cuts, std::size_t cache_bytes)
-        : build_(build), cuts_(cuts), cache_bytes_(cache_bytes), host_memory_(build.host_),
+    /// With `how`, points are taken away.
+    Pass(Build &build, const Cuts &cuts, const typename Interval<D>::Removing *how)
+        : build_(build), cuts_(cuts), how_(how), host_memory_(build.host_),
           results_(&host_memory_) {
         for (std::size_t i = 0; i < cuts.size(); ++i)
             results_.emplace_back(build.crew_->memory().memory());
@@ -50,10 +57,21 @@ public:
 
     void piece(std::size_t number, const Host &host) override {
         const Batch &batch = build_.gathered_;
-        const std::size_t begin = cuts_.begin(number, batch), end = cuts_.end(number, batch);
-        if (begin == end) return;
-        Interval<D>(host, *build_.header_, cuts_.first(number), cuts_.last(number), cache_bytes_)
-            .insert(batch, begin, end, build_.counts_crowded_, done_, results_[number]);
+        std::optional<Interval<D>> interval;
+        for (std::size_t run = 0; run < batch.runs(); ++run) {
+            const std::size_t begin = cuts_.begin(number, batch, run),
+                              end = cuts_.end(number, batch, run);
+            if (begin == end) continue;
+            if (!interval)
+                interval.emplace(host, *build_.header_, cuts_.first(number), cuts_.last(number),
+                                 build_.thread_cache_bytes());
+            if (how_ != nullptr)
+                interval->remove(batch, begin, end, *how_, done_, results_[number]);
+            else
+                interval->insert(batch, begin, end, build_.counts_crowded_, done_,
+                                 results_[number]);
+        }
+        if (interval) interval->finish(results_[number]);
     }
     void meanwhile() override { build_.report_pass(done_.load(std::memory_order_relaxed)); }
     using AllResults = std::pmr::deque<typename Interval<D>::Results>;
@@ -63,7 +81,7 @@ public:
 private:
     Build &build_;
     const Cuts &cuts_;
-    const std::size_t cache_bytes_;
+    const typename Interval<D>::Removing *const how_;
     HostMemory host_memory_;
     AllResults results_;
     std::atomic<std::uint64_t> done_ = 0;
@@ -79,9 +97,13 @@ template <int D> void Build<D>::begin_to_gather(std::uint64_t points) {
     most_gathered_ = std::max<std::uint64_t>((points + parts - 1) / parts, worth_sharing<D>);
 }
 
-template <int D> void Build<D>::gather(const std::uint64_t *record, std::uint64_t code) {
+template <int D> void Build<D>::gather_one(const std::uint64_t *record, std::uint64_t code) {
     const std::size_t n = gathered_.size();
-    if (n > 0 && (code < gathered_.code(n - 1) || n >= most_gathered_)) insert_gathered();
+    const bool begins_round = n > 0 && code < gathered_.code(n - 1);
+    if (n >= most_gathered_ || (begins_round && outlet_ == nullptr))
+        change_gathered();
+    else if (begins_round)
+        gathered_.begin_run();
     if (gathered_.size() == worth_reserving) gathered_.reserve(most_gathered_);
     gathered_.add(record, code);
 }
@@ -91,29 +113,43 @@ template <int D> bool Build<D>::is_worth_sharing() const {
     constexpr std::size_t looked_at = 8; // those of the last round are promoted by chance
     const std::size_t n = gathered_.size();
     if (n < worth_sharing<D>) return false;
+    if (outlet_ != nullptr) return true;
     for (std::size_t i = 0; i < looked_at; ++i)
         if (!Rounds<D>::is_promoted(record_point<D>(gathered_.record(i)))) return true;
     return n >= most_gathered_ / 2;
 }
 
-template <int D> void Build<D>::insert_gathered() {
-    if (gathered_.size() == 0) return;
+template <int D> Cuts Build<D>::cuts_for_threads() const {
     Cuts cuts(host_);
+    if (outlet_ != nullptr && !outlet_->is_shared()) return cuts;
     if (host_.has_tiny_intervals())
         cuts.cut_at_random(gathered_,
                            std::max(tiny_interval, gathered_.size() / most_tiny_intervals));
     else if (is_worth_sharing())
         cuts.cut_evenly(gathered_, host_.threads());
-    if (cuts.size() > 1) insert_on_threads(cuts);
-    insert_gathered_here();
+    return cuts;
+}
+
+template <int D> void Build<D>::change_gathered() {
+    if (gathered_.size() == 0) return;
+    Cuts cuts = cuts_for_threads();
+    if (cuts.size() > 1) change_on_threads(cuts);
+    outlet_ != nullptr ? remove_gathered_here() : insert_gathered_here();
 }
 
 template <int D> void Build<D>::insert_gathered_here() {
     for (std::size_t i = 0; i < gathered_.size(); i += most_at_once) {
         host_.poll();
-        insert_some(gathered_.record(i), gathered_.begin() + i,
+        insert_some(gathered_.record(i), gathered_.codes() + i,
                     std::min(most_at_once, gathered_.size() - i));
     }
+    done_ += gathered_.size();
+    gathered_.shorten(0);
+}
+
+template <int D> void Build<D>::remove_gathered_here() {
+    for (std::size_t i = 0; i < gathered_.size(); ++i) outlet_->take(gathered_.record(i));
+    outlet_->finish_place();
     done_ += gathered_.size();
     gathered_.shorten(0);
 }
@@ -124,44 +160,60 @@ template <int D> void Build<D>::report_pass(std::uint64_t done) {
     reported_ = now;
     const abacus_counters &counters = core_->cache.counters;
     const Desk &desk = crew_->desk();
-    host_.progress({ABACUS_PHASE_INSERTING, done_ + done, to_do_,
-                    counters.loads + desk.pages_read(), counters.stores + desk.pages_written(),
-                    desk.at_work()});
+    host_.progress({outlet_ != nullptr ? ABACUS_PHASE_DELETING : ABACUS_PHASE_INSERTING,
+                    done_ + done, to_do_, counters.loads + desk.pages_read(),
+                    counters.stores + desk.pages_written(), desk.at_work()});
 }
 
-template <int D> void Build<D>::insert_on_threads(Cuts &cuts) {
-    const unsigned threads = host_.threads();
-    std::size_t least = 1; // points that are worth a pass: of the first one any number
+/// What the cache of each may take.
+template <int D> std::size_t Build<D>::thread_cache_bytes() const {
+    return (cache_bytes_ - cache_bytes_ / gathered_share) / host_.threads();
+}
+
+template <int D> void Build<D>::change_on_threads(Cuts &cuts) {
     if (!crew_) crew_.emplace(host_);
-    if (!host_.has_tiny_intervals()) insert_near_borders(cuts);
+    const bool leave = outlet_ != nullptr;
+    if (!leave && !host_.has_tiny_intervals()) insert_near_borders(cuts);
+    if (leave) repeated_->flush(); // threads read them
     hand_over(cuts);
-    Batch repeated(host_, record_words(D, attributes_));
+    Batch left(host_, record_words(D, attributes_));
+    if (leave)
+        outlet_->share([&](const auto &how) { run_passes(cuts, left, &how); });
+    else
+        run_passes(cuts, left, nullptr);
+    forget_cache();
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        if (i % 256 == 0) host_.poll();
+        leave ? outlet_->take(left.record(i)) : add_duplicate(left.record(i));
+    }
+}
+
+template <int D>
+void Build<D>::run_passes(Cuts &cuts, Batch &left, const typename Interval<D>::Removing *how) {
+    std::size_t least = 1; // points that are worth a pass: of the first one any number
     for (; cuts.size() > 1 && gathered_.size() >= least; cuts.join_pairs()) {
-        Pass pass(*this, cuts, (cache_bytes_ - cache_bytes_ / gathered_share) / threads);
-        if (!crew_->run(threads, cuts.size(), pass)) break;
-        std::size_t put_off = 0;
+        Pass pass(*this, cuts, how);
+        if (!crew_->run(host_.threads(), cuts.size(), pass)) return;
+        Arena<std::size_t> put_off(host_);
         for (const auto &results : pass.results()) {
             header_->simplices += static_cast<std::uint64_t>(results.simplices);
             header_->ghosts += static_cast<std::uint64_t>(results.ghosts);
-            header_->vertices += results.vertices;
+            header_->vertices += static_cast<std::uint64_t>(results.vertices);
             header_->outside += results.crowded;
             core_->cache.counters += results.counters;
-            for (const std::size_t i : results.is_vertex)
-                repeated.add(gathered_.record(i), gathered_.code(i));
-            for (const std::size_t i : results.put_off) gathered_.move(i, put_off++);
+            for (const std::size_t i : results.left)
+                left.add(gathered_.record(i), gathered_.code(i));
+            for (const std::size_t i : results.put_off) put_off.push_back(i);
         }
+        std::sort(put_off.begin(), put_off.end());
         abacus_counters &counters = core_->cache.counters;
         ++counters.passes;
-        counters.put_off += put_off;
+        counters.put_off += put_off.size();
         counters.waited_ns += crew_->desk().waited();
-        done_ += gathered_.size() - put_off;
-        gathered_.shorten(put_off);
+        done_ += gathered_.size() - put_off.size();
+        gathered_.keep(put_off);
         if (!host_.has_tiny_intervals()) least = worth_sharing<D>;
-    }
-    forget_cache();
-    for (std::size_t i = 0; i < repeated.size(); ++i) {
-        if (i % 256 == 0) host_.poll();
-        add_duplicate(repeated.record(i));
+        if (how != nullptr && how->outlay.is_too_much()) return;
     }
 }
 
@@ -170,7 +222,7 @@ template <int D> void Build<D>::insert_near_borders(const Cuts &cuts) {
     NearBorder<D> border(domain_, cuts);
     Batch near(host_, record_words(D, attributes_));
     const auto insert = [&] {
-        if (near.size() > 0) insert_some(near.record(0), near.begin(), near.size());
+        if (near.size() > 0) insert_some(near.record(0), near.codes(), near.size());
         done_ += near.size();
         near.shorten(0);
     };
@@ -213,10 +265,12 @@ template <int D> void Build<D>::forget_cache() {
 
 template void Build<2>::begin_to_gather(std::uint64_t);
 template void Build<3>::begin_to_gather(std::uint64_t);
-template void Build<2>::gather(const std::uint64_t *, std::uint64_t);
-template void Build<3>::gather(const std::uint64_t *, std::uint64_t);
-template void Build<2>::insert_gathered();
-template void Build<3>::insert_gathered();
+template void Build<2>::gather_one(const std::uint64_t *, std::uint64_t);
+template void Build<3>::gather_one(const std::uint64_t *, std::uint64_t);
+template void Build<2>::change_gathered();
+template void Build<3>::change_gathered();
+template std::size_t Build<2>::thread_cache_bytes() const;
+template std::size_t Build<3>::thread_cache_bytes() const;
 template void Build<2>::forget_cache();
 template void Build<3>::forget_cache();
 

@@ -29,18 +29,20 @@ public:
                                         first_.begin()) -
                1;
     }
-    /// The first point of a batch that is in the interval, or behind it.
-    std::size_t begin(std::size_t i, const Batch &batch) const {
-        return static_cast<std::size_t>(std::lower_bound(batch.begin(), batch.end(), first_[i]) -
-                                        batch.begin());
+    /// The first point of a run of a batch that is in the interval, or behind it.
+    std::size_t begin(std::size_t i, const Batch &batch, std::size_t run) const {
+        return static_cast<std::size_t>(std::lower_bound(batch.codes() + batch.run_begin(run),
+                                                         batch.codes() + batch.run_end(run),
+                                                         first_[i]) -
+                                        batch.codes());
     }
-    std::size_t end(std::size_t i, const Batch &batch) const {
-        return i + 1 < size() ? begin(i + 1, batch) : batch.size();
+    std::size_t end(std::size_t i, const Batch &batch, std::size_t run) const {
+        return i + 1 < size() ? begin(i + 1, batch, run) : batch.run_end(run);
     }
 
-    /// Into so many intervals at most, with as many points each, more or less.
+    /// Into so many intervals at most, with as many points of the first run each, more or less.
     void cut_evenly(const Batch &batch, std::size_t intervals) {
-        const std::size_t n = batch.size(), share = n / intervals, leeway = share / 32;
+        const std::size_t n = batch.run_end(0), share = n / intervals, leeway = share / 32;
         for (std::size_t i = 1; i < intervals; ++i) {
             const std::uint64_t low = std::max(first_.back(), batch.code(share * i - leeway)),
                                 high = batch.code(std::min(share * i + leeway, n - 1));
@@ -52,11 +54,12 @@ public:
     }
     /// For tests: anywhere, into intervals of any length, of so many points on average.
     void cut_at_random(const Batch &batch, std::size_t points) {
-        std::uint64_t state = batch.size();
+        const std::size_t n = batch.run_end(0);
+        std::uint64_t state = n;
         for (std::size_t i = 0;;) {
             state = (state ^ state >> 29) * 0xd6e8feb86659fd93 + 1;
             i += 1 + (state >> 40) % (2 * points);
-            if (i >= batch.size()) return;
+            if (i >= n) return;
             if (batch.code(i) > first_.back()) first_.push_back(batch.code(i));
         }
     }

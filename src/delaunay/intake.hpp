@@ -40,7 +40,7 @@ public:
         build_.add(records, n);
     }
     void finish() override {
-        if (build_.has_simplices()) return build_.insert_gathered();
+        if (build_.has_simplices()) return build_.change_gathered();
         if (!pages_) stage();
         pages_->finish();
         build_.header_->staged = pages_->next();

@@ -3,61 +3,122 @@
 #include "keys/domain_of.hpp"
 #include "mesh/counters.hpp"
 #include "points/record.hpp"
+#include "points/repeated_points.hpp"
+
+#include <utility>
 
 namespace abacus {
 
 namespace {
-constexpr std::size_t report_every = 256; // points
+constexpr std::size_t report_every = 256;   // points
+constexpr std::uint64_t told_effort = 1024; // of removals: others are told then
 } // namespace
 
 template <int D>
 Interval<D>::Interval(const Host &host, const abacus_header &header, std::uint64_t first,
                       std::uint64_t last, std::size_t cache_bytes)
-    : host_(host), simplices_(static_cast<std::int64_t>(header.simplices)),
-      ghosts_(static_cast<std::int64_t>(header.ghosts)),
+    : host_(host), header_(header),
       cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
              CacheOptions{.budget = cache_bytes}),
-      mesh_(host, cache_, simplices_, ghosts_), insertion_(mesh_) {
+      mesh_(host, cache_, static_cast<std::int64_t>(header.simplices),
+            static_cast<std::int64_t>(header.ghosts)),
+      insertion_(mesh_), removal_(mesh_) {
     cache_.keep_within(first, last);
-    cache_.expect_last_pass(true);
+}
+
+namespace {
+
+/// Outside of searches sound pages lead to no other interval.
+template <class Change> void within(Change change) {
+    try {
+        change();
+    } catch (const Foreign &) {
+        throw_corrupted("A simplex lies in a page that does not own its key.");
+    }
+}
+
+} // namespace
+
+template <int D>
+template <class Change>
+void Interval<D>::each(std::size_t from, std::size_t to, std::atomic<std::uint64_t> &done,
+                       Change change) {
+    std::size_t reported = from;
+    within([&] {
+        for (std::size_t i = from; i < to; i = change(i)) {
+            if (i - reported < report_every) continue;
+            host_.poll();
+            done.fetch_add(i - reported, std::memory_order_relaxed);
+            reported = i;
+        }
+    });
+    done.fetch_add(to - reported, std::memory_order_relaxed);
+}
+
+template <int D> void Interval<D>::finish(Results &results) {
+    within([&] { cache_.flush(); });
+    results.simplices += mesh_.simplices() - static_cast<std::int64_t>(header_.simplices);
+    results.ghosts += mesh_.ghosts() - static_cast<std::int64_t>(header_.ghosts);
+    results.counters += cache_.counters;
 }
 
 template <int D>
 void Interval<D>::insert(const Batch &batch, std::size_t from, std::size_t to, bool counts_crowded,
                          std::atomic<std::uint64_t> &done, Results &results) {
+    cache_.expect_last_pass(true);
     std::size_t put_off = to; // the last one
-    try {
-        for (std::size_t i = from; i < to; ++i) {
-            if ((i - from) % report_every == 0) {
-                host_.poll();
-                done.fetch_add(std::min(report_every, to - i), std::memory_order_relaxed);
-            }
-            const std::uint64_t *const record = batch.record(i);
-            const Point<D> p = record_point<D>(record);
-            Inserted inserted = Inserted::put_off;
-            if (put_off == to || !(record_point<D>(batch.record(put_off)) == p))
-                inserted = insertion_.insert_within(p, batch.code(i), record_id(record),
-                                                    record_attributes<D>(record));
-            switch (inserted) {
-            case Inserted::as_vertex:
-                ++results.vertices;
-                if (counts_crowded) results.crowded += mesh_.is_crowded();
-                break;
-            case Inserted::is_vertex:
-                results.is_vertex.push_back(i);
-                break;
-            case Inserted::put_off:
-                results.put_off.push_back(put_off = i);
-                break;
-            }
+    each(from, to, done, [&](std::size_t i) {
+        const std::uint64_t *const record = batch.record(i);
+        const Point<D> p = record_point<D>(record);
+        Inserted inserted = Inserted::put_off;
+        if (put_off == to || !(record_point<D>(batch.record(put_off)) == p))
+            inserted = insertion_.insert_within(p, batch.code(i), record_id(record),
+                                                record_attributes<D>(record));
+        switch (inserted) {
+        case Inserted::as_vertex:
+            ++results.vertices;
+            if (counts_crowded) results.crowded += mesh_.is_crowded();
+            break;
+        case Inserted::is_vertex:
+            results.left.push_back(i);
+            break;
+        case Inserted::put_off:
+            results.put_off.push_back(put_off = i);
+            break;
         }
-        cache_.flush();
-    } catch (const Foreign &) { // from a place where sound pages lead to none
-        throw_corrupted("A simplex lies in a page that does not own its key.");
-    }
-    results.simplices += mesh_.simplices() - simplices_;
-    results.ghosts += mesh_.ghosts() - ghosts_;
-    results.counters += cache_.counters;
+        return i + 1;
+    });
+}
+
+template <int D>
+void Interval<D>::remove(const Batch &batch, std::size_t from, std::size_t to, const Removing &how,
+                         std::atomic<std::uint64_t> &done, Results &results) {
+    Leaving leaving(host_, how.want_bytes, how.exactly, header_.attributes);
+    RepeatedPoints<D> repeated(host_, cache_.domain(), header_.attributes);
+    std::uint64_t effort = 0, dealt = 0; // that others do not know of
+    each(from, to, done, [&](std::size_t i) {
+        std::size_t end = i;
+        const Point<D> p = record_point<D>(batch.record(i));
+        for (leaving.clear(); end < to && record_point<D>(batch.record(end)) == p; ++end)
+            if (!leaving.is_full())
+                leaving.want(record_id(batch.record(end)), record_attributes<D>(batch.record(end)));
+        const auto keep = [&](Arena<std::size_t> &points) {
+            for (std::size_t n = i; n < end; ++n) points.push_back(n);
+            return end;
+        };
+        if (how.outlay.is_too_much()) return keep(results.put_off);
+        if (leaving.is_full() || (header_.duplicates > 0 && repeated.contains(p)))
+            return keep(results.left);
+        const std::optional<bool> removed = removal_.remove_within(p, leaving);
+        if (!removed) return keep(results.put_off);
+        results.vertices -= *removed;
+        effort += removal_.take_effort();
+        dealt += end - i;
+        if (effort >= told_effort)
+            how.outlay.add(std::exchange(effort, 0), std::exchange(dealt, 0));
+        return end;
+    });
+    if (dealt > 0) how.outlay.add(effort, dealt);
 }
 
 template class Interval<2>;

@@ -1,4 +1,5 @@
-// What one thread inserts: points along an interval of the curve, with a cache of its own.
+// What one thread does: it inserts points along an interval of the curve, or takes points away
+// there, with a cache of its own.
 //
 // The interval begins and ends where pages do, and the thread loads no page of another one. So it
 // shares nothing with others, takes no lock, and pays nothing where it finds a simplex in its
@@ -6,24 +7,39 @@
 //
 // Why that is right:
 //
-//   Inside. A cavity that was found has been searched without leaving the interval. So its
-//   simplices and those beyond its rim are the interval's. A new simplex has vertices of one that
-//   it replaces, and the point. Its key is the greatest code of these: at least the point's, and
-//   no greater than that of the other simplex or of the point. So it belongs to the interval, too.
+//   Inside. A cavity or a star that was found has been searched without leaving the interval. So
+//   its simplices and those beyond its rim are the interval's. The key of a simplex is the greatest
+//   code of its vertices.
+//      Insertion: a new simplex has vertices of one that it replaces, and the point. Its key is at
+//      least the point's code, and no greater than the key of the other simplex or that code. So it
+//      belongs to the interval, too.
+//      Removal: a simplex in the hole has vertices of the star, so its key is no greater than
+//      theirs. But it lacks the vertex that made them the interval's. If more than D of the
+//      vertex's neighbours lie before the interval, a simplex might join these alone. Then the
+//      vertex is put off, too.
 //
 //   Outside. A simplex with a neighbour in another interval is never replaced, since the search
 //   would have looked at that neighbour. So what a page of another interval says of it, its key,
 //   stays true, and so does what it says of its neighbour.
 //
 //   All together. Each interval's mesh is that of the whole with the points of all intervals
-//   inserted one after the other, in any order: no insertion reads what one in another interval
-//   changes. The triangulation is unique, so its simplices do not depend on the intervals.
+//   inserted or taken away one after the other, in any order: no change reads what one in another
+//   interval changes. The triangulation is unique, so its simplices do not depend on the intervals.
+//
+//   The last simplices. A removal may leave points that span no simplex. Then the star has all
+//   finite simplices, and all are the interval's. Finite simplices hang together, so if another
+//   interval had had one, one of these would have had a neighbour in another interval, and would
+//   still be there. So the interval has had all from the beginning, and has counted them right. It
+//   leaves that vertex to the session's thread.
 //
 // If one of several equal points is put off, those after it are: of equal points the first in
-// order is the vertex.
+// order is the vertex. Equal points leave together. Where there are repeated points, which are
+// pages of the session's thread, they are left to it.
 #pragma once
 
 #include "delaunay/insertion.hpp"
+#include "delaunay/outlay.hpp"
+#include "delaunay/removal.hpp"
 
 #include <abacus/header.h>
 
@@ -31,16 +47,23 @@
 
 namespace abacus {
 
-/// Records along the curve, with their codes.
+/// Records with their codes. They are in runs, each along the curve.
 class Batch {
 public:
     Batch(const Memory &memory, std::size_t stride)
-        : stride_(stride), records_(memory), codes_(memory) {}
+        : stride_(stride), records_(memory), codes_(memory), later_runs_(memory) {}
 
     void add(const std::uint64_t *record, std::uint64_t code) {
         std::uint64_t *to = records_.extend(stride_);
         for (std::size_t word = 0; word < stride_; ++word) to[word] = record[word];
         codes_.push_back(code);
+    }
+    /// The next record is the first of another run.
+    void begin_run() { later_runs_.push_back(size()); }
+    std::size_t runs() const { return later_runs_.size() + 1; }
+    std::size_t run_begin(std::size_t run) const { return run == 0 ? 0 : later_runs_[run - 1]; }
+    std::size_t run_end(std::size_t run) const {
+        return run < later_runs_.size() ? later_runs_[run] : size();
     }
     void reserve(std::size_t points) {
         records_.reserve(points * stride_);
@@ -53,8 +76,7 @@ public:
     }
     const std::uint64_t *record(std::size_t i) const { return records_.data() + i * stride_; }
     std::uint64_t code(std::size_t i) const { return codes_[i]; }
-    const std::uint64_t *begin() const { return codes_.begin(); }
-    const std::uint64_t *end() const { return codes_.end(); }
+    const std::uint64_t *codes() const { return codes_.begin(); }
     /// Moves the i-th to the place of the n-th, which comes before it or is the same.
     void move(std::size_t i, std::size_t n) {
         if (i == n) return;
@@ -64,45 +86,71 @@ public:
     void shorten(std::size_t size) {
         records_.resize(size * stride_);
         codes_.resize(size);
+        if (size == 0) later_runs_.clear();
     }
-    /// Gives the memory back.
-    void reset() {
-        records_.reset();
-        codes_.reset();
+    /// Keeps only those with these numbers, which ascend.
+    void keep(const Arena<std::size_t> &numbers) {
+        std::size_t kept = 0, run = 0;
+        for (const std::size_t i : numbers) {
+            for (; run < later_runs_.size() && later_runs_[run] <= i; ++run)
+                later_runs_[run] = kept;
+            move(i, kept++);
+        }
+        for (; run < later_runs_.size(); ++run) later_runs_[run] = kept;
+        shorten(kept);
     }
 
 private:
     const std::size_t stride_;
     Arena<std::uint64_t> records_, codes_;
+    Arena<std::size_t> later_runs_; // where they begin, but for the first
 };
 
 template <int D> class Interval {
 public:
     /// Of what became of points; by number in the batch.
     struct Results {
-        explicit Results(const Memory &memory) : is_vertex(memory), put_off(memory) {}
+        explicit Results(const Memory &memory) : left(memory), put_off(memory) {}
 
-        Arena<std::size_t> is_vertex, put_off;  // in order
-        std::int64_t simplices = 0, ghosts = 0; // more than before
-        std::uint64_t vertices = 0;
-        std::uint64_t crowded = 0; // came where the domain does not fit
+        /// In order: those at vertices, that are inserted, or at repeated points, that leave; and
+        /// those whose search would have left the interval.
+        Arena<std::size_t> left, put_off;
+        std::int64_t simplices = 0, ghosts = 0, vertices = 0; // more than before
+        std::uint64_t crowded = 0;                            // came where the domain does not fit
         abacus_counters counters{};
+    };
+    /// How points are taken away.
+    struct Removing {
+        bool exactly;           // see Leaving
+        std::size_t want_bytes; // for the points of a place
+        SharedOutlay<D> &outlay;
     };
 
     /// `header` is that of the whole mesh; pages begin at the codes `first` and `last + 1`.
     Interval(const Host &host, const abacus_header &header, std::uint64_t first, std::uint64_t last,
              std::size_t cache_bytes);
 
-    /// Inserts points [from, to) of the batch, and writes all pages. Adds to `done` as it goes.
+    /// Inserts points [from, to) of the batch, which are of one run. Adds to `done` as it goes.
     void insert(const Batch &batch, std::size_t from, std::size_t to, bool counts_crowded,
                 std::atomic<std::uint64_t> &done, Results &results);
+    /// The same, but takes points away. Puts off those that are left when a new mesh of the rest is
+    /// cheaper.
+    void remove(const Batch &batch, std::size_t from, std::size_t to, const Removing &how,
+                std::atomic<std::uint64_t> &done, Results &results);
+    /// Writes all pages.
+    void finish(Results &results);
 
 private:
+    /// Calls change(i) for i = from; it returns the next i, until that is `to`.
+    template <class Change>
+    void each(std::size_t from, std::size_t to, std::atomic<std::uint64_t> &done, Change change);
+
     const Host &host_;
-    const std::int64_t simplices_, ghosts_; // of the whole mesh, before
+    const abacus_header &header_; // of the whole mesh, before
     Cache<D> cache_;
     Delaunay<D> mesh_;
     Insertion<D> insertion_;
+    Removal<D> removal_;
 };
 
 extern template class Interval<2>;

@@ -17,30 +17,31 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
+#include <mutex>
 
 namespace abacus {
 
 template <int D> class Outlay {
 public:
-    /// So many points are to be taken away from a mesh of so many vertices and simplices; `effort`
-    /// is what removals have cost before.
-    Outlay(std::uint64_t points, std::uint64_t vertices, std::uint64_t simplices,
-           std::uint64_t effort)
-        : begin_(effort), last_(effort), left_(static_cast<double>(points)) {
+    /// So many points are to be taken away from a mesh of so many vertices and simplices.
+    Outlay(std::uint64_t points, std::uint64_t vertices, std::uint64_t simplices)
+        : left_(static_cast<double>(points)) {
         const auto n = static_cast<double>(vertices);
         const double a_vertex = 2 * (D + 1) * static_cast<double>(simplices) / std::max(n, 1.0);
         anew_ = std::max(0.0, n - left_) * a_vertex + n * to_read + left_ * to_look_up;
     }
 
-    /// Notes that so many more are done. Returns whether a new mesh without the others is
-    /// cheaper.
+    /// Notes that so many more are done, and what that has cost. Returns whether a new mesh without
+    /// the others is cheaper.
     bool is_too_much(std::uint64_t effort, std::uint64_t done) {
-        const auto each = static_cast<double>(effort - last_) / static_cast<double>(done);
-        last_ = effort;
-        left_ -= static_cast<double>(done);
-        recent_ = recent_ < 0 ? each : recent_ + (each - recent_) / memory;
-        return 4 * static_cast<double>(effort - begin_) * left_ * recent_ > anew_ * anew_;
+        const auto points = static_cast<double>(done), cost = static_cast<double>(effort);
+        spent_ += cost;
+        left_ -= points;
+        const double each = cost / points;
+        recent_ = recent_ < 0 ? each : recent_ + (each - recent_) * std::min(points / memory, 1.0);
+        return 4 * spent_ * left_ * recent_ > anew_ * anew_;
     }
 
 private:
@@ -48,11 +49,29 @@ private:
     /// What it costs to read a vertex from the mesh and sort it, to find one that leaves.
     static constexpr double to_read = D == 2 ? 12 : 50, to_look_up = D == 2 ? 11 : 20;
 
-    const std::uint64_t begin_;
-    std::uint64_t last_;
+    double spent_ = 0;
     double left_;        // points that are still to be taken away
     double anew_;        // the cost of a mesh made anew
     double recent_ = -1; // the cost of one of the last points; negative: of none yet
+};
+
+/// An outlay of several threads.
+template <int D> class SharedOutlay {
+public:
+    explicit SharedOutlay(Outlay<D> &outlay) : outlay_(outlay) {}
+
+    /// As Outlay::is_too_much().
+    void add(std::uint64_t effort, std::uint64_t done) {
+        const std::lock_guard guard(lock_);
+        if (outlay_.is_too_much(effort, done)) is_too_much_ = true;
+    }
+    /// Whether it has been at some time.
+    bool is_too_much() const { return is_too_much_.load(std::memory_order_relaxed); }
+
+private:
+    std::mutex lock_;
+    Outlay<D> &outlay_;
+    std::atomic<bool> is_too_much_ = false;
 };
 
 } // namespace abacus

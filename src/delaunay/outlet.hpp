@@ -1,7 +1,8 @@
 // Where a stage hands on the points to be taken away. They are taken out of the triangulation;
 // once there is none, out of the waiting points, many at a time. When removals get too
 // expensive, vertices that leave are only noted from then on, and the rest is triangulated
-// anew.
+// anew. With several threads points are gathered first, and the threads take away what they can
+// (build_threads.cpp).
 //
 // Equal points come one after the other, in the order of the rows, and are taken out of the
 // triangulation together. If they were taken out singly, the pages of their place would be
@@ -16,13 +17,36 @@ namespace abacus {
 template <int D> class Build<D>::Outlet final : public RecordSink {
 public:
     Outlet(Build &build, const Stage<D> &stage, bool exactly)
-        : build_(build), memory_(stage.memory()),
-          outlay_(stage.points(), build.header_->vertices, build.simplices(),
-                  build.core_->removal.effort()),
-          leaving_(build.host_, build.cache_bytes_ / 16, exactly, build.attributes_),
-          waiting_(build.host_, build.attributes_, exactly) {}
+        : build_(build), memory_(stage.memory()), exactly_(exactly),
+          outlay_(stage.points(), build.header_->vertices, build.simplices()),
+          leaving_(build.host_, build.cache_bytes_ / want_share, exactly, build.attributes_),
+          waiting_(build.host_, build.attributes_, exactly) {
+        build_.begin_to_gather(stage.points());
+        build_.outlet_ = this;
+    }
+    Outlet(const Outlet &) = delete;
+    Outlet &operator=(const Outlet &) = delete;
+    ~Outlet() { build_.outlet_ = nullptr; }
 
-    void add(const std::uint64_t *record) override {
+    void add(const std::uint64_t *record) override { add(record, 1, 0); }
+    void add(const std::uint64_t *records, std::size_t n, std::size_t stride) override {
+        if (is_shared()) return build_.gather(records, n);
+        build_.change_gathered(); // if there is something left
+        for (; n > 0; --n, records += stride) take(records);
+    }
+    void finish() override {
+        build_.change_gathered();
+        finish_place();
+        if (build_.has_waiting()) take_waiting();
+    }
+    std::size_t held_back() const override { return build_.gathered_.size(); }
+
+    /// Whether threads may take points away, too.
+    bool is_shared() const {
+        return build_.host_.threads() > 1 && build_.has_simplices() && !build_.rest_;
+    }
+    /// Takes a point away.
+    void take(const std::uint64_t *record) {
         const Point<D> p = record_point<D>(record);
         if (!leaving_.empty() && (leaving_.is_full() || !(p == place_))) leave();
         if (build_.has_simplices()) {
@@ -32,12 +56,21 @@ public:
             if (++done_ % 256 == 0) build_.host_.poll();
         } else if (build_.has_waiting()) {
             waiting_.want(p, record_id(record), record_attributes<D>(record));
-            if (waiting_.is_full()) take();
+            if (waiting_.is_full()) take_waiting();
         }
     }
-    void finish() override {
+    /// After a point that threads may go on from.
+    void finish_place() {
         if (!leaving_.empty()) leave();
-        if (build_.has_waiting()) take();
+    }
+    /// Has threads take points away, by use(how).
+    template <class Use> void share(Use use) {
+        SharedOutlay<D> shared(outlay_);
+        const std::uint64_t before = build_.header_->vertices;
+        const std::size_t want_bytes = build_.thread_cache_bytes() / want_share;
+        use(typename Interval<D>::Removing{exactly_, want_bytes, shared});
+        taken_ += before - build_.header_->vertices;
+        if (shared.is_too_much()) build_.put_off_removals(memory_);
     }
     /// Points taken away.
     std::uint64_t taken() const { return taken_; }
@@ -48,18 +81,24 @@ public:
     }
 
 private:
+    /// Of the memory, what the wants of a place may take.
+    static constexpr std::size_t want_share = 16;
+
     void leave() {
         taken_ += build_.erase(place_, leaving_);
         leaving_.clear();
         if (!build_.rest_ && build_.has_simplices() &&
-            outlay_.is_too_much(build_.core_->removal.effort(), wanted_))
+            outlay_.is_too_much(build_.core_->removal.take_effort(), wanted_))
             build_.put_off_removals(memory_);
         wanted_ = 0;
     }
-    void take() { taken_ += waiting_.take(build_.header_->inserted, build_.header_->staged); }
+    void take_waiting() {
+        taken_ += waiting_.take(build_.header_->inserted, build_.header_->staged);
+    }
 
     Build &build_;
     const std::size_t memory_; // for sorting
+    const bool exactly_;
     Outlay<D> outlay_;
     Leaving leaving_;          // those of one place
     std::uint64_t wanted_ = 0; // how many

@@ -44,13 +44,48 @@ template <int D> bool Removal<D>::finds(const Point<D> &p, Leaving *want) {
 }
 
 template <int D> Removed Removal<D>::remove(const Point<D> &p, Leaving *want) {
-    const Link corner = find(p, want);
-    if (corner == nowhere) {
+    if (!find_star(p, want)) {
         mesh_.finish(anywhere);
         return Removed::no_such_vertex;
     }
-    star_.collect(link_simplex(corner), link_facet(corner));
     if (collapses()) return Removed::collapses;
+    take_out();
+    mesh_.finish(anywhere);
+    return Removed::removed;
+}
+
+template <int D> std::optional<bool> Removal<D>::remove_within(const Point<D> &p, Leaving &want) {
+    bool found;
+    try {
+        found = find_star(p, &want);
+    } catch (const Foreign &) {
+        star_.give_up();
+        mesh_.finish(anywhere);
+        return {};
+    }
+    const bool leaves = found && !collapses() && stays_within();
+    if (leaves) take_out();
+    mesh_.finish(anywhere);
+    if (found && !leaves) return {};
+    return found;
+}
+
+template <int D> bool Removal<D>::find_star(const Point<D> &p, Leaving *want) {
+    const Link corner = find(p, want);
+    if (corner == nowhere) return false;
+    star_.collect(link_simplex(corner), link_facet(corner));
+    return true;
+}
+
+// The hole's simplices have D + 1 corners of the link. No code of these is above the interval, as
+// those of the star's simplices are not. So it is enough if no more than D are below it.
+template <int D> bool Removal<D>::stays_within() const {
+    int below = 0;
+    for (const VertexIndex v : star_.link()) below += !cache_.keeps(cache_.vertices()[v].code);
+    return below <= D;
+}
+
+template <int D> void Removal<D>::take_out() {
     const auto ghosts = static_cast<std::int64_t>(star_.ghosts());
     const auto simplices = static_cast<std::int64_t>(star_.simplices().size()) - ghosts;
     for (const Handle h : star_.simplices()) cache_.destroy(h);
@@ -58,8 +93,6 @@ template <int D> Removed Removal<D>::remove(const Point<D> &p, Leaving *want) {
     effort_ += star_.simplices().size() + hole_.fill(star_);
     cache_.destroy_vertex(star_.vertex());
     ++cache_.counters.removals;
-    mesh_.finish(anywhere);
-    return Removed::removed;
 }
 
 template <int D> std::optional<bool> Removal<D>::offer(const Point<D> &p, Leaving &leaving) {

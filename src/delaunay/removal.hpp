@@ -9,6 +9,7 @@
 #include "points/leaving.hpp"
 
 #include <optional>
+#include <utility>
 
 namespace abacus {
 
@@ -26,10 +27,16 @@ public:
     /// Removes the vertex with exactly these coordinates (-0.0 equals 0.0); if a want is given,
     /// only one that it takes.
     Removed remove(const Point<D> &p, Leaving *want = nullptr);
+    /// The same in a cache that keeps within an interval (interval.hpp). Returns whether there was
+    /// such a vertex; nothing, and nothing has changed, if it is put off. That is so if a page of
+    /// another interval would have to be looked into, or a new simplex might belong to one, or the
+    /// points left would span no simplex.
+    std::optional<bool> remove_within(const Point<D> &p, Leaving &want);
     /// Whether there is a vertex that it would remove.
     bool finds(const Point<D> &p, Leaving *want = nullptr);
-    /// What removals have cost so far, in simplices made and destroyed (outlay.hpp).
-    std::uint64_t effort() const { return effort_; }
+    /// What removals have cost since it was last asked, in simplices made and destroyed
+    /// (outlay.hpp).
+    std::uint64_t take_effort() { return std::exchange(effort_, 0); }
     /// Offers the vertex there as the first point that may leave. Returns whether the
     /// others make a difference; nothing if there is no vertex.
     std::optional<bool> offer(const Point<D> &p, Leaving &leaving);
@@ -53,7 +60,13 @@ private:
     VertexIndex vertex_of(Link corner) const {
         return cache_.simplex(link_simplex(corner)).vertex[link_facet(corner)];
     }
+    /// Collects the star of the vertex that find() finds; false if there is none.
+    bool find_star(const Point<D> &p, Leaving *want);
     bool collapses() const;
+    /// Whether all simplices in the hole will belong to the cache's interval.
+    bool stays_within() const;
+    /// Takes the vertex of the star out.
+    void take_out();
 
     Delaunay<D> &mesh_;
     Cache<D> &cache_;

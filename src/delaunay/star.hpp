@@ -16,6 +16,8 @@ public:
 
     /// Collects the star of the vertex that is this corner of the simplex.
     void collect(Handle h, int corner);
+    /// After collect() has thrown: the next star begins anew.
+    void give_up() { flood_.give_up(); }
 
     VertexIndex vertex() const { return vertex_; }
     const Arena<Handle> &simplices() const { return simplices_; }

@@ -16,6 +16,7 @@
 #include "host/arena.hpp"
 #include "points/identities.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace abacus {
@@ -32,10 +33,10 @@ public:
     }
     bool is_full() const { return wants_.size() >= most_; }
     bool empty() const { return wants_.empty(); }
-    bool is_one() const { return wants_.size() == 1; }
-    /// Whether the only want takes this point, if there is no other at the place.
+    /// Whether a want takes this point, if there is no other at the place.
     bool takes(std::int64_t id, const double *attributes) {
-        return !exactly_ || identities_.find(id, attributes) == wants_[0];
+        return !exactly_ || std::find(wants_.begin(), wants_.end(),
+                                      identities_.find(id, attributes)) != wants_.end();
     }
     /// Forgets all wants.
     void clear() {

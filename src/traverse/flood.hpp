@@ -29,7 +29,7 @@ public:
                 if (marks_.get(beyond) == Marks::none) goes_on = meet(beyond, visit);
             }
         }
-        for (const Handle h : met_) marks_.set(h, Marks::none);
+        forget_marks();
         return goes_on;
     }
     /// The star of a vertex: from a simplex that has it across all facets that do.
@@ -41,10 +41,19 @@ public:
         return from(mesh, first, has_vertex, visit);
     }
 
+    /// After a flood that has thrown: the next one begins anew.
+    void give_up() {
+        forget_marks();
+        met_.clear();
+    }
+
     /// What the last flood met, in its order.
     const Arena<Handle> &met() const { return met_; }
 
 private:
+    void forget_marks() {
+        for (const Handle h : met_) marks_.set(h, Marks::none);
+    }
     template <class Visit> bool meet(Handle h, Visit &visit) {
         marks_.set(h, Marks::inside);
         met_.push_back(h);

@@ -32,7 +32,7 @@ END $$;
 SELECT abacus_triangulate('field', 'SELECT * FROM points WHERE id <= 1000');
 CREATE TEMP TABLE before AS SELECT * FROM abacus_simplices('field');
 
-CREATE FUNCTION pg_temp.inject() RETURNS SETOF text LANGUAGE plpgsql AS $$
+CREATE FUNCTION pg_temp.inject(change text) RETURNS SETOF text LANGUAGE plpgsql AS $$
 DECLARE
     n int := 0;
     failures int := 0;
@@ -43,7 +43,7 @@ BEGIN
         n := n + 1 + n / 20;
         BEGIN
             PERFORM set_config('abacus.fail_host_call', n::text, false);
-            PERFORM abacus_insert('field', 'SELECT * FROM points WHERE id > 1000');
+            EXECUTE change;
             done := true;
             PERFORM set_config('abacus.fail_host_call', '0', false);
         EXCEPTION WHEN io_error OR out_of_memory THEN
@@ -53,10 +53,14 @@ BEGIN
                 AND NOT EXISTS (SELECT FROM abacus_simplices('field') EXCEPT SELECT FROM before);
         END;
     END LOOP;
-    RETURN NEXT cmp_ok(failures, '>', 50, format('inserting fails, up to call %s, and then succeeds', n));
+    RETURN NEXT cmp_ok(failures, '>', 50, format('a change fails, up to call %s, and then succeeds', n));
     RETURN NEXT ok(sound, 'each time no thread is left, and the mesh is as it was');
 END $$;
-SELECT pg_temp.inject();
+SELECT pg_temp.inject($$ SELECT abacus_insert('field', 'SELECT * FROM points WHERE id > 1000') $$);
+SELECT is_empty($$ SELECT * FROM abacus_check('field') $$, 'the mesh is sound');
+TRUNCATE before;
+INSERT INTO before SELECT * FROM abacus_simplices('field');
+SELECT pg_temp.inject($$ SELECT abacus_delete('field', 'SELECT * FROM points WHERE id > 1000') $$);
 SELECT is_empty($$ SELECT * FROM abacus_check('field') $$, 'the mesh is sound');
 
 -- a timeout while threads are at work

@@ -18,14 +18,18 @@ SELECT abacus_triangulate('field', 'TABLE points');
 SQL
 my $before = $node->safe_psql('postgres', "SELECT count(*), sum(v0) FROM abacus_simplices('field')");
 
-# Starts an insertion in a session of its own; returns that, and its process once it has threads.
-sub begin_insertion
+my $insertion = "SELECT abacus_insert('field', 'SELECT id + 1000000, x + 0.3, y + 0.3 FROM points')";
+my $deletion = "SELECT abacus_delete('field', 'TABLE points')";
+
+# Starts a change in a session of its own; returns that, and its process once it has threads.
+sub begin_change
 {
+	my ($change) = @_;
 	my ($out, $err) = ('', '');
 	my $session = IPC::Run::start(
 		[ 'psql', '-X', '-d', $node->connstr('postgres'), '-c', 'SET abacus.threads = 3', '-c',
 			'SET abacus.tiny_intervals = on', '-c', "SET application_name = 'threads'", '-c',
-			"SELECT abacus_insert('field', 'SELECT id + 1000000, x + 0.3, y + 0.3 FROM points')" ],
+			$change ],
 		'>', \$out, '2>', \$err);
 	my $deadline = time() + 120;
 	while (time() < $deadline)
@@ -39,9 +43,10 @@ sub begin_insertion
 	die 'no threads were started';
 }
 
-foreach my $way ('cancel', 'terminate', 'kill')
+foreach my $case (map { [ $_, $insertion ], [ $_, $deletion ] } ('cancel', 'terminate', 'kill'))
 {
-	my ($session, $pid) = begin_insertion();
+	my ($way, $change) = @$case;
+	my ($session, $pid) = begin_change($change);
 	my $began = time();
 	if ($way eq 'kill')
 	{

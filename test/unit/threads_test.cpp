@@ -1,8 +1,5 @@
 // The same mesh from any number of threads, and a clean end whatever fails in any of them.
-#include "support/oracle.hpp"
-#include "support/running_threads.hpp"
-
-#include <gtest/gtest.h>
+#include "support/threads.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,37 +8,10 @@
 namespace abacus::test {
 namespace {
 
-constexpr std::size_t little = 300 << 10, ample = 64 << 20;
-
-template <class Dimension> class Threads : public testing::Test {
+template <class Dimension> class Threads : public ThreadsTest<Dimension> {
 protected:
-    static constexpr int D = Dimension::value;
-    using Points = std::vector<Point<D>>;
+    using ThreadsTest<Dimension>::D, ThreadsTest<Dimension>::ids;
 
-    Points uniform(int n) {
-        std::uniform_real_distribution<double> unit(0, 1);
-        Points points(n);
-        for (Point<D> &p : points)
-            for (double &x : p) x = unit(random);
-        return points;
-    }
-    std::vector<InputOf<D>> with_ids(const Points &points) {
-        std::vector<InputOf<D>> inputs;
-        for (const Point<D> &p : points)
-            inputs.push_back(
-                {next_id++, p, {std::uniform_real_distribution<double>(0, 1)(random)}});
-        return inputs;
-    }
-    /// Its simplices by ids, and of each simplex the corners: with one thread and with several.
-    static std::vector<std::vector<std::int64_t>> ids(MeshOf<D> &mesh) {
-        std::vector<std::vector<std::int64_t>> result;
-        for (const abacus_simplex &s : mesh.simplices(false)) {
-            result.emplace_back(s.id, s.id + D + 1);
-            std::sort(result.back().begin(), result.back().end());
-        }
-        std::sort(result.begin(), result.end());
-        return result;
-    }
     /// What inserting these with one thread gives, in a few steps.
     void expect_same(const std::vector<std::vector<InputOf<D>>> &steps, std::size_t cache_bytes,
                      abacus_on_duplicate on_duplicate = ABACUS_KEEP) {
@@ -66,9 +36,6 @@ protected:
             EXPECT_EQ(mesh.host.bytes, 0u);
         }
     }
-
-    std::mt19937_64 random{17};
-    std::int64_t next_id = 0;
 };
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(Threads, Dimensions);

@@ -49,8 +49,8 @@ settings_define(void)
 							 &shortcuts, ABACUS_SHORTCUTS != 0, PGC_INTERNAL,
 							 GUC_NOT_IN_SAMPLE | GUC_DISALLOW_IN_FILE, NULL, NULL, NULL);
 	DefineCustomIntVariable("abacus.threads",
-							"Sets how many threads compute when many points are inserted, a mesh is "
-							"checked, or many places are asked for.",
+							"Sets how many threads compute when many points are inserted or deleted, "
+							"a mesh is checked, or many places are asked for.",
 							"0 means as many as max_parallel_maintenance_workers allows beside the "
 							"session's own, and at most as many as there are processors.",
 							&threads, 0, 0, MAX_PARALLEL_WORKER_LIMIT, PGC_USERSET, 0,
