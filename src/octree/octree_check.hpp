@@ -68,7 +68,7 @@ template <int D> void OctreeCheck<D>::check_pages() {
             fault("page", error.detail.c_str());
             is_known_ = false;
         }
-        if (++pages % 64 == 0) host_.progress({ABACUS_PHASE_CHECKING, pages, 0, pages, 0});
+        if (++pages % 64 == 0) host_.progress({ABACUS_PHASE_CHECKING, pages, 0, pages, 0, 0});
         host_.poll();
     }
     if (!is_known_) return;
