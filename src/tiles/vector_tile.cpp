@@ -40,7 +40,8 @@ public:
             write_overview();
         }
         Png result(host_);
-        result.append(reinterpret_cast<const unsigned char *>(bytes_.data()), bytes_.size());
+        if (!bytes_.empty())
+            result.append(reinterpret_cast<const unsigned char *>(bytes_.data()), bytes_.size());
         return result;
     }
 
