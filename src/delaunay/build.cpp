@@ -48,26 +48,28 @@ template <int D> void Build<D>::start(const std::array<VertexIndex, D + 1> &vert
 }
 
 template <int D> void Build<D>::add(const std::uint64_t *records, std::size_t n) {
-    if (host_.threads() > 1) return gather(records, n);
-    with_codes(records, n,
+    const std::size_t stride = record_words(D, attributes_);
+    if (host_.threads() > 1) return gather(records, n, stride);
+    with_codes(records, n, stride,
                [&](const std::uint64_t *some, const std::uint64_t *codes, std::size_t count) {
                    insert_some(some, codes, count);
                });
 }
 
-template <int D> void Build<D>::gather(const std::uint64_t *records, std::size_t n) {
-    const std::size_t stride = record_words(D, attributes_);
-    with_codes(records, n,
+template <int D>
+void Build<D>::gather(const std::uint64_t *records, std::size_t n, std::size_t stride) {
+    with_codes(records, n, stride,
                [&](const std::uint64_t *some, const std::uint64_t *codes, std::size_t count) {
-                   for (std::size_t i = 0; i < count; ++i) gather_one(some + i * stride, codes[i]);
+                   for (std::size_t i = 0; i < count; ++i)
+                       gather_one(some + i * stride, stride, codes[i]);
                });
 }
 
 // Each code is a chain of table look-ups. In a loop of their own many of these run at once.
 template <int D>
 template <class Take>
-void Build<D>::with_codes(const std::uint64_t *records, std::size_t n, Take take) const {
-    const std::size_t stride = record_words(D, attributes_);
+void Build<D>::with_codes(const std::uint64_t *records, std::size_t n, std::size_t stride,
+                          Take take) const {
     std::array<std::uint64_t, most_at_once> codes;
     while (n > 0) {
         const std::size_t some = std::min(n, codes.size());

@@ -78,12 +78,14 @@ private:
     void add(const std::uint64_t *records, std::size_t n);
     /// Calls take(records, codes, n) for some points after the other, with their codes.
     template <class Take>
-    void with_codes(const std::uint64_t *records, std::size_t n, Take take) const;
+    void with_codes(const std::uint64_t *records, std::size_t n, std::size_t stride,
+                    Take take) const;
     void insert_some(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n);
     /// So many points come, as far as is known.
     void begin_to_gather(std::uint64_t points);
-    void gather(const std::uint64_t *records, std::size_t n);
-    void gather_one(const std::uint64_t *record, std::uint64_t code);
+    /// Those that leave may come without attributes.
+    void gather(const std::uint64_t *records, std::size_t n, std::size_t stride);
+    void gather_one(const std::uint64_t *record, std::size_t words, std::uint64_t code);
     /// Inserts what has been gathered, or takes it away.
     void change_gathered();
     std::size_t thread_cache_bytes() const;

@@ -97,7 +97,8 @@ template <int D> void Build<D>::begin_to_gather(std::uint64_t points) {
     most_gathered_ = std::max<std::uint64_t>((points + parts - 1) / parts, worth_sharing<D>);
 }
 
-template <int D> void Build<D>::gather_one(const std::uint64_t *record, std::uint64_t code) {
+template <int D>
+void Build<D>::gather_one(const std::uint64_t *record, std::size_t words, std::uint64_t code) {
     const std::size_t n = gathered_.size();
     const bool begins_round = n > 0 && code < gathered_.code(n - 1);
     if (n >= most_gathered_ || (begins_round && outlet_ == nullptr))
@@ -105,7 +106,7 @@ template <int D> void Build<D>::gather_one(const std::uint64_t *record, std::uin
     else if (begins_round)
         gathered_.begin_run();
     if (gathered_.size() == worth_reserving) gathered_.reserve(most_gathered_);
-    gathered_.add(record, code);
+    gathered_.add(record, words, code);
 }
 
 /// An early round is hardly worth it: its mesh is in memory, and would have to be read again.
@@ -265,8 +266,8 @@ template <int D> void Build<D>::forget_cache() {
 
 template void Build<2>::begin_to_gather(std::uint64_t);
 template void Build<3>::begin_to_gather(std::uint64_t);
-template void Build<2>::gather_one(const std::uint64_t *, std::uint64_t);
-template void Build<3>::gather_one(const std::uint64_t *, std::uint64_t);
+template void Build<2>::gather_one(const std::uint64_t *, std::size_t, std::uint64_t);
+template void Build<3>::gather_one(const std::uint64_t *, std::size_t, std::uint64_t);
 template void Build<2>::change_gathered();
 template void Build<3>::change_gathered();
 template std::size_t Build<2>::thread_cache_bytes() const;

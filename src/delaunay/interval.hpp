@@ -53,9 +53,11 @@ public:
     Batch(const Memory &memory, std::size_t stride)
         : stride_(stride), records_(memory), codes_(memory), later_runs_(memory) {}
 
-    void add(const std::uint64_t *record, std::uint64_t code) {
+    void add(const std::uint64_t *record, std::uint64_t code) { add(record, stride_, code); }
+    /// Of so many words at most; what is missing nobody will read.
+    void add(const std::uint64_t *record, std::size_t words, std::uint64_t code) {
         std::uint64_t *to = records_.extend(stride_);
-        for (std::size_t word = 0; word < stride_; ++word) to[word] = record[word];
+        for (std::size_t word = 0; word < std::min(words, stride_); ++word) to[word] = record[word];
         codes_.push_back(code);
     }
     /// The next record is the first of another run.

@@ -18,6 +18,7 @@ template <int D> class Build<D>::Outlet final : public RecordSink {
 public:
     Outlet(Build &build, const Stage<D> &stage, bool exactly)
         : build_(build), memory_(stage.memory()), exactly_(exactly),
+          words_(record_words(D, exactly ? build.attributes_ : 0)),
           outlay_(stage.points(), build.header_->vertices, build.simplices()),
           leaving_(build.host_, build.cache_bytes_ / want_share, exactly, build.attributes_),
           waiting_(build.host_, build.attributes_, exactly) {
@@ -28,9 +29,9 @@ public:
     Outlet &operator=(const Outlet &) = delete;
     ~Outlet() { build_.outlet_ = nullptr; }
 
-    void add(const std::uint64_t *record) override { add(record, 1, 0); }
+    void add(const std::uint64_t *record) override { add(record, 1, words_); }
     void add(const std::uint64_t *records, std::size_t n, std::size_t stride) override {
-        if (is_shared()) return build_.gather(records, n);
+        if (is_shared()) return build_.gather(records, n, stride);
         build_.change_gathered(); // if there is something left
         for (; n > 0; --n, records += stride) take(records);
     }
@@ -99,6 +100,7 @@ private:
     Build &build_;
     const std::size_t memory_; // for sorting
     const bool exactly_;
+    const std::size_t words_; // of a record, those that are looked at
     Outlay<D> outlay_;
     Leaving leaving_;          // those of one place
     std::uint64_t wanted_ = 0; // how many

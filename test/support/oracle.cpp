@@ -64,12 +64,16 @@ template <int D> MeshOf<D>::MeshOf(int attributes, std::size_t bytes) : cache_by
 
 template <int D>
 abacus_status MeshOf<D>::with_stage(const std::vector<InputOf<D>> &points, std::size_t memory,
-                                    const std::function<abacus_status(abacus_stage *)> &use) {
+                                    const std::function<abacus_status(abacus_stage *)> &use,
+                                    bool with_attributes) {
     abacus_stage *stage = nullptr;
-    abacus_status status = abacus_stage_open(host.table(), &header, memory, &stage, &error);
+    abacus_header staged = header;
+    if (!with_attributes) staged.attributes = 0;
+    abacus_status status = abacus_stage_open(host.table(), &staged, memory, &stage, &error);
     if (status != ABACUS_OK) return status;
     for (const InputOf<D> &input : points) {
-        const std::vector<std::uint64_t> record = record_of(input);
+        std::vector<std::uint64_t> record = record_of(input);
+        if (!with_attributes) record.resize(1 + D);
         status = abacus_stage_add(stage, record.data(), 1, &error);
         if (status != ABACUS_OK) break;
     }
@@ -144,11 +148,12 @@ abacus_status MeshOf<D>::insert(const std::vector<InputOf<D>> &points, std::size
 template <int D>
 abacus_status MeshOf<D>::remove(const std::vector<InputOf<D>> &points, std::uint64_t &deleted,
                                 std::size_t memory, bool exactly) {
-    return with_stage(points, memory, [&](abacus_stage *stage) {
+    const auto use = [&](abacus_stage *stage) {
         return with_build([&](abacus_build *build) {
             return abacus_build_delete(build, stage, exactly, &header, &deleted, &error);
         });
-    });
+    };
+    return with_stage(points, memory, use, exactly); // else nobody looks at attributes
 }
 
 template <int D>

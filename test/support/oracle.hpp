@@ -59,7 +59,8 @@ template <int D> struct MeshOf {
 
     /// Calls use() with a stage of the points, or a build of the mesh.
     abacus_status with_stage(const std::vector<InputOf<D>> &points, std::size_t memory,
-                             const std::function<abacus_status(abacus_stage *)> &use);
+                             const std::function<abacus_status(abacus_stage *)> &use,
+                             bool with_attributes = true);
     abacus_status with_build(const std::function<abacus_status(abacus_build *)> &use);
 
     MemoryHost host;
