@@ -129,7 +129,7 @@ template <int D> void Build<D>::insert_waiting(std::uint64_t limit) {
         std::array<VertexIndex, D + 1> vertices;
         for (int i = 0; i <= D; ++i) {
             VertexReader<D> corner(host_, attributes_, first.number(i), first.number(i) + 1);
-            corner.advance();
+            if (!corner.advance()) throw_corrupted("A vertex page is missing.");
             vertices[i] = create(corner.record());
         }
         start(vertices);
