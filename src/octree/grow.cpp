@@ -24,7 +24,7 @@ template <int D> void Growth<D>::add(const Point<D> &place, std::int64_t level) 
     if (level < 0 || level > levels_) throw_no_level(level, levels_);
     std::uint64_t *const record = places_.add();
     if (places_.size() % (16 * Pacer::stride) == 1)
-        host_.progress({ABACUS_PHASE_READING, places_.size(), 0, 0, 0});
+        host_.progress({ABACUS_PHASE_READING, places_.size(), 0, 0, 0, 0});
     record[0] = morton<D>(cell);
     record[1] = static_cast<std::uint64_t>(level);
 }
@@ -110,7 +110,7 @@ template <int D> void Growth<D>::rewrite(SplitOctants<D> &octants, abacus_header
     std::uint64_t leaves = 0;
     while (before.next_page()) {
         if (before.pages() % 64 == 1)
-            host_.progress({ABACUS_PHASE_FLUSHING, leaves, 0, before.pages(), writer.pages()});
+            host_.progress({ABACUS_PHASE_FLUSHING, leaves, 0, before.pages(), writer.pages(), 0});
         writer.begin(before.lower(), before.location());
         const std::uint64_t upper = before.upper();
         while (before.has_more() && before.next()) {
