@@ -74,33 +74,64 @@ double spacing_of(const abacus_simplex &simplex, const MapPlane &plane) {
     return std::sqrt(std::fmax(twice, 0));
 }
 
+/// What a sample is drawn with: the value there, and the size of its triangle.
+struct Sample {
+    double value;   // NaN: none
+    double spacing; // negative outside the mesh
+};
+
+class SampleQuestion final : public Question<2> {
+public:
+    SampleQuestion(const abacus_drawing &drawing, const MapPlane &plane, const Samples &samples,
+                   Canvas &canvas)
+        : attribute_(static_cast<std::uint32_t>(std::max(drawing.attribute, 0))),
+          has_attribute_(drawing.attribute >= 0),
+          max_edge_(drawing.max_edge > 0 ? drawing.max_edge : no_max_edge), plane_(plane),
+          samples_(samples), canvas_(canvas) {}
+
+    std::size_t words() const override { return sizeof(Sample) / 8; }
+    bool is_quick() const override { return true; }
+    void answer(Answerer<2> &by, const Point<2> &place, Tape &tape) const override {
+        CornerValues values(&attribute_, 1);
+        abacus_simplex simplex;
+        Sample sample{NAN, -1};
+        if (by.reader.locate(place, simplex, has_attribute_ ? &values : nullptr, max_edge_)) {
+            sample.spacing = spacing_of(simplex, plane_);
+            if (has_attribute_) {
+                const auto weights = barycentric_weights<2>(simplex, place);
+                sample.value = 0;
+                for (int i = 0; i < 3; ++i) sample.value += weights[i] * values.value(i, 0);
+            }
+        }
+        tape.put(sample);
+    }
+    void tell(std::int64_t id, Tape::Player &answers) const override {
+        const auto &sample = answers.take<Sample>();
+        if (sample.spacing < 0) return;
+        Patch patch = samples_.patch(id);
+        std::fill_n(patch.value, 4, sample.value);
+        patch.spacing = sample.spacing;
+        canvas_.add(patch);
+    }
+
+private:
+    const std::uint32_t attribute_;
+    const bool has_attribute_;
+    const double max_edge_;
+    const MapPlane &plane_;
+    const Samples &samples_;
+    Canvas &canvas_;
+};
+
 Portrait draw_samples(const Host &host, const abacus_header &header, const TileWindow &window,
                       const abacus_drawing &drawing, const abacus_tile_memory &memory) {
     const std::int32_t margin = Canvas::margin_of(drawing);
     const Samples samples(window, drawing, margin);
     Places<2> places(host, header, memory.sort, memory.cache);
     samples.add_to(places, hull_box<2>(host, header, memory.cache));
-
-    const auto attribute = static_cast<std::uint32_t>(std::max(drawing.attribute, 0));
-    CornerValues values(&attribute, 1);
-    CornerValues *const wanted = drawing.attribute >= 0 ? &values : nullptr;
-    const double max_edge = drawing.max_edge > 0 ? drawing.max_edge : no_max_edge;
     Canvas canvas(host, drawing, drawing.attribute >= 0 ? drawing.range[0] : NAN,
                   drawing.attribute >= 0 ? drawing.range[1] : NAN, margin);
-    places.each([&](Reader<2> &reader, std::int64_t id, const Point<2> &place) {
-        abacus_simplex simplex;
-        if (!reader.locate(place, simplex, wanted, max_edge)) return;
-        Patch patch = samples.patch(id);
-        double value = NAN;
-        if (wanted != nullptr) {
-            const auto weights = barycentric_weights<2>(simplex, place);
-            value = 0;
-            for (int i = 0; i < 3; ++i) value += weights[i] * values.value(i, 0);
-        }
-        std::fill_n(patch.value, 4, value);
-        patch.spacing = spacing_of(simplex, window.plane());
-        canvas.add(patch);
-    });
+    places.each(SampleQuestion(drawing, window.plane(), samples, canvas));
     return {canvas.png(Palette::of(drawing.ramp, ABACUS_RAMP_TERRAIN)), canvas.is_blank()};
 }
 
