@@ -74,6 +74,49 @@ double spacing_of(const abacus_simplex &simplex, const MapPlane &plane) {
     return std::sqrt(std::fmax(twice, 0));
 }
 
+/// The triangle at the centre of a pixel: its spacing and its value there.
+class SampleDrawn final : public Question<2> {
+public:
+    SampleDrawn(const Samples &samples, const MapPlane &plane, const abacus_drawing &drawing,
+                Canvas &canvas)
+        : samples_(samples), plane_(plane), attribute_(drawing.attribute),
+          max_edge_(drawing.max_edge > 0 ? drawing.max_edge : no_max_edge), canvas_(canvas) {}
+
+    std::size_t words() const override { return 3; }
+    bool is_quick() const override { return true; }
+    void answer(Answerer<2> &by, const Point<2> &p, Tape &tape) const override {
+        const auto attribute = static_cast<std::uint32_t>(std::max(attribute_, 0));
+        CornerValues values(&attribute, 1);
+        CornerValues *const wanted = attribute_ >= 0 ? &values : nullptr;
+        abacus_simplex simplex;
+        const std::uint64_t is_inside = by.reader.locate(p, simplex, wanted, max_edge_);
+        tape.put(is_inside);
+        if (is_inside == 0) return;
+        tape.put(spacing_of(simplex, plane_));
+        double value = NAN;
+        if (wanted != nullptr) {
+            const auto weights = barycentric_weights<2>(simplex, p);
+            value = 0;
+            for (int i = 0; i < 3; ++i) value += weights[i] * values.value(i, 0);
+        }
+        tape.put(value);
+    }
+    void tell(std::int64_t id, Tape::Player &answers) const override {
+        if (answers.take<std::uint64_t>() == 0) return;
+        Patch patch = samples_.patch(id);
+        patch.spacing = answers.take<double>();
+        std::fill_n(patch.value, 4, answers.take<double>());
+        canvas_.add(patch);
+    }
+
+private:
+    const Samples &samples_;
+    const MapPlane &plane_;
+    const std::int32_t attribute_; // or less than 0
+    const double max_edge_;
+    Canvas &canvas_;
+};
+
 Portrait draw_samples(const Host &host, const abacus_header &header, const TileWindow &window,
                       const abacus_drawing &drawing, const abacus_tile_memory &memory) {
     const std::int32_t margin = Canvas::margin_of(drawing);
@@ -81,26 +124,9 @@ Portrait draw_samples(const Host &host, const abacus_header &header, const TileW
     Places<2> places(host, header, memory.sort, memory.cache);
     samples.add_to(places, hull_box<2>(host, header, memory.cache));
 
-    const auto attribute = static_cast<std::uint32_t>(std::max(drawing.attribute, 0));
-    CornerValues values(&attribute, 1);
-    CornerValues *const wanted = drawing.attribute >= 0 ? &values : nullptr;
-    const double max_edge = drawing.max_edge > 0 ? drawing.max_edge : no_max_edge;
     Canvas canvas(host, drawing, drawing.attribute >= 0 ? drawing.range[0] : NAN,
                   drawing.attribute >= 0 ? drawing.range[1] : NAN, margin);
-    places.each([&](Reader<2> &reader, std::int64_t id, const Point<2> &place) {
-        abacus_simplex simplex;
-        if (!reader.locate(place, simplex, wanted, max_edge)) return;
-        Patch patch = samples.patch(id);
-        double value = NAN;
-        if (wanted != nullptr) {
-            const auto weights = barycentric_weights<2>(simplex, place);
-            value = 0;
-            for (int i = 0; i < 3; ++i) value += weights[i] * values.value(i, 0);
-        }
-        std::fill_n(patch.value, 4, value);
-        patch.spacing = spacing_of(simplex, window.plane());
-        canvas.add(patch);
-    });
+    places.each(SampleDrawn(samples, window.plane(), drawing, canvas));
     return {canvas.png(Palette::of(drawing.ramp, ABACUS_RAMP_TERRAIN)), canvas.is_blank()};
 }
 
