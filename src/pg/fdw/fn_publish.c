@@ -15,11 +15,11 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/base/utility.h"
-#include "pg/fdw/postgis.h"
 #include "pg/fdw/published.h"
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/reader.h"
 #include "pg/port/port.h"
+#include "pg/postgis/catalogue.h"
 
 SQL_FUNCTION(abacus_sql_publish);
 SQL_FUNCTION(abacus_sql_unpublish);
@@ -186,11 +186,10 @@ z_argument(FunctionCallInfo fcinfo, const Publishing *publication)
 static void
 geometry_arguments(FunctionCallInfo fcinfo, Publishing *publication)
 {
-	bool		is_installed = OidIsValid(postgis_geometry());
+	Oid			type = postgis_geometry();
+	bool		is_installed = OidIsValid(type);
 	bool		is_wanted = PG_ARGISNULL(PUBLISH_GEOMETRY) ? is_installed
 		: PG_GETARG_BOOL(PUBLISH_GEOMETRY);
-	Oid			schema;
-	const char *name;
 
 	publication->srid = PG_ARGISNULL(PUBLISH_SRID) ? 0 : PG_GETARG_INT32(PUBLISH_SRID);
 	publication->z = z_argument(fcinfo, publication);
@@ -207,8 +206,7 @@ geometry_arguments(FunctionCallInfo fcinfo, Publishing *publication)
 				 errhint("Geometries need PostGIS: CREATE EXTENSION postgis.")));
 	if (!is_wanted)
 		return;
-	name = postgis_type_name(&schema);
-	publication->geometry = quote_qualified_identifier(get_namespace_name(schema), name);
+	publication->geometry = format_type_extended(type, -1, FORMAT_TYPE_FORCE_QUALIFY);
 }
 
 static Datum

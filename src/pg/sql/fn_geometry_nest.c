@@ -19,7 +19,8 @@
 
 #include "abacus/shape.h"
 #include "pg/base/sql_function.h"
-#include "pg/sql/geometry_make.h"
+#include "pg/postgis/geometry_errors.h"
+#include "pg/postgis/geometry_write.h"
 #include "pg/sql/geometry_place.h"
 
 SQL_FUNCTION(abacus_sql_geometry_nest);
