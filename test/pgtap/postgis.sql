@@ -184,7 +184,7 @@ SELECT is(abacus_locate('rocks', ST_MakePoint(1.25, 2.3, -0.4)), abacus_locate('
 SELECT is((SELECT count(*) FROM abacus_cells_geom('rocks', ST_MakeEnvelope(1.2, 1.2, 1.4, 1.4))), (SELECT count(*) FROM abacus_cells('rocks', ARRAY[1.2, 1.2, -1000], ARRAY[1.4, 1.4, 1000])), 'a window without z goes from the bottom to the top');
 SELECT is((SELECT count(*) FROM abacus_cells_geom('rocks', 'LINESTRING Z (1.2 1.2 -0.6, 1.4 1.4 -0.4)')), (SELECT count(*) FROM abacus_cells('rocks', ARRAY[1.2, 1.2, -0.6], ARRAY[1.4, 1.4, -0.4])), 'one with z is a box');
 -- foreign tables have the same geometries, bit by bit
-SELECT abacus_publish('rocks'), abacus_publish('terrain', srid => 2154, z => 'height');
+SELECT abacus_publish('rocks'), abacus_publish('terrain', z => 'height');
 SELECT set_eq('SELECT v0, v1, v2, v3, ST_AsEWKB(geom) FROM rocks_cells', 'SELECT v0, v1, v2, v3, ST_AsEWKB(geom) FROM abacus_cells_geom(''rocks'')', 'a foreign table has these tetrahedra');
 SELECT set_eq('SELECT v0, v1, v2, ST_AsEWKB(geom) FROM terrain_cells', 'SELECT v0, v1, v2, ST_AsEWKB(geom) FROM cells', 'and triangles');
 SELECT set_eq('SELECT id, ST_AsEWKB(geom) FROM rocks_points', 'SELECT id, ST_AsEWKB(geom) FROM abacus_vertices_geom(''rocks'')', 'and points');
