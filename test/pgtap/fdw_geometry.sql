@@ -106,6 +106,20 @@ SELECT is_empty('SELECT FROM empty_points WHERE ST_Intersects(geom, ST_MakeEnvel
 SELECT throws_ok($$ SELECT abacus_publish('rock', 'a', 'b', z => 'number') $$, '22023', 'mesh has dimension 3, not 2', 'Z is taken');
 SELECT throws_ok($$ SELECT abacus_publish('ring', 'a', 'b', geometry => false, srid => 5) $$, '22023', 'srid and z are of geometries, and none are published', 'no geometry');
 SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', z => 'depth') $$, '42703', NULL, 'no such attribute');
+-- The SRID of the mesh, and one for a mesh without.
+SELECT abacus_set_srid('partial', 2154);
+SELECT abacus_publish('partial', 'own_cells', 'own_points');
+SELECT abacus_publish('partial', 'same_cells', 'same_points', srid => 2154);
+SELECT abacus_publish('partial', 'bare_cells', 'bare_points', geometry => false);
+SELECT set_eq($$ SELECT f_table_name::text, srid FROM geometry_columns WHERE f_table_name ~ '^(partial|own|same|bare|empty|ring)_' $$,
+    $$ VALUES ('partial_cells', 0), ('partial_points', 0), ('own_cells', 2154), ('own_points', 2154), ('same_cells', 2154), ('same_points', 2154),
+        ('empty_cells', 0), ('empty_points', 0), ('ring_cells', 3857), ('ring_points', 3857) $$, 'columns have the SRID of the mesh, or one that is given');
+SELECT set_eq('SELECT ST_AsEWKT(geom) FROM own_points', $$ VALUES ('SRID=2154;POINT(0 0)'), ('SRID=2154;POINT(4 0)'), ('SRID=2154;POINT(0 4)') $$, 'points have it');
+SELECT results_eq('SELECT ST_SRID(geom) FROM own_cells', 'VALUES (2154)', 'cells have it');
+SELECT pg_temp.finds('own_points', 'geom && ST_MakeEnvelope(3, -1, 5, 1, 2154)', 'points in a window of the system');
+SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', srid => 4326) $$, '22023', 'srid is 4326, but the mesh has SRID 2154', 'another SRID');
+SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', srid => 0) $$, '22023', 'srid is 0, but the mesh has SRID 2154', 'none');
+SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', geometry => false, srid => 2154) $$, '22023', 'srid and z are of geometries, and none are published', 'no geometry to have it');
 SELECT lives_ok('ANALYZE slanted_cells, slanted_points, rock_cells', 'ANALYZE');
 SELECT * FROM finish();
 \else

@@ -202,6 +202,12 @@ SELECT is(abacus_interpolate('rocks', ST_MakePoint(1.25, 2, -0.5)), 332.5::float
 SELECT is(abacus_locate('rocks', ST_MakePoint(1.25, 2.3, -0.4)), abacus_locate('rocks', 1.25, 2.3, -0.4), 'a tetrahedron');
 SELECT is((SELECT count(*) FROM abacus_cells_geom('rocks', ST_MakeEnvelope(1.2, 1.2, 1.4, 1.4))), (SELECT count(*) FROM abacus_cells('rocks', ARRAY[1.2, 1.2, -1000], ARRAY[1.4, 1.4, 1000])), 'a window without z goes from the bottom to the top');
 SELECT is((SELECT count(*) FROM abacus_cells_geom('rocks', 'LINESTRING Z (1.2 1.2 -0.6, 1.4 1.4 -0.4)')), (SELECT count(*) FROM abacus_cells('rocks', ARRAY[1.2, 1.2, -0.6], ARRAY[1.4, 1.4, -0.4])), 'one with z is a box');
+-- foreign tables have the same geometries, bit by bit
+SELECT abacus_publish('rocks'), abacus_publish('terrain', z => 'height');
+SELECT set_eq('SELECT v0, v1, v2, v3, ST_AsEWKB(geom) FROM rocks_cells', 'SELECT v0, v1, v2, v3, ST_AsEWKB(geom) FROM abacus_cells_geom(''rocks'')', 'a foreign table has these tetrahedra');
+SELECT set_eq('SELECT v0, v1, v2, ST_AsEWKB(geom) FROM terrain_cells', 'SELECT v0, v1, v2, ST_AsEWKB(geom) FROM cells', 'and triangles');
+SELECT set_eq('SELECT id, ST_AsEWKB(geom) FROM rocks_points', 'SELECT id, ST_AsEWKB(geom) FROM abacus_vertices_geom(''rocks'')', 'and points');
+SELECT abacus_unpublish('rocks'), abacus_unpublish('terrain');
 SELECT is(ST_NumGeometries(abacus_hull_geom('rocks')), (SELECT count(DISTINCT ring)::int FROM abacus_hull('rocks')), 'the hull is a TIN');
 SELECT ok(ST_IsClosed(abacus_hull_geom('rocks')) AND GeometryType(abacus_hull_geom('rocks')) = 'TIN', 'closed');
 SELECT is((SELECT count(*) FROM abacus_isosurface_geom('rocks', 345) WHERE GeometryType(geom) = 'TRIANGLE'), (SELECT count(*) FROM abacus_isosurface('rocks', 345)), 'an isosurface');

@@ -15,8 +15,8 @@
 #include "nodes/nodeFuncs.h"
 
 #include "pg/fdw/conditions.h"
-#include "pg/fdw/postgis.h"
 #include "pg/port/port.h"
+#include "pg/postgis/geometry_box.h"
 
 /* Relative error of a distance that PostGIS computes: much less than this. */
 #define DISTANCE_ERROR 1e-9
@@ -123,14 +123,39 @@ limit_cells(Limits *limits, ConditionKind kind, const double *lower, const doubl
 	}
 }
 
+static double
+single_beyond(double x, float direction)
+{
+	float		single = (float) x;
+
+	if (isinf(single))
+		single = copysignf(FLT_MAX, single);
+	return Max(-DBL_MAX, Min(DBL_MAX, nextafterf(nextafterf(single, direction), direction)));
+}
+
+/*
+ * Operators of PostGIS compare boxes that are rounded outward to single precision, both of
+ * them. A box that meets another one then meets this one as it is.
+ */
+static void
+round_outward(double *lower, double *upper)
+{
+	for (int k = 0; k < 2; k++)
+	{
+		lower[k] = single_beyond(lower[k], -INFINITY);
+		upper[k] = single_beyond(upper[k], INFINITY);
+	}
+}
+
 /* A geometry that the row's own must meet, itself or by its box, or come so near to. */
 static void
-limit_geometry(Limits *limits, ConditionKind kind, Datum geometry, double distance)
+limit_geometry(Limits *limits, const Condition *condition, Datum geometry, double distance)
 {
+	const GeometryType *type = geometry_type(exprType((Node *) condition->value));
 	double		lower[2];
 	double		upper[2];
 
-	switch (geometry_box(geometry, lower, upper))
+	switch (geometry_box(type, geometry, lower, upper))
 	{
 		case GEOMETRY_ANYWHERE:
 			return;
@@ -140,8 +165,8 @@ limit_geometry(Limits *limits, ConditionKind kind, Datum geometry, double distan
 		case GEOMETRY_IN_BOX:
 			break;
 	}
-	geometry_box_outward(lower, upper);
-	for (int k = 0; k < 2 && kind == CONDITION_NEAR; k++)
+	round_outward(lower, upper);
+	for (int k = 0; k < 2 && condition->kind == CONDITION_NEAR; k++)
 	{
 		double		reach = distance +
 			DISTANCE_ERROR * (fabs(distance) + fabs(lower[k]) + fabs(upper[k]));
@@ -152,7 +177,7 @@ limit_geometry(Limits *limits, ConditionKind kind, Datum geometry, double distan
 	if (limits->content == CONTENT_POINTS)
 		limit_points(limits, lower, upper);
 	else
-		limit_cells(limits, kind, lower, upper);
+		limit_cells(limits, condition->kind, lower, upper);
 }
 
 static void
@@ -237,7 +262,7 @@ conditions_bounds(List *conditions, Content content, uint32 dimension, Condition
 		if (isnull || distance_isnull)
 			bounds->nothing = true; /* these are never true of NULL */
 		else if (condition->column.holds == HOLDS_GEOMETRY)
-			limit_geometry(&limits, condition->kind, datum, DatumGetFloat8(distance));
+			limit_geometry(&limits, condition, datum, DatumGetFloat8(distance));
 		else if (condition->column.holds == HOLDS_CODE)
 			limit_code(&limits, condition, datum);
 		else

@@ -21,8 +21,8 @@
 #include "utils/typcache.h"
 
 #include "pg/fdw/conditions.h"
-#include "pg/fdw/postgis.h"
 #include "pg/port/port.h"
+#include "pg/postgis/catalogue.h"
 
 /* What a function of PostGIS, or one behind an operator, needs to be true; false if it tells nothing. */
 static bool

@@ -15,11 +15,11 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/base/utility.h"
-#include "pg/fdw/postgis.h"
 #include "pg/fdw/published.h"
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/reader.h"
 #include "pg/port/port.h"
+#include "pg/postgis/catalogue.h"
 
 SQL_FUNCTION(abacus_sql_publish);
 SQL_FUNCTION(abacus_sql_unpublish);
@@ -182,19 +182,34 @@ z_argument(FunctionCallInfo fcinfo, const Publishing *publication)
 	return header_find_attribute(publication->header, text_to_cstring(PG_GETARG_TEXT_PP(PUBLISH_Z)));
 }
 
+/* The SRID of the geometries: that of the mesh, or one that is given for a mesh without one. */
+static int
+srid_argument(FunctionCallInfo fcinfo, const Publishing *publication)
+{
+	int			own = (int) publication->header->srid;
+	int			given = PG_ARGISNULL(PUBLISH_SRID) ? own : PG_GETARG_INT32(PUBLISH_SRID);
+
+	if (own != 0 && given != own)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("srid is %d, but the mesh has SRID %d", given, own),
+				 errhint("Leave out srid. If the mesh is of another system, say so by "
+						 "abacus_set_srid(mesh, %d).", given)));
+	return given;
+}
+
 /* How geometries are published: without an argument if PostGIS is there. */
 static void
 geometry_arguments(FunctionCallInfo fcinfo, Publishing *publication)
 {
-	bool		is_installed = OidIsValid(postgis_geometry());
+	Oid			type = postgis_geometry();
+	bool		is_installed = OidIsValid(type);
+	bool		has_srid = !PG_ARGISNULL(PUBLISH_SRID) && PG_GETARG_INT32(PUBLISH_SRID) != 0;
 	bool		is_wanted = PG_ARGISNULL(PUBLISH_GEOMETRY) ? is_installed
 		: PG_GETARG_BOOL(PUBLISH_GEOMETRY);
-	Oid			schema;
-	const char *name;
 
-	publication->srid = PG_ARGISNULL(PUBLISH_SRID) ? 0 : PG_GETARG_INT32(PUBLISH_SRID);
 	publication->z = z_argument(fcinfo, publication);
-	if (!is_wanted && (publication->z >= 0 || publication->srid != 0))
+	if (!is_wanted && (publication->z >= 0 || has_srid))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("srid and z are of geometries, and none are published"),
@@ -207,8 +222,8 @@ geometry_arguments(FunctionCallInfo fcinfo, Publishing *publication)
 				 errhint("Geometries need PostGIS: CREATE EXTENSION postgis.")));
 	if (!is_wanted)
 		return;
-	name = postgis_type_name(&schema);
-	publication->geometry = quote_qualified_identifier(get_namespace_name(schema), name);
+	publication->srid = srid_argument(fcinfo, publication);
+	publication->geometry = format_type_extended(type, -1, FORMAT_TYPE_FORCE_QUALIFY);
 }
 
 static Datum

@@ -14,9 +14,9 @@
 #include "abacus/ask.h"
 #include "pg/base/float_array.h"
 #include "pg/base/settings.h"
+#include "pg/fdw/geometry_column.h"
 #include "pg/fdw/mesh_rows.h"
 #include "pg/fdw/nearest.h"
-#include "pg/fdw/postgis.h"
 #include "pg/mesh/reader.h"
 
 struct MeshRows
@@ -82,7 +82,11 @@ prepare_columns(MeshRows *rows, Relation table)
 			continue;
 		check_column(rows, table, i);
 		if (column->holds == HOLDS_GEOMETRY)
-			rows->makers[i] = geometry_maker(TupleDescAttr(RelationGetDescr(table), i)->atttypmod);
+		{
+			Form_pg_attribute attribute = TupleDescAttr(RelationGetDescr(table), i);
+
+			rows->makers[i] = geometry_maker(attribute->atttypid, attribute->atttypmod);
+		}
 		rows->wants_values |= column->holds == HOLDS_VALUES || column->holds == HOLDS_ATTRIBUTE ||
 			(column->holds == HOLDS_GEOMETRY && column->number >= 0);
 	}

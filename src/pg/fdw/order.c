@@ -14,8 +14,8 @@
 #include "utils/lsyscache.h"
 
 #include "pg/fdw/order.h"
-#include "pg/fdw/postgis.h"
 #include "pg/port/port.h"
+#include "pg/postgis/geometry_box.h"
 
 #define POSTGIS_DISTANCE "geometry_distance_centroid"
 
@@ -109,8 +109,8 @@ order_read_place(Oid type, Datum value, double *place)
 		place[0] = DatumGetPointP(value)->x;
 		place[1] = DatumGetPointP(value)->y;
 	}
-	else if (type != postgis_geometry() ||
-			 geometry_box(value, place, upper) != GEOMETRY_IN_BOX ||
+	else if (!geometry_is_type(type) ||
+			 geometry_box(geometry_type(type), value, place, upper) != GEOMETRY_IN_BOX ||
 			 place[0] != upper[0] || place[1] != upper[1])
 		return false;
 	return isfinite(place[0]) && isfinite(place[1]);

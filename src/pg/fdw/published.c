@@ -31,10 +31,10 @@
 #include "utils/lsyscache.h"
 #include "utils/syscache.h"
 
-#include "pg/fdw/postgis.h"
 #include "pg/fdw/published.h"
 #include "pg/mesh/mesh.h"
 #include "pg/port/port.h"
+#include "pg/postgis/catalogue.h"
 
 /* The content that a word names. */
 bool

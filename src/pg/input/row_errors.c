@@ -7,6 +7,7 @@
 #include "utils/builtins.h"
 
 #include "pg/input/row_errors.h"
+#include "pg/postgis/geometry_errors.h"
 
 static const char *const coordinate_names[ABACUS_MAX_DIMENSION] = {"x", "y", "z"};
 static const char *const corner_names[ABACUS_MAX_DIMENSION + 1] = {"v0", "v1", "v2", "v3"};

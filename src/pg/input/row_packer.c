@@ -18,6 +18,7 @@
 #include "utils/memutils.h"
 
 #include "pg/input/row_errors.h"
+#include "pg/postgis/geometry_read.h"
 
 static const RowOrigin query_of_points = {
 	"the source query", "the source query", "Cast the column in the query.",

@@ -5,7 +5,8 @@
 #ifndef ABACUS_ROW_PACKER_H
 #define ABACUS_ROW_PACKER_H
 
-#include "pg/input/geometry.h"
+#include "abacus/header.h"
+#include "pg/postgis/catalogue.h"
 #include "tcop/dest.h"
 
 /* How a column's Datum becomes an eight-byte word. */

@@ -18,7 +18,8 @@
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/sql/geometry_make.h"
+#include "pg/postgis/geometry_errors.h"
+#include "pg/postgis/geometry_write.h"
 #include "pg/sql/geometry_place.h"
 #include "pg/sql/interpolation.h"
 #include "pg/sql/word.h"
@@ -38,7 +39,7 @@ enum
 /* A place: x, y, z, m */
 typedef struct Place
 {
-	double		at[4];
+	double		at[GEOMETRY_COORDINATES];
 } Place;
 
 typedef struct Drape
@@ -59,15 +60,10 @@ typedef struct Drape
 static Place
 read_place(Drape *drape, const GeometryHead *head)
 {
-	Place		place = {{0}};
+	Place		place;
 
-	place.at[0] = geometry_number(&drape->in);
-	place.at[1] = geometry_number(&drape->in);
+	geometry_coordinates(&drape->in, head, place.at);
 	place.at[2] = NAN;
-	if (head->has_z)
-		(void) geometry_number(&drape->in);
-	if (head->has_m)
-		place.at[3] = geometry_number(&drape->in);
 	return place;
 }
 
@@ -183,7 +179,7 @@ drape_point(Drape *drape, const GeometryHead *head)
 {
 	Place		place = read_place(drape, head);
 
-	if (!isnan(place.at[0]) || !isnan(place.at[1])) /* empty */
+	if (!geometry_is_nowhere(place.at))
 		lift(drape, &place);
 	put_place(drape, &place);
 }

@@ -19,7 +19,8 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/sql/geometry_make.h"
+#include "pg/postgis/geometry_errors.h"
+#include "pg/postgis/geometry_write.h"
 #include "pg/sql/geometry_place.h"
 #include "pg/sql/line.h"
 #include "pg/sql/result.h"
@@ -133,28 +134,15 @@ abacus_sql_geometry_path(PG_FUNCTION_ARGS)
 	path = palloc((Size) count * dimension * sizeof(double));
 	for (uint32 i = 0; i < count; i++)
 	{
-		for (int axis = 0; axis < 2 + head.has_z + head.has_m; axis++)
-		{
-			double		number = geometry_number(&bytes);
+		double		at[GEOMETRY_COORDINATES];
 
-			if (axis < dimension)
-				path[(Size) i * dimension + axis] = number;
-		}
+		geometry_coordinates(&bytes, &head, at);
+		memcpy(path + (Size) i * dimension, at, dimension * sizeof(double));
 	}
 	PG_RETURN_DATUM(attribute_array(path, (int) (count * dimension)));
 }
 
 /* ---- Results --------------------------------------------------------------- */
-
-/* Appends a line, or a ring that has its first place again at the end. */
-static void
-put_places(StringInfo bytes, const double *places, size_t count, int dimension, bool closes)
-{
-	geometry_put_count(bytes, count + closes);
-	geometry_put_numbers(bytes, places, count * dimension);
-	if (closes)
-		geometry_put_numbers(bytes, places, dimension);
-}
 
 /* Triangle of the corners of a cell, with the attribute as z if its number is not NULL. */
 static bool
@@ -188,32 +176,8 @@ put_triangle_of_cell(FunctionCallInfo fcinfo, StringInfo bytes, const double *co
 			ring[i * 3 + 2] = DatumGetFloat8(values[at]);
 		}
 	}
-	geometry_put_head(bytes, &head);
-	geometry_put_count(bytes, 1);
-	put_places(bytes, ring, 3, dimension, true);
+	geometry_put_triangle(bytes, &head, ring);
 	return true;
-}
-
-/* A closed surface of the four facets, counterclockwise seen from outside. */
-static void
-put_tetrahedron(StringInfo bytes, const double *corners, int32 srid)
-{
-	static const int facets[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-	GeometryHead head = {GEOMETRY_POLYHEDRAL, srid, true};
-	GeometryHead facet = {GEOMETRY_POLYGON, 0, true};
-
-	geometry_put_head(bytes, &head);
-	geometry_put_count(bytes, 4);
-	for (int i = 0; i < 4; i++)
-	{
-		double		ring[3 * 3];
-
-		for (int j = 0; j < 3; j++)
-			memcpy(ring + j * 3, corners + facets[i][j] * 3, 3 * sizeof(double));
-		geometry_put_head(bytes, &facet);
-		geometry_put_count(bytes, 1);
-		put_places(bytes, ring, 3, 3, true);
-	}
 }
 
 /*
@@ -233,7 +197,7 @@ abacus_sql_cell_geometry(PG_FUNCTION_ARGS)
 	corners = numbers(PG_GETARG_ARRAYTYPE_P(0), 6, &count);
 	initStringInfo(&bytes);
 	if (count == 4 * 3)
-		put_tetrahedron(&bytes, corners, PG_GETARG_INT32(3));
+		geometry_put_tetrahedron(&bytes, corners, PG_GETARG_INT32(3));
 	else if (!put_triangle_of_cell(fcinfo, &bytes, corners))
 		PG_RETURN_NULL();
 	PG_RETURN_DATUM(geometry_made(geometry_argument_type(fcinfo, -1), &bytes));
@@ -274,7 +238,7 @@ of_places(FunctionCallInfo fcinfo, uint32 kind, bool closes)
 	geometry_put_head(&bytes, &head);
 	if (kind == GEOMETRY_POLYGON)
 		geometry_put_count(&bytes, 1);
-	put_places(&bytes, places, count / dimension, dimension, closes);
+	geometry_put_places(&bytes, places, count / dimension, dimension, closes);
 	PG_RETURN_DATUM(geometry_made(geometry_argument_type(fcinfo, -1), &bytes));
 }
 
@@ -312,10 +276,6 @@ abacus_sql_triangles_geometry(PG_FUNCTION_ARGS)
 		geometry_put_count(&bytes, triangles);
 	}
 	for (size_t i = 0; i < triangles; i++)
-	{
-		geometry_put_head(&bytes, &triangle);
-		geometry_put_count(&bytes, 1);
-		put_places(&bytes, corners + i * size, 3, 3, true);
-	}
+		geometry_put_triangle(&bytes, &triangle, corners + i * size);
 	PG_RETURN_DATUM(geometry_made(geometry_argument_type(fcinfo, -1), &bytes));
 }

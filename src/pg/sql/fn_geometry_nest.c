@@ -16,7 +16,8 @@
 #include "miscadmin.h"
 
 #include "pg/base/sql_function.h"
-#include "pg/sql/geometry_make.h"
+#include "pg/postgis/geometry_errors.h"
+#include "pg/postgis/geometry_write.h"
 #include "pg/sql/geometry_place.h"
 #include "pg/sql/geometry_rings.h"
 

@@ -3,6 +3,7 @@
  */
 #include "postgres.h"
 
+#include "pg/postgis/geometry_errors.h"
 #include "pg/sql/geometry_place.h"
 
 /* The type of an argument that is a geometry, or that of the result: argument -1. */

@@ -4,7 +4,8 @@
 #ifndef ABACUS_GEOMETRY_PLACE_H
 #define ABACUS_GEOMETRY_PLACE_H
 
-#include "pg/input/geometry.h"
+#include "abacus/header.h"
+#include "pg/postgis/geometry_read.h"
 
 extern const GeometryType *geometry_argument_type(FunctionCallInfo fcinfo, int argument);
 extern void geometry_check_srid(const abacus_header *header, int32 srid);

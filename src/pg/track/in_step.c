@@ -3,6 +3,7 @@
  */
 #include "postgres.h"
 
+#include "pg/postgis/geometry_errors.h"
 #include "pg/track/in_step.h"
 
 /* Whether points of the mesh have so many coordinates and, with id and attributes, columns. */

@@ -11,6 +11,7 @@
 
 #include "pg/input/row_packer.h"
 #include "pg/mesh/shape.h"
+#include "pg/postgis/catalogue.h"
 #include "pg/track/tracked_points.h"
 
 /* The type of a column, InvalidOid if there is none of this name. */

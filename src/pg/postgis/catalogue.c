@@ -1,0 +1,160 @@
+/*
+ * catalogue.c: PostGIS as it is found in the catalogues.
+ *
+ * PostGIS may be missing, or be installed later, in any version and any schema. So nothing of it is
+ * linked. Its type, and functions and those behind operators, are known by their names and by
+ * belonging to the extension.
+ */
+#include "postgres.h"
+
+#include "access/genam.h"
+#include "access/htup_details.h"
+#include "access/table.h"
+#include "access/xact.h"
+#include "catalog/dependency.h"
+#include "catalog/indexing.h"
+#include "catalog/pg_extension.h"
+#include "catalog/pg_proc.h"
+#include "catalog/pg_type.h"
+#include "commands/extension.h"
+#include "utils/builtins.h"
+#include "utils/fmgroids.h"
+#include "utils/lsyscache.h"
+#include "utils/memutils.h"
+#include "utils/syscache.h"
+
+#include "pg/postgis/catalogue.h"
+
+#define POSTGIS "postgis"
+#define GEOMETRY "geometry"
+
+/* ---- The extension ------------------------------------------------------- */
+
+/* The schema of the extension; InvalidOid if it is not installed. */
+static Oid
+schema_of_postgis(void)
+{
+	Relation	extensions = table_open(ExtensionRelationId, AccessShareLock);
+	ScanKeyData key;
+	SysScanDesc scan;
+	HeapTuple	tuple;
+	Oid			schema = InvalidOid;
+
+	ScanKeyInit(&key, Anum_pg_extension_extname, BTEqualStrategyNumber, F_NAMEEQ,
+				CStringGetDatum(POSTGIS));
+	scan = systable_beginscan(extensions, ExtensionNameIndexId, true, NULL, 1, &key);
+	tuple = systable_getnext(scan);
+	if (HeapTupleIsValid(tuple))
+		schema = ((Form_pg_extension) GETSTRUCT(tuple))->extnamespace;
+	systable_endscan(scan);
+	table_close(extensions, AccessShareLock);
+	return schema;
+}
+
+static bool
+is_member(Oid catalogue, Oid object)
+{
+	Oid			extension = getExtensionOfObject(catalogue, object);
+
+	return OidIsValid(extension) && extension == get_extension_oid(POSTGIS, true);
+}
+
+bool
+postgis_owns_function(Oid function)
+{
+	return is_member(ProcedureRelationId, function);
+}
+
+/* The type geometry; InvalidOid if there is none. */
+Oid
+postgis_geometry(void)
+{
+	Oid			schema = schema_of_postgis();
+	Oid			type = !OidIsValid(schema) ? InvalidOid
+		: GetSysCacheOid2(TYPENAMENSP, Anum_pg_type_oid, CStringGetDatum(GEOMETRY),
+						  ObjectIdGetDatum(schema));
+
+	return OidIsValid(type) && is_member(TypeRelationId, type) ? type : InvalidOid;
+}
+
+/* ---- Types --------------------------------------------------------------- */
+
+/* The name of a type, without its schema. */
+const char *
+geometry_type_name(Oid type)
+{
+	HeapTuple	tuple = SearchSysCache1(TYPEOID, ObjectIdGetDatum(type));
+	const char *name = "";
+
+	if (HeapTupleIsValid(tuple))
+	{
+		name = pstrdup(NameStr(((Form_pg_type) GETSTRUCT(tuple))->typname));
+		ReleaseSysCache(tuple);
+	}
+	return name;
+}
+
+/* Whether a type is geometry of PostGIS, or a domain over it. */
+bool
+geometry_is_type(Oid type)
+{
+	Oid			base = getBaseType(type);
+
+	return strcmp(geometry_type_name(base), GEOMETRY) == 0 && is_member(TypeRelationId, base);
+}
+
+/* The name of a function of PostGIS in SQL, where the type geometry of these values is. */
+char *
+geometry_function(Oid type, const char *name)
+{
+	HeapTuple	tuple = SearchSysCache1(TYPEOID, ObjectIdGetDatum(getBaseType(type)));
+	char	   *qualified;
+
+	if (!HeapTupleIsValid(tuple))
+		elog(ERROR, "cache lookup failed for type %u", type);
+	qualified = quote_qualified_identifier(get_namespace_name(((Form_pg_type) GETSTRUCT(tuple))->typnamespace),
+										   name);
+	ReleaseSysCache(tuple);
+	return qualified;
+}
+
+/* Looks the functions of a type up, one that geometry_is_type() knows; they stay in `memory`. */
+void
+geometry_open(GeometryType *type, Oid oid, MemoryContext memory)
+{
+	Oid			function;
+	Oid			parameter;
+	bool		varlena;
+
+	type->type = getBaseType(oid);
+	getTypeBinaryOutputInfo(type->type, &function, &varlena);
+	fmgr_info_cxt(function, &type->send, memory);
+	getTypeBinaryInputInfo(type->type, &function, &parameter);
+	fmgr_info_cxt(function, &type->receive, memory);
+}
+
+/*
+ * The same for functions that are called for every row. Within a statement the functions that were
+ * found stay good.
+ */
+const GeometryType *
+geometry_type(Oid oid)
+{
+	static GeometryType found;
+	static TimestampTz statement;
+	static MemoryContext memory = NULL;
+
+	if (oid != found.type || statement != GetCurrentStatementStartTimestamp())
+	{
+		found.type = InvalidOid;
+		if (memory == NULL)
+			memory = AllocSetContextCreate(TopMemoryContext, "Abacus geometry",
+										   ALLOCSET_SMALL_SIZES);
+		MemoryContextReset(memory);
+		if (!geometry_is_type(oid))
+			elog(ERROR, "type %u is not geometry of PostGIS", oid);
+		geometry_open(&found, oid, memory);
+		statement = GetCurrentStatementStartTimestamp();
+	}
+	return &found;
+}

@@ -1,0 +1,26 @@
+/*
+ * catalogue.h: PostGIS as it is found in the catalogues, without its library.
+ */
+#ifndef ABACUS_POSTGIS_CATALOGUE_H
+#define ABACUS_POSTGIS_CATALOGUE_H
+
+#include "fmgr.h"
+
+/* How values of the type geometry become bytes and are made of them. */
+typedef struct GeometryType
+{
+	Oid			type;
+	FmgrInfo	send;
+	FmgrInfo	receive;
+} GeometryType;
+
+extern Oid	postgis_geometry(void);
+extern bool postgis_owns_function(Oid function);
+
+extern bool geometry_is_type(Oid type);
+extern const char *geometry_type_name(Oid type);
+extern char *geometry_function(Oid type, const char *name);
+extern void geometry_open(GeometryType *type, Oid oid, MemoryContext memory);
+extern const GeometryType *geometry_type(Oid oid);
+
+#endif

@@ -1,0 +1,53 @@
+/*
+ * geometry_errors.c: what is wrong with a geometry, and what to do about it.
+ */
+#include "postgres.h"
+
+#include "pg/postgis/ewkb.h"
+#include "pg/postgis/geometry_errors.h"
+
+/* What PostGIS calls it. */
+static const char *
+kind_name(uint32 kind)
+{
+	static const char *const names[] = {
+		"geometry", "Point", "LineString", "Polygon", "MultiPoint", "MultiLineString", "MultiPolygon",
+		"GeometryCollection", "CircularString", "CompoundCurve", "CurvePolygon", "MultiCurve",
+		"MultiSurface", "Curve", "Surface", "PolyhedralSurface", "Tin", "Triangle"
+	};
+
+	return kind < lengthof(names) ? names[kind] : "geometry of another kind";
+}
+
+/* Of another kind; `what` names the geometry. */
+void
+geometry_refuse_kind(const char *what, uint32 kind, const char *wanted)
+{
+	bool		is_curved = kind >= GEOMETRY_CIRCULAR_LINE && kind <= GEOMETRY_SURFACE;
+	bool		is_collection = kind >= GEOMETRY_MULTIPOINT && kind <= GEOMETRY_COLLECTION;
+
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("%s is a %s, not %s", what, kind_name(kind), wanted),
+			 is_curved ? errhint("ST_CurveToLine makes straight lines of curves.") :
+			 is_collection ? errhint("ST_Dump gives the parts of a collection.") : 0));
+}
+
+/* Of two systems; `wanted` is that of the mesh. */
+void
+geometry_refuse_srid(const char *what, int32 srid, int32 wanted)
+{
+	if (wanted == 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("%s has SRID %d, but the mesh has none", what, srid),
+				 errhint("If the coordinates of the mesh are of that system, say so by "
+						 "abacus_set_srid(mesh, %d).", srid)));
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 srid == 0 ? errmsg("%s has no SRID, but the mesh has SRID %d", what, wanted)
+			 : errmsg("%s has SRID %d, but the mesh has SRID %d", what, srid, wanted),
+			 srid == 0 ? errhint("If its coordinates are of that system, say so by "
+								 "ST_SetSRID(geometry, %d).", wanted)
+			 : errhint("Transform it by ST_Transform(geometry, %d).", wanted)));
+}

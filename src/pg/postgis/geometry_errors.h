@@ -1,0 +1,10 @@
+/*
+ * geometry_errors.h: what is wrong with a geometry, and what to do about it.
+ */
+#ifndef ABACUS_POSTGIS_GEOMETRY_ERRORS_H
+#define ABACUS_POSTGIS_GEOMETRY_ERRORS_H
+
+extern void geometry_refuse_kind(const char *what, uint32 kind, const char *wanted);
+extern void geometry_refuse_srid(const char *what, int32 srid, int32 wanted);
+
+#endif
