@@ -106,8 +106,9 @@ export function tile(kind, z, x, y, p, mesh) {
 // ---- Changes ------------------------------------------------------------------------------------
 
 const id = (value) => {
-    if (!/^-?\d{1,18}$/.test(String(value))) throw wrong("id must be a whole number");
-    return String(value);
+    const text = String(value);
+    if (!/^-?\d{1,19}$/.test(text) || BigInt.asIntN(64, BigInt(text)) !== BigInt(text)) throw wrong("id must be a whole number of 64 bits");
+    return String(BigInt(text));
 };
 const place = (value, dimension) => {
     if (!Array.isArray(value) || value.length !== dimension || !value.every((x) => typeof x === "number" && Number.isFinite(x)))

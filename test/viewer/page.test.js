@@ -115,6 +115,19 @@ test("a line gives its profile, with a place at each crossing", async () => {
     await take("profile");
 });
 
+test("a profile of very many places is a line without dots", async () => {
+    await open("terrain");
+    const rows = Array.from({ length: 200_000 }, (_, i) => ({ distance: i, x: 400000 + i / 200, y: 5200000, value: 900 + (i % 500) }));
+    await page.route("**/api/profile?**", (route) => route.fulfill({ json: rows }));
+    await choose(/profile/);
+    await askAt(400000, 5200000);
+    await says(/begins here/);
+    await askAt(401000, 5200000);
+    await says(/: 200000 places over 199999, from 900 to 1399/);
+    assert.equal(await page.locator("#chart circle").count(), 0);
+    assert.equal(await page.locator("#chart table tr").count(), 1001);
+});
+
 test("two places: whether one sees the other, and what is between", async () => {
     await open("terrain");
     await choose(/sees another/);
