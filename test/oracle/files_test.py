@@ -85,12 +85,16 @@ class Files(unittest.TestCase):
         self.assert_same(mesh.points, mesh.cells_dict["triangle"], self.plane, "files_plane")
 
     def test_npz(self):
-        for name, points in ("files_plane", self.plane), ("files_space", self.space):
+        for name, points, value in ("files_plane", self.plane, self.height), ("files_space", self.space, self.space[:, 0]):
             with numpy.load(self.export(name, "m.npz")) as arrays:
                 self.assert_same(arrays["points"], arrays["simplices"], points, name)
                 numpy.testing.assert_array_equal(points[arrays["ids"] - 1], arrays["points"])
                 self.assertEqual(sorted(arrays["ids"]), list(range(1, len(points) + 1)))
-                self.assertEqual(len(arrays["codes"]), len(arrays["simplices"]))
+                numpy.testing.assert_array_equal(arrays["values"][:, 0], value[arrays["ids"] - 1])
+                cells = numpy.column_stack([arrays["codes"], arrays["ids"][arrays["simplices"]]])
+                corners = ", ".join(f"v{n}" for n in range(points.shape[1] + 1))
+                self.assertEqual(sorted(map(tuple, cells.tolist())), sorted(tuple(map(int, row)) for row in abacus.rows(
+                    f"SELECT code, {corners} FROM abacus_cells('{name}')")))
 
     def test_vtu(self):
         for name, points, cell in ("files_plane", self.plane, "triangle"), ("files_space", self.space, "tetra"):
