@@ -195,12 +195,21 @@ note_mesh quake
 heading "Times and sizes"
 printf '%s\n' "${summary[@]}"
 
-# Until Ctrl+C; the server of the database ends with this script.
+# Shows a mesh at a port, as long as this script runs.
+show() {
+    viewer/serve --mesh "$1" --port "$2" &
+    viewers+=($!)
+}
+
+# Until Ctrl+C; the viewers and the server of the database end with this script.
 if [[ -n $view ]]; then
     heading "The meshes in a browser"
+    run_psql -c "SELECT abacus_set_srid('shorelines', 4326)" >/dev/null
     viewer/serve --build
-    viewer/serve --mesh shorelines --srid 4326 --port 8080 &
-    viewer/serve --mesh terrain --port 8081 &
-    viewer/serve --mesh quake --port 8082 &
+    viewers=()
+    trap 'kill "${viewers[@]}" 2>/dev/null || true; cluster_stop' EXIT
+    show shorelines 8080
+    show terrain 8081
+    show quake 8082
     wait
 fi

@@ -1,6 +1,11 @@
 -- Tiles of web maps. What is in them test/unit/tile_test.cpp tests, and test/oracle by GDAL.
 SELECT abacus_triangulate('hills', 'SELECT 100 * i + j AS id, 7 + i / 20.0 AS lon, 46 + j / 20.0 AS lat, 500 + 40 * i + 3 * j AS height
     FROM generate_series(0, 20) AS i, generate_series(0, 20) AS j ORDER BY 1');
+-- Where it is on the map its SRID tells, or an argument
+SELECT abacus_tile_vector('hills', 8, 133, 90);
+SELECT abacus_tiles('hills');
+SELECT length(abacus_tile_vector('hills', 8, 133, 90, srid => 4326)) > 0 AS has_some;
+SELECT abacus_set_srid('hills', 4326);
 
 -- What they are
 SELECT encode(substr(abacus_tile_picture('hills', 8, 133, 90, attribute => 'height', range => '{500,1400}'), 1, 4), 'hex') AS png,
@@ -19,6 +24,11 @@ SELECT abacus_tile_vector('hills', NULL, 0, 0), abacus_tile_picture(NULL, 0, 0, 
 SELECT abacus_triangulate('metres', 'SELECT 100 * i + j AS id, 779000 + 5500 * i AS x, 5780000 + 5500 * j AS y, 500 + 40 * i + 3 * j AS height
     FROM generate_series(0, 20) AS i, generate_series(0, 20) AS j ORDER BY 1');
 SELECT length(abacus_tile_vector('metres', 8, 133, 90, 3857)) > 1000 AS mvt;
+SELECT abacus_tile_vector('metres', 8, 133, 90, 4326);
+SELECT abacus_tile_picture('metres', 8, 133, 90, 4326);
+SELECT abacus_set_srid('metres', 3857);
+SELECT abacus_tile_vector('metres', 8, 133, 90) = abacus_tile_vector('metres', 8, 133, 90, 3857) AS same;
+SELECT abacus_tile_terrain('metres', 8, 133, 90, 4326);
 -- A map of its own: the whole mesh is its tile 0
 SELECT abacus_triangulate('sheet', 'SELECT 100 * i + j AS id, i AS x, j AS y, i + j AS height FROM generate_series(0, 8) AS i, generate_series(0, 8) AS j ORDER BY 1');
 SELECT abacus_tile_picture('sheet', 0, 0, 0, world => '{0,0,8}', size => 64, attribute => 'height', range => '{0,16}')
@@ -31,13 +41,12 @@ SELECT tile = abacus_tile_vector('sheet', 0, 0, 0, world => '{0,0,8}') AS same F
 SELECT abacus_tiles('sheet', world => '{0}');
 
 -- Errors
-SELECT abacus_tile_vector('metres', 8, 133, 90);
-SELECT abacus_tile_picture('metres', 8, 133, 90);
 SELECT abacus_tile_vector('hills', -1, 0, 0);
 SELECT abacus_tile_picture('hills', 31, 0, 0);
 SELECT abacus_tile_terrain('hills', 3, 8, 0);
 SELECT abacus_tile_vector('hills', 3, 0, -1);
-SELECT abacus_tile_vector('hills', 3, 0, 0, 25832);
+SELECT abacus_tile_vector('sheet', 3, 0, 0, 25832);
+SELECT abacus_tile_vector('sheet', 3, 0, 0, 0);
 SELECT abacus_tile_picture('hills', 3, 0, 0, size => 0);
 SELECT abacus_tile_terrain('hills', 3, 0, 0, size => 5000);
 SELECT abacus_tile_terrain('hills', 3, 0, 0, fill => 'NaN');
@@ -52,11 +61,11 @@ SELECT abacus_triangulate('rock', 'SELECT i, i % 2, i / 2 % 2, i / 4, i FROM gen
 SELECT abacus_tile_vector('rock', 0, 0, 0);
 SELECT abacus_tiles('rock');
 SELECT abacus_create('bare', 2);
-SELECT abacus_tile_terrain('bare', 0, 0, 0);
-SELECT length(abacus_tile_vector('bare', 0, 0, 0)) AS nothing;
+SELECT abacus_tile_terrain('bare', 0, 0, 0, 4326);
+SELECT length(abacus_tile_vector('bare', 0, 0, 0, 4326)) AS nothing;
 SELECT abacus_create('two', 2, '{a,b}');
-SELECT abacus_tile_vector('two', 0, 0, 0);
-SELECT abacus_tiles('two', attribute => 'b');
+SELECT abacus_tile_vector('two', 0, 0, 0, 4326);
+SELECT abacus_tiles('two', 4326, attribute => 'b');
 SELECT abacus_tiles('hills', contours => -1);
 SELECT abacus_tiles('hills', srid => 25832);
 
@@ -71,7 +80,9 @@ SELECT encode(substr(tile, 1, 4), 'hex') AS png, etag LIKE abacus_tile_etag('map
 SELECT tile = abacus_tile_vector('maps."Hills"', 8, 133, 90, contours => 50) AS same FROM maps."Hills_vector"(8, 133, 90, '{}');
 SELECT tile = abacus_tile_vector('maps."Hills"', 8, 133, 90, contours => 20) AS other FROM maps."Hills_vector"(8, 133, 90, '{"contours": 20}');
 SELECT maps."Hills_mvt"(8, 133, 90, contours => 20) = abacus_tile_vector('maps."Hills"', 8, 133, 90, contours => 20) AS named;
-SELECT tile = abacus_tile_terrain('maps."Hills"', 8, 133, 90) AS same FROM maps."Hills_terrain"(8, 133, 90);
+-- Terrain goes on as low as the mesh gets
+SELECT tile = abacus_tile_terrain('maps."Hills"', 8, 133, 90, fill => 500) AS same, tile = abacus_tile_terrain('maps."Hills"', 8, 133, 90) AS drops
+FROM maps."Hills_terrain"(8, 133, 90);
 SELECT tile <> (SELECT tile FROM maps."Hills_picture"(8, 133, 90)) AS other FROM maps."Hills_picture"(8, 133, 90, '{"ramp": "magma"}');
 -- What a request says is no SQL
 SELECT * FROM maps."Hills_vector"(8, 133, 90, '{"contours": "1; DROP TABLE hills"}');

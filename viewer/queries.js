@@ -13,7 +13,7 @@ function row(id, at, values) {
 }
 
 const info = `
-    SELECT $1::oid::regclass::text AS name,
+    SELECT $1::oid::regclass::text AS name, abacus_srid($1::oid::regclass) AS srid,
            (SELECT jsonb_object_agg(name, value) FROM abacus_stats($1::oid::regclass)
             WHERE name IN ('dimension', 'vertices', 'simplices', 'changeable')) AS stats,
            (SELECT coalesce(jsonb_agg(jsonb_build_object('name', name, 'least', least, 'greatest', greatest) ORDER BY position), '[]')

@@ -4,6 +4,7 @@ import { edits, plane, space } from "./queries.js";
 import { Refused } from "./database.js";
 
 const mostRows = 200_000, mostPathPlaces = 1000;
+const mostOfHull = 60_000;
 
 const wrong = (message) => new Refused(400, message);
 
@@ -82,7 +83,11 @@ export const spaceReads = {
         values: [p.numbers("through", 3, 3), p.numbers("normal", 3, 3), attributeOf(p, mesh)] }),
     isosurface: (p, query, mesh) => bounded(query, { text: space.isosurface, values: [p.number("value"), attributeOf(p, mesh)] }),
     ray: (p, query) => bounded(query, { text: space.ray, values: [p.numbers("origin", 3, 3), p.numbers("direction", 3, 3)] }),
-    hull: (p, query) => bounded(query, { text: space.hull, values: [] }),
+    /** null if it has so many triangles that their lines would hide all behind them. */
+    hull: async (p, query) => {
+        const rows = await query(space.hull, [mostOfHull + 1]);
+        return rows.length > mostOfHull ? null : rows;
+    },
 };
 
 /** A tile: its statement and parameters. */
@@ -106,8 +111,9 @@ export function tile(kind, z, x, y, p, mesh) {
 // ---- Changes ------------------------------------------------------------------------------------
 
 const id = (value) => {
-    if (!/^-?\d{1,18}$/.test(String(value))) throw wrong("id must be a whole number");
-    return String(value);
+    const text = String(value);
+    if (!/^-?\d{1,19}$/.test(text) || BigInt.asIntN(64, BigInt(text)) !== BigInt(text)) throw wrong("id must be a whole number of 64 bits");
+    return String(BigInt(text));
 };
 const place = (value, dimension) => {
     if (!Array.isArray(value) || value.length !== dimension || !value.every((x) => typeof x === "number" && Number.isFinite(x)))

@@ -14,7 +14,7 @@ const usage = `usage: viewer/serve --mesh NAME [-d CONNINFO] [options]
   --mesh NAME        the mesh, as in SQL: terrain, gis.terrain, '"TIN North"'
   -d, --dbname TEXT  a database or connection string, as psql takes it; else PGHOST and so on
   --srid N           coordinates are 4326, longitude and latitude, or 3857, Web Mercator; without it
-                     the mesh is shown on a map of its own
+                     the mesh tells by its SRID, and one of another SRID is on a map of its own
   --edit             points may be added, moved and deleted
   --timeout SECONDS  of a statement (30)
   --port N           (8080; 0: any)
@@ -30,6 +30,7 @@ const headers = {
     "Cross-Origin-Resource-Policy": "same-origin",
 };
 const mostBody = 100_000;
+const mapped = [3857, 4326]; // what tiles are of
 
 /** What is known of the mesh; anew when it has changed. */
 class Mesh {
@@ -50,15 +51,20 @@ class Mesh {
     async describe(query) {
         const [{ etag }] = await query(plane.etag);
         if (this.known?.etag === etag) return this.known;
-        const [{ name, stats, attributes, extent }] = await query(this.dimension === 2 ? plane.info : space.info);
+        const [{ name, stats, attributes, extent, srid: own }] = await query(this.dimension === 2 ? plane.info : space.info);
         const lower = extent.slice(0, this.dimension), upper = extent.slice(3, 3 + this.dimension);
-        const { srid } = this.options;
-        // A map of its own: the mesh is in the middle, and takes a thousandth of it.
-        const side = 1024 * Math.max(1e-300, ...upper.map((x, i) => x - lower[i]));
-        const world = srid || lower[0] === null ? null : [(lower[0] + upper[0] - side) / 2, (lower[1] + upper[1] - side) / 2, side];
-        this.known = { etag, name, dimension: this.dimension, ...stats, attributes, lower, upper, srid: srid || 4326, world,
+        this.map ??= this.place(own, lower, upper);
+        this.known = { etag, name, dimension: this.dimension, ...stats, attributes, lower, upper, ...this.map,
             edit: Boolean(this.options.edit && stats.changeable) };
         return this.known;
+    }
+
+    /** Where the mesh is on the map. It stays there when the mesh grows: pages that are open know of no other map. */
+    place(own, lower, upper) {
+        const srid = this.options.srid || (mapped.includes(own) ? own : null);
+        // A map of its own: the mesh is in the middle, and takes a thousandth of it.
+        const extent = lower[0] === null ? 1 : Math.max(1e-300, ...upper.map((x, i) => x - lower[i])), side = 1024 * extent;
+        return { srid, world: srid ? null : [(lower[0] + upper[0] - side) / 2, (lower[1] + upper[1] - side) / 2, side] };
     }
 }
 
@@ -186,7 +192,7 @@ function commandLine() {
     if (values.help) return null;
     if (!values.mesh) throw new Error("--mesh is missing");
     const srid = number("srid", 0, 99999);
-    if (![0, 3857, 4326].includes(srid)) throw new Error("--srid must be 4326 or 3857; without it the mesh is shown on a map of its own");
+    if (srid && !mapped.includes(srid)) throw new Error("--srid must be 4326 or 3857; without it the mesh tells, or is shown on a map of its own");
     return { ...values, srid, timeout: number("timeout", 1, 86400), port: number("port", 0, 65535) };
 }
 

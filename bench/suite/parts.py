@@ -1,6 +1,7 @@
 """The parts of the suite: what is measured, with how many points, in which mode."""
 from ask import Ask
 from builds import Contest
+from carried import Carried
 from core import core
 from driver import Part
 from edits import Edits, SharedDeletes, cancelled_builds
@@ -67,6 +68,8 @@ PARTS = [
         {"full": (1000000, 1000000, 10000000), "quick": (100000, 100000, 1000000), "smoke": (5000, 2000, 20000)}).measure),
     Part("raster", "a raster of 4096² pixels, beside gdal_grid's", 12, Raster(
         {"full": (1000000, 4096), "quick": (100000, 512), "smoke": (5000, 64)}).measure),
+    Part("carried", "windows of a foreign table, tiles of web maps, files", 5, Carried(
+        {"full": (1000000, 800000), "quick": (100000, 50000), "smoke": (5000, 500)}, FEWER).measure),
     Part("goose", "insertion by an R-tree (chapter 2), in the plane", 4, Goose(
         2, {"full": (25000, 50000, 100000, 200000), "quick": (10000, 20000), "smoke": (1000,)}, FEWER).measure),
     Part("goose-3d", "insertion by an R-tree (chapter 2), in space", 4, Goose(

@@ -6,6 +6,17 @@ from .session import Failed
 MESH = ":'mesh'::regclass"
 
 
+def unlike(names, taken):
+    """Names that differ from one another and from those that a file has already: one that is taken gets a _ or more."""
+    taken, found = set(taken), []
+    for name in names:
+        while name in taken:
+            name += "_"
+        taken.add(name)
+        found.append(name)
+    return found
+
+
 class Mesh:
     """A mesh of the session's snapshot. Counts and names are there at once; the arrays come in chunks, in any number of passes."""
 

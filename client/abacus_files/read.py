@@ -10,7 +10,6 @@ import numpy
 from .session import Failed
 
 
-
 def simplices_of(file_mesh, path):
     """The dimension, and rows of corner numbers; tetrahedra where there are any, else triangles."""
     for kind, dimension in (("tetra", 3), ("triangle", 2)):

@@ -5,13 +5,13 @@ GDAL and tippecanoe read it line by line. Coordinates are as they are in the mes
 import json
 import math
 
-from .arrays import MESH
+from .arrays import MESH, unlike
 from .session import Failed
 
 suffixes = (".geojsonl", ".geojsons", ".geojsonseq")
 
 
-def feature(mesh, row, z):
+def feature(mesh, names, row, z):
     count = len(mesh.attributes)
     code, ids, rest = row[0], row[1:4], row[4:]
     places = [list(rest[2 * i: 2 * i + 2]) for i in range(3)]
@@ -22,9 +22,9 @@ def feature(mesh, row, z):
                 raise Failed(f"{mesh.attributes[z]} is missing at some vertices, so it is no third coordinate")
             place.append(value[z])
     properties = {"code": code, **{f"v{i}": v for i, v in enumerate(ids)}}
-    for k, name in enumerate(mesh.attributes):
+    for k, name in enumerate(names):
         corners = [value[k] for value in values]
-        properties[name if name not in properties else name + "_"] = None if None in corners else sum(corners) / 3
+        properties[name] = None if None in corners else sum(corners) / 3
     return {"type": "Feature", "properties": properties, "geometry": {"type": "Polygon", "coordinates": [[*places, places[0]]]}}
 
 
@@ -37,6 +37,7 @@ def write(mesh, file, z):
     query = f"SELECT code, v0, v1, v2, {', '.join(columns)} FROM abacus_cells({MESH})"
     types = ["int8"] * 4 + ["float8"] * len(columns)
     fields = [f"f{n}" for n in range(len(types))]
+    names = unlike(mesh.attributes, ("code", "v0", "v1", "v2"))
     for chunk in mesh.session.chunks(query, types):
         rows = zip(*(chunk[name].tolist() for name in fields))
-        file.write("".join(json.dumps(feature(mesh, row, z)) + "\n" for row in rows).encode())
+        file.write("".join(json.dumps(feature(mesh, names, row, z)) + "\n" for row in rows).encode())

@@ -1,7 +1,12 @@
 """An archive of numpy arrays: `points` and `simplices` as scipy.spatial.Delaunay has them, `ids`, `values`, `codes`, `attributes`.
 
-The members are written one after the other, so each takes a pass of its own over its rows and none of them memory.
+The members stand one after the other in the archive, but come from the same rows. So one pass over the rows writes the first of them, and keeps
+the others in files beside the archive until it is their turn: no row is asked for twice, and none takes memory.
 """
+import contextlib
+import os
+import shutil
+import tempfile
 import zipfile
 
 import numpy
@@ -9,22 +14,36 @@ import numpy
 suffixes = (".npz",)
 
 
-def member(archive, name, dtype, shape, chunks):
-    header = {"descr": numpy.dtype(dtype).str, "fortran_order": False, "shape": shape}
+@contextlib.contextmanager
+def member(archive, name, dtype, shape):
+    """A new array of the archive, to which its bytes are written."""
     with archive.open(name + ".npy", "w", force_zip64=True) as out:
-        numpy.lib.format.write_array_header_1_0(out, header)
-        for chunk in chunks:
-            out.write(numpy.ascontiguousarray(chunk, dtype).tobytes())
+        numpy.lib.format.write_array_header_1_0(out, {"descr": numpy.dtype(dtype).str, "fortran_order": False, "shape": shape})
+        yield out
+
+
+def members(archive, folder, arrays, chunks):
+    """Arrays of (name, type, shape), which chunks have in this order."""
+    with contextlib.ExitStack() as stack:
+        waiting = [stack.enter_context(tempfile.TemporaryFile(dir=folder)) for _ in arrays[1:]]
+        with member(archive, *arrays[0]) as out:
+            for chunk in chunks:
+                for file, part, (_, dtype, _) in zip([out, *waiting], chunk, arrays):
+                    file.write(numpy.ascontiguousarray(part, dtype).tobytes())
+        for file, array in zip(waiting, arrays[1:]):
+            file.seek(0)
+            with member(archive, *array) as out:
+                shutil.copyfileobj(file, out, 1 << 20)
 
 
 def write(mesh, file, z):
-    n, m = mesh.vertices, mesh.simplices
+    n, m, count = mesh.vertices, mesh.simplices, len(mesh.attributes)
+    folder = os.path.dirname(os.path.abspath(file.name))
     with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive:
-        member(archive, "points", "<f8", (n, mesh.dimension), (c for _, c, _ in mesh.points()))
-        member(archive, "ids", "<i8", (n,), (i for i, _, _ in mesh.points()))
-        if mesh.attributes:
-            member(archive, "values", "<f8", (n, len(mesh.attributes)), (v for _, _, v in mesh.points()))
-        member(archive, "simplices", "<i8", (m, mesh.dimension + 1), (c for _, c in mesh.cells()))
-        member(archive, "codes", "<i8", (m,), (c for c, _ in mesh.cells()))
+        vertices = [("points", "<f8", (n, mesh.dimension)), ("ids", "<i8", (n,)), ("values", "<f8", (n, count))]
+        members(archive, folder, vertices if count else vertices[:2], ((points, ids, values) for ids, points, values in mesh.points()))
+        members(archive, folder, [("simplices", "<i8", (m, mesh.dimension + 1)), ("codes", "<i8", (m,))],
+                ((corners, codes) for codes, corners in mesh.cells()))
         names = numpy.array(mesh.attributes, dtype=str)
-        member(archive, "attributes", names.dtype, names.shape, [names])
+        with member(archive, "attributes", names.dtype, names.shape) as out:
+            out.write(names.tobytes())

@@ -1,6 +1,7 @@
 """PLY, binary little-endian: triangles, as QGIS (MDAL), MeshLab and CloudCompare read them."""
 import numpy
 
+from .arrays import unlike
 from .session import Failed
 
 suffixes = (".ply",)
@@ -12,8 +13,9 @@ def write(mesh, file, z):
     number = "int" if mesh.vertices < 1 << 31 else "uint"
     if mesh.vertices >= 1 << 32:
         raise Failed("PLY numbers at most 4,294,967,295 vertices: take .vtu or .npz")
-    names = ["".join(c if c.isalnum() and c.isascii() else "_" for c in name) for name in mesh.attributes]
-    properties = "".join(f"property double {name}\n" for name in ("x", "y", "z", *(f"{n}_" if n in ("x", "y", "z") else n for n in names)))
+    axes = ("x", "y", "z")
+    names = unlike(("".join(c if c.isalnum() and c.isascii() else "_" for c in name) for name in mesh.attributes), axes)
+    properties = "".join(f"property double {name}\n" for name in (*axes, *names))
     file.write((f"ply\nformat binary_little_endian 1.0\nelement vertex {mesh.vertices}\n{properties}"
                 f"element face {mesh.simplices}\nproperty list uchar {number} vertex_indices\nend_header\n").encode())
     for _, coordinates, values in mesh.points():

@@ -6,6 +6,8 @@ from xml.sax.saxutils import quoteattr
 
 import numpy
 
+from .arrays import unlike
+
 suffixes = (".vtu",)
 CELL_TYPE = {2: 5, 3: 10}  # VTK_TRIANGLE, VTK_TETRA
 
@@ -44,13 +46,7 @@ class Appended:
 
 def write(mesh, file, z):
     n, m, corners = mesh.vertices, mesh.simplices, mesh.dimension + 1
-    taken = {"id", "code", "points", "connectivity", "offsets", "types"}
-    names = []
-    for name in mesh.attributes:
-        while name in taken:
-            name += "_"
-        taken.add(name)
-        names.append(name)
+    names = unlike(mesh.attributes, ("id", "code", "points", "connectivity", "offsets", "types"))
     data = Appended()
     for name in names:
         data.add(name, "Float64", "<f8", 1, n)

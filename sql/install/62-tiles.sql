@@ -5,7 +5,7 @@ CREATE FUNCTION abacus_tile_picture(
     z integer,
     x integer,
     y integer,
-    srid integer DEFAULT 4326,
+    srid integer DEFAULT NULL,
     world double precision[] DEFAULT NULL,
     size integer DEFAULT 256,
     attribute text DEFAULT NULL,
@@ -19,14 +19,14 @@ RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_picture'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_tile_picture(regclass, integer, integer, integer, integer, double precision[], integer, text, double precision[], boolean, double precision, double precision, text, double precision) IS
-    'a tile of a web map as a PNG: a mesh whose coordinates are longitude and latitude (srid 4326) or of Web Mercator (3857), or lie in a square with this lower left corner and side (world), as abacus_draw shows it; nothing is behind it';
+    'a tile of a web map as a PNG: a mesh whose coordinates are longitude and latitude (SRID 4326) or of Web Mercator (3857), or lie in a square with this lower left corner and side (world), as abacus_draw shows it; nothing is behind it';
 
 CREATE FUNCTION abacus_tile_vector(
     mesh regclass,
     z integer,
     x integer,
     y integer,
-    srid integer DEFAULT 4326,
+    srid integer DEFAULT NULL,
     world double precision[] DEFAULT NULL,
     attribute text DEFAULT NULL,
     contours double precision DEFAULT NULL,
@@ -42,7 +42,7 @@ CREATE FUNCTION abacus_tile_terrain(
     z integer,
     x integer,
     y integer,
-    srid integer DEFAULT 4326,
+    srid integer DEFAULT NULL,
     world double precision[] DEFAULT NULL,
     size integer DEFAULT 256,
     attribute text DEFAULT NULL,
@@ -63,7 +63,7 @@ COMMENT ON FUNCTION abacus_tile_etag(regclass) IS
 
 CREATE FUNCTION abacus_tiles(
     mesh regclass,
-    srid integer DEFAULT 4326,
+    srid integer DEFAULT NULL,
     world double precision[] DEFAULT NULL,
     attribute text DEFAULT NULL,
     range double precision[] DEFAULT NULL,

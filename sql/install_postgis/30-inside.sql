@@ -42,6 +42,13 @@ LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION _abacus_area(regclass, geometry) IS
     'inside abacus_postgis: a geometry as it is, or an error if it is no area of a mesh';
 
+CREATE FUNCTION _abacus_place(mesh regclass, place geometry)
+RETURNS double precision[]
+AS 'MODULE_PATHNAME', 'abacus_sql_geometry_point'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
+COMMENT ON FUNCTION _abacus_place(regclass, geometry) IS
+    'inside abacus_postgis: the coordinates of a point';
+
 CREATE FUNCTION _abacus_path(mesh regclass, line geometry)
 RETURNS double precision[]
 AS 'MODULE_PATHNAME', 'abacus_sql_geometry_path'
@@ -59,6 +66,17 @@ AS 'MODULE_PATHNAME', 'abacus_sql_cell_geometry'
 LANGUAGE C STABLE PARALLEL SAFE COST 50;
 COMMENT ON FUNCTION _abacus_cell(double precision[], double precision[], integer, integer) IS
     'inside abacus_postgis: the geometry of a row of abacus_cells';
+
+CREATE FUNCTION _abacus_part(
+    part geometry,
+    corners double precision[],
+    "values" double precision[],
+    attribute integer)
+RETURNS geometry
+AS 'MODULE_PATHNAME', 'abacus_sql_cell_part'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100;
+COMMENT ON FUNCTION _abacus_part(geometry, double precision[], double precision[], integer) IS
+    'inside abacus_postgis: polygons within a triangle of abacus_cells, with the attribute as z; NULL where it is missing at a corner';
 
 CREATE FUNCTION _abacus_point(
     x double precision,

@@ -215,8 +215,7 @@ LANGUAGE sql STABLE PARALLEL SAFE
 BEGIN ATOMIC
     SELECT s.code, _abacus_polygon(s.polygon, 3, f.srid), s."values"
     FROM _abacus_facts(mesh, NULL) AS f,
-         abacus_section(mesh, _abacus_lower(mesh, through), normal, attribute, max_edge) AS s
-    WHERE NOT ST_IsEmpty(through);
+         abacus_section(mesh, _abacus_place(mesh, through), normal, attribute, max_edge) AS s;
 END;
 COMMENT ON FUNCTION abacus_section_geom(regclass, geometry, double precision[], text, double precision) IS
     'what the plane through a point with a normal has of each tetrahedron of a mesh of dimension 3, with an attribute at its corners';

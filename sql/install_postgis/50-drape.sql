@@ -29,7 +29,7 @@ BEGIN ATOMIC
     SELECT p.code, p.v0, p.v1, p.v2, p.whole,
            CASE WHEN p.whole THEN _abacus_cell(p.corners, p."values", p.attribute_number, p.srid)
                 WHEN p.attribute_number IS NULL THEN p.part
-                WHEN _abacus_cell(p.corners, p."values", p.attribute_number, p.srid) IS NOT NULL THEN abacus_drape(mesh, p.part, attribute) END
+                ELSE _abacus_part(p.part, p.corners, p."values", p.attribute_number) END
     FROM (SELECT t.*, CASE WHEN NOT t.whole THEN ST_CollectionExtract(ST_Intersection(t.cell, t.area), 3) END AS part
           FROM (SELECT c.code, c.v0, c.v1, c.v2, c.corners, c."values", c.cell, c.attribute_number, c.srid, a.area, ST_Contains(a.area, c.cell) AS whole
                 FROM (SELECT _abacus_area(mesh, area) AS area OFFSET 0) AS a,

@@ -26,7 +26,7 @@ public:
            double rise_y, const double (&light)[2]);
 
     /// Pixels from which on others do not change the light of one, as far as can be seen.
-    static constexpr std::int32_t reach = 128;
+    static constexpr std::int32_t reach = 96;
 
     float &height(std::int32_t x, std::int32_t y) { return heights_[index(x, y)]; }
     float &spacing(std::int32_t x, std::int32_t y) { return spacings_[index(x, y)]; }

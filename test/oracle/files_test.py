@@ -85,12 +85,16 @@ class Files(unittest.TestCase):
         self.assert_same(mesh.points, mesh.cells_dict["triangle"], self.plane, "files_plane")
 
     def test_npz(self):
-        for name, points in ("files_plane", self.plane), ("files_space", self.space):
+        for name, points, value in ("files_plane", self.plane, self.height), ("files_space", self.space, self.space[:, 0]):
             with numpy.load(self.export(name, "m.npz")) as arrays:
                 self.assert_same(arrays["points"], arrays["simplices"], points, name)
                 numpy.testing.assert_array_equal(points[arrays["ids"] - 1], arrays["points"])
                 self.assertEqual(sorted(arrays["ids"]), list(range(1, len(points) + 1)))
-                self.assertEqual(len(arrays["codes"]), len(arrays["simplices"]))
+                numpy.testing.assert_array_equal(arrays["values"][:, 0], value[arrays["ids"] - 1])
+                cells = numpy.column_stack([arrays["codes"], arrays["ids"][arrays["simplices"]]])
+                corners = ", ".join(f"v{n}" for n in range(points.shape[1] + 1))
+                self.assertEqual(sorted(map(tuple, cells.tolist())), sorted(tuple(map(int, row)) for row in abacus.rows(
+                    f"SELECT code, {corners} FROM abacus_cells('{name}')")))
 
     def test_vtu(self):
         for name, points, cell in ("files_plane", self.plane, "triangle"), ("files_space", self.space, "tetra"):
@@ -114,6 +118,17 @@ class Files(unittest.TestCase):
         self.assertEqual(sorted([p[:2] for p in ring[:3]] for ring in rings),
                          sorted(self.plane[abacus.simplices("files_plane")].tolist()))
         self.assertEqual({f["properties"]["depth"] is None for f in features}, {True, False})
+
+    def test_names_that_a_file_would_have_twice(self):
+        abacus.psql("SELECT abacus_triangulate('files_names', 'SELECT i, i % 3, i / 3, i, 10 + i, 20 + i, 30 + i FROM generate_series(0, 8) AS i', "
+                    "attributes => '{v0_,v0,a b,a-b}')")
+        for suffix, names in (".ply", ["v0_", "v0", "a_b", "a_b_"]), (".vtu", ["v0_", "v0", "a b", "a-b"]):
+            data = meshio.read(self.export("files_names", "names" + suffix)).point_data
+            for name, more in zip(names, (0, 10, 20, 30)):
+                self.assertEqual(sorted(data[name]), [i + more for i in range(9)], name)
+        feature = json.loads(self.export("files_names", "names.geojsonl").read_text().splitlines()[0])["properties"]
+        self.assertAlmostEqual(feature["v0__"], feature["v0_"] + 10)
+        self.assertAlmostEqual(feature["a-b"], feature["v0_"] + 30)
 
     def test_2dm_and_back(self):
         file = self.export("files_plane", "m.2dm", "--z", "height")
@@ -139,7 +154,7 @@ class Files(unittest.TestCase):
     def test_of_meshio(self):
         """Gmsh, TetGen, PLY and VTU as meshio writes them."""
         corners = abacus.simplices("files_space", 4)
-        for suffix in ".msh", ".vtu", ".mesh", ".vtk":
+        for suffix in ".msh", ".vtu", ".mesh", ".vtk", ".node":
             meshio.write(self.at / f"w{suffix}", meshio.Mesh(self.space, [("tetra", corners)], point_data={"speed": self.space[:, 0]}))
             self.check_import(self.at / f"w{suffix}", "files_again", self.space, 3)
         corners = abacus.simplices("files_plane", 3)

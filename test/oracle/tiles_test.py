@@ -52,6 +52,7 @@ class Tiles(unittest.TestCase):
         lon, lat = 7.7 + random.random(4000), 46 + random.random(4000)
         height = 900 + 500 * numpy.sin(9 * lon) * numpy.cos(7 * lat)
         abacus.triangulate("hills", numpy.stack([lon, lat], -1), height=height)
+        abacus.psql("SELECT abacus_set_srid('hills', 4326)")
         west, east = (2 * METRES * (X + i) / 2**ZOOM - METRES for i in (0, 1))
         north, south = (METRES - 2 * METRES * (Y + i) / 2**ZOOM for i in (0, 1))
         cls.window = west, south, east, north

@@ -62,7 +62,15 @@ FROM unnest(ARRAY['slanted_cells', 'slanted_points']) AS source, unnest(ARRAY['g
     'geom && ''SRID=25832;LINESTRING(-1e300 0, 1e300 1)''', 'geom && ''SRID=25832;GEOMETRYCOLLECTION Z (POINT Z (50 30 1), LINESTRING Z (52 3 0, 56 31 9))''',
     'ST_Intersects(geom, ''SRID=25832;TIN M (((40 10 1, 44 10 1, 44 13 1, 40 10 1)))''::geometry)']) AS condition
 WHERE condition !~ 'TIN' OR source = 'slanted_points';
-SELECT throws_ok($$ SELECT count(*) FROM slanted_cells WHERE ST_Intersects(geom, ST_MakeEnvelope(50, 10, 51, 11, 4326)) $$, 'XX000', NULL, 'another SRID');
+SELECT throws_ok(format('SELECT count(*) FROM slanted_%s WHERE %s', what, condition), '22023', 'the geometry has ' || problem, format('%s: another SRID, %s', what, condition))
+FROM unnest(ARRAY['cells', 'points']) AS what, (VALUES ('ST_Intersects(geom, ST_MakeEnvelope(50, 10, 51, 11, 4326))', 'SRID 4326, but the mesh has SRID 25832'),
+    ('ST_Intersects(geom, ST_MakeEnvelope(5000, 10, 5100, 11, 4326))', 'SRID 4326, but the mesh has SRID 25832'),
+    ('ST_DWithin(ST_MakePoint(-1e4, 5), geom, 2)', 'no SRID, but the mesh has SRID 25832'),
+    ('ST_Within(geom, (SELECT ST_MakeEnvelope(5000, 10, 5100, 11, 3857)))', 'SRID 3857, but the mesh has SRID 25832')) AS c (condition, problem);
+SELECT throws_ok(format('SELECT count(*) FROM slanted_%s WHERE ST_DWithin(geom, ''SRID=25832;POINT(50 10)'', -1)', what), 'XX000', NULL, what || ': a distance below 0')
+FROM unnest(ARRAY['cells', 'points']) AS what;
+SELECT pg_temp.finds('slanted_' || what, format('ST_DWithin(geom, ''SRID=25832;POINT(50 10)'', ''%s'')', distance), format('%s: a distance of %s', what, distance))
+FROM unnest(ARRAY['cells', 'points']) AS what, unnest(ARRAY['NaN', 'Infinity', '0']) AS distance;
 -- values that are known at run time
 CREATE TEMP TABLE places AS SELECT n, ST_SetSRID(ST_MakePoint(n * 37 % 100, n * 17 % 50), 25832) AS place FROM generate_series(1, 20) AS n;
 ANALYZE places;

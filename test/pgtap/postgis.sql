@@ -186,7 +186,12 @@ SELECT is((SELECT round(sum(ST_Area(c.geom))::numeric, 6) FROM field, abacus_cli
 SELECT is_empty($$ SELECT FROM field, abacus_clip('terrain', field.geom) AS c WHERE NOT ST_IsValid(c.geom) OR ST_Dimension(c.geom) <> 2 OR ST_SRID(c.geom) <> 2154 $$, 'and are valid');
 SELECT set_eq($$ SELECT v0, v1, v2 FROM field, abacus_clip('terrain', field.geom) AS c WHERE whole $$, $$ SELECT v0, v1, v2 FROM field, cells AS c WHERE ST_Contains(field.geom, c.geom) $$, 'those wholly inside are whole');
 SELECT is_empty($$ SELECT FROM field, abacus_clip('terrain', field.geom, 'height') AS c JOIN cells USING (v0, v1, v2) WHERE whole AND NOT ST_OrderingEquals(c.geom, cells.geom) $$, 'as they are');
-SELECT is_empty($$ SELECT FROM field, abacus_clip('terrain', field.geom, 'height') AS c, ST_DumpPoints(c.geom) AS d WHERE abs(ST_Z(d.geom) - abacus_interpolate('terrain', ST_Force2D(d.geom))) > 1e-6 $$, 'all with the height of the terrain');
+SELECT is_empty($$ SELECT FROM field, abacus_clip('terrain', field.geom, 'height') AS c, ST_DumpPoints(c.geom) AS d WHERE abs(ST_Z(d.geom) - abacus_interpolate('terrain', ST_Force2D(d.geom), outside => 'nearest')) > 1e-6 $$, 'all with the height of the terrain');
+-- Places on slanting edges of the hull are rounded: inside, or outside.
+SELECT abacus_triangulate('slant', 'VALUES (1, 0, 0, 10), (2, 70, 10, 20), (3, 10, 90, 30)', '{height}');
+SELECT results_eq($$ SELECT count(*) > 200, max(abs(ST_Z(d.geom) - 10 - ST_X(d.geom) * 70 / 620 - ST_Y(d.geom) * 130 / 620)) < 1e-9
+    FROM generate_series(0.37, 60, 0.37) AS x, abacus_clip('slant', ST_MakeEnvelope(-1, -1, x, 91), 'height') AS c, ST_DumpPoints(c.geom) AS d $$,
+    'VALUES (true, true)', 'a cut place on the hull has the height of its triangle');
 SELECT is((SELECT count(*) FROM abacus_clip('terrain', 'SRID=2154;POLYGON EMPTY')), 0::bigint, 'an empty area has none');
 SELECT is((SELECT count(*) FROM abacus_clip('terrain', ST_MakeEnvelope(9000, 9000, 9001, 9001, 2154))), 0::bigint, 'nor has one far outside');
 SELECT is((SELECT count(*) FROM abacus_clip('terrain', NULL)), 0::bigint, 'nor has NULL');
@@ -212,6 +217,9 @@ SELECT is((SELECT count(*) FROM ST_Dump(abacus_hull_geom('rocks'))), (SELECT cou
 SELECT ok(ST_IsClosed(abacus_hull_geom('rocks')) AND GeometryType(abacus_hull_geom('rocks')) = 'TIN', 'closed');
 SELECT is((SELECT count(*) FROM abacus_isosurface_geom('rocks', 345) WHERE GeometryType(geom) = 'TRIANGLE'), (SELECT count(*) FROM abacus_isosurface('rocks', 345)), 'an isosurface');
 SELECT is((SELECT round(sum(ST_Area(ST_MakePolygon(ST_MakeLine(ARRAY(SELECT ST_MakePoint(ST_Y(d.geom), ST_Z(d.geom)) FROM ST_DumpPoints(s.geom) AS d)))))::numeric, 9) FROM abacus_section_geom('rocks', 'POINT Z (0.5 0 0)', '{1,0,0}') AS s), 32.000000000, 'a section');
+SELECT throws_ok($$ SELECT * FROM abacus_section_geom('rocks', 'POINT(0.5 0)', '{0,0,1}') $$, '22023', 'the geometry has no z, but the mesh has dimension 3', 'a section through a point without z');
+SELECT throws_ok($$ SELECT * FROM abacus_section_geom('rocks', 'LINESTRING Z (0.5 0 0, 1 1 1)', '{0,0,1}') $$, '22023', 'the geometry is a LineString, not a Point', 'a section through a line');
+SELECT is_empty($$ SELECT * FROM abacus_section_geom('rocks', 'POINT Z EMPTY', '{0,0,1}') $$, 'a section through nothing');
 SELECT is((SELECT count(*) FROM abacus_voronoi_facets_geom('rocks') WHERE vertex = 111 AND GeometryType(geom) = 'POLYGON' AND ST_ZMFlag(geom) = 2), 6::bigint, 'facets of Voronoi cells');
 SELECT throws_ok($$ SELECT abacus_locate('rocks', ST_MakePoint(1, 2)) $$, '22023', 'the geometry has no z, but the mesh has dimension 3', 'z is missing');
 SELECT throws_ok($$ SELECT abacus_insert('rocks', 'SELECT 9, ST_MakePoint(1, 2), 300') $$, '22023', 'geometry of point 9 has no z, but the mesh has dimension 3', 'of a point as well');

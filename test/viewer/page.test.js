@@ -115,6 +115,19 @@ test("a line gives its profile, with a place at each crossing", async () => {
     await take("profile");
 });
 
+test("a profile of very many places is a line without dots", async () => {
+    await open("terrain");
+    const rows = Array.from({ length: 200_000 }, (_, i) => ({ distance: i, x: 400000 + i / 200, y: 5200000, value: 900 + (i % 500) }));
+    await page.route("**/api/profile?**", (route) => route.fulfill({ json: rows }));
+    await choose(/profile/);
+    await askAt(400000, 5200000);
+    await says(/begins here/);
+    await askAt(401000, 5200000);
+    await says(/: 200000 places over 199999, from 900 to 1399/);
+    assert.equal(await page.locator("#chart circle").count(), 0);
+    assert.equal(await page.locator("#chart table tr").count(), 1001);
+});
+
 test("two places: whether one sees the other, and what is between", async () => {
     await open("terrain");
     await choose(/sees another/);
@@ -209,6 +222,7 @@ const polygons = () => page.locator("#view").getAttribute("data-polygons");
 
 test("in space a click on the plane asks for the tetrahedron; keys walk", async () => {
     await open("rock");
+    assert.equal(await page.locator("#view").getAttribute("data-outline"), "hull");
     await click(340, 320);
     const text = await says(/tetrahedron, by ids.*value, nearest/);
     const place = cell(text, "place");
@@ -253,6 +267,17 @@ test("a surface of one value, and a ray", async () => {
     await askAt(5.5, 4.5, -3);
     assert.ok(Number(/meets (\d+) tetrahedra/.exec(await says(/meets \d+ tetrahedra/))[1]) > 5);
     await take("space");
+});
+
+test("around a mesh whose hull has very many triangles is its box", async () => {
+    // a cube with a grid of points on each side
+    psql(`SELECT abacus_triangulate('cube', 'SELECT row_number() OVER (), x, y, z, x FROM generate_series(0, 45) AS x, generate_series(0, 45) AS y, generate_series(0, 45) AS z
+              WHERE x IN (0, 45) OR y IN (0, 45) OR z IN (0, 45)', dimension => 3)`);
+    servers.cube ??= await serve("cube");
+    await open("cube");
+    assert.equal(await page.locator("#view").getAttribute("data-outline"), "box");
+    assert.equal(await answer(page), "Click a place.");
+    psql("DROP TABLE cube CASCADE");
 });
 
 test("a point in space is added, moved and deleted; undo", async () => {

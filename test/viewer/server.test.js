@@ -248,6 +248,53 @@ test("what a session has not saved is undone when it ends", async () => {
     assert.equal(count(), before);
 });
 
+test("a mesh is where its SRID says, or an option, or on a map of its own", async () => {
+    const maps = async (mesh, options) => {
+        const server = await serve(mesh, options);
+        const { body: { srid, world } } = await server.get("/api/info");
+        assert.equal((await fetch(`${server.origin}/tiles/picture/10/512/511`)).status, 200);
+        await server.stop();
+        return [srid, world?.length ?? null];
+    };
+    assert.deepEqual(await maps("globe"), [null, 3]);
+    assert.deepEqual(await maps("globe", { srid: 4326 }), [4326, null]);
+    psql("SELECT abacus_set_srid('globe', 4326)");
+    assert.deepEqual(await maps("globe"), [4326, null]);
+    psql("SELECT abacus_set_srid('globe', 25832)");
+    assert.deepEqual(await maps("globe"), [null, 3]);
+    psql("SELECT abacus_set_srid('globe', 0)");
+});
+
+test("the map stays when the mesh grows", async () => {
+    const { body: before } = await editing.get("/api/info");
+    const { body: { session } } = await editing.post("begin");
+    await editing.post("insert", { id: "77", at: [before.upper[0] + 5000, before.upper[1]] }, session);
+    const { body: after } = await editing.get("/api/info", { headers: { "X-Session": session } });
+    assert.notEqual(after.upper[0], before.upper[0]);
+    assert.deepEqual(after.world, before.world);
+    await editing.post("undo", {}, session);
+    await editing.post("end", {}, session);
+});
+
+test("terrain goes on beyond the mesh as low as the mesh gets", async () => {
+    const { body: { attributes, world } } = await plane.get("/api/info");
+    const bytes = Buffer.from(await (await fetch(`${plane.origin}/tiles/terrain/3/0/0`)).arrayBuffer()).toString("hex");
+    assert.ok(attributes[0].least > 500);
+    assert.equal(bytes, psql(`SELECT encode(abacus_tile_terrain('terrain', 3, 0, 0, world => '{${world}}', fill => ${attributes[0].least}), 'hex')`));
+});
+
+test("ids of points are of 64 bits", async () => {
+    const { body: { session } } = await editing.post("begin");
+    for (const id of ["9223372036854775807", "-9223372036854775808"]) {
+        const at = [400817.5, 5200740.5];
+        assert.equal((await editing.post("insert", { id, at }, session)).status, 200, id);
+        assert.equal((await editing.post("remove", { id, at }, session)).status, 200, id);
+    }
+    for (const id of ["9223372036854775808", "-9223372036854775809", "99999999999999999999"])
+        assert.equal((await editing.post("insert", { id, at: [400817.5, 5200740.5] }, session)).status, 400, id);
+    await editing.post("end", {}, session);
+});
+
 test("connection strings are read as libpq does", () => {
     assert.deepEqual(connection("host=/tmp dbname='my db' user=o\\'neil password='it''s'".replace("''s", "\\'s")), { host: "/tmp", database: "my db", user: "o'neil", password: "it's" });
     assert.deepEqual(connection("gis"), { database: "gis" });

@@ -75,9 +75,15 @@ const named = (parameters) => ({ ...parameters, ...(attribute() && { attribute: 
 
 // ---- The hull, the plane, the surface ----------------------------------------------------------
 
+/** The edges of the box around the mesh: of each pair of its corners that differ on one axis. */
+function box() {
+    const corners = Array.from({ length: 8 }, (_, i) => [0, 1, 2].map((k) => (i & (1 << k) ? mesh.upper : mesh.lower)[k]));
+    return corners.flatMap((p, i) => [1, 2, 4].filter((k) => !(i & k)).flatMap((k) => [p, corners[i | k]]));
+}
 async function hull() {
-    const corners = (await ask("hull")).map((row) => [row.x, row.y, row.z]);
-    put("hull", lines(corners.flatMap((p, i) => [p, corners[i % 3 === 2 ? i - 2 : i + 1]]), 0x9aa5a5));
+    const corners = (await ask("hull"))?.map((row) => [row.x, row.y, row.z]);
+    put("hull", lines(corners ? corners.flatMap((p, i) => [p, corners[i % 3 === 2 ? i - 2 : i + 1]]) : box(), 0x9aa5a5));
+    view.dataset.outline = corners ? "hull" : "box";
 }
 
 const axis = () => Number(element("axis").value);

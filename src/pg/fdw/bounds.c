@@ -17,6 +17,7 @@
 #include "pg/fdw/conditions.h"
 #include "pg/port/port.h"
 #include "pg/postgis/geometry_box.h"
+#include "pg/postgis/geometry_errors.h"
 
 /* Relative error of a distance that PostGIS computes: much less than this. */
 #define DISTANCE_ERROR 1e-9
@@ -31,6 +32,7 @@ typedef struct Limits
 	double		upper[ABACUS_MAX_DIMENSION];
 	bool		has_box;
 	ConditionKind kind;			/* of the condition from which the box of cells is */
+	int32		srid;			/* of the column, or SRID_UNKNOWN */
 	double		least[ABACUS_MAX_ATTRIBUTES];
 	double		greatest[ABACUS_MAX_ATTRIBUTES];
 	int64		least_code;
@@ -154,8 +156,15 @@ limit_geometry(Limits *limits, const Condition *condition, Datum geometry, doubl
 	const GeometryType *type = geometry_type(exprType((Node *) condition->value));
 	double		lower[2];
 	double		upper[2];
+	int32		srid;
+	GeometryBox place = geometry_box(type, geometry, lower, upper, &srid);
 
-	switch (geometry_box(type, geometry, lower, upper))
+	/* PostGIS says so of each row that it examines: there may be none to examine */
+	if (condition->kind != CONDITION_BOX && limits->srid != SRID_UNKNOWN && srid != limits->srid)
+		geometry_refuse_srid("the geometry", srid, limits->srid);
+	if (!(distance >= 0))		/* PostGIS says what is wrong with it */
+		return;
+	switch (place)
 	{
 		case GEOMETRY_ANYWHERE:
 			return;
@@ -227,12 +236,17 @@ set_codes(const Limits *limits, Bounds *bounds)
 	bounds->greatest_code = (uint64) limits->greatest_code;
 }
 
-/* What the conditions limit a scan to, those whose values are not known left out. */
+/*
+ * What the conditions limit a scan to, those whose values are not known left out. `srid`: of the
+ * column with geometries; an error if what must meet these has another one.
+ */
 void
-conditions_bounds(List *conditions, Content content, uint32 dimension, ConditionValue value,
-				  void *context, Bounds *bounds)
+conditions_bounds(List *conditions, Content content, uint32 dimension, int32 srid,
+				  ConditionValue value, void *context, Bounds *bounds)
 {
-	Limits		limits = {.bounds = bounds, .content = content, .dimension = dimension};
+	Limits		limits = {
+		.bounds = bounds, .content = content, .dimension = dimension, .srid = srid
+	};
 	ListCell   *cell;
 
 	MemSet(bounds, 0, sizeof(*bounds));

@@ -36,6 +36,9 @@ typedef struct Shown
 	const Published *published;
 } Shown;
 
+/* No SRID is known that geometries must have. */
+#define SRID_UNKNOWN (-1)
+
 /* What a scan is limited to. */
 typedef struct Bounds
 {
@@ -57,7 +60,7 @@ extern bool condition_of_clause(const Shown *shown, Expr *clause, Condition *con
 extern List *conditions_of_clauses(const Shown *shown, List *clauses);
 extern List *conditions_pack(List *conditions, List **expressions);
 extern List *conditions_unpack(List *packed, List *expressions);
-extern void conditions_bounds(List *conditions, Content content, uint32 dimension,
+extern void conditions_bounds(List *conditions, Content content, uint32 dimension, int32 srid,
 							  ConditionValue value, void *context, Bounds *bounds);
 
 #endif

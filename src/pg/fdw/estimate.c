@@ -157,7 +157,7 @@ estimate_share(const Shown *shown, const MeshSize *size, List *conditions, Share
 	Bounds		bounds;
 
 	conditions_bounds(conditions, published->content, size->is_known ? size->dimension : 2,
-					  planned_value, &values, &bounds);
+					  SRID_UNKNOWN, planned_value, &values, &bounds);
 	share->rows = share->pages = 1;
 	if (bounds.nothing)
 		share->rows = share->pages = 0;

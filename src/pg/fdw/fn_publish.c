@@ -186,16 +186,10 @@ z_argument(FunctionCallInfo fcinfo, const Publishing *publication)
 static int
 srid_argument(FunctionCallInfo fcinfo, const Publishing *publication)
 {
-	int			own = (int) publication->header->srid;
-	int			given = PG_ARGISNULL(PUBLISH_SRID) ? own : PG_GETARG_INT32(PUBLISH_SRID);
-
-	if (own != 0 && given != own)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("srid is %d, but the mesh has SRID %d", given, own),
-				 errhint("Leave out srid. If the mesh is of another system, say so by "
-						 "abacus_set_srid(mesh, %d).", given)));
-	return given;
+	if (PG_ARGISNULL(PUBLISH_SRID))
+		return (int) publication->header->srid;
+	header_require_srid(publication->header, PG_GETARG_INT32(PUBLISH_SRID));
+	return PG_GETARG_INT32(PUBLISH_SRID);
 }
 
 /* How geometries are published: without an argument if PostGIS is there. */

@@ -18,6 +18,7 @@
 #include "pg/fdw/mesh_rows.h"
 #include "pg/fdw/nearest.h"
 #include "pg/mesh/reader.h"
+#include "pg/postgis/geometry_read.h"
 
 struct MeshRows
 {
@@ -31,6 +32,7 @@ struct MeshRows
 	Nearest    *nearest;		/* or instead of them */
 	uint64		pages;			/* of scans before */
 	GeometryMaker **makers;		/* of columns with geometries */
+	int32		srid;			/* of these, or SRID_UNKNOWN if they differ or there are none */
 };
 
 /* What a row is made of. */
@@ -42,6 +44,8 @@ typedef struct MeshRow
 	abacus_simplex simplex;
 	double		values[(ABACUS_MAX_DIMENSION + 1) * ABACUS_MAX_ATTRIBUTES];
 } MeshRow;
+
+static Datum geometry(const MeshRows *rows, MeshRow *row, GeometryMaker *maker, int number);
 
 /* ---- Opening ------------------------------------------------------------- */
 
@@ -68,12 +72,29 @@ check_column(const MeshRows *rows, Relation table, int at)
 				 errhint("Unpublish the mesh and publish it again.")));
 }
 
+/* The SRID that a column's geometries get: that of one at 0. */
+static int32
+srid_of(const MeshRows *rows, GeometryMaker *maker, int number)
+{
+	MeshRow		row = {
+		.dimension = rows->reader->header.dimension, .attributes = rows->reader->header.attributes
+	};
+	GeometryBytes bytes;
+
+	row.vertex.attributes = row.values;
+	bytes = geometry_bytes(&maker->type, geometry(rows, &row, maker, number));
+	return geometry_head(&bytes).srid;
+}
+
 static void
 prepare_columns(MeshRows *rows, Relation table)
 {
 	const Published *published = rows->published;
+	int			geometries = 0;
+	int32		srid;
 
 	rows->makers = palloc0(published->count * sizeof(GeometryMaker *));
+	rows->srid = SRID_UNKNOWN;
 	for (int i = 0; i < published->count; i++)
 	{
 		const Column *column = &published->columns[i];
@@ -86,6 +107,8 @@ prepare_columns(MeshRows *rows, Relation table)
 			Form_pg_attribute attribute = TupleDescAttr(RelationGetDescr(table), i);
 
 			rows->makers[i] = geometry_maker(attribute->atttypid, attribute->atttypmod);
+			srid = srid_of(rows, rows->makers[i], column->number);
+			rows->srid = geometries++ == 0 || srid == rows->srid ? srid : SRID_UNKNOWN;
 		}
 		rows->wants_values |= column->holds == HOLDS_VALUES || column->holds == HOLDS_ATTRIBUTE ||
 			(column->holds == HOLDS_GEOMETRY && column->number >= 0);
@@ -117,6 +140,12 @@ uint32
 mesh_rows_dimension(const MeshRows *rows)
 {
 	return rows->reader->header.dimension;
+}
+
+int32
+mesh_rows_srid(const MeshRows *rows)
+{
+	return rows->srid;
 }
 
 /* Ends what was begun. */

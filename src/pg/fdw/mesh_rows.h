@@ -14,6 +14,7 @@ typedef struct MeshRows MeshRows;
 extern MeshRows *mesh_rows_open(Relation table, const Published *published,
 								const Bitmapset *wanted, Oid user, MemoryContext parent);
 extern uint32 mesh_rows_dimension(const MeshRows *rows);
+extern int32 mesh_rows_srid(const MeshRows *rows);
 extern void mesh_rows_begin(MeshRows *rows, const Bounds *bounds);
 extern void mesh_rows_begin_nearest(MeshRows *rows, Relation table, Oid user, const double *place,
 									uint64 first);

@@ -103,6 +103,7 @@ bool
 order_read_place(Oid type, Datum value, double *place)
 {
 	double		upper[2];
+	int32		srid;
 
 	if (type == POINTOID)
 	{
@@ -110,7 +111,7 @@ order_read_place(Oid type, Datum value, double *place)
 		place[1] = DatumGetPointP(value)->y;
 	}
 	else if (!geometry_is_type(type) ||
-			 geometry_box(geometry_type(type), value, place, upper) != GEOMETRY_IN_BOX ||
+			 geometry_box(geometry_type(type), value, place, upper, &srid) != GEOMETRY_IN_BOX ||
 			 place[0] != upper[0] || place[1] != upper[1])
 		return false;
 	return isfinite(place[0]) && isfinite(place[1]);

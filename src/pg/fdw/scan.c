@@ -93,7 +93,8 @@ begin_rows(ForeignScanState *state, MeshScan *scan)
 		scan->rows = mesh_rows_open(state->ss.ss_currentRelation, scan->published, scan->wanted,
 									scan->user, state->ss.ps.state->es_query_cxt);
 	conditions_bounds(scan->conditions, scan->published->content,
-					  mesh_rows_dimension(scan->rows), value_now, scan, &scan->bounds);
+					  mesh_rows_dimension(scan->rows), mesh_rows_srid(scan->rows), value_now, scan,
+					  &scan->bounds);
 	if (scan->nearest > 0 && !scan->bounds.nothing)
 	{
 		read_place(state, place);
@@ -202,7 +203,7 @@ explain_scan(ForeignScanState *state, ExplainState *es)
 		bounds = scan->bounds;
 	else
 		conditions_bounds(scan->conditions, scan->published->content, ABACUS_MAX_DIMENSION,
-						  constant_value, scan, &bounds);
+						  SRID_UNKNOWN, constant_value, scan, &bounds);
 	if (scan->nearest > 0)
 	{
 		read_place(state, place);

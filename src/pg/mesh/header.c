@@ -181,6 +181,18 @@ header_require_dimension(const abacus_header *header, uint32 dimension, const ch
 				 errhint("%s", hint)));
 }
 
+/* An SRID that is given for a mesh: an error if the mesh has another one. */
+void
+header_require_srid(const abacus_header *header, int32 srid)
+{
+	if (header->srid != 0 && srid != (int32) header->srid)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("srid is %d, but the mesh has SRID %u", srid, header->srid),
+				 errhint("Leave out srid. If the mesh is of another system, say so by "
+						 "abacus_set_srid(mesh, %d).", srid)));
+}
+
 /* Number of the attribute with this name, -1 if there is none. */
 int
 header_attribute(const abacus_header *header, const char *name)

@@ -22,6 +22,7 @@ extern void header_update(Host *host, abacus_header *header, ItemPointer tid);
 extern void header_require_type(Host *host, const abacus_header *header);
 extern void header_require_dimension(const abacus_header *header, uint32 dimension,
 									 const char *hint);
+extern void header_require_srid(const abacus_header *header, int32 srid);
 extern int	header_attribute(const abacus_header *header, const char *name);
 extern int	header_find_attribute(const abacus_header *header, const char *name);
 extern void header_require_attributes(const abacus_header *header);

@@ -37,8 +37,8 @@ add_places(Extent *extent, GeometryBytes *bytes, const GeometryHead *head, uint3
 	}
 }
 
-/* A geometry with all that is in it. */
-static void
+/* A geometry with all that is in it; its SRID. */
+static int32
 add_geometry(Extent *extent, GeometryBytes *bytes)
 {
 	GeometryHead head = geometry_head(bytes);
@@ -64,21 +64,22 @@ add_geometry(Extent *extent, GeometryBytes *bytes)
 		case GEOMETRY_POLYHEDRAL:
 		case GEOMETRY_TIN:
 			for (uint32 parts = geometry_count(bytes); parts > 0 && extent->is_known; parts--)
-				add_geometry(extent, bytes);
+				(void) add_geometry(extent, bytes);
 			break;
 		default:
 			extent->is_known = false;	/* an arc leaves the box of its points */
 	}
+	return head.srid;
 }
 
-/* The box of a geometry in the plane. */
+/* The box of a geometry in the plane, and its SRID. */
 GeometryBox
-geometry_box(const GeometryType *type, Datum geometry, double *lower, double *upper)
+geometry_box(const GeometryType *type, Datum geometry, double *lower, double *upper, int32 *srid)
 {
 	Extent		extent = {true, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 	GeometryBytes bytes = geometry_bytes(type, geometry);
 
-	add_geometry(&extent, &bytes);
+	*srid = add_geometry(&extent, &bytes);
 	if (!extent.is_known)
 		return GEOMETRY_ANYWHERE;
 	if (!(extent.lower[0] <= extent.upper[0]))

@@ -14,6 +14,6 @@ typedef enum GeometryBox
 } GeometryBox;
 
 extern GeometryBox geometry_box(const GeometryType *type, Datum geometry, double *lower,
-								double *upper);
+								double *upper, int32 *srid);
 
 #endif

@@ -1,11 +1,14 @@
 /*
  * fn_drape.c: abacus_drape of the extension abacus_postgis, lines and polygons laid over a
- * terrain.
+ * terrain; and parts of a triangle of abacus_clip, laid over this one.
  *
  * The bytes of a geometry are read and written again, with a z behind the coordinates of each place:
  * the attribute, linear in each triangle. Between two places of a line the surface bends where the
  * line crosses an edge, so with `densify` there is a place at each: those of a profile. Where there
  * is no value z is NaN, which is how PostGIS keeps a z that is not known.
+ *
+ * Where a triangle is cut PostGIS rounds, so a place of a part may lie beside the triangle, even beside
+ * the mesh. Its z is that of the triangle's plane, and within the values of the corners.
  */
 #include "postgres.h"
 
@@ -25,6 +28,7 @@
 #include "pg/sql/word.h"
 
 SQL_FUNCTION(abacus_sql_drape);
+SQL_FUNCTION(abacus_sql_cell_part);
 
 /* Arguments */
 enum
@@ -42,9 +46,14 @@ typedef struct Place
 	double		at[GEOMETRY_COORDINATES];
 } Place;
 
-typedef struct Drape
+typedef struct Drape Drape;
+
+struct Drape
 {
-	CachedMesh *mesh;
+	void		(*lift) (const Drape *drape, Place *place); /* sets z */
+	CachedMesh *mesh;			/* the surface: either this, or one triangle */
+	const double *corners;
+	double		values[3];
 	abacus_interpolation how;
 	bool		densifies;
 	GeometryBytes in;
@@ -55,7 +64,7 @@ typedef struct Drape
 	Place		to;
 	bool		has_last;		/* a place between them has come, and waits */
 	Place		last;
-} Drape;
+};
 
 static Place
 read_place(Drape *drape, const GeometryHead *head)
@@ -67,9 +76,9 @@ read_place(Drape *drape, const GeometryHead *head)
 	return place;
 }
 
-/* Sets z of a place. */
+/* Over a mesh. */
 static void
-lift(Drape *drape, Place *place)
+lift_over_mesh(const Drape *drape, Place *place)
 {
 	CachedMesh *mesh = drape->mesh;
 	double		value = NAN;
@@ -83,6 +92,31 @@ lift(Drape *drape, Place *place)
 		value = NAN;
 	host_release(mesh->host);
 	place->at[2] = value;
+}
+
+/* Over a triangle. */
+static void
+lift_over_triangle(const Drape *drape, Place *place)
+{
+	const double *a = drape->corners;
+	const double *values = drape->values;
+	double		b[2] = {a[2] - a[0], a[3] - a[1]};
+	double		c[2] = {a[4] - a[0], a[5] - a[1]};
+	double		p[2] = {place->at[0] - a[0], place->at[1] - a[1]};
+	double		area = b[0] * c[1] - c[0] * b[1];
+	double		least = fmin(values[0], fmin(values[1], values[2]));
+	double		greatest = fmax(values[0], fmax(values[1], values[2]));
+	double		value;
+
+	for (int i = 0; i < 3; i++)
+		if (place->at[0] == a[2 * i] && place->at[1] == a[2 * i + 1])
+		{
+			place->at[2] = values[i];
+			return;
+		}
+	value = values[0] + (p[0] * c[1] - c[0] * p[1]) / area * (values[1] - values[0]) +
+		(b[0] * p[1] - p[0] * b[1]) / area * (values[2] - values[0]);
+	place->at[2] = fmin(fmax(value, least), greatest);	/* a number, however flat the triangle is */
 }
 
 static void
@@ -171,7 +205,7 @@ drape_line(Drape *drape, const GeometryHead *head)
 	for (uint32 i = 0; i < count; i++)
 	{
 		drape->to = read_place(drape, head);
-		lift(drape, &drape->to);
+		drape->lift(drape, &drape->to);
 		if (drape->densifies && i > 0)
 			put_crossings(drape);
 		put_place(drape, &drape->to);
@@ -187,7 +221,7 @@ drape_point(Drape *drape, const GeometryHead *head)
 	Place		place = read_place(drape, head);
 
 	if (!geometry_is_nowhere(place.at))
-		lift(drape, &place);
+		drape->lift(drape, &place);
 	put_place(drape, &place);
 }
 
@@ -202,7 +236,7 @@ drape_geometry(Drape *drape, bool inside)
 	check_stack_depth();
 	if (head.kind < GEOMETRY_POINT || head.kind > GEOMETRY_COLLECTION)
 		geometry_refuse_kind("the geometry", head.kind, "made of points, lines or polygons");
-	if (!inside)
+	if (!inside && drape->mesh != NULL)
 		geometry_check_srid(&drape->mesh->header, head.srid);
 	lifted.has_z = true;
 	drape->has_m = head.has_m;
@@ -232,7 +266,7 @@ abacus_sql_drape(PG_FUNCTION_ARGS)
 {
 	static const char *const outsides[] = {"null", "nearest", NULL};
 	const GeometryType *type = geometry_argument_type(fcinfo, DRAPE_GEOMETRY);
-	Drape		drape = {.how = {.method = ABACUS_LINEAR, .max_edge = INFINITY}};
+	Drape		drape = {.lift = lift_over_mesh, .how = {.method = ABACUS_LINEAR, .max_edge = INFINITY}};
 
 	if (interpolation_of_null(fcinfo, DRAPE_GEOMETRY))
 		PG_RETURN_NULL();
@@ -244,6 +278,23 @@ abacus_sql_drape(PG_FUNCTION_ARGS)
 									  "Outside the mesh the value is null, or that of the nearest vertex.");
 	drape.densifies = !PG_ARGISNULL(DRAPE_DENSIFY) && PG_GETARG_BOOL(DRAPE_DENSIFY);
 	drape.in = geometry_bytes(type, PG_GETARG_DATUM(DRAPE_GEOMETRY));
+	initStringInfo(&drape.out);
+	drape_geometry(&drape, false);
+	PG_RETURN_DATUM(geometry_made(type, &drape.out));
+}
+
+/* _abacus_part(part geometry, corners float8[], values float8[], attribute int) -> geometry */
+Datum
+abacus_sql_cell_part(PG_FUNCTION_ARGS)
+{
+	const GeometryType *type = geometry_argument_type(fcinfo, 0);
+	Drape		drape = {.lift = lift_over_triangle};
+	size_t		count;
+
+	drape.corners = geometry_numbers(PG_GETARG_ARRAYTYPE_P(1), 6, &count);
+	if (!geometry_corner_values(PG_GETARG_ARRAYTYPE_P(2), PG_GETARG_INT32(3), drape.values))
+		PG_RETURN_NULL();
+	drape.in = geometry_bytes(type, PG_GETARG_DATUM(0));
 	initStringInfo(&drape.out);
 	drape_geometry(&drape, false);
 	PG_RETURN_DATUM(geometry_made(type, &drape.out));

@@ -28,24 +28,13 @@
 SQL_FUNCTION(abacus_sql_geometry_facts);
 SQL_FUNCTION(abacus_sql_geometry_corner);
 SQL_FUNCTION(abacus_sql_geometry_area);
+SQL_FUNCTION(abacus_sql_geometry_point);
 SQL_FUNCTION(abacus_sql_geometry_path);
 SQL_FUNCTION(abacus_sql_cell_geometry);
 SQL_FUNCTION(abacus_sql_point_geometry);
 SQL_FUNCTION(abacus_sql_line_geometry);
 SQL_FUNCTION(abacus_sql_polygon_geometry);
 SQL_FUNCTION(abacus_sql_triangles_geometry);
-
-/* The numbers of a float8[] of any shape, as many as a multiple of `of`, and none of them NULL. */
-static const double *
-numbers(ArrayType *array, int of, size_t *count)
-{
-	*count = (size_t) ArrayGetNItems(ARR_NDIM(array), ARR_DIMS(array));
-	if (array_contains_nulls(array) || *count == 0 || *count % of != 0)
-		ereport(ERROR,
-				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
-				 errmsg("the array must have a multiple of %d elements, none of them NULL", of)));
-	return (const double *) ARR_DATA_PTR(array);
-}
 
 /* ---- Arguments ------------------------------------------------------------- */
 
@@ -87,7 +76,7 @@ abacus_sql_geometry_corner(PG_FUNCTION_ARGS)
 
 	geometry_check_srid(header, PG_GETARG_INT32(1));
 	if (!array_contains_nulls(array))
-		memcpy(corner, numbers(array, ABACUS_MAX_DIMENSION, &(size_t) {0}), sizeof(corner));
+		memcpy(corner, geometry_numbers(array, ABACUS_MAX_DIMENSION, &(size_t) {0}), sizeof(corner));
 	for (uint32 i = 0; i < header->dimension; i++)
 		if (isinf(corner[i]))
 			corner[i] = corner[i] < 0 ? -DBL_MAX : DBL_MAX;
@@ -107,6 +96,18 @@ abacus_sql_geometry_area(PG_FUNCTION_ARGS)
 		geometry_refuse_kind("the geometry", head.kind, "a Polygon or MultiPolygon");
 	geometry_check_srid(header, head.srid);
 	PG_RETURN_DATUM(PG_GETARG_DATUM(1));
+}
+
+/* _abacus_place(mesh regclass, point geometry) -> float8[]: its coordinates; NULL for an empty point */
+Datum
+abacus_sql_geometry_point(PG_FUNCTION_ARGS)
+{
+	const abacus_header *header = &mesh_cache_get(PG_GETARG_OID(0))->header;
+	double		place[ABACUS_MAX_DIMENSION];
+
+	if (!geometry_place(fcinfo, 1, "the geometry", header, place))
+		PG_RETURN_NULL();
+	PG_RETURN_DATUM(attribute_array(place, (int) header->dimension));
 }
 
 /* _abacus_path(mesh regclass, line geometry) -> float8[]: its corners; NULL for an empty line */
@@ -156,25 +157,12 @@ put_triangle_of_cell(FunctionCallInfo fcinfo, StringInfo bytes, const double *co
 		memcpy(ring + i * dimension, corners + i * 2, 2 * sizeof(double));
 	if (dimension == 3)
 	{
-		Datum	   *values;
-		bool	   *isnull;
-		int			count;
-		int			attribute = PG_GETARG_INT32(2) - 1;
+		double		values[3];
 
-		deconstruct_array(PG_GETARG_ARRAYTYPE_P(1), FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
-						  TYPALIGN_DOUBLE, &values, &isnull, &count);
-		if (attribute < 0 || attribute >= count / 3)
-			ereport(ERROR,
-					(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
-					 errmsg("the corners have no attribute %d", attribute + 1)));
+		if (!geometry_corner_values(PG_GETARG_ARRAYTYPE_P(1), PG_GETARG_INT32(2), values))
+			return false;
 		for (int i = 0; i < 3; i++)
-		{
-			int			at = i * (count / 3) + attribute;
-
-			if (isnull[at])
-				return false;
-			ring[i * 3 + 2] = DatumGetFloat8(values[at]);
-		}
+			ring[i * 3 + 2] = values[i];
 	}
 	geometry_put_triangle(bytes, &head, ring);
 	return true;
@@ -194,7 +182,7 @@ abacus_sql_cell_geometry(PG_FUNCTION_ARGS)
 
 	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(3))
 		PG_RETURN_NULL();
-	corners = numbers(PG_GETARG_ARRAYTYPE_P(0), 6, &count);
+	corners = geometry_numbers(PG_GETARG_ARRAYTYPE_P(0), 6, &count);
 	initStringInfo(&bytes);
 	if (count == 4 * 3)
 		geometry_put_tetrahedron(&bytes, corners, PG_GETARG_INT32(3));
@@ -231,7 +219,7 @@ of_places(FunctionCallInfo fcinfo, uint32 kind, bool closes)
 	int			dimension = PG_GETARG_INT32(1) == 2 ? 2 : 3;
 	GeometryHead head = {kind, PG_GETARG_INT32(2), dimension == 3};
 	size_t		count;
-	const double *places = numbers(PG_GETARG_ARRAYTYPE_P(0), dimension, &count);
+	const double *places = geometry_numbers(PG_GETARG_ARRAYTYPE_P(0), dimension, &count);
 	StringInfoData bytes;
 
 	initStringInfo(&bytes);
@@ -262,7 +250,7 @@ abacus_sql_triangles_geometry(PG_FUNCTION_ARGS)
 {
 	const int	size = 3 * 3;
 	size_t		count;
-	const double *corners = numbers(PG_GETARG_ARRAYTYPE_P(0), size, &count);
+	const double *corners = geometry_numbers(PG_GETARG_ARRAYTYPE_P(0), size, &count);
 	size_t		triangles = count / size;
 	int32		srid = PG_GETARG_INT32(1);
 	GeometryHead tin = {GEOMETRY_TIN, srid, true};

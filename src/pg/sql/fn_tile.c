@@ -68,37 +68,57 @@ enum
 /* Half of the side of the map of Web Mercator, in metres */
 #define HALF_WORLD 20037508.342789244
 
-/* The map that tiles are of: Web Mercator, or a square in the mesh's coordinates. */
+/* A map of its own: a square in the mesh's coordinates. */
 static void
-tile_world(FunctionCallInfo fcinfo, abacus_tile *tile)
+own_world(ArrayType *array, abacus_tile *tile)
 {
-	int32		srid = PG_ARGISNULL(TILE_SRID) ? 4326 : PG_GETARG_INT32(TILE_SRID);
-	Datum	   *world;
 	int			count;
+	Datum	   *world = shape_numbers(array, "world", &count);
 
-	if (!PG_ARGISNULL(TILE_WORLD))
-	{
-		world = shape_numbers(PG_GETARG_ARRAYTYPE_P(TILE_WORLD), "world", &count);
-		if (count != 3)
-			ereport(ERROR,
-					(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
-					 errmsg("world must have 3 elements, not %d", count),
-					 errhint("They are x and y of its lower left corner, and its side.")));
-		for (int i = 0; i < 2; i++)
-			tile->lower[i] = DatumGetFloat8(world[i]);
-		tile->side = DatumGetFloat8(world[2]);
-		if (!(tile->side > 0))
-			ereport(ERROR,
-					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-					 errmsg("the side of world must be above 0")));
-		return;
-	}
+	if (count != 3)
+		ereport(ERROR,
+				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
+				 errmsg("world must have 3 elements, not %d", count),
+				 errhint("They are x and y of its lower left corner, and its side.")));
+	for (int i = 0; i < 2; i++)
+		tile->lower[i] = DatumGetFloat8(world[i]);
+	tile->side = DatumGetFloat8(world[2]);
+	if (!(tile->side > 0))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("the side of world must be above 0")));
+}
+
+/* What the coordinates of the mesh are: as its header says, unless it is silent. */
+static int32
+tile_srid(FunctionCallInfo fcinfo, const abacus_header *header)
+{
+	int32		srid = PG_ARGISNULL(TILE_SRID) ? (int32) header->srid : PG_GETARG_INT32(TILE_SRID);
+
+	if (srid == 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("the mesh has no SRID, so its place on the map is not known"),
+				 errhint("Say by abacus_set_srid(mesh, 4326) that its coordinates are longitude and latitude, or by abacus_set_srid(mesh, 3857) that they are of Web Mercator; or give srid, or world for a map of their own.")));
+	header_require_srid(header, srid);
 	if (srid != 4326 && srid != 3857)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("srid must be 4326 or 3857, not %d", srid),
 				 errhint("Tiles are of meshes in longitude and latitude (4326) or in Web Mercator (3857). Transform other points before they are triangulated, for instance by ST_Transform of PostGIS, or give world for a map of their own.")));
-	tile->is_geographic = srid == 4326;
+	return srid;
+}
+
+/* The map that tiles are of: Web Mercator, or one of its own. */
+static void
+tile_world(FunctionCallInfo fcinfo, const abacus_header *header, abacus_tile *tile)
+{
+	if (!PG_ARGISNULL(TILE_WORLD))
+	{
+		own_world(PG_GETARG_ARRAYTYPE_P(TILE_WORLD), tile);
+		return;
+	}
+	tile->is_geographic = tile_srid(fcinfo, header) == 4326;
 	tile->lower[0] = tile->lower[1] = -HALF_WORLD;
 	tile->side = 2 * HALF_WORLD;
 }
@@ -113,9 +133,9 @@ tile_begin(FunctionCallInfo fcinfo, abacus_tile *tile, abacus_tile_memory *memor
 		if (PG_ARGISNULL(i))
 			return NULL;
 	memset(tile, 0, sizeof(*tile));
-	tile_world(fcinfo, tile);
 	reader = reader_open(PG_GETARG_OID(TILE_MESH), CurrentMemoryContext);
 	header_require_dimension(&reader->header, 2, "Tiles are of meshes in the plane.");
+	tile_world(fcinfo, &reader->header, tile);
 	tile->zoom = PG_GETARG_INT32(TILE_ZOOM);
 	tile->x = PG_GETARG_INT32(TILE_X);
 	tile->y = PG_GETARG_INT32(TILE_Y);

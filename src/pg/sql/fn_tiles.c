@@ -10,10 +10,10 @@
 #include "postgres.h"
 
 #include "common/hashfn.h"
+#include "common/shortest_dec.h"
 #include "executor/spi.h"
 #include "funcapi.h"
 #include "utils/builtins.h"
-#include "utils/float.h"
 #include "utils/lsyscache.h"
 
 #include "pg/base/sql_function.h"
@@ -55,7 +55,8 @@ typedef struct Tiles
 	const char *exaggeration;
 	const char *edges;
 	const char *max_edge;
-	int32		srid;
+	const char *srid;
+	const char *fill;			/* the height where there is none */
 	int32		size;
 } Tiles;
 
@@ -71,7 +72,10 @@ text_literal(FunctionCallInfo fcinfo, int argument)
 static const char *
 number_literal(double value)
 {
-	return psprintf("'%s'::float8", float8out_internal(value));
+	char		text[DOUBLE_SHORTEST_DECIMAL_LEN];
+
+	double_to_shortest_decimal_buf(value, text);
+	return psprintf("'%s'::float8", text);
 }
 
 static void
@@ -108,8 +112,9 @@ find_range(const Tiles *tiles, double *range)
 		range[1] = range[0] + 1;
 }
 
-static const char *
-range_literal(FunctionCallInfo fcinfo, const Tiles *tiles)
+/* Of the attribute: what is least is also where terrain ends. */
+static void
+set_range(FunctionCallInfo fcinfo, Tiles *tiles)
 {
 	double		range[2];
 
@@ -117,7 +122,8 @@ range_literal(FunctionCallInfo fcinfo, const Tiles *tiles)
 		find_range(tiles, range);
 	else
 		shape_range(PG_GETARG_ARRAYTYPE_P(TILES_RANGE), "range", range);
-	return psprintf("ARRAY[%s, %s]", number_literal(range[0]), number_literal(range[1]));
+	tiles->fill = number_literal(range[0]);
+	tiles->range = psprintf("ARRAY[%s, %s]", tiles->fill, number_literal(range[1]));
 }
 
 static const char *
@@ -181,7 +187,7 @@ make_with_etag(const Tiles *tiles, const char *suffix, const char *body, const c
 static const char *
 vector_body(const Tiles *tiles, const char *contours)
 {
-	return psprintf("%s.abacus_tile_vector(%s, z, x, y, %d, %s, %s, %s, %s)", tiles->extension,
+	return psprintf("%s.abacus_tile_vector(%s, z, x, y, %s, %s, %s, %s, %s)", tiles->extension,
 					tiles->mesh, tiles->srid, tiles->world, tiles->attribute, contours, tiles->max_edge);
 }
 
@@ -197,7 +203,7 @@ make_all(const Tiles *tiles, bool has_attribute)
 		ramp = psprintf("coalesce(query_params ->> 'ramp', %s)", tiles->ramp);
 	}
 	make_with_etag(tiles, "picture",
-				   psprintf("%s.abacus_tile_picture(%s, z, x, y, %d, %s, %d, %s, %s, %s, %s, %s, %s, %s)",
+				   psprintf("%s.abacus_tile_picture(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s)",
 							tiles->extension, tiles->mesh, tiles->srid, tiles->world, tiles->size,
 							tiles->attribute, tiles->range, tiles->edges, tiles->exaggeration,
 							tiles->max_edge, ramp, contours),
@@ -209,9 +215,9 @@ make_all(const Tiles *tiles, bool has_attribute)
 		 vector_body(tiles, "contours"), "A mesh: triangles, vertices, contours, hull");
 	if (has_attribute)
 		make_with_etag(tiles, "terrain",
-					   psprintf("%s.abacus_tile_terrain(%s, z, x, y, %d, %s, %d, %s, %s)",
+					   psprintf("%s.abacus_tile_terrain(%s, z, x, y, %s, %s, %d, %s, %s, %s)",
 								tiles->extension, tiles->mesh, tiles->srid, tiles->world, tiles->size,
-								tiles->attribute, tiles->max_edge),
+								tiles->attribute, tiles->max_edge, tiles->fill),
 					   "{\"content_type\": \"image/png\", \"encoding\": \"terrarium\", \"description\": \"A mesh as heights\"}");
 }
 
@@ -219,7 +225,7 @@ make_all(const Tiles *tiles, bool has_attribute)
 static void
 try_arguments(const Tiles *tiles)
 {
-	run(psprintf("SELECT %s.abacus_tile_picture(%s, 30, 0, 0, %d, %s, %d, %s, %s, %s, %s, %s, %s, %s)",
+	run(psprintf("SELECT %s.abacus_tile_picture(%s, 30, 0, 0, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s)",
 				 tiles->extension, tiles->mesh, tiles->srid, tiles->world, tiles->size, tiles->attribute,
 				 tiles->range, tiles->edges, tiles->exaggeration, tiles->max_edge, tiles->ramp,
 				 tiles->contours));
@@ -272,12 +278,13 @@ abacus_sql_tiles(PG_FUNCTION_ARGS)
 	tiles.world = world_literal(fcinfo);
 	tiles.ramp = text_literal(fcinfo, TILES_RAMP);
 	tiles.edges = PG_ARGISNULL(TILES_EDGES) || PG_GETARG_BOOL(TILES_EDGES) ? "true" : "false";
-	tiles.srid = PG_ARGISNULL(TILES_SRID) ? 4326 : PG_GETARG_INT32(TILES_SRID);
+	tiles.srid = PG_ARGISNULL(TILES_SRID) ? "NULL::integer" :
+		psprintf("%d", PG_GETARG_INT32(TILES_SRID));
 	tiles.size = PG_ARGISNULL(TILES_SIZE) ? 256 : PG_GETARG_INT32(TILES_SIZE);
 
 	SPI_connect();
 	if (has_attribute)
-		tiles.range = range_literal(fcinfo, &tiles);
+		set_range(fcinfo, &tiles);
 	try_arguments(&tiles);
 	make_all(&tiles, has_attribute);
 	SPI_finish();

@@ -1,7 +1,9 @@
 /*
- * geometry_place.c: geometries of PostGIS as arguments: places, paths, areas.
+ * geometry_place.c: arguments of functions for PostGIS: places, and arrays of coordinates and values.
  */
 #include "postgres.h"
+
+#include "catalog/pg_type.h"
 
 #include "pg/postgis/geometry_errors.h"
 #include "pg/sql/geometry_place.h"
@@ -39,5 +41,45 @@ geometry_place(FunctionCallInfo fcinfo, int argument, const char *what,
 				 errmsg("%s has no z, but the mesh has dimension %u", what, header->dimension),
 				 errhint("ST_Force3DZ(geometry, z) gives it one.")));
 	memcpy(place, point.at, header->dimension * sizeof(double));
+	return true;
+}
+
+/* The numbers of a float8[] of any shape, as many as a multiple of `of`, and none of them NULL. */
+const double *
+geometry_numbers(ArrayType *array, int of, size_t *count)
+{
+	*count = (size_t) ArrayGetNItems(ARR_NDIM(array), ARR_DIMS(array));
+	if (array_contains_nulls(array) || *count == 0 || *count % of != 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
+				 errmsg("the array must have a multiple of %d elements, none of them NULL", of)));
+	return (const double *) ARR_DATA_PTR(array);
+}
+
+/*
+ * What the three corners of a triangle have of an attribute, whose number counts from 1; false if it
+ * is missing at one.
+ */
+bool
+geometry_corner_values(ArrayType *array, int attribute, double *values)
+{
+	Datum	   *all;
+	bool	   *isnull;
+	int			count;
+
+	deconstruct_array(array, FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL, TYPALIGN_DOUBLE, &all, &isnull,
+					  &count);
+	if (attribute < 1 || attribute > count / 3)
+		ereport(ERROR,
+				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
+				 errmsg("the corners have no attribute %d", attribute)));
+	for (int i = 0; i < 3; i++)
+	{
+		int			at = i * (count / 3) + attribute - 1;
+
+		if (isnull[at])
+			return false;
+		values[i] = DatumGetFloat8(all[at]);
+	}
 	return true;
 }

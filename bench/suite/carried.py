@@ -1,0 +1,119 @@
+"""The part that carries a mesh to others: windows of its foreign table, tiles of web maps, files."""
+import json
+import pathlib
+import resource
+import subprocess
+import tempfile
+import time
+
+import paths
+import server
+
+# A terrain in degrees: 1.5 by 1 of them
+TERRAIN = """SELECT setseed(0.25); CREATE TABLE points AS SELECT id, x, y, 900 + 300 * sin(9 * x) * cos(7 * y) AS height
+    FROM (SELECT id, 7 + 1.5 * random() AS x, 46 + random() AS y FROM generate_series(1, {size}) AS id) AS place"""
+MIDDLE = 7.751, 46.507  # in one tile of each zoom
+
+TILES = {
+    "picture tile": "abacus_tile_picture('mesh', {z}, {x}, {y}, attribute => 'height', range => '{{600,1200}}')",
+    "picture tile, shaded, with contours": "abacus_tile_picture('mesh', {z}, {x}, {y}, attribute => 'height', range => '{{600,1200}}',"
+                                           " exaggeration => 2, contours => 20)",
+    "vector tile with contours": "abacus_tile_vector('mesh', {z}, {x}, {y}, contours => 20)",
+    "tile of heights": "abacus_tile_terrain('mesh', {z}, {x}, {y})",
+}
+
+
+class Carried:
+    """sizes: points of the terrain, and of a mesh in space."""
+
+    def __init__(self, sizes, runs):
+        self.sizes, self.runs = sizes, runs
+
+    def measure(self, suite):
+        self.suite = suite
+        terrain, rock = self.sizes[suite.mode]
+        server.drop("mesh", "mesh_vertices", "points")
+        server.query(TERRAIN.format(size=terrain))
+        server.query("SELECT abacus_triangulate('mesh', 'TABLE points'); SELECT abacus_set_srid('mesh', 4326)")
+        server.query("VACUUM (FREEZE, ANALYZE) mesh")
+        self.points = terrain
+        self.windows()
+        self.tiles()
+        self.file("PLY of {count} triangles", "mesh.ply", "--z", "height")
+        server.drop("mesh", "mesh_vertices", "points")
+        server.query(f"SELECT setseed(0.5); SELECT abacus_triangulate('mesh', 'SELECT id, random(), random(), random(), random() AS speed"
+                     f" FROM generate_series(1, {rock}) AS id', dimension => 3)")
+        self.points = rock
+        self.file("arrays of {count} tetrahedra", "mesh.npz")
+        server.drop("mesh", "mesh_vertices")
+
+    def record(self, question, samples):
+        self.suite.measurements.append({"what": "ask", "question": question, "engine": "abacus", "points": self.points, "samples": samples})
+        middle = sorted(sample["wall"] for sample in samples)[len(samples) // 2]
+        self.suite.say(f"  {question:48} {1000 * middle:9.1f} ms")
+
+    def windows(self):
+        """Of 2,000 triangles: the first of a session after the server's start, and one of a hundred after that."""
+        if not server.has_extension("postgis"):
+            self.suite.say("  PostGIS is not installed: no windows of foreign tables")
+            return
+        server.create_extension("postgis")
+        server.query("SELECT abacus_publish('mesh', cells => 'mesh_cells', points => 'mesh_points')")
+        side = (min(1, 1000 / self.points) * 1.5) ** 0.5
+        for name, condition in ("&&", "geom && {window}"), ("ST_Intersects", "ST_Intersects(geom, {window})"):
+            def statement(n):
+                x, y = 7 + (1.5 - side) * (n * 0.7549 % 1), 46 + (1 - side) * (n * 0.5698 % 1)
+                window = f"ST_MakeEnvelope({x}, {y}, {x + side}, {y + side}, 4326)"
+                return f"SELECT count(*), sum(ST_NPoints(geom)) FROM mesh_cells WHERE {condition.format(window=window)}"
+            cold = []
+            for run in range(self.runs[self.suite.mode]):
+                server.restart()
+                with server.Session() as session:
+                    cold.append(self.window(session, statement(run)))
+            with server.Session() as session:
+                session.run(statement(0))
+                warm = [self.window(session, statement(n)) for n in range(1, 101 if self.suite.mode == "full" else 11)]
+            self.record(f"foreign table, window by {name}, cold", cold)
+            self.record(f"foreign table, window by {name}", warm)
+
+    def window(self, session, statement):
+        sample = session.timed(statement)
+        sample["answers"] = int(sample.pop("printed").split("|")[0])
+        plan = json.loads(session.run(f"EXPLAIN (ANALYZE, FORMAT JSON) {statement}"))[0]["Plan"]
+        sample["pages"] = plan["Plans"][0]["Mesh Pages Read"]
+        return sample
+
+    def tiles(self):
+        """A walk from zoom 0 to 14 over one place; a sample is a tile."""
+        for name, call in TILES.items():
+            samples = []
+            with server.Session() as session:
+                for again in range(2):  # the first walk fills the server's cache
+                    samples = [self.tile(session, call, zoom) for zoom in range(15)]
+            self.record(f"{name}, zoom 0 to 14", samples)
+
+    def tile(self, session, call, zoom):
+        place = session.run(f"SELECT floor((lon + 180) / 360 * 2 ^ {zoom})::int, floor((1 - ln(tan(radians(45 + lat / 2))) / pi()) / 2 * 2 ^ {zoom})::int"
+                            f" FROM (VALUES ({MIDDLE[0]}, {MIDDLE[1]})) AS place (lon, lat)")
+        x, y = place.split("|")
+        sample = session.timed(f"SELECT length({call.format(z=zoom, x=x, y=y)})")
+        sample["bytes"] = int(sample.pop("printed"))
+        return sample
+
+    def file(self, question, name, *options):
+        count = int(server.query("SELECT value::bigint FROM abacus_stats('mesh') WHERE name = 'simplices'"))
+        samples = []
+        for _ in range(self.runs[self.suite.mode]):
+            with tempfile.TemporaryDirectory() as folder:
+                target = pathlib.Path(folder, name)
+                used, began = self.used(), time.perf_counter()
+                subprocess.run([paths.ROOT / "client/abacus-export", "mesh", target, *options], check=True, stdout=subprocess.DEVNULL)
+                samples.append({"wall": round(time.perf_counter() - began, 6), "cpu": round(self.used() - used, 6), "bytes": target.stat().st_size})
+        rate = max(sample["bytes"] / sample["wall"] for sample in samples) / 1e6
+        self.record(f"{question.format(count=f'{count:,}')}, at {rate:.0f} MB/s", samples)
+
+    @staticmethod
+    def used():
+        """Processor time of the clients that have ended: the server's is not among it."""
+        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return usage.ru_utime + usage.ru_stime
