@@ -108,11 +108,15 @@ template <int D> void Growth<D>::rewrite(SplitOctants<D> &octants, abacus_header
     LeafScan<D> before(host_, header_);
     LeafWriter<D> writer(host_, header_);
     std::uint64_t leaves = 0;
-    while (before.next_page()) {
+    const auto turn_page = [&] {
+        if (before.pages() > 0) writer.end(before.upper());
+        if (!before.next_page()) return false;
         if (before.pages() % 64 == 1)
             host_.progress({ABACUS_PHASE_FLUSHING, leaves, 0, before.pages(), writer.pages(), 0});
         writer.begin(before.lower(), before.location());
-        const std::uint64_t upper = before.upper();
+        return true;
+    };
+    while (turn_page())
         while (before.has_more() && before.next()) {
             const Octant<D> old = before.leaf();
             const double *const values = before.values();
@@ -120,12 +124,12 @@ template <int D> void Growth<D>::rewrite(SplitOctants<D> &octants, abacus_header
             do {
                 if (!octants.next_leaf(leaf) || !old.contains(leaf.code))
                     throw_octree_corrupted("Leaves have changed while they were read.");
+                // Of leaves merged across a border: some of its children begin on later pages.
+                while (leaf.code >= before.upper()) turn_page();
                 writer.add(leaf, values, !(leaf == old));
                 ++leaves;
             } while (leaf.end() < old.end());
         }
-        writer.end(upper);
-    }
     octants.close();
     header.leaves = leaves;
     header.counters.loads += before.pages();

@@ -94,20 +94,8 @@ TYPED_TEST(Octrees, hold_so_many_points_in_a_leaf) {
         for (int i = 0; i < 2000; ++i)
             cells.push_back(random() % (domain_cells<D> >> (random() % 40)));
         cells.resize(2100, cells[0]); // the same place, again and again
-        const Host h = octree.host->host();
-        Growth<D> growth(h, octree.header, StoredOctree<D>::memory);
-        for (const std::uint64_t cell : cells) growth.add(octree.place(cell));
-        growth.to_points(most, octree.header);
-        for (bool done = false; !done;) {
-            done = true;
-            std::map<std::uint64_t, std::uint64_t> points;
-            for (const std::uint64_t cell : cells) ++points[model.find(cell).code];
-            for (const auto &[code, n] : points)
-                if (n > most && model.find(code).level < 12) {
-                    model.split(model.find(code));
-                    done = false;
-                }
-        }
+        octree.split_to_points(cells, most);
+        model.split_to_points(cells, most, 12);
         ASSERT_EQ(octree.list(), model.list());
         expect_sound(octree);
     }
@@ -274,15 +262,7 @@ TYPED_TEST(Octrees, are_split_and_merged_in_place) {
             } else {
                 const int level = static_cast<int>(octree.random() % 9) + (D == 2 ? 2 : 1);
                 const auto merged = Octant<D>{cell, finest_level<D>}.ancestor(level);
-                std::uint64_t before = 1;
-                if (leaf.level > level) {
-                    const auto begin = model.leaves.lower_bound(merged.code),
-                               end = model.leaves.lower_bound(merged.end());
-                    before = static_cast<std::uint64_t>(std::distance(begin, end));
-                    model.leaves.erase(begin, end);
-                    model.leaves[merged.code] = level;
-                }
-                ASSERT_EQ(cache.merge(merged), before);
+                ASSERT_EQ(cache.merge(merged), model.merge(merged));
             }
             if (round % 50 == 0) {
                 ASSERT_EQ(cache.check_invariants(), nullptr);
@@ -299,6 +279,95 @@ TYPED_TEST(Octrees, are_split_and_merged_in_place) {
     EXPECT_EQ(edit.merge(octree.header), model.leaves.size());
     EXPECT_EQ(octree.list(), std::vector<Octant<D>>(1));
     expect_sound(octree);
+}
+
+// Merged across the borders of pages, a leaf ends beyond its page, and pages behind it are empty.
+TYPED_TEST(Octrees, are_grown_again_where_leaves_were_merged_across_pages) {
+    constexpr int D = TypeParam::value;
+    for (const int kind : {0, 1, 2, 3}) {
+        Coded<D> octree;
+        OctreeModel<D> &model = octree.model;
+        for (int i = 0; i < Octant<D>::children; ++i) {
+            const auto part = Octant<D>{}.child(i);
+            EXPECT_EQ(octree.merge({part}), model.merge(part));
+        }
+        if (kind == 3) {
+            octree.merge({{}});
+            model.merge({});
+            octree.spread_root(64);
+        }
+        expect_sound(octree);
+        std::vector<std::uint64_t> cells;
+        for (int i = 0; i < 300; ++i) cells.push_back(octree.random() % domain_cells<D>);
+        if (kind == 0) {
+            octree.split_to({{cells[0], 9}});
+            model.split_to(cells[0], 9);
+        } else if (kind == 1) {
+            octree.split_to_points(cells, 2);
+            model.split_to_points(cells, 2, finest_level<D>);
+        } else {
+            octree.split_to({{domain_cells<D> / 2 - 1, finest_level<D>}});
+            model.split_to(domain_cells<D> / 2 - 1, finest_level<D>);
+            octree.balance(D);
+            model.balance(D);
+        }
+        ASSERT_EQ(octree.list(), model.list()) << kind;
+        EXPECT_EQ(octree.header.leaves, model.leaves.size());
+        expect_sound(octree);
+    }
+}
+
+TYPED_TEST(Octrees, are_what_a_model_is_after_changes_at_random) {
+    constexpr int D = TypeParam::value;
+    for (unsigned seed = 0; seed < 6; ++seed) {
+        std::mt19937_64 random(seed);
+        StoredOctree<D> octree(seed % 3);
+        OctreeModel<D> model;
+        octree.header.levels = D == 2 ? 11 : 7;
+        for (int step = 0; step < 40; ++step) {
+            const int n = 1 << random() % 10;
+            const auto cells = random_cells<D>(random, n, static_cast<int>(octree.header.levels));
+            switch (random() % 4) {
+            case 0:
+                octree.split_to(cells);
+                for (const auto &[cell, level] : cells) model.split_to(cell, level);
+                break;
+            case 1: {
+                std::vector<std::uint64_t> points;
+                for (const auto &[cell, level] : cells) points.push_back(cell >> (3 * level));
+                const std::uint64_t most = 1 + random() % 20;
+                octree.split_to_points(points, most);
+                model.split_to_points(points, most, static_cast<int>(octree.header.levels));
+                break;
+            }
+            case 2: {
+                const int across = 1 + static_cast<int>(random() % D);
+                octree.balance(across);
+                model.balance(across);
+                break;
+            }
+            default: {
+                std::vector<Octant<D>> octants;
+                for (const auto &[cell, level] : cells)
+                    octants.push_back(Octant<D>{cell, finest_level<D>}.ancestor(
+                        std::max(level, step % 8 == 0 ? 0 : 3)));
+                std::uint64_t merged = 0;
+                std::sort(octants.begin(), octants.end(), [](const auto &a, const auto &b) {
+                    return a.code != b.code ? a.code < b.code : a.level < b.level;
+                });
+                for (const Octant<D> &octant : octants) {
+                    const std::uint64_t leaves = model.merge(octant);
+                    if (leaves > 1) merged += leaves;
+                }
+                std::shuffle(octants.begin(), octants.end(), random);
+                EXPECT_EQ(octree.merge(octants, random() % 2 ? 1 : octree.memory), merged);
+            }
+            }
+            ASSERT_EQ(octree.header.leaves, model.leaves.size()) << seed << ' ' << step;
+            ASSERT_EQ(octree.list(), model.list()) << seed << ' ' << step;
+            expect_sound(octree);
+        }
+    }
 }
 
 TYPED_TEST(Octrees, are_grown_in_place_at_few_places) {
