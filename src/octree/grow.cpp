@@ -49,7 +49,7 @@ template <int D> void Growth<D>::to_levels(abacus_header &header) {
 }
 
 template <int D> void Growth<D>::split_in_place(abacus_header &header) {
-    OctreeCache<D> cache(host_, header_, memory_);
+    OctreeCache<D> cache(host_, header_, memory_ / 2); // the sort has the other half
     while (const std::uint64_t *place = places_.next()) {
         for (;;) {
             const Handle h = cache.find(place[0]);

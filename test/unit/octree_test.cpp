@@ -370,6 +370,48 @@ TYPED_TEST(Octrees, are_what_a_model_is_after_changes_at_random) {
     }
 }
 
+/// Memory that is taken beyond what is in use now, while something is done.
+template <class Act> std::size_t peak_of(MemoryHost &host, Act act) {
+    const std::size_t before = host.bytes;
+    host.peak_bytes = before;
+    act();
+    return host.peak_bytes - before;
+}
+
+TYPED_TEST(Octrees, take_no_more_memory_than_they_are_given) {
+    constexpr int D = TypeParam::value;
+    constexpr std::size_t block = LeafBlocks<D>::slots * sizeof(Leaf<D>);
+    Coded<D> octree;
+    ASSERT_GT(octree.host->pages.size(), 16u);
+    std::vector<Octant<D>> some;
+    for (const Octant<D> &leaf : octree.model.list())
+        if (leaf.code % 8 == 0) some.push_back(leaf);
+    const auto merge = [&] { octree.merge(some, 1); };
+    EXPECT_LT(peak_of(*octree.host, merge), 8 * block + octree.memory / 2) << "nothing to merge";
+
+    // Places that are fine enough on every page.
+    constexpr std::size_t memory = 12 * block;
+    const auto refine = [&] {
+        const Host h = octree.host->host();
+        Growth<D> growth(h, octree.header, memory);
+        for (std::uint64_t i = 0; i < octree.header.leaves / 512; ++i)
+            growth.add(octree.place(octree.random() % domain_cells<D>), 0);
+        growth.to_levels(octree.header);
+    };
+    EXPECT_LT(peak_of(*octree.host, refine), memory) << "nothing to split";
+
+    StoredOctree<D> empty;
+    empty.spread_root(64);
+    const auto find = [&] {
+        const Host h = empty.host->host();
+        OctreeReader<D> reader(h, empty.header, 1);
+        EXPECT_EQ(reader.cache().octant(reader.find(domain_cells<D> - 1)), Octant<D>{});
+    };
+    EXPECT_LT(peak_of(*empty.host, find), 8 * block) << "a walk over empty pages";
+    empty.host->cancel();
+    EXPECT_THROW(find(), HostFailure) << "... that can be cancelled";
+}
+
 TYPED_TEST(Octrees, are_grown_in_place_at_few_places) {
     constexpr int D = TypeParam::value;
     Coded<D> octree;
