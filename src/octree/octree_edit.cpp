@@ -50,13 +50,19 @@ template <int D> std::uint64_t OctreeEdit<D>::merge(abacus_header &header) {
 
 template <int D> std::uint64_t OctreeEdit<D>::set(abacus_header &header) {
     changes_.finish();
-    std::uint64_t set = 0, end = 0;
+    std::uint64_t set = 0, end = 0, last = 0;
     while (const std::uint64_t *change = changes_.next()) {
         const Handle h = cache_.find(change[0]);
-        if (cache_.octant(h).end() != end) ++set;
-        end = cache_.octant(h).end();
-        cache_.set_values(h, reinterpret_cast<const double *>(change + 3));
-        cache_.trim();
+        // The rows of a leaf follow one another, by their cells.
+        if (cache_.octant(h).end() != end) {
+            ++set;
+            end = cache_.octant(h).end();
+            last = 0;
+        }
+        if (change[2] >= last) {
+            last = change[2];
+            cache_.set_values(h, reinterpret_cast<const double *>(change + 3));
+        }
         if (set % 1024 == 0) host_.poll();
     }
     finish(header);

@@ -412,6 +412,23 @@ TYPED_TEST(Octrees, take_no_more_memory_than_they_are_given) {
     EXPECT_THROW(find(), HostFailure) << "... that can be cancelled";
 }
 
+TYPED_TEST(Octrees, keep_the_last_of_several_rows_of_a_leaf) {
+    constexpr int D = TypeParam::value;
+    StoredOctree<D> octree(1);
+    octree.split_to({{0, 2}});
+    const Octant<D> leaf = octree.list().back();
+    const Host h = octree.host->host();
+    OctreeEdit<D> edit(h, octree.header, octree.memory, octree.memory);
+    double value = 0;
+    for (const std::uint64_t at : {leaf.end() - 1, leaf.code, leaf.end() - 2, leaf.code + 1}) {
+        ++value;
+        edit.set_at(at, &value);
+    }
+    EXPECT_EQ(edit.set(octree.header), 1u);
+    OctreeReader<D> reader(h, octree.header, octree.memory);
+    EXPECT_EQ(reader.cache().values(reader.find(leaf.code))[0], 4);
+}
+
 TYPED_TEST(Octrees, are_grown_in_place_at_few_places) {
     constexpr int D = TypeParam::value;
     Coded<D> octree;
