@@ -412,6 +412,20 @@ TYPED_TEST(Octrees, take_no_more_memory_than_they_are_given) {
     EXPECT_THROW(find(), HostFailure) << "... that can be cancelled";
 }
 
+TYPED_TEST(Octrees, keep_the_pages_that_are_read_again) {
+    constexpr int D = TypeParam::value;
+    constexpr std::size_t block = LeafBlocks<D>::slots * sizeof(Leaf<D>);
+    Coded<D> octree;
+    const Host h = octree.host->host();
+    OctreeReader<D> reader(h, octree.header, 8 * block);
+    for (const auto &[key, page] : octree.host->pages) {
+        reader.find(key.code);
+        reader.find(0);
+    }
+    EXPECT_EQ(reader.cache().counters.loads, octree.host->pages.size());
+    EXPECT_GT(reader.cache().counters.evictions, 0u);
+}
+
 TYPED_TEST(Octrees, keep_the_last_of_several_rows_of_a_leaf) {
     constexpr int D = TypeParam::value;
     StoredOctree<D> octree(1);
