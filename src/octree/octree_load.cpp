@@ -36,11 +36,14 @@ void OctreeLoad<D>::add(std::uint64_t code, std::int64_t level, const double *va
 
 template <int D> void OctreeLoad<D>::write(abacus_header &header) {
     LeafScan<D> before(host_, header_);
-    if (header_.leaves != 1 || !before.next_page())
+    if (header_.leaves != 1 || !before.next())
         throw Error(ABACUS_ERROR_STATE, "the octree has leaves already",
                     "Rows are loaded into a new octree.");
     LeafWriter<D> writer(host_, header_);
     writer.begin(0, before.location());
+    // Leaves that were merged may have left empty pages behind.
+    while (before.next_page())
+        host_.erase(ABACUS_OCTANT_PAGES, {{before.lower(), 0}, nullptr, 0, before.location()});
     leaves_.finish();
     std::uint64_t end = 0, last = 0, n = 0;
     while (const std::uint64_t *record = leaves_.next()) {

@@ -461,8 +461,10 @@ TYPED_TEST(Octrees, are_loaded_leaf_by_leaf) {
     constexpr int D = TypeParam::value;
     Coded<D> octree;
     auto leaves = octree.model.list();
+    std::uint64_t pages = 1;
     const auto load = [&](const std::vector<Octant<D>> &rows) {
         StoredOctree<D> loaded(1);
+        if (pages > 1) loaded.spread_root(pages);
         const Host h = loaded.host->host();
         OctreeLoad<D> load(h, loaded.header, loaded.memory);
         for (const Octant<D> &row : rows) {
@@ -478,6 +480,9 @@ TYPED_TEST(Octrees, are_loaded_leaf_by_leaf) {
     std::vector<Octant<D>> shuffled = leaves;
     std::shuffle(shuffled.begin(), shuffled.end(), octree.random);
     EXPECT_EQ(load(shuffled), leaves);
+    pages = 64; // those of leaves that were merged are given back
+    EXPECT_EQ(load(shuffled), leaves);
+    EXPECT_EQ(load({{}}), std::vector<Octant<D>>(1));
 
     const auto detail = [&](const std::vector<Octant<D>> &rows) -> std::string {
         try {
