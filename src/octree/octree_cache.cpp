@@ -151,23 +151,6 @@ template <int D> void OctreeCache<D>::untie(BlockIndex b) {
         this->for_each_record(b, [&](Handle h) { free_values_.add(slots_[h].values); });
 }
 
-void add_counters(const abacus_counters &counted, abacus_header &header) {
-    abacus_counters &sum = header.counters;
-    sum.created += counted.created;
-    sum.deleted += counted.deleted;
-    sum.loads += counted.loads;
-    sum.stores += counted.stores;
-    sum.rewrites += counted.rewrites;
-    sum.splits += counted.splits;
-    sum.merges += counted.merges;
-    sum.evictions += counted.evictions;
-    sum.eviction_batches += counted.eviction_batches;
-    sum.bytes_read += counted.bytes_read;
-    sum.bytes_written += counted.bytes_written;
-    sum.translation_ns += counted.translation_ns;
-    sum.peak_bytes = std::max(sum.peak_bytes, counted.peak_bytes);
-}
-
 template class OctreeCache<2>;
 template class OctreeCache<3>;
 template class BlockCache<OctreeCache<2>, LeafBlocks<2>>;

@@ -119,7 +119,4 @@ private:
     Arena<double> kept_;  // attributes of a leaf that goes
 };
 
-/// Adds what a cache has counted to an octree's counters.
-void add_counters(const abacus_counters &counted, abacus_header &header);
-
 } // namespace abacus

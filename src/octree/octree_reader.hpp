@@ -13,6 +13,7 @@ public:
 
     const Grid<D> &grid() const { return grid_; }
     OctreeCache<D> &cache() { return cache_; }
+    const OctreeCache<D> &cache() const { return cache_; }
 
     /// The leaf that has a place, or no_handle outside the domain. Handles die with the next call.
     Handle locate(const Point<D> &place) {

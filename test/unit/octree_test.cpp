@@ -19,7 +19,7 @@ TYPED_TEST_SUITE(Octrees, Dimensions);
 
 template <int D> void expect_sound(const StoredOctree<D> &octree) {
     const Host h = octree.host->host();
-    OctreeCheck<D> check(h, octree.header, 0, 10);
+    OctreeCheck<D> check(h, octree.header, 10);
     abacus_fault fault;
     while (check.next(fault)) ADD_FAILURE() << fault.kind << ": " << fault.message;
     EXPECT_THAT(octree.host->violations, testing::IsEmpty());
@@ -520,7 +520,7 @@ TYPED_TEST(Octrees, do_not_depend_on_order_and_memory) {
     EXPECT_EQ(a.list(), b.list());
     EXPECT_TRUE(b.host->spools.empty());
     ASSERT_EQ(a.host->pages.size(), b.host->pages.size());
-    // At most two bytes a leaf.
+    // At most a byte a leaf.
     std::size_t bytes = 0;
     for (const auto &[key, page] : a.host->pages) bytes += page.size;
     EXPECT_LE(bytes, a.header.leaves);
