@@ -124,19 +124,9 @@ end(OctreeChange *change)
 	return leaves;
 }
 
-/* A shape that row packers take for so many columns before the attributes. */
-static abacus_header *
-shape_of_rows(const abacus_header *header, uint32 columns)
-{
-	abacus_header *shape = palloc(sizeof(abacus_header));
-
-	*shape = *header;
-	shape->dimension = columns;
-	return shape;
-}
-
-static void
-open_growth(Writer *writer)
+/* Opens the growth of an octree as its host's handle. */
+void
+octree_growth_open(Writer *writer)
 {
 	abacus_octree_growth *growth = NULL;
 	Host	   *host = writer->host;
@@ -201,8 +191,8 @@ abacus_sql_octree_from_points(PG_FUNCTION_ARGS)
 				 errmsg("most_in_leaf must be at least 1, not %d", most)));
 	begin(&change, fcinfo, "abacus_octree_from_points()");
 	host = change.writer.host;
-	open_growth(&change.writer);
-	read_rows(&change, change.writer.header, OCTANT_POINTS, add_points);
+	octree_growth_open(&change.writer);
+	read_rows(&change, OCTANT_POINTS, add_points);
 	host_run(host, abacus_octree_growth_points, host->handle, (uint64) most, change.writer.header);
 	PG_RETURN_INT64(end(&change));
 }
@@ -216,8 +206,8 @@ abacus_sql_octree_refine(PG_FUNCTION_ARGS)
 
 	begin(&change, fcinfo, "abacus_octree_refine()");
 	host = change.writer.host;
-	open_growth(&change.writer);
-	read_rows(&change, change.writer.header, OCTANT_PLACES, add_places);
+	octree_growth_open(&change.writer);
+	read_rows(&change, OCTANT_PLACES, add_places);
 	host_run(host, abacus_octree_growth_levels, host->handle, change.writer.header);
 	PG_RETURN_INT64(end(&change));
 }
@@ -310,7 +300,7 @@ abacus_sql_octree_balance(PG_FUNCTION_ARGS)
 
 	writer_begin_of(&writer, PG_GETARG_OID(0), ABACUS_OCTREE, "abacus_octree_balance()");
 	across = across_what(PG_GETARG_TEXT_PP(1), writer.header->dimension);
-	open_growth(&writer);
+	octree_growth_open(&writer);
 	host_run(writer.host, abacus_octree_growth_balance, writer.host->handle, across,
 			 writer.header);
 	leaves = (int64) writer.header->leaves;
