@@ -19,6 +19,7 @@
 #include "pg/mesh/new_mesh.h"
 #include "pg/mesh/shape.h"
 #include "pg/mesh/writer.h"
+#include "pg/sql/octree_growth.h"
 
 SQL_FUNCTION(abacus_sql_octree_create);
 SQL_FUNCTION(abacus_sql_octree_from_points);
@@ -43,7 +44,7 @@ set_levels(abacus_header *header, int32 levels)
 	header->levels = (uint32) levels;
 }
 
-/* A span that no double can hold, or whose octants could not be told apart, is no domain. */
+/* A span that no double can hold is no domain. */
 static void
 check_span(const abacus_header *header)
 {
@@ -101,13 +102,13 @@ begin(OctreeChange *change, FunctionCallInfo fcinfo, const char *command)
 
 /* Hands the rows of the query to the core's handle. */
 static void
-read_rows(OctreeChange *change, const abacus_header *shape, OctantRows kind, AddRows add)
+read_rows(OctreeChange *change, OctantRows kind, AddRows add)
 {
 	Host	   *host = change->writer.host;
 	const uint64 *rows;
 	size_t		count;
 
-	source_open_octants(&change->source, shape, kind);
+	source_open_octants(&change->source, change->writer.header, kind);
 	while ((count = source_fetch(&change->source, &rows)) > 0)
 		host_run(host, add, host->handle, rows, count);
 	source_close(&change->source);
@@ -223,7 +224,7 @@ abacus_sql_octree_coarsen(PG_FUNCTION_ARGS)
 	begin(&change, fcinfo, "abacus_octree_coarsen()");
 	host = change.writer.host;
 	open_edit(&change.writer);
-	read_rows(&change, change.writer.header, OCTANT_PLACES, add_merges);
+	read_rows(&change, OCTANT_PLACES, add_merges);
 	host_run(host, abacus_octree_edit_merge, host->handle, change.writer.header, &merged);
 	PG_RETURN_INT64(end(&change));
 }
@@ -244,7 +245,7 @@ abacus_sql_octree_update(PG_FUNCTION_ARGS)
 				 errmsg("octree has no attributes"),
 				 errhint("Name them in abacus_octree_create().")));
 	open_edit(&change.writer);
-	read_rows(&change, shape_of_rows(change.writer.header, 0), OCTANT_VALUES, add_values);
+	read_rows(&change, OCTANT_VALUES, add_values);
 	host_run(host, abacus_octree_edit_set, host->handle, change.writer.header, &set);
 	end(&change);
 	PG_RETURN_INT64((int64) set);
@@ -263,7 +264,7 @@ abacus_sql_octree_from_rows(PG_FUNCTION_ARGS)
 	host_run(host, abacus_octree_load_open, &host->table, change.writer.header,
 			 setting_sort_bytes(), &load);
 	host_own(host, load, (void (*) (void *)) abacus_octree_load_close);
-	read_rows(&change, shape_of_rows(change.writer.header, 1), OCTANT_LEAVES, add_leaves);
+	read_rows(&change, OCTANT_LEAVES, add_leaves);
 	host_run(host, abacus_octree_load_write, load, change.writer.header);
 	PG_RETURN_INT64(end(&change));
 }
