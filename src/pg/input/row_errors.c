@@ -137,7 +137,7 @@ void
 row_refuse_srid(const RowPacker *packer, const char *what, int32 srid)
 {
 	if (packer->header->srid != 0 || !packer->takes_srid)
-		geometry_refuse_srid(what, srid, (int32) packer->header->srid);
+		geometry_refuse_srid(what, srid, (int32) packer->header->srid, packer->origin->whole);
 	ereport(ERROR,
 			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 			 errmsg("%s has SRID %d, but those before it have SRID %d", what, srid, packer->srid),

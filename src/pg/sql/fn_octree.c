@@ -100,17 +100,23 @@ begin(OctreeChange *change, FunctionCallInfo fcinfo, const char *command)
 	writer_begin_of(&change->writer, PG_GETARG_OID(0), ABACUS_OCTREE, command);
 }
 
-/* Hands the rows of the query to the core's handle. */
+/*
+ * Hands the rows of the query to the core's handle. An octree without SRID takes that of
+ * geometries.
+ */
 static void
 read_rows(OctreeChange *change, OctantRows kind, AddRows add)
 {
 	Host	   *host = change->writer.host;
+	abacus_header *header = change->writer.header;
 	const uint64 *rows;
 	size_t		count;
 
 	source_open_octants(&change->source, change->writer.header, kind);
 	while ((count = source_fetch(&change->source, &rows)) > 0)
 		host_run(host, add, host->handle, rows, count);
+	if (change->source.packer->srid > 0)
+		header->srid = (uint32) change->source.packer->srid;
 	source_close(&change->source);
 }
 
@@ -239,11 +245,7 @@ abacus_sql_octree_update(PG_FUNCTION_ARGS)
 
 	begin(&change, fcinfo, "abacus_octree_update()");
 	host = change.writer.host;
-	if (change.writer.header->attributes == 0)
-		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("octree has no attributes"),
-				 errhint("Name them in abacus_octree_create().")));
+	header_require_attributes(change.writer.header);
 	open_edit(&change.writer);
 	read_rows(&change, OCTANT_VALUES, add_values);
 	host_run(host, abacus_octree_edit_set, host->handle, change.writer.header, &set);
