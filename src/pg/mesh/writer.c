@@ -127,17 +127,15 @@ begin(Writer *writer, Oid mesh, MeshAccess access, uint32 type, const char *comm
 	PreventCommandIfParallelMode(command);
 
 	writer->host = mesh_host_create(CurrentMemoryContext, mesh, access);
-	if (access != MESH_MOVE)
-		mesh_pages(writer->host)->type = type;
+	mesh_pages(writer->host)->type = type;
 	writer->header = MemoryContextAlloc(writer->host->home, sizeof(abacus_header));
 	open_and_lock(writer, in_trigger);
 	progress_begin(&writer->host->progress, mesh);
 }
 
 /*
- * Opens a mesh for changing, or for moving its rows, with its header locked and
- * an active snapshot that sees it. `command` names the function for messages.
- * The writer lives in the current memory context.
+ * Opens a mesh for changing, with its header locked and an active snapshot that sees it.
+ * `command` names the function for messages. The writer lives in the current memory context.
  */
 void
 writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command)
@@ -150,6 +148,13 @@ void
 writer_begin_of(Writer *writer, Oid mesh, uint32 type, const char *command)
 {
 	begin(writer, mesh, MESH_WRITE, type, command, false);
+}
+
+/* Opens a mesh or an octree for moving its rows. */
+void
+writer_begin_moves(Writer *writer, Oid mesh, const char *command)
+{
+	begin(writer, mesh, MESH_MOVE, ANY_TYPE, command, false);
 }
 
 /*
