@@ -30,6 +30,7 @@ static bool
 lock_header(Host *host, ItemPointer tid)
 {
 	Relation	heap = mesh_pages(host)->simplices.heap;
+	const char *name = type_name(mesh_pages(host)->type);
 	TupleTableSlot *slot = table_slot_create(heap, NULL);
 	TM_FailureData failure;
 	TM_Result	result;
@@ -47,12 +48,12 @@ lock_header(Host *host, ItemPointer tid)
 				ereport(ERROR,
 						(errcode(ERRCODE_T_R_SERIALIZATION_FAILURE),
 						 errmsg("could not serialize access due to concurrent update"),
-						 errdetail("Another transaction has changed mesh \"%s\".",
+						 errdetail("Another transaction has changed %s \"%s\".", name,
 								   RelationGetRelationName(heap)),
 						 errhint("The transaction might succeed if retried.")));
 			return false;
 		default:
-			elog(ERROR, "unexpected result %d of locking the header of mesh \"%s\"", result,
+			elog(ERROR, "unexpected result %d of locking the header of %s \"%s\"", result, name,
 				 RelationGetRelationName(heap));
 	}
 	return false;
@@ -83,7 +84,7 @@ open_and_lock(Writer *writer, bool in_trigger)
 	OwnSight	sight;
 
 	/* also refuses a second writer inside the first one's source query */
-	CheckTableNotInUse(table, "change mesh");
+	CheckTableNotInUse(table, mesh_pages(host)->type == ABACUS_OCTREE ? "change octree" : "change mesh");
 	open_tables(mesh_pages(host));
 	table_close(table, NoLock);
 

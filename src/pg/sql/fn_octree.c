@@ -112,7 +112,7 @@ read_rows(OctreeChange *change, OctantRows kind, AddRows add)
 	const uint64 *rows;
 	size_t		count;
 
-	source_open_octants(&change->source, change->writer.header, kind);
+	source_open_octants(&change->source, header, kind);
 	while ((count = source_fetch(&change->source, &rows)) > 0)
 		host_run(host, add, host->handle, rows, count);
 	if (change->source.packer->srid > 0)
