@@ -67,6 +67,7 @@ template <int D> void OctreeLoad<D>::write(abacus_header &header) {
     writer.end(key_word_end);
     header.leaves = n;
     header.counters += writer.counters();
+    ++header.counters.deleted; // the leaf that there was
 }
 
 template class OctreeLoad<2>;

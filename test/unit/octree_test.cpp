@@ -426,6 +426,44 @@ TYPED_TEST(Octrees, keep_the_pages_that_are_read_again) {
     EXPECT_GT(reader.cache().counters.evictions, 0u);
 }
 
+TYPED_TEST(Octrees, count_what_they_do_and_tell_how_far_they_are) {
+    constexpr int D = TypeParam::value;
+    Coded<D> octree;
+    std::set<int> phases;
+    octree.host->on_progress = [&](const abacus_progress &progress) {
+        phases.insert(progress.phase);
+        if (progress.total > 0) {
+            EXPECT_LE(progress.done, progress.total);
+        }
+    };
+    const auto tells = [&](std::set<int> expected) {
+        EXPECT_THAT(phases, testing::IsSupersetOf(expected));
+        phases.clear();
+        const abacus_counters &counters = octree.header.counters;
+        EXPECT_EQ(counters.created - counters.deleted, octree.header.leaves);
+        EXPECT_GE(counters.stores, counters.rewrites);
+        EXPECT_GT(counters.bytes_written, octree.host->pages.size());
+    };
+    octree.balance(D);
+    tells({ABACUS_PHASE_SCANNING, ABACUS_PHASE_SORTING, ABACUS_PHASE_FLUSHING});
+    octree.merge({Octant<D>{}.child(1)});
+    tells({ABACUS_PHASE_LOCATING});
+    octree.split_to_points({1, 2, 3}, 1);
+    tells({ABACUS_PHASE_READING, ABACUS_PHASE_SCANNING, ABACUS_PHASE_FLUSHING});
+    octree.split_to({{domain_cells<D> / 2, finest_level<D>}});
+    tells({ABACUS_PHASE_LOCATING});
+    Ball ball;
+    const Host h = octree.host->host();
+    Growth<D>(h, octree.header, octree.memory).to_sizes(size_near_center<D>, &ball, octree.header);
+    tells({ABACUS_PHASE_SCANNING, ABACUS_PHASE_READING, ABACUS_PHASE_FLUSHING});
+    octree.merge({{}});
+    OctreeLoad<D> load(h, octree.header, octree.memory);
+    const double values[2] = {1, 2};
+    for (int i = 0; i < Octant<D>::children; ++i) load.add(Octant<D>{}.child(i).code, 1, values);
+    load.write(octree.header);
+    tells({ABACUS_PHASE_FLUSHING});
+}
+
 TYPED_TEST(Octrees, keep_the_last_of_several_rows_of_a_leaf) {
     constexpr int D = TypeParam::value;
     StoredOctree<D> octree(1);
