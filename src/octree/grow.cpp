@@ -25,8 +25,6 @@ template <int D> void Growth<D>::add(const Point<D> &place, std::int64_t level) 
     if (!grid_.find(place, cell)) throw_outside<D>(place);
     if (level < 0 || level > levels_) throw_no_level(level, levels_);
     std::uint64_t *const record = places_.add();
-    if (places_.size() % (16 * Pacer::stride) == 1)
-        host_.progress({ABACUS_PHASE_READING, places_.size(), 0, 0, 0, 0});
     record[0] = morton<D>(cell);
     record[1] = static_cast<std::uint64_t>(level);
 }

@@ -109,12 +109,17 @@ read_rows(OctreeChange *change, OctantRows kind, AddRows add)
 {
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
+	abacus_progress progress = {.phase = ABACUS_PHASE_READING};
 	const uint64 *rows;
 	size_t		count;
 
 	source_open_octants(&change->source, header, kind);
 	while ((count = source_fetch(&change->source, &rows)) > 0)
+	{
 		host_run(host, add, host->handle, rows, count);
+		progress.done += count;
+		progress_report(&host->progress, &progress);
+	}
 	if (change->source.packer->srid > 0)
 		header->srid = (uint32) change->source.packer->srid;
 	source_close(&change->source);
