@@ -115,8 +115,8 @@ typedef struct abacus_header
 	uint32_t not_delaunay; /* an abacus_delaunay. Unless 0 the mesh is read, never changed; its
 							  vertices are listed in staged pages; staged = inserted = vertices */
 	uint32_t srid;         /* spatial reference system of the coordinates, to ABACUS_MAX_SRID; 0: unknown */
-	uint32_t levels;       /* of an octree: the finest that a leaf may have; it has a domain, ... */
-	uint64_t leaves;       /* ... leaves, stamp and counters, and nothing else of the above */
+	uint32_t levels;       /* of an octree: the finest that a leaf may have; */
+	uint64_t leaves;       /* ... of the above it has a domain, attributes, a stamp and an SRID */
 	abacus_counters counters; /* summed over all builds; peak_bytes: the largest */
 	char names[ABACUS_MAX_ATTRIBUTES][ABACUS_NAME_BYTES];
 } abacus_header;

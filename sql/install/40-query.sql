@@ -97,11 +97,11 @@ RETURNS integer
 AS 'MODULE_PATHNAME', 'abacus_sql_srid'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_srid(regclass) IS
-    'the spatial reference system of the coordinates of a mesh, as PostGIS numbers it; 0 if it has none';
+    'the spatial reference system of the coordinates of a mesh or an octree, as PostGIS numbers it; 0 if it has none';
 
 CREATE FUNCTION abacus_set_srid(mesh regclass, srid integer)
 RETURNS void
 AS 'MODULE_PATHNAME', 'abacus_sql_set_srid'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_set_srid(regclass, integer) IS
-    'says in which spatial reference system the coordinates of a mesh are; they stay as they are';
+    'says in which spatial reference system the coordinates of a mesh or an octree are; they stay as they are';

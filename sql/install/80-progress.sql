@@ -53,7 +53,7 @@ COMMENT ON VIEW abacus_progress IS 'live figures of the builds, changes, loads, 
 COMMENT ON COLUMN abacus_progress.pid IS 'process id of the session';
 COMMENT ON COLUMN abacus_progress.mesh IS 'the mesh; a number while its creation is not committed, NULL in another database';
 COMMENT ON COLUMN abacus_progress.phase IS 'starting, reading, sorting, staging, inserting, deleting, flushing, checking, locating or scanning';
-COMMENT ON COLUMN abacus_progress.done IS 'points or places (checking: pages, each of which is read twice; scanning: simplices) done in this phase';
+COMMENT ON COLUMN abacus_progress.done IS 'points or places (checking: pages, each of which is read twice; scanning: simplices; of octrees leaves) done in this phase';
 COMMENT ON COLUMN abacus_progress.total IS 'of how many; NULL if not known';
 COMMENT ON COLUMN abacus_progress.per_second IS 'mean rate in this phase';
 COMMENT ON COLUMN abacus_progress.time_left IS 'in this phase, at that rate';

@@ -112,7 +112,7 @@ public:
         prefetch(&slots_[first_of(b)], blocks_[b].high_water);
     }
     /// The block around h is in use, as those are that change: for callers that only read.
-    void use(Handle h) { blocks_[block_of(h)].used_at = clock_; }
+    void use(Handle h) { blocks_[block_of(h)].used_at = ++clock_; }
     /// Calls visit(handle) for the records of the block that owns the key, loaded if
     /// need be; returns the lower key of the next block, end_key after the last.
     template <class Visit> Key visit(const Key &key, Visit visit);

@@ -13,7 +13,7 @@ struct abacus_check {
                  std::size_t limit)
         : host(*table) {
         if (header.type == ABACUS_OCTREE)
-            octree.emplace(host, header, cache_bytes, limit);
+            octree.emplace(host, header, limit);
         else
             mesh.emplace(host, header, cache_bytes, limit);
     }

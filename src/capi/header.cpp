@@ -163,11 +163,11 @@ void check_octree(abacus_header &header) {
     for (unsigned i = 0; i < header.dimension; ++i)
         if (!(header.lower[i] < header.upper[i]) ||
             !std::isfinite(header.upper[i] - header.lower[i]))
-            throw_corrupted("The header's domain is empty.", "octree");
+            throw_corrupted("The header's domain is empty.");
     if (header.levels > abacus_octree_levels(header.dimension))
-        throw_corrupted("The header has too many levels.", "octree");
+        throw_corrupted("The header has too many levels.");
     if (header.leaves == 0 || header.leaves >= count_limit)
-        throw_corrupted("The header's count of leaves is not valid.", "octree");
+        throw_corrupted("The header's count of leaves is not valid.");
 }
 
 void check_octree_format(std::uint64_t found) {
@@ -225,6 +225,16 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
     read_srid(read, header);
 }
 
+/// An error names what the bytes say they are.
+void decode_named(const unsigned char *bytes, std::size_t size, abacus_header &header) {
+    try {
+        decode(bytes, size, header);
+    } catch (const Error &error) {
+        if (error.kind != ABACUS_ERROR_CORRUPTED || header.type != ABACUS_OCTREE) throw;
+        throw_corrupted(error.detail, "octree");
+    }
+}
+
 } // namespace
 } // namespace abacus
 
@@ -251,7 +261,7 @@ abacus_status abacus_header_decode(const unsigned char *bytes, size_t size, abac
                                    abacus_error *error) {
     return abacus::guard(error, [&] {
         abacus_header decoded{};
-        abacus::decode(bytes, size, decoded);
+        abacus::decode_named(bytes, size, decoded);
         *header = decoded;
         return ABACUS_OK;
     });

@@ -5,8 +5,10 @@
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
+#include "host/stopwatch.hpp"
 
 #include <bit>
+#include <cmath>
 
 struct abacus_octree_growth {
     abacus_octree_growth(const abacus_host *table, const abacus_header &header, std::size_t memory)
@@ -47,7 +49,10 @@ template <int D> Point<D> coordinates(const std::uint64_t *record) {
 /// Changes the caller's header only if all goes well.
 template <class Change> void change(abacus_header *header, Change change) {
     abacus_header changed = *header;
-    change(changed);
+    {
+        const Stopwatch stopwatch(changed.counters.total_ns);
+        change(changed);
+    }
     *header = changed;
 }
 

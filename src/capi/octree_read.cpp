@@ -173,8 +173,7 @@ abacus_status abacus_octree_neighbours(abacus_octree *octree, uint64_t code,
 }
 
 void abacus_octree_counters(const abacus_octree *octree, abacus_counters *counters) {
-    const_cast<abacus_octree *>(octree)->reader.visit(
-        [&](auto &reader) { *counters = reader.cache().counters; });
+    octree->reader.visit([&](const auto &reader) { *counters = reader.cache().counters; });
 }
 
 void abacus_octree_close(abacus_octree *octree) { abacus::destroy_handle(octree); }

@@ -1,12 +1,12 @@
 #include "delaunay/build.hpp"
 
+#include "blocks/counters.hpp"
 #include "delaunay/crowding.hpp"
 #include "delaunay/distinct.hpp"
 #include "delaunay/intake.hpp"
 #include "delaunay/outlet.hpp"
 #include "host/stopwatch.hpp"
 #include "keys/domain_of.hpp"
-#include "mesh/counters.hpp"
 #include "staging/rounds.hpp"
 
 #include <algorithm>

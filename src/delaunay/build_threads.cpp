@@ -21,9 +21,9 @@
 // and the stars of the full mesh are small.
 #include "delaunay/build.hpp"
 
+#include "blocks/counters.hpp"
 #include "delaunay/near_border.hpp"
 #include "delaunay/outlet.hpp"
-#include "mesh/counters.hpp"
 #include "staging/rounds.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "delaunay/interval.hpp"
 
+#include "blocks/counters.hpp"
 #include "keys/domain_of.hpp"
-#include "mesh/counters.hpp"
 #include "points/record.hpp"
 #include "points/repeated_points.hpp"
 

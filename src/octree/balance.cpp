@@ -1,6 +1,9 @@
 #include "octree/balance.hpp"
 
+#include "sort/record_sort.hpp"
+
 #include <array>
+#include <optional>
 
 namespace abacus {
 namespace {
@@ -80,13 +83,16 @@ template <int D>
 void balance(const Host &host, SplitOctants<D> &octants, int across, std::size_t memory,
              SplitOctants<D> &balanced) {
     const std::size_t share = memory / 2;
+    Pacer pacer(host);
+    pacer.begin(ABACUS_PHASE_SORTING, 0);
+    std::uint64_t done = 0;
     std::array<std::optional<RecordSort>, 2> sorts; // of even and odd levels
     for (int level = octants.depth() - 1; level >= 0; --level) {
         std::optional<RecordSort> &asked = sorts[level % 2], &asks = sorts[1 - level % 2];
         asks.emplace(host, 1, 1, share);
         Requests<D> requests(across, *asks, level);
         const std::uint64_t *next = asked ? asked->next() : nullptr;
-        std::uint64_t n = 0, last = SplitOctants<D>::none;
+        std::uint64_t last = SplitOctants<D>::none;
         for (;;) {
             const std::uint64_t wanted = next != nullptr ? *next : SplitOctants<D>::none;
             const std::uint64_t code = std::min(octants.head(level), wanted);
@@ -97,7 +103,7 @@ void balance(const Host &host, SplitOctants<D> &octants, int across, std::size_t
             last = code;
             balanced.add(level, code);
             if (level > 0) requests.add(code);
-            if (++n % Pacer::stride == 0) host.poll();
+            if (++done % Pacer::stride == 0) pacer.reached(done);
         }
         requests.ask();
         octants.close(level);

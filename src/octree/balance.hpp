@@ -10,9 +10,6 @@
 #pragma once
 
 #include "octree/split_octants.hpp"
-#include "sort/record_sort.hpp"
-
-#include <optional>
 
 namespace abacus {
 

@@ -1,5 +1,6 @@
 #include "octree/grow.hpp"
 
+#include "blocks/counters.hpp"
 #include "octree/outside.hpp"
 
 #include <limits>
@@ -16,6 +17,7 @@ template <int D> void create_root(const Host &host, abacus_header &header) {
     writer.add({}, values.data(), true);
     writer.end(key_word_end);
     header.leaves = 1;
+    header.counters += writer.counters();
 }
 
 template <int D> void Growth<D>::add(const Point<D> &place, std::int64_t level) {
@@ -23,16 +25,23 @@ template <int D> void Growth<D>::add(const Point<D> &place, std::int64_t level) 
     if (!grid_.find(place, cell)) throw_outside<D>(place);
     if (level < 0 || level > levels_) throw_no_level(level, levels_);
     std::uint64_t *const record = places_.add();
-    if (places_.size() % (16 * Pacer::stride) == 1)
-        host_.progress({ABACUS_PHASE_READING, places_.size(), 0, 0, 0, 0});
     record[0] = morton<D>(cell);
     record[1] = static_cast<std::uint64_t>(level);
 }
 
-template <int D> void Growth<D>::read(SplitOctants<D> &octants) {
+template <int D>
+template <class Visit>
+void Growth<D>::read(SplitOctants<D> &octants, abacus_header &header, Visit visit) {
+    pacer_.begin(ABACUS_PHASE_SCANNING, header_.leaves);
     LeafScan<D> leaves(host_, header_);
-    while (leaves.next()) octants.split_to(leaves.leaf().code, leaves.leaf().level);
-    octants.rewind();
+    std::uint64_t done = 0;
+    while (leaves.next()) {
+        octants.split_to(leaves.leaf().code, leaves.leaf().level);
+        visit(leaves.leaf());
+        if (++done % Pacer::stride == 0) pacer_.reached(done, {leaves.pages(), 0});
+    }
+    header.counters.loads += leaves.pages();
+    header.counters.bytes_read += leaves.bytes();
 }
 
 template <int D> void Growth<D>::to_levels(abacus_header &header) {
@@ -41,15 +50,18 @@ template <int D> void Growth<D>::to_levels(abacus_header &header) {
         split_in_place(header);
         return;
     }
-    SplitOctants<D> wanted(host_);
+    SplitOctants<D> octants(host_), wanted(host_);
     while (const std::uint64_t *place = places_.next())
         wanted.split_to(place[0], static_cast<int>(place[1]));
     places_.close();
-    grow(wanted, header);
+    read(octants, header);
+    grow(octants, wanted, header);
 }
 
 template <int D> void Growth<D>::split_in_place(abacus_header &header) {
-    OctreeCache<D> cache(host_, header_, memory_);
+    OctreeCache<D> cache(host_, header_, memory_ / 2); // the sort has the other half
+    pacer_.begin(ABACUS_PHASE_LOCATING, places_.size());
+    std::uint64_t done = 0;
     while (const std::uint64_t *place = places_.next()) {
         for (;;) {
             const Handle h = cache.find(place[0]);
@@ -57,16 +69,16 @@ template <int D> void Growth<D>::split_in_place(abacus_header &header) {
             cache.split(h);
             header.leaves += Octant<D>::children - 1;
         }
-        host_.poll();
+        pacer_.reached(++done, {cache.counters.loads, cache.counters.stores});
     }
     places_.close();
     cache.flush();
-    add_counters(cache.counters, header);
+    header.counters += cache.counters;
 }
 
 template <int D> void Growth<D>::to_points(std::uint64_t most, abacus_header &header) {
     // An octant has too many points if it has one and the one that comes `most` later.
-    SplitOctants<D> wanted(host_);
+    SplitOctants<D> octants(host_), wanted(host_);
     RecordSpool ahead(host_, 1);
     places_.finish();
     while (const std::uint64_t *place = places_.next()) *ahead.add() = place[0];
@@ -83,36 +95,46 @@ template <int D> void Growth<D>::to_points(std::uint64_t most, abacus_header &he
     }
     ahead.close();
     places_.close();
-    grow(wanted, header);
+    read(octants, header);
+    grow(octants, wanted, header);
 }
 
 template <int D> void Growth<D>::to_balance(int across, abacus_header &header) {
     places_.close();
     SplitOctants<D> octants(host_), balanced(host_);
-    read(octants);
+    read(octants, header);
+    octants.rewind();
     balance<D>(host_, octants, std::min(across, D), memory_, balanced);
-    balanced.rewind();
     rewrite(balanced, header);
 }
 
-template <int D> void Growth<D>::grow(SplitOctants<D> &wanted, abacus_header &header) {
-    SplitOctants<D> octants(host_), united(host_);
-    read(octants);
+template <int D>
+void Growth<D>::grow(SplitOctants<D> &octants, SplitOctants<D> &wanted, abacus_header &header) {
+    SplitOctants<D> united(host_);
+    octants.rewind();
     wanted.rewind();
     unite(octants, wanted, united);
-    united.rewind();
     rewrite(united, header);
 }
 
 template <int D> void Growth<D>::rewrite(SplitOctants<D> &octants, abacus_header &header) {
+    const std::uint64_t all = 1 + (Octant<D>::children - 1) * octants.size();
+    octants.rewind();
+    pacer_.begin(ABACUS_PHASE_FLUSHING, all);
     LeafScan<D> before(host_, header_);
     LeafWriter<D> writer(host_, header_);
     std::uint64_t leaves = 0;
-    while (before.next_page()) {
-        if (before.pages() % 64 == 1)
-            host_.progress({ABACUS_PHASE_FLUSHING, leaves, 0, before.pages(), writer.pages(), 0});
+    const auto turn_page = [&] {
+        if (before.pages() > 0) {
+            writer.end(before.upper());
+            before.pass_page();
+        }
+        if (!before.next_page()) return false;
+        pacer_.reached(leaves, {before.pages(), writer.counters().stores});
         writer.begin(before.lower(), before.location());
-        const std::uint64_t upper = before.upper();
+        return true;
+    };
+    while (turn_page())
         while (before.has_more() && before.next()) {
             const Octant<D> old = before.leaf();
             const double *const values = before.values();
@@ -120,72 +142,95 @@ template <int D> void Growth<D>::rewrite(SplitOctants<D> &octants, abacus_header
             do {
                 if (!octants.next_leaf(leaf) || !old.contains(leaf.code))
                     throw_octree_corrupted("Leaves have changed while they were read.");
+                // Of leaves merged across a border: some of its children begin on later pages.
+                while (leaf.code >= before.upper()) turn_page();
                 writer.add(leaf, values, !(leaf == old));
                 ++leaves;
             } while (leaf.end() < old.end());
+            header.counters.deleted += !(leaf == old);
         }
-        writer.end(upper);
-    }
     octants.close();
     header.leaves = leaves;
     header.counters.loads += before.pages();
-    header.counters.stores += writer.pages();
-    header.counters.bytes_written += writer.bytes();
+    header.counters.bytes_read += before.bytes();
+    header.counters += writer.counters();
 }
 
 // ---- Sizes ---------------------------------------------------------------------
 
-/// Octants that are asked for together, and those among them that are to be split.
-template <int D> struct Growth<D>::Asker {
-    static constexpr std::size_t at_once = 4096;
-
-    Asker(const Host &host) : codes(host), centers(host), edges(host), sizes(host) {
-        centers.resize(D * at_once);
-        edges.resize(at_once);
-        sizes.resize(at_once);
+/// Asks for the sizes of octants, many at once, and collects those that are to be split.
+template <int D> class Growth<D>::Asker {
+public:
+    Asker(Growth &growth, abacus_octree_sizes sizes, void *context, SplitOctants<D> &wanted)
+        : growth_(growth), ask_(sizes), context_(context), wanted_(wanted), codes_(growth.host_),
+          centers_(growth.host_), edges_(growth.host_), sizes_(growth.host_) {
+        centers_.resize(D * at_once);
+        edges_.resize(at_once);
+        sizes_.resize(at_once);
+        growth.pacer_.begin(ABACUS_PHASE_READING, 0);
     }
 
-    Arena<std::uint64_t> codes;
-    Arena<double> centers, edges, sizes;
+    /// Octants of a level, and the spool of those that are split.
+    void begin(int level, RecordSpool &split) {
+        level_ = level;
+        split_ = &split;
+    }
+    void add(std::uint64_t code) {
+        codes_.push_back(code);
+        if (codes_.size() == at_once) ask();
+    }
+    /// No more come of the level.
+    void ask();
+
+private:
+    static constexpr std::size_t at_once = 4096;
+
+    Growth &growth_;
+    abacus_octree_sizes ask_;
+    void *context_;
+    SplitOctants<D> &wanted_;
+    Arena<std::uint64_t> codes_;
+    Arena<double> centers_, edges_, sizes_; // the first axis by axis
+    int level_ = 0;
+    RecordSpool *split_ = nullptr;
+    std::uint64_t asked_ = 0;
 };
+
+template <int D> void Growth<D>::Asker::ask() {
+    const std::size_t n = codes_.size();
+    if (n == 0) return;
+    const double *centers[D];
+    for (int i = 0; i < D; ++i) centers[i] = centers_.data() + i * at_once;
+    for (std::size_t k = 0; k < n; ++k) {
+        const Point<D> center = growth_.grid_.center({codes_[k], level_});
+        for (int i = 0; i < D; ++i) centers_[i * at_once + k] = center[i];
+        edges_[k] = growth_.grid_.edge(level_);
+    }
+    host::require(ask_(context_, n, centers, edges_.data(), sizes_.data()));
+    for (std::size_t k = 0; k < n; ++k)
+        if (edges_[k] > sizes_[k]) {
+            wanted_.add(level_, codes_[k]);
+            *split_->add() = codes_[k];
+        }
+    codes_.clear();
+    growth_.pacer_.reached(asked_ += n);
+}
 
 template <int D>
 void Growth<D>::to_sizes(abacus_octree_sizes sizes, void *context, abacus_header &header) {
     places_.close();
-    SplitOctants<D> leaves(host_), wanted(host_);
-    {
-        LeafScan<D> scan(host_, header_);
-        while (scan.next())
-            if (scan.leaf().level < levels_) leaves.add(scan.leaf().level, scan.leaf().code);
-    }
+    SplitOctants<D> octants(host_), leaves(host_), wanted(host_);
+    read(octants, header, [&](const Octant<D> &leaf) {
+        if (leaf.level < levels_) leaves.add(leaf.level, leaf.code);
+    });
     leaves.rewind();
-    Asker asker(host_);
-    RecordSpool *children_to = nullptr;
-    const auto ask = [&](int level) {
-        const std::size_t n = asker.codes.size();
-        if (n == 0) return;
-        const double *centers[D];
-        for (int i = 0; i < D; ++i) centers[i] = asker.centers.data() + i * Asker::at_once;
-        for (std::size_t k = 0; k < n; ++k) {
-            const Point<D> center = grid_.center({asker.codes[k], level});
-            for (int i = 0; i < D; ++i) asker.centers[i * Asker::at_once + k] = center[i];
-            asker.edges[k] = grid_.edge(level);
-        }
-        host::require(sizes(context, n, centers, asker.edges.data(), asker.sizes.data()));
-        for (std::size_t k = 0; k < n; ++k)
-            if (asker.edges[k] > asker.sizes[k]) {
-                wanted.add(level, asker.codes[k]);
-                *children_to->add() = asker.codes[k];
-            }
-        asker.codes.clear();
-        host_.poll();
-    };
+    Asker asker(*this, sizes, context, wanted);
     // Level by level: the leaves that there were, and the children of what was split.
     std::array<std::optional<RecordSpool>, 2> splits; // of even and odd levels
     splits[1].emplace(host_, 1);
     for (int level = 0; level < levels_; ++level) {
         RecordSpool &split = splits[1 - level % 2].value();
-        children_to = &splits[level % 2].emplace(host_, 1);
+        asker.begin(level, splits[level % 2].emplace(host_, 1));
         split.rewind();
         const std::uint64_t *parent = split.next();
         Octant<D> family = parent != nullptr ? Octant<D>{*parent, level - 1} : Octant<D>{};
@@ -202,16 +247,15 @@ void Growth<D>::to_sizes(abacus_octree_sizes sizes, void *context, abacus_header
             } else if (code != made) {
                 leaves.pop(level);
             }
-            asker.codes.push_back(code);
-            if (asker.codes.size() == Asker::at_once) ask(level);
+            asker.add(code);
         }
-        ask(level);
+        asker.ask();
         leaves.close(level);
         split.close();
     }
     for (std::optional<RecordSpool> &split : splits)
         if (split) split->close();
-    grow(wanted, header);
+    grow(octants, wanted, header);
 }
 
 template void create_root<2>(const Host &, abacus_header &);

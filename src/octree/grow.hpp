@@ -6,6 +6,8 @@
 #include "octree/grid.hpp"
 #include "octree/leaf_scan.hpp"
 #include "octree/leaf_writer.hpp"
+#include "sort/pacer.hpp"
+#include "sort/record_sort.hpp"
 
 #include <abacus/octree.h>
 
@@ -19,8 +21,8 @@ template <int D> void create_root(const Host &host, abacus_header &header);
 template <int D> class Growth {
 public:
     Growth(const Host &host, const abacus_header &header, std::size_t memory)
-        : host_(host), memory_(memory), levels_(static_cast<int>(header.levels)), header_(header),
-          grid_(header), places_(host, 2, 2, memory / 2) {}
+        : host_(host), pacer_(host), memory_(memory), levels_(static_cast<int>(header.levels)),
+          header_(header), grid_(header), places_(host, 2, 2, memory / 2) {}
 
     /// A place, and the coarsest level of the leaf that has it. Throws Error (argument) outside the
     /// domain and for a level that no leaf may have.
@@ -40,18 +42,22 @@ private:
     /// cheap; with more, it is cheaper to read them all in order.
     static constexpr std::uint64_t leaves_a_place = 256;
 
-    struct Asker;
+    class Asker;
 
     /// Splits the leaves at the places through a cache.
     void split_in_place(abacus_header &header);
-    /// What is split in the octree as it is, rewound.
-    void read(SplitOctants<D> &octants);
-    /// Grows the octree by a set, which is closed.
-    void grow(SplitOctants<D> &wanted, abacus_header &header);
-    /// The leaves are those of a rewound set that has all that are split now; closes it.
+    /// What is split in the octree as it is; `visit` gets its leaves.
+    template <class Visit> void read(SplitOctants<D> &octants, abacus_header &header, Visit visit);
+    void read(SplitOctants<D> &octants, abacus_header &header) {
+        read(octants, header, [](const Octant<D> &) {});
+    }
+    /// Grows the octree, of which this set is split, by another one; closes both.
+    void grow(SplitOctants<D> &octants, SplitOctants<D> &wanted, abacus_header &header);
+    /// The leaves are those of a set that has all that are split now; closes it.
     void rewrite(SplitOctants<D> &octants, abacus_header &header);
 
     const Host &host_;
+    Pacer pacer_;
     const std::size_t memory_;
     const int levels_;
     const abacus_header header_;

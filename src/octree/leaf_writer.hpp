@@ -28,6 +28,7 @@ public:
     /// `is_new`: not one of the page in whose place it comes. Without any that page stays.
     void add(const Octant<D> &octant, const double *values, bool is_new) {
         changed_ = changed_ || is_new;
+        counters_.created += is_new;
         // Two pages are kept, so that the last is not a crumb.
         while (changed_ && octants_.size() >= 2 * static_cast<std::size_t>(capacity_.usual()))
             put_first(capacity_.usual());
@@ -42,8 +43,8 @@ public:
         put(0, octants_.size(), upper);
     }
 
-    std::uint64_t pages() const { return pages_; }
-    std::uint64_t bytes() const { return bytes_; }
+    /// Pages and leaves that were written.
+    const abacus_counters &counters() const { return counters_; }
 
 private:
     void put(std::size_t from, std::size_t to, std::uint64_t upper) {
@@ -60,8 +61,9 @@ private:
         abacus_page page{{lower_, 0}, writer_.bytes(), writer_.size(), location_};
         host_.put(ABACUS_OCTANT_PAGES, page);
         host_.poll();
-        ++pages_;
-        bytes_ += page.size;
+        ++counters_.stores;
+        counters_.rewrites += location_ != 0;
+        counters_.bytes_written += page.size;
         lower_ = upper;
         location_ = 0;
     }
@@ -82,7 +84,7 @@ private:
     Arena<double> values_;
     std::uint64_t lower_ = 0, location_ = 0;
     bool changed_ = false;
-    std::uint64_t pages_ = 0, bytes_ = 0;
+    abacus_counters counters_{};
 };
 
 } // namespace abacus

@@ -10,6 +10,7 @@
 
 #include "keys/locational_code.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -81,6 +82,26 @@ template <int D> constexpr Octant<D> nearest_common(std::uint64_t a, std::uint64
     return Octant<D>{a, finest_level<D>}.ancestor(finest_level<D> - (bits + D - 1) / D);
 }
 
+/// The first cell of a region on the curve, from `from` on; domain_cells if there is none. The
+/// region tells which octants it meets and which it contains; of one that it meets it meets a
+/// child.
+template <int D, class Region> std::uint64_t next_cell(const Region &region, std::uint64_t from) {
+    // Octants that begin at `from`: one that is not met is skipped, of another the first child is
+    // looked at, until all of it is in the region.
+    for (int level = coarsest_level<D>(from); from != domain_cells<D>;) {
+        const Octant<D> at{from, level};
+        if (!region.meets(at)) {
+            from = at.end();
+            level = coarsest_level<D>(from);
+        } else if (level == finest_level<D> || region.contains(at)) {
+            return from;
+        } else {
+            ++level;
+        }
+    }
+    return domain_cells<D>;
+}
+
 /// Cells from `least` to `greatest`, both included, on each axis.
 template <int D> struct CellBox {
     Cell<D> least, greatest;
@@ -97,15 +118,7 @@ template <int D> struct CellBox {
             if (at[i] < least[i] || at[i] + octant.edge() - 1 > greatest[i]) return false;
         return true;
     }
-    /// The first cell of the box on the curve, from `from` on; domain_cells if there is none.
-    std::uint64_t next(std::uint64_t from, const Octant<D> &within = {}) const {
-        if (within.end() <= from || !meets(within)) return domain_cells<D>;
-        if (contains(within)) return std::max(from, within.code);
-        for (int i = 0; i < Octant<D>::children; ++i)
-            if (const std::uint64_t cell = next(from, within.child(i)); cell != domain_cells<D>)
-                return cell;
-        return domain_cells<D>;
-    }
+    std::uint64_t next(std::uint64_t from) const { return next_cell<D>(*this, from); }
 };
 
 } // namespace abacus

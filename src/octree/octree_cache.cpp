@@ -21,9 +21,11 @@ template <int D> Handle OctreeCache<D>::last_up_to(BlockIndex b, std::uint64_t c
     const Handle first = Blocks::first_of(b);
     const std::uint32_t used = blocks_[b].high_water;
     if (notes_[b].in_order) {
+        // A free slot keeps its code.
         const Leaf<D> *const begin = &slots_[first];
-        const Leaf<D> *const after = std::partition_point(
+        const Leaf<D> *after = std::partition_point(
             begin, begin + used, [&](const Leaf<D> &leaf) { return leaf.code <= cell; });
+        while (after != begin && (after - 1)->is_free()) --after;
         return after == begin ? no_handle : first + static_cast<std::uint32_t>(after - begin - 1);
     }
     Handle last = no_handle;
@@ -36,6 +38,7 @@ template <int D> Handle OctreeCache<D>::last_up_to(BlockIndex b, std::uint64_t c
 
 template <int D> Handle OctreeCache<D>::find(std::uint64_t cell) {
     for (Key key{cell, 0};;) {
+        this->trim();
         const BlockIndex b = this->owner(key);
         if (b == no_block) throw_octree_corrupted("No page owns a part of the curve.");
         const Handle h = last_up_to(b, cell);
@@ -49,7 +52,16 @@ template <int D> Handle OctreeCache<D>::find(std::uint64_t cell) {
         if (blocks_[b].lower == first_key)
             throw_octree_corrupted("A part of the domain is in no leaf.");
         key = predecessor(blocks_[b].lower);
+        this->poll();
     }
+}
+
+template <int D> Handle OctreeCache<D>::leaf(const Octant<D> &sought) {
+    const BlockIndex b = this->owner({sought.code, 0});
+    const Handle h = b == no_block ? no_handle : last_up_to(b, sought.code);
+    if (h == no_handle || !(octant(h) == sought))
+        throw_octree_corrupted("A part of the domain is in no leaf.");
+    return h;
 }
 
 template <int D> std::uint32_t OctreeCache<D>::new_values() {
@@ -70,7 +82,6 @@ template <int D> void OctreeCache<D>::add(const Octant<D> &octant, const double 
 template <int D> void OctreeCache<D>::remove(Handle h) {
     if (stride_ > 0) free_values_.add(slots_[h].values);
     this->give_back(h, no_handle);
-    notes_[Blocks::block_of(h)].in_order = false;
     ++this->counters.deleted;
 }
 
@@ -80,7 +91,6 @@ template <int D> void OctreeCache<D>::split(Handle h) {
     remove(h);
     for (int i = 0; i < Octant<D>::children; ++i) add(parent.child(i), kept_.data());
     this->settle(parent.code);
-    this->trim();
 }
 
 template <int D> std::uint64_t OctreeCache<D>::merge(const Octant<D> &merged) {
@@ -88,16 +98,18 @@ template <int D> std::uint64_t OctreeCache<D>::merge(const Octant<D> &merged) {
     std::uint64_t leaves = 0;
     this->poll();
     for (int i = 0; i < Octant<D>::children; ++i) leaves += merge(merged.child(i));
-    // Now its children are leaves, perhaps on several pages.
-    std::array<Handle, Octant<D>::children> family;
-    for (int i = 0; i < Octant<D>::children; ++i) family[i] = find(merged.child(i).code);
+    // Now its children are leaves, perhaps on several pages. The first one, which begins where they
+    // do together, takes the place of all.
+    const Handle first = leaf(merged.child(0));
     std::fill(kept_.begin(), kept_.end(), 0);
-    for (const Handle h : family)
-        for (std::size_t i = 0; i < stride_; ++i) kept_[i] += values(h)[i] / Octant<D>::children;
-    for (const Handle h : family) remove(h);
-    add(merged, kept_.data());
+    for (int i = 0; i < Octant<D>::children; ++i) {
+        const Handle h = i == 0 ? first : leaf(merged.child(i));
+        for (std::size_t a = 0; a < stride_; ++a) kept_[a] += values(h)[a] / Octant<D>::children;
+        if (h != first) remove(h);
+    }
+    slots_[first].level = static_cast<std::uint32_t>(merged.level);
+    set_values(first, kept_.data());
     this->settle(0);
-    this->trim();
     return leaves;
 }
 
@@ -137,23 +149,6 @@ template <int D> EncodedPage OctreeCache<D>::encode_page(BlockIndex b) {
 template <int D> void OctreeCache<D>::untie(BlockIndex b) {
     if (stride_ > 0)
         this->for_each_record(b, [&](Handle h) { free_values_.add(slots_[h].values); });
-}
-
-void add_counters(const abacus_counters &counted, abacus_header &header) {
-    abacus_counters &sum = header.counters;
-    sum.created += counted.created;
-    sum.deleted += counted.deleted;
-    sum.loads += counted.loads;
-    sum.stores += counted.stores;
-    sum.rewrites += counted.rewrites;
-    sum.splits += counted.splits;
-    sum.merges += counted.merges;
-    sum.evictions += counted.evictions;
-    sum.eviction_batches += counted.eviction_batches;
-    sum.bytes_read += counted.bytes_read;
-    sum.bytes_written += counted.bytes_written;
-    sum.translation_ns += counted.translation_ns;
-    sum.peak_bytes = std::max(sum.peak_bytes, counted.peak_bytes);
 }
 
 template class OctreeCache<2>;

@@ -37,7 +37,7 @@ template <int D> struct Leaf {
 template <int D> struct LeafBlocks {
     using Record = Leaf<D>;
     struct Note {
-        bool in_order; // leaf by leaf along the curve, as they were loaded
+        bool in_order; // slots are along the curve, free ones too, as leaves were loaded
     };
     using Counters = abacus_counters;
     static constexpr std::uint32_t slots = page_octants + page_octants / 4;
@@ -63,7 +63,7 @@ template <int D> class OctreeCache : public BlockCache<OctreeCache<D>, LeafBlock
 public:
     OctreeCache(const Host &host, const abacus_header &header, std::size_t budget);
 
-    /// The leaf that has a cell.
+    /// The leaf that has a cell. Other handles may die.
     Handle find(std::uint64_t cell);
     Octant<D> octant(Handle h) const { return slots_[h].octant(); }
     const double *values(Handle h) const { return values_.data() + slots_[h].values * stride_; }
@@ -104,6 +104,8 @@ private:
 
     /// The last leaf of a block that begins at or before a cell, or no_handle.
     Handle last_up_to(BlockIndex b, std::uint64_t cell) const;
+    /// One that is there for certain. All handles stay.
+    Handle leaf(const Octant<D> &sought);
     void add(const Octant<D> &octant, const double *values);
     void remove(Handle h);
     std::uint32_t new_values();
@@ -116,8 +118,5 @@ private:
     Arena<Handle> order_; // leaves of a block, along the curve
     Arena<double> kept_;  // attributes of a leaf that goes
 };
-
-/// Adds what a cache has counted to an octree's counters.
-void add_counters(const abacus_counters &counted, abacus_header &header);
 
 } // namespace abacus

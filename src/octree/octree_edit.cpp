@@ -1,5 +1,6 @@
 #include "octree/octree_edit.hpp"
 
+#include "blocks/counters.hpp"
 #include "octree/outside.hpp"
 
 #include <cstring>
@@ -35,6 +36,7 @@ template <int D> void OctreeEdit<D>::set_at(std::uint64_t cell, const double *va
 template <int D> std::uint64_t OctreeEdit<D>::merge(abacus_header &header) {
     // The coarsest comes first where several begin.
     changes_.finish();
+    pacer_.begin(ABACUS_PHASE_LOCATING, changes_.size());
     std::uint64_t merged = 0, done = 0;
     while (const std::uint64_t *change = changes_.next()) {
         const std::uint64_t leaves = cache_.merge({change[0], static_cast<int>(change[1])});
@@ -42,7 +44,7 @@ template <int D> std::uint64_t OctreeEdit<D>::merge(abacus_header &header) {
             merged += leaves;
             header.leaves -= leaves - 1;
         }
-        if (++done % 64 == 0) host_.poll();
+        reached(++done);
     }
     finish(header);
     return merged;
@@ -50,23 +52,35 @@ template <int D> std::uint64_t OctreeEdit<D>::merge(abacus_header &header) {
 
 template <int D> std::uint64_t OctreeEdit<D>::set(abacus_header &header) {
     changes_.finish();
-    std::uint64_t set = 0, end = 0;
+    pacer_.begin(ABACUS_PHASE_LOCATING, changes_.size());
+    std::uint64_t set = 0, done = 0, end = 0, last = 0;
     while (const std::uint64_t *change = changes_.next()) {
         const Handle h = cache_.find(change[0]);
-        if (cache_.octant(h).end() != end) ++set;
-        end = cache_.octant(h).end();
-        cache_.set_values(h, reinterpret_cast<const double *>(change + 3));
-        cache_.trim();
-        if (set % 1024 == 0) host_.poll();
+        // The rows of a leaf follow one another, by their cells.
+        if (cache_.octant(h).end() != end) {
+            ++set;
+            end = cache_.octant(h).end();
+            last = 0;
+        }
+        if (change[2] >= last) {
+            last = change[2];
+            cache_.set_values(h, reinterpret_cast<const double *>(change + 3));
+        }
+        reached(++done);
     }
     finish(header);
     return set;
 }
 
+template <int D> void OctreeEdit<D>::reached(std::uint64_t done) {
+    host_.poll();
+    if (done % 64 == 0) pacer_.reached(done, {cache_.counters.loads, cache_.counters.stores});
+}
+
 template <int D> void OctreeEdit<D>::finish(abacus_header &header) {
     changes_.close();
     cache_.flush();
-    add_counters(cache_.counters, header);
+    header.counters += cache_.counters;
 }
 
 template class OctreeEdit<2>;

@@ -12,7 +12,7 @@ template <int D> class OctreeEdit {
 public:
     OctreeEdit(const Host &host, const abacus_header &header, std::size_t memory,
                std::size_t cache_bytes)
-        : host_(host), attributes_(header.attributes), grid_(header),
+        : host_(host), pacer_(host), attributes_(header.attributes), grid_(header),
           cache_(host, header, cache_bytes), changes_(host, 3 + attributes_, 3, memory) {}
 
     std::size_t attributes() const { return attributes_; }
@@ -27,9 +27,11 @@ public:
     std::uint64_t set(abacus_header &header);
 
 private:
+    void reached(std::uint64_t done);
     void finish(abacus_header &header);
 
     const Host &host_;
+    Pacer pacer_;
     std::size_t attributes_;
     Grid<D> grid_;
     OctreeCache<D> cache_;

@@ -1,5 +1,6 @@
 #include "octree/octree_load.hpp"
 
+#include "blocks/counters.hpp"
 #include "octree/outside.hpp"
 
 #include <cstring>
@@ -36,12 +37,17 @@ void OctreeLoad<D>::add(std::uint64_t code, std::int64_t level, const double *va
 
 template <int D> void OctreeLoad<D>::write(abacus_header &header) {
     LeafScan<D> before(host_, header_);
-    if (header_.leaves != 1 || !before.next_page())
+    if (header_.leaves != 1 || !before.next())
         throw Error(ABACUS_ERROR_STATE, "the octree has leaves already",
                     "Rows are loaded into a new octree.");
     LeafWriter<D> writer(host_, header_);
     writer.begin(0, before.location());
+    // Leaves that were merged may have left empty pages behind.
+    while (before.next_page())
+        host_.erase(ABACUS_OCTANT_PAGES, {{before.lower(), 0}, nullptr, 0, before.location()});
     leaves_.finish();
+    Pacer pacer(host_);
+    pacer.begin(ABACUS_PHASE_FLUSHING, leaves_.size());
     std::uint64_t end = 0, last = 0, n = 0;
     while (const std::uint64_t *record = leaves_.next()) {
         const Octant<D> leaf{record[0], static_cast<int>(record[1])};
@@ -53,15 +59,15 @@ template <int D> void OctreeLoad<D>::write(abacus_header &header) {
         writer.add(leaf, reinterpret_cast<const double *>(record + 3), true);
         end = leaf.end();
         last = record[2];
-        ++n;
+        if (++n % Pacer::stride == 0) pacer.reached(n, {1, writer.counters().stores});
     }
     if (n == 0) refuse("There are none.");
     if (end != domain_cells<D>) refuse("There is a gap behind the octant of " + row(last) + ".");
     leaves_.close();
     writer.end(key_word_end);
     header.leaves = n;
-    header.counters.stores += writer.pages();
-    header.counters.bytes_written += writer.bytes();
+    header.counters += writer.counters();
+    ++header.counters.deleted; // the leaf that there was
 }
 
 template class OctreeLoad<2>;

@@ -1,7 +1,6 @@
 #include "octree/octree_nodes.hpp"
 
 #include <algorithm>
-#include <bit>
 
 namespace abacus {
 namespace {

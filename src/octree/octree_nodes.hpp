@@ -12,7 +12,6 @@
 #pragma once
 
 #include "octree/leaf_scan.hpp"
-#include "octree/octant.hpp"
 #include "sort/dense_ranks.hpp"
 #include "sort/record_sort.hpp"
 #include "sort/record_spool.hpp"

@@ -13,16 +13,14 @@ public:
 
     const Grid<D> &grid() const { return grid_; }
     OctreeCache<D> &cache() { return cache_; }
+    const OctreeCache<D> &cache() const { return cache_; }
 
     /// The leaf that has a place, or no_handle outside the domain. Handles die with the next call.
     Handle locate(const Point<D> &place) {
         Cell<D> cell;
         return grid_.find(place, cell) ? find(morton<D>(cell)) : no_handle;
     }
-    Handle find(std::uint64_t cell) {
-        cache_.trim();
-        return cache_.find(cell);
-    }
+    Handle find(std::uint64_t cell) { return cache_.find(cell); }
     /// The first leaf along the curve that ends behind a cell and has one of the box; or no_handle.
     Handle next_in(const CellBox<D> &box, std::uint64_t from) {
         const std::uint64_t cell = box.next(from);

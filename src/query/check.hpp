@@ -49,11 +49,7 @@ public:
           std::size_t limit);
 
     /// False after the last fault.
-    bool next(abacus_fault &fault) {
-        if (at_ == faults_.size()) return false;
-        fault = faults_[at_++];
-        return true;
-    }
+    bool next(abacus_fault &fault) { return faults_.next(fault); }
 
 private:
     class Together;
@@ -80,7 +76,6 @@ private:
     std::size_t cache_bytes_;
     Domain<D> domain_;
     FaultList faults_;
-    std::size_t at_ = 0;
     std::uint64_t pages_ = 0;
     bool is_counted_ = false; // pages_ are all
     typename PageCheck<D>::Counts counts_;

@@ -1,9 +1,9 @@
 // What has to hold of a page by itself, and how much is in all that have been looked at.
 #pragma once
 
+#include "blocks/fault_list.hpp"
 #include "keys/locational_code.hpp"
 #include "mesh/page_format.hpp"
-#include "query/fault_list.hpp"
 
 namespace abacus {
 

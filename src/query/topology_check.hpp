@@ -2,7 +2,7 @@
 // these lie; and what the stars of the vertices there tell about the whole (stars.hpp).
 #pragma once
 
-#include "query/fault_list.hpp"
+#include "blocks/fault_list.hpp"
 #include "query/reader.hpp"
 #include "query/stars.hpp"
 

@@ -34,6 +34,18 @@ SELECT is(abacus_srid('plain'), 0, 'of coordinates nobody knows the SRID');
 SELECT is(abacus_insert('terrain', $$ SELECT 5000, 'SRID=2154;POINT Z (150 20 7)'::geometry, 3 $$), 1::bigint, 'a z is passed over in the plane');
 SELECT is((SELECT attributes FROM abacus_nearest('terrain', 'SRID=2154;POINT(150 20)'::geometry)), '{3}', 'and is no attribute');
 SELECT is(abacus_delete('terrain', $$ SELECT 5000, 'SRID=2154;POINT(150 20)'::geometry $$), 1::bigint, 'points are deleted by their geometries');
+SELECT abacus_octree_create('divided', 2, '{0,0}', '{128,128}');
+SELECT cmp_ok(abacus_octree_from_points('divided', 'SELECT id, geom FROM sites', 20), '>', 100::bigint, 'an octree of geometries');
+SELECT is(abacus_srid('divided'), 2154, 'has their SRID');
+SELECT is((SELECT value FROM abacus_stats('divided') WHERE name = 'srid'), 2154::float8, 'which its figures tell');
+SELECT throws_ok($$ SELECT abacus_octree_from_points('divided', 'SELECT id, ST_SetSRID(geom, 3857) FROM sites', 20) $$, '22023', 'geometry of point 1 has SRID 3857, but the octree has SRID 2154', 'others are refused');
+SELECT lives_ok($$ SELECT abacus_octree_from_points('divided', 'SELECT id, geom FROM sites', 10) $$, 'further ones of the same are not');
+SELECT abacus_octree_create('mixed', 2, '{0,0}', '{128,128}');
+SELECT throws_ok($$ SELECT abacus_octree_from_points('mixed', 'SELECT id, ST_SetSRID(geom, 2154 + (id % 2)::int) FROM sites', 20) $$, '22023', NULL, 'nor may they be of two');
+SELECT is(abacus_srid('mixed'), 0, 'and then nothing is kept');
+SELECT throws_ok($$ SELECT abacus_octree_from_points('solid', 'SELECT id, geom FROM sites', 20) $$, '22023', 'geometry of point 1 has no z, but the octree has dimension 3', 'of space they have a z')
+FROM abacus_octree_create('solid', 3, '{0,0,0}', '{128,128,128}');
+SELECT throws_ok($$ SELECT abacus_octree_from_rows('mixed', 'SELECT 0, geom FROM sites') $$, '42804', 'column 2 (level) of the source query has type geometry', 'a geometry is no level');
 SELECT abacus_create('staged', 2);
 SELECT abacus_stage('staged', 'SELECT id, geom FROM sites WHERE id <= 3');
 SELECT is(abacus_srid('staged'), 2154, 'staged points give the mesh an SRID, too');

@@ -163,6 +163,20 @@ SELECT is((SELECT count(*) FROM abacus_vertices('altered')), 3::bigint, 'the poi
 SELECT is((SELECT count(*) FROM abacus_locate('altered', 'SELECT 1, 0.2, 0.2') WHERE v0 IS NOT NULL), 1::bigint, 'and places located');
 ALTER TYPE abacus_simplex DROP ATTRIBUTE extra;
 SELECT throws_ok($$ SELECT abacus_locate('altered', 0.2, 0.2) $$, '55000', 'type abacus_simplex has been altered', 'and dropped again');
+-- and so that of leaves
+SELECT abacus_octree_create('altered_octree', 2, '{0,0}', '{1,1}', '{v}');
+SELECT is((abacus_octree_locate('altered_octree', 0.2, 0.2)).code, 0::bigint, 'a leaf as it should be');
+ALTER TYPE abacus_octant ALTER ATTRIBUTE level TYPE bigint;
+SELECT throws_ok($$ SELECT * FROM abacus_octants('altered_octree') $$, '55000', 'type abacus_octant has been altered', 'another type');
+ALTER TYPE abacus_octant ALTER ATTRIBUTE level TYPE integer;
+ALTER TYPE abacus_octant ADD ATTRIBUTE extra bigint;
+SELECT throws_ok($$ SELECT abacus_octree_locate('altered_octree', 0.2, 0.2) $$, '55000', 'type abacus_octant has been altered', 'one attribute more: octree_locate');
+SELECT throws_ok($$ SELECT * FROM abacus_octants('altered_octree') $$, '55000', 'type abacus_octant has been altered', 'octants');
+SELECT throws_ok($$ SELECT * FROM abacus_octants('altered_octree', '{0,0}', '{1,1}') $$, '55000', 'type abacus_octant has been altered', 'octants of a window');
+SELECT is((SELECT count(*) FROM abacus_octree_elements('altered_octree')), 1::bigint, 'the leaves can be read');
+SELECT is((SELECT count(*) FROM abacus_octree_neighbours('altered_octree', 0)), 0::bigint, 'and neighbours');
+ALTER TYPE abacus_octant DROP ATTRIBUTE extra;
+SELECT throws_ok($$ SELECT abacus_octree_locate('altered_octree', 0.2, 0.2) $$, '55000', 'type abacus_octant has been altered', 'and dropped again: octree_locate');
 
 SELECT * FROM finish();
 ROLLBACK;

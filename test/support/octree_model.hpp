@@ -2,6 +2,7 @@
 #pragma once
 
 #include "octree/grow.hpp"
+#include "octree/octree_edit.hpp"
 #include "octree/octree_reader.hpp"
 #include "support/memory_host.hpp"
 
@@ -28,6 +29,28 @@ public:
     }
     void split_to(std::uint64_t cell, int level) {
         while (find(cell).level < level) split(find(cell));
+    }
+    /// Leaves of an octant become one; returns how many there were.
+    std::uint64_t merge(const Octant<D> &octant) {
+        if (find(octant.code).level <= octant.level) return 1;
+        const auto begin = leaves.lower_bound(octant.code), end = leaves.lower_bound(octant.end());
+        const auto merged = static_cast<std::uint64_t>(std::distance(begin, end));
+        leaves.erase(begin, end);
+        leaves[octant.code] = octant.level;
+        return merged;
+    }
+    /// Leaves are split until none has more than so many of the cells, or can be split.
+    void split_to_points(const std::vector<std::uint64_t> &cells, std::uint64_t most, int levels) {
+        for (bool done = false; !done;) {
+            done = true;
+            std::map<std::uint64_t, std::uint64_t> points;
+            for (const std::uint64_t cell : cells) ++points[find(cell).code];
+            for (const auto &[code, n] : points)
+                if (n > most && find(code).level < levels) {
+                    split(find(code));
+                    done = false;
+                }
+        }
     }
     /// Leaves that touch, one at a time, until none is too coarse.
     void balance(int across) {
@@ -88,10 +111,40 @@ public:
         for (const auto &[cell, level] : cells) growth.add(place(cell), level);
         growth.to_levels(header);
     }
+    void split_to_points(const std::vector<std::uint64_t> &cells, std::uint64_t most) {
+        const Host h = host->host();
+        Growth<D> growth(h, header, memory);
+        for (const std::uint64_t cell : cells) growth.add(place(cell));
+        growth.to_points(most, header);
+    }
+    /// Merges the leaves of octants; returns how many there were.
+    std::uint64_t merge(const std::vector<Octant<D>> &octants, std::size_t cache = memory) {
+        const Host h = host->host();
+        OctreeEdit<D> edit(h, header, memory, cache);
+        for (const Octant<D> &octant : octants) edit.merge_at(place(octant.code), octant.level);
+        return edit.merge(header);
+    }
     void balance(int across, std::size_t bytes = memory) {
         const Host h = host->host();
         Growth<D> growth(h, header, bytes);
         growth.to_balance(across, header);
+    }
+    /// A new octree on so many pages, a power of 2: the first one has its leaf, the others are
+    /// empty, as merges leave them.
+    void spread_root(std::uint64_t pages) {
+        const Host h = host->host();
+        OctantPageWriter<D> writer(h, static_cast<int>(header.attributes));
+        const std::vector<double> values(header.attributes, 0.5);
+        const auto border = [&](std::uint64_t i) { return domain_cells<D> / pages * i; };
+        for (std::uint64_t i = 0; i < pages; ++i) {
+            writer.write(
+                border(i), i + 1 == pages ? key_word_end : border(i + 1), i == 0,
+                [](std::size_t) { return Octant<D>{}; },
+                [&](std::size_t) { return values.data(); });
+            abacus_page page{{border(i), 0}, writer.bytes(), writer.size(), 0};
+            if (i == 0) page.location = host->pages.begin()->second.location;
+            h.put(ABACUS_OCTANT_PAGES, page);
+        }
     }
     /// The lower corner of a cell.
     Point<D> place(std::uint64_t cell) const {

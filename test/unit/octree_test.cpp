@@ -19,7 +19,7 @@ TYPED_TEST_SUITE(Octrees, Dimensions);
 
 template <int D> void expect_sound(const StoredOctree<D> &octree) {
     const Host h = octree.host->host();
-    OctreeCheck<D> check(h, octree.header, 0, 10);
+    OctreeCheck<D> check(h, octree.header, 10);
     abacus_fault fault;
     while (check.next(fault)) ADD_FAILURE() << fault.kind << ": " << fault.message;
     EXPECT_THAT(octree.host->violations, testing::IsEmpty());
@@ -94,20 +94,8 @@ TYPED_TEST(Octrees, hold_so_many_points_in_a_leaf) {
         for (int i = 0; i < 2000; ++i)
             cells.push_back(random() % (domain_cells<D> >> (random() % 40)));
         cells.resize(2100, cells[0]); // the same place, again and again
-        const Host h = octree.host->host();
-        Growth<D> growth(h, octree.header, StoredOctree<D>::memory);
-        for (const std::uint64_t cell : cells) growth.add(octree.place(cell));
-        growth.to_points(most, octree.header);
-        for (bool done = false; !done;) {
-            done = true;
-            std::map<std::uint64_t, std::uint64_t> points;
-            for (const std::uint64_t cell : cells) ++points[model.find(cell).code];
-            for (const auto &[code, n] : points)
-                if (n > most && model.find(code).level < 12) {
-                    model.split(model.find(code));
-                    done = false;
-                }
-        }
+        octree.split_to_points(cells, most);
+        model.split_to_points(cells, most, 12);
         ASSERT_EQ(octree.list(), model.list());
         expect_sound(octree);
     }
@@ -274,15 +262,7 @@ TYPED_TEST(Octrees, are_split_and_merged_in_place) {
             } else {
                 const int level = static_cast<int>(octree.random() % 9) + (D == 2 ? 2 : 1);
                 const auto merged = Octant<D>{cell, finest_level<D>}.ancestor(level);
-                std::uint64_t before = 1;
-                if (leaf.level > level) {
-                    const auto begin = model.leaves.lower_bound(merged.code),
-                               end = model.leaves.lower_bound(merged.end());
-                    before = static_cast<std::uint64_t>(std::distance(begin, end));
-                    model.leaves.erase(begin, end);
-                    model.leaves[merged.code] = level;
-                }
-                ASSERT_EQ(cache.merge(merged), before);
+                ASSERT_EQ(cache.merge(merged), model.merge(merged));
             }
             if (round % 50 == 0) {
                 ASSERT_EQ(cache.check_invariants(), nullptr);
@@ -299,6 +279,206 @@ TYPED_TEST(Octrees, are_split_and_merged_in_place) {
     EXPECT_EQ(edit.merge(octree.header), model.leaves.size());
     EXPECT_EQ(octree.list(), std::vector<Octant<D>>(1));
     expect_sound(octree);
+}
+
+// Merged across the borders of pages, a leaf ends beyond its page, and pages behind it are empty.
+TYPED_TEST(Octrees, are_grown_again_where_leaves_were_merged_across_pages) {
+    constexpr int D = TypeParam::value;
+    for (const int kind : {0, 1, 2, 3}) {
+        Coded<D> octree;
+        OctreeModel<D> &model = octree.model;
+        for (int i = 0; i < Octant<D>::children; ++i) {
+            const auto part = Octant<D>{}.child(i);
+            EXPECT_EQ(octree.merge({part}), model.merge(part));
+        }
+        if (kind == 3) {
+            octree.merge({{}});
+            model.merge({});
+            octree.spread_root(64);
+        }
+        expect_sound(octree);
+        std::vector<std::uint64_t> cells;
+        for (int i = 0; i < 300; ++i) cells.push_back(octree.random() % domain_cells<D>);
+        if (kind == 0) {
+            octree.split_to({{cells[0], 9}});
+            model.split_to(cells[0], 9);
+        } else if (kind == 1) {
+            octree.split_to_points(cells, 2);
+            model.split_to_points(cells, 2, finest_level<D>);
+        } else {
+            octree.split_to({{domain_cells<D> / 2 - 1, finest_level<D>}});
+            model.split_to(domain_cells<D> / 2 - 1, finest_level<D>);
+            octree.balance(D);
+            model.balance(D);
+        }
+        ASSERT_EQ(octree.list(), model.list()) << kind;
+        EXPECT_EQ(octree.header.leaves, model.leaves.size());
+        expect_sound(octree);
+    }
+}
+
+TYPED_TEST(Octrees, are_what_a_model_is_after_changes_at_random) {
+    constexpr int D = TypeParam::value;
+    for (unsigned seed = 0; seed < 6; ++seed) {
+        std::mt19937_64 random(seed);
+        StoredOctree<D> octree(seed % 3);
+        OctreeModel<D> model;
+        octree.header.levels = D == 2 ? 11 : 7;
+        for (int step = 0; step < 40; ++step) {
+            const int n = 1 << random() % 10;
+            const auto cells = random_cells<D>(random, n, static_cast<int>(octree.header.levels));
+            switch (random() % 4) {
+            case 0:
+                octree.split_to(cells);
+                for (const auto &[cell, level] : cells) model.split_to(cell, level);
+                break;
+            case 1: {
+                std::vector<std::uint64_t> points;
+                for (const auto &[cell, level] : cells) points.push_back(cell >> (3 * level));
+                const std::uint64_t most = 1 + random() % 20;
+                octree.split_to_points(points, most);
+                model.split_to_points(points, most, static_cast<int>(octree.header.levels));
+                break;
+            }
+            case 2: {
+                const int across = 1 + static_cast<int>(random() % D);
+                octree.balance(across);
+                model.balance(across);
+                break;
+            }
+            default: {
+                std::vector<Octant<D>> octants;
+                for (const auto &[cell, level] : cells)
+                    octants.push_back(Octant<D>{cell, finest_level<D>}.ancestor(
+                        std::max(level, step % 8 == 0 ? 0 : 3)));
+                std::uint64_t merged = 0;
+                std::sort(octants.begin(), octants.end(), [](const auto &a, const auto &b) {
+                    return a.code != b.code ? a.code < b.code : a.level < b.level;
+                });
+                for (const Octant<D> &octant : octants) {
+                    const std::uint64_t leaves = model.merge(octant);
+                    if (leaves > 1) merged += leaves;
+                }
+                std::shuffle(octants.begin(), octants.end(), random);
+                EXPECT_EQ(octree.merge(octants, random() % 2 ? 1 : octree.memory), merged);
+            }
+            }
+            ASSERT_EQ(octree.header.leaves, model.leaves.size()) << seed << ' ' << step;
+            ASSERT_EQ(octree.list(), model.list()) << seed << ' ' << step;
+            expect_sound(octree);
+        }
+    }
+}
+
+/// Memory that is taken beyond what is in use now, while something is done.
+template <class Act> std::size_t peak_of(MemoryHost &host, Act act) {
+    const std::size_t before = host.bytes;
+    host.peak_bytes = before;
+    act();
+    return host.peak_bytes - before;
+}
+
+TYPED_TEST(Octrees, take_no_more_memory_than_they_are_given) {
+    constexpr int D = TypeParam::value;
+    constexpr std::size_t block = LeafBlocks<D>::slots * sizeof(Leaf<D>);
+    Coded<D> octree;
+    ASSERT_GT(octree.host->pages.size(), 16u);
+    std::vector<Octant<D>> some;
+    for (const Octant<D> &leaf : octree.model.list())
+        if (leaf.code % 8 == 0) some.push_back(leaf);
+    const auto merge = [&] { octree.merge(some, 1); };
+    EXPECT_LT(peak_of(*octree.host, merge), 8 * block + octree.memory / 2) << "nothing to merge";
+
+    // Places that are fine enough on every page.
+    constexpr std::size_t memory = 12 * block;
+    const auto refine = [&] {
+        const Host h = octree.host->host();
+        Growth<D> growth(h, octree.header, memory);
+        for (std::uint64_t i = 0; i < octree.header.leaves / 512; ++i)
+            growth.add(octree.place(octree.random() % domain_cells<D>), 0);
+        growth.to_levels(octree.header);
+    };
+    EXPECT_LT(peak_of(*octree.host, refine), memory) << "nothing to split";
+
+    StoredOctree<D> empty;
+    empty.spread_root(64);
+    const auto find = [&] {
+        const Host h = empty.host->host();
+        OctreeReader<D> reader(h, empty.header, 1);
+        EXPECT_EQ(reader.cache().octant(reader.find(domain_cells<D> - 1)), Octant<D>{});
+    };
+    EXPECT_LT(peak_of(*empty.host, find), 8 * block) << "a walk over empty pages";
+    empty.host->cancel();
+    EXPECT_THROW(find(), HostFailure) << "... that can be cancelled";
+}
+
+TYPED_TEST(Octrees, keep_the_pages_that_are_read_again) {
+    constexpr int D = TypeParam::value;
+    constexpr std::size_t block = LeafBlocks<D>::slots * sizeof(Leaf<D>);
+    Coded<D> octree;
+    const Host h = octree.host->host();
+    OctreeReader<D> reader(h, octree.header, 8 * block);
+    for (const auto &[key, page] : octree.host->pages) {
+        reader.find(key.code);
+        reader.find(0);
+    }
+    EXPECT_EQ(reader.cache().counters.loads, octree.host->pages.size());
+    EXPECT_GT(reader.cache().counters.evictions, 0u);
+}
+
+TYPED_TEST(Octrees, count_what_they_do_and_tell_how_far_they_are) {
+    constexpr int D = TypeParam::value;
+    Coded<D> octree;
+    std::set<int> phases;
+    octree.host->on_progress = [&](const abacus_progress &progress) {
+        phases.insert(progress.phase);
+        if (progress.total > 0) {
+            EXPECT_LE(progress.done, progress.total);
+        }
+    };
+    const auto tells = [&](std::set<int> expected) {
+        EXPECT_THAT(phases, testing::IsSupersetOf(expected));
+        phases.clear();
+        const abacus_counters &counters = octree.header.counters;
+        EXPECT_EQ(counters.created - counters.deleted, octree.header.leaves);
+        EXPECT_GE(counters.stores, counters.rewrites);
+        EXPECT_GT(counters.bytes_written, octree.host->pages.size());
+    };
+    octree.balance(D);
+    tells({ABACUS_PHASE_SCANNING, ABACUS_PHASE_SORTING, ABACUS_PHASE_FLUSHING});
+    octree.merge({Octant<D>{}.child(1)});
+    tells({ABACUS_PHASE_LOCATING});
+    octree.split_to_points({1, 2, 3}, 1);
+    tells({ABACUS_PHASE_SCANNING, ABACUS_PHASE_FLUSHING});
+    octree.split_to({{domain_cells<D> / 2, finest_level<D>}});
+    tells({ABACUS_PHASE_LOCATING});
+    Ball ball;
+    const Host h = octree.host->host();
+    Growth<D>(h, octree.header, octree.memory).to_sizes(size_near_center<D>, &ball, octree.header);
+    tells({ABACUS_PHASE_SCANNING, ABACUS_PHASE_READING, ABACUS_PHASE_FLUSHING});
+    octree.merge({{}});
+    OctreeLoad<D> load(h, octree.header, octree.memory);
+    const double values[2] = {1, 2};
+    for (int i = 0; i < Octant<D>::children; ++i) load.add(Octant<D>{}.child(i).code, 1, values);
+    load.write(octree.header);
+    tells({ABACUS_PHASE_FLUSHING});
+}
+
+TYPED_TEST(Octrees, keep_the_last_of_several_rows_of_a_leaf) {
+    constexpr int D = TypeParam::value;
+    StoredOctree<D> octree(1);
+    octree.split_to({{0, 2}});
+    const Octant<D> leaf = octree.list().back();
+    const Host h = octree.host->host();
+    OctreeEdit<D> edit(h, octree.header, octree.memory, octree.memory);
+    double value = 0;
+    for (const std::uint64_t at : {leaf.end() - 1, leaf.code, leaf.end() - 2, leaf.code + 1}) {
+        ++value;
+        edit.set_at(at, &value);
+    }
+    EXPECT_EQ(edit.set(octree.header), 1u);
+    OctreeReader<D> reader(h, octree.header, octree.memory);
+    EXPECT_EQ(reader.cache().values(reader.find(leaf.code))[0], 4);
 }
 
 TYPED_TEST(Octrees, are_grown_in_place_at_few_places) {
@@ -319,8 +499,10 @@ TYPED_TEST(Octrees, are_loaded_leaf_by_leaf) {
     constexpr int D = TypeParam::value;
     Coded<D> octree;
     auto leaves = octree.model.list();
+    std::uint64_t pages = 1;
     const auto load = [&](const std::vector<Octant<D>> &rows) {
         StoredOctree<D> loaded(1);
+        if (pages > 1) loaded.spread_root(pages);
         const Host h = loaded.host->host();
         OctreeLoad<D> load(h, loaded.header, loaded.memory);
         for (const Octant<D> &row : rows) {
@@ -336,6 +518,9 @@ TYPED_TEST(Octrees, are_loaded_leaf_by_leaf) {
     std::vector<Octant<D>> shuffled = leaves;
     std::shuffle(shuffled.begin(), shuffled.end(), octree.random);
     EXPECT_EQ(load(shuffled), leaves);
+    pages = 64; // those of leaves that were merged are given back
+    EXPECT_EQ(load(shuffled), leaves);
+    EXPECT_EQ(load({{}}), std::vector<Octant<D>>(1));
 
     const auto detail = [&](const std::vector<Octant<D>> &rows) -> std::string {
         try {
@@ -373,7 +558,7 @@ TYPED_TEST(Octrees, do_not_depend_on_order_and_memory) {
     EXPECT_EQ(a.list(), b.list());
     EXPECT_TRUE(b.host->spools.empty());
     ASSERT_EQ(a.host->pages.size(), b.host->pages.size());
-    // At most two bytes a leaf.
+    // At most a byte a leaf.
     std::size_t bytes = 0;
     for (const auto &[key, page] : a.host->pages) bytes += page.size;
     EXPECT_LE(bytes, a.header.leaves);

@@ -43,7 +43,9 @@ column_name(const RowPacker *packer, int column)
 		return packer->origin->id;
 	if (column == 1 && packer->origin->level != NULL)
 		return packer->origin->level;
-	return row_packer_column(packer->header, row_word(packer, column));
+	column = row_word(packer, column) - packer->ids;
+	return column < packer->coordinates ? coordinate_names[column]
+		: packer->header->names[column - packer->coordinates];
 }
 
 /* "id, x, y, height" */
@@ -67,7 +69,7 @@ geometry_hint(const RowPacker *packer, const char *column, Oid type)
 
 	if (packer->origin->geometry_hint == NULL)
 		return NULL;
-	if (geometry_is_type(type) && !packer->origin->by_number)
+	if (geometry_is_type(type) && packer->origin->takes_geometry)
 		return pstrdup("A geometry stands behind the id, in place of all coordinates.");
 	name = geometry_type_name(type);
 	if (strcmp(name, "geography") == 0)
@@ -135,7 +137,7 @@ void
 row_refuse_srid(const RowPacker *packer, const char *what, int32 srid)
 {
 	if (packer->header->srid != 0 || !packer->takes_srid)
-		geometry_refuse_srid(what, srid, (int32) packer->header->srid);
+		geometry_refuse_srid(what, srid, (int32) packer->header->srid, packer->origin->whole);
 	ereport(ERROR,
 			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 			 errmsg("%s has SRID %d, but those before it have SRID %d", what, srid, packer->srid),

@@ -23,25 +23,27 @@
 static const RowOrigin query_of_points = {
 	"the source query", "the source query", "Cast the column in the query.",
 	"Give its coordinates", "Leave such points out with a WHERE clause.", true,
-	"mesh", "id", "An id", NULL, false
+	"mesh", "id", "An id", NULL, false, true
 };
 static const RowOrigin query_of_simplices = {
 	"the source query", "the source query", "Cast the column in the query.",
 	NULL, "Leave such simplices out with a WHERE clause.", false,
-	"mesh", "id", "An id", NULL, false
+	"mesh", "id", "An id", NULL, false, false
 };
 static const RowOrigin tracked_table = {
 	"the tracked table", "the statement", "Track other columns, generated ones for instance.",
 	"Track generated columns", "A row without a point has NULL for a coordinate.", false,
-	"mesh", "id", "An id", NULL, false
+	"mesh", "id", "An id", NULL, false, true
 };
-#define QUERY_OF_OCTANTS "the source query", "the source query", "Cast the column in the query.", \
-	"Give its coordinates", "Leave such rows out with a WHERE clause.", true, "octree"
+#define QUERY_OF_OCTANTS(geometry_hint) \
+	"the source query", "the source query", "Cast the column in the query.", \
+	geometry_hint, "Leave such rows out with a WHERE clause.", true, "octree"
 static const RowOrigin queries_of_octants[] = {
-	[OCTANT_LEAVES] = {QUERY_OF_OCTANTS, "code", "A code", "level", true},
-	[OCTANT_VALUES] = {QUERY_OF_OCTANTS, "code", "A code", NULL, true},
-	[OCTANT_PLACES] = {QUERY_OF_OCTANTS, "level", "A level", NULL, true},
-	[OCTANT_POINTS] = {QUERY_OF_OCTANTS, "id", "An id", NULL, false}
+	[OCTANT_LEAVES] = {QUERY_OF_OCTANTS(NULL), "code", "A code", "level", true, false},
+	[OCTANT_VALUES] = {QUERY_OF_OCTANTS(NULL), "code", "A code", NULL, true, false},
+	[OCTANT_PLACES] = {QUERY_OF_OCTANTS("Give its coordinates"), "level", "A level", NULL, true,
+	false},
+	[OCTANT_POINTS] = {QUERY_OF_OCTANTS("Give its coordinates"), "id", "An id", NULL, false, true}
 };
 
 /* Whether rows have a geometry in place of coordinates. */
@@ -82,7 +84,7 @@ pack_kind(const RowPacker *packer, int column, Form_pg_attribute attribute)
 		case TEXTOID:
 			/* a bare NULL of a query is of this type */
 			if (packer->origin->bare_nulls &&
-				row_word(packer, column) > (int) packer->header->dimension)
+				row_word(packer, column) > packer->coordinates)
 				return PACK_NULL;
 			break;
 	}
@@ -157,7 +159,8 @@ pack_geometry(RowPacker *packer, const TupleTableSlot *slot, uint64 *record)
 	if (dimension > 2 && !point.has_z)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("%s has no z, but the mesh has dimension %u", what, dimension),
+				 errmsg("%s has no z, but the %s has dimension %u", what, packer->origin->whole,
+						dimension),
 				 errhint("ST_Force3DZ(geometry, z) gives it one.")));
 	if (packer->srid < 0)
 		packer->srid = point.srid;
@@ -177,7 +180,7 @@ receive_row(TupleTableSlot *slot, DestReceiver *self)
 	RowPacker  *packer = (RowPacker *) self;
 	uint64	   *point = packer->points + packer->count * packer->columns;
 	uint64	   *words = point + (packer->columns - packer->inputs); /* of columns behind a geometry */
-	int			coordinates_end = 1 + packer->header->dimension;
+	int			coordinates_end = 1 + packer->coordinates;
 	int			first = packer->ids;
 	MemoryContext old = NULL;
 
@@ -226,26 +229,28 @@ shut_down(DestReceiver *self)
 }
 
 /*
- * A packer for records of so many columns, the first of which are ids; `more`: rows may have others
- * behind them; `takes_srid`: a mesh without SRID takes that of geometries.
+ * A packer for records of so many columns: ids, coordinates, and then attributes; `more`: rows may
+ * have others behind them; `takes_srid`: a mesh without SRID takes that of geometries.
  */
 static RowPacker *
-create(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int ids, int columns,
-	   bool more, bool takes_srid, size_t batch)
+create(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int ids,
+	   int coordinates, int attributes, bool more, bool takes_srid, size_t batch)
 {
+	int			columns = ids + coordinates + attributes;
 	RowPacker  *packer = palloc0(sizeof(RowPacker));
 
 	packer->origin = origin;
 	packer->header = header;
 	packer->ids = ids;
+	packer->coordinates = coordinates;
 	packer->columns = packer->inputs = columns;
 	packer->takes_srid = takes_srid;
 	packer->srid = takes_srid && header->srid == 0 ? -1 : (int32) header->srid;
-	if (ids == 1 && !origin->by_number && row_packer_takes_geometry(desc))
+	if (origin->takes_geometry && row_packer_takes_geometry(desc))
 	{
 		geometry_open(&packer->geometry, TupleDescAttr(desc, GEOMETRY_COLUMN)->atttypid,
 					  CurrentMemoryContext);
-		packer->inputs -= header->dimension - 1;
+		packer->inputs -= coordinates - 1;
 		packer->converts = true;
 	}
 	if (desc->natts != packer->inputs && !(more && desc->natts > packer->inputs))
@@ -275,46 +280,42 @@ create(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int
 RowPacker *
 row_packer_create(TupleDesc desc, const abacus_header *header, bool takes_srid, size_t batch)
 {
-	return create(desc, header, &query_of_points, 1, 1 + header->dimension + header->attributes,
-				  false, takes_srid, batch);
+	return create(desc, header, &query_of_points, 1, header->dimension, header->attributes, false,
+				  takes_srid, batch);
 }
 
 /* The same for rows of a query that are places: id and coordinates, whatever else the rows have. */
 RowPacker *
 row_packer_create_places(TupleDesc desc, const abacus_header *header, size_t batch)
 {
-	return create(desc, header, &query_of_points, 1, 1 + header->dimension, true, false,
-				  batch);
+	return create(desc, header, &query_of_points, 1, header->dimension, 0, true, false, batch);
 }
 
 /* The same for rows of a table that the mesh follows. */
 RowPacker *
 row_packer_create_tracked(TupleDesc desc, const abacus_header *header, size_t batch)
 {
-	return create(desc, header, &tracked_table, 1, 1 + header->dimension + header->attributes,
-				  false, true, batch);
+	return create(desc, header, &tracked_table, 1, header->dimension, header->attributes, false,
+				  true, batch);
 }
 
 /* The same for rows of a query that are simplices: ids of their vertices. */
 RowPacker *
 row_packer_create_simplices(TupleDesc desc, const abacus_header *header, size_t batch)
 {
-	return create(desc, header, &query_of_simplices, header->dimension + 1, header->dimension + 1,
-				  false, false, batch);
+	return create(desc, header, &query_of_simplices, header->dimension + 1, 0, 0, false, false, batch);
 }
 
-/*
- * The same for rows of a query that are for an octree. Of leaves and values `header` says nothing
- * but what attributes there are.
- */
+/* The same for rows of a query that are for an octree. */
 RowPacker *
 row_packer_create_octants(TupleDesc desc, const abacus_header *header, OctantRows rows, size_t batch)
 {
 	bool		has_attributes = rows == OCTANT_LEAVES || rows == OCTANT_VALUES;
+	int			coordinates = rows == OCTANT_LEAVES ? 1
+		: rows == OCTANT_VALUES ? 0 : (int) header->dimension;
 
-	return create(desc, header, &queries_of_octants[rows], 1,
-				  1 + header->dimension + (has_attributes ? header->attributes : 0),
-				  rows == OCTANT_POINTS, true, batch);
+	return create(desc, header, &queries_of_octants[rows], 1, coordinates,
+				  has_attributes ? header->attributes : 0, rows == OCTANT_POINTS, true, batch);
 }
 
 void

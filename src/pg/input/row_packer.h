@@ -36,6 +36,7 @@ typedef struct RowOrigin
 	const char *an_id;			/* what a value of it is */
 	const char *level;			/* the second column, if it is no coordinate */
 	bool		by_number;		/* a row is told by its number, not by its id */
+	bool		takes_geometry; /* a geometry may stand behind the first column */
 } RowOrigin;
 
 /* What rows of octants are. */
@@ -54,6 +55,7 @@ typedef struct RowPacker
 	const abacus_header *header;
 	int			columns;		/* of a record: id, coordinates, attributes; or ids */
 	int			ids;			/* columns of ids: 1, or all */
+	int			coordinates;	/* columns behind them that must be finite: coordinates, or a level */
 	int			inputs;			/* columns of a row: a geometry stands for all coordinates */
 	PackKind   *kinds;
 	GeometryType geometry;		/* of type InvalidOid: coordinates come one by one */

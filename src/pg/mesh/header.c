@@ -84,13 +84,15 @@ header_try_decode(Host *host, const StoredPage *row, abacus_header *header)
 
 	if (invalid >= 0)
 	{
+		const char *name = type_name(header->type);
+
 		MemSet(&host->failure, 0, sizeof(host->failure));
 		host->failure.kind = ABACUS_ERROR_CORRUPTED;
-		strlcpy(host->failure.message, "mesh is corrupted", sizeof(host->failure.message));
+		snprintf(host->failure.message, sizeof(host->failure.message), "%s is corrupted", name);
 		snprintf(host->failure.detail, sizeof(host->failure.detail),
 				 "The name of attribute %d is not valid in UTF-8.", invalid + 1);
-		strlcpy(host->failure.hint, "Restore the mesh from a backup or build it anew.",
-				sizeof(host->failure.hint));
+		snprintf(host->failure.hint, sizeof(host->failure.hint),
+				 "Restore the %s from a backup or build it anew.", name);
 		return ABACUS_ERROR;
 	}
 	if (status == ABACUS_OK && names_are_converted())
@@ -137,11 +139,12 @@ header_read(Host *host, abacus_header *header, ItemPointer tid)
 	if (!header_find(host, &row))
 		ereport(ERROR,
 				(errcode(ERRCODE_DATA_CORRUPTED),
-				 errmsg("mesh \"%s\" has no header",
+				 errmsg("%s \"%s\" has no header", type_name(mesh_pages(host)->type),
 						RelationGetRelationName(mesh_pages(host)->simplices.heap)),
 				 errdetail("The row (%d, %d) of the table is missing.", (int) header_key[0],
 						   (int) header_key[1]),
-				 errhint("Restore the mesh from a backup, or drop it and make it anew.")));
+				 errhint("Restore the %s from a backup, or drop it and make it anew.",
+						 type_name(mesh_pages(host)->type))));
 	if (tid != NULL)
 		*tid = row.tid;
 	header_decode(host, &row, header);
@@ -224,7 +227,7 @@ header_find_attribute(const abacus_header *header, const char *name)
 	if (number < 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_COLUMN),
-				 errmsg("mesh has no attribute \"%s\"", name),
+				 errmsg("%s has no attribute \"%s\"", type_name(header->type), name),
 				 header->attributes == 0 ? errdetail("It has no attributes.")
 				 : errdetail("Its attributes are %s.", list_attributes(header))));
 	return number;
@@ -237,9 +240,10 @@ header_require_attributes(const abacus_header *header)
 	if (header->attributes == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("mesh has no attributes"),
-				 errhint("Columns that follow the coordinates in the query of abacus_triangulate() "
-						 "become attributes.")));
+				 errmsg("%s has no attributes", type_name(header->type)),
+				 header->type == ABACUS_OCTREE ? errhint("Name them in abacus_octree_create().")
+				 : errhint("Columns that follow the coordinates in the query of abacus_triangulate() "
+						   "become attributes.")));
 }
 
 /* Number of the one attribute, where no name is given. */
@@ -250,7 +254,7 @@ header_only_attribute(const abacus_header *header)
 	if (header->attributes > 1)
 		ereport(ERROR,
 				(errcode(ERRCODE_AMBIGUOUS_COLUMN),
-				 errmsg("mesh has %u attributes", header->attributes),
+				 errmsg("%s has %u attributes", type_name(header->type), header->attributes),
 				 errdetail("Its attributes are %s.", list_attributes(header)),
 				 errhint("Say which one with the argument attribute.")));
 	return 0;

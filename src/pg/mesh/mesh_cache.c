@@ -192,7 +192,7 @@ open_handle(Entry *entry, const abacus_header *header)
 
 /* Makes the entry for `relid` valid under the active snapshot. */
 static Entry *
-validate(Oid relid, Entry *entry, abacus_type type)
+validate(Oid relid, Entry *entry, uint32 type)
 {
 	Relation	rel;
 	abacus_header header;
@@ -244,14 +244,14 @@ validate(Oid relid, Entry *entry, abacus_type type)
 
 /* The session's entry for reading a mesh or an octree as the active snapshot sees it. */
 static inline CachedMesh *
-get(Oid relid, abacus_type type)
+get(Oid relid, uint32 type)
 {
 	Entry	   *entry = find(relid);
 
 	if (unlikely(entry == NULL || entry->cached.host->busy || entry->user != GetUserId() ||
 				 entry->statement != GetCurrentStatementStartTimestamp() ||
 				 entry->bytes != setting_cache_bytes() ||
-				 entry->cached.header.type != type ||
+				 (entry->cached.header.type != type && type != ANY_TYPE) ||
 				 !same_snapshot(&entry->valid, GetActiveSnapshot())))
 		entry = validate(relid, entry, type);
 	entry->last_use = ++uses;
@@ -268,6 +268,13 @@ CachedMesh *
 mesh_cache_get_octree(Oid relid)
 {
 	return get(relid, ABACUS_OCTREE);
+}
+
+/* A mesh or an octree. */
+CachedMesh *
+mesh_cache_get_any(Oid relid)
+{
+	return get(relid, ANY_TYPE);
 }
 
 /* What the session has of a mesh now, or NULL. */

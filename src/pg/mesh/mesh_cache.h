@@ -19,6 +19,7 @@ typedef struct CachedMesh
 
 extern CachedMesh *mesh_cache_get(Oid relid);
 extern CachedMesh *mesh_cache_get_octree(Oid relid);
+extern CachedMesh *mesh_cache_get_any(Oid relid);
 extern const CachedMesh *mesh_cache_peek(Oid relid);
 extern void mesh_cache_init(void);
 

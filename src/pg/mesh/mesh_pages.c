@@ -188,7 +188,7 @@ mesh_host_create(MemoryContext parent, Oid mesh, MeshAccess access)
 	MeshPages  *pages = MemoryContextAllocZero(host->home, sizeof(MeshPages));
 
 	pages->mesh = mesh;
-	pages->type = access == MESH_MOVE ? ANY_TYPE : ABACUS_MESH;
+	pages->type = ABACUS_MESH;	/* unless the caller takes another one */
 	pages->access = access;
 	page_table_init(&pages->simplices, mesh, access != MESH_READ, host->home);
 	page_table_init(&pages->vertices, InvalidOid, access != MESH_READ, host->home);

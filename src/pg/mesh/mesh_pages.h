@@ -13,6 +13,13 @@
 /* Of pages that may be of any type: those that are moved, or looked at. */
 #define ANY_TYPE UINT32_MAX
 
+/* What is of a type, for messages. */
+static inline const char *
+type_name(uint32 type)
+{
+	return type == ABACUS_OCTREE ? "octree" : "mesh";
+}
+
 typedef struct MeshPages
 {
 	Oid			mesh;

@@ -63,7 +63,7 @@ new_mesh(text *name, Oid extension_namespace, abacus_header *header, const char 
 	if (strlen(vertices_name) >= NAMEDATALEN)
 		ereport(ERROR,
 				(errcode(ERRCODE_NAME_TOO_LONG),
-				 errmsg("mesh name \"%s\" is too long", range->relname),
+				 errmsg("%s name \"%s\" is too long", type_name(header->type), range->relname),
 				 errdetail("The table \"%s\" stands beside it; names have at most %d bytes.",
 						   vertices_name, NAMEDATALEN - 1)));
 	namespace = new_table_schema(range);

@@ -38,7 +38,9 @@ shape_attribute(abacus_header *header, const char *name)
 	if (header->attributes == ABACUS_MAX_ATTRIBUTES)
 		ereport(ERROR,
 				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
-				 errmsg("a mesh can have at most %d attributes", ABACUS_MAX_ATTRIBUTES)));
+				 errmsg("%s can have at most %d attributes",
+						header->type == ABACUS_OCTREE ? "an octree" : "a mesh",
+						ABACUS_MAX_ATTRIBUTES)));
 	shape_check_name(name);
 	if (header_attribute(header, name) >= 0)
 		ereport(ERROR,
@@ -101,7 +103,7 @@ shape_point(const abacus_header *header, ArrayType *point, const char *what, dou
 		ereport(ERROR,
 				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
 				 errmsg("%s has %d elements, but the %s has dimension %u", what, count,
-						header->type == ABACUS_OCTREE ? "octree" : "mesh", header->dimension)));
+						type_name(header->type), header->dimension)));
 	for (int i = 0; i < count; i++)
 		values[i] = DatumGetFloat8(elements[i]);
 }

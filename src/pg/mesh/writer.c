@@ -30,6 +30,7 @@ static bool
 lock_header(Host *host, ItemPointer tid)
 {
 	Relation	heap = mesh_pages(host)->simplices.heap;
+	const char *name = type_name(mesh_pages(host)->type);
 	TupleTableSlot *slot = table_slot_create(heap, NULL);
 	TM_FailureData failure;
 	TM_Result	result;
@@ -47,12 +48,12 @@ lock_header(Host *host, ItemPointer tid)
 				ereport(ERROR,
 						(errcode(ERRCODE_T_R_SERIALIZATION_FAILURE),
 						 errmsg("could not serialize access due to concurrent update"),
-						 errdetail("Another transaction has changed mesh \"%s\".",
+						 errdetail("Another transaction has changed %s \"%s\".", name,
 								   RelationGetRelationName(heap)),
 						 errhint("The transaction might succeed if retried.")));
 			return false;
 		default:
-			elog(ERROR, "unexpected result %d of locking the header of mesh \"%s\"", result,
+			elog(ERROR, "unexpected result %d of locking the header of %s \"%s\"", result, name,
 				 RelationGetRelationName(heap));
 	}
 	return false;
@@ -83,7 +84,7 @@ open_and_lock(Writer *writer, bool in_trigger)
 	OwnSight	sight;
 
 	/* also refuses a second writer inside the first one's source query */
-	CheckTableNotInUse(table, "change mesh");
+	CheckTableNotInUse(table, mesh_pages(host)->type == ABACUS_OCTREE ? "change octree" : "change mesh");
 	open_tables(mesh_pages(host));
 	table_close(table, NoLock);
 
@@ -127,17 +128,15 @@ begin(Writer *writer, Oid mesh, MeshAccess access, uint32 type, const char *comm
 	PreventCommandIfParallelMode(command);
 
 	writer->host = mesh_host_create(CurrentMemoryContext, mesh, access);
-	if (access != MESH_MOVE)
-		mesh_pages(writer->host)->type = type;
+	mesh_pages(writer->host)->type = type;
 	writer->header = MemoryContextAlloc(writer->host->home, sizeof(abacus_header));
 	open_and_lock(writer, in_trigger);
 	progress_begin(&writer->host->progress, mesh);
 }
 
 /*
- * Opens a mesh for changing, or for moving its rows, with its header locked and
- * an active snapshot that sees it. `command` names the function for messages.
- * The writer lives in the current memory context.
+ * Opens a mesh for changing, with its header locked and an active snapshot that sees it.
+ * `command` names the function for messages. The writer lives in the current memory context.
  */
 void
 writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command)
@@ -150,6 +149,13 @@ void
 writer_begin_of(Writer *writer, Oid mesh, uint32 type, const char *command)
 {
 	begin(writer, mesh, MESH_WRITE, type, command, false);
+}
+
+/* Opens a mesh or an octree for moving its rows. */
+void
+writer_begin_moves(Writer *writer, Oid mesh, const char *command)
+{
+	begin(writer, mesh, MESH_MOVE, ANY_TYPE, command, false);
 }
 
 /*

@@ -21,6 +21,7 @@ typedef struct Writer
 extern void writer_prevent_read_only(Oid mesh, const char *command);
 extern void writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command);
 extern void writer_begin_of(Writer *writer, Oid mesh, uint32 type, const char *command);
+extern void writer_begin_moves(Writer *writer, Oid mesh, const char *command);
 extern void writer_begin_in_trigger(Writer *writer, Oid mesh, const char *command);
 extern void writer_store(Writer *writer);
 extern void writer_release(Writer *writer);

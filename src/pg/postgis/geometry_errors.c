@@ -33,20 +33,20 @@ geometry_refuse_kind(const char *what, uint32 kind, const char *wanted)
 			 is_collection ? errhint("ST_Dump gives the parts of a collection.") : 0));
 }
 
-/* Of two systems; `wanted` is that of the mesh. */
+/* Of two systems; `wanted` is that of the whole, a mesh or an octree. */
 void
-geometry_refuse_srid(const char *what, int32 srid, int32 wanted)
+geometry_refuse_srid(const char *what, int32 srid, int32 wanted, const char *whole)
 {
 	if (wanted == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("%s has SRID %d, but the mesh has none", what, srid),
-				 errhint("If the coordinates of the mesh are of that system, say so by "
-						 "abacus_set_srid(mesh, %d).", srid)));
+				 errmsg("%s has SRID %d, but the %s has none", what, srid, whole),
+				 errhint("If the coordinates of the %s are of that system, say so by "
+						 "abacus_set_srid(%s, %d).", whole, whole, srid)));
 	ereport(ERROR,
 			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-			 srid == 0 ? errmsg("%s has no SRID, but the mesh has SRID %d", what, wanted)
-			 : errmsg("%s has SRID %d, but the mesh has SRID %d", what, srid, wanted),
+			 srid == 0 ? errmsg("%s has no SRID, but the %s has SRID %d", what, whole, wanted)
+			 : errmsg("%s has SRID %d, but the %s has SRID %d", what, srid, whole, wanted),
 			 srid == 0 ? errhint("If its coordinates are of that system, say so by "
 								 "ST_SetSRID(geometry, %d).", wanted)
 			 : errhint("Transform it by ST_Transform(geometry, %d).", wanted)));

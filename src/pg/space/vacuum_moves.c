@@ -89,7 +89,7 @@ move_rows(const VacuumJob *job, MemoryContext memory)
 	SPI_connect_ext(SPI_OPT_NONATOMIC);
 	MemoryContextSwitchTo(memory);
 	SPI_commit();				/* the next snapshot sees what was done before the lock */
-	writer_begin(&writer, job->mesh, MESH_MOVE, "VACUUM");
+	writer_begin_moves(&writer, job->mesh, "VACUUM");
 	moved = compact(&writer, OidIsValid(job->simplices), OidIsValid(job->vertices));
 	writer_close(&writer);
 	SPI_commit();

@@ -19,6 +19,7 @@
 #include "pg/mesh/new_mesh.h"
 #include "pg/mesh/shape.h"
 #include "pg/mesh/writer.h"
+#include "pg/sql/octree_growth.h"
 
 SQL_FUNCTION(abacus_sql_octree_create);
 SQL_FUNCTION(abacus_sql_octree_from_points);
@@ -43,7 +44,7 @@ set_levels(abacus_header *header, int32 levels)
 	header->levels = (uint32) levels;
 }
 
-/* A span that no double can hold, or whose octants could not be told apart, is no domain. */
+/* A span that no double can hold is no domain. */
 static void
 check_span(const abacus_header *header)
 {
@@ -99,17 +100,28 @@ begin(OctreeChange *change, FunctionCallInfo fcinfo, const char *command)
 	writer_begin_of(&change->writer, PG_GETARG_OID(0), ABACUS_OCTREE, command);
 }
 
-/* Hands the rows of the query to the core's handle. */
+/*
+ * Hands the rows of the query to the core's handle. An octree without SRID takes that of
+ * geometries.
+ */
 static void
-read_rows(OctreeChange *change, const abacus_header *shape, OctantRows kind, AddRows add)
+read_rows(OctreeChange *change, OctantRows kind, AddRows add)
 {
 	Host	   *host = change->writer.host;
+	abacus_header *header = change->writer.header;
+	abacus_progress progress = {.phase = ABACUS_PHASE_READING};
 	const uint64 *rows;
 	size_t		count;
 
-	source_open_octants(&change->source, shape, kind);
+	source_open_octants(&change->source, header, kind);
 	while ((count = source_fetch(&change->source, &rows)) > 0)
+	{
 		host_run(host, add, host->handle, rows, count);
+		progress.done += count;
+		progress_report(&host->progress, &progress);
+	}
+	if (change->source.packer->srid > 0)
+		header->srid = (uint32) change->source.packer->srid;
 	source_close(&change->source);
 }
 
@@ -124,19 +136,9 @@ end(OctreeChange *change)
 	return leaves;
 }
 
-/* A shape that row packers take for so many columns before the attributes. */
-static abacus_header *
-shape_of_rows(const abacus_header *header, uint32 columns)
-{
-	abacus_header *shape = palloc(sizeof(abacus_header));
-
-	*shape = *header;
-	shape->dimension = columns;
-	return shape;
-}
-
-static void
-open_growth(Writer *writer)
+/* Opens the growth of an octree as its host's handle. */
+void
+octree_growth_open(Writer *writer)
 {
 	abacus_octree_growth *growth = NULL;
 	Host	   *host = writer->host;
@@ -201,8 +203,8 @@ abacus_sql_octree_from_points(PG_FUNCTION_ARGS)
 				 errmsg("most_in_leaf must be at least 1, not %d", most)));
 	begin(&change, fcinfo, "abacus_octree_from_points()");
 	host = change.writer.host;
-	open_growth(&change.writer);
-	read_rows(&change, change.writer.header, OCTANT_POINTS, add_points);
+	octree_growth_open(&change.writer);
+	read_rows(&change, OCTANT_POINTS, add_points);
 	host_run(host, abacus_octree_growth_points, host->handle, (uint64) most, change.writer.header);
 	PG_RETURN_INT64(end(&change));
 }
@@ -216,8 +218,8 @@ abacus_sql_octree_refine(PG_FUNCTION_ARGS)
 
 	begin(&change, fcinfo, "abacus_octree_refine()");
 	host = change.writer.host;
-	open_growth(&change.writer);
-	read_rows(&change, change.writer.header, OCTANT_PLACES, add_places);
+	octree_growth_open(&change.writer);
+	read_rows(&change, OCTANT_PLACES, add_places);
 	host_run(host, abacus_octree_growth_levels, host->handle, change.writer.header);
 	PG_RETURN_INT64(end(&change));
 }
@@ -233,7 +235,7 @@ abacus_sql_octree_coarsen(PG_FUNCTION_ARGS)
 	begin(&change, fcinfo, "abacus_octree_coarsen()");
 	host = change.writer.host;
 	open_edit(&change.writer);
-	read_rows(&change, change.writer.header, OCTANT_PLACES, add_merges);
+	read_rows(&change, OCTANT_PLACES, add_merges);
 	host_run(host, abacus_octree_edit_merge, host->handle, change.writer.header, &merged);
 	PG_RETURN_INT64(end(&change));
 }
@@ -248,13 +250,9 @@ abacus_sql_octree_update(PG_FUNCTION_ARGS)
 
 	begin(&change, fcinfo, "abacus_octree_update()");
 	host = change.writer.host;
-	if (change.writer.header->attributes == 0)
-		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("octree has no attributes"),
-				 errhint("Name them in abacus_octree_create().")));
+	header_require_attributes(change.writer.header);
 	open_edit(&change.writer);
-	read_rows(&change, shape_of_rows(change.writer.header, 0), OCTANT_VALUES, add_values);
+	read_rows(&change, OCTANT_VALUES, add_values);
 	host_run(host, abacus_octree_edit_set, host->handle, change.writer.header, &set);
 	end(&change);
 	PG_RETURN_INT64((int64) set);
@@ -273,7 +271,7 @@ abacus_sql_octree_from_rows(PG_FUNCTION_ARGS)
 	host_run(host, abacus_octree_load_open, &host->table, change.writer.header,
 			 setting_sort_bytes(), &load);
 	host_own(host, load, (void (*) (void *)) abacus_octree_load_close);
-	read_rows(&change, shape_of_rows(change.writer.header, 1), OCTANT_LEAVES, add_leaves);
+	read_rows(&change, OCTANT_LEAVES, add_leaves);
 	host_run(host, abacus_octree_load_write, load, change.writer.header);
 	PG_RETURN_INT64(end(&change));
 }
@@ -310,7 +308,7 @@ abacus_sql_octree_balance(PG_FUNCTION_ARGS)
 
 	writer_begin_of(&writer, PG_GETARG_OID(0), ABACUS_OCTREE, "abacus_octree_balance()");
 	across = across_what(PG_GETARG_TEXT_PP(1), writer.header->dimension);
-	open_growth(&writer);
+	octree_growth_open(&writer);
 	host_run(writer.host, abacus_octree_growth_balance, writer.host->handle, across,
 			 writer.header);
 	leaves = (int64) writer.header->leaves;

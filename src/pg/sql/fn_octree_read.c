@@ -30,7 +30,7 @@ kept_row_type(FunctionCallInfo fcinfo)
 	{
 		MemoryContext old = MemoryContextSwitchTo(function->fn_mcxt);
 
-		function->fn_extra = result_row_type(fcinfo);
+		function->fn_extra = octant_row_type(fcinfo);
 		MemoryContextSwitchTo(old);
 	}
 	return function->fn_extra;
@@ -113,7 +113,7 @@ abacus_sql_octree_neighbours(PG_FUNCTION_ARGS)
 static void
 begin_octants(FunctionCallInfo fcinfo, FuncCallContext *set)
 {
-	Reader	   *reader = set_begin_of(fcinfo, set, ABACUS_OCTREE, result_row_type);
+	Reader	   *reader = set_begin_of(fcinfo, set, ABACUS_OCTREE, octant_row_type);
 	Host	   *host = reader->host;
 	abacus_window window = {0};
 	abacus_octree_scan *scan = NULL;

@@ -15,10 +15,9 @@
 #include "utils/memutils.h"
 
 #include "abacus/octree.h"
-#include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
-#include "pg/mesh/writer.h"
+#include "pg/sql/octree_growth.h"
 #include "pg/sql/result.h"
 
 SQL_FUNCTION(abacus_sql_octree_from_size);
@@ -70,6 +69,7 @@ run(SizeQuery *query, size_t count, const double *const *centers, double *sizes)
 		arguments[i] = attribute_array(centers[i], (int) count);
 	if (SPI_execute_plan(query->plan, arguments, NULL, true, 2) != SPI_OK_SELECT)
 		refuse_answer("It is no SELECT.");
+	MemoryContextSwitchTo(query->scratch);	/* SPI has gone to its own */
 	if (SPI_processed != 1 || SPI_tuptable->tupdesc->natts != 1)
 		refuse_answer("It returned another number of rows or columns than one.");
 	if (SPI_gettypeid(SPI_tuptable->tupdesc, 1) != FLOAT8ARRAYOID)
@@ -104,7 +104,6 @@ Datum
 abacus_sql_octree_from_size(PG_FUNCTION_ARGS)
 {
 	Oid			types[ABACUS_MAX_DIMENSION] = {FLOAT8ARRAYOID, FLOAT8ARRAYOID, FLOAT8ARRAYOID};
-	abacus_octree_growth *growth = NULL;
 	SizeQuery	query;
 	Writer		writer;
 	Host	   *host;
@@ -119,10 +118,8 @@ abacus_sql_octree_from_size(PG_FUNCTION_ARGS)
 		elog(ERROR, "could not prepare the query: %s", SPI_result_code_string(SPI_result));
 	query.scratch = AllocSetContextCreate(CurrentMemoryContext, "Abacus sizes",
 										  ALLOCSET_DEFAULT_SIZES);
-	host_run(host, abacus_octree_growth_open, &host->table, writer.header, setting_sort_bytes(),
-			 &growth);
-	host_own(host, growth, (void (*) (void *)) abacus_octree_growth_close);
-	host_run(host, abacus_octree_growth_sizes, growth, sizes_of, &query, writer.header);
+	octree_growth_open(&writer);
+	host_run(host, abacus_octree_growth_sizes, host->handle, sizes_of, &query, writer.header);
 	leaves = (int64) writer.header->leaves;
 	writer_end(&writer);
 	SPI_finish();

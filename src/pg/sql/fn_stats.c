@@ -107,12 +107,21 @@ put_delaunay(Figures *figures, abacus_delaunay delaunay)
 }
 
 static void
+put_srid(Figures *figures, const abacus_header *header)
+{
+	if (header->srid != 0)
+		put_figure(figures, "srid", header->srid,
+				   "spatial reference system of the coordinates, as PostGIS numbers it");
+}
+
+static void
 put_octree_counts(Figures *figures, const abacus_header *header)
 {
 	put_figure(figures, "dimension", header->dimension, "2 for a quadtree, 3 for an octree");
 	put_figure(figures, "attributes", header->attributes, "attributes of a leaf");
 	put_figure(figures, "levels", header->levels, "the finest level that a leaf may have");
 	put_figure(figures, "leaves", (double) header->leaves, "leaves of the octree");
+	put_srid(figures, header);
 }
 
 /* Its table has octants where that of a mesh has simplices. */
@@ -150,9 +159,7 @@ put_counts(Figures *figures, const abacus_header *header)
 	put_figure(figures, "outside", (double) header->outside,
 			   "points that the domain does not fit, since it was last chosen");
 	put_delaunay(figures, header->not_delaunay);
-	if (header->srid != 0)
-		put_figure(figures, "srid", header->srid,
-				   "spatial reference system of the coordinates, as PostGIS numbers it");
+	put_srid(figures, header);
 }
 
 /*

@@ -21,7 +21,7 @@ void
 geometry_check_srid(const abacus_header *header, int32 srid)
 {
 	if (srid != (int32) header->srid)
-		geometry_refuse_srid("the geometry", srid, (int32) header->srid);
+		geometry_refuse_srid("the geometry", srid, (int32) header->srid, "mesh");
 }
 
 /* The coordinates of a point; a z in the plane is passed over. False for an empty one. */

@@ -4,10 +4,29 @@
 #include "postgres.h"
 
 #include "access/htup_details.h"
+#include "catalog/pg_type.h"
 #include "funcapi.h"
 
 #include "pg/sql/octant_row.h"
 #include "pg/sql/result.h"
+
+/* Row type of a function that returns octants, blessed, in the current memory context. */
+TupleDesc
+octant_row_type(FunctionCallInfo fcinfo)
+{
+	static const Oid types[OCTANT_COLUMNS] = {
+		[OCTANT_CODE] = INT8OID, [OCTANT_LEVEL] = INT4OID, [OCTANT_LOWER] = FLOAT8ARRAYOID,
+		[OCTANT_UPPER] = FLOAT8ARRAYOID, [OCTANT_ATTRIBUTES] = FLOAT8ARRAYOID
+	};
+	TupleDesc	row_type = result_row_type(fcinfo);
+
+	result_require_type(row_type, "abacus_octant", types, OCTANT_COLUMNS,
+						"code, a bigint, level, an integer, and lower, upper and attributes, all "
+						"of type double precision[]",
+						"abacus_octree_elements() still returns the leaves: save them, and make the "
+						"extension and its octrees anew.");
+	return row_type;
+}
 
 /* The values of the columns, none of which is NULL. */
 void

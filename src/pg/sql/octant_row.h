@@ -5,6 +5,7 @@
 #define ABACUS_OCTANT_ROW_H
 
 #include "access/tupdesc.h"
+#include "fmgr.h"
 
 #include "abacus/octree.h"
 
@@ -19,6 +20,7 @@ enum
 	OCTANT_COLUMNS
 };
 
+extern TupleDesc octant_row_type(FunctionCallInfo fcinfo);
 extern void octant_columns(const abacus_octant *octant, const abacus_header *header, Datum *values);
 extern Datum octant_row(TupleDesc row_type, const abacus_octant *octant,
 						const abacus_header *header);

@@ -20,6 +20,25 @@ result_row_type(FunctionCallInfo fcinfo)
 	return BlessTupleDesc(row_type);
 }
 
+/*
+ * An error unless a composite type of ours has columns of just these types: its owner may have
+ * altered it. `attributes` and `hint` are for the message.
+ */
+void
+result_require_type(TupleDesc row_type, const char *name, const Oid *types, int count,
+					const char *attributes, const char *hint)
+{
+	bool		is_ours = row_type->natts == count;
+
+	for (int i = 0; is_ours && i < count; i++)
+		is_ours = TupleDescAttr(row_type, i)->atttypid == types[i];
+	if (!is_ours)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("type %s has been altered", name),
+				 errdetail("Its attributes are %s.", attributes), errhint("%s", hint)));
+}
+
 void
 put_figure(const Figures *figures, const char *name, double value, const char *description)
 {

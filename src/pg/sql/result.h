@@ -18,6 +18,8 @@ typedef struct Figures
 } Figures;
 
 extern TupleDesc result_row_type(FunctionCallInfo fcinfo);
+extern void result_require_type(TupleDesc row_type, const char *name, const Oid *types, int count,
+								const char *attributes, const char *hint);
 extern void put_figure(const Figures *figures, const char *name, double value,
 					   const char *description);
 extern double bytes_of(PGFunction size, Oid relid);

@@ -18,18 +18,13 @@
 TupleDesc
 simplex_row_type(FunctionCallInfo fcinfo)
 {
+	static const Oid types[SIMPLEX_COLUMNS] = {INT8OID, INT8OID, INT8OID, INT8OID, INT8OID};
 	TupleDesc	row_type = result_row_type(fcinfo);
-	bool		is_ours = row_type->natts == SIMPLEX_COLUMNS;
 
-	for (int i = 0; is_ours && i < SIMPLEX_COLUMNS; i++)
-		is_ours = TupleDescAttr(row_type, i)->atttypid == INT8OID;
-	if (!is_ours)
-		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("type abacus_simplex has been altered"),
-				 errdetail("Its attributes are code, v0, v1, v2 and v3, all of type bigint."),
-				 errhint("abacus_vertices() still returns the points: save them, and make the "
-						 "extension and its meshes anew.")));
+	result_require_type(row_type, "abacus_simplex", types, SIMPLEX_COLUMNS,
+						"code, v0, v1, v2 and v3, all of type bigint",
+						"abacus_vertices() still returns the points: save them, and make the "
+						"extension and its meshes anew.");
 	return row_type;
 }
 

@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "pg/mesh/mesh_pages.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/window.h"
 
@@ -21,7 +22,7 @@ window_of_box(const abacus_header *header, ArrayType *lower, ArrayType *upper,
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("lower and upper must be given together"),
-				 errhint("Leave both out for all of the mesh.")));
+				 errhint("Leave both out for all of the %s.", type_name(header->type))));
 	window->kind = ABACUS_BOX_WINDOW;
 	shape_point(header, lower, "lower", window->lower);
 	shape_point(header, upper, "upper", window->upper);
@@ -73,7 +74,7 @@ window_arguments(FunctionCallInfo fcinfo, int first, WindowForm form,
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
 				 errmsg("center and radius must not be NULL"),
-				 errhint("Leave both out for all of the mesh.")));
+				 errhint("Leave both out for all of the %s.", type_name(header->type))));
 	else
 		window_of_ball(header, array(fcinfo, first), PG_GETARG_FLOAT8(first + 1), window);
 }

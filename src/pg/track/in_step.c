@@ -30,7 +30,7 @@ in_step_check_srid(Change *change, int32 srid)
 	uint32		wanted = change->writer.header->srid;
 
 	if (srid > 0 && wanted != 0 && srid != (int32) wanted)
-		geometry_refuse_srid("a geometry of the tracked table", srid, (int32) wanted);
+		geometry_refuse_srid("a geometry of the tracked table", srid, (int32) wanted, "mesh");
 	change_take_srid(change, srid);
 }
 

@@ -1,4 +1,4 @@
-// Sums of what meshes count.
+// Sums of what meshes and octrees count.
 #pragma once
 
 #include <abacus/header.h>

@@ -38,6 +38,13 @@ public:
         }
     }
 
+    /// The next one that was not handed out; false after the last.
+    bool next(abacus_fault &fault) {
+        if (at_ == faults_.size()) return false;
+        fault = faults_[at_++];
+        return true;
+    }
+
     std::size_t size() const { return faults_.size(); }
     const abacus_fault &operator[](std::size_t i) const { return faults_[i]; }
     /// Whether there are no faults but of content.
@@ -49,7 +56,7 @@ public:
 
 private:
     Arena<abacus_fault> faults_;
-    std::size_t of_content_ = 0;
+    std::size_t of_content_ = 0, at_ = 0;
     const std::size_t limit_;
 };
 
