@@ -81,6 +81,21 @@ template <int D> constexpr Octant<D> nearest_common(std::uint64_t a, std::uint64
     return Octant<D>{a, finest_level<D>}.ancestor(finest_level<D> - (bits + D - 1) / D);
 }
 
+/// The first cell of a region on the curve, from `from` on; domain_cells if there is none. The
+/// region tells which octants it meets and which it contains; of one that it meets it meets a
+/// child.
+template <int D, class Region>
+std::uint64_t next_cell(const Region &region, std::uint64_t from, const Octant<D> &within = {}) {
+    if (within.end() <= from || !region.meets(within)) return domain_cells<D>;
+    if (within.level == finest_level<D> || region.contains(within))
+        return std::max(from, within.code);
+    for (int i = 0; i < Octant<D>::children; ++i)
+        if (const std::uint64_t cell = next_cell(region, from, within.child(i));
+            cell != domain_cells<D>)
+            return cell;
+    return domain_cells<D>;
+}
+
 /// Cells from `least` to `greatest`, both included, on each axis.
 template <int D> struct CellBox {
     Cell<D> least, greatest;
@@ -97,15 +112,7 @@ template <int D> struct CellBox {
             if (at[i] < least[i] || at[i] + octant.edge() - 1 > greatest[i]) return false;
         return true;
     }
-    /// The first cell of the box on the curve, from `from` on; domain_cells if there is none.
-    std::uint64_t next(std::uint64_t from, const Octant<D> &within = {}) const {
-        if (within.end() <= from || !meets(within)) return domain_cells<D>;
-        if (contains(within)) return std::max(from, within.code);
-        for (int i = 0; i < Octant<D>::children; ++i)
-            if (const std::uint64_t cell = next(from, within.child(i)); cell != domain_cells<D>)
-                return cell;
-        return domain_cells<D>;
-    }
+    std::uint64_t next(std::uint64_t from) const { return next_cell<D>(*this, from); }
 };
 
 } // namespace abacus

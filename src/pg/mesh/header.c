@@ -170,6 +170,13 @@ header_update(Host *host, abacus_header *header, ItemPointer tid)
 	header_rewrite(host, header, tid);
 }
 
+/* What it is, for messages. */
+static const char *
+type_word(const abacus_header *header)
+{
+	return header->type == ABACUS_OCTREE ? "octree" : "mesh";
+}
+
 /* An error, with what the user may do instead, if the mesh has another dimension. */
 void
 header_require_dimension(const abacus_header *header, uint32 dimension, const char *hint)
@@ -177,7 +184,8 @@ header_require_dimension(const abacus_header *header, uint32 dimension, const ch
 	if (header->dimension != dimension)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("mesh has dimension %u, not %u", header->dimension, dimension),
+				 errmsg("%s has dimension %u, not %u", type_word(header), header->dimension,
+						dimension),
 				 errhint("%s", hint)));
 }
 
@@ -212,7 +220,7 @@ header_find_attribute(const abacus_header *header, const char *name)
 	if (number < 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_COLUMN),
-				 errmsg("mesh has no attribute \"%s\"", name),
+				 errmsg("%s has no attribute \"%s\"", type_word(header), name),
 				 header->attributes == 0 ? errdetail("It has no attributes.")
 				 : errdetail("Its attributes are %s.", list_attributes(header))));
 	return number;
@@ -225,9 +233,10 @@ header_require_attributes(const abacus_header *header)
 	if (header->attributes == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("mesh has no attributes"),
-				 errhint("Columns that follow the coordinates in the query of abacus_triangulate() "
-						 "become attributes.")));
+				 errmsg("%s has no attributes", type_word(header)),
+				 header->type == ABACUS_OCTREE ? errhint("Name them in abacus_octree_create().")
+				 : errhint("Columns that follow the coordinates in the query of abacus_triangulate() "
+						   "become attributes.")));
 }
 
 /* Number of the one attribute, where no name is given. */
@@ -238,7 +247,7 @@ header_only_attribute(const abacus_header *header)
 	if (header->attributes > 1)
 		ereport(ERROR,
 				(errcode(ERRCODE_AMBIGUOUS_COLUMN),
-				 errmsg("mesh has %u attributes", header->attributes),
+				 errmsg("%s has %u attributes", type_word(header), header->attributes),
 				 errdetail("Its attributes are %s.", list_attributes(header)),
 				 errhint("Say which one with the argument attribute.")));
 	return 0;
