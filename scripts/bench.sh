@@ -25,7 +25,7 @@ esac
 if [[ -z ${ABACUS_BUILT:-} ]]; then
     if [[ $mode == smoke ]]; then packages=test; else packages=bench; fi
     scripts/install-dependencies.sh "$packages"
-    build_release oracle_points bench_cgal bench_tetgen bench_qhull abacus_benchmarks
+    build_release oracle_points bench_comparators abacus_benchmarks
     install_extension
 fi
 cluster_start bench

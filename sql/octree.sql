@@ -33,8 +33,8 @@ JOIN abacus_octree_nodes('cube') p USING (node), abacus_octants('cube') o
 WHERE o.code = e.code AND p.point <> ARRAY[CASE WHEN (i - 1) & 1 = 0 THEN o.lower[1] ELSE o.upper[1] END,
     CASE WHEN (i - 1) & 2 = 0 THEN o.lower[2] ELSE o.upper[2] END, CASE WHEN (i - 1) & 4 = 0 THEN o.lower[3] ELSE o.upper[3] END];
 SELECT axis, side, level, lower, attributes FROM abacus_octree_neighbours('cube', (abacus_octree_locate('cube', 2, 0, 0)).code) ORDER BY axis, side, code;
-SELECT code, level, lower, upper FROM abacus_octants('cube', '{0.5,1,2}', '{0.5,1,2}');
-SELECT count(*) FROM abacus_octants('cube', '{0.5,1,2}', '{1.5,1.5,2.5}');
+SELECT code, level, lower, upper FROM abacus_octants('cube', ARRAY[0.5,1,2], ARRAY[0.5,1,2]);
+SELECT count(*) FROM abacus_octants('cube', ARRAY[0.5,1,2], ARRAY[1.5,1.5,2.5]);
 
 -- merged again, with the mean of what its leaves had
 SELECT abacus_octree_coarsen('cube', 'SELECT 1, 0.1, 0.1, 0.1');
@@ -91,7 +91,7 @@ SELECT abacus_octree_locate('quad', 1, 1, 1);
 SELECT abacus_octree_locate('quad', 'NaN', 1);
 SELECT abacus_octree_locate('quad', 'Infinity', 1) IS NULL;
 SELECT * FROM abacus_octree_neighbours('quad', -1);
-SELECT abacus_octants('quad', '{0,0}', NULL);
+SELECT abacus_octants('quad', ARRAY[0,0], NULL::float8[]);
 
 -- a mesh is no octree, and an octree no mesh
 CREATE TABLE plain (i int);
@@ -104,7 +104,7 @@ SELECT abacus_locate('quad', 1, 1);
 SELECT abacus_insert('quad', 'SELECT 1, 1, 1');
 SELECT * FROM abacus_simplices('quad');
 SELECT * FROM abacus_vertices('quad');
-SELECT abacus_draw('quad', 100) IS NULL;
+SELECT abacus_draw_volume('quad', width => 100) IS NULL;
 CALL abacus_build('quad');
 SELECT (abacus_octree_locate('quad', 1, 1)).level, (abacus_locate('mesh', 1, 1)).v0 IS NOT NULL;
 

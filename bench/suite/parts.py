@@ -7,6 +7,7 @@ from driver import Part
 from edits import Edits, SharedDeletes, cancelled_builds
 from goose import Goose
 from location import location
+from octrees import Octrees
 from rasters import Raster
 from rows import Rows
 from shared_reading import SharedReading
@@ -70,6 +71,8 @@ PARTS = [
         {"full": (1000000, 4096), "quick": (100000, 512), "smoke": (5000, 64)}).measure),
     Part("carried", "windows of a foreign table, tiles of web maps, files", 5, Carried(
         {"full": (1000000, 800000), "quick": (100000, 50000), "smoke": (5000, 500)}, FEWER).measure),
+    Part("octree", "octrees of points: made, balanced, extracted, asked, beside p4est", 8, Octrees(
+        {"full": 5000000, "quick": 200000, "smoke": 3000}).measure),
     Part("goose", "insertion by an R-tree (chapter 2), in the plane", 4, Goose(
         2, {"full": (25000, 50000, 100000, 200000), "quick": (10000, 20000), "smoke": (1000,)}, FEWER).measure),
     Part("goose-3d", "insertion by an R-tree (chapter 2), in space", 4, Goose(

@@ -50,6 +50,21 @@ def surfaces(results):
     return table(("points", "question", "", "rows or bytes", "wall", "CPU", "runs"), rows)
 
 
+def octrees(results):
+    """Nodes and elements are one step of p4est, which stands beside the nodes."""
+    steps = {"construct": "leaves with one point at most", "balance": "balance across corners", "nodes": "nodes",
+             "elements": "elements", "simplices": "triangles or tetrahedra", "locate": "leaves at the points, in one call"}
+    engines = {"abacus": "Abacus", "p4est": "p4est"}
+    rows = []
+    for m in results.all(what="octree"):
+        sizes = values(m, "bytes")
+        rows.append((f"{m['dimension']}D, {points(m['points'])} points: {steps[m['step']]}", engines[m["engine"]],
+                     number(m["samples"][0].get("answers")), f"{spread(spread_of(m, 'wall'))} s",
+                     f"{number(statistics.median(values(m, 'cpu')))} s" if values(m, "cpu") else "–",
+                     number(sizes[-1] / m["leaves"]) if sizes else "–", len(m["samples"])))
+    return table(("step", "", "rows", "wall", "CPU", "bytes an octant", "runs"), rows)
+
+
 ENGINES = {"abacus": "Abacus", "scipy": "SciPy", "matplotlib": "matplotlib", "gdal": "gdal_grid"}
 
 

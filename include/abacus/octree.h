@@ -135,7 +135,7 @@ ABACUS_API abacus_status abacus_octree_neighbours(abacus_octree *octree, uint64_
 ABACUS_API void abacus_octree_counters(const abacus_octree *octree, abacus_counters *counters);
 ABACUS_API void abacus_octree_close(abacus_octree *octree);
 
-/* The leaves that meet a window (all, or a box), along the curve. */
+/* The leaves that meet a window (all, a box, or a ball), along the curve. */
 typedef struct abacus_octree_scan abacus_octree_scan;
 ABACUS_API abacus_status abacus_octree_scan_open(const abacus_host *host,
 												 const abacus_header *header,
@@ -175,6 +175,21 @@ ABACUS_API abacus_status abacus_octree_elements_next(abacus_octree_elements *ele
 													 abacus_octant *octant, uint64_t *corners,
 													 abacus_error *error);
 ABACUS_API void abacus_octree_elements_close(abacus_octree_elements *elements);
+
+/*
+ * A balanced octree as a conforming mesh of triangles or tetrahedra with nodes as corners, leaf by
+ * leaf along the curve. ABACUS_ERROR (state) as for nodes.
+ */
+typedef struct abacus_octree_simplices abacus_octree_simplices;
+ABACUS_API abacus_status abacus_octree_simplices_open(const abacus_host *host,
+													  const abacus_header *header, size_t memory,
+													  abacus_octree_simplices **simplices,
+													  abacus_error *error);
+/* Which leaf it is of, and its dimension + 1 nodes, in positive order. */
+ABACUS_API abacus_status abacus_octree_simplices_next(abacus_octree_simplices *simplices,
+													  uint64_t *element, uint64_t *nodes,
+													  abacus_error *error);
+ABACUS_API void abacus_octree_simplices_close(abacus_octree_simplices *simplices);
 
 #ifdef __cplusplus
 }

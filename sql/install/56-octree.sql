@@ -89,6 +89,21 @@ LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100;
 COMMENT ON FUNCTION abacus_octree_locate(regclass, double precision, double precision, double precision) IS
     'the leaf of an octree that has a place; NULL outside the domain';
 
+CREATE FUNCTION abacus_octree_locate(
+    octree regclass,
+    query text,
+    OUT id bigint,
+    OUT code bigint,
+    OUT level integer,
+    OUT lower double precision[],
+    OUT upper double precision[],
+    OUT attributes double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_locate_places'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE COST 1000 ROWS 100000;
+COMMENT ON FUNCTION abacus_octree_locate(regclass, text) IS
+    'the leaves of an octree that have the places of a query (id, x, y[, z]); NULL outside the domain';
+
 CREATE FUNCTION abacus_octants(
     octree regclass,
     lower double precision[] DEFAULT NULL,
@@ -98,6 +113,97 @@ AS 'MODULE_PATHNAME', 'abacus_sql_octants'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 100000 SUPPORT abacus_octant_rows;
 COMMENT ON FUNCTION abacus_octants(regclass, double precision[], double precision[]) IS
     'the leaves of an octree, or those that meet a window, along the curve';
+
+CREATE FUNCTION abacus_octants(octree regclass, center double precision[], radius double precision)
+RETURNS SETOF abacus_octant
+AS 'MODULE_PATHNAME', 'abacus_sql_octants_in_ball'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_octant_rows;
+COMMENT ON FUNCTION abacus_octants(regclass, double precision[], double precision) IS
+    'the leaves of an octree that come at most as near to a center as a radius, along the curve';
+
+CREATE FUNCTION abacus_octree_nearest(
+    octree regclass,
+    x double precision,
+    y double precision,
+    k integer DEFAULT 1,
+    OUT code bigint,
+    OUT level integer,
+    OUT lower double precision[],
+    OUT upper double precision[],
+    OUT attributes double precision[],
+    OUT distance double precision)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_nearest'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 1 SUPPORT abacus_nearest_rows;
+COMMENT ON FUNCTION abacus_octree_nearest(regclass, double precision, double precision, integer) IS
+    'the k leaves of a quadtree nearest to a place, nearest first';
+
+CREATE FUNCTION abacus_octree_nearest(
+    octree regclass,
+    x double precision,
+    y double precision,
+    z double precision,
+    k integer DEFAULT 1,
+    OUT code bigint,
+    OUT level integer,
+    OUT lower double precision[],
+    OUT upper double precision[],
+    OUT attributes double precision[],
+    OUT distance double precision)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_nearest'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 1 SUPPORT abacus_nearest_rows;
+COMMENT ON FUNCTION abacus_octree_nearest(regclass, double precision, double precision, double precision, integer) IS
+    'the k leaves of an octree nearest to a place, nearest first';
+
+CREATE FUNCTION abacus_octree_nearest(
+    octree regclass,
+    query text,
+    k integer DEFAULT 1,
+    OUT id bigint,
+    OUT rank bigint,
+    OUT code bigint,
+    OUT distance double precision)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_nearest_places'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE COST 1000 ROWS 100000;
+COMMENT ON FUNCTION abacus_octree_nearest(regclass, text, integer) IS
+    'the k leaves of an octree nearest to each of the places of a query (id, x, y[, z])';
+
+CREATE FUNCTION abacus_octree_interpolate(
+    octree regclass,
+    x double precision,
+    y double precision,
+    attribute text DEFAULT NULL)
+RETURNS double precision
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_interpolate'
+LANGUAGE C STABLE PARALLEL SAFE COST 1000;
+COMMENT ON FUNCTION abacus_octree_interpolate(regclass, double precision, double precision, text) IS
+    'the value of an attribute at a place of a quadtree, continuous from leaf to leaf; NULL outside the domain, and where a value is missing';
+
+CREATE FUNCTION abacus_octree_interpolate(
+    octree regclass,
+    x double precision,
+    y double precision,
+    z double precision,
+    attribute text DEFAULT NULL)
+RETURNS double precision
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_interpolate'
+LANGUAGE C STABLE PARALLEL SAFE COST 1000;
+COMMENT ON FUNCTION abacus_octree_interpolate(regclass, double precision, double precision, double precision, text) IS
+    'the value of an attribute at a place of an octree, continuous from leaf to leaf; NULL outside the domain, and where a value is missing';
+
+CREATE FUNCTION abacus_octree_interpolate(
+    octree regclass,
+    query text,
+    attributes text[] DEFAULT NULL,
+    OUT id bigint,
+    OUT "values" double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_interpolate_places'
+LANGUAGE C VOLATILE PARALLEL UNSAFE COST 1000 ROWS 100000;
+COMMENT ON FUNCTION abacus_octree_interpolate(regclass, text, text[]) IS
+    'the values of attributes at the places of a query (id, x, y[, z]), as abacus_octree_interpolate of each place finds them';
 
 CREATE FUNCTION abacus_octree_neighbours(
     octree regclass,
@@ -138,3 +244,10 @@ AS 'MODULE_PATHNAME', 'abacus_sql_octree_elements'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 100000 SUPPORT abacus_octant_rows;
 COMMENT ON FUNCTION abacus_octree_elements(regclass) IS
     'the leaves of an octree, numbered from 0 along the curve, by the numbers of their 4 or 8 corners, x fastest';
+
+CREATE FUNCTION abacus_octree_tetrahedra(octree regclass, OUT element bigint, OUT nodes bigint[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_tetrahedra'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 100000 SUPPORT abacus_octant_rows;
+COMMENT ON FUNCTION abacus_octree_tetrahedra(regclass) IS
+    'a balanced octree as a conforming mesh of tetrahedra, a quadtree as one of triangles, by the numbers of their nodes; element: the leaf that each is of';

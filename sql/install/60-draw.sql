@@ -21,7 +21,7 @@ RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_draw'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_draw(regclass, integer, integer, double precision[], double precision[], text, boolean, double precision, double precision, double precision[], text, double precision, text, text, boolean, double precision[]) IS
-    'a PNG of the mesh, or of the window from lower to upper; an attribute gives colour, from the first value of range to the second, and, with exaggeration above 0, hill shading; contours are drawn at the multiples of a value, a legend with its unit or title, a scale bar with the unit of coordinates';
+    'a PNG of the mesh or quadtree, or of the window from lower to upper; an attribute gives colour, from the first value of range to the second, and, with exaggeration above 0, hill shading; contours are drawn at the multiples of a value, a legend with its unit or title, a scale bar with the unit of coordinates';
 
 CREATE FUNCTION abacus_draw_section(
     mesh regclass,
@@ -45,7 +45,7 @@ RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_draw_section'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_draw_section(regclass, double precision[], double precision[], integer, integer, text, boolean, double precision[], double precision[], double precision, double precision, double precision[], text, double precision, text, text, boolean) IS
-    'a PNG of the section of a mesh of dimension 3 by the plane through a point with a normal, or of its part within the box from lower to upper; an attribute gives colour, from the first value of range to the second; heights are multiplied by exaggeration; contours, legend and scale bar as for abacus_draw';
+    'a PNG of the section of a mesh of dimension 3, or of an octree, by the plane through a point with a normal, or of its part within the box from lower to upper; an attribute gives colour, from the first value of range to the second; heights are multiplied by exaggeration; contours, legend and scale bar as for abacus_draw';
 
 CREATE FUNCTION abacus_draw_volume(
     mesh regclass,

@@ -1,4 +1,5 @@
 // Drawing behind the C interface.
+#include "octree/octree_portrait.hpp"
 #include "query/portrait.hpp"
 #include "query/ray_portrait.hpp"
 
@@ -28,7 +29,8 @@ abacus_status abacus_draw(const abacus_host *host, const abacus_header *header,
     return abacus::guard(error, [&] {
         require_dimension(*header, 2);
         const abacus::Host wrapped(*host);
-        return hand_over(abacus::draw_mesh(wrapped, *header, *drawing), picture);
+        const auto draw = header->type == ABACUS_OCTREE ? abacus::draw_octree : abacus::draw_mesh;
+        return hand_over(draw(wrapped, *header, *drawing), picture);
     });
 }
 
@@ -38,7 +40,9 @@ abacus_status abacus_draw_section(const abacus_host *host, const abacus_header *
     return abacus::guard(error, [&] {
         require_dimension(*header, 3);
         const abacus::Host wrapped(*host);
-        return hand_over(abacus::draw_section(wrapped, *header, *section, *drawing), picture);
+        const auto draw =
+            header->type == ABACUS_OCTREE ? abacus::draw_octree_section : abacus::draw_section;
+        return hand_over(draw(wrapped, *header, *section, *drawing), picture);
     });
 }
 

@@ -1,39 +1,14 @@
 // Octrees that are read, behind the C interface.
 #include "octree/octree_nodes.hpp"
-#include "octree/octree_reader.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
-
-#include <abacus/octree.h>
+#include "capi/octree_handle.hpp"
 
 #include <optional>
 
-struct abacus_octree {
-    abacus_octree(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
-        : host(*table), reader(host, header, cache_bytes) {}
-
-    const abacus::Host host;
-    abacus::ByDimension<abacus::OctreeReader> reader;
-};
-
 namespace abacus {
 namespace {
-
-template <int D>
-void describe(const Grid<D> &grid, const Octant<D> &leaf, const double *values,
-              abacus_octant &octant) {
-    octant.code = leaf.code;
-    octant.level = leaf.level;
-    const Point<D> lower = grid.lower(leaf), upper = grid.upper(leaf);
-    std::copy_n(lower.begin(), D, octant.lower);
-    std::copy_n(upper.begin(), D, octant.upper);
-    octant.values = values;
-}
-
-template <int D> void describe(OctreeReader<D> &reader, Handle h, abacus_octant &octant) {
-    describe<D>(reader.grid(), reader.cache().octant(h), reader.cache().values(h), octant);
-}
 
 /// Leaves of a window, or, past any cache, all of them.
 template <int D> class WindowScan {
@@ -43,6 +18,12 @@ public:
         : grid_(header) {
         if (window.kind == ABACUS_NO_WINDOW) {
             all_.emplace(host, header);
+            return;
+        }
+        if (window.kind == ABACUS_BALL_WINDOW) {
+            Ball<D> ball{{}, window.radius};
+            std::copy_n(window.center, D, ball.center.begin());
+            some_.emplace(host, header, ball, cache_bytes);
             return;
         }
         Point<D> lower, upper;

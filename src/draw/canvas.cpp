@@ -41,18 +41,20 @@ double perimeter(const Patch &p) {
 }
 
 double area_of(const Patch &p) {
-    return 0.5 * (std::fabs(p.turn(0, 1, 2)) + (p.corners == 4 ? std::fabs(p.turn(0, 2, 3)) : 0));
+    double twice = 0;
+    for (int i = 2; i < p.corners; ++i) twice += std::fabs(p.turn(0, i - 1, i));
+    return 0.5 * twice;
 }
 
 /// The value of a patch as a function of the position.
 class Ramp {
 public:
     explicit Ramp(const Patch &p) : start_{p.corner[0][0], p.corner[0][1]}, at_start_(p.value[0]) {
-        // Three corners tell all of it; of a quadrilateral the larger half tells it
-        // best.
-        const bool second =
-            p.corners == 4 && std::fabs(p.turn(0, 2, 3)) > std::fabs(p.turn(0, 1, 2));
-        const int b = second ? 2 : 1, c = b + 1;
+        // Three corners tell all of it; the largest triangle tells it best.
+        int c = 2;
+        for (int i = 3; i < p.corners; ++i)
+            if (std::fabs(p.turn(0, i - 1, i)) > std::fabs(p.turn(0, c - 1, c))) c = i;
+        const int b = c - 1;
         const double scale = 1 / p.turn(0, b, c);
         const double ux = p.corner[b][0] - start_[0], uy = p.corner[b][1] - start_[1];
         const double wx = p.corner[c][0] - start_[0], wy = p.corner[c][1] - start_[1];
@@ -187,7 +189,7 @@ void Canvas::outline(const Patch &p, double width) {
 
 // A corner at a level counts as above it. So a level along an edge is drawn once, by the patch
 // below.
-void Canvas::contour(const Patch &p, const double (&values)[4]) {
+void Canvas::contour(const Patch &p, const double (&values)[Patch::most]) {
     const double interval = drawing_.contour_interval;
     const double *const end = values + p.corners;
     const double least = std::max(*std::min_element(values, end), low_);

@@ -66,7 +66,7 @@ private:
     void fill(const Patch &patch, double area, double density);
     void outline(const Patch &patch, double width);
     /// Draws the contours of a patch; its values are not fractions here.
-    void contour(const Patch &pixels, const double (&values)[4]);
+    void contour(const Patch &pixels, const double (&values)[Patch::most]);
     /// Patches a pixel where vertices are this far apart.
     double density(double spacing) const;
     void deposit(std::int32_t x, std::int32_t y, double covered, double count, double value,

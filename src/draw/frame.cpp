@@ -79,7 +79,7 @@ static bool is_seen(const Patch &patch, const Box<2> &around, const Box<2> &wind
                     around.upper[axis] <= window.upper[axis];
     }
     if (is_within) return true;
-    Point<2> corners[4];
+    Point<2> corners[Patch::most];
     for (int i = 0; i < patch.corners; ++i) corners[i] = {patch.corner[i][0], patch.corner[i][1]};
     return !is_kept_apart(corners, patch.corners, window, false);
 }

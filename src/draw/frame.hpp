@@ -15,13 +15,15 @@
 
 namespace abacus {
 
-/// What pictures are made of: a triangle of a mesh, or the plane section of a
-/// tetrahedron. A convex polygon, its corners in order, in either orientation; a
+/// What pictures are made of: a triangle of a mesh, the plane section of a tetrahedron or a box,
+/// a square. A convex polygon, its corners in order, in either orientation; a
 /// value for each corner, linear in between, none where it is not finite.
 struct Patch {
-    double corner[4][2];
-    double value[4];
-    int corners = 3;    // 3 or 4
+    static constexpr int most = 6; // corners; the section of a box
+
+    double corner[most][2];
+    double value[most];
+    int corners = 3;    // from 3
     double spacing = 0; // distance between vertices of the mesh around here; 0 = as the area tells
 
     /// Twice the area of three corners; positive if they turn left where y points up.

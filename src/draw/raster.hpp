@@ -84,7 +84,7 @@ private:
 
 template <class Sink> void Raster::fill(const Patch &patch, Sink &&sink) {
     const auto &p = patch.corner;
-    Edge edges[4];
+    Edge edges[Patch::most];
     int count = 0;
     double top = height_, bottom = 0;
     for (int i = 0, j = patch.corners - 1; i < patch.corners; j = i++) {

@@ -44,10 +44,10 @@ bool meets_inside(const std::array<const Point<3> *, 3> &facet, const Ball<3> &b
 
 } // namespace
 
-template <int D> bool contains(const Ball<D> &ball, const Point<D> &p) {
+template <int D> int side(const Ball<D> &ball, const Point<D> &p) {
     const Vector<D> to_p = between<D>(ball.center, p);
-    const Rational radius = ball.radius;
-    return dot<D>(to_p, to_p) <= radius * radius;
+    const Rational radius = ball.radius, square = dot<D>(to_p, to_p), most = radius * radius;
+    return square < most ? -1 : square > most;
 }
 
 template <int D> bool meets_edge(const Point<D> &a, const Point<D> &b, const Ball<D> &ball) {
@@ -70,8 +70,8 @@ template <int D> bool meets_facet(const Corners<D> &corners, const Ball<D> &ball
     return false;
 }
 
-template bool contains<2>(const Ball<2> &, const Point<2> &);
-template bool contains<3>(const Ball<3> &, const Point<3> &);
+template int side<2>(const Ball<2> &, const Point<2> &);
+template int side<3>(const Ball<3> &, const Point<3> &);
 template bool meets_edge<2>(const Point<2> &, const Point<2> &, const Ball<2> &);
 template bool meets_edge<3>(const Point<3> &, const Point<3> &, const Ball<3> &);
 template bool meets_facet<2>(const Corners<2> &, const Ball<2> &);

@@ -11,11 +11,14 @@ template <int D> struct Ball {
     Point<D> center;
     double radius;
 
-    bool contains(const Point<D> &p) const;
+    /// -1 inside, 0 on the sphere, 1 outside.
+    int side(const Point<D> &p) const;
+    bool contains(const Point<D> &p) const { return side(p) <= 0; }
 };
 
 namespace exact {
-template <int D> bool contains(const Ball<D> &ball, const Point<D> &p);
+/// As Ball::side().
+template <int D> int side(const Ball<D> &ball, const Point<D> &p);
 /// Whether the ball meets an edge in a point that is nearest to its centre and no end.
 template <int D> bool meets_edge(const Point<D> &a, const Point<D> &b, const Ball<D> &ball);
 /// Whether the ball meets a facet of the simplex, whose corners it does not contain.
@@ -23,14 +26,14 @@ template <int D> bool meets_facet(const Corners<D> &corners, const Ball<D> &ball
 } // namespace exact
 
 // The bound is that of compare_distance(), of which one side is rounded once.
-template <int D> bool Ball<D>::contains(const Point<D> &p) const {
+template <int D> int Ball<D>::side(const Point<D> &p) const {
     const double square = rounded_square<D>(center, p), most = radius * radius;
     const double sum = square + most, difference = square - most;
     if (sum > 1e-290) [[likely]] {
-        if (difference > 1e-15 * sum) return false;
-        if (difference < -1e-15 * sum) return true;
+        if (difference > 1e-15 * sum) return 1;
+        if (difference < -1e-15 * sum) return -1;
     }
-    return exact::contains<D>(*this, p);
+    return exact::side<D>(*this, p);
 }
 
 /// Whether two points are at most so far from one another.

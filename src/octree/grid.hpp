@@ -46,6 +46,17 @@ public:
         }
         return true;
     }
+    /// The place of the domain that is nearest to one, and its cell.
+    Point<D> clamp(const Point<D> &place) const {
+        Point<D> p;
+        for (int i = 0; i < D; ++i) p[i] = std::clamp(place[i], lower_[i], upper_[i]);
+        return p;
+    }
+    Cell<D> nearest_cell(const Point<D> &place) const {
+        Cell<D> cell;
+        find(clamp(place), cell);
+        return cell;
+    }
     Point<D> lower(const Octant<D> &octant) const {
         const Cell<D> at = octant.cell();
         Point<D> p;

@@ -3,22 +3,12 @@
 #include <algorithm>
 
 namespace abacus {
-namespace {
 
-[[noreturn]] void refuse_unbalanced() {
+void throw_unbalanced() {
     throw Error(ABACUS_ERROR_STATE, "the octree is not balanced",
                 "A node that hangs has anchors only where neighbours differ by one level at most.",
                 "Balance it with abacus_octree_balance.");
 }
-
-/// Leaves that would have the point as a corner if they filled the domain around it.
-template <int D> std::uint64_t orthants(const GridPoint<D> &point) {
-    std::uint64_t orthants = 1;
-    for (const std::uint64_t x : point) orthants <<= x != 0 && x != axis_cells<D>;
-    return orthants;
-}
-
-} // namespace
 
 template <int D>
 OctreeNodes<D>::OctreeNodes(const Host &host, const abacus_header &header, std::size_t memory)
@@ -67,7 +57,7 @@ template <int D> void OctreeNodes<D>::add_anchors(const GridPoint<D> &point, std
     int n = 0;
     for (int i = 0; i < D; ++i)
         if ((point[i] & step) != 0) odd[n++] = i;
-    if (n == 0 || n == D) refuse_unbalanced();
+    if (n == 0 || n == D) throw_unbalanced();
     for (int anchor = 0; anchor < 1 << n; ++anchor) {
         GridPoint<D> at = point;
         for (int i = 0; i < n; ++i) at[odd[i]] += (anchor >> i & 1) != 0 ? step : 0 - step;
@@ -91,7 +81,7 @@ template <int D> void OctreeNodes<D>::join_anchors() {
         };
         for (; node != nullptr && before(); ++number) node = nodes_.next();
         if (node == nullptr || node[0] != wanted[0] || node[1] != wanted[1] || node[2] != 0)
-            refuse_unbalanced();
+            throw_unbalanced();
         std::uint64_t *const record = found_.add();
         record[0] = wanted[2];
         record[1] = wanted[3];

@@ -53,6 +53,15 @@ template <int D> GridPoint<D> corner(const Octant<D> &octant, int number) {
         point[i] = cell[i] + (number >> i & 1 ? octant.edge() : std::uint64_t{0});
     return point;
 }
+/// Leaves that would have the point as a corner if they filled the domain around it.
+template <int D> std::uint64_t orthants(const GridPoint<D> &point) {
+    std::uint64_t orthants = 1;
+    for (const std::uint64_t x : point) orthants <<= x != 0 && x != axis_cells<D>;
+    return orthants;
+}
+
+/// Where a node hangs that is not in the middle of an edge or a face.
+[[noreturn]] void throw_unbalanced();
 
 template <int D> class OctreeNodes {
 public:

@@ -1,7 +1,7 @@
 // Leaves of a stored octree: at a place, in a window, beside a leaf.
 #pragma once
 
-#include "octree/grid.hpp"
+#include "octree/ball_cells.hpp"
 #include "octree/octree_cache.hpp"
 
 namespace abacus {
@@ -21,9 +21,10 @@ public:
         return grid_.find(place, cell) ? find(morton<D>(cell)) : no_handle;
     }
     Handle find(std::uint64_t cell) { return cache_.find(cell); }
-    /// The first leaf along the curve that ends behind a cell and has one of the box; or no_handle.
-    Handle next_in(const CellBox<D> &box, std::uint64_t from) {
-        const std::uint64_t cell = box.next(from);
+    /// The first leaf along the curve that ends behind a cell and has one of the region, a CellBox
+    /// or a BallCells; or no_handle.
+    template <class Region> Handle next_in(const Region &region, std::uint64_t from) {
+        const std::uint64_t cell = region.next(from);
         return cell == domain_cells<D> ? no_handle : find(cell);
     }
     /// Calls visit(axis, side, handle) for the leaves that share a piece of a face with the leaf
@@ -58,7 +59,7 @@ private:
     OctreeCache<D> cache_;
 };
 
-/// Leaves that meet a window, or all, along the curve.
+/// Leaves that meet a window, a box or a ball, along the curve.
 template <int D> class OctreeScan {
 public:
     OctreeScan(const Host &host, const abacus_header &header, const Point<D> &lower,
@@ -66,11 +67,16 @@ public:
         : reader_(host, header, cache_bytes) {
         if (!reader_.grid().find(lower, upper, box_)) at_ = domain_cells<D>;
     }
+    OctreeScan(const Host &host, const abacus_header &header, const Ball<D> &ball,
+               std::size_t cache_bytes)
+        : reader_(host, header, cache_bytes) {
+        ball_.emplace(reader_.grid(), ball);
+    }
 
     /// The next leaf; no_handle after the last.
     Handle next() {
         if (at_ == domain_cells<D>) return no_handle;
-        const Handle h = reader_.next_in(box_, at_);
+        const Handle h = ball_ ? reader_.next_in(*ball_, at_) : reader_.next_in(box_, at_);
         at_ = h == no_handle ? domain_cells<D> : reader_.cache().octant(h).end();
         return h;
     }
@@ -79,6 +85,7 @@ public:
 private:
     OctreeReader<D> reader_;
     CellBox<D> box_{};
+    std::optional<BallCells<D>> ball_; // in place of the box
     std::uint64_t at_ = 0;
 };
 

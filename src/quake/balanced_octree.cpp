@@ -18,14 +18,14 @@ std::string text(double value) {
 }
 
 /// Names an octant: the coordinates' leading bits below a leading 1.
-std::uint64_t name(const Octant &o) {
+std::uint64_t name(const BasinOctant &o) {
     const int bits = BalancedOctree::depth - o.shift;
     return ((std::uint64_t{1} << bits | o.x >> o.shift) << bits | o.y >> o.shift) << bits |
            o.z >> o.shift;
 }
 
 /// The ground of an octant, and of all within `margin` units around it.
-Basin::Box ground(const Octant &o, std::uint32_t margin) {
+Basin::Box ground(const BasinOctant &o, std::uint32_t margin) {
     constexpr double unit = BalancedOctree::unit;
     const auto below = [&](std::uint32_t v) { return unit * (v > margin ? v - margin : 0); };
     const auto above = [&](std::uint32_t v, std::uint32_t limit) {
@@ -65,16 +65,16 @@ BalancedOctree::BalancedOctree(double frequency, double points_per_wavelength) {
                         text(slowest / (unit * points_per_wavelength)) + " Hz.");
 }
 
-bool BalancedOctree::is_too_coarse(const Octant &octant) const {
+bool BalancedOctree::is_too_coarse(const BasinOctant &octant) const {
     return Basin::slowest(ground(octant, 0)) < resolved_[octant.shift];
 }
 
 /// Whether there may be an octant around this one that is too coarse at half its edge or less.
-bool BalancedOctree::may_be_pressed(const Octant &octant) const {
+bool BalancedOctree::may_be_pressed(const BasinOctant &octant) const {
     return Basin::slowest(ground(octant, 1u << octant.shift)) < resolved_[octant.shift - 1];
 }
 
-bool BalancedOctree::is_split(const Octant &octant) {
+bool BalancedOctree::is_split(const BasinOctant &octant) {
     if (octant.shift > coarsest) return true;
     if (octant.shift == 0) return false;
     const std::uint64_t named = name(octant);
@@ -87,16 +87,16 @@ bool BalancedOctree::is_split(const Octant &octant) {
 
 /// Whether a neighbour of a child is split. The octants of half the edge that touch this one
 /// are the shell of a cube of 4 x 4 x 4; its 8 corners touch at a point only.
-bool BalancedOctree::is_pressed(const Octant &octant) {
+bool BalancedOctree::is_pressed(const BasinOctant &octant) {
     const int shift = octant.shift - 1;
     for (std::uint32_t i = 0; i < 64; ++i) {
         const std::uint32_t dx = i & 3, dy = i >> 2 & 3, dz = i >> 4;
         const int outside = (dx % 3 == 0) + (dy % 3 == 0) + (dz % 3 == 0);
         if (outside == 0 || outside == 3) continue;
         // coordinates below 0 wrap around and are beyond the limit as well
-        const Octant near = {octant.x + (dx << shift) - (1u << shift),
-                             octant.y + (dy << shift) - (1u << shift),
-                             octant.z + (dz << shift) - (1u << shift), shift};
+        const BasinOctant near = {octant.x + (dx << shift) - (1u << shift),
+                                  octant.y + (dy << shift) - (1u << shift),
+                                  octant.z + (dz << shift) - (1u << shift), shift};
         if (near.x < width && near.y < width && near.z < height && is_split(near)) return true;
     }
     return false;

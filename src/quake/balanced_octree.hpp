@@ -27,7 +27,7 @@ namespace abacus {
 
 /// A cube with edge 2^shift and a corner at multiples of it, in units of the basin's width
 /// over 2^BalancedOctree::depth.
-struct Octant {
+struct BasinOctant {
     std::uint32_t x, y, z; ///< lower corner; z from the bottom of the basin
     int shift;
 };
@@ -47,12 +47,12 @@ public:
 
     /// Whether an octant inside the basin is split in the balanced tree; false for octants
     /// inside a leaf.
-    bool is_split(const Octant &octant);
+    bool is_split(const BasinOctant &octant);
 
 private:
-    bool is_too_coarse(const Octant &octant) const;
-    bool may_be_pressed(const Octant &octant) const;
-    bool is_pressed(const Octant &octant);
+    bool is_too_coarse(const BasinOctant &octant) const;
+    bool may_be_pressed(const BasinOctant &octant) const;
+    bool is_pressed(const BasinOctant &octant);
 
     static constexpr int memory_bits = 16;
 

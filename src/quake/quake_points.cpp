@@ -12,12 +12,12 @@ bool QuakePoints::next(QuakePoint &point) {
     }
     const auto child = static_cast<std::uint32_t>(std::countr_zero(places_));
     places_ &= places_ - 1;
-    const std::uint32_t half = 1u << leaf_.shift >> 1;
+    const std::uint32_t half = 1u << shift() >> 1;
     constexpr double unit = BalancedOctree::unit;
     point.id = ++count_;
-    point.x = unit * (leaf_.x + (child & 1) * half);
-    point.y = unit * (leaf_.y + (child >> 1 & 1) * half);
-    point.z = unit * (leaf_.z + (child >> 2) * half) - Basin::depth;
+    point.x = unit * (lower_[0] + (child & 1) * half);
+    point.y = unit * (lower_[1] + (child >> 1 & 1) * half);
+    point.z = unit * (lower_[2] + (child >> 2) * half) - Basin::depth;
     point.material = Basin::material(point.x, point.y, point.z);
     return true;
 }
@@ -25,40 +25,36 @@ bool QuakePoints::next(QuakePoint &point) {
 /// Whether the octant of the leaf's size at x, y, z is split; beyond an upper face of the
 /// basin, its mirror image.
 bool QuakePoints::is_split(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-    if (leaf_.shift > BalancedOctree::coarsest) return true;
-    const std::uint32_t size = 1u << leaf_.shift;
+    if (shift() > BalancedOctree::coarsest) return true;
+    const std::uint32_t size = 1u << shift();
     return octree_.is_split({std::min(x, BalancedOctree::width - size),
                              std::min(y, BalancedOctree::width - size),
-                             std::min(z, BalancedOctree::height - size), leaf_.shift});
+                             std::min(z, BalancedOctree::height - size), shift()});
 }
 
-/// Goes to the next octant in Z-order that does not lie in this one; false after the last.
+/// Goes to the largest octant that begins where this one ends; false after the last.
 bool QuakePoints::advance() {
-    for (; leaf_.shift < root; ++leaf_.shift) {
-        const std::uint32_t size = 1u << leaf_.shift;
-        // as adding 1 to the Morton number, carrying from x to y to z to the next level
-        for (std::uint32_t *v : {&leaf_.x, &leaf_.y, &leaf_.z}) {
-            *v ^= size;
-            if ((*v & size) != 0) return true;
-        }
-    }
-    return false;
+    const std::uint64_t code = leaf_.end();
+    if (code == domain_cells<3>) return false;
+    leaf_ = {code, coarsest_level<3>(code)};
+    lower_ = leaf_.cell();
+    return true;
 }
 
 /// Goes to the next leaf that has a part of the closed basin.
 bool QuakePoints::find_leaf() {
     if (started_ && !advance()) return false;
     started_ = true;
-    while (leaf_.x > BalancedOctree::width || leaf_.y > BalancedOctree::width ||
-           leaf_.z > BalancedOctree::height)
+    while (lower_[0] > BalancedOctree::width || lower_[1] > BalancedOctree::width ||
+           lower_[2] > BalancedOctree::height)
         if (!advance()) return false;
-    while (is_split(leaf_.x, leaf_.y, leaf_.z)) --leaf_.shift;
+    while (is_split(lower_[0], lower_[1], lower_[2])) leaf_ = leaf_.child(0);
     return true;
 }
 
 /// Finds the points that lie in the leaf.
 void QuakePoints::collect() {
-    const std::uint32_t x = leaf_.x, y = leaf_.y, z = leaf_.z, size = 1u << leaf_.shift;
+    const std::uint32_t x = lower_[0], y = lower_[1], z = lower_[2], size = 1u << shift();
     const auto neighbour = [&](bool dx, bool dy, bool dz) -> unsigned {
         return x >= dx * size && y >= dy * size && z >= dz * size &&
                is_split(x - dx * size, y - dy * size, z - dz * size);

@@ -12,9 +12,12 @@
 //
 // The points on the upper faces of the basin lie in no half-open octant of it. So
 // the walk goes over a cube twice as wide, in which octants beyond a face are split
-// as those on the other side.
+// as those on the other side. That cube is the domain of an octree of the usual kind
+// (octree/octant.hpp), and its finest cells have the basin's unit. A stored octree of that
+// domain, as fine and as balanced, has the same nodes in the same order.
 #pragma once
 
+#include "octree/octant.hpp"
 #include "quake/balanced_octree.hpp"
 
 #include <cstdint>
@@ -44,10 +47,12 @@ private:
     bool advance();
     void collect();
 
-    static constexpr int root = BalancedOctree::depth + 1; ///< shift of the doubled cube
+    static_assert(finest_level<3> == BalancedOctree::depth + 1, "one level for the doubled cube");
+    int shift() const { return finest_level<3> - leaf_.level; }
 
     BalancedOctree octree_;
-    Octant leaf_{0, 0, 0, root};
+    Octant<3> leaf_;  ///< of the doubled cube
+    Cell<3> lower_{}; ///< its lower corner
     bool started_ = false;
     unsigned places_ = 0; ///< would-be children of the leaf whose lower corner is still to come
     std::int64_t count_ = 0;

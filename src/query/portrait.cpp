@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace abacus {
 
@@ -167,35 +166,17 @@ void stream(RangeScan<D> &pages, View &view, Picture &picture) {
     }
 }
 
-/// The same drawing of a wider window: with the margin of its canvas, in pixels.
-abacus_drawing widened(const abacus_drawing &drawing, std::int32_t margin) {
-    abacus_drawing wider = Extent(drawing).drawing(); // its height
-    const double sizes[2] = {wider.width + 0.0, wider.height + 0.0};
-    constexpr double most = std::numeric_limits<double>::max();
-    for (int axis = 0; axis < 2; ++axis) {
-        const double pixel =
-            (wider.upper[axis] / sizes[axis] - wider.lower[axis] / sizes[axis]) * margin;
-        wider.lower[axis] = std::max(wider.lower[axis] - pixel, -most);
-        wider.upper[axis] = std::min(wider.upper[axis] + pixel, most);
-    }
-    return wider;
-}
-
 /// `region` is what the drawing shows with its margin; null: all of the mesh.
 template <int D, class View>
 Portrait draw(const Host &host, const abacus_header &header, const abacus_drawing &drawing,
               std::int32_t margin, const Region<D> *region, View &&view, abacus_ramp usual) {
-    if (drawing.attribute >= static_cast<std::int32_t>(header.attributes))
-        throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
-    Extent extent(drawing);
     RangeScan<D> pages(host, header, region);
-    if (Extent::is_needed(drawing)) {
-        stream(pages, view, extent);
-        pages.rewind();
-    }
-    Canvas canvas(host, extent.drawing(), extent.low(), extent.high(), margin);
-    stream(pages, view, canvas);
-    return {canvas.png(Palette::of(drawing.ramp, usual), View::unit), canvas.is_blank()};
+    bool again = false;
+    const auto show = [&](auto &picture) {
+        if (std::exchange(again, true)) pages.rewind();
+        stream(pages, view, picture);
+    };
+    return draw_patches(host, header, drawing, margin, usual, View::unit, show);
 }
 
 } // namespace

@@ -3,17 +3,12 @@
 // something to show are read (range_scan.hpp).
 #pragma once
 
-#include "draw/canvas.hpp"
+#include "draw/portrait.hpp"
 #include "mesh/page_format.hpp"
 
 #include <abacus/draw.h>
 
 namespace abacus {
-
-struct Portrait {
-    Png png;
-    bool is_blank; // nothing of the mesh is seen
-};
 
 /// The picture of a mesh of dimension 2 as a PNG. Throws an Error (argument) if the
 /// drawing makes no sense for the mesh.

@@ -74,8 +74,18 @@ SELECT pg_temp.inject('an update of leaves', $$ SELECT abacus_octree_update('tre
     $$ SELECT count(*) = 0 FROM abacus_octants('tree') WHERE attributes[1] IS NOT NULL $$);
 SELECT pg_temp.inject('nodes', $$ SELECT count(*) FROM abacus_octree_nodes('tree') $$, 'SELECT true');
 SELECT pg_temp.inject('elements', $$ SELECT count(*) FROM abacus_octree_elements('tree') $$, 'SELECT true');
-SELECT pg_temp.inject('a window of leaves', $$ SELECT count(*) FROM abacus_octants('tree', '{100,100}', '{200,200}') $$, 'SELECT true');
+SELECT pg_temp.inject('a window of leaves', $$ SELECT count(*) FROM abacus_octants('tree', ARRAY[100, 100], ARRAY[200, 200]) $$, 'SELECT true');
 SELECT pg_temp.inject('leaves at places', $$ SELECT sum((abacus_octree_locate('tree', x, y)).level) FROM points $$, 'SELECT true');
+SELECT pg_temp.inject('a ball of leaves', $$ SELECT count(*) FROM abacus_octants('tree', ARRAY[100, 100], 50) $$, 'SELECT true');
+SELECT pg_temp.inject('nearest leaves', $$ SELECT sum(distance) FROM abacus_octree_nearest('tree', 2000, 500, 100) $$, 'SELECT true');
+SELECT pg_temp.inject('nearest leaves of many places', $$ SELECT sum(distance) FROM abacus_octree_nearest('tree', 'SELECT id, x, y FROM points WHERE id <= 300', 3) $$,
+    $$ SELECT NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
+SELECT pg_temp.inject('leaves at many places', $$ SELECT sum(level) FROM abacus_octree_locate('tree', 'SELECT id, x, y FROM points') $$, 'SELECT true');
+SELECT pg_temp.inject('a value between leaves', $$ SELECT abacus_octree_interpolate('tree', 500, 500) IS NULL $$, 'SELECT true');
+SELECT pg_temp.inject('values between leaves', $$ SELECT sum("values"[1]) FROM abacus_octree_interpolate('tree', 'SELECT id, x, y FROM points') $$, 'SELECT true');
+SELECT pg_temp.inject('triangles', $$ SELECT count(*) FROM abacus_octree_tetrahedra('tree') $$, 'SELECT true');
+SELECT pg_temp.inject('a picture of leaves', $$ SELECT length(abacus_draw('tree', 40, attribute => 'v')) $$, 'SELECT true');
+SELECT pg_temp.inject('a picture of some leaves', $$ SELECT length(abacus_draw('tree', 40, lower => '{100,100}', upper => '{200,200}')) $$, 'SELECT true');
 SELECT isnt(abacus_octree_create('again', 2, '{0,0}', '{1009,1009}', '{v}'), NULL, 'another one');
 SELECT pg_temp.inject('loading', $$ SELECT abacus_octree_from_rows('again', 'SELECT code, level, attributes[1] FROM abacus_octants(''tree'')') $$,
     $$ SELECT count(*) = 1 FROM abacus_octants('again') $$);

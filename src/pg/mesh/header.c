@@ -180,7 +180,8 @@ header_require_dimension(const abacus_header *header, uint32 dimension, const ch
 	if (header->dimension != dimension)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("mesh has dimension %u, not %u", header->dimension, dimension),
+				 errmsg("%s has dimension %u, not %u", type_name(header->type), header->dimension,
+						dimension),
 				 errhint("%s", hint)));
 }
 

@@ -1,6 +1,6 @@
 /*
  * fn_draw.c: abacus_draw, abacus_draw_section and abacus_draw_volume, pictures
- * of a mesh as PNG.
+ * of a mesh as PNG. The first two take an octree as well.
  */
 #include "postgres.h"
 
@@ -133,6 +133,23 @@ light(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing)
 		ereport(NOTICE, (errmsg("light has no effect without exaggeration")));
 }
 
+/* Opens a mesh or an octree to be drawn. */
+static Reader *
+open_drawn(Oid drawn)
+{
+	return reader_open_of(drawn, ANY_TYPE, CurrentMemoryContext);
+}
+
+/* Contours are lines through values that change; in a leaf of an octree there is but one. */
+static void
+leave_contours_out(const abacus_header *header, abacus_drawing *drawing)
+{
+	if (header->type != ABACUS_OCTREE || drawing->contour_interval == 0)
+		return;
+	drawing->contour_interval = 0;
+	ereport(NOTICE, (errmsg("contours has no effect on an octree")));
+}
+
 /* Tells why a picture shows nothing; `place` is where nothing is. */
 static void
 tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cells,
@@ -140,14 +157,19 @@ tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cell
 {
 	const abacus_header *header = &reader->header;
 	uint64		waiting = header->staged - header->inserted;
+	bool		is_octree = header->type == ABACUS_OCTREE;
+	bool		has_cells = is_octree || header->simplices > 0;
 
+	if (is_octree)
+		cells = "leaves";
 	ereport(NOTICE,
-			(errmsg("the picture of mesh \"%s\" is blank", get_rel_name(mesh_pages(reader->host)->mesh)),
-			 header->simplices > 0 ? errdetail("None of its %s is %s.", cells, place) :
+			(errmsg("the picture of %s \"%s\" is blank", is_octree ? "octree" : "mesh",
+					get_rel_name(mesh_pages(reader->host)->mesh)),
+			 has_cells ? errdetail("None of its %s is %s.", cells, place) :
 			 waiting == 0 ? errdetail("It has no %s.", cells) :
 			 errdetail("It has no %s. %llu points wait: they are staged only, or span none.", cells,
 					   (unsigned long long) waiting),
-			 header->simplices > 0 && drawing->max_edge > 0 ?
+			 has_cells && drawing->max_edge > 0 ?
 			 errhint("Those with an edge longer than max_edge are left out.") : 0));
 }
 
@@ -167,7 +189,7 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 
 	if (PG_ARGISNULL(DRAW_MESH))
 		PG_RETURN_NULL();
-	reader = reader_open(PG_GETARG_OID(DRAW_MESH), CurrentMemoryContext);
+	reader = open_drawn(PG_GETARG_OID(DRAW_MESH));
 	host = reader->host;
 	header_require_dimension(&reader->header, 2, "Use abacus_draw_section for a cut through it.");
 	drawing.width = drawing_pixels(fcinfo, DRAW_WIDTH, 1024, "width");
@@ -178,6 +200,7 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	drawing.max_edge = drawing_factor(fcinfo, DRAW_MAX_EDGE, "max_edge");
 	drawing_range(fcinfo, DRAW_RANGE, &drawing);
 	style(fcinfo, DRAW_STYLE, &drawing);
+	leave_contours_out(&reader->header, &drawing);
 	light(fcinfo, DRAW_LIGHT, &drawing);
 	if (drawing.exaggeration > 0 && drawing.attribute < 0)
 		ereport(NOTICE, (errmsg("exaggeration has no effect without an attribute")));
@@ -207,7 +230,7 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 	if (PG_ARGISNULL(SECTION_MESH) || PG_ARGISNULL(SECTION_THROUGH) ||
 		PG_ARGISNULL(SECTION_NORMAL))
 		PG_RETURN_NULL();
-	reader = reader_open(PG_GETARG_OID(SECTION_MESH), CurrentMemoryContext);
+	reader = open_drawn(PG_GETARG_OID(SECTION_MESH));
 	host = reader->host;
 	header_require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
 	shape_point(&reader->header, array(fcinfo, SECTION_THROUGH), "through", section.through);
@@ -221,6 +244,7 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 	drawing.max_edge = drawing_factor(fcinfo, SECTION_MAX_EDGE, "max_edge");
 	drawing_range(fcinfo, SECTION_RANGE, &drawing);
 	style(fcinfo, SECTION_STYLE, &drawing);
+	leave_contours_out(&reader->header, &drawing);
 	window(&reader->header, array(fcinfo, SECTION_LOWER), array(fcinfo, SECTION_UPPER), &drawing);
 
 	host_run(host, abacus_draw_section, &host->table, &reader->header, &section, &drawing,

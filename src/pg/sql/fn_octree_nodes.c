@@ -1,6 +1,6 @@
 /*
- * fn_octree_nodes.c: abacus_octree_nodes and abacus_octree_elements, an octree as a solver takes
- * it.
+ * fn_octree_nodes.c: abacus_octree_nodes, abacus_octree_elements and abacus_octree_tetrahedra, an
+ * octree as a solver takes it.
  */
 #include "postgres.h"
 
@@ -17,6 +17,7 @@
 
 SQL_FUNCTION(abacus_sql_octree_nodes);
 SQL_FUNCTION(abacus_sql_octree_elements);
+SQL_FUNCTION(abacus_sql_octree_tetrahedra);
 
 static Datum
 number_array(const uint64 *numbers, int count)
@@ -51,6 +52,18 @@ begin_elements(FunctionCallInfo fcinfo, FuncCallContext *set)
 	host_run(host, abacus_octree_elements_open, &host->table, &reader->header,
 			 setting_query_sort_bytes(), &elements);
 	host_own(host, elements, (void (*) (void *)) abacus_octree_elements_close);
+}
+
+static void
+begin_tetrahedra(FunctionCallInfo fcinfo, FuncCallContext *set)
+{
+	Reader	   *reader = set_begin_of(fcinfo, set, ABACUS_OCTREE, result_row_type);
+	Host	   *host = reader->host;
+	abacus_octree_simplices *simplices = NULL;
+
+	host_run(host, abacus_octree_simplices_open, &host->table, &reader->header,
+			 setting_query_sort_bytes(), &simplices);
+	host_own(host, simplices, (void (*) (void *)) abacus_octree_simplices_close);
 }
 
 /* abacus_octree_nodes(octree regclass) -> node, point, anchors */
@@ -105,5 +118,31 @@ abacus_sql_octree_elements(PG_FUNCTION_ARGS)
 	values[2] = Int64GetDatum((int64) octant.code);
 	values[3] = Int32GetDatum(octant.level);
 	values[4] = attribute_array(octant.values, (int) reader->header.attributes);
+	SRF_RETURN_NEXT(set, HeapTupleGetDatum(heap_form_tuple(set->tuple_desc, values, isnull)));
+}
+
+/* abacus_octree_tetrahedra(octree regclass) -> element, nodes */
+Datum
+abacus_sql_octree_tetrahedra(PG_FUNCTION_ARGS)
+{
+	FuncCallContext *set;
+	Reader	   *reader;
+	uint64		element;
+	uint64		nodes[ABACUS_MAX_DIMENSION + 1];
+	Datum		values[2];
+	bool		isnull[2] = {false};
+	abacus_status status;
+
+	if (SRF_IS_FIRSTCALL())
+		begin_tetrahedra(fcinfo, SRF_FIRSTCALL_INIT());
+	set = SRF_PERCALL_SETUP();
+	reader = set->user_fctx;
+	status = host_run(reader->host, abacus_octree_simplices_next, reader->host->handle, &element,
+					  nodes);
+	host_release(reader->host);
+	if (status == ABACUS_END)
+		SRF_RETURN_DONE(set);
+	values[0] = Int64GetDatum((int64) element);
+	values[1] = number_array(nodes, (int) reader->header.dimension + 1);
 	SRF_RETURN_NEXT(set, HeapTupleGetDatum(heap_form_tuple(set->tuple_desc, values, isnull)));
 }

@@ -19,6 +19,7 @@
 SQL_FUNCTION(abacus_sql_octree_locate);
 SQL_FUNCTION(abacus_sql_octree_neighbours);
 SQL_FUNCTION(abacus_sql_octants);
+SQL_FUNCTION(abacus_sql_octants_in_ball);
 
 /* The row type of a function that is called for many rows, looked up once. */
 static TupleDesc
@@ -36,19 +37,6 @@ kept_row_type(FunctionCallInfo fcinfo)
 	return function->fn_extra;
 }
 
-/* An error unless there are as many coordinates as the octree has dimensions. */
-static void
-check_coordinates(int given, uint32 dimension)
-{
-	if (given != (int) dimension)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("z is %s, but the octree has dimension %u",
-						dimension == 2 ? "given" : "missing", dimension),
-				 dimension == 2 ? errhint("Leave z out.")
-				 : errhint("Give all three coordinates of the place.")));
-}
-
 /* abacus_octree_locate(octree regclass, x float8, y float8[, z float8]) -> abacus_octant */
 Datum
 abacus_sql_octree_locate(PG_FUNCTION_ARGS)
@@ -59,7 +47,7 @@ abacus_sql_octree_locate(PG_FUNCTION_ARGS)
 	abacus_octant octant;
 	abacus_status status;
 
-	check_coordinates(PG_NARGS() - 1, cached->dimension);
+	place_require_octree(PG_NARGS() - 1, cached->dimension);
 	if (!place_arguments(fcinfo, PG_NARGS() - 1, cached->dimension, place))
 		PG_RETURN_NULL();		/* outside of any domain */
 	status = host_run(host, abacus_octree_locate, cached->octree, place, &octant);
@@ -111,22 +99,22 @@ abacus_sql_octree_neighbours(PG_FUNCTION_ARGS)
 }
 
 static void
-begin_octants(FunctionCallInfo fcinfo, FuncCallContext *set)
+begin_octants(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form)
 {
 	Reader	   *reader = set_begin_of(fcinfo, set, ABACUS_OCTREE, octant_row_type);
 	Host	   *host = reader->host;
 	abacus_window window = {0};
 	abacus_octree_scan *scan = NULL;
 
-	window_arguments(fcinfo, 1, WINDOW_BOX, &reader->header, &window);
+	window_arguments(fcinfo, 1, form, &reader->header, &window);
 	host_run(host, abacus_octree_scan_open, &host->table, &reader->header, &window,
 			 setting_cache_bytes(), &scan);
 	host_own(host, scan, (void (*) (void *)) abacus_octree_scan_close);
 }
 
-/* abacus_octants(octree regclass, lower float8[], upper float8[]) -> SETOF abacus_octant */
-Datum
-abacus_sql_octants(PG_FUNCTION_ARGS)
+/* Leaves one by one. */
+static Datum
+octants(FunctionCallInfo fcinfo, WindowForm form)
 {
 	FuncCallContext *set;
 	Reader	   *reader;
@@ -138,7 +126,7 @@ abacus_sql_octants(PG_FUNCTION_ARGS)
 		set = SRF_FIRSTCALL_INIT();
 		if (PG_ARGISNULL(0))
 			SRF_RETURN_DONE(set);
-		begin_octants(fcinfo, set);
+		begin_octants(fcinfo, set, form);
 	}
 	set = SRF_PERCALL_SETUP();
 	reader = set->user_fctx;
@@ -147,4 +135,18 @@ abacus_sql_octants(PG_FUNCTION_ARGS)
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);
 	SRF_RETURN_NEXT(set, octant_row(set->tuple_desc, &octant, &reader->header));
+}
+
+/* abacus_octants(octree regclass, lower float8[], upper float8[]) -> SETOF abacus_octant */
+Datum
+abacus_sql_octants(PG_FUNCTION_ARGS)
+{
+	return octants(fcinfo, WINDOW_BOX);
+}
+
+/* abacus_octants(octree regclass, center float8[], radius float8) -> SETOF abacus_octant */
+Datum
+abacus_sql_octants_in_ball(PG_FUNCTION_ARGS)
+{
+	return octants(fcinfo, WINDOW_BALL);
 }

@@ -35,7 +35,20 @@ place_arguments(FunctionCallInfo fcinfo, int given, uint32 dimension, double *po
 	return finite;
 }
 
-/* The same where an infinite coordinate is an error, too. */
+/* An error unless there are as many coordinates as an octree has dimensions. */
+void
+place_require_octree(int given, uint32 dimension)
+{
+	if (given != (int) dimension)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("z is %s, but the octree has dimension %u",
+						dimension == 2 ? "given" : "missing", dimension),
+				 dimension == 2 ? errhint("Leave z out.")
+				 : errhint("Give all three coordinates of the place.")));
+}
+
+/* Reads coordinates where an infinite coordinate is an error, too. */
 void
 place_arguments_finite(FunctionCallInfo fcinfo, int given, uint32 dimension, double *point)
 {

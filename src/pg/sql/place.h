@@ -9,5 +9,6 @@
 extern bool place_arguments(FunctionCallInfo fcinfo, int given, uint32 dimension, double *point);
 extern void place_arguments_finite(FunctionCallInfo fcinfo, int given, uint32 dimension,
 								   double *point);
+extern void place_require_octree(int given, uint32 dimension);
 
 #endif

@@ -1,0 +1,35 @@
+// An octree that is read, and its leaves as the C interface describes them.
+#pragma once
+
+#include "octree/octree_reader.hpp"
+
+#include "capi/dimension.hpp"
+
+#include <abacus/octree.h>
+
+struct abacus_octree {
+    abacus_octree(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
+        : host(*table), reader(host, header, cache_bytes) {}
+
+    const abacus::Host host;
+    abacus::ByDimension<abacus::OctreeReader> reader;
+};
+
+namespace abacus {
+
+template <int D>
+void describe(const Grid<D> &grid, const Octant<D> &leaf, const double *values,
+              abacus_octant &octant) {
+    octant.code = leaf.code;
+    octant.level = leaf.level;
+    const Point<D> lower = grid.lower(leaf), upper = grid.upper(leaf);
+    std::copy_n(lower.begin(), D, octant.lower);
+    std::copy_n(upper.begin(), D, octant.upper);
+    octant.values = values;
+}
+
+template <int D> void describe(OctreeReader<D> &reader, Handle h, abacus_octant &octant) {
+    describe<D>(reader.grid(), reader.cache().octant(h), reader.cache().values(h), octant);
+}
+
+} // namespace abacus

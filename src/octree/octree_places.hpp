@@ -1,0 +1,55 @@
+// Many places in an octree at once: sorted along the curve first, so that a page is read and
+// decoded once for all places in it.
+#pragma once
+
+#include "octree/octree_reader.hpp"
+#include "sort/record_sort.hpp"
+
+#include <bit>
+
+namespace abacus {
+
+template <int D> class OctreePlaces {
+public:
+    /// Sorts within `memory` bytes and spools, and keeps `cache_bytes` of leaves.
+    OctreePlaces(const Host &host, const abacus_header &header, std::size_t memory,
+                 std::size_t cache_bytes)
+        : host_(host), places_(host, words, words, memory), reader_(host, header, cache_bytes) {}
+
+    OctreeReader<D> &reader() { return reader_; }
+
+    /// A place: an id and D coordinates. Outside the domain it comes where the domain is nearest.
+    void add(const std::uint64_t *place) {
+        std::uint64_t *const record = places_.add();
+        std::copy_n(place, 1 + D, record + 1);
+        record[0] = morton<D>(reader_.grid().nearest_cell(point(record)));
+        if (places_.size() % (16 * Pacer::stride) == 1)
+            host_.progress({ABACUS_PHASE_READING, places_.size(), 0, 0, 0, 0});
+    }
+    /// Calls visit(id, place) for each of them, along the curve; once.
+    template <class Visit> void each(Visit visit) {
+        places_.finish();
+        for (std::uint64_t n = 0; const std::uint64_t *record = places_.next(); ++n) {
+            if (n % Pacer::stride == 0)
+                host_.progress({ABACUS_PHASE_LOCATING, n, places_.size(),
+                                reader_.cache().counters.loads, 0, 0});
+            visit(static_cast<std::int64_t>(record[1]), point(record));
+        }
+        places_.close();
+    }
+
+private:
+    static constexpr std::size_t words = 2 + D;
+
+    static Point<D> point(const std::uint64_t *record) {
+        Point<D> p;
+        for (int i = 0; i < D; ++i) p[i] = std::bit_cast<double>(record[2 + i]);
+        return p;
+    }
+
+    const Host &host_;
+    RecordSort places_; // code, id, coordinates
+    OctreeReader<D> reader_;
+};
+
+} // namespace abacus

@@ -1,0 +1,284 @@
+/*
+ * fn_octree_ask.c: leaves and values at places of an octree: abacus_octree_nearest,
+ * abacus_octree_interpolate, and abacus_octree_locate of many places.
+ *
+ * One place is looked for in the session's cache; many are sorted along the curve first.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "funcapi.h"
+#include "utils/builtins.h"
+#include "utils/memutils.h"
+
+#include "pg/base/sql_function.h"
+#include "pg/host/guard.h"
+#include "pg/mesh/mesh_cache.h"
+#include "pg/sql/interpolation.h"
+#include "pg/sql/octant_row.h"
+#include "pg/sql/octree_places.h"
+#include "pg/sql/place.h"
+#include "pg/sql/result.h"
+
+SQL_FUNCTION(abacus_sql_octree_nearest);
+SQL_FUNCTION(abacus_sql_octree_nearest_places);
+SQL_FUNCTION(abacus_sql_octree_locate_places);
+SQL_FUNCTION(abacus_sql_octree_interpolate);
+SQL_FUNCTION(abacus_sql_octree_interpolate_places);
+
+/* What the functions that the core reports to need. */
+typedef struct OctreeAnswers
+{
+	Host	   *host;
+	ReturnSetInfo *set;
+	const abacus_header *header;
+	uint32		attributes;		/* that are interpolated */
+	MemoryContext row;			/* for the arrays of a row */
+} OctreeAnswers;
+
+static void
+answers_begin(OctreeAnswers *answers, Host *host, const abacus_header *header)
+{
+	answers->host = host;
+	answers->header = header;
+	answers->row = AllocSetContextCreate(CurrentMemoryContext, "Abacus row",
+										 ALLOCSET_DEFAULT_SIZES);
+}
+
+/* The columns of a leaf, good for one row. */
+static void
+octant_of_row(const OctreeAnswers *answers, const abacus_octant *octant, Datum *values)
+{
+	MemoryContext old = MemoryContextSwitchTo(answers->row);
+
+	octant_columns(octant, answers->header, values);
+	MemoryContextSwitchTo(old);
+}
+
+static void
+put_row(const OctreeAnswers *answers, Datum *values, bool *isnull)
+{
+	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
+	MemoryContextReset(answers->row);
+}
+
+/* ---- Nearest leaves --------------------------------------------------------- */
+
+static uint64
+count_argument(FunctionCallInfo fcinfo, int argument)
+{
+	int32		k = PG_GETARG_INT32(argument);
+
+	if (k < 1)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("k must be at least 1, not %d", k),
+				 errhint("k is the number of leaves that are wanted.")));
+	return (uint64) k;
+}
+
+/* Adds a leaf near the one place; called by the core. */
+static abacus_host_status
+put_near(void *context, int64_t place, uint64_t rank, const abacus_octant *octant, double distance)
+{
+	OctreeAnswers *answers = context;
+	Datum		values[OCTANT_COLUMNS + 1];
+	bool		isnull[OCTANT_COLUMNS + 1] = {false};
+
+	GUARD_BEGIN();
+	octant_of_row(answers, octant, values);
+	values[OCTANT_COLUMNS] = Float8GetDatum(distance);
+	put_row(answers, values, isnull);
+	GUARD_END(answers->host);
+	return ABACUS_HOST_OK;
+}
+
+/*
+ * abacus_octree_nearest(octree regclass, x float8, y float8[, z float8], k int)
+ *     -> code, level, lower, upper, attributes, distance
+ */
+Datum
+abacus_sql_octree_nearest(PG_FUNCTION_ARGS)
+{
+	int			given = PG_NARGS() - 2;
+	uint64		k = count_argument(fcinfo, 1 + given);
+	double		place[ABACUS_MAX_DIMENSION];
+	CachedMesh *cached;
+	OctreeAnswers answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+
+	InitMaterializedSRF(fcinfo, 0);
+	cached = mesh_cache_get_octree(PG_GETARG_OID(0));
+	if (given < (int) cached->dimension)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("z is missing, but the octree has dimension %u", cached->dimension),
+				 errhint("Give z with a decimal point or as z => 1: a whole number behind y is "
+						 "taken for k.")));
+	place_require_octree(given, cached->dimension);
+	place_arguments_finite(fcinfo, given, cached->dimension, place);
+	answers_begin(&answers, cached->host, &cached->header);
+	host_run(cached->host, abacus_octree_nearest, cached->octree, place, k, put_near, &answers);
+	host_release(cached->host);
+	PG_RETURN_NULL();
+}
+
+/* Columns of a leaf near one of many places */
+enum
+{
+	RANKED_PLACE,
+	RANKED_RANK,
+	RANKED_CODE,
+	RANKED_DISTANCE,
+	RANKED_COLUMNS
+};
+
+/* Adds a leaf near one of many places; called by the core. */
+static abacus_host_status
+put_ranked(void *context, int64_t place, uint64_t rank, const abacus_octant *octant,
+		   double distance)
+{
+	OctreeAnswers *answers = context;
+	Datum		values[RANKED_COLUMNS];
+	bool		isnull[RANKED_COLUMNS] = {false};
+
+	GUARD_BEGIN();
+	values[RANKED_PLACE] = Int64GetDatum(place);
+	values[RANKED_RANK] = Int64GetDatum((int64) rank);
+	values[RANKED_CODE] = Int64GetDatum((int64) octant->code);
+	values[RANKED_DISTANCE] = Float8GetDatum(distance);
+	put_row(answers, values, isnull);
+	GUARD_END(answers->host);
+	return ABACUS_HOST_OK;
+}
+
+/* abacus_octree_nearest(octree regclass, query text, k int) -> id, rank, code, distance */
+Datum
+abacus_sql_octree_nearest_places(PG_FUNCTION_ARGS)
+{
+	uint64		k = count_argument(fcinfo, 2);
+	OctreePlaces read;
+	OctreeAnswers answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+
+	InitMaterializedSRF(fcinfo, 0);
+	octree_places_open(&read, PG_GETARG_OID(0), text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	octree_places_fetch(&read);
+	answers_begin(&answers, read.reader->host, &read.reader->header);
+	host_run(answers.host, abacus_octree_places_nearest, read.places, k, put_ranked, &answers);
+	octree_places_done(&read);
+	PG_RETURN_NULL();
+}
+
+/* ---- Leaves at many places --------------------------------------------------- */
+
+/* Adds the leaf at a place; called by the core. */
+static abacus_host_status
+put_located(void *context, int64_t place, const abacus_octant *octant)
+{
+	OctreeAnswers *answers = context;
+	Datum		values[1 + OCTANT_COLUMNS] = {0};
+	bool		isnull[1 + OCTANT_COLUMNS];
+
+	GUARD_BEGIN();
+	memset(isnull, octant == NULL, sizeof(isnull));
+	isnull[0] = false;
+	values[0] = Int64GetDatum(place);
+	if (octant != NULL)
+		octant_of_row(answers, octant, values + 1);
+	put_row(answers, values, isnull);
+	GUARD_END(answers->host);
+	return ABACUS_HOST_OK;
+}
+
+/*
+ * abacus_octree_locate(octree regclass, query text)
+ *     -> id, code, level, lower, upper, attributes
+ */
+Datum
+abacus_sql_octree_locate_places(PG_FUNCTION_ARGS)
+{
+	OctreePlaces read;
+	OctreeAnswers answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+
+	InitMaterializedSRF(fcinfo, 0);
+	octree_places_open(&read, PG_GETARG_OID(0), text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	octree_places_fetch(&read);
+	answers_begin(&answers, read.reader->host, &read.reader->header);
+	host_run(answers.host, abacus_octree_places_locate, read.places, put_located, &answers);
+	octree_places_done(&read);
+	PG_RETURN_NULL();
+}
+
+/* ---- Values between leaves ---------------------------------------------------- */
+
+/*
+ * abacus_octree_interpolate(octree regclass, x float8, y float8[, z float8], attribute text)
+ *     -> float8
+ */
+Datum
+abacus_sql_octree_interpolate(PG_FUNCTION_ARGS)
+{
+	int			given = PG_NARGS() - 2;
+	double		place[ABACUS_MAX_DIMENSION];
+	abacus_interpolation how;
+	CachedMesh *cached;
+	double		value;
+	abacus_status status;
+
+	if (interpolation_of_null(fcinfo, given))
+		PG_RETURN_NULL();
+	cached = mesh_cache_get_octree(PG_GETARG_OID(0));
+	interpolation_attribute(fcinfo, 1 + given, &cached->header, &how);
+	place_require_octree(given, cached->dimension);
+	if (!place_arguments(fcinfo, given, cached->dimension, place))
+		PG_RETURN_NULL();		/* outside of any domain */
+	status = host_run(cached->host, abacus_octree_interpolate, cached->octree, how.attribute,
+					  how.attributes, place, &value);
+	host_release(cached->host);
+	if (status == ABACUS_END || isnan(value))
+		PG_RETURN_NULL();
+	PG_RETURN_FLOAT8(value);
+}
+
+/* Adds the values at a place; called by the core. */
+static abacus_host_status
+put_values(void *context, int64_t place, const double *numbers)
+{
+	OctreeAnswers *answers = context;
+	Datum		values[2] = {Int64GetDatum(place)};
+	bool		isnull[2] = {false, numbers == NULL};
+
+	GUARD_BEGIN();
+	if (numbers != NULL)
+	{
+		MemoryContext old = MemoryContextSwitchTo(answers->row);
+
+		values[1] = attribute_array(numbers, (int) answers->attributes);
+		MemoryContextSwitchTo(old);
+	}
+	put_row(answers, values, isnull);
+	GUARD_END(answers->host);
+	return ABACUS_HOST_OK;
+}
+
+/* abacus_octree_interpolate(octree regclass, query text, attributes text[]) -> id, values */
+Datum
+abacus_sql_octree_interpolate_places(PG_FUNCTION_ARGS)
+{
+	OctreePlaces read;
+	abacus_interpolation how;
+	OctreeAnswers answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+
+	InitMaterializedSRF(fcinfo, 0);
+	if (interpolation_of_null(fcinfo, 1))
+		PG_RETURN_NULL();
+	octree_places_open(&read, PG_GETARG_OID(0), text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	interpolation_attributes(fcinfo, 2, &read.reader->header, &how);
+	octree_places_fetch(&read);
+	answers_begin(&answers, read.reader->host, &read.reader->header);
+	answers.attributes = how.attributes;
+	host_run(answers.host, abacus_octree_places_interpolate, read.places, how.attribute,
+			 how.attributes, put_values, &answers);
+	octree_places_done(&read);
+	PG_RETURN_NULL();
+}
