@@ -161,7 +161,7 @@ limit_geometry(Limits *limits, const Condition *condition, Datum geometry, doubl
 
 	/* PostGIS says so of each row that it examines: there may be none to examine */
 	if (condition->kind != CONDITION_BOX && limits->srid != SRID_UNKNOWN && srid != limits->srid)
-		geometry_refuse_srid("the geometry", srid, limits->srid);
+		geometry_refuse_srid("the geometry", srid, limits->srid, "mesh");
 	if (!(distance >= 0))		/* PostGIS says what is wrong with it */
 		return;
 	switch (place)
