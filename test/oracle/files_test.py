@@ -1,8 +1,10 @@
 """Meshes written by abacus-export are read by meshio, VTK and numpy; what meshio writes is read by abacus-import."""
 import json
 import pathlib
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 import xml.etree.ElementTree
 
@@ -162,6 +164,19 @@ class Files(unittest.TestCase):
         for suffix in ".ply", ".obj", ".off":
             meshio.write(self.at / f"w{suffix}", meshio.Mesh(flat, [("triangle", corners)]))
             self.check_import(self.at / f"w{suffix}", "files_again", self.plane, 2)
+
+    def test_ended(self):
+        """An export that is ended leaves no file."""
+        for number, status in (signal.SIGTERM, 143), (signal.SIGINT, 130):
+            export = subprocess.Popen(["/usr/bin/python3", str(CLIENT / "abacus-export"), "files_space", str(self.at / "ended.pvd"), "--series",
+                                       "SELECT id, 1 AS step, pg_sleep(5)::text FROM generate_series(1, 2) AS id"], stderr=subprocess.PIPE, text=True)
+            until = time.monotonic() + 20
+            while not (self.at / "ended.pvd.part").exists() and time.monotonic() < until:
+                time.sleep(0.05)
+            export.send_signal(number)
+            _, said = export.communicate(timeout=20)
+            self.assertEqual((export.returncode, said), (status, ""))
+            self.assertEqual([path.name for path in self.at.glob("ended*")], [])
 
     def test_refused(self):
         """A clear word, status 1, and no file left."""
