@@ -58,6 +58,15 @@ SELECT abacus_octree_from_rows('gaps', 'SELECT 0, NULL::int');
 SELECT abacus_octree_from_rows('gaps', 'SELECT 0');
 SELECT * FROM abacus_octants('gaps');
 
+-- rows come to an octree that was merged into one leaf, over its empty pages, too
+SELECT abacus_octree_coarsen('copy', 'SELECT 0, 0, 0');
+SELECT abacus_octree_from_rows('copy', 'SELECT code, level, attributes[1] FROM abacus_octants(''quad'')');
+SELECT count(*) FROM abacus_check('copy');
+
+-- of several rows for a leaf the last
+SELECT abacus_octree_update('copy', format('VALUES (%s, 1), (%s, 2), (%s, 3)', code + 5, code, code + 1)) FROM abacus_octants('copy') WHERE level < 5 LIMIT 1;
+SELECT attributes FROM abacus_octants('copy') WHERE level < 5 LIMIT 1;
+
 -- as fine as a query says, asked for many octants at once
 SELECT abacus_octree_create('sized', 3, '{0,0,0}', '{1,1,1}', levels => 5);
 SELECT abacus_octree_from_size('sized', 'SELECT array_agg(0.05 + x / 3 ORDER BY n) FROM unnest($1, $2, $3) WITH ORDINALITY AS c(x, y, z, n)');
@@ -68,6 +77,19 @@ SELECT abacus_octree_from_size('sized', 'SELECT 1 WHERE $1[1] + $2[1] + $3[1] > 
 SELECT abacus_octree_from_size('sized', 'SELECT $1[2:] WHERE $2[1] + $3[1] > 0');
 SELECT abacus_octree_from_size('sized', 'SELECT array_agg(1 / 0 + x) FROM unnest($1) x WHERE $2[1] + $3[1] > 0');
 
+-- memory does not grow with what is asked
+CREATE TABLE used (bytes bigint);
+CREATE FUNCTION note_use() RETURNS float8 LANGUAGE plpgsql AS $$
+BEGIN
+    INSERT INTO used SELECT sum(used_bytes) FROM pg_backend_memory_contexts WHERE name = 'SPI Proc';
+    RETURN 0.002;
+END $$;
+SELECT abacus_octree_create('uniform', 2, '{0,0}', '{1,1}', levels => 9);
+SELECT abacus_octree_from_size('uniform', 'SELECT array_fill(note_use(), ARRAY[cardinality($1 || $2) / 2])');
+SELECT count(*) > 20, max(bytes) - min(bytes) < 100000 FROM used;
+DROP TABLE uniform, used;
+DROP FUNCTION note_use;
+
 -- what is refused
 SELECT abacus_octree_create('bad', 4, '{0,0}', '{1,1}');
 SELECT abacus_octree_create('bad', 2, '{0,0}', '{0,1}');
@@ -76,6 +98,8 @@ SELECT abacus_octree_create('bad', 2, NULL, '{1,1}');
 SELECT abacus_octree_create('bad', 2, '{-1e308,0}', '{1e308,1}');
 SELECT abacus_octree_create('bad', 2, '{0,0}', '{1,1}', levels => 32);
 SELECT abacus_octree_create('bad', 3, '{0,0,0}', '{1,1,1}', levels => 22);
+SELECT abacus_octree_create('bad', 2, '{0,0}', '{1,1}', ARRAY(SELECT 'a' || i FROM generate_series(1, 1000) i));
+SELECT abacus_octree_create(repeat('o', 60), 2, '{0,0}', '{1,1}');
 SELECT abacus_octree_from_points('quad', 'SELECT 1, 9, 9', 1);
 SELECT abacus_octree_from_points('quad', 'SELECT 1, 1, 1', 0);
 SELECT abacus_octree_from_points('quad', 'SELECT 1, 1', 1);
@@ -87,6 +111,7 @@ SELECT abacus_octree_balance('quad', 'edges');
 SELECT abacus_octree_balance('sized', 'sides');
 SELECT abacus_octree_update('quad', 'SELECT -1, 5');
 SELECT abacus_octree_update('deep', 'SELECT 0');
+SELECT abacus_octree_update('quad', 'SELECT 0, abacus_octree_balance(''quad'')');
 SELECT abacus_octree_locate('quad', 1, 1, 1);
 SELECT abacus_octree_locate('quad', 'NaN', 1);
 SELECT abacus_octree_locate('quad', 'Infinity', 1) IS NULL;
@@ -112,9 +137,20 @@ SELECT name, least, greatest, nulls FROM abacus_attributes('quad');
 SELECT abacus_rename_attribute('quad', 'v', 'w');
 SELECT name FROM abacus_attributes('quad');
 SELECT abacus_rename_attribute('quad', 'v', 'w');
+SELECT abacus_set_srid('quad', 2154);
+SELECT abacus_octree_coarsen('quad', 'SELECT 10, 1, 1');
+SELECT abacus_srid('quad');
+SELECT abacus_set_srid('quad', -1);
 
 -- figures
-SELECT name, value, description FROM abacus_stats('quad') WHERE name IN ('dimension', 'attributes', 'levels', 'leaves', 'stores');
+SELECT name, value, description FROM abacus_stats('quad') WHERE name IN ('dimension', 'attributes', 'levels', 'leaves', 'stores', 'srid');
+SELECT abacus_octree_create('counted', 2, '{0,0}', '{8,8}');
+SELECT abacus_octree_refine('counted', 'SELECT 3, 1, 1');
+SELECT abacus_octree_coarsen('counted', 'SELECT 2, 1, 1');
+SELECT abacus_octree_balance('counted');
+SELECT name, value, description FROM abacus_stats('counted') WHERE name IN ('created', 'deleted', 'loads', 'stores', 'rewrites');
+SELECT sum((value > 0)::int) FROM abacus_stats('counted') WHERE name IN ('bytes_read', 'bytes_written', 'total_ns');
+SELECT (SELECT sum(value) FROM abacus_stats('counted') WHERE name = 'created') - (SELECT sum(value) FROM abacus_stats('counted') WHERE name = 'deleted') = count(*) FROM abacus_octants('counted');
 SELECT count(*) FROM abacus_stats('quad') WHERE name LIKE 'session_%';
 
 -- damage is found
@@ -128,11 +164,14 @@ SELECT count(*) FROM abacus_check('quad');
 UPDATE quad SET code = 7 WHERE code = 0;
 SELECT * FROM abacus_check('quad');
 UPDATE quad SET code = 0 WHERE code = 7;
+UPDATE quad SET page = substr(page::bytea, 1, 40)::abacus_page WHERE code = -1;
+SELECT abacus_octree_locate('quad', 1, 1);
 UPDATE quad SET page = '\x00'::bytea::abacus_page WHERE code = -1;
 SELECT * FROM abacus_check('quad');
 SELECT abacus_octree_locate('quad', 1, 1);
-
-UPDATE quad SET page = s.page FROM saved s WHERE s.code = -1 AND quad.code = -1;
+DELETE FROM quad WHERE code = -1;
+SELECT abacus_octree_locate('quad', 1, 1);
+INSERT INTO quad SELECT * FROM saved WHERE code = -1;
 
 -- one that changes and is read again; moved by VACUUM; without a right, and with one to read
 SELECT abacus_octree_from_points('deep', 'SELECT i, (i * 0.618) % 1, (i * 0.414) % 1 FROM generate_series(1, 20000) i', 5);
@@ -162,5 +201,5 @@ ROLLBACK TO before;
 SELECT (abacus_octree_locate('deep', 0.3, 0.3)).level;
 COMMIT;
 
-DROP TABLE quad, deep, cube, copy, gaps, sized, mesh, plain, saved;
+DROP TABLE quad, deep, cube, copy, counted, gaps, sized, mesh, plain, saved;
 SELECT count(*) FROM pg_class WHERE relname ~ '_vertices$' AND reloftype <> 0;

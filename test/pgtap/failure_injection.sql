@@ -93,6 +93,12 @@ SELECT bag_eq($$ SELECT * FROM abacus_octants('again') $$, $$ SELECT * FROM abac
 SELECT pg_temp.inject('merging', $$ SELECT abacus_octree_coarsen('tree', 'SELECT 3, x, y FROM points') $$,
     $$ SELECT count(*) = (SELECT count(*) FROM leaves) FROM abacus_octants('tree') $$);
 SELECT is_empty($$ SELECT * FROM abacus_check('tree') $$, 'the octree is sound');
+DROP TABLE leaves;
+CREATE TEMP TABLE leaves AS SELECT * FROM abacus_octants('tree');
+SELECT pg_temp.inject('refining at places', $$ SELECT abacus_octree_refine('tree', 'SELECT 9, x, y FROM points WHERE id <= 5') $$,
+    $$ SELECT count(*) = (SELECT count(*) FROM leaves) FROM abacus_octants('tree') $$);
+SELECT pg_temp.inject('neighbours', $$ SELECT count(*) FROM abacus_octree_neighbours('tree', 0) $$, 'SELECT true');
+SELECT is_empty($$ SELECT * FROM abacus_check('tree') $$, 'the refined octree is sound');
 
 -- meshes made elsewhere, Delaunay and not
 CREATE TABLE triangles AS SELECT v0, v1, v2 FROM abacus_simplices('made');

@@ -22,8 +22,10 @@ SQL_FUNCTION(abacus_sql_stats);
 
 /* One row for each counter of chapter 5; for a session's reading only those that move. */
 static void
-put_counters(Figures *figures, const abacus_counters *counters, bool reading)
+put_counters(Figures *figures, const abacus_counters *counters, uint32 type, bool reading)
 {
+	const char *records = type == ABACUS_OCTREE ? "leaves" : "simplices";
+	const char *a_record = type == ABACUS_OCTREE ? "leaf" : "simplex";
 	const struct
 	{
 		const char *name;
@@ -44,14 +46,14 @@ put_counters(Figures *figures, const abacus_counters *counters, bool reading)
 		"insertions that asked the last created simplices where to start"},
 		{"incircle_hits", counters->incircle_hits, false, "insertions that those answered"},
 		{"walks", counters->walks, true, "point locations by walking"},
-		{"created", counters->created, false, "simplices created"},
-		{"deleted", counters->deleted, false, "simplices deleted"},
+		{"created", counters->created, false, psprintf("%s created", records)},
+		{"deleted", counters->deleted, false, psprintf("%s deleted", records)},
 		{"loads", counters->loads, true, "pages read into the cache"},
 		{"stores", counters->stores, false, "pages written from the cache"},
 		{"rewrites", counters->rewrites, false, "pages written in place of an older version"},
-		{"splits", counters->splits, false, "simplex blocks split"},
-		{"merges", counters->merges, false, "simplex blocks merged into their neighbours"},
-		{"evictions", counters->evictions, true, "simplex blocks dropped from the cache"},
+		{"splits", counters->splits, false, psprintf("%s blocks split", a_record)},
+		{"merges", counters->merges, false, psprintf("%s blocks merged into their neighbours", a_record)},
+		{"evictions", counters->evictions, true, psprintf("%s blocks dropped from the cache", a_record)},
 		{"eviction_batches", counters->eviction_batches, true, "batches of evictions"},
 		{"bytes_read", counters->bytes_read, true, "bytes of the pages read"},
 		{"bytes_written", counters->bytes_written, false, "bytes of the pages written"},
@@ -210,7 +212,7 @@ abacus_sql_stats(PG_FUNCTION_ARGS)
 		put_counts(&figures, &reader->header);
 		put_sizes(&figures, reader, vertices);
 	}
-	put_counters(&figures, &reader->header.counters, false);
+	put_counters(&figures, &reader->header.counters, reader->header.type, false);
 	if (cached != NULL)
 	{
 		abacus_counters counters;
@@ -220,7 +222,7 @@ abacus_sql_stats(PG_FUNCTION_ARGS)
 		else
 			abacus_mesh_counters(cached->mesh, &counters);
 		figures.prefix = "session_";
-		put_counters(&figures, &counters, true);
+		put_counters(&figures, &counters, reader->header.type, true);
 	}
 	host_destroy(reader->host);
 	PG_RETURN_NULL();
