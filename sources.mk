@@ -164,6 +164,7 @@ CORE_SOURCES += src/sort/chain_rank.cpp
 CORE_SOURCES += src/sort/dense_ranks.cpp
 CORE_SOURCES += src/sort/radix_sort.cpp
 CORE_SOURCES += src/sort/record_sort.cpp
+CORE_SOURCES += src/sort/shared_sort.cpp
 CORE_SOURCES += src/staging/curve_sort.cpp
 CORE_SOURCES += src/staging/density.cpp
 CORE_SOURCES += src/staging/distributor.cpp

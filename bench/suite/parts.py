@@ -10,7 +10,7 @@ from location import location
 from octrees import Octrees
 from rasters import Raster
 from rows import Rows
-from shared_reading import SharedReading
+from shared_reading import SharedLoading, SharedReading
 from surfaces import Surfaces
 
 
@@ -50,13 +50,15 @@ PARTS = [
                 ("cgal", "abacus:default", "abacus:largest", "tetgen")))),
     Part("2d-100m", "a hundred times as many uniform points, 64 MB of cache", 9, contests(
         BESIDE, Contest(2, "uniform", {"full": 100000000}, ("abacus:64",), FEWER, disk=16 << 30), BESIDE)),
-    Part("threads", "the same builds, deletions, checks and locations by one thread, by two, and by all processors", 8, contests(
+    Part("threads", "the same builds, deletions, checks, locations, sorts and loads by one thread, by two, and by all processors", 8, contests(
         Contest(2, "uniform", {"full": 10000000, "quick": 1000000, "smoke": 100000},
                 ("threads:1", "threads:2", "threads:all"), FEWER, what="threads"),
         Contest(3, "uniform", {"full": 1000000, "quick": 100000, "smoke": 20000},
                 ("threads:1", "threads:2", "threads:all"), FEWER, what="threads"),
         SharedReading(2, {"full": (1000000, 1000000), "quick": (200000, 200000), "smoke": (40000, 20000)}, FEWER),
         SharedReading(3, {"full": (500000, 500000), "quick": (50000, 100000), "smoke": (20000, 20000)}, FEWER),
+        SharedLoading(2, {"full": 1000000, "quick": 1000000, "smoke": 100000}, FEWER),
+        SharedLoading(3, {"full": 1000000, "quick": 100000, "smoke": 20000}, FEWER),
         SharedDeletes(2, {"full": 10000000, "quick": 1000000, "smoke": 100000}),
         SharedDeletes(3, {"full": 1000000, "quick": 100000, "smoke": 20000}))),
     Part("locate-2d", "places in a mesh in the plane, warm and cold", 3, location(

@@ -1,4 +1,5 @@
-"""Part of `threads`: a mesh checked, and many places asked, by one thread, by two, and by all processors."""
+"""Parts of `threads`: a mesh checked, and many places asked; points sorted, and a mesh loaded. By one thread, by
+two, and by all processors."""
 import os
 
 import server
@@ -33,7 +34,7 @@ class SharedReading:
             self.measure_statement(suite, name, statement, size, places)
         server.drop("mesh", "mesh_vertices", "points", "places")
 
-    def measure_statement(self, suite, name, statement, size, places):
+    def measure_statement(self, suite, name, statement, size, places=0, before=lambda: None):
         """In turns, so that what else the machine does concerns all alike."""
         counts = sorted({1, 2, os.cpu_count()})
         measurements = [{"what": "shared reading", "question": name, "threads": str(count), "dimension": self.dimension,
@@ -41,6 +42,7 @@ class SharedReading:
         answers = set()
         for _ in range(self.runs[suite.mode]):
             for count, measurement in zip(counts, measurements):
+                before()
                 with server.Session(abacus__threads=count) as session:
                     sample = session.timed(statement)
                 answers.add(sample.pop("printed"))
@@ -49,3 +51,30 @@ class SharedReading:
         if len(answers) > 1:
             raise server.Failure(f"{name}: answers differ by the number of threads: {answers}")
         suite.measurements += measurements
+
+
+class SharedLoading(SharedReading):
+    """sizes: by mode, of the points. Sorting is staging: query, sort, and vertex pages."""
+
+    def measure(self, suite):
+        size = self.sizes[suite.mode]
+        axes, corners = ", ".join("xyz"[:self.dimension]), ", ".join(f"v{i}" for i in range(self.dimension + 1))
+        points = PointSet(self.dimension, "uniform", size)
+        points.create_table()
+        server.query(points.triangulate())
+        server.query(f"CREATE TABLE corners AS SELECT id, {axes} FROM abacus_vertices('mesh');"
+                     f" CREATE TABLE simplices AS SELECT {corners} FROM abacus_simplices('mesh') ORDER BY random()")
+        server.query("VACUUM (FREEZE, ANALYZE) points, corners, simplices")
+
+        def without_mesh():
+            server.drop("mesh", "mesh_vertices")
+
+        def with_empty_mesh():
+            without_mesh()
+            server.query(f"SELECT abacus_create('mesh', {self.dimension})")
+
+        self.measure_statement(suite, "sort", f"SELECT abacus_stage('mesh', 'SELECT id, {axes} FROM points')", size,
+                               before=with_empty_mesh)
+        self.measure_statement(suite, "load", "SELECT abacus_load('mesh', 'TABLE corners', 'TABLE simplices')", size,
+                               before=without_mesh)
+        server.drop("mesh", "mesh_vertices", "points", "corners", "simplices")

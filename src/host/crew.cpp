@@ -61,12 +61,12 @@ bool Crew::run(unsigned threads, std::size_t pieces, Work &work) {
     threads_.reserve(threads);
     desk_.open(threads);
     at_work_ = this;
-    start(threads);
-    if (threads_.empty()) {
-        stop();
-        return false;
-    }
     try {
+        start(threads);
+        if (threads_.empty()) {
+            stop();
+            return false;
+        }
         while (desk_.serve(host_, !work.is_busy())) work.meanwhile();
     } catch (...) {
         stop();

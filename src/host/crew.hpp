@@ -57,6 +57,19 @@ public:
     /// Does all pieces, in so many threads at most. False, and nothing is done, if the system
     /// grants no thread.
     bool run(unsigned threads, std::size_t pieces, Work &work);
+    /// The same for a function that is called as Work::piece() is.
+    template <class Piece> bool run_each(unsigned threads, std::size_t pieces, Piece piece) {
+        class Each final : public Work {
+        public:
+            explicit Each(Piece &piece) : piece_(piece) {}
+            void piece(std::size_t number, const Host &host) override { piece_(number, host); }
+
+        private:
+            Piece &piece_;
+        };
+        Each each(piece);
+        return run(threads, pieces, each);
+    }
     /// Stops and joins the threads, in the middle of run() too. For the session's thread.
     void stop() noexcept;
     /// For a thread: meanwhile() is to be called soon.

@@ -17,6 +17,8 @@ void Desk::open(unsigned threads) {
     read_ = written_ = waited_ = 0;
     at_work_ = threads;
     is_rung_ = false;
+    for (Courier *courier = first_; courier != nullptr; courier = courier->next_)
+        courier->begin_anew();
     __atomic_store_n(&closed_, 0, __ATOMIC_RELAXED);
 }
 
@@ -188,6 +190,11 @@ Courier::Courier(Desk &desk, const Memory &memory)
     host_ = Host(table_);
     requests_.resize(most_requests);
     desk.first_ = this;
+}
+
+void Courier::begin_anew() {
+    asked_ = served_ = 0;
+    places_.clear();
 }
 
 template <class IsReady> void Courier::wait(std::unique_lock<std::mutex> &guard, IsReady is_ready) {

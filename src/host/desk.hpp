@@ -7,7 +7,8 @@
 // has stored.
 //
 // Where a page is stored is known only once it is. So the thread gets a ticket for its place, and
-// whenever it names the place again the session's thread looks it up.
+// whenever it names the place again the session's thread looks it up. A ticket is good until the
+// desk is opened the next time: nothing that lasts longer may keep one.
 //
 // Invariants
 //   1. A request belongs to its thread until it is counted as asked, then to the session's thread
@@ -32,7 +33,8 @@ public:
     Desk(const Desk &) = delete;
     Desk &operator=(const Desk &) = delete;
 
-    /// For the session's thread, while no other uses the desk: so many threads begin to work.
+    /// For the session's thread, while no other uses the desk: so many threads begin to work. What
+    /// was left of earlier work is forgotten.
     void open(unsigned threads);
     /// From now on all requests fail, and those who wait are woken. For any thread.
     void close() noexcept;
@@ -98,6 +100,8 @@ private:
     /// A location with this bit is a ticket; the host's own have it not.
     static constexpr std::uint64_t ticket_bit = std::uint64_t{1} << 63;
 
+    /// Forgets requests and tickets.
+    void begin_anew();
     /// Waits until the desk is closed or is_ready().
     template <class IsReady> void wait(std::unique_lock<std::mutex> &guard, IsReady is_ready);
     /// The thread's next request, once there is room; nullptr if the desk is closed.

@@ -21,14 +21,20 @@ void add_contact(Faults &faults, const std::string &a, const std::string &b,
 }
 
 constexpr std::size_t least_room = 64; // facets
+/// Of the memory: what is put aside while a boundary is held in parts, and what threads look at.
+constexpr std::size_t aside_share = 4, batch_share = 8;
+constexpr std::size_t least_parts = 2, most_parts = 64; // at once
+/// Facets of a boundary that are worth the threads.
+constexpr std::uint64_t worth_sharing = 1 << 15;
+constexpr std::size_t least_batch = 64; // records
 
 } // namespace
 
 template <int D>
 Overlap<D>::Overlap(const Host &host, const LoadLayout<D> &layout, std::size_t memory)
-    : host_(host), layout_(layout),
+    : host_(host), layout_(layout), memory_(memory),
       room_(std::max(least_room, memory / (sizeof(BoundaryFacet) + BoxTree<D>::bytes_per_box))),
-      facets_(host), tree_(host) {}
+      facets_(host), tree_(host), loop_(host), batch_(host) {}
 
 template <int D> typename Overlap<D>::BoundaryFacet Overlap<D>::read(const Word *record) const {
     BoundaryFacet facet;
@@ -43,13 +49,108 @@ template <int D> typename Overlap<D>::BoundaryFacet Overlap<D>::read(const Word 
     return facet;
 }
 
-/// Takes the next facets into memory; false if there are none.
-template <int D> bool Overlap<D>::fill(RecordSort &boundary) {
-    first_ += facets_.size();
+template <int D> Box<D> Overlap<D>::box_of_simplex(const Word *simplex) const {
+    Box<D> box;
+    for (int i = 0; i <= D; ++i) box.extend(point_in<D>(layout_.simplex_vertex(simplex, i)));
+    return box;
+}
+
+template <int D>
+void Overlap<D>::check(RecordSort &boundary, RecordSpool &simplices, Faults &faults) {
+    is_shared_ =
+        host_.threads() > 1 && (boundary.size() >= worth_sharing || host_.has_tiny_intervals());
+    if (is_shared_) room_ = std::max(least_room, room_ - room_ / batch_share);
+    if (boundary.size() <= room_) {
+        check_at_once(boundary, simplices, faults);
+    } else {
+        room_ = std::max(least_room, room_ - room_ / aside_share);
+        std::uint64_t first = 0;
+        while (!faults.is_full() && first < boundary.size())
+            first = check_parts(first, boundary, simplices, faults);
+    }
+    if (faults.is_full()) faults.stop();
+    faults.raise();
+    facets_.reset();
+    batch_.reset();
+}
+
+template <int D>
+void Overlap<D>::check_at_once(RecordSort &boundary, RecordSpool &simplices, Faults &faults) {
+    boundary.rewind();
+    fill(boundary);
+    simplices.rewind();
+    check_simplices([&] { return simplices.next(); }, faults);
+    boundary.rewind();
+    Arena<Word> numbered(host_);
+    numbered.resize(1 + layout_.boundary);
+    Word number = 0;
+    const auto next = [&]() -> const Word * {
+        const Word *record = boundary.next();
+        if (record == nullptr) return nullptr;
+        numbered[0] = number++;
+        std::copy_n(record, layout_.boundary, numbered.data() + 1);
+        return numbered.data();
+    };
+    check_facets(next, faults);
+}
+
+template <int D>
+std::uint64_t Overlap<D>::check_parts(std::uint64_t first, RecordSort &boundary,
+                                      RecordSpool &simplices, Faults &faults) {
+    const std::uint64_t most = std::clamp(memory_ / aside_share / BoundaryParts<D>::bytes_a_part,
+                                          least_parts, most_parts),
+                        left = (boundary.size() - first + room_ - 1) / room_;
+    BoundaryParts<D> parts(host_, std::min(most, left), room_, layout_.simplex,
+                           1 + layout_.boundary);
+    put_aside(parts, first, boundary, simplices);
+    boundary.rewind();
+    for (std::uint64_t i = 0; i < first; ++i) boundary.next();
+    first_ = first;
+    for (std::size_t part = 0; part < parts.size() && !faults.is_full(); ++part) {
+        fill(boundary);
+        RecordSpool &near = parts.simplices(part), &later = parts.others(part);
+        check_simplices([&] { return near.next(); }, faults);
+        check_facets([&] { return later.next(); }, faults);
+        first_ += facets_.size();
+    }
+    parts.close();
+    return first_;
+}
+
+/// Puts what is near the parts aside for them: simplices, and the facets that do not come before.
+template <int D>
+void Overlap<D>::put_aside(BoundaryParts<D> &parts, std::uint64_t first, RecordSort &boundary,
+                           RecordSpool &simplices) const {
+    boundary.rewind();
+    for (std::uint64_t i = 0; i < first; ++i) boundary.next();
+    for (std::uint64_t i = 0; i < parts.most(); ++i) {
+        const Word *record = boundary.next();
+        if (record == nullptr) break;
+        parts.add(read(record).box());
+    }
+    parts.finish();
+    simplices.rewind();
+    while (const Word *simplex = simplices.next())
+        parts.each_near(box_of_simplex(simplex), [&](std::size_t part) {
+            std::copy_n(simplex, layout_.simplex, parts.simplices(part).add());
+        });
+    boundary.rewind();
+    for (std::uint64_t number = 0; const Word *record = boundary.next(); ++number) {
+        if (number < first) continue;
+        parts.each_near(read(record).box(), [&](std::size_t part) {
+            if (part > parts.part_of(number - first)) return; // all of it comes later
+            Word *numbered = parts.others(part).add();
+            *numbered++ = number;
+            std::copy_n(record, layout_.boundary, numbered);
+        });
+    }
+    parts.rewind();
+}
+
+/// Takes the next facets into memory.
+template <int D> void Overlap<D>::fill(RecordSort &boundary) {
     facets_.clear();
     tree_.clear();
-    boundary.rewind();
-    for (std::uint64_t i = 0; i < first_; ++i) boundary.next();
     while (facets_.size() < room_) {
         const Word *record = boundary.next();
         if (record == nullptr) break;
@@ -57,34 +158,50 @@ template <int D> bool Overlap<D>::fill(RecordSort &boundary) {
         tree_.add(facets_.back().box());
     }
     tree_.finish();
-    return !facets_.empty();
 }
 
 template <int D>
-void Overlap<D>::check(RecordSort &boundary, RecordSpool &simplices, Faults &faults) {
-    while (!faults.is_full() && fill(boundary)) {
-        check_simplices(simplices, faults);
-        check_boundary(boundary, faults);
-        if (first_ + facets_.size() == boundary.size()) break;
+template <class Next, class IsSound, class Report>
+void Overlap<D>::each(std::size_t words, Next next, IsSound is_sound, Report report,
+                      const Faults &faults) {
+    if (!is_shared_) {
+        while (const Word *record = faults.is_full() ? nullptr : next()) report(record);
+        return;
     }
-    if (faults.is_full()) faults.stop();
-    faults.raise();
-    facets_.reset();
+    const std::size_t most = std::max(memory_ / batch_share / (words * sizeof(Word)), least_batch);
+    const Word *record = nullptr;
+    do {
+        batch_.clear();
+        while (batch_.size() < most * words && (record = next()) != nullptr)
+            std::copy_n(record, words, batch_.extend(words));
+        look_at_batch(words, is_sound, report);
+    } while (record != nullptr && !faults.is_full());
 }
 
-template <int D> void Overlap<D>::check_simplices(RecordSpool &simplices, Faults &faults) const {
-    simplices.rewind();
-    while (const Word *simplex = faults.is_full() ? nullptr : simplices.next()) {
-        Corners<D> corners;
-        Box<D> box;
-        for (int i = 0; i <= D; ++i) {
-            corners[i] = &point_in<D>(layout_.simplex_vertex(simplex, i));
-            box.extend(*corners[i]);
-        }
-        tree_.visit(box, [&](std::size_t i) {
-            host_.poll();
-            const Cover cover = covers(corners, facets_[i]);
-            if (cover == Cover::none) return true;
+template <int D>
+template <class IsSound, class Report>
+void Overlap<D>::look_at_batch(std::size_t words, IsSound is_sound, Report report) {
+    const std::size_t n = batch_.size() / words;
+    const auto record = [&](std::size_t i) { return batch_.data() + i * words; };
+    Arena<std::size_t> sound(host_); // where those of each stretch end
+    sound.resize(loop_.stretches());
+    loop_.each_stretch(n,
+                       [&](std::size_t stretch, std::size_t i, std::size_t end, const Host &host) {
+                           while (i < end && is_sound(record(i), host)) ++i;
+                           sound[stretch] = i;
+                       });
+    for (std::size_t stretch = 0; stretch < sound.size(); ++stretch)
+        for (std::size_t i = sound[stretch]; i < n * (stretch + 1) / sound.size(); ++i)
+            report(record(i));
+}
+
+template <int D> template <class Next> void Overlap<D>::check_simplices(Next next, Faults &faults) {
+    const auto is_sound = [&](const Word *simplex, const Host &host) {
+        return each_covered(simplex, host, [](std::size_t, Cover) { return false; });
+    };
+    const auto report = [&](const Word *simplex) {
+        if (faults.is_full()) return;
+        each_covered(simplex, host_, [&](std::size_t i, Cover cover) {
             std::array<Word, D + 1> ids;
             for (int k = 0; k <= D; ++k) ids[k] = layout_.simplex_vertex(simplex, k)[0];
             if (cover == Cover::inside)
@@ -95,7 +212,20 @@ template <int D> void Overlap<D>::check_simplices(RecordSpool &simplices, Faults
                                 sorted_name(ids) + ".");
             return !faults.is_full();
         });
-    }
+    };
+    each(layout_.simplex, next, is_sound, report, faults);
+}
+
+template <int D>
+template <class Visit>
+bool Overlap<D>::each_covered(const Word *simplex, const Host &host, Visit visit) const {
+    Corners<D> corners;
+    for (int i = 0; i <= D; ++i) corners[i] = &point_in<D>(layout_.simplex_vertex(simplex, i));
+    return tree_.visit(box_of_simplex(simplex), [&](std::size_t i) {
+        host.poll();
+        const Cover cover = covers(corners, facets_[i]);
+        return cover == Cover::none || visit(i, cover);
+    });
 }
 
 template <int D>
@@ -123,24 +253,35 @@ typename Overlap<D>::Cover Overlap<D>::covers(const Corners<D> &corners,
     return cover;
 }
 
-template <int D> void Overlap<D>::check_boundary(RecordSort &boundary, Faults &faults) const {
-    boundary.rewind();
-    for (std::uint64_t number = 0;; ++number) {
-        const Word *record = boundary.next();
-        if (record == nullptr || faults.is_full()) return;
-        if (number < first_) continue;
-        const BoundaryFacet facet = read(record);
-        tree_.visit(facet.box(), [&](std::size_t i) {
-            host_.poll();
-            const BoundaryFacet &other = facets_[i];
-            if (first_ + i >= number) return false; // itself and later ones: their turn comes
-            if (meet_improperly(facet.vertices(), other.vertices()))
-                add_contact(faults, other.simplex(), facet.simplex(),
-                            "Their facets " + sorted_name(other.id) + " and " +
-                                sorted_name(facet.id) + " cross or touch.");
+template <int D> template <class Next> void Overlap<D>::check_facets(Next next, Faults &faults) {
+    const auto is_sound = [&](const Word *numbered, const Host &host) {
+        return each_crossed(numbered, host, [](std::size_t) { return false; });
+    };
+    const auto report = [&](const Word *numbered) {
+        if (faults.is_full()) return;
+        each_crossed(numbered, host_, [&](std::size_t i) {
+            const BoundaryFacet &other = facets_[i], facet = read(numbered + 1);
+            add_contact(faults, other.simplex(), facet.simplex(),
+                        "Their facets " + sorted_name(other.id) + " and " + sorted_name(facet.id) +
+                            " cross or touch.");
             return !faults.is_full();
         });
-    }
+    };
+    each(1 + layout_.boundary, next, is_sound, report, faults);
+}
+
+template <int D>
+template <class Visit>
+bool Overlap<D>::each_crossed(const Word *numbered, const Host &host, Visit visit) const {
+    const BoundaryFacet facet = read(numbered + 1);
+    bool goes_on = true;
+    tree_.visit(facet.box(), [&](std::size_t i) {
+        host.poll();
+        if (first_ + i >= *numbered) return false; // itself and later ones: their turn comes
+        goes_on = !meet_improperly(facet.vertices(), facets_[i].vertices()) || visit(i);
+        return goes_on;
+    });
+    return goes_on;
 }
 
 template class Overlap<2>;

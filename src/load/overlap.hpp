@@ -24,12 +24,18 @@
 //
 // Facets of the boundary are held in memory, as many as fit, in an R-tree of their boxes
 // along the curve. All simplices and all later facets of the boundary stream past them. A
-// mesh has few facets on its boundary as a rule, so once; at worst as often as the boundary
-// is larger than the memory.
+// mesh has few facets on its boundary as a rule, so once. If they do not fit, they are held in
+// parts, each of which is compared with what is near it (boundary_parts.hpp).
+//
+// Where the boundary is large, several threads look at what streams past. They only find out where
+// there is no fault, as in most places. Where there is one the session's thread looks again: so
+// which faults are reported does not depend on the number of threads.
 #pragma once
 
 #include "geometry/box_tree.hpp"
 #include "geometry/contact.hpp"
+#include "host/shared_loop.hpp"
+#include "load/boundary_parts.hpp"
 #include "load/faults.hpp"
 #include "load/records.hpp"
 #include "sort/record_sort.hpp"
@@ -66,20 +72,45 @@ private:
     };
 
     BoundaryFacet read(const Word *record) const;
-    bool fill(RecordSort &boundary);
-    void check_simplices(RecordSpool &simplices, Faults &faults) const;
-    void check_boundary(RecordSort &boundary, Faults &faults) const;
+    Box<D> box_of_simplex(const Word *simplex) const;
+    void check_at_once(RecordSort &boundary, RecordSpool &simplices, Faults &faults);
+    /// The next parts of the boundary, from facet `first` on; returns the first one behind them.
+    std::uint64_t check_parts(std::uint64_t first, RecordSort &boundary, RecordSpool &simplices,
+                              Faults &faults);
+    void put_aside(BoundaryParts<D> &parts, std::uint64_t first, RecordSort &boundary,
+                   RecordSpool &simplices) const;
+    void fill(RecordSort &boundary);
+    /// Looks at all records that next() returns: is_sound(record, host) tells whether anything is
+    /// wrong with one, and report(record) reports what.
+    template <class Next, class IsSound, class Report>
+    void each(std::size_t words, Next next, IsSound is_sound, Report report, const Faults &faults);
+    template <class IsSound, class Report>
+    void look_at_batch(std::size_t words, IsSound is_sound, Report report);
+    /// What next() returns, simplices or facets with their numbers, against facets in memory.
+    template <class Next> void check_simplices(Next next, Faults &faults);
+    template <class Next> void check_facets(Next next, Faults &faults);
     /// Whether the simplex with these corners covers the place just outside the facet, which lies
     /// inside of it, or along one of its own facets: then the simplex behind is on the other side.
     enum class Cover { none, inside, along };
     static Cover covers(const Corners<D> &corners, const BoundaryFacet &facet);
+    /// Calls visit(i, cover) for each facet in memory just outside of which the simplex lies, until
+    /// it returns false; returns whether it did not.
+    template <class Visit>
+    bool each_covered(const Word *simplex, const Host &host, Visit visit) const;
+    /// The same with visit(i) for each earlier facet in memory that a facet meets improperly.
+    template <class Visit>
+    bool each_crossed(const Word *numbered, const Host &host, Visit visit) const;
 
     const Host &host_;
     const LoadLayout<D> layout_;
-    std::size_t room_;
+    const std::size_t memory_;
+    std::size_t room_;        // facets
     std::uint64_t first_ = 0; // number of the first facet held
     Arena<BoundaryFacet> facets_;
     BoxTree<D> tree_;
+    SharedLoop loop_;
+    bool is_shared_ = false;
+    Arena<Word> batch_; // records that threads look at
 };
 
 } // namespace abacus

@@ -42,6 +42,12 @@ std::uint64_t *radix_sort(std::uint64_t *words, std::uint64_t *scratch, std::siz
     return words;
 }
 
+void radix_sort_into(std::uint64_t *to, std::uint64_t *from, std::size_t n, const Pacer &pacer) {
+    const std::uint64_t *sorted = n <= few ? from : radix_sort(from, to, n, pacer);
+    if (sorted != to) std::memcpy(to, sorted, n * sizeof *to);
+    if (n <= few) sort_few(to, n);
+}
+
 void sort_few(std::uint64_t *words, std::size_t n) {
     if (n > 24) {
         std::sort(words, words + n);

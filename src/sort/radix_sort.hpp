@@ -18,6 +18,9 @@ inline constexpr std::uint64_t index_mask = (std::uint64_t{1} << index_bits) - 1
 std::uint64_t *radix_sort(std::uint64_t *words, std::uint64_t *scratch, std::size_t n,
                           const Pacer &pacer);
 
+/// The same, of any n words, which are at `from` and will be at `to`.
+void radix_sort_into(std::uint64_t *to, std::uint64_t *from, std::size_t n, const Pacer &pacer);
+
 /// The same for small n, in place and without scratch.
 void sort_few(std::uint64_t *words, std::size_t n);
 

@@ -1,5 +1,7 @@
 #include "sort/record_sort.hpp"
 
+#include "sort/shared_sort.hpp"
+
 #include <bit>
 #include <cstring>
 
@@ -28,54 +30,116 @@ RecordSort::RecordSort(const Host &host, std::size_t stride, std::size_t key, st
                                     most_sorted_records);
 }
 
-void RecordSort::order(std::size_t begin, std::size_t end, std::size_t word) {
-    std::uint64_t *const words = words_.data();
-    const std::size_t n = end - begin;
-    if (n <= few) {
-        std::sort(words + begin, words + end, [&](std::uint64_t a, std::uint64_t b) {
-            const std::uint64_t *x = record(a), *y = record(b);
-            for (std::size_t i = word; i < key_; ++i)
-                if (x[i] != y[i]) return x[i] < y[i];
-            return (a & index_mask) < (b & index_mask);
-        });
-        return;
+/// What several threads sort.
+class RecordSort::Shared final : public SharedSort::Words {
+public:
+    Shared(RecordSort &sort, const Digits &digits) : sort_(sort), digits_(digits) {}
+
+    void set(std::uint64_t *to, std::size_t begin, std::size_t end) override {
+        sort_.set_words(to, begin, end, digits_);
     }
-    std::uint64_t least = ~0ull, most = 0;
-    pacer_.each_piece(n, [&](std::size_t from, std::size_t to) {
+    void refine(std::size_t begin, std::size_t end, const Pacer &pacer) override {
+        sort_.order_ties(begin, end, digits_, pacer);
+    }
+
+private:
+    RecordSort &sort_;
+    const Digits digits_;
+};
+
+void RecordSort::order_few(std::size_t begin, std::size_t end, std::size_t word) {
+    std::sort(words_.data() + begin, words_.data() + end, [&](std::uint64_t a, std::uint64_t b) {
+        const std::uint64_t *x = record(a), *y = record(b);
+        for (std::size_t i = word; i < key_; ++i)
+            if (x[i] != y[i]) return x[i] < y[i];
+        return (a & index_mask) < (b & index_mask);
+    });
+}
+
+RecordSort::Digits RecordSort::digits(std::size_t word, const Range &range) {
+    const int bits = std::bit_width(range.most - range.least);
+    return {word, range.least, std::min(bits, key_bits), std::max(0, bits - key_bits)};
+}
+
+RecordSort::Range RecordSort::range(std::size_t begin, std::size_t end, std::size_t word,
+                                    const Pacer &pacer) const {
+    Range range;
+    pacer.each_piece(end - begin, [&](std::size_t from, std::size_t to) {
         for (std::size_t i = begin + from; i < begin + to; ++i) {
-            const std::uint64_t value = record(words[i])[word];
-            least = std::min(least, value);
-            most = std::max(most, value);
+            const std::uint64_t value = record(words_[i])[word];
+            range.least = std::min(range.least, value);
+            range.most = std::max(range.most, value);
         }
     });
-    if (least == most) {
-        if (word + 1 < key_) order(begin, end, word + 1);
+    return range;
+}
+
+void RecordSort::set_words(std::uint64_t *to, std::size_t begin, std::size_t end,
+                           const Digits &digits) {
+    for (std::size_t i = begin; i < end; ++i)
+        to[i] = digits.of(record(words_[i])) << index_bits | (words_[i] & index_mask);
+}
+
+void RecordSort::order(std::size_t begin, std::size_t end, std::size_t word, const Pacer &pacer) {
+    const std::size_t n = end - begin;
+    if (n <= few) return order_few(begin, end, word);
+    const Range all = range(begin, end, word, pacer);
+    if (all.least == all.most) {
+        if (word + 1 < key_) order(begin, end, word + 1, pacer);
         return;
     }
-    const int shift = std::max(0, static_cast<int>(std::bit_width(most - least)) - key_bits);
-    pacer_.each_piece(n, [&](std::size_t from, std::size_t to) {
-        for (std::size_t i = begin + from; i < begin + to; ++i)
-            words[i] =
-                ((record(words[i])[word] - least) >> shift) << index_bits | (words[i] & index_mask);
+    const Digits by = digits(word, all);
+    std::uint64_t *const words = words_.data(), *const scratch = words + count_;
+    pacer.each_piece(n, [&](std::size_t from, std::size_t to) {
+        set_words(scratch, begin + from, begin + to, by);
     });
-    std::uint64_t *const scratch = words + count_ + begin;
-    const std::uint64_t *sorted = radix_sort(words + begin, scratch, n, pacer_);
-    if (sorted != words + begin) std::memcpy(words + begin, sorted, n * sizeof *words);
-    if (shift == 0 && word + 1 == key_) return;
+    radix_sort_into(words + begin, scratch + begin, n, pacer);
+    order_ties(begin, end, by, pacer);
+}
+
+void RecordSort::order_ties(std::size_t begin, std::size_t end, const Digits &digits,
+                            const Pacer &pacer) {
+    const bool is_last = digits.shift == 0; // of this word
+    if (is_last && digits.word + 1 == key_) return;
+    const std::uint64_t *const words = words_.data();
     for (std::size_t i = begin + 1; i < end; ++i) {
         const std::uint64_t key = words[i - 1] >> index_bits;
         if (words[i] >> index_bits != key) continue;
         const std::size_t first = i - 1;
         while (++i < end && words[i] >> index_bits == key) {
         }
-        order(first, i, shift == 0 ? word + 1 : word);
+        order(first, i, is_last ? digits.word + 1 : digits.word, pacer);
+    }
+}
+
+void RecordSort::order_together() {
+    SharedSort shared(host_);
+    Arena<Range> ranges(host_);
+    ranges.resize(shared.stretches());
+    for (std::size_t word = 0; word < key_; ++word) {
+        shared.each_stretch(
+            count_, [&](std::size_t stretch, std::size_t begin, std::size_t end, const Host &host) {
+                ranges[stretch] = range(begin, end, word, Pacer(host));
+            });
+        Range all;
+        for (const Range &range : ranges) {
+            all.least = std::min(all.least, range.least);
+            all.most = std::max(all.most, range.most);
+        }
+        if (all.least == all.most) continue;
+        const Digits by = digits(word, all);
+        Shared words(*this, by);
+        return shared.sort(words_.data(), words_.data() + count_, count_, by.bits, words);
     }
 }
 
 void RecordSort::sort_buffer() {
     words_.resize(2 * count_);
     for (std::size_t i = 0; i < count_; ++i) words_[i] = i;
-    order(0, count_, 0);
+    if (SharedSort::is_worth_while(host_, count_))
+        order_together();
+    else
+        order(0, count_, 0, pacer_);
     at_ = 0;
 }
 
@@ -165,7 +229,7 @@ void RecordSort::open(std::size_t first) {
     pieces_.resize((runs_.size() - first) * piece_ * stride_);
     for (std::size_t i = first; i < runs_.size(); ++i) {
         runs_[i].spool.rewind(host_);
-        if (fill(runs_[i], i - first)) heap_.push_back(i);
+        if (fill(runs_[i], i - first)) heap_.push_back(head_of(i));
     }
     for (std::size_t i = heap_.size(); i-- > 0;) sift(i);
 }
@@ -179,27 +243,29 @@ bool RecordSort::fill(Run &run, std::size_t place) {
 }
 
 void RecordSort::sift(std::size_t at) {
-    for (;;) {
-        std::size_t least = at;
-        for (std::size_t child = 2 * at + 1; child <= 2 * at + 2 && child < heap_.size(); ++child)
-            if (before(child, least)) least = child;
-        if (least == at) return;
-        std::swap(heap_[at], heap_[least]);
-        at = least;
+    const Head sunk = heap_[at];
+    for (std::size_t child; (child = 2 * at + 1) < heap_.size(); at = child) {
+        if (child + 1 < heap_.size() && before(heap_[child + 1], heap_[child])) ++child;
+        if (!before(heap_[child], sunk)) break;
+        heap_[at] = heap_[child];
     }
+    heap_[at] = sunk;
 }
 
 const std::uint64_t *RecordSort::pop() {
     if (advance_) {
-        Run &run = runs_[heap_[0]];
-        if (++run.at == run.end && !fill(run, heap_[0] - first_)) {
+        const std::size_t at = heap_[0].run;
+        Run &run = runs_[at];
+        if (++run.at < run.end || fill(run, at - first_)) {
+            heap_[0] = head_of(at);
+        } else {
             heap_[0] = heap_.back();
             heap_.pop_back();
         }
         if (!heap_.empty()) sift(0);
     }
     advance_ = !heap_.empty();
-    return advance_ ? head(heap_[0]) : nullptr;
+    return advance_ ? head(heap_[0].run) : nullptr;
 }
 
 } // namespace abacus

@@ -7,6 +7,8 @@
 // they are read. Runs are sorted by the same radix sort, on words that hold 33 bits of a
 // key above a number; what these bits do not tell apart is refined with the next ones.
 //
+// Many records of a run are sorted by several threads.
+//
 // A sort takes no more than its share of memory. Runs go to spools. As many runs of one
 // level as can be merged at once become one of the next level.
 #pragma once
@@ -63,8 +65,32 @@ private:
     const std::uint64_t *record(std::uint64_t word) const {
         return records_.data() + (word & index_mask) * stride_;
     }
+    class Shared;
+
+    struct Range {
+        std::uint64_t least = ~std::uint64_t{0}, most = 0;
+    };
+    /// A piece of a word of the key: less the least one, without the last bits.
+    struct Digits {
+        std::size_t word;
+        std::uint64_t least;
+        int bits, shift;
+
+        std::uint64_t of(const std::uint64_t *record) const {
+            return (record[word] - least) >> shift;
+        }
+    };
     /// Orders words_[begin, end), equal in the key words before `word`.
-    void order(std::size_t begin, std::size_t end, std::size_t word);
+    void order(std::size_t begin, std::size_t end, std::size_t word, const Pacer &pacer);
+    void order_few(std::size_t begin, std::size_t end, std::size_t word);
+    /// Orders all, by several threads.
+    void order_together();
+    static Digits digits(std::size_t word, const Range &range);
+    /// Of a word of the records of words_[begin, end).
+    Range range(std::size_t begin, std::size_t end, std::size_t word, const Pacer &pacer) const;
+    void set_words(std::uint64_t *to, std::size_t begin, std::size_t end, const Digits &digits);
+    /// Orders what digits do not tell apart, of sorted words.
+    void order_ties(std::size_t begin, std::size_t end, const Digits &digits, const Pacer &pacer);
     void sort_buffer();
     void spill();
     void merge_level(unsigned level);
@@ -75,7 +101,15 @@ private:
     const std::uint64_t *head(std::size_t run) const {
         return pieces_.data() + ((run - first_) * piece_ + runs_[run].at) * stride_;
     }
-    bool before(std::size_t a, std::size_t b) const { return less(head(heap_[a]), head(heap_[b])); }
+    /// A run that has records left, and the first word of the next one: that decides mostly.
+    struct Head {
+        std::uint64_t word;
+        std::size_t run;
+    };
+    Head head_of(std::size_t run) const { return {*head(run), run}; }
+    bool before(const Head &a, const Head &b) const {
+        return a.word != b.word ? a.word < b.word : less(head(a.run), head(b.run));
+    }
     void sift(std::size_t at);
     const std::uint64_t *pop();
 
@@ -93,7 +127,7 @@ private:
 
     Arena<Run> runs_;
     Arena<std::uint64_t> pieces_;
-    Arena<std::size_t> heap_; // runs that have records left, the least first
+    Arena<Head> heap_; // the least first
     std::size_t first_ = 0;
     bool advance_ = false; // the head was handed out
 };

@@ -1,13 +1,50 @@
 #include "staging/curve_sort.hpp"
 
 #include <cstring>
-#include <utility>
 
 namespace abacus {
+
+/// What several threads sort.
+template <int D> class CurveSort<D>::Shared final : public SharedSort::Words {
+public:
+    Shared(CurveSort &sort, const Slice<D> &slice) : sort_(sort), slice_(slice) {}
+
+    void set(std::uint64_t *to, std::size_t begin, std::size_t end) override {
+        sort_.set_words(to, begin, end, slice_);
+    }
+    void refine(std::size_t begin, std::size_t end, const Pacer &pacer) override {
+        sort_.refine_ties(begin, end, slice_, pacer);
+    }
+
+private:
+    CurveSort &sort_;
+    const Slice<D> &slice_;
+};
 
 template <int D>
 const std::uint64_t *CurveSort<D>::sort(const std::uint64_t *records, std::size_t n,
                                         const Slice<D> &slice, Pacer &pacer) {
+    begin(records, n, pacer);
+    if (is_shared(n)) {
+        Shared words(*this, slice);
+        shared_.sort(words_, scratch_, n, slice.first_bits(), words);
+    } else {
+        sort_run({0, n, slice}, pacer);
+    }
+    return words_;
+}
+
+template <int D>
+const std::uint64_t *CurveSort<D>::sort_each(const std::uint64_t *records, const Arena<Run> &runs,
+                                             Pacer &pacer) {
+    begin(records, runs[runs.size() - 1].end, pacer);
+    shared_.each(runs.size(),
+                 [&](std::size_t i, const Host &host) { sort_run(runs[i], Pacer(host)); });
+    return words_;
+}
+
+template <int D>
+void CurveSort<D>::begin(const std::uint64_t *records, std::size_t n, const Pacer &pacer) {
     records_ = records;
     // It may be much memory, and a single request for all of it could not be
     // interrupted.
@@ -15,14 +52,22 @@ const std::uint64_t *CurveSort<D>::sort(const std::uint64_t *records, std::size_
     pacer.each_piece(2 * n, [&](std::size_t, std::size_t end) { memory_.resize(end); });
     words_ = memory_.data();
     scratch_ = words_ + n;
+}
+
+template <int D>
+void CurveSort<D>::set_words(std::uint64_t *to, std::size_t begin, std::size_t end,
+                             const Slice<D> &slice) const {
+    for (std::size_t i = begin; i < end; ++i)
+        to[i] = slice.first_key(record_point<D>(records_ + i * stride_)) << index_bits | i;
+}
+
+template <int D> void CurveSort<D>::sort_run(const Run &run, const Pacer &pacer) {
+    const std::size_t n = run.end - run.begin;
     pacer.each_piece(n, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            words_[i] = slice.first_key(record_point<D>(records + i * stride_)) << index_bits | i;
+        set_words(scratch_, run.begin + begin, run.begin + end, run.slice);
     });
-    if (n == 0) return words_;
-    if (radix_sort(words_, scratch_, n, pacer) != words_) std::swap(words_, scratch_);
-    each_tie(0, n, [&](std::size_t begin, std::size_t end) { refine(begin, end, slice, pacer); });
-    return words_;
+    radix_sort_into(words_ + run.begin, scratch_ + run.begin, n, pacer);
+    refine_ties(run.begin, run.end, run.slice, pacer);
 }
 
 template <int D>
@@ -56,6 +101,13 @@ void CurveSort<D>::each_tie(std::size_t begin, std::size_t end, Each each) {
     }
 }
 
+/// Orders records with equal first keys, among sorted ones.
+template <int D>
+void CurveSort<D>::refine_ties(std::size_t begin, std::size_t end, const Slice<D> &slice,
+                               const Pacer &pacer) {
+    each_tie(begin, end, [&](std::size_t b, std::size_t e) { refine(b, e, slice, pacer); });
+}
+
 /// Orders records with equal first keys.
 template <int D>
 void CurveSort<D>::refine(std::size_t begin, std::size_t end, const Slice<D> &slice,
@@ -74,7 +126,7 @@ template <int D> void CurveSort<D>::zoom(std::size_t begin, std::size_t end, con
     const Slice<D> slice{Domain<D>(box.lower, box.upper)};
     set_keys(begin, end, [&](const Point<D> &p) { return slice.first_key(p); });
     sort_words(begin, end, pacer);
-    each_tie(begin, end, [&](std::size_t b, std::size_t e) { refine(b, e, slice, pacer); });
+    refine_ties(begin, end, slice, pacer);
 }
 
 template class CurveSort<2>;

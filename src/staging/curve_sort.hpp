@@ -6,27 +6,49 @@
 // bounding box, again and again, until the box is a single point. So clusters far below
 // the resolution of the codes are also in the order of the curve, and equal points end
 // up adjacent, in the order of their numbers.
+//
+// Many records are sorted by several threads (shared_sort.hpp), or runs of them, each by one.
 #pragma once
 
 #include "host/arena.hpp"
 #include "points/record.hpp"
 #include "sort/pacer.hpp"
+#include "sort/shared_sort.hpp"
 #include "staging/slice.hpp"
 
 namespace abacus {
 
 template <int D> class CurveSort {
 public:
-    CurveSort(const Host &host, std::size_t stride) : stride_(stride), memory_(host) {}
+    CurveSort(const Host &host, std::size_t stride)
+        : stride_(stride), memory_(host), shared_(host) {}
 
     /// Sorts n records of `stride` words (at most most_sorted_records), all of them in the slice.
     /// Their numbers in order are in the index_mask bits of the result, which is valid until the
     /// next call.
     const std::uint64_t *sort(const std::uint64_t *records, std::size_t n, const Slice<D> &slice,
                               Pacer &pacer);
+    /// Records [begin, end), which are in this slice.
+    struct Run {
+        std::size_t begin, end;
+        Slice<D> slice;
+    };
+    /// The same for runs that follow one another; each gets the words at its place.
+    const std::uint64_t *sort_each(const std::uint64_t *records, const Arena<Run> &runs,
+                                   Pacer &pacer);
+    /// Whether several threads would sort so many records.
+    bool is_shared(std::size_t n) const { return shared_.is_worth_while(n); }
     void release() { memory_.reset(); }
 
 private:
+    class Shared;
+
+    void begin(const std::uint64_t *records, std::size_t n, const Pacer &pacer);
+    /// Sets words [begin, end) at `to`.
+    void set_words(std::uint64_t *to, std::size_t begin, std::size_t end,
+                   const Slice<D> &slice) const;
+    void sort_run(const Run &run, const Pacer &pacer);
+    void refine_ties(std::size_t begin, std::size_t end, const Slice<D> &slice, const Pacer &pacer);
     Point<D> point(std::uint64_t word) const {
         return record_point<D>(records_ + (word & index_mask) * stride_);
     }
@@ -40,6 +62,7 @@ private:
     const std::uint64_t *records_ = nullptr;
     Arena<std::uint64_t> memory_;
     std::uint64_t *words_ = nullptr, *scratch_ = nullptr; ///< its halves
+    SharedSort shared_;
 };
 
 extern template class CurveSort<2>;

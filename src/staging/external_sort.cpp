@@ -24,6 +24,8 @@ constexpr std::size_t cached_part_bytes = std::size_t{1} << 20;
 /// caches, that of page addresses included. In a loop of their own many of these misses
 /// overlap.
 constexpr std::size_t gathered_at_once = 64;
+/// Parts that a thread sorts at a time: more of them would leave the processor's cache.
+constexpr std::size_t parts_a_thread = 2;
 
 } // namespace
 
@@ -80,17 +82,57 @@ template <int D> void ExternalSort<D>::run(Arena<Part<D>> &parts) {
 }
 
 template <int D> void ExternalSort<D>::sort_parts(Arena<Part<D>> &parts) {
-    for (Part<D> &part : parts) sort_spool(part.spool, part.slice);
+    for (std::size_t at = 0; at < parts.size();) {
+        const std::size_t n = parts_at_once(parts, at);
+        if (n > 1)
+            sort_together(&parts[at], n);
+        else
+            sort_spool(parts[at].spool, parts[at].slice);
+        at += n;
+    }
+}
+
+/// How many parts from this one on are sorted together: as many as fit, if that is worth it.
+template <int D>
+std::size_t ExternalSort<D>::parts_at_once(const Arena<Part<D>> &parts, std::size_t first) const {
+    const std::size_t most = std::min(parts.size() - first, parts_a_thread * host_.threads());
+    std::uint64_t records = 0;
+    std::size_t n = 0;
+    for (; n < most && records + parts[first + n].spool.size() <= budget_.records; ++n)
+        records += parts[first + n].spool.size();
+    return n > 1 && sort_.is_shared(records) ? n : 1;
+}
+
+template <int D> void ExternalSort<D>::sort_together(Part<D> *parts, std::size_t n) {
+    Arena<typename CurveSort<D>::Run> runs(host_);
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t begin = end;
+        runs.push_back({begin, end += parts[i].spool.size(), parts[i].slice});
+    }
+    records_.reserve(end * stride_);
+    for (std::size_t i = 0; i < n; ++i)
+        read(parts[i].spool, records_.data() + runs[i].begin * stride_);
+    const std::uint64_t *order = sort_.sort_each(records_.data(), runs, pacer_);
+    for (std::size_t i = 0; i < n; ++i)
+        emit(records_.data(), order + runs[i].begin, runs[i].end - runs[i].begin);
+}
+
+/// Reads all records of a spool, and closes it.
+template <int D> void ExternalSort<D>::read(Spool &spool, std::uint64_t *to) {
+    spool.rewind(host_);
+    while (const std::size_t n = spool.read(host_, to, budget_.piece, stride_)) {
+        to += n * stride_;
+        pacer_.poll();
+    }
+    close(spool);
 }
 
 template <int D> void ExternalSort<D>::sort_spool(Spool &spool, const Slice<D> &slice) {
     const std::uint64_t n = spool.size();
     if (n <= budget_.records) {
         records_.reserve(n * stride_);
-        spool.rewind(host_);
-        for (std::size_t at = 0; at < n; pacer_.poll())
-            at += spool.read(host_, records_.data() + at * stride_, budget_.piece, stride_);
-        close(spool);
+        read(spool, records_.data());
         emit(records_.data(), sort_.sort(records_.data(), n, slice, pacer_), n);
         return;
     }

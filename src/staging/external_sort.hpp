@@ -5,6 +5,8 @@
 // spools, one for each part. The parts are then treated in their order in the same way.
 // Points that share one code are cut by the codes of their bounding box. If that is a
 // single point they are in order already.
+//
+// With several threads some parts are read at once, and each is sorted by a thread.
 #pragma once
 
 #include "points/record_sink.hpp"
@@ -48,6 +50,9 @@ private:
     Arena<Part<D>> cut(Spool *spools, std::size_t n, const Slice<D> &slice, bool report);
     unsigned parts_for(std::uint64_t records, const Slice<D> &slice) const;
     void sort_parts(Arena<Part<D>> &parts);
+    std::size_t parts_at_once(const Arena<Part<D>> &parts, std::size_t first) const;
+    void sort_together(Part<D> *parts, std::size_t n);
+    void read(Spool &spool, std::uint64_t *to);
     Box<D> survey(Spool &spool);
     void emit(const std::uint64_t *records, const std::uint64_t *order, std::size_t n);
     void emit_as_is(Spool &spool);

@@ -33,6 +33,10 @@ template <int D> struct Slice {
     std::uint64_t second_key(const Point<D> &p) const {
         return (domain.code(p) - lower) & ((std::uint64_t{1} << second_bits()) - 1);
     }
+    int first_bits() const {
+        return rounds != nullptr ? key_bits
+                                 : std::min<int>(key_bits, std::bit_width(upper - lower));
+    }
     int second_bits() const {
         const int bits = std::bit_width(upper - lower);
         return std::max(0, bits - (rounds == nullptr ? key_bits : key_bits - round_bits));

@@ -87,10 +87,10 @@ template <int D> Input<D> staged(MemoryHost &host, const abacus_header &header) 
     return result;
 }
 
-/// Stages the input into an empty mesh and returns the order.
+/// Stages the input into an empty mesh of this host and returns the order.
 template <int D>
-Input<D> order_of(const Input<D> &input, std::size_t memory = ample, std::size_t batch = 1000) {
-    MemoryHost host;
+Input<D> order_by(MemoryHost &host, const Input<D> &input, std::size_t memory,
+                  std::size_t batch = 1000) {
     abacus_header header =
         empty_header<D>(input.empty() ? 0 : static_cast<unsigned>(input[0].attributes.size()));
     abacus_error error{};
@@ -99,6 +99,12 @@ Input<D> order_of(const Input<D> &input, std::size_t memory = ample, std::size_t
     EXPECT_TRUE(host.spools.empty());
     EXPECT_TRUE(host.violations.empty()) << host.violations[0];
     return staged<D>(host, header);
+}
+/// The same with a host of its own.
+template <int D>
+Input<D> order_of(const Input<D> &input, std::size_t memory = ample, std::size_t batch = 1000) {
+    MemoryHost host;
+    return order_by<D>(host, input, memory, batch);
 }
 
 /// Each point once.

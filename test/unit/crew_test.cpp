@@ -51,5 +51,49 @@ TEST(Crew, FindsPagesWhateverWasThereBefore) {
     EXPECT_TRUE(crew.run(2, 20, work));
 }
 
+/// Stores pages, each more than once, and says where it was put.
+class Storing final : public Crew::Work {
+public:
+    explicit Storing(bool fails = false) : fails_(fails) {}
+
+    void piece(std::size_t number, const Host &host) override {
+        const std::array<std::uint64_t, 2> words{number, 0};
+        abacus_page page{{number, 0}, reinterpret_cast<const unsigned char *>(words.data()), 16, 0};
+        for (int i = 0; i < 100; ++i) host.put(ABACUS_SIMPLEX_PAGES, page);
+        if (fails_) throw Error(ABACUS_ERROR_INTERNAL, "it fails");
+        host.erase(ABACUS_SIMPLEX_PAGES, page);
+    }
+
+private:
+    const bool fails_;
+};
+
+TEST(Crew, KeepsNothingOfEarlierRuns) {
+    MemoryHost store;
+    const Host host = store.host();
+    Crew crew(host);
+    Storing work;
+    ASSERT_TRUE(crew.run(1, 10, work));
+    const std::size_t used = crew.memory().used();
+    for (int i = 0; i < 20; ++i) ASSERT_TRUE(crew.run(1, 10, work));
+    EXPECT_EQ(crew.memory().used(), used);
+    EXPECT_TRUE(store.pages.empty());
+    EXPECT_EQ(store.violations, std::vector<std::string>{});
+}
+
+TEST(Crew, WorksAfterAFailure) {
+    MemoryHost store;
+    const Host host = store.host();
+    Crew crew(host);
+    for (int i = 0; i < 20; ++i) {
+        Storing fails(true), works;
+        EXPECT_THROW(crew.run(2, 4, fails), Error);
+        store.pages.clear(); // the transaction has ended
+        EXPECT_TRUE(crew.run(2, 4, works));
+        EXPECT_TRUE(store.pages.empty());
+    }
+    EXPECT_EQ(store.violations, std::vector<std::string>{});
+}
+
 } // namespace
 } // namespace abacus::test
