@@ -202,7 +202,7 @@ template <int D> void Build<D>::hand_over(const Cuts &cuts) {
 
 template <int D> void Build<D>::forget_cache() {
     const abacus_counters counters = core_->cache.counters;
-    core_.emplace(host_, *header_, cache_bytes_);
+    make_core(*header_);
     core_->cache.counters = counters;
 }
 

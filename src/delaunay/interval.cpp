@@ -2,6 +2,7 @@
 
 #include "keys/domain_of.hpp"
 #include "mesh/counters.hpp"
+#include "mesh/page_attributes.hpp"
 #include "points/record.hpp"
 
 namespace abacus {
@@ -15,7 +16,7 @@ Interval<D>::Interval(const Host &host, const abacus_header &header, std::uint64
                       std::uint64_t last, std::size_t cache_bytes)
     : host_(host), simplices_(static_cast<std::int64_t>(header.simplices)),
       ghosts_(static_cast<std::int64_t>(header.ghosts)),
-      cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
+      cache_(host, domain_of<D>(header), page_attributes(header),
              CacheOptions{.budget = cache_bytes}),
       mesh_(host, cache_, simplices_, ghosts_), insertion_(mesh_) {
     cache_.keep_within(first, last);

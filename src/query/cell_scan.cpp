@@ -8,7 +8,7 @@ namespace abacus {
 template <int D>
 CellScan<D>::CellScan(const Host &host, const abacus_header &header, const abacus_window &window,
                       double max_edge)
-    : domain_(domain_of<D>(header)), filter_(window, max_edge),
+    : domain_(domain_of<D>(header)), filter_(window, max_edge), vertex_values_(host, header),
       pages_(host, header, filter_.region()) {}
 
 template <int D> bool CellScan<D>::next(abacus_simplex &simplex, CornerValues *values) {
@@ -22,7 +22,7 @@ template <int D> bool CellScan<D>::next(abacus_simplex &simplex, CornerValues *v
         while (at_ < page.simplices()) {
             const int s = at_++;
             if (page.is_ghost(s) || !filter_.wants(page, s)) continue;
-            describe(page, s, domain_, simplex, values);
+            describe(page, s, domain_, simplex, values, vertex_values_);
             return true;
         }
         in_page_ = false;

@@ -4,6 +4,7 @@
 #include "keys/locational_code.hpp"
 #include "query/cell_filter.hpp"
 #include "query/corner_values.hpp"
+#include "query/vertex_values.hpp"
 
 #include <abacus/ask.h>
 
@@ -21,6 +22,7 @@ public:
 private:
     const Domain<D> domain_;
     const CellFilter<D> filter_;
+    const VertexValues<D> vertex_values_;
     RangeScan<D> pages_;
     bool in_page_ = false;
     int at_ = 0;

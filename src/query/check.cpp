@@ -24,6 +24,9 @@ Check<D>::Check(const Host &host, const abacus_header &header, std::size_t cache
     if (is_sound())
         run("point",
             [&] { header.not_delaunay != 0 ? check_listed_vertices() : check_waiting_points(); });
+    if (header.apart == 0) return;
+    run("attributes", [&] { check_attribute_pages(); });
+    if (is_sound()) run("vertex", [&] { check_attributes(); });
 }
 
 template <int D> void Check<D>::fault(const char *kind, const Key &key, const char *message) {
@@ -241,7 +244,7 @@ template <int D> void Check<D>::check_waiting_points() {
 
 template <int D> void Check<D>::check_listed_vertices() {
     Reader<D> mesh(host_, header_, {.budget = cache_bytes_, .verify_checksums = false});
-    VertexReader<D> list(host_, header_.attributes, 0, header_.staged);
+    VertexReader<D> list(host_, static_cast<unsigned>(page_attributes(header_)), 0, header_.staged);
     std::uint64_t in_pages = 0;
     // Along the curve, and those of one code by their coordinates as words: so abacus_load sorts.
     std::array<std::uint64_t, 1 + D> place{}, previous{};
@@ -265,6 +268,37 @@ template <int D> void Check<D>::check_listed_vertices() {
     abacus_page page;
     if (host_.next(ABACUS_STAGED_PAGES, &last, page))
         fault("count", page.key, "There are pages behind the list of vertices.");
+}
+
+template <int D> void Check<D>::check_attribute_pages() {
+    const AttributeGroups groups(header_.attributes);
+    AttributeScan<D> scan(host_, domain_, header_.attributes);
+    std::array<std::uint64_t, AttributeGroups(ABACUS_MAX_ATTRIBUTES).count()> vertices{};
+    while (scan.fetch()) {
+        at_key_ = scan.key();
+        scan.read();
+        vertices[scan.group()] += scan.vertices();
+    }
+    for (unsigned group = 0; group < groups.count(); ++group)
+        if (vertices[group] != header_.vertices)
+            fault("attributes", group_begin(group),
+                  "The attribute pages have another number of vertices than the mesh.");
+}
+
+/// There are as many vertices with attributes as vertices; so it is enough that each of these has
+/// some.
+template <int D> void Check<D>::check_attributes() {
+    AttributeReader<D> attributes(host_, domain_, header_.attributes, cache_bytes_ / 2);
+    PageScan<D> scan(host_, header_);
+    while (scan.fetch()) {
+        at_key_ = scan.key();
+        scan.parse_unsealed();
+        for (int v = 0; v < scan.page().vertices(); ++v)
+            if (!attributes.contains(scan.page().point(v))) {
+                fault("vertex", at_key_, "A vertex has no attributes.");
+                break;
+            }
+    }
 }
 
 template class Check<2>;

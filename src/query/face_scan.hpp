@@ -14,6 +14,7 @@
 
 #include "host/memory_resource.hpp"
 #include "query/reader.hpp"
+#include "query/vertex_values.hpp"
 #include "query/window.hpp"
 
 #include <memory_resource>
@@ -38,6 +39,7 @@ public:
     /// The page with the face at hand, and the number of a corner there.
     const PageView<D> &page() const { return pages_.page(); }
     int vertex(int corner) const { return vertices_[corner]; }
+    const VertexValues<D> &vertex_values() const { return vertex_values_; }
 
 private:
     FaceScan(const Host &host, const abacus_header &header, const abacus_window &window,
@@ -47,6 +49,7 @@ private:
     using FacetPoints = std::array<Point<D>, D>;
 
     bool take(int simplex, unsigned face);
+    void compare_values();
     bool is_wanted() const;
     /// Whether the face at hand belongs to a ghost of the page.
     bool is_of_ghost(int ghost);
@@ -71,6 +74,8 @@ private:
     const std::size_t cache_bytes_;
     const std::optional<abacus_range> range_;
     const Window<D> window_;
+    const VertexValues<D> vertex_values_;
+    std::array<bool, page_vertices<D>> is_in_range_; // of a page's vertices
     RangeScan<D> pages_;
     std::optional<Reader<D>> reader_; // once needed
     HostMemory memory_;

@@ -56,6 +56,7 @@ new_mesh(text *name, Oid extension_namespace, abacus_header *header, const char 
 	Oid			vertices;
 	Host	   *host;
 
+	header->apart = abacus_are_apart(header->dimension, header->attributes);
 	PreventCommandIfReadOnly(command);
 	PreventCommandIfParallelMode(command);
 	if (strlen(vertices_name) >= NAMEDATALEN)
