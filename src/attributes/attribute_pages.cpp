@@ -77,7 +77,7 @@ void AttributeGroup<D>::set(std::size_t i, const Point<D> &p, const double *valu
 }
 
 /// Makes room for a row; its number.
-template <int D> std::size_t AttributeGroup<D>::insert(const Key &key, const Point<D> &) {
+template <int D> std::size_t AttributeGroup<D>::insert(const Key &key) {
     std::size_t at = lower_bound(key);
     if (count() >= most_) {
         if (!write_before(at)) {
@@ -111,7 +111,7 @@ void AttributeGroup<D>::put(const Key &vertex, const Point<D> &p, const double *
     const Key key = in_group(vertex, group_);
     go_to(key);
     const std::size_t i = find(key, p);
-    set(i == none ? insert(key, p) : i, p, values);
+    set(i == none ? insert(key) : i, p, values);
 }
 
 template <int D> void AttributeGroup<D>::drop(const Key &vertex, const Point<D> &p) {

@@ -45,7 +45,7 @@ private:
     void set(std::size_t row, const Point<D> &p, const double *values);
     std::size_t lower_bound(const Key &key) const;
     std::size_t find(const Key &key, const Point<D> &p) const;
-    std::size_t insert(const Key &key, const Point<D> &p);
+    std::size_t insert(const Key &key);
     void remove_rows(std::size_t begin, std::size_t end);
     /// Writes full pages of what lies before the row; whether there were any.
     bool write_before(std::size_t row);
