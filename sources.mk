@@ -1,5 +1,8 @@
 # The one list of sources: read by Makefile.pgxs (make) and CMakeLists.txt
 # (line by line). One file a line.
+CORE_SOURCES += src/attributes/attribute_page.cpp
+CORE_SOURCES += src/attributes/attribute_pages.cpp
+CORE_SOURCES += src/attributes/attribute_reader.cpp
 CORE_SOURCES += src/blocks/key_cut.cpp
 CORE_SOURCES += src/blocks/page_seal.cpp
 CORE_SOURCES += src/blocks/replacement.cpp

@@ -15,6 +15,7 @@
 // Each change ends with all pages written and the header brought up to date.
 #pragma once
 
+#include "attributes/attribute_pages.hpp"
 #include "delaunay/cuts.hpp"
 #include "delaunay/first_simplex.hpp"
 #include "delaunay/insertion.hpp"
@@ -58,7 +59,8 @@ private:
 
     /// The triangulation in memory. All of it goes when the mesh collapses.
     struct Core {
-        Core(const Host &host, const abacus_header &header, std::size_t cache_bytes);
+        Core(const Host &host, const abacus_header &header, std::size_t cache_bytes,
+             AttributePages<D> *attributes);
         Cache<D> cache;
         Delaunay<D> mesh;
         Insertion<D> insertion;
@@ -72,7 +74,13 @@ private:
         return static_cast<std::uint64_t>(core_->mesh.simplices() + core_->mesh.ghosts());
     }
     bool has_waiting() const { return header_->inserted < header_->staged; }
+    void make_core(const abacus_header &header);
     VertexIndex create(const std::uint64_t *record);
+    void store_attributes(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n);
+    /// A vertex of the cache as a record.
+    void read_vertex(VertexIndex v, std::uint64_t *record);
+    /// Gives the vertex there the id and the attributes of a record.
+    void rename(const Point<D> &p, const std::uint64_t *record);
     void start(const std::array<VertexIndex, D + 1> &vertices);
     /// Adds points, which may be gathered: change_gathered() comes after the last.
     void add(const std::uint64_t *records, std::size_t n);
@@ -153,6 +161,7 @@ private:
     const unsigned attributes_;
     const std::size_t cache_bytes_;
     Domain<D> domain_;
+    std::optional<AttributePages<D>> apart_;    ///< if the mesh has its attributes apart
     std::optional<Core> core_;                  ///< always there; optional, to be made anew
     std::optional<RepeatedPoints<D>> repeated_; ///< as well
     std::optional<Rest<D>> rest_;               ///< while removals are put off

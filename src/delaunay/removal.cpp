@@ -34,7 +34,15 @@ template <int D> Link Removal<D>::find(const Point<D> &p, Leaving *want) {
     const Link corner = find(p);
     if (corner == nowhere || want == nullptr) return corner;
     const VertexIndex v = vertex_of(corner);
-    return want->takes(cache_.vertices().id(v), cache_.vertices().attributes(v)) ? corner : nowhere;
+    return want->takes(cache_.vertices().id(v), attributes_of(v, *want)) ? corner : nowhere;
+}
+
+template <int D> const double *Removal<D>::attributes_of(VertexIndex v, const Leaving &leaving) {
+    if (attributes_ == nullptr) return cache_.vertices().attributes(v);
+    if (!leaving.compares_attributes()) return nullptr;
+    const Vertex<D> &vertex = cache_.vertices()[v];
+    attributes_->get(vertex.point, vertex.code, values_.data());
+    return values_.data();
 }
 
 template <int D> bool Removal<D>::finds(const Point<D> &p, Leaving *want) {
@@ -100,7 +108,7 @@ template <int D> std::optional<bool> Removal<D>::offer(const Point<D> &p, Leavin
     std::optional<bool> more;
     if (corner != nowhere) {
         const VertexIndex v = vertex_of(corner);
-        more = leaving.offer(cache_.vertices().id(v), cache_.vertices().attributes(v), 0);
+        more = leaving.offer(cache_.vertices().id(v), attributes_of(v, leaving), 0);
     }
     mesh_.finish(anywhere);
     return more;
@@ -109,7 +117,9 @@ template <int D> std::optional<bool> Removal<D>::offer(const Point<D> &p, Leavin
 template <int D>
 bool Removal<D>::rename(const Point<D> &p, std::int64_t id, const double *attributes) {
     const Link corner = find(p);
-    if (corner != nowhere) {
+    const bool is_same = corner != nowhere && cache_.vertices().attribute_count() == 0 &&
+                         cache_.vertices().id(vertex_of(corner)) == id;
+    if (corner != nowhere && !is_same) {
         star_.collect(link_simplex(corner), link_facet(corner));
         for (const Handle h : star_.simplices()) cache_.mark_dirty(h);
         cache_.rename_vertex(star_.vertex(), id, attributes);

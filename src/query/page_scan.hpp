@@ -8,6 +8,7 @@
 #pragma once
 
 #include "host/host.hpp"
+#include "mesh/page_attributes.hpp"
 #include "mesh/page_format.hpp"
 
 #include <abacus/header.h>
@@ -20,7 +21,8 @@ namespace abacus {
 template <int D> class PageScan {
 public:
     PageScan(const Host &host, const abacus_header &header)
-        : host_(host), attributes_(header.attributes), left_(header.simplices + header.ghosts) {}
+        : host_(host), attributes_(page_attributes(header)),
+          left_(header.simplices + header.ghosts) {}
 
     /// Goes to the next page; false after the last. Throws if it is damaged or does not follow
     /// the one before, and at the end if pages are missing.
@@ -36,7 +38,7 @@ public:
     /// The same, past pages that wants(page) refuses, of which only the heads are read then.
     template <class Wants> bool advance(Wants wants) {
         while (fetch()) {
-            view_.open(copy_, size_, static_cast<int>(attributes_));
+            view_.open(copy_, size_, attributes_);
             follow();
             if (!wants(view_)) continue;
             view_.read_rest();
@@ -58,7 +60,7 @@ public:
         std::memcpy(copy_, page.bytes, std::min(size_, sizeof copy_));
         return true;
     }
-    void parse() { view_.read(copy_, size_, static_cast<int>(attributes_)); }
+    void parse() { view_.read(copy_, size_, attributes_); }
     /// Key under which the current page is stored, and its bytes.
     const Key &key() const { return key_; }
     const unsigned char *bytes() const { return copy_; }
@@ -86,7 +88,7 @@ private:
         "The header counts other simplices than the pages hold.";
 
     const Host &host_;
-    unsigned attributes_;
+    int attributes_;
     std::uint64_t left_; // simplices and ghosts that the header counts beyond the current page
     Key expected_ = first_key;
     bool started_ = false;
