@@ -200,8 +200,7 @@ TEST(Outlines, WithoutCavitiesAndWhatLiesInThem) {
             for (int z = -5; z <= 5; ++z)
                 if (std::max({std::abs(x), std::abs(y), std::abs(z)}) % 4 < 2)
                     points.push_back({double(x), double(y), double(z)});
-    for (int i = 0; i < 27; ++i)
-        points.push_back({20.0 + i % 3, double(i / 3 % 3), double(i / 9)});
+    for (int i = 0; i < 27; ++i) points.push_back({20.0 + i % 3, double(i / 3 % 3), double(i / 9)});
     MeshOf<3> mesh(0);
     ASSERT_EQ(mesh.stage(number<3>(points)), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK);
