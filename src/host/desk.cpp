@@ -139,6 +139,7 @@ struct Courier::Functions {
     static abacus_host_status find(void *context, abacus_page_kind kind, abacus_key key,
                                    abacus_page *page) {
         page->key = key;
+        page->location = 0; // whatever was there is no ticket
         return self(context).look(self(context).begin(Wish::find, kind, *page), *page);
     }
     static abacus_host_status fetch(void *context, abacus_page_kind kind, abacus_page *page) {
@@ -147,6 +148,7 @@ struct Courier::Functions {
     static abacus_host_status next(void *context, abacus_page_kind kind, const abacus_key *key,
                                    abacus_page *page) {
         if (key != nullptr) page->key = *key;
+        page->location = 0;
         const Wish wish = key == nullptr ? Wish::first : Wish::next;
         return self(context).look(self(context).begin(wish, kind, *page), *page);
     }
