@@ -49,7 +49,7 @@ SELECT abacus_triangulate('large', 'SELECT i, i % 100, i / 100, i % 7 FROM gener
 SELECT abacus_publish('large', geometry => false);
 EXPLAIN (COSTS OFF) SELECT w.id, p.id FROM wells AS w JOIN large_points AS p ON p.x BETWEEN w.x - 1 AND w.x + 1 AND p.y < 2;
 SELECT w.id, p.id FROM wells AS w JOIN large_points AS p ON p.x BETWEEN w.x - 1 AND w.x + 1 AND p.y < 2 ORDER BY 1, 2;
-EXPLAIN (COSTS OFF) SELECT w.id, p.id FROM wells AS w JOIN large_points AS p ON p.x = w.x AND p.y = w.id::float8;
+EXPLAIN (COSTS OFF) SELECT w.id, p.id FROM wells AS w JOIN large_points AS p ON p.x BETWEEN w.x AND w.x AND p.y BETWEEN w.id::float8 AND w.id::float8;
 SELECT w.id, p.id FROM wells AS w JOIN large_points AS p ON p.x = w.x AND p.y = w.id::float8 ORDER BY 1, 2;
 SELECT w.id, p.n FROM wells AS w, LATERAL (SELECT count(*) AS n FROM field_points AS p WHERE p.x <= w.x) AS p ORDER BY 1;
 SELECT id FROM field_points WHERE x > (SELECT avg(x) FROM wells) ORDER BY id;

@@ -85,7 +85,7 @@ SELECT is(pg_temp.plan_of($$ SELECT id FROM slanted_points ORDER BY geom <-> 'SR
 SELECT abacus_triangulate('rock', 'SELECT *, id AS number FROM pg_temp.points(1, 1500)', dimension => 3);
 SELECT abacus_publish('rock');
 SELECT is(count(*), 0::bigint, 'facets of tetrahedra close them, outward') FROM rock_cells
-WHERE NOT (ST_GeometryType(geom) = 'ST_PolyhedralSurface' AND ST_IsClosed(geom) AND ST_NumGeometries(geom) = 4);
+WHERE NOT (ST_GeometryType(geom) = 'ST_PolyhedralSurface' AND ST_IsClosed(geom) AND (SELECT count(*) FROM ST_Dump(geom)) = 4);
 SELECT pg_temp.finds('rock_cells', 'geom && ST_MakeEnvelope(20, 30, 24, 31)', 'tetrahedra over a window');
 SELECT pg_temp.finds('rock_points', 'geom && ST_MakeEnvelope(20, 30, 54, 61) AND z < 30', 'points of a box');
 SELECT abacus_triangulate('partial', 'VALUES (1, 0, 0, 1), (2, 4, 0, NULL), (3, 0, 4, 3)', '{height}');

@@ -197,7 +197,7 @@ SELECT throws_ok($$ SELECT * FROM abacus_clip('terrain', ST_MakeEnvelope(0, 0, 1
 
 CREATE TABLE rock AS SELECT 100 * x + 10 * y + z AS id, ST_MakePoint(x, y, -z) AS geom, 300 + 40 * z + 10 * x AS vs FROM generate_series(0, 8) AS x, generate_series(0, 8) AS y, generate_series(0, 4) AS z;
 SELECT is(abacus_triangulate('rocks', 'TABLE rock', dimension => 3), 1536::bigint, 'points with z make tetrahedra');
-SELECT is((SELECT count(*) FROM abacus_cells_geom('rocks') WHERE GeometryType(geom) = 'POLYHEDRALSURFACE' AND ST_NumGeometries(geom) = 4 AND ST_IsClosed(geom)), 1536::bigint, 'which are closed surfaces');
+SELECT is((SELECT count(*) FROM abacus_cells_geom('rocks') WHERE GeometryType(geom) = 'POLYHEDRALSURFACE' AND (SELECT count(*) FROM ST_Dump(geom)) = 4 AND ST_IsClosed(geom)), 1536::bigint, 'which are closed surfaces');
 SELECT is(abacus_interpolate('rocks', ST_MakePoint(1.25, 2, -0.5)), 332.5::float8, 'a value in space');
 SELECT is(abacus_locate('rocks', ST_MakePoint(1.25, 2.3, -0.4)), abacus_locate('rocks', 1.25, 2.3, -0.4), 'a tetrahedron');
 SELECT is((SELECT count(*) FROM abacus_cells_geom('rocks', ST_MakeEnvelope(1.2, 1.2, 1.4, 1.4))), (SELECT count(*) FROM abacus_cells('rocks', ARRAY[1.2, 1.2, -1000], ARRAY[1.4, 1.4, 1000])), 'a window without z goes from the bottom to the top');
@@ -208,7 +208,7 @@ SELECT set_eq('SELECT v0, v1, v2, v3, ST_AsEWKB(geom) FROM rocks_cells', 'SELECT
 SELECT set_eq('SELECT v0, v1, v2, ST_AsEWKB(geom) FROM terrain_cells', 'SELECT v0, v1, v2, ST_AsEWKB(geom) FROM cells', 'and triangles');
 SELECT set_eq('SELECT id, ST_AsEWKB(geom) FROM rocks_points', 'SELECT id, ST_AsEWKB(geom) FROM abacus_vertices_geom(''rocks'')', 'and points');
 SELECT abacus_unpublish('rocks'), abacus_unpublish('terrain');
-SELECT is(ST_NumGeometries(abacus_hull_geom('rocks')), (SELECT count(DISTINCT ring)::int FROM abacus_hull('rocks')), 'the hull is a TIN');
+SELECT is((SELECT count(*) FROM ST_Dump(abacus_hull_geom('rocks'))), (SELECT count(DISTINCT ring) FROM abacus_hull('rocks')), 'the hull is a TIN');
 SELECT ok(ST_IsClosed(abacus_hull_geom('rocks')) AND GeometryType(abacus_hull_geom('rocks')) = 'TIN', 'closed');
 SELECT is((SELECT count(*) FROM abacus_isosurface_geom('rocks', 345) WHERE GeometryType(geom) = 'TRIANGLE'), (SELECT count(*) FROM abacus_isosurface('rocks', 345)), 'an isosurface');
 SELECT is((SELECT round(sum(ST_Area(ST_MakePolygon(ST_MakeLine(ARRAY(SELECT ST_MakePoint(ST_Y(d.geom), ST_Z(d.geom)) FROM ST_DumpPoints(s.geom) AS d)))))::numeric, 9) FROM abacus_section_geom('rocks', 'POINT Z (0.5 0 0)', '{1,0,0}') AS s), 32.000000000, 'a section');

@@ -106,6 +106,15 @@ put_last(Drape *drape)
 	drape->has_last = false;
 }
 
+/* Which part of the way from one end of the piece to the other a distance is. */
+static double
+share_of(const Drape *drape, double distance)
+{
+	double		length = hypot(drape->to.at[0] - drape->from.at[0], drape->to.at[1] - drape->from.at[1]);
+
+	return length > 0 ? Min(distance / length, 1) : 0;
+}
+
 /*
  * A place where a piece of a line crosses an edge; called by the core. Where the line leaves the
  * mesh or comes back there are two, one of them without a value.
@@ -114,8 +123,6 @@ static abacus_host_status
 cross(void *context, double distance, const double *at, double value)
 {
 	Drape	   *drape = context;
-	double		length = hypot(drape->to.at[0] - drape->from.at[0], drape->to.at[1] - drape->from.at[1]);
-	double		share = length > 0 ? Min(distance / length, 1) : 0;
 
 	if (same_place(at, drape->from.at) || same_place(at, drape->to.at))
 		return ABACUS_HOST_OK;
@@ -130,7 +137,7 @@ cross(void *context, double distance, const double *at, double value)
 		put_last(drape);
 		drape->has_last = true;
 		drape->last = (Place) {{at[0], at[1], value,
-			drape->from.at[3] + (drape->to.at[3] - drape->from.at[3]) * share}};
+			drape->from.at[3] + (drape->to.at[3] - drape->from.at[3]) * share_of(drape, distance)}};
 	}
 	GUARD_END(drape->mesh->host);
 	return ABACUS_HOST_OK;
