@@ -114,6 +114,15 @@ void AttributeGroup<D>::put(const Key &vertex, const Point<D> &p, const double *
     set(i == none ? insert(key) : i, p, values);
 }
 
+template <int D> std::uint64_t *AttributeGroup<D>::change(const Key &vertex, const Point<D> &p) {
+    const Key key = in_group(vertex, group_);
+    go_to(key);
+    const std::size_t i = find(key, p);
+    if (i == none) return nullptr;
+    dirty_ = true;
+    return row(i) + D;
+}
+
 template <int D> void AttributeGroup<D>::drop(const Key &vertex, const Point<D> &p) {
     const Key key = in_group(vertex, group_);
     go_to(key);
@@ -238,6 +247,26 @@ void AttributePages<D>::put(const Point<D> &p, std::uint64_t code, const double 
 template <int D>
 void AttributePages<D>::put_new(const Point<D> &p, std::uint64_t code, const double *values) {
     if (!pages_[0].contains(attribute_key<D>(p, code), p)) put(p, code, values);
+}
+
+template <int D>
+bool AttributePages<D>::set(const Point<D> &p, std::uint64_t code,
+                            std::span<const std::uint32_t> which, const double *values) {
+    const Key key = attribute_key<D>(p, code);
+    std::uint64_t *row = nullptr;
+    unsigned at = 0; // the group of the row
+    for (std::size_t i = 0; i < which.size(); ++i) {
+        const unsigned group = groups_.group_of(which[i]);
+        if (row == nullptr || at != group) {
+            std::uint64_t *const found = pages_[group].change(key, p);
+            if (found == nullptr && row != nullptr) throw_corrupted("A vertex has no attributes.");
+            if (found == nullptr) return false;
+            row = found;
+            at = group;
+        }
+        row[which[i] - groups_.first(group)] = ordered(values[i]);
+    }
+    return true;
 }
 
 template <int D> void AttributePages<D>::drop(const Point<D> &p, std::uint64_t code) {

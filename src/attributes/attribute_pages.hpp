@@ -13,6 +13,7 @@
 #include <abacus/header.h>
 
 #include <deque>
+#include <span>
 
 namespace abacus {
 
@@ -23,6 +24,9 @@ public:
 
     /// Sets what the vertex at p has. `key` is its attribute_key().
     void put(const Key &key, const Point<D> &p, const double *values);
+    /// What the vertex at p has, to be changed before the next call: a rank of each attribute of
+    /// the group. Null if there is no such vertex.
+    std::uint64_t *change(const Key &key, const Point<D> &p);
     /// Takes it away.
     void drop(const Key &key, const Point<D> &p);
     /// Reads it. Throws an Error (corrupted) if there is no such vertex.
@@ -85,6 +89,10 @@ public:
     void put(const Point<D> &p, std::uint64_t code, const double *values);
     /// The same for a vertex that has none yet.
     void put_new(const Point<D> &p, std::uint64_t code, const double *values);
+    /// Sets some attributes of the vertex at p, which are `which`; false if there is no such
+    /// vertex. Reads and writes only pages that have one of these.
+    bool set(const Point<D> &p, std::uint64_t code, std::span<const std::uint32_t> which,
+             const double *values);
     void drop(const Point<D> &p, std::uint64_t code);
     /// Throws an Error (corrupted) if there is no such vertex.
     void get(const Point<D> &p, std::uint64_t code, double *values);

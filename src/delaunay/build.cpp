@@ -4,6 +4,7 @@
 #include "delaunay/distinct.hpp"
 #include "delaunay/intake.hpp"
 #include "delaunay/outlet.hpp"
+#include "delaunay/revision.hpp"
 #include "host/stopwatch.hpp"
 #include "keys/domain_of.hpp"
 #include "mesh/counters.hpp"
@@ -206,9 +207,9 @@ template <int D> void Build<D>::run(std::uint64_t limit, abacus_header &header) 
     });
 }
 
-/// Points whose attributes will be read must have those of the mesh.
-template <int D> void Build<D>::check_attributes(const Stage<D> &stage) const {
-    if (!stage.has_attributes(attributes_))
+/// Points whose attributes will be read must have as many.
+template <int D> void Build<D>::check_attributes(const Stage<D> &stage, std::size_t attributes) {
+    if (!stage.has_attributes(static_cast<unsigned>(attributes)))
         throw Error(ABACUS_ERROR_ARGUMENT, "the points have other attributes than the mesh", {},
                     {});
 }
@@ -227,7 +228,7 @@ template <int D> void Build<D>::take_in_distinct(Stage<D> &stage, bool refuses) 
 
 template <int D>
 void Build<D>::insert(Stage<D> &stage, abacus_on_duplicate on_duplicate, abacus_header &header) {
-    check_attributes(stage);
+    check_attributes(stage, attributes_);
     change(header, [&] {
         const std::uint64_t points = stage.points();
         // Not for a few points: a single one would have to wait for all of a large mesh.
@@ -252,7 +253,7 @@ void Build<D>::insert(Stage<D> &stage, abacus_on_duplicate on_duplicate, abacus_
 
 template <int D>
 std::uint64_t Build<D>::remove(Stage<D> &stage, bool exactly, abacus_header &header) {
-    if (exactly) check_attributes(stage);
+    if (exactly) check_attributes(stage, attributes_);
     std::uint64_t taken = 0;
     change(header, [&] {
         const std::uint64_t points = stage.points();
@@ -266,6 +267,29 @@ std::uint64_t Build<D>::remove(Stage<D> &stage, bool exactly, abacus_header &hea
         return points;
     });
     return taken;
+}
+
+template <int D>
+std::uint64_t Build<D>::update(Stage<D> &stage, std::span<const std::uint32_t> which,
+                               abacus_header &header, abacus_named_place &missing) {
+    check_attributes(stage, which.size());
+    std::uint64_t changed = 0;
+    change(header, [&] {
+        const std::uint64_t points = stage.points();
+        insert_waiting(0);
+        Revision revision(*this, which);
+        abacus_header ordered = header; // which may have no domain, if it has no points
+        stage.end(ordered);
+        stage.emit(revision, ordered);
+        changed = revision.changed();
+        if (revision.missing()) {
+            missing.id = record_id(revision.missing()->data());
+            const Point<D> p = record_point<D>(revision.missing()->data());
+            std::copy(p.begin(), p.end(), missing.point);
+        }
+        return points;
+    });
+    return changed;
 }
 
 template <int D> std::uint64_t Build<D>::clear(abacus_header &header) {

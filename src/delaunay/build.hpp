@@ -31,6 +31,7 @@
 #include <abacus/change.h>
 #include <chrono>
 #include <optional>
+#include <span>
 
 namespace abacus {
 
@@ -45,6 +46,11 @@ public:
     /// Inserts what waits, then takes away a point for each point of a stage; with
     /// `exactly`, only one that has its id and attributes. Returns how many there were.
     std::uint64_t remove(Stage<D> &stage, bool exactly, abacus_header &header);
+    /// Inserts what waits, then gives the points of a stage, which have values of the attributes
+    /// `which` only, these values. Returns for how many of them there was a point; `missing`
+    /// becomes the first for which there was none.
+    std::uint64_t update(Stage<D> &stage, std::span<const std::uint32_t> which,
+                         abacus_header &header, abacus_named_place &missing);
     /// Takes away all points, waiting ones included; returns how many there were.
     std::uint64_t clear(abacus_header &header);
     /// Gives a mesh whose domain does not fit its points another one, with `memory` bytes for
@@ -56,6 +62,7 @@ private:
     class Distinct;
     class Outlet;
     class Pass;
+    class Revision;
 
     /// The triangulation in memory. All of it goes when the mesh collapses.
     struct Core {
@@ -67,7 +74,7 @@ private:
         Removal<D> removal;
     };
 
-    void check_attributes(const Stage<D> &stage) const;
+    static void check_attributes(const Stage<D> &stage, std::size_t attributes);
     bool has_simplices() const { return header_->vertices > 0; }
     /// Of all kinds.
     std::uint64_t simplices() const {

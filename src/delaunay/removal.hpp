@@ -10,6 +10,7 @@
 #include "points/leaving.hpp"
 
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace abacus {
@@ -45,6 +46,12 @@ public:
     /// Gives the vertex there another id and, unless they are apart, other attributes (null if
     /// there are none). Returns false if there is no vertex.
     bool rename(const Point<D> &p, std::int64_t id, const double *attributes);
+    /// The id of the vertex there; nothing if there is none.
+    std::optional<std::int64_t> id_at(const Point<D> &p);
+    /// Gives the vertex there, whose attributes are not apart, other values of the attributes
+    /// `which`. Returns false if there is no vertex.
+    bool set_attributes(const Point<D> &p, std::span<const std::uint32_t> which,
+                        const double *values);
 
     /// Calls visit(vertex index) for each neighbour of the vertex that remove() has found,
     /// until the next operation. After `collapses` these are all vertices but that one.
@@ -67,6 +74,8 @@ private:
     bool collapses() const;
     /// Whether all simplices in the hole will belong to the cache's interval.
     bool stays_within() const;
+    /// Writes id and attributes of the vertex wherever it is stored.
+    void rewrite(Link corner, std::int64_t id, const double *attributes);
     /// Takes the vertex of the star out.
     void take_out();
     /// What tells a vertex from others at its place; read by the next call.

@@ -95,6 +95,15 @@ DELETE FROM wide_before;
 INSERT INTO wide_before SELECT code, part, page::bytea FROM wide;
 SELECT pg_temp.inject('replacing in it', $$ SELECT abacus_insert('wide', 'SELECT id, x, y, -height, a2, a1, a4, a3, a6, a5, a7 FROM wide_points WHERE id % 2 = 0', on_duplicate => 'replace') $$, pg_temp.untouched());
 SELECT is_empty($$ SELECT * FROM abacus_check('wide') $$, 'it is sound');
+DELETE FROM wide_before;
+INSERT INTO wide_before SELECT code, part, page::bytea FROM wide;
+SELECT pg_temp.inject('updating attributes', $$ SELECT abacus_update('wide', 'SELECT id, x, y, height AS a7 FROM wide_points WHERE id % 2 = 0') $$, pg_temp.untouched());
+SELECT is_empty($$ SELECT * FROM abacus_check('wide') $$, 'it is sound');
+SELECT pg_temp.inject('updating attributes among the simplices', $$ SELECT abacus_update('field', 'SELECT id, x, y, -id AS height FROM points') $$,
+    $$ SELECT count(*) = 0 FROM abacus_vertices('field') WHERE attributes[1] < 0 $$);
+SELECT is_empty($$ SELECT * FROM abacus_check('field') $$, 'that mesh is sound');
+SELECT bag_eq($$ SELECT id FROM abacus_vertices('field') WHERE attributes[1] = -id $$, $$ SELECT id::bigint FROM points $$, 'and its attributes are right');
+SELECT is(abacus_update('field', 'SELECT id, x, y, height FROM points'), 3000::bigint, 'they are as they were');
 SELECT pg_temp.inject('reading attributes', $$ SELECT sum("values"[2]) FROM abacus_interpolate('wide', 'SELECT id, x, y FROM points') $$, 'SELECT true');
 SELECT bag_eq($$ SELECT id, attributes[1:3] AS a FROM abacus_vertices('wide') $$,
     $$ SELECT id::bigint, CASE WHEN id % 2 = 0 THEN ARRAY[-height, a2, a1] ELSE ARRAY[height, a1, a2] END FROM wide_points WHERE id % 2 = 0 OR id % 9 > 0 $$, 'and they are right');
