@@ -1,5 +1,8 @@
 # The one list of sources: read by Makefile.pgxs (make) and CMakeLists.txt
 # (line by line). One file a line.
+CORE_SOURCES += src/attributes/attribute_page.cpp
+CORE_SOURCES += src/attributes/attribute_pages.cpp
+CORE_SOURCES += src/attributes/attribute_reader.cpp
 CORE_SOURCES += src/blocks/key_cut.cpp
 CORE_SOURCES += src/blocks/page_seal.cpp
 CORE_SOURCES += src/blocks/replacement.cpp
@@ -108,6 +111,7 @@ CORE_SOURCES += src/points/leaving.cpp
 CORE_SOURCES += src/points/repeated_points.cpp
 CORE_SOURCES += src/points/spread.cpp
 CORE_SOURCES += src/points/vertex_page.cpp
+CORE_SOURCES += src/points/waiting_changes.cpp
 CORE_SOURCES += src/points/waiting_points.cpp
 CORE_SOURCES += src/quake/balanced_octree.cpp
 CORE_SOURCES += src/quake/basin.cpp
@@ -278,6 +282,7 @@ PG_SOURCES += src/pg/sql/fn_tiles.c
 PG_SOURCES += src/pg/sql/fn_track.c
 PG_SOURCES += src/pg/sql/fn_tracked.c
 PG_SOURCES += src/pg/sql/fn_triangulate.c
+PG_SOURCES += src/pg/sql/fn_update.c
 PG_SOURCES += src/pg/sql/fn_visible.c
 PG_SOURCES += src/pg/sql/fn_volume.c
 PG_SOURCES += src/pg/sql/fn_voronoi.c

@@ -85,6 +85,25 @@ ABACUS_API abacus_status abacus_build_insert(abacus_build *build, abacus_stage *
 ABACUS_API abacus_status abacus_build_delete(abacus_build *build, abacus_stage *stage, int exactly,
 											 abacus_header *header, uint64_t *deleted,
 											 abacus_error *error);
+/* A point by id and place. */
+typedef struct abacus_named_place
+{
+	int64_t id;
+	double point[ABACUS_MAX_DIMENSION];
+} abacus_named_place;
+
+/*
+ * update: inserts what waits, then gives a point for each point of a stage that has ended other
+ * values of `count` attributes, whose numbers are `attributes`. It is one with the same coordinates,
+ * and of several the one with the same id, or else the first. The stage has values of these
+ * attributes only; of several for a point the last one counts. *updated says for how many there was
+ * a point; *missing has id and place of the first for which there was none. No simplex changes. A
+ * mesh whose attributes are apart is changed in the pages of these attributes alone.
+ */
+ABACUS_API abacus_status abacus_build_update(abacus_build *build, abacus_stage *stage,
+											 const uint32_t *attributes, size_t count,
+											 abacus_header *header, uint64_t *updated,
+											 abacus_named_place *missing, abacus_error *error);
 /* clear: takes away all points, waiting ones included, at the cost of erasing their pages. */
 ABACUS_API abacus_status abacus_build_clear(abacus_build *build, abacus_header *header,
 											uint64_t *deleted, abacus_error *error);

@@ -20,7 +20,9 @@ enum
 	/* Points that wait to be inserted, in insertion order: {sequence number of the first, 0}. */
 	ABACUS_STAGED_PAGES,
 	/* Points equal to a vertex: {code, serial number}, an interval as of simplices. */
-	ABACUS_REPEATED_PAGES
+	ABACUS_REPEATED_PAGES,
+	/* Attributes of vertices, if they are apart: intervals of keys of their own, group by group. */
+	ABACUS_ATTRIBUTE_PAGES
 };
 
 /* Leaves of an octree: in the same place as the simplices of a mesh, for it has none. */
@@ -99,6 +101,8 @@ typedef struct abacus_header
 	uint32_t type;         /* an abacus_type */
 	uint32_t dimension;    /* 2 or 3 */
 	uint32_t attributes;   /* number of attributes, 0 to ABACUS_MAX_ATTRIBUTES */
+	uint32_t apart;        /* whether vertices have them in pages of their own: the mesh's format is
+							  4 then, and else 3 */
 	uint32_t has_domain;   /* 0 until given or taken from the first points */
 	double lower[ABACUS_MAX_DIMENSION]; /* domain; used for clustering only */
 	double upper[ABACUS_MAX_DIMENSION];
@@ -120,6 +124,12 @@ typedef struct abacus_header
 	abacus_counters counters; /* summed over all builds; peak_bytes: the largest */
 	char names[ABACUS_MAX_ATTRIBUTES][ABACUS_NAME_BYTES];
 } abacus_header;
+
+/*
+ * Whether a new mesh should have so many attributes apart: a few take less room in the simplex
+ * pages, in each that names their vertex.
+ */
+ABACUS_API uint32_t abacus_are_apart(uint32_t dimension, uint32_t attributes);
 
 /* Bytes of the header row; `bytes` has room for ABACUS_PAGE_BYTES. Returns the size. */
 ABACUS_API size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes);

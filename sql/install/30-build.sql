@@ -53,6 +53,13 @@ LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_delete(regclass, text) IS
     'takes points away from the Delaunay triangulation: for each row (id, x, y[, z][, attribute...]) one with these coordinates, of several the one with this id or else the first; returns how many there were';
 
+CREATE FUNCTION abacus_update(mesh regclass, query text)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_update'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_update(regclass, text) IS
+    'gives points other attributes: for each row (id, x, y[, z], columns named after attributes) the point with these coordinates, of several the one with this id or else the first; returns how many rows there were';
+
 CREATE PROCEDURE abacus_build(mesh regclass, batch bigint DEFAULT 1000000)
 AS 'MODULE_PATHNAME', 'abacus_sql_build'
 LANGUAGE C;

@@ -54,7 +54,7 @@ abacus_status abacus_faces_next_vertex(abacus_faces *faces, abacus_vertex *verte
             *vertex = {};
             vertex->id = vertex->vertex = page.id(v);
             std::copy(page.point(v).begin(), page.point(v).end(), vertex->point);
-            for (int i = 0; i < page.attributes(); ++i) faces->attributes[i] = page.attribute(v, i);
+            scan.vertex_values().all(page, v, faces->attributes);
             vertex->attributes = faces->attributes;
             return ABACUS_OK;
         });

@@ -5,8 +5,10 @@
 #include "delaunay/distinct.hpp"
 #include "delaunay/intake.hpp"
 #include "delaunay/outlet.hpp"
+#include "delaunay/revision.hpp"
 #include "host/stopwatch.hpp"
 #include "keys/domain_of.hpp"
+#include "mesh/page_attributes.hpp"
 #include "staging/rounds.hpp"
 
 #include <algorithm>
@@ -23,23 +25,31 @@ constexpr std::uint64_t rekeyed_at_once = 1 << 16, rekeyed_by_share = 64;
 } // namespace
 
 template <int D>
-Build<D>::Core::Core(const Host &host, const abacus_header &header, std::size_t cache_bytes)
-    : cache(host, domain_of<D>(header), static_cast<int>(header.attributes),
+Build<D>::Core::Core(const Host &host, const abacus_header &header, std::size_t cache_bytes,
+                     AttributePages<D> *attributes)
+    : cache(host, domain_of<D>(header), page_attributes(header),
             CacheOptions{.budget = cache_bytes}),
       mesh(host, cache, static_cast<std::int64_t>(header.simplices),
            static_cast<std::int64_t>(header.ghosts)),
-      insertion(mesh), removal(mesh) {}
+      insertion(mesh), removal(mesh, attributes) {}
 
 template <int D>
 Build<D>::Build(const Host &host, const abacus_header &header, std::size_t cache_bytes)
     : host_(host), attributes_(header.attributes), cache_bytes_(cache_bytes),
-      domain_(domain_of<D>(header)), core_(std::in_place, host_, header, cache_bytes),
-      repeated_(std::in_place, host_, domain_, header.attributes),
-      gathered_(host_, record_words(D, header.attributes)) {}
+      domain_(domain_of<D>(header)), repeated_(std::in_place, host_, domain_, header.attributes),
+      gathered_(host_, record_words(D, header.attributes)) {
+    if (header.apart != 0) apart_.emplace(host_, domain_, header.attributes);
+    make_core(header);
+}
+
+template <int D> void Build<D>::make_core(const abacus_header &header) {
+    core_.emplace(host_, header, cache_bytes_, apart_ ? &*apart_ : nullptr);
+}
 
 template <int D> VertexIndex Build<D>::create(const std::uint64_t *record) {
-    return core_->cache.create_vertex(record_point<D>(record), record_id(record),
-                                      record_attributes<D>(record));
+    const Point<D> p = record_point<D>(record);
+    if (apart_) apart_->put(p, domain_.code(p), record_attributes<D>(record));
+    return core_->cache.create_vertex(p, record_id(record), record_attributes<D>(record));
 }
 
 template <int D> void Build<D>::start(const std::array<VertexIndex, D + 1> &vertices) {
@@ -49,10 +59,13 @@ template <int D> void Build<D>::start(const std::array<VertexIndex, D + 1> &vert
 
 template <int D> void Build<D>::add(const std::uint64_t *records, std::size_t n) {
     const std::size_t stride = record_words(D, attributes_);
-    if (host_.threads() > 1) return gather(records, n, stride);
+    const bool is_shared = host_.threads() > 1;
     with_codes(records, n, stride,
                [&](const std::uint64_t *some, const std::uint64_t *codes, std::size_t count) {
-                   insert_some(some, codes, count);
+                   if (apart_) store_attributes(some, codes, count);
+                   if (!is_shared) return insert_some(some, codes, count);
+                   for (std::size_t i = 0; i < count; ++i)
+                       gather_one(some + i * stride, stride, codes[i]);
                });
 }
 
@@ -78,6 +91,19 @@ void Build<D>::with_codes(const std::uint64_t *records, std::size_t n, std::size
         take(records, codes.data(), some);
         records += some * stride;
         n -= some;
+    }
+}
+
+/// Of points that will be vertices, unless they meet one.
+template <int D>
+void Build<D>::store_attributes(const std::uint64_t *records, const std::uint64_t *codes,
+                                std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i, records += record_words(D, attributes_)) {
+        const Point<D> p = record_point<D>(records);
+        if (on_duplicate_ == ABACUS_REPLACE)
+            apart_->put(p, codes[i], record_attributes<D>(records));
+        else
+            apart_->put_new(p, codes[i], record_attributes<D>(records));
     }
 }
 
@@ -108,7 +134,7 @@ template <int D> void Build<D>::add_duplicate(const std::uint64_t *record) {
         return;
     case ABACUS_REPLACE:
         if (header_->duplicates > 0) forget_repeated(p);
-        core_->removal.rename(p, record_id(record), record_attributes<D>(record));
+        rename(p, record);
         return;
     case ABACUS_REFUSE:
         throw_duplicate(record_id(record));
@@ -162,6 +188,10 @@ void Build<D>::change(abacus_header &header, Change change) {
         core_->cache.flush();
         repeated_->flush();
         repeated_->forget(); // before the next change others may write the table of its pages anew
+        if (apart_) {
+            apart_->flush();
+            apart_->forget();
+        }
     }
     header.simplices = static_cast<std::uint64_t>(core_->mesh.simplices());
     header.ghosts = static_cast<std::uint64_t>(core_->mesh.ghosts());
@@ -177,9 +207,9 @@ template <int D> void Build<D>::run(std::uint64_t limit, abacus_header &header) 
     });
 }
 
-/// Points whose attributes will be read must have those of the mesh.
-template <int D> void Build<D>::check_attributes(const Stage<D> &stage) const {
-    if (!stage.has_attributes(attributes_))
+/// Points whose attributes will be read must have as many.
+template <int D> void Build<D>::check_attributes(const Stage<D> &stage, std::size_t attributes) {
+    if (!stage.has_attributes(static_cast<unsigned>(attributes)))
         throw Error(ABACUS_ERROR_ARGUMENT, "the points have other attributes than the mesh", {},
                     {});
 }
@@ -198,7 +228,7 @@ template <int D> void Build<D>::take_in_distinct(Stage<D> &stage, bool refuses) 
 
 template <int D>
 void Build<D>::insert(Stage<D> &stage, abacus_on_duplicate on_duplicate, abacus_header &header) {
-    check_attributes(stage);
+    check_attributes(stage, attributes_);
     change(header, [&] {
         const std::uint64_t points = stage.points();
         // Not for a few points: a single one would have to wait for all of a large mesh.
@@ -223,7 +253,7 @@ void Build<D>::insert(Stage<D> &stage, abacus_on_duplicate on_duplicate, abacus_
 
 template <int D>
 std::uint64_t Build<D>::remove(Stage<D> &stage, bool exactly, abacus_header &header) {
-    if (exactly) check_attributes(stage);
+    if (exactly) check_attributes(stage, attributes_);
     std::uint64_t taken = 0;
     change(header, [&] {
         const std::uint64_t points = stage.points();
@@ -237,6 +267,29 @@ std::uint64_t Build<D>::remove(Stage<D> &stage, bool exactly, abacus_header &hea
         return points;
     });
     return taken;
+}
+
+template <int D>
+std::uint64_t Build<D>::update(Stage<D> &stage, std::span<const std::uint32_t> which,
+                               abacus_header &header, abacus_named_place &missing) {
+    check_attributes(stage, which.size());
+    std::uint64_t changed = 0;
+    change(header, [&] {
+        const std::uint64_t points = stage.points();
+        insert_waiting(0);
+        Revision revision(*this, which);
+        abacus_header ordered = header; // which may have no domain, if it has no points
+        stage.end(ordered);
+        stage.emit(revision, ordered);
+        changed = revision.changed();
+        if (revision.missing()) {
+            missing.id = record_id(revision.missing()->data());
+            const Point<D> p = record_point<D>(revision.missing()->data());
+            std::copy(p.begin(), p.end(), missing.point);
+        }
+        return points;
+    });
+    return changed;
 }
 
 template <int D> std::uint64_t Build<D>::clear(abacus_header &header) {

@@ -15,6 +15,7 @@
 // Each change ends with all pages written and the header brought up to date.
 #pragma once
 
+#include "attributes/attribute_pages.hpp"
 #include "delaunay/cuts.hpp"
 #include "delaunay/first_simplex.hpp"
 #include "delaunay/insertion.hpp"
@@ -30,6 +31,7 @@
 #include <abacus/change.h>
 #include <chrono>
 #include <optional>
+#include <span>
 
 namespace abacus {
 
@@ -44,6 +46,11 @@ public:
     /// Inserts what waits, then takes away a point for each point of a stage; with
     /// `exactly`, only one that has its id and attributes. Returns how many there were.
     std::uint64_t remove(Stage<D> &stage, bool exactly, abacus_header &header);
+    /// Inserts what waits, then gives the points of a stage, which have values of the attributes
+    /// `which` only, these values. Returns for how many of them there was a point; `missing`
+    /// becomes the first for which there was none.
+    std::uint64_t update(Stage<D> &stage, std::span<const std::uint32_t> which,
+                         abacus_header &header, abacus_named_place &missing);
     /// Takes away all points, waiting ones included; returns how many there were.
     std::uint64_t clear(abacus_header &header);
     /// Gives a mesh whose domain does not fit its points another one, with `memory` bytes for
@@ -55,24 +62,32 @@ private:
     class Distinct;
     class Outlet;
     class Pass;
+    class Revision;
 
     /// The triangulation in memory. All of it goes when the mesh collapses.
     struct Core {
-        Core(const Host &host, const abacus_header &header, std::size_t cache_bytes);
+        Core(const Host &host, const abacus_header &header, std::size_t cache_bytes,
+             AttributePages<D> *attributes);
         Cache<D> cache;
         Delaunay<D> mesh;
         Insertion<D> insertion;
         Removal<D> removal;
     };
 
-    void check_attributes(const Stage<D> &stage) const;
+    static void check_attributes(const Stage<D> &stage, std::size_t attributes);
     bool has_simplices() const { return header_->vertices > 0; }
     /// Of all kinds.
     std::uint64_t simplices() const {
         return static_cast<std::uint64_t>(core_->mesh.simplices() + core_->mesh.ghosts());
     }
     bool has_waiting() const { return header_->inserted < header_->staged; }
+    void make_core(const abacus_header &header);
     VertexIndex create(const std::uint64_t *record);
+    void store_attributes(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n);
+    /// A vertex of the cache as a record.
+    void read_vertex(VertexIndex v, std::uint64_t *record);
+    /// Gives the vertex there the id and the attributes of a record.
+    void rename(const Point<D> &p, const std::uint64_t *record);
     void start(const std::array<VertexIndex, D + 1> &vertices);
     /// Adds points, which may be gathered: change_gathered() comes after the last.
     void add(const std::uint64_t *records, std::size_t n);
@@ -153,6 +168,7 @@ private:
     const unsigned attributes_;
     const std::size_t cache_bytes_;
     Domain<D> domain_;
+    std::optional<AttributePages<D>> apart_;    ///< if the mesh has its attributes apart
     std::optional<Core> core_;                  ///< always there; optional, to be made anew
     std::optional<RepeatedPoints<D>> repeated_; ///< as well
     std::optional<Rest<D>> rest_;               ///< while removals are put off

@@ -30,10 +30,26 @@ template <int D> void Build<D>::forget_repeated(const Point<D> &p) {
     header_->duplicates -= taken;
 }
 
+template <int D> void Build<D>::rename(const Point<D> &p, const std::uint64_t *record) {
+    core_->removal.rename(p, record_id(record), record_attributes<D>(record));
+    if (apart_) apart_->put(p, domain_.code(p), record_attributes<D>(record));
+}
+
+template <int D> void Build<D>::read_vertex(VertexIndex v, std::uint64_t *record) {
+    const VertexHeap<D> &vertices = core_->cache.vertices();
+    const Vertex<D> &vertex = vertices[v];
+    fill_record<D>(record, vertices.id(v), vertex.point, vertices.attributes(v),
+                   static_cast<std::size_t>(vertices.attribute_count()));
+    if (!apart_) return;
+    std::array<double, ABACUS_MAX_ATTRIBUTES> values;
+    apart_->get(vertex.point, vertex.code, values.data());
+    fill_record<D>(record, vertices.id(v), vertex.point, values.data(), attributes_);
+}
+
 template <int D> std::uint64_t Build<D>::pass_on(const Point<D> &p) {
     const std::uint64_t *next = header_->duplicates > 0 ? repeated_->take_first(p) : nullptr;
     if (next == nullptr) return erase_vertex(p);
-    core_->removal.rename(p, record_id(next), record_attributes<D>(next));
+    rename(p, next);
     --header_->duplicates;
     return 1;
 }
@@ -49,6 +65,7 @@ template <int D> std::uint64_t Build<D>::erase_vertex(const Point<D> &p, Leaving
         return 0;
     case Removed::removed:
         --header_->vertices;
+        if (apart_) apart_->drop(p, domain_.code(p));
         break;
     case Removed::collapses:
         collapse();
@@ -62,9 +79,7 @@ template <int D> void Build<D>::collapse() {
     VertexPageWriter pages(host_, D, attributes_, header_->staged);
     std::uint64_t record[record_words(D, ABACUS_MAX_ATTRIBUTES)];
     core_->removal.each_neighbour([&](VertexIndex v) {
-        const VertexHeap<D> &vertices = core_->cache.vertices();
-        fill_record<D>(record, vertices.id(v), vertices.point(v), vertices.attributes(v),
-                       attributes_);
+        read_vertex(v, record);
         pages.add(record);
     });
     make_repeated_wait(pages);
@@ -88,9 +103,7 @@ template <int D> void Build<D>::put_off_removals(std::size_t memory) {
 template <int D> void Build<D>::triangulate_rest() {
     std::uint64_t record[record_words(D, ABACUS_MAX_ATTRIBUTES)];
     each_vertex(core_->cache, [&](VertexIndex v) {
-        const VertexHeap<D> &vertices = core_->cache.vertices();
-        fill_record<D>(record, vertices.id(v), vertices.point(v), vertices.attributes(v),
-                       attributes_);
+        read_vertex(v, record);
         rest_->add(record);
     });
     const std::uint64_t repeated = header_->duplicates, vertices = header_->vertices;
@@ -116,12 +129,20 @@ template <int D> void Build<D>::erase_pages(abacus_page_kind kind) {
 
 template <int D> void Build<D>::forget_simplices() {
     erase_pages(ABACUS_SIMPLEX_PAGES);
+    if (apart_) {
+        apart_->forget();
+        erase_pages(ABACUS_ATTRIBUTE_PAGES);
+    }
     header_->vertices = header_->duplicates = header_->simplices = header_->ghosts = 0;
     forget_cache();
 }
 
 template std::uint64_t Build<2>::erase(const Point<2> &, Leaving &);
 template std::uint64_t Build<3>::erase(const Point<3> &, Leaving &);
+template void Build<2>::rename(const Point<2> &, const std::uint64_t *);
+template void Build<3>::rename(const Point<3> &, const std::uint64_t *);
+template void Build<2>::read_vertex(VertexIndex, std::uint64_t *);
+template void Build<3>::read_vertex(VertexIndex, std::uint64_t *);
 template void Build<2>::forget_repeated(const Point<2> &);
 template void Build<3>::forget_repeated(const Point<3> &);
 template void Build<2>::erase_pages(abacus_page_kind);

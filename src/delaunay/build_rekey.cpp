@@ -86,6 +86,7 @@ template <int D> bool Build<D>::change_domain(const Spread<D> &coming, std::size
     set_domain(*header_, box);
     forget_simplices();
     domain_ = domain_of<D>(*header_);
+    if (apart_) apart_.emplace(host_, domain_, attributes_); // where it was: others know it
     repeated_.emplace(host_, domain_, attributes_);
     if (!is_mesh) return true;
 
@@ -103,10 +104,6 @@ template <int D> bool Build<D>::change_domain(const Spread<D> &coming, std::size
 template <int D> void Build<D>::take_apart(Stage<D> &points, std::array<Record, D + 1> &corners) {
     Cache<D> &cache = core_->cache;
     Record record;
-    const auto read = [&](Record &to, VertexIndex v) {
-        fill_record<D>(to.data(), cache.vertices().id(v), cache.point(v),
-                       cache.vertices().attributes(v), attributes_);
-    };
     Handle simplex = no_handle;
     for (Key page = first_key; simplex == no_handle && page < end_key;) {
         cache.trim();
@@ -115,7 +112,7 @@ template <int D> void Build<D>::take_apart(Stage<D> &points, std::array<Record, 
         });
     }
     if (simplex == no_handle) throw_corrupted("A mesh with vertices has no simplices.");
-    for (int i = 0; i <= D; ++i) read(corners[i], cache.simplex(simplex).vertex[i]);
+    for (int i = 0; i <= D; ++i) read_vertex(cache.simplex(simplex).vertex[i], corners[i].data());
 
     OwnVertices<D> own(cache);
     for (Key page = first_key; page < end_key;) {
@@ -126,7 +123,7 @@ template <int D> void Build<D>::take_apart(Stage<D> &points, std::array<Record, 
                 return record_point<D>(corner.data()) == cache.point(v);
             };
             if (std::any_of(corners.begin(), corners.end(), is_at)) continue;
-            read(record, v);
+            read_vertex(v, record.data());
             points.add(record.data(), 1);
         }
     }

@@ -175,7 +175,10 @@ template <int D> void Build<D>::change_on_threads(Cuts &cuts) {
     if (!crew_) crew_.emplace(host_);
     const bool leave = outlet_ != nullptr;
     if (!leave && !host_.has_tiny_intervals()) insert_near_borders(cuts);
-    if (leave) repeated_->flush(); // threads read them
+    if (leave) {
+        repeated_->flush(); // threads read them
+        if (apart_) apart_->flush();
+    }
     hand_over(cuts);
     Batch left(host_, record_words(D, attributes_));
     if (leave)
@@ -205,6 +208,8 @@ void Build<D>::run_passes(Cuts &cuts, Batch &left, const typename Interval<D>::R
             for (const std::size_t i : results.left)
                 left.add(gathered_.record(i), gathered_.code(i));
             for (const std::size_t i : results.put_off) put_off.push_back(i);
+            for (const std::size_t i : results.gone)
+                apart_->drop(record_point<D>(gathered_.record(i)), gathered_.code(i));
         }
         std::sort(put_off.begin(), put_off.end());
         abacus_counters &counters = core_->cache.counters;
@@ -260,7 +265,7 @@ template <int D> void Build<D>::hand_over(const Cuts &cuts) {
 
 template <int D> void Build<D>::forget_cache() {
     const abacus_counters counters = core_->cache.counters;
-    core_.emplace(host_, *header_, cache_bytes_);
+    make_core(*header_);
     core_->cache.counters = counters;
 }
 

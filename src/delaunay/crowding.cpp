@@ -1,6 +1,7 @@
 #include "delaunay/crowding.hpp"
 
 #include "keys/domain_of.hpp"
+#include "mesh/page_attributes.hpp"
 #include "mesh/page_format.hpp"
 #include "points/spread.hpp"
 
@@ -48,7 +49,7 @@ private:
         abacus_page page{};
         host_.poll();
         if (!host_.find(ABACUS_SIMPLEX_PAGES, key_at(middle), page)) return false;
-        view_.read(page.bytes, page.size, static_cast<int>(header_.attributes));
+        view_.read(page.bytes, page.size, page_attributes(header_));
         const Place lower = place_of(view_.lower()), upper = place_of(view_.upper());
         if (middle < lower || upper <= middle) return false;
         if (stretch.from < lower) unseen_.push_back({stretch.from, lower});

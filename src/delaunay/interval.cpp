@@ -2,6 +2,7 @@
 
 #include "blocks/counters.hpp"
 #include "keys/domain_of.hpp"
+#include "mesh/page_attributes.hpp"
 #include "points/record.hpp"
 #include "points/repeated_points.hpp"
 
@@ -14,15 +15,19 @@ constexpr std::size_t report_every = 256;   // points
 constexpr std::uint64_t told_effort = 1024; // of removals: others are told then
 } // namespace
 
+template <int D> AttributePages<D> *Interval<D>::attributes_apart() {
+    if (header_.apart == 0) return nullptr;
+    return &apart_.emplace(host_, cache_.domain(), header_.attributes);
+}
+
 template <int D>
 Interval<D>::Interval(const Host &host, const abacus_header &header, std::uint64_t first,
                       std::uint64_t last, std::size_t cache_bytes)
-    : host_(host), header_(header),
-      cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
-             CacheOptions{.budget = cache_bytes}),
+    : host_(host), header_(header), cache_(host, domain_of<D>(header), page_attributes(header),
+                                           CacheOptions{.budget = cache_bytes}),
       mesh_(host, cache_, static_cast<std::int64_t>(header.simplices),
             static_cast<std::int64_t>(header.ghosts)),
-      insertion_(mesh_), removal_(mesh_) {
+      insertion_(mesh_), removal_(mesh_, attributes_apart()) {
     cache_.keep_within(first, last);
 }
 
@@ -112,6 +117,7 @@ void Interval<D>::remove(const Batch &batch, std::size_t from, std::size_t to, c
         const std::optional<bool> removed = removal_.remove_within(p, leaving);
         if (!removed) return keep(results.put_off);
         results.vertices -= *removed;
+        if (*removed && header_.apart != 0) results.gone.push_back(i);
         effort += removal_.take_effort();
         dealt += end - i;
         if (effort >= told_effort)

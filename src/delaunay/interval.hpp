@@ -112,11 +112,13 @@ template <int D> class Interval {
 public:
     /// Of what became of points; by number in the batch.
     struct Results {
-        explicit Results(const Memory &memory) : left(memory), put_off(memory) {}
+        explicit Results(const Memory &memory) : left(memory), put_off(memory), gone(memory) {}
 
         /// In order: those at vertices, that are inserted, or at repeated points, that leave; and
         /// those whose search would have left the interval.
         Arena<std::size_t> left, put_off;
+        /// Of places whose vertex has gone, a point each, if attributes are apart.
+        Arena<std::size_t> gone;
         std::int64_t simplices = 0, ghosts = 0, vertices = 0; // more than before
         std::uint64_t crowded = 0;                            // came where the domain does not fit
         abacus_counters counters{};
@@ -143,6 +145,7 @@ public:
     void finish(Results &results);
 
 private:
+    AttributePages<D> *attributes_apart();
     /// Calls change(i) for i = from; it returns the next i, until that is `to`.
     template <class Change>
     void each(std::size_t from, std::size_t to, std::atomic<std::uint64_t> &done, Change change);
@@ -152,6 +155,7 @@ private:
     Cache<D> cache_;
     Delaunay<D> mesh_;
     Insertion<D> insertion_;
+    std::optional<AttributePages<D>> apart_; // read only
     Removal<D> removal_;
 };
 

@@ -1,5 +1,8 @@
 #include "delaunay/removal.hpp"
 
+#include <algorithm>
+#include <cstring>
+
 namespace abacus {
 
 namespace {
@@ -34,7 +37,15 @@ template <int D> Link Removal<D>::find(const Point<D> &p, Leaving *want) {
     const Link corner = find(p);
     if (corner == nowhere || want == nullptr) return corner;
     const VertexIndex v = vertex_of(corner);
-    return want->takes(cache_.vertices().id(v), cache_.vertices().attributes(v)) ? corner : nowhere;
+    return want->takes(cache_.vertices().id(v), attributes_of(v, *want)) ? corner : nowhere;
+}
+
+template <int D> const double *Removal<D>::attributes_of(VertexIndex v, const Leaving &leaving) {
+    if (attributes_ == nullptr) return cache_.vertices().attributes(v);
+    if (!leaving.compares_attributes()) return nullptr;
+    const Vertex<D> &vertex = cache_.vertices()[v];
+    attributes_->get(vertex.point, vertex.code, values_.data());
+    return values_.data();
 }
 
 template <int D> bool Removal<D>::finds(const Point<D> &p, Leaving *want) {
@@ -100,7 +111,7 @@ template <int D> std::optional<bool> Removal<D>::offer(const Point<D> &p, Leavin
     std::optional<bool> more;
     if (corner != nowhere) {
         const VertexIndex v = vertex_of(corner);
-        more = leaving.offer(cache_.vertices().id(v), cache_.vertices().attributes(v), 0);
+        more = leaving.offer(cache_.vertices().id(v), attributes_of(v, leaving), 0);
     }
     mesh_.finish(anywhere);
     return more;
@@ -109,10 +120,39 @@ template <int D> std::optional<bool> Removal<D>::offer(const Point<D> &p, Leavin
 template <int D>
 bool Removal<D>::rename(const Point<D> &p, std::int64_t id, const double *attributes) {
     const Link corner = find(p);
+    const bool is_same = corner != nowhere && cache_.vertices().attribute_count() == 0 &&
+                         cache_.vertices().id(vertex_of(corner)) == id;
+    if (corner != nowhere && !is_same) rewrite(corner, id, attributes);
+    mesh_.finish(anywhere);
+    return corner != nowhere;
+}
+
+template <int D> void Removal<D>::rewrite(Link corner, std::int64_t id, const double *attributes) {
+    star_.collect(link_simplex(corner), link_facet(corner));
+    for (const Handle h : star_.simplices()) cache_.mark_dirty(h);
+    cache_.rename_vertex(star_.vertex(), id, attributes);
+}
+
+template <int D> std::optional<std::int64_t> Removal<D>::id_at(const Point<D> &p) {
+    const Link corner = find(p);
+    std::optional<std::int64_t> id;
+    if (corner != nowhere) id = cache_.vertices().id(vertex_of(corner));
+    mesh_.finish(anywhere);
+    return id;
+}
+
+template <int D>
+bool Removal<D>::set_attributes(const Point<D> &p, std::span<const std::uint32_t> which,
+                                const double *values) {
+    const Link corner = find(p);
     if (corner != nowhere) {
-        star_.collect(link_simplex(corner), link_facet(corner));
-        for (const Handle h : star_.simplices()) cache_.mark_dirty(h);
-        cache_.rename_vertex(star_.vertex(), id, attributes);
+        const VertexIndex v = vertex_of(corner);
+        const double *now = cache_.vertices().attributes(v);
+        const auto count = static_cast<std::size_t>(cache_.vertices().attribute_count());
+        std::copy_n(now, count, values_.begin());
+        for (std::size_t i = 0; i < which.size(); ++i) values_[which[i]] = values[i];
+        if (std::memcmp(now, values_.data(), count * sizeof *now) != 0)
+            rewrite(corner, cache_.vertices().id(v), values_.data());
     }
     mesh_.finish(anywhere);
     return corner != nowhere;

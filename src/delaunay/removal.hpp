@@ -5,10 +5,12 @@
 // The vertex's star leaves and the hole is filled again: star.hpp, hole.hpp.
 #pragma once
 
+#include "attributes/attribute_pages.hpp"
 #include "delaunay/hole.hpp"
 #include "points/leaving.hpp"
 
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace abacus {
@@ -21,8 +23,9 @@ enum class Removed {
 
 template <int D> class Removal {
 public:
-    explicit Removal(Delaunay<D> &mesh)
-        : mesh_(mesh), cache_(mesh.cache()), star_(mesh), hole_(mesh) {}
+    /// `attributes`: where those of vertices are, unless the cache has them.
+    explicit Removal(Delaunay<D> &mesh, AttributePages<D> *attributes = nullptr)
+        : mesh_(mesh), cache_(mesh.cache()), attributes_(attributes), star_(mesh), hole_(mesh) {}
 
     /// Removes the vertex with exactly these coordinates (-0.0 equals 0.0); if a want is given,
     /// only one that it takes.
@@ -40,9 +43,15 @@ public:
     /// Offers the vertex there as the first point that may leave. Returns whether the
     /// others make a difference; nothing if there is no vertex.
     std::optional<bool> offer(const Point<D> &p, Leaving &leaving);
-    /// Gives the vertex there another id and other attributes (null if there are none).
-    /// Returns false if there is no vertex.
+    /// Gives the vertex there another id and, unless they are apart, other attributes (null if
+    /// there are none). Returns false if there is no vertex.
     bool rename(const Point<D> &p, std::int64_t id, const double *attributes);
+    /// The id of the vertex there; nothing if there is none.
+    std::optional<std::int64_t> id_at(const Point<D> &p);
+    /// Gives the vertex there, whose attributes are not apart, other values of the attributes
+    /// `which`. Returns false if there is no vertex.
+    bool set_attributes(const Point<D> &p, std::span<const std::uint32_t> which,
+                        const double *values);
 
     /// Calls visit(vertex index) for each neighbour of the vertex that remove() has found,
     /// until the next operation. After `collapses` these are all vertices but that one.
@@ -65,11 +74,17 @@ private:
     bool collapses() const;
     /// Whether all simplices in the hole will belong to the cache's interval.
     bool stays_within() const;
+    /// Writes id and attributes of the vertex wherever it is stored.
+    void rewrite(Link corner, std::int64_t id, const double *attributes);
     /// Takes the vertex of the star out.
     void take_out();
+    /// What tells a vertex from others at its place; read by the next call.
+    const double *attributes_of(VertexIndex v, const Leaving &leaving);
 
     Delaunay<D> &mesh_;
     Cache<D> &cache_;
+    AttributePages<D> *const attributes_;
+    std::array<double, ABACUS_MAX_ATTRIBUTES> values_; // of a vertex
     Star<D> star_;
     Hole<D> hole_;
     std::uint64_t effort_ = 0;

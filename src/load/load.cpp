@@ -1,8 +1,10 @@
 #include "load/load.hpp"
 
+#include "attributes/attribute_pages.hpp"
 #include "keys/domain_of.hpp"
 #include "load/element_writer.hpp"
 #include "load/overlap.hpp"
+#include "mesh/page_attributes.hpp"
 #include "points/canonical.hpp"
 #include "points/vertex_page.hpp"
 
@@ -16,23 +18,24 @@ constexpr std::size_t sorts_at_once = 4;
 
 template <int D>
 Load<D>::Load(const Host &host, const abacus_header &header, std::size_t memory, bool reorient)
-    : host_(host), attributes_(header.attributes), layout_(header.attributes), reorient_(reorient),
-      unknown_(host), share_(memory / sorts_at_once), pacer_(host), spread_(host),
-      used_(host, layout_.vertex), ordered_(host, layout_.vertex),
+    : host_(host), attributes_(header.attributes), in_pages_(page_attributes(header)),
+      layout_(static_cast<unsigned>(in_pages_)), vertex_words_(record_words(D, attributes_)),
+      reorient_(reorient), unknown_(host), share_(memory / sorts_at_once), pacer_(host),
+      spread_(host), used_(host, vertex_words_), ordered_(host, vertex_words_),
       simplices_(host, layout_.simplex) {
     if (header.staged > 0 || header.vertices > 0)
         throw Error(ABACUS_ERROR_STATE, "the mesh has points already", {},
                     "Load into an empty mesh.");
     if (header.has_domain != 0) domain_ = domain_of<D>(header);
-    begin(vertices_, layout_.vertex, 1);
+    begin(vertices_, vertex_words_, 1);
     begin(corners_, 2, 2);
     pacer_.begin(ABACUS_PHASE_READING, 0);
 }
 
 template <int D> void Load<D>::add_vertices(const Word *points, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i, points += layout_.vertex) {
+    for (std::size_t i = 0; i < count; ++i, points += vertex_words_) {
         Word *record = vertices_->add();
-        std::copy_n(points, layout_.vertex, record);
+        std::copy_n(points, vertex_words_, record);
         make_canonical<D>(record);
     }
     pacer_.reached(vertices_->size());
@@ -51,12 +54,20 @@ template <int D> void Load<D>::add_simplices(const Word *ids, std::size_t count)
     pacer_.reached(vertices_->size() + simplex_count_);
 }
 
-/// Lists the vertices beside a mesh that is not Delaunay. The simplices around a vertex need
-/// not be connected there, so a reader of pages could not tell which vertices it has seen.
-template <int D> void Load<D>::write_vertices() {
-    VertexPageWriter pages(host_, D, attributes_, 0);
-    while (const Word *vertex = ordered_.next()) pages.add(vertex);
-    pages.finish();
+/// Writes the attributes, if they are apart, and lists the vertices beside a mesh that is not
+/// Delaunay. The simplices around a vertex need not be connected there, so a reader of pages could
+/// not tell which vertices it has seen.
+template <int D> void Load<D>::write_vertices(bool is_listed) {
+    const bool are_apart = static_cast<unsigned>(in_pages_) != attributes_;
+    VertexPageWriter list(host_, D, static_cast<unsigned>(in_pages_), 0);
+    AttributePages<D> attributes(host_, *domain_, are_apart ? attributes_ : 0);
+    while (const Word *vertex = is_listed || are_apart ? ordered_.next() : nullptr) {
+        const Point<D> &p = point_in<D>(vertex);
+        if (is_listed) list.add(vertex);
+        if (are_apart) attributes.put(p, domain_->code(p), record_attributes<D>(vertex));
+    }
+    if (is_listed) list.finish();
+    attributes.flush();
     ordered_.close();
 }
 
@@ -98,13 +109,10 @@ template <int D> void Load<D>::write(abacus_header &header) {
     elements_->finish();
 
     pacer_.begin(ABACUS_PHASE_FLUSHING, elements_->size());
-    ElementWriter<D> pages(host_, layout_, *domain_, attributes_, is_delaunay);
+    ElementWriter<D> pages(host_, layout_, *domain_, in_pages_, is_delaunay);
     pages.write(*elements_, pacer_);
     end(elements_);
-    if (is_delaunay)
-        ordered_.close();
-    else
-        write_vertices();
+    write_vertices(!is_delaunay);
 
     if (keeps_domain_)
         header.outside = outside_;

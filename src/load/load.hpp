@@ -91,7 +91,7 @@ private:
 
     // load.cpp
     abacus_delaunay outcome() const;
-    void write_vertices();
+    void write_vertices(bool is_listed);
     void begin(std::optional<RecordSort> &sort, std::size_t stride, std::size_t key) {
         sort.emplace(host_, stride, key, share_);
     }
@@ -102,7 +102,9 @@ private:
 
     const Host &host_;
     const unsigned attributes_;
+    const int in_pages_; // attributes of simplex pages: all or none
     const LoadLayout<D> layout_;
+    const std::size_t vertex_words_; // of what is given: corners have no attributes that are apart
     const bool reorient_;
     Faults faults_; // of one step: there is no next one if it has some
     Arena<Unknown> unknown_;

@@ -46,7 +46,7 @@ template <int D> void Load<D>::use_vertex(const Word *vertex) {
     spread_.add(p);
     ++vertex_count_;
     outside_ += domain_ && !Box<D>(domain_->lower(), domain_->upper()).contains(p);
-    std::copy_n(vertex, layout_.vertex, used_.add());
+    std::copy_n(vertex, vertex_words_, used_.add());
 }
 
 template <int D> void Load<D>::add_unknown(const Word *corner) {
@@ -89,7 +89,7 @@ template <int D> void Load<D>::choose_domain() {
 
 template <int D> void Load<D>::order_vertices() {
     // Code, coordinates, then the rest of the record.
-    RecordSort places(host_, 1 + layout_.vertex, 1 + D, share_);
+    RecordSort places(host_, 1 + vertex_words_, 1 + D, share_);
     used_.rewind();
     while (const Word *vertex = used_.next()) {
         Word *place = places.add();

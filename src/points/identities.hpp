@@ -28,6 +28,7 @@ public:
         : attributes_(attributes), stride_(1 + std::size_t(attributes)), words_(host),
           hashes_(host), slots_(host, attributes > 0 ? HashSlots<none>::few : 0) {}
 
+    bool has_attributes() const { return attributes_ > 0; }
     /// The number of a point that is wanted.
     std::int64_t enter(std::int64_t id, const double *attributes) {
         const std::int64_t known = find(id, attributes);

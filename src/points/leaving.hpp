@@ -33,6 +33,8 @@ public:
     }
     bool is_full() const { return wants_.size() >= most_; }
     bool empty() const { return wants_.empty(); }
+    /// Whether the attributes of points make a difference.
+    bool compares_attributes() const { return identities_.has_attributes(); }
     /// Whether a want takes this point, if there is no other at the place.
     bool takes(std::int64_t id, const double *attributes) {
         return !exactly_ || std::find(wants_.begin(), wants_.end(),

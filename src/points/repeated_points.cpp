@@ -173,6 +173,19 @@ template <int D> void RepeatedPoints<D>::offer(const Point<D> &p, Leaving &leavi
     });
 }
 
+template <int D>
+bool RepeatedPoints<D>::set_attributes(const Point<D> &p, std::int64_t id,
+                                       std::span<const std::uint32_t> which, const double *values) {
+    const std::size_t at =
+        find(p, [&](const std::uint64_t *entry) { return record_id(record_of(entry)) == id; });
+    if (at == none) return false;
+    std::uint64_t *const attributes = entry(at) + 1 + record_words(D, 0);
+    for (std::size_t i = 0; i < which.size(); ++i)
+        attributes[which[i]] = std::bit_cast<std::uint64_t>(values[i]);
+    dirty_ = true;
+    return true;
+}
+
 template <int D> std::uint64_t RepeatedPoints<D>::take(const Point<D> &p, const Leaving &leaving) {
     const std::uint64_t code = domain_.code(p);
     std::uint64_t taken = 0;

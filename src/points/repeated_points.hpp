@@ -22,6 +22,8 @@
 
 #include <abacus/header.h>
 
+#include <span>
+
 namespace abacus {
 
 template <int D> class RepeatedPoints {
@@ -34,6 +36,10 @@ public:
     bool contains(const Point<D> &p);
     /// Offers the points equal to p, until the others make no difference.
     void offer(const Point<D> &p, Leaving &leaving);
+    /// Gives the first point equal to p that has this id other values of the attributes `which`;
+    /// false if there is none.
+    bool set_attributes(const Point<D> &p, std::int64_t id, std::span<const std::uint32_t> which,
+                        const double *values);
     /// Takes away those that leave, in the order of their pages; each page is read and
     /// written once. Returns how many there were.
     std::uint64_t take(const Point<D> &p, const Leaving &leaving);

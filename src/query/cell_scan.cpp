@@ -8,14 +8,15 @@ namespace abacus {
 template <int D>
 CellScan<D>::CellScan(const Host &host, const abacus_header &header, const abacus_window &window,
                       double max_edge)
-    : domain_(domain_of<D>(header)), filter_(window, max_edge) {
+    : domain_(domain_of<D>(header)), filter_(window, max_edge), vertex_values_(host, header) {
     pages_.emplace(host, header, filter_.region());
 }
 
 template <int D>
 CellScan<D>::CellScan(const Host &host, const abacus_header &header, std::uint64_t least,
                       std::uint64_t greatest)
-    : domain_(domain_of<D>(header)), filter_({}, 0), least_(least), greatest_(greatest) {
+    : domain_(domain_of<D>(header)), filter_({}, 0), vertex_values_(host, header), least_(least),
+      greatest_(greatest) {
     stretch_.emplace(host, header, least, greatest);
 }
 
@@ -36,7 +37,7 @@ template <int D> bool CellScan<D>::next(abacus_simplex &simplex, CornerValues *v
         while (at_ < page().simplices()) {
             const int s = at_++;
             if (!wants(s)) continue;
-            describe(page(), s, domain_, simplex, values);
+            describe(page(), s, domain_, simplex, values, vertex_values_);
             return true;
         }
         in_page_ = false;

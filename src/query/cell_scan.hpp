@@ -6,6 +6,7 @@
 #include "query/cell_filter.hpp"
 #include "query/corner_values.hpp"
 #include "query/stretch_scan.hpp"
+#include "query/vertex_values.hpp"
 
 #include <abacus/ask.h>
 #include <optional>
@@ -35,6 +36,7 @@ private:
 
     const Domain<D> domain_;
     const CellFilter<D> filter_;
+    const VertexValues<D> vertex_values_;
     std::uint64_t least_ = 0, greatest_ = 0; // of a stretch
     // One of the two.
     std::optional<RangeScan<D>> pages_;

@@ -28,6 +28,9 @@ Check<D>::Check(const Host &host, const abacus_header &header, std::size_t cache
         faults_.shorten(before);
         check_links_and_points(nullptr);
     }
+    if (header_.apart == 0) return;
+    faults_.run("attributes", [&] { check_attribute_pages(); });
+    if (faults_.is_sound()) faults_.run("vertex", [&] { check_attributes(); });
 }
 
 template <int D> void Check<D>::check_links_and_points(Together *together) {
@@ -66,7 +69,7 @@ template <int D> void Check<D>::check_pages() {
     while (scan.fetch()) {
         faults_.at = scan.key();
         report_some(++pages_);
-        const bool is_read = check.read(scan.bytes(), scan.size(), header_.attributes);
+        const bool is_read = check.read(scan.bytes(), scan.size(), page_attributes(header_));
         if (is_read) {
             if (is_expecting && !(check.page().lower() == expected))
                 faults_.add("interval", "The pages leave out or share a part of the curve.");
@@ -144,7 +147,7 @@ template <int D> void Check<D>::check_waiting_points() {
 
 template <int D> void Check<D>::check_listed_vertices() {
     Reader<D> mesh(host_, header_, {.budget = cache_bytes_, .verify_checksums = false});
-    VertexReader<D> list(host_, header_.attributes, 0, header_.staged);
+    VertexReader<D> list(host_, static_cast<unsigned>(page_attributes(header_)), 0, header_.staged);
     std::uint64_t in_pages = 0;
     // Along the curve, and those of one code by their coordinates as words: so abacus_load sorts.
     std::array<std::uint64_t, 1 + D> place{}, previous{};
@@ -168,6 +171,39 @@ template <int D> void Check<D>::check_listed_vertices() {
     abacus_page page;
     if (host_.next(ABACUS_STAGED_PAGES, &last, page))
         faults_.add("count", page.key, "There are pages behind the list of vertices.");
+}
+
+template <int D> void Check<D>::check_attribute_pages() {
+    const AttributeGroups groups(header_.attributes);
+    AttributeScan<D> scan(host_, domain_, header_.attributes);
+    std::array<std::uint64_t, AttributeGroups(ABACUS_MAX_ATTRIBUTES).count()> vertices{};
+    while (scan.fetch()) {
+        faults_.at = scan.key();
+        scan.read();
+        vertices[scan.group()] += scan.vertices();
+    }
+    for (unsigned group = 0; group < groups.count(); ++group)
+        if (vertices[group] != header_.vertices)
+            faults_.add("attributes", group_begin(group),
+                        "The attribute pages have another number of vertices than the mesh.");
+}
+
+/// There are as many vertices with attributes as vertices; so it is enough that each of these has
+/// some.
+template <int D> void Check<D>::check_attributes() {
+    AttributeReader<D> attributes(host_, domain_, header_.attributes, cache_bytes_ / 2);
+    PageScan<D> scan(host_, header_);
+    PageView<D> page;
+    while (scan.fetch()) {
+        faults_.at = scan.key();
+        page.read(scan.bytes(), scan.size(), page_attributes(header_),
+                  PageView<D>::Checksum::ignore);
+        for (int v = 0; v < page.vertices(); ++v)
+            if (!attributes.contains(page.point(v))) {
+                faults_.add("vertex", "A vertex has no attributes.");
+                break;
+            }
+    }
 }
 
 template class Check<2>;

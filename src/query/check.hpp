@@ -14,6 +14,9 @@
 //   points    every repeated point equals a vertex; the sequence of those that wait is
 //             whole; the counts add up
 //
+// If attributes are apart, two more passes look into their pages, and for the attributes of each
+// vertex.
+//
 // A mesh that is not Delaunay need not fulfil the empty-sphere criterion and Euler's
 // relation, nor have a convex hull, which its stars would be judged by. Instead, the two
 // simplices at a facet must lie on its two sides, which follows from their orientations.
@@ -32,6 +35,7 @@
 // In a large mesh several threads look at pages and follow links (check_threads.cpp).
 #pragma once
 
+#include "attributes/attribute_reader.hpp"
 #include "points/repeated_points.hpp"
 #include "points/vertex_reader.hpp"
 #include "query/page_check.hpp"
@@ -65,6 +69,8 @@ private:
     void check_follows(const Key &last, const Key &at);
     void check_waiting_points();
     void check_listed_vertices();
+    void check_attribute_pages();
+    void check_attributes();
 
     void report(std::uint64_t pages, unsigned threads = 0);
     void report_some(std::uint64_t pages) {

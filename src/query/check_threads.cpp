@@ -94,7 +94,7 @@ private:
         for (std::size_t i = 0; i < batch.size; ++i) {
             const PageFeed::Page &page = batch.pages[i];
             faults.at = page.key;
-            if (!check.read(page.bytes, page.size, this->check().header_.attributes)) return;
+            if (!check.read(page.bytes, page.size, page_attributes(this->check().header_))) return;
             check.check();
             const Key &behind = i + 1 < batch.size ? batch.pages[i + 1].key : batch.beyond;
             if (!(check.page().upper() == behind))

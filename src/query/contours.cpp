@@ -28,9 +28,9 @@ Contours::Contours(const Host &host, const abacus_header &header, const abacus_w
                    const abacus_contouring &contouring, std::size_t memory)
     : host_(host), simplices_(header.simplices + header.ghosts), pacer_(host),
       how_(checked(header, contouring)), window_(window), bounds_(window), levels_(how_),
-      attribute_(&how_.attribute, 1), pages_(host, header, window_.region()),
-      cut_(bounds_, levels_, how_.bands != 0), pieces_(host, memory / 3 * 2),
-      rims_(host, bounds_, levels_, memory / 3), edges_(host) {}
+      attribute_(&how_.attribute, 1), vertex_values_(host, header),
+      pages_(host, header, window_.region()), cut_(bounds_, levels_, how_.bands != 0),
+      pieces_(host, memory / 3 * 2), rims_(host, bounds_, levels_, memory / 3), edges_(host) {}
 
 void Contours::each(abacus_contour_report report, void *context) {
     read();
@@ -61,7 +61,7 @@ bool Contours::read_values() {
     bool differ = false;
     int before = -1; // a vertex with a value
     for (int v = 0; v < page.vertices(); ++v) {
-        attribute_.set(0, [&](int attribute) { return page.attribute(v, attribute); });
+        attribute_.set(0, [&](int attribute) { return vertex_values_.value(page, v, attribute); });
         values_[v] = attribute_.value(0, 0);
         if (!std::isfinite(values_[v])) {
             values_[v] = std::numeric_limits<double>::quiet_NaN();

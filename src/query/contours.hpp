@@ -8,6 +8,7 @@
 #include "query/contour_pieces.hpp"
 #include "query/contour_rims.hpp"
 #include "query/corner_values.hpp"
+#include "query/vertex_values.hpp"
 #include "query/window.hpp"
 #include "sort/pacer.hpp"
 
@@ -48,6 +49,7 @@ private:
     const ContourWindow bounds_;
     ContourLevels levels_;
     CornerValues attribute_;
+    const VertexValues<2> vertex_values_;
     RangeScan<2> pages_;
     ContourCut cut_;
     ContourPieces pieces_;

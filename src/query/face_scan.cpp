@@ -12,11 +12,13 @@ namespace abacus {
 
 namespace {
 
-template <int D> typename RangeScan<D>::Wants pages_with(const std::optional<abacus_range> &range) {
-    if (!range) return {};
-    return [range = *range](const PageView<D> &page) {
-        return page.may_have_attribute(static_cast<int>(range.attribute), range.least,
-                                       range.greatest);
+template <int D>
+typename RangeScan<D>::Wants pages_with(const std::optional<abacus_range> &range,
+                                        const VertexValues<D> &values) {
+    if (!range || values.are_apart()) return {};
+    return [range = *range, &values](const PageView<D> &page) {
+        return values.may_have(page, static_cast<int>(range.attribute), range.least,
+                               range.greatest);
     };
 }
 
@@ -27,8 +29,8 @@ FaceScan<D>::FaceScan(const Host &host, const abacus_header &header, const abacu
                       int corners, double max_edge, std::size_t cache_bytes,
                       std::optional<abacus_range> range)
     : host_(host), header_(header), corners_(corners), max_edge_(max_edge),
-      cache_bytes_(cache_bytes), range_(range), window_(window),
-      pages_(host, header, window_.region(), pages_with<D>(range)), memory_(host),
+      cache_bytes_(cache_bytes), range_(range), window_(window), vertex_values_(host, header),
+      pages_(host, header, window_.region(), pages_with<D>(range, vertex_values_)), memory_(host),
       known_(&memory_) {}
 
 template <int D> bool FaceScan<D>::advance() {
@@ -36,6 +38,7 @@ template <int D> bool FaceScan<D>::advance() {
         if (!in_page_) {
             if (!pages_.advance()) return false;
             in_page_ = true;
+            if (range_) compare_values();
             simplex_ = 0;
             face_ = 0;
         }
@@ -57,11 +60,17 @@ template <int D> bool FaceScan<D>::take(int simplex, unsigned face) {
     return is_of_ghost(simplex);
 }
 
-template <int D> bool FaceScan<D>::is_wanted() const {
-    if (range_) { // a missing value is in none
-        const double value = page().attribute(vertices_[0], static_cast<int>(range_->attribute));
-        if (!(range_->least <= value && value <= range_->greatest)) return false;
+/// Of all vertices of the page with the range; a missing value is in none.
+template <int D> void FaceScan<D>::compare_values() {
+    const auto attribute = static_cast<int>(range_->attribute);
+    for (int v = 0; v < page().vertices(); ++v) {
+        const double value = vertex_values_.value(page(), v, attribute);
+        is_in_range_[v] = range_->least <= value && value <= range_->greatest;
     }
+}
+
+template <int D> bool FaceScan<D>::is_wanted() const {
+    if (range_ && !is_in_range_[vertices_[0]]) return false;
     if (corners_ == 1) return window_.contains(point(0));
     if (max_edge_ > 0 && !is_within<D>(max_edge_, point(0), point(1))) return false;
     return window_.meets(point(0), point(1));

@@ -14,6 +14,7 @@
 
 #include "host/memory_resource.hpp"
 #include "query/reader.hpp"
+#include "query/vertex_values.hpp"
 #include "query/window.hpp"
 
 #include <memory_resource>
@@ -40,6 +41,7 @@ public:
     int vertex(int corner) const { return vertices_[corner]; }
     /// Those of the window, without what the search for owners of faces reads.
     std::uint64_t pages_read() const { return pages_.pages_read(); }
+    const VertexValues<D> &vertex_values() const { return vertex_values_; }
 
 private:
     FaceScan(const Host &host, const abacus_header &header, const abacus_window &window,
@@ -49,6 +51,7 @@ private:
     using FacetPoints = std::array<Point<D>, D>;
 
     bool take(int simplex, unsigned face);
+    void compare_values();
     bool is_wanted() const;
     /// Whether the face at hand belongs to a ghost of the page.
     bool is_of_ghost(int ghost);
@@ -73,6 +76,8 @@ private:
     const std::size_t cache_bytes_;
     const std::optional<abacus_range> range_;
     const Window<D> window_;
+    const VertexValues<D> vertex_values_;
+    std::array<bool, page_vertices<D>> is_in_range_; // of a page's vertices
     RangeScan<D> pages_;
     std::optional<Reader<D>> reader_; // once needed
     HostMemory memory_;

@@ -167,7 +167,7 @@ typename Glance<D>::Outcome Glance<D>::look(std::uint64_t code, const KnownPage 
     const int number = search(*held, p);
     if (number == nowhere) return Outcome::not_here;
     if (number == on_facet) return Outcome::not_now;
-    describe(held->view, number, cache_.domain(), simplex, values);
+    describe(held->view, number, cache_.domain(), simplex, values, vertex_values_);
     return Outcome::found;
 }
 

@@ -25,6 +25,7 @@
 #include "query/corner_values.hpp"
 #include "query/known_pages.hpp"
 #include "query/simplex_boxes.hpp"
+#include "query/vertex_values.hpp"
 
 #include <abacus/read.h>
 #include <algorithm>
@@ -39,8 +40,10 @@ public:
     /// `bytes` are for what is known of pages. If places come in the order of the curve, as
     /// many again are for pages that are held; a page that is looked into again is then not
     /// needed for long.
-    Glance(const Cache<D> &cache, std::size_t bytes, bool in_order)
-        : cache_(cache), known_(cache.host(), bytes), in_order_(in_order), memory_(cache.host()),
+    Glance(const Cache<D> &cache, const VertexValues<D> &vertex_values, std::size_t bytes,
+           bool in_order)
+        : cache_(cache), vertex_values_(vertex_values), known_(cache.host(), bytes),
+          in_order_(in_order), memory_(cache.host()),
           held_(in_order ? std::clamp<std::size_t>(bytes / sizeof(Held), 2, most_held) : 1,
                 &memory_) {
         seen_.fill(end_key); // no page's
@@ -129,6 +132,7 @@ private:
     static double spacing(const PageView<D> &view);
 
     const Cache<D> &cache_;
+    const VertexValues<D> &vertex_values_;
     KnownPages known_;
     const bool in_order_;
     HostMemory memory_;

@@ -32,8 +32,10 @@ bool Interpolation<D>::weigh_natural(Reader<D> &reader, const abacus_interpolati
     if (h == no_handle || cache.simplex(h).is_ghost()) return false;
     const VertexHeap<D> &vertices = cache.vertices();
     const auto add_vertex = [&](VertexIndex v, double weight) {
-        add(what, vertices.id(v), weight,
-            [&](std::uint32_t n) { return vertices.attributes(v)[what.attribute[n]]; });
+        add(what, vertices.id(v), weight, [&](std::uint32_t n) {
+            const auto attribute = static_cast<int>(what.attribute[n]);
+            return reader.vertex_values().value(vertices, v, attribute);
+        });
     };
     for (const VertexIndex v : cache.simplex(h).vertex)
         if (cache.point(v) == p) {

@@ -17,12 +17,13 @@ constexpr std::uint64_t number_mask = (std::uint64_t{1} << number_bits) - 1;
 
 Isosurface::Isosurface(const Host &host, const abacus_header &header,
                        const abacus_isosurface_query &query, std::size_t memory)
-    : query_(query), filter_(query.window, query.max_edge), pacer_(host),
+    : query_(query), filter_(query.window, query.max_edge), vertex_values_(host, header),
+      pacer_(host),
       pages_(host, header, filter_.region(),
              [this](const PageView<3> &page) {
                  pacer_.reached(seen_ += static_cast<std::uint64_t>(page.simplices()));
-                 return page.may_have_attribute(static_cast<int>(query_.attribute), query_.value,
-                                                query_.value);
+                 return vertex_values_.may_have(page, static_cast<int>(query_.attribute),
+                                                query_.value, query_.value);
              }),
       edges_(host), numbers_(host, 6, memory), pages_made_(host, 1),
       corners_(host, query.carried >= 0 ? 4 : 3), triangles_(host, 1), corners_here_(host) {
@@ -48,7 +49,7 @@ void Isosurface::scan() {
 
 void Isosurface::take(const PageView<3> &page) {
     for (int v = 0; v < page.vertices(); ++v) {
-        const double value = page.attribute(v, static_cast<int>(query_.attribute));
+        const double value = vertex_values_.value(page, v, static_cast<int>(query_.attribute));
         sides_[v] = !std::isfinite(value)  ? Side::nowhere
                     : value < query_.value ? Side::below
                                            : Side::above;
@@ -94,8 +95,8 @@ std::size_t Isosurface::corner(const PageView<3> &page, int below, int above) {
     const bool is_turned = page.point(above) < page.point(below);
     const int from = is_turned ? above : below, to = is_turned ? below : above;
     const auto attribute = static_cast<int>(query_.attribute);
-    const double share =
-        share_at(query_.value, page.attribute(from, attribute), page.attribute(to, attribute));
+    const double share = share_at(query_.value, vertex_values_.value(page, from, attribute),
+                                  vertex_values_.value(page, to, attribute));
     std::uint64_t *word = numbers_.add(); // by the ends of the edge
     for (const int end : {from, to})
         for (const double x : page.point(end)) *word++ = ordered(x);
@@ -103,8 +104,9 @@ std::size_t Isosurface::corner(const PageView<3> &page, int below, int above) {
     for (const double x : point_between(page.point(from), page.point(to), share))
         *word++ = std::bit_cast<std::uint64_t>(x);
     if (query_.carried >= 0)
-        *word = std::bit_cast<std::uint64_t>(value_between(
-            page.attribute(from, query_.carried), page.attribute(to, query_.carried), share));
+        *word = std::bit_cast<std::uint64_t>(
+            value_between(vertex_values_.value(page, from, query_.carried),
+                          vertex_values_.value(page, to, query_.carried), share));
     return number;
 }
 

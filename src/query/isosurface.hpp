@@ -11,6 +11,7 @@
 
 #include "query/cell_filter.hpp"
 #include "query/page_edges.hpp"
+#include "query/vertex_values.hpp"
 #include "sort/dense_ranks.hpp"
 #include "sort/record_spool.hpp"
 
@@ -58,6 +59,7 @@ private:
 
     const abacus_isosurface_query query_;
     const CellFilter<3> filter_;
+    const VertexValues<3> vertex_values_;
     Pacer pacer_;
     std::uint64_t seen_ = 0; // simplices
     RangeScan<3> pages_;

@@ -55,7 +55,8 @@ void LineScan<D>::fill(Crossing<D> &crossing, Handle h, const FacetPlace<D> &pla
     for (int i = 0; i < D; ++i) {
         const VertexIndex v = s.vertex[place.corner[i]];
         crossing.corner[i] = cache_.point(v);
-        crossing.value[i] = attribute_ < 0 ? 0 : cache_.vertices().attributes(v)[attribute_];
+        crossing.value[i] =
+            attribute_ < 0 ? 0 : reader_.vertex_values().value(cache_.vertices(), v, attribute_);
         crossing.weight[i] = place.weight[i];
         if (place.weight[i] == 0) continue;
         const double along = line_.along(crossing.corner[i]);

@@ -34,8 +34,8 @@ public:
     /// It can be made for each place: what takes long to make is the reader's.
     explicit Nearest(Reader<D> &reader)
         : reader_(reader), cache_(reader.cache()), memory_(cache_.host()),
-          words_(record_words(D, static_cast<unsigned>(cache_.vertices().attribute_count()))),
-          records_(cache_.host()), candidates_(Order{p_}, &memory_) {}
+          words_(record_words(D, reader.vertex_values().count())), records_(cache_.host()),
+          candidates_(Order{p_}, &memory_) {}
     Nearest(const Nearest &) = delete;
     Nearest &operator=(const Nearest &) = delete;
 
@@ -43,7 +43,13 @@ public:
     /// valid during the call, in which the reader must not be used.
     template <class Visit> void find(const Point<D> &p, std::uint64_t k, Visit visit) {
         search(p, k);
-        for (const Candidate &candidate : candidates_) visit(record(candidate));
+        for (const Candidate &candidate : candidates_) {
+            std::uint64_t *const words = records_.data() + candidate.slot * words_;
+            if (reader_.vertex_values().are_apart())
+                reader_.vertex_values().all_at(candidate.point,
+                                               reinterpret_cast<double *>(words + 1 + D));
+            visit(static_cast<const std::uint64_t *>(words));
+        }
     }
 
 private:
@@ -77,9 +83,6 @@ private:
     void forget() {
         candidates_.clear();
         records_.clear();
-    }
-    const std::uint64_t *record(const Candidate &candidate) const {
-        return records_.data() + candidate.slot * words_;
     }
 
     Reader<D> &reader_;

@@ -42,18 +42,20 @@ void name_vertices(const Host &host, const abacus_header &header, Add add) {
 template <int D>
 NumberedVertices<D>::NumberedVertices(const Host &host, const abacus_header &header,
                                       std::size_t memory)
-    : named_(host, key_words<D> + 1 + header.attributes, key_words<D>, memory),
-      left_(header.vertices), current_(host) {
-    const int attributes = static_cast<int>(header.attributes);
+    : vertex_values_(host, header),
+      named_(host, key_words<D> + 1 + static_cast<unsigned>(page_attributes(header)), key_words<D>,
+             memory),
+      left_(header.vertices), current_(host), apart_(host) {
     name_vertices<D>(host, header, [&](const PageView<D> &page, int v) {
         std::uint64_t *const name = named_.add(), *rest = name + key_words<D>;
         *rest++ = static_cast<std::uint64_t>(page.id(v));
-        for (int i = 0; i < attributes; ++i)
-            *rest++ = std::bit_cast<std::uint64_t>(page.attribute(v, i));
+        if (!vertex_values_.are_apart())
+            vertex_values_.all(page, v, reinterpret_cast<double *>(rest));
         return name;
     });
     named_.finish();
-    current_.resize(key_words<D> + 1 + header.attributes);
+    current_.resize(key_words<D> + 1 + static_cast<unsigned>(page_attributes(header)));
+    if (vertex_values_.are_apart()) apart_.resize(header.attributes);
     ahead_ = named_.next();
 }
 
@@ -73,6 +75,12 @@ template <int D> bool NumberedVertices<D>::next(abacus_vertex &vertex) {
     const std::uint64_t *const rest = current_.data() + key_words<D>;
     vertex.id = vertex.vertex = static_cast<std::int64_t>(rest[0]);
     vertex.attributes = reinterpret_cast<const double *>(rest + 1);
+    if (vertex_values_.are_apart()) {
+        Point<D> p;
+        std::copy_n(vertex.point, D, p.begin());
+        vertex_values_.all_at(p, apart_.data());
+        vertex.attributes = apart_.data();
+    }
     return true;
 }
 

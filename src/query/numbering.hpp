@@ -10,6 +10,7 @@
 
 #include "keys/locational_code.hpp"
 #include "query/page_scan.hpp"
+#include "query/vertex_values.hpp"
 #include "sort/dense_ranks.hpp"
 
 #include <abacus/arrays.h>
@@ -26,10 +27,12 @@ public:
     bool next(abacus_vertex &vertex);
 
 private:
-    RecordSort named_;
+    const VertexValues<D> vertex_values_;
+    RecordSort named_;           // without attributes that are apart
     std::uint64_t left_;         // vertices, as the header counts them
     const std::uint64_t *ahead_; // the next record, null after the last
     Arena<std::uint64_t> current_;
+    Arena<double> apart_; // attributes of the current one
 };
 
 /// The simplices of a mesh in the order of their pages, with the numbers of their corners.

@@ -58,8 +58,7 @@ Overlaps::Overlaps(const Host &host, const abacus_header &header, std::uint32_t 
                    double max_edge, const Box<2> &window, std::size_t cache_bytes)
     : host_(host), header_(header), attribute_(static_cast<int>(attribute)), max_edge_(max_edge),
       window_(window), reader_(host, header, cache_bytes) {
-    if (!reader_.is_delaunay())
-        search_.emplace(host, static_cast<int>(header.attributes), cache_bytes / 2);
+    if (!reader_.is_delaunay()) search_.emplace(host, page_attributes(header), cache_bytes / 2);
 }
 
 // The hull's edges, from one that is seen from far away.
@@ -166,7 +165,7 @@ bool Overlaps::flood(const Asked &t, const Visit &visit) {
         if (s.is_ghost()) continue;
         std::array<double, 3> values;
         for (int i = 0; i < 3; ++i)
-            values[i] = cache.vertices().attributes(s.vertex[i])[attribute_];
+            values[i] = reader_.vertex_values().value(cache.vertices(), s.vertex[i], attribute_);
         show(t, cache.corners(s), values, visit);
     }
     return true;
@@ -201,7 +200,8 @@ void Overlaps::search_pages(const Asked &t, const Visit &visit) {
 void Overlaps::show(const Asked &t, const PageView<2> &page, int simplex,
                     const Visit &visit) const {
     std::array<double, 3> values;
-    for (int i = 0; i < 3; ++i) values[i] = page.attribute(page.corner(simplex, i), attribute_);
+    for (int i = 0; i < 3; ++i)
+        values[i] = reader_.vertex_values().value(page, page.corner(simplex, i), attribute_);
     show(t, corners_of(page, simplex), values, visit);
 }
 

@@ -9,10 +9,10 @@
 namespace abacus {
 
 template <int D>
-bool PageCheck<D>::read(const unsigned char *bytes, std::size_t size, unsigned attributes) {
+bool PageCheck<D>::read(const unsigned char *bytes, std::size_t size, int attributes) {
     bool is_read = false;
     faults_.run("page", [&] {
-        page_.read(bytes, size, static_cast<int>(attributes), PageView<D>::Checksum::ignore);
+        page_.read(bytes, size, attributes, PageView<D>::Checksum::ignore);
         if (!page_is_sealed(bytes, size))
             faults_.add_of_content("checksum", "A page has been changed since it was written.");
         is_read = true;

@@ -12,7 +12,7 @@ public:
     PageCheck(const Domain<D> &domain, FaultList &faults) : domain_(domain), faults_(faults) {}
 
     /// Decodes the page that is stored under faults.at; false if it tells nothing.
-    bool read(const unsigned char *bytes, std::size_t size, unsigned attributes);
+    bool read(const unsigned char *bytes, std::size_t size, int attributes);
     /// Looks at what is in the page that was read, whose bytes are still there.
     void check();
     const PageView<D> &page() const { return page_; }

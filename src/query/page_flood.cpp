@@ -1,6 +1,7 @@
 #include "query/page_flood.hpp"
 
 #include "keys/domain_of.hpp"
+#include "mesh/page_attributes.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -17,9 +18,9 @@ constexpr Key last_of(std::uint64_t code) { return {code, key_word_end - 1}; }
 
 template <int D>
 PageFlood<D>::PageFlood(const Host &host, const abacus_header &header)
-    : host_(host), attributes_(header.attributes), domain_(domain_of<D>(header)), memory_(host),
-      open_(&less, &memory_), read_(&less, &memory_), inner_links_(host), slots_(host),
-      border_(host), on_border_(host) {
+    : host_(host), attributes_(page_attributes(header)), domain_(domain_of<D>(header)),
+      memory_(host), open_(&less, &memory_), read_(&less, &memory_), inner_links_(host),
+      slots_(host), border_(host), on_border_(host) {
     slots_.resize(block_slots<D>);
 }
 
@@ -98,7 +99,7 @@ template <int D> void PageFlood<D>::read(const Key &key) {
         const std::size_t size = page.size;
         const Key lower = page.key;
         std::memcpy(copy_, page.bytes, std::min(size, sizeof copy_));
-        view_.read(copy_, size, static_cast<int>(attributes_));
+        view_.read(copy_, size, attributes_);
         if (!(view_.lower() == lower))
             throw_corrupted("A page is stored under another page's key.");
     }

@@ -60,7 +60,7 @@ private:
     void note_read(Key lower, Key upper);
 
     const Host &host_;
-    const unsigned attributes_;
+    const int attributes_;
     const Domain<D> domain_;
     HostMemory memory_;
     std::pmr::map<Key, bool, Less> open_; // to be read; whether all pages with its code are

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "blocks/page_cursor.hpp"
+#include "mesh/page_attributes.hpp"
 #include "mesh/page_format.hpp"
 
 #include <abacus/header.h>
@@ -13,7 +14,7 @@ namespace abacus {
 template <int D> class PageScan {
 public:
     PageScan(const Host &host, const abacus_header &header)
-        : cursor_(host, ABACUS_SIMPLEX_PAGES, "mesh"), attributes_(header.attributes),
+        : cursor_(host, ABACUS_SIMPLEX_PAGES, "mesh"), attributes_(page_attributes(header)),
           left_(header.simplices + header.ghosts) {}
 
     /// Goes to the next page; false after the last. Throws if it is damaged or does not follow
@@ -30,7 +31,7 @@ public:
     /// The same, past pages that wants(page) refuses, of which only the heads are read then.
     template <class Wants> bool advance(Wants wants) {
         while (fetch()) {
-            view_.open(bytes(), size(), static_cast<int>(attributes_));
+            view_.open(bytes(), size(), attributes_);
             follow();
             if (!wants(view_)) continue;
             view_.read_rest();
@@ -42,7 +43,7 @@ public:
     /// The halves of advance(), for callers that go on after a damaged page and compare the
     /// intervals themselves.
     bool fetch() { return cursor_.fetch(); }
-    void parse() { view_.read(bytes(), size(), static_cast<int>(attributes_)); }
+    void parse() { view_.read(bytes(), size(), attributes_); }
     /// Key under which the current page is stored, and its bytes.
     const Key &key() const { return cursor_.key(); }
     const unsigned char *bytes() const { return cursor_.bytes(); }
@@ -66,7 +67,7 @@ private:
         "The header counts other simplices than the pages hold.";
 
     PageCursor cursor_;
-    unsigned attributes_;
+    int attributes_;
     std::uint64_t left_; // simplices and ghosts that the header counts beyond the current page
     PageView<D> view_;
 };

@@ -6,6 +6,7 @@
 #include "mesh/page_format.hpp"
 #include "query/corner_values.hpp"
 #include "query/describe.hpp"
+#include "query/vertex_values.hpp"
 
 #include <abacus/read.h>
 
@@ -27,12 +28,11 @@ std::uint64_t code_of(const PageView<D> &page, int simplex, const Domain<D> &dom
     return greatest;
 }
 
-/// With what its corners carry, if `values` is not null. Returns which corner is handed out first,
-/// second, and so on.
+/// Returns which corner is handed out first, second, and so on.
 template <int D>
 const typename EvenOrders<D>::Order &describe(const PageView<D> &page, int simplex,
-                                              const Domain<D> &domain, abacus_simplex &description,
-                                              CornerValues *values = nullptr) {
+                                              const Domain<D> &domain,
+                                              abacus_simplex &description) {
     const bool ghost = page.is_ghost(simplex);
     DescribedCorners<D> corners;
     for (int i = 0; i < D + !ghost; ++i) {
@@ -40,12 +40,19 @@ const typename EvenOrders<D>::Order &describe(const PageView<D> &page, int simpl
         corners.id[i] = page.id(vertex);
         corners.point[i] = &page.point(vertex);
     }
-    const auto &order = describe(corners, code_of(page, simplex, domain), ghost, description);
-    for (int i = 0; values != nullptr && i < D + !ghost; ++i)
+    return describe(corners, code_of(page, simplex, domain), ghost, description);
+}
+
+/// With what its corners carry, if `values` is not null.
+template <int D>
+void describe(const PageView<D> &page, int simplex, const Domain<D> &domain,
+              abacus_simplex &description, CornerValues *values,
+              const VertexValues<D> &vertex_values) {
+    const auto &order = describe(page, simplex, domain, description);
+    for (int i = 0; values != nullptr && i < D + !page.is_ghost(simplex); ++i)
         values->set(i, [&](int attribute) {
-            return page.attribute(page.corner(simplex, order[i]), attribute);
+            return vertex_values.value(page, page.corner(simplex, order[i]), attribute);
         });
-    return order;
 }
 
 } // namespace abacus

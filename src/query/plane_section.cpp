@@ -65,9 +65,9 @@ bool PlaneRegion::may_meet(const Box<3> &box) const {
 
 PlaneSection::PlaneSection(const Host &host, const abacus_header &header,
                            const abacus_section_query &query)
-    : plane_(plane_of(query)), attribute_(query.attribute), max_edge_(query.max_edge),
-      domain_(domain_of<3>(header)), region_(plane_, domain_box<3>(header)),
-      pages_(host, header, &region_) {}
+    : plane_(plane_of(query)), attribute_(query.attribute), vertex_values_(host, header),
+      max_edge_(query.max_edge), domain_(domain_of<3>(header)),
+      region_(plane_, domain_box<3>(header)), pages_(host, header, &region_) {}
 
 bool PlaneSection::next(abacus_polygon &polygon) {
     for (;;) {

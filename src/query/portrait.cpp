@@ -4,6 +4,7 @@
 #include "geometry/longer_edge.hpp"
 #include "geometry/map_plane.hpp"
 #include "query/range_scan.hpp"
+#include "query/vertex_values.hpp"
 
 #include <array>
 #include <cmath>
@@ -18,11 +19,12 @@ public:
     static constexpr int dimension = D;
 
 protected:
-    explicit MeshView(const abacus_drawing &drawing)
-        : attribute_(drawing.attribute), max_edge_(drawing.max_edge) {}
+    MeshView(const Host &host, const abacus_header &header, const abacus_drawing &drawing)
+        : vertex_values_(host, header), attribute_(drawing.attribute), max_edge_(drawing.max_edge) {
+    }
 
     double value(const PageView<D> &page, int vertex) const {
-        return attribute_ >= 0 ? page.attribute(vertex, attribute_) : NAN;
+        return attribute_ >= 0 ? vertex_values_.value(page, vertex, attribute_) : NAN;
     }
     /// Whether the drawing leaves out the simplex with these first `n` corners.
     bool is_too_long(const PageView<D> &page, int simplex, int n) const {
@@ -32,6 +34,7 @@ protected:
     }
 
 private:
+    VertexValues<D> vertex_values_;
     std::int32_t attribute_;
     double max_edge_;
 };
@@ -41,8 +44,8 @@ class FlatView : public MeshView<2> {
 public:
     static constexpr double unit = 1; // of coordinates, in the picture
 
-    explicit FlatView(const abacus_drawing &drawing)
-        : MeshView(drawing), plane_(drawing.is_geographic != 0) {}
+    FlatView(const Host &host, const abacus_header &header, const abacus_drawing &drawing)
+        : MeshView(host, header, drawing), plane_(drawing.is_geographic != 0) {}
 
     void enter(const PageView<2> &) {}
     bool show(const PageView<2> &page, int simplex, Patch &patch) const {
@@ -67,8 +70,9 @@ class SectionView : public MeshView<3> {
 public:
     static constexpr double unit = Plane::scale;
 
-    SectionView(const Plane &plane, const abacus_drawing &drawing)
-        : MeshView(drawing), plane_(plane) {}
+    SectionView(const Host &host, const abacus_header &header, const Plane &plane,
+                const abacus_drawing &drawing)
+        : MeshView(host, header, drawing), plane_(plane) {}
 
     void enter(const PageView<3> &page) {
         for (int v = 0; v < page.vertices(); ++v) places_[v] = plane_.place(page.point(v));
@@ -183,13 +187,15 @@ Portrait draw(const Host &host, const abacus_header &header, const abacus_drawin
 
 Portrait draw_mesh(const Host &host, const abacus_header &header, const abacus_drawing &drawing) {
     if (shows_whole<2>(drawing))
-        return draw<2>(host, header, drawing, 0, nullptr, FlatView(drawing), ABACUS_RAMP_TERRAIN);
+        return draw<2>(host, header, drawing, 0, nullptr, FlatView(host, header, drawing),
+                       ABACUS_RAMP_TERRAIN);
     const std::int32_t margin = Canvas::margin_of(drawing);
     const abacus_drawing wider = widened(drawing, margin);
     const MapPlane plane(drawing.is_geographic != 0);
     const BoxRegion<2> region(plane.unproject(
         Box<2>({wider.lower[0], wider.lower[1]}, {wider.upper[0], wider.upper[1]})));
-    return draw<2>(host, header, drawing, margin, &region, FlatView(drawing), ABACUS_RAMP_TERRAIN);
+    return draw<2>(host, header, drawing, margin, &region, FlatView(host, header, drawing),
+                   ABACUS_RAMP_TERRAIN);
 }
 
 Portrait draw_section(const Host &host, const abacus_header &header, const abacus_section &section,
@@ -204,7 +210,7 @@ Portrait draw_section(const Host &host, const abacus_header &header, const abacu
     std::copy_n(window.upper, 2, sheet.upper);
     const std::int32_t margin = has_window ? Canvas::margin_of(drawing) : 0;
     const SectionRegion region(plane, section, has_window ? widened(sheet, margin) : sheet);
-    return draw<3>(host, header, sheet, margin, &region, SectionView(plane, drawing),
+    return draw<3>(host, header, sheet, margin, &region, SectionView(host, header, plane, drawing),
                    ABACUS_RAMP_STRATA);
 }
 

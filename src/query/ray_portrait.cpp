@@ -3,6 +3,7 @@
 #include "draw/ray_canvas.hpp"
 #include "keys/domain_of.hpp"
 #include "query/cell_filter.hpp"
+#include "query/vertex_values.hpp"
 #include "sort/pacer.hpp"
 
 namespace abacus {
@@ -13,8 +14,8 @@ class RayPortrait {
 public:
     RayPortrait(const Host &host, const abacus_header &header, const abacus_camera &camera,
                 const abacus_drawing &drawing)
-        : host_(host), attribute_(drawing.attribute), box_(box_of(drawing)),
-          camera_(camera, drawing, box_ ? *box_ : domain_box<3>(header)),
+        : host_(host), attribute_(drawing.attribute), vertex_values_(host, header),
+          box_(box_of(drawing)), camera_(camera, drawing, box_ ? *box_ : domain_box<3>(header)),
           filter_(window_of(box_), drawing.max_edge), pages_(host, header, filter_.region()),
           pacer_(host), total_(box_ ? 0 : header.simplices + header.ghosts) {
         if (camera_.has_parallel_rays()) fit();
@@ -52,7 +53,7 @@ private:
 
     /// Without an attribute the picture is one of lengths: the integral of 1.
     double value(const PageView<3> &page, int vertex) const {
-        return attribute_ >= 0 ? page.attribute(vertex, attribute_) : 1;
+        return attribute_ >= 0 ? vertex_values_.value(page, vertex, attribute_) : 1;
     }
 
     template <class Visit> void each_page(Visit visit) {
@@ -83,6 +84,7 @@ private:
 
     const Host &host_;
     const int attribute_;
+    const VertexValues<3> vertex_values_;
     const std::optional<Box<3>> box_;
     Camera camera_;
     const CellFilter<3> filter_;

@@ -13,8 +13,12 @@ namespace abacus {
 
 namespace {
 
+/// Of the memory, what attributes get that are apart.
+constexpr std::size_t attributes_share = 8;
+
 CacheOptions linked_as(const abacus_header &header, CacheOptions options) {
     options.linked_ghosts = header.not_delaunay == 0;
+    if (header.apart != 0) options.budget -= options.budget / attributes_share;
     return options;
 }
 
@@ -47,11 +51,11 @@ Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOpti
                   bool in_order)
     : header_(header), size_(header.simplices == 0 ? 0 : header.simplices + header.ghosts),
       delaunay_(header.not_delaunay == 0), in_order_(in_order), budget_(options.budget),
-      cache_(host, domain_of<D>(header), static_cast<int>(header.attributes),
-             linked_as(header, options)),
-      glance_(cache_, options.budget / 10, in_order), read_ahead_(cache_),
+      vertex_values_(host, header, options.budget / attributes_share),
+      cache_(host, domain_of<D>(header), page_attributes(header), linked_as(header, options)),
+      glance_(cache_, vertex_values_, options.budget / 10, in_order), read_ahead_(cache_),
       walk_(cache_, /*far=*/true), around_(host),
-      pages_of_code_(host, static_cast<int>(header.attributes), options.budget / 16) {}
+      pages_of_code_(host, page_attributes(header), options.budget / 16) {}
 
 template <int D> Handle Reader<D>::start(const Point<D> &p, std::uint64_t code) {
     if (size_ == 0) return no_handle;
@@ -158,7 +162,7 @@ bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex, CornerV
             abacus_simplex other;
             abacus::describe(view, number, cache_.domain(), other);
             if (!found || is_preferred<D>(other, simplex, max_edge))
-                abacus::describe(view, number, cache_.domain(), simplex, values);
+                abacus::describe(view, number, cache_.domain(), simplex, values, vertex_values_);
             found = true;
             if (position > 0) is_search_ = false;
         });
@@ -178,10 +182,10 @@ void Reader<D>::describe(Handle h, abacus_simplex &simplex, CornerValues *values
     }
     const auto &order = abacus::describe(corners, cache_.code(s), s.is_ghost(), simplex);
     if (values == nullptr) return;
-    for (int i = 0; i < s.finite_vertices(); ++i) {
-        const double *attributes = cache_.vertices().attributes(s.vertex[order[i]]);
-        values->set(i, [&](int attribute) { return attributes[attribute]; });
-    }
+    for (int i = 0; i < s.finite_vertices(); ++i)
+        values->set(i, [&](int attribute) {
+            return vertex_values_.value(cache_.vertices(), s.vertex[order[i]], attribute);
+        });
 }
 
 template <int D>
@@ -335,7 +339,7 @@ bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
     return true;
 }
 
-template <int D> std::optional<typename Reader<D>::Found> Reader<D>::vertex_at(const Point<D> &p) {
+template <int D> std::optional<std::int64_t> Reader<D>::vertex_at(const Point<D> &p) {
     Handle h = no_handle;
     if (delaunay_)
         h = find(p, cache_.domain().code(p));
@@ -348,8 +352,7 @@ template <int D> std::optional<typename Reader<D>::Found> Reader<D>::vertex_at(c
     const Simplex<D> &s = cache_.simplex(h);
     for (int i = 0; i < s.finite_vertices(); ++i) {
         const VertexIndex v = s.vertex[i];
-        if (cache_.point(v) == p)
-            return Found{cache_.vertices().id(v), cache_.vertices().attributes(v)};
+        if (cache_.point(v) == p) return cache_.vertices().id(v);
     }
     return std::nullopt;
 }

@@ -13,6 +13,7 @@
 #include "query/page_search.hpp"
 #include "query/pages_of_code.hpp"
 #include "query/read_ahead.hpp"
+#include "query/vertex_values.hpp"
 #include "traverse/flood.hpp"
 #include "traverse/walk.hpp"
 
@@ -51,13 +52,8 @@ public:
     /// reached from it across at most `steps` facets, the nearest first.
     void neighbours(std::uint64_t code, const std::int64_t *ids, std::uint32_t steps,
                     const std::function<void(const abacus_simplex &)> &visit);
-    /// Id and attributes of the vertex at p, if there is one; the attributes stay valid
-    /// until the next call.
-    struct Found {
-        std::int64_t id;
-        const double *attributes;
-    };
-    std::optional<Found> vertex_at(const Point<D> &p);
+    /// Id of the vertex at p, if there is one.
+    std::optional<std::int64_t> vertex_at(const Point<D> &p);
 
     /// In a Delaunay mesh: the page of the simplex around p or, outside the hull, of a ghost that
     /// has p strictly beyond its facet. None if the mesh is empty.
@@ -82,14 +78,17 @@ public:
     /// A flood over the cache, for whoever asks between two calls.
     Flood<D> &flood() { return around_; }
 
-    /// In a mesh that is not Delaunay: how many pages have this vertex, with its id and
-    /// attributes.
+    /// In a mesh that is not Delaunay: how many pages have this vertex, with its id and with the
+    /// attributes that pages have.
     std::uint64_t pages_with(const std::uint64_t *vertex);
 
     /// Pages loaded or looked into.
     std::uint64_t pages_read() const {
         return cache_.counters.loads + glance_.pages_read() + (search_ ? search_->pages_read() : 0);
     }
+
+    /// Attributes of the vertices of cache and pages.
+    const VertexValues<D> &vertex_values() const { return vertex_values_; }
 
     const Cache<D> &cache() const { return cache_; }
     Cache<D> &cache() { return cache_; }
@@ -145,6 +144,7 @@ private:
     /// The place that was looked for last was strictly inside of no simplex: nor will the next one
     /// be, most likely, and a walk to it would be in vain.
     bool is_search_ = false;
+    VertexValues<D> vertex_values_;
     Cache<D> cache_;
     Glance<D> glance_;
     ReadAhead<D> read_ahead_;

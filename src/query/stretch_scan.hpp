@@ -18,9 +18,7 @@ public:
     StretchScan(const Host &host, const abacus_header &header, std::uint64_t least,
                 std::uint64_t greatest)
         : host_(host),
-          attributes_(static_cast<int>(header.attributes)), next_{least, 0}, last_{greatest,
-                                                                                   key_word_end -
-                                                                                       1},
+          attributes_(page_attributes(header)), next_{least, 0}, last_{greatest, key_word_end - 1},
           is_over_(header.simplices == 0 || least > greatest || least >= end_key.code) {}
 
     /// Goes to the next page; false after the last. Throws if it is damaged or missing.

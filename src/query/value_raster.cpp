@@ -112,7 +112,7 @@ ValueRaster<D>::ValueRaster(const Host &host, const abacus_header &header,
     : host_(host), header_(header), raster_(raster), width_(raster.upper[0] - raster.lower[0]),
       height_(raster.upper[1] - raster.lower[1]), how_(how), memory_(memory / 2),
       cache_bytes_(cache_bytes), latitudes_(host), values_(host), marks_(host),
-      carried_(how_.attribute, 1) {
+      carried_(how_.attribute, 1), vertex_values_(host, header) {
     if (!std::isfinite(width_ * raster.width) || !std::isfinite(height_ * raster.height))
         throw Error(ABACUS_ERROR_ARGUMENT, "the window is too large for the centres of its pixels",
                     {}, "Ask for a smaller window.");
@@ -299,7 +299,7 @@ void ValueRaster<D>::fill_row(const PageView<D> &page, int simplex, std::uint32_
         const auto &order = describe(described, 0, false, simplex_);
         for (int i = 0; i <= D; ++i)
             carried_.set(i, [&](int attribute) {
-                return page.attribute(page.corner(simplex, order[i]), attribute);
+                return vertex_values_.value(page, page.corner(simplex, order[i]), attribute);
             });
         described_ = simplex;
     }

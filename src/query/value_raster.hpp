@@ -17,6 +17,7 @@
 #include "query/interpolation.hpp"
 #include "query/page_boxes.hpp"
 #include "query/range_scan.hpp"
+#include "query/vertex_values.hpp"
 
 #include <abacus/raster.h>
 
@@ -90,6 +91,7 @@ private:
     Arena<Mark> marks_;
     std::optional<PageBoxes<D>> boxes_; // of a mesh that is not Delaunay
     CornerValues carried_;
+    const VertexValues<D> vertex_values_;
     // Of the simplex that pixels are filled from.
     int described_ = -1;
     abacus_simplex simplex_{};

@@ -24,7 +24,8 @@ VertexScan<D>::VertexScan(const Host &host, const abacus_header &header, std::si
       page_(header.vertices > 0 ? first_key : end_key), records_(host),
       vertices_left_(header.vertices), repeated_(host, domain_of<D>(header), header.attributes),
       repeated_left_(header.duplicates),
-      waiting_(host, header.attributes, listed_ ? 0 : header.inserted, header.staged) {}
+      waiting_(host, listed_ ? static_cast<unsigned>(page_attributes(header)) : header.attributes,
+               listed_ ? 0 : header.inserted, header.staged) {}
 
 template <int D> void VertexScan<D>::collect() {
     Cache<D> &cache = mesh_.cache();
@@ -32,9 +33,12 @@ template <int D> void VertexScan<D>::collect() {
     page_ = own_.collect(page_);
     records_.clear();
     at_ = 0;
-    for (const VertexIndex v : own_.list())
+    std::array<double, ABACUS_MAX_ATTRIBUTES> values;
+    for (const VertexIndex v : own_.list()) {
+        mesh_.vertex_values().all(cache.vertices(), v, values.data());
         fill_record<D>(records_.extend(record_words(D, attributes_)), cache.vertices().id(v),
-                       cache.point(v), cache.vertices().attributes(v), attributes_);
+                       cache.point(v), values.data(), attributes_);
+    }
 }
 
 template <int D> bool VertexScan<D>::next_vertex(abacus_vertex &vertex) {
@@ -65,7 +69,7 @@ template <int D> bool VertexScan<D>::next_repeated(abacus_vertex &vertex) {
     fill<D>(vertex, repeated_.record());
     const auto found = mesh_.vertex_at(record_point<D>(repeated_.record()));
     if (!found) throw_corrupted("A repeated point is no vertex of the mesh.");
-    vertex.vertex = found->id;
+    vertex.vertex = *found;
     return true;
 }
 
@@ -81,6 +85,12 @@ template <int D> bool VertexScan<D>::next_listed(abacus_vertex &vertex) {
     if (!waiting_.advance()) return false;
     fill<D>(vertex, waiting_.record());
     vertex.vertex = vertex.id;
+    if (mesh_.vertex_values().are_apart()) {
+        records_.resize(attributes_);
+        auto *const values = reinterpret_cast<double *>(records_.data());
+        mesh_.vertex_values().all_at(waiting_.point(), values);
+        vertex.attributes = values;
+    }
     return true;
 }
 

@@ -31,7 +31,7 @@ public:
     Maker(const Host &host, const abacus_header &header, const TileWindow &window,
           const abacus_tile_vector_kind &kind, const abacus_tile_memory &memory)
         : host_(host), header_(header), window_(window), kind_(kind), memory_(memory),
-          triangles_(host), hull_(host), bytes_(host) {}
+          values_(host, header), triangles_(host), hull_(host), bytes_(host) {}
 
     Png make() {
         if (!read() || !write_all()) {
@@ -74,6 +74,7 @@ private:
     const TileWindow &window_;
     const abacus_tile_vector_kind &kind_;
     const abacus_tile_memory &memory_;
+    const VertexValues<2> values_;
     Arena<Triangle> triangles_;
     TileLines hull_;
     TileBuffer bytes_;
@@ -97,7 +98,7 @@ bool Maker::read(const PageView<2> &page) {
         for (int i = 0; i < (is_ghost ? 2 : 3); ++i) {
             const int v = page.corner(s, i);
             triangle[i] = {place_of_vertex(page.point(v)),
-                           kind_.attribute >= 0 ? page.attribute(v, kind_.attribute) : NAN,
+                           kind_.attribute >= 0 ? values_.value(page, v, kind_.attribute) : NAN,
                            page.id(v)};
         }
         if (is_ghost) {

@@ -229,13 +229,15 @@ public:
     }
 };
 
-/// The sound mesh: five attributes make small pages; some points are repeated, some wait.
-inline const Mesh &sound_mesh(int dimension) {
-    static Mesh meshes[2];
-    Mesh &mesh = meshes[dimension - 2];
+/// The sound mesh: five attributes make small pages; some points are repeated, some wait. With
+/// `apart` the attributes have pages of their own.
+inline const Mesh &sound_mesh(int dimension, bool apart = false) {
+    static Mesh meshes[4];
+    Mesh &mesh = meshes[dimension - 2 + 2 * apart];
     if (mesh.header.dimension == 0) {
         mesh.header.dimension = static_cast<std::uint32_t>(dimension);
         mesh.header.attributes = 5;
+        mesh.header.apart = apart;
         for (int i = 0; i < 5; ++i) std::strcpy(mesh.header.names[i], "height");
         mesh.stage(160, 1);
         mesh.stage(80, 1); // once more
@@ -248,10 +250,10 @@ inline const Mesh &sound_mesh(int dimension) {
 
 /// Calls act(mesh) with a fresh copy of the sound mesh.
 inline void with_copy(int dimension, std::size_t cache_bytes,
-                      const std::function<void(Mesh &)> &act) {
+                      const std::function<void(Mesh &)> &act, bool apart = false) {
     Mesh mesh;
-    mesh.host.restore(sound_mesh(dimension).host);
-    mesh.header = sound_mesh(dimension).header;
+    mesh.host.restore(sound_mesh(dimension, apart).host);
+    mesh.header = sound_mesh(dimension, apart).header;
     mesh.cache_bytes = cache_bytes;
     act(mesh);
 }

@@ -99,6 +99,30 @@ SELECT pg_temp.inject('refining at places', $$ SELECT abacus_octree_refine('tree
     $$ SELECT count(*) = (SELECT count(*) FROM leaves) FROM abacus_octants('tree') $$);
 SELECT pg_temp.inject('neighbours', $$ SELECT count(*) FROM abacus_octree_neighbours('tree', 0) $$, 'SELECT true');
 SELECT is_empty($$ SELECT * FROM abacus_check('tree') $$, 'the refined octree is sound');
+-- attributes apart
+CREATE VIEW wide_points AS SELECT id, x, y, height, sin(id) AS a1, sin(id * 2) AS a2, sin(id * 3) AS a3, sin(id * 4) AS a4, sin(id * 5) AS a5, sin(id * 6) AS a6, sin(id * 7) AS a7 FROM points;
+SELECT pg_temp.inject('triangulating with many attributes', $$ SELECT abacus_triangulate('wide', 'TABLE wide_points') $$, $$ SELECT to_regclass('wide') IS NULL $$);
+SELECT ok(EXISTS (SELECT FROM wide WHERE code < -1), 'they are apart');
+CREATE TABLE wide_before AS SELECT code, part, page::bytea AS page FROM wide;
+CREATE FUNCTION pg_temp.untouched() RETURNS text LANGUAGE sql AS 'SELECT $q$ SELECT NOT EXISTS ((SELECT code, part, page::bytea FROM wide) EXCEPT TABLE wide_before) $q$::text';
+SELECT pg_temp.inject('deleting from it', $$ SELECT abacus_delete('wide', 'SELECT id, x, y FROM points WHERE id % 9 = 0') $$, pg_temp.untouched());
+SELECT is_empty($$ SELECT * FROM abacus_check('wide') $$, 'it is sound');
+DELETE FROM wide_before;
+INSERT INTO wide_before SELECT code, part, page::bytea FROM wide;
+SELECT pg_temp.inject('replacing in it', $$ SELECT abacus_insert('wide', 'SELECT id, x, y, -height, a2, a1, a4, a3, a6, a5, a7 FROM wide_points WHERE id % 2 = 0', on_duplicate => 'replace') $$, pg_temp.untouched());
+SELECT is_empty($$ SELECT * FROM abacus_check('wide') $$, 'it is sound');
+DELETE FROM wide_before;
+INSERT INTO wide_before SELECT code, part, page::bytea FROM wide;
+SELECT pg_temp.inject('updating attributes', $$ SELECT abacus_update('wide', 'SELECT id, x, y, height AS a7 FROM wide_points WHERE id % 2 = 0') $$, pg_temp.untouched());
+SELECT is_empty($$ SELECT * FROM abacus_check('wide') $$, 'it is sound');
+SELECT pg_temp.inject('updating attributes among the simplices', $$ SELECT abacus_update('field', 'SELECT id, x, y, -id AS height FROM points') $$,
+    $$ SELECT count(*) = 0 FROM abacus_vertices('field') WHERE attributes[1] < 0 $$);
+SELECT is_empty($$ SELECT * FROM abacus_check('field') $$, 'that mesh is sound');
+SELECT bag_eq($$ SELECT id FROM abacus_vertices('field') WHERE attributes[1] = -id $$, $$ SELECT id::bigint FROM points $$, 'and its attributes are right');
+SELECT is(abacus_update('field', 'SELECT id, x, y, height FROM points'), 3000::bigint, 'they are as they were');
+SELECT pg_temp.inject('reading attributes', $$ SELECT sum("values"[2]) FROM abacus_interpolate('wide', 'SELECT id, x, y FROM points') $$, 'SELECT true');
+SELECT bag_eq($$ SELECT id, attributes[1:3] AS a FROM abacus_vertices('wide') $$,
+    $$ SELECT id::bigint, CASE WHEN id % 2 = 0 THEN ARRAY[-height, a2, a1] ELSE ARRAY[height, a1, a2] END FROM wide_points WHERE id % 2 = 0 OR id % 9 > 0 $$, 'and they are right');
 
 -- meshes made elsewhere, Delaunay and not
 CREATE TABLE triangles AS SELECT v0, v1, v2 FROM abacus_simplices('made');

@@ -52,6 +52,7 @@ INSERT INTO wanted VALUES
     ('abacus_octree_tetrahedra', 'octree regclass, OUT element bigint, OUT nodes bigint[]', 'SETOF record', 's', true, 's'),
     ('abacus_octree_update', 'octree regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_delete', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
+    ('abacus_update', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_load', 'mesh text, vertices text, simplices text, attributes text[] DEFAULT NULL::text[], lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], reorient boolean DEFAULT true, retriangulate boolean DEFAULT false', 'bigint', 'v', false, 'u'),
     ('abacus_insert', 'mesh regclass, query text, on_duplicate text DEFAULT ''keep''::text', 'bigint', 'v', true, 'u'),
     ('abacus_attributes', 'mesh regclass, OUT "position" integer, OUT name text, OUT "least" double precision, OUT "greatest" double precision, OUT nulls bigint', 'SETOF record', 's', true, 's'),

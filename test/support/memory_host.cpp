@@ -22,6 +22,7 @@ void MemoryHost::restore(const MemoryHost &other) {
     pages = other.pages;
     staged_pages = other.staged_pages;
     repeated_pages = other.repeated_pages;
+    attribute_pages = other.attribute_pages;
     keys_by_location_ = other.keys_by_location_;
     next_location_ = other.next_location_;
 }
@@ -53,6 +54,8 @@ MemoryHost::Pages &MemoryHost::pages_of(abacus_page_kind kind) {
         return staged_pages;
     case ABACUS_REPEATED_PAGES:
         return repeated_pages;
+    case ABACUS_ATTRIBUTE_PAGES:
+        return attribute_pages;
     }
     return pages;
 }

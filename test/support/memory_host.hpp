@@ -92,6 +92,7 @@ public:
     Pages pages; ///< of simplices
     Pages staged_pages;
     Pages repeated_pages;
+    Pages attribute_pages;
     std::set<Spool *> spools;
 
     // What happened.

@@ -1,5 +1,7 @@
 #include "support/oracle.hpp"
 
+#include "support/apart.hpp"
+
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -58,6 +60,7 @@ template <int D> std::vector<std::uint64_t> record_of(const InputOf<D> &input) {
 template <int D> MeshOf<D>::MeshOf(int attributes, std::size_t bytes) : cache_bytes(bytes) {
     header.dimension = D;
     header.attributes = static_cast<std::uint32_t>(attributes);
+    choose_where_attributes_are(header);
     for (int i = 0; i < attributes; ++i)
         std::snprintf(header.names[i], ABACUS_NAME_BYTES, "a%d", i);
 }

@@ -41,6 +41,7 @@ public:
         pages_ = mesh.host.pages;
         staged_pages_ = mesh.host.staged_pages;
         repeated_pages_ = mesh.host.repeated_pages;
+        attribute_pages_ = mesh.host.attribute_pages;
         header_ = mesh.header;
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
     }
@@ -56,6 +57,7 @@ public:
         mesh.host.pages = pages_;
         mesh.host.staged_pages = staged_pages_;
         mesh.host.repeated_pages = repeated_pages_;
+        mesh.host.attribute_pages = attribute_pages_;
         mesh.header = header_;
         return found;
     }
@@ -99,7 +101,7 @@ public:
     std::vector<Input> input;
 
 private:
-    MemoryHost::Pages pages_, staged_pages_, repeated_pages_;
+    MemoryHost::Pages pages_, staged_pages_, repeated_pages_, attribute_pages_;
     abacus_header header_;
 };
 

@@ -51,6 +51,25 @@ public:
         }
         return removed;
     }
+    /// Of several points at a place the one with the id gets the attributes `which`, or else the
+    /// first. Returns how many there were.
+    std::uint64_t update(const std::vector<InputOf<D>> &points,
+                         const std::vector<std::uint32_t> &which) {
+        std::uint64_t updated = 0;
+        waiting_ = false;
+        for (const InputOf<D> &p : points) {
+            const auto place = places_.find(p.point);
+            if (place == places_.end()) continue;
+            auto &here = place->second;
+            auto at = std::find_if(here.begin(), here.end(),
+                                   [&](const InputOf<D> &other) { return other.id == p.id; });
+            if (at == here.end()) at = here.begin();
+            for (std::size_t i = 0; i < which.size(); ++i)
+                at->attributes[which[i]] = p.attributes[i];
+            ++updated;
+        }
+        return updated;
+    }
     std::vector<InputOf<D>> points() const {
         std::vector<InputOf<D>> all;
         for (const auto &[place, here] : places_) all.insert(all.end(), here.begin(), here.end());

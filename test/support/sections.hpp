@@ -63,6 +63,7 @@ protected:
         host.pages.clear();
         host.staged_pages.clear();
         host.repeated_pages.clear();
+        host.attribute_pages.clear();
         header = empty_header<3>(1);
         EXPECT_EQ(stage<3>(host, header, input, ample, error), ABACUS_OK);
         abacus_build *build = nullptr;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "points/vertex_page.hpp"
+#include "support/apart.hpp"
 #include "support/memory_host.hpp"
 
 #include <abacus/change.h>
@@ -50,6 +51,7 @@ template <int D> abacus_header empty_header(unsigned attributes = 0) {
     abacus_header header{};
     header.dimension = D;
     header.attributes = attributes;
+    test::choose_where_attributes_are(header);
     return header;
 }
 

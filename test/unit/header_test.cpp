@@ -192,18 +192,31 @@ TEST(Header, AnotherFormatIsSaid) {
     abacus_header header;
     abacus_error error{};
     const unsigned format = bytes[6] + 256u * bytes[7];
-    for (const unsigned other : {format - 1, format + 1, 0xffffu}) {
+    for (const unsigned other : {format - 1, format + 2, 0xffffu}) {
         bytes[6] = static_cast<unsigned char>(other);
         bytes[7] = static_cast<unsigned char>(other >> 8);
         ASSERT_EQ(abacus_header_decode(bytes.data(), bytes.size(), &header, &error), ABACUS_ERROR);
         EXPECT_EQ(error.kind, ABACUS_ERROR_STATE);
         EXPECT_EQ(error.message, "mesh is stored in format " + std::to_string(other) +
-                                     ", but this version of Abacus reads format " +
-                                     std::to_string(format));
+                                     ", but this version of Abacus reads formats 3 and 4");
     }
     bytes[5] ^= 1;
     ASSERT_EQ(abacus_header_decode(bytes.data(), bytes.size(), &header, &error), ABACUS_ERROR);
     EXPECT_EQ(error.kind, ABACUS_ERROR_CORRUPTED);
+}
+
+TEST(Header, TheFormatTellsWhereAttributesAre) {
+    for (const bool apart : {false, true}) {
+        abacus_header header = full_header(2), decoded;
+        header.apart = apart;
+        const auto bytes = encode(header);
+        EXPECT_EQ(bytes[6], apart ? 4 : 3);
+        ASSERT_TRUE(decodes(bytes, &decoded));
+        EXPECT_EQ(decoded.apart, header.apart);
+    }
+    abacus_header header = full_header(0);
+    header.apart = 1;
+    EXPECT_FALSE(decodes(encode(header)));
 }
 
 TEST(Header, EveryTruncationIsRefused) {

@@ -33,6 +33,8 @@ extern void change_swap_stages(Change *change);
 extern void change_open_build(Change *change);
 extern void change_insert(Change *change);
 extern uint64 change_delete(Change *change, bool exactly);
+extern uint64 change_update(Change *change, const uint32 *attributes, size_t count,
+							abacus_named_place *missing);
 extern void change_clear(Change *change);
 extern void change_abandon(Change *change);
 extern void change_end(Change *change);

@@ -1,7 +1,7 @@
 /*
  * header.c: the header of a mesh, a row of its simplex table.
  *
- * It stands under the key (-1, 0), below every page. Each change of a mesh rewrites it
+ * It stands under the key (-1, 0), below every simplex page. Each change of a mesh rewrites it
  * with a new random stamp. So a stamp names one state of the mesh for ever, even if the
  * transaction that made it is rolled back. A session's cache is good exactly as long as
  * the header that it sees has the stamp it was filled under.

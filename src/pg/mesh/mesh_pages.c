@@ -2,16 +2,18 @@
  * mesh_pages.c: the two tables of a mesh as the core's page operations.
  *
  * Codes, parts and sequence numbers are unsigned below 2^63 in the core and
- * bigint in the tables. The vertex table holds two kinds of pages: repeated
- * points have their codes shifted to the negative numbers, below all sequence
- * numbers of staged points. A page's location is its TID: block * 2^16 +
- * offset, never 0, for offsets start at 1.
+ * bigint in the tables. Each table holds two kinds of pages, of which one has its
+ * codes shifted to the negative numbers. In the vertex table these are repeated
+ * points, below all sequence numbers of staged points. In the simplex table they
+ * are attributes that are apart, below the header and all simplices. A page's
+ * location is its TID: block * 2^16 + offset, never 0, for offsets start at 1.
  */
 #include "postgres.h"
 
 #include "access/table.h"
 
 #include "pg/base/location.h"
+#include "pg/mesh/header.h"
 #include "pg/mesh/mesh_pages.h"
 
 #define KEY_LIMIT UINT64CONST(0x7FFFFFFFFFFFFFFF)
@@ -32,7 +34,7 @@ mesh_pages_vertex_table(MeshPages *pages)
 static PageTable *
 table_of(MeshPages *pages, abacus_page_kind kind)
 {
-	if (kind == ABACUS_SIMPLEX_PAGES)
+	if (kind == ABACUS_SIMPLEX_PAGES || kind == ABACUS_ATTRIBUTE_PAGES)
 		return &pages->simplices;
 	mesh_pages_vertex_table(pages);
 	return &pages->vertices;
@@ -42,7 +44,24 @@ table_of(MeshPages *pages, abacus_page_kind kind)
 static int64
 least_column(abacus_page_kind kind)
 {
-	return kind == ABACUS_REPEATED_PAGES ? PG_INT64_MIN : 0;
+	return kind == ABACUS_REPEATED_PAGES || kind == ABACUS_ATTRIBUTE_PAGES ? PG_INT64_MIN : 0;
+}
+
+/* Whether a row of its table is a page of a kind. */
+static bool
+is_of_kind(abacus_page_kind kind, const StoredPage *stored)
+{
+	int64		column = stored->key[0];
+
+	switch (kind)
+	{
+		case ABACUS_ATTRIBUTE_PAGES:
+			return column < header_key[0];
+		case ABACUS_REPEATED_PAGES:
+			return column < 0;
+		default:
+			return column >= 0;
+	}
 }
 
 static void
@@ -71,7 +90,7 @@ mesh_pages_find(void *owner, abacus_page_kind kind, abacus_key key, abacus_page 
 
 	to_columns(kind, key, columns);
 	if (!page_table_floor(table_of(pages, kind), columns, &stored) ||
-		stored.key[0] < least_column(kind))
+		!is_of_kind(kind, &stored))
 		return false;
 	hand_out(&stored, kind, page);
 	return true;
@@ -94,7 +113,7 @@ mesh_pages_fetch(void *owner, abacus_page_kind kind, abacus_page *page)
 
 	unpack_location(page->location, &tid);
 	if (!page_table_fetch(table_of(pages, kind), &tid, page->bytes, page->size, &stored) ||
-		stored.key[0] < least_column(kind))
+		!is_of_kind(kind, &stored))
 		return false;
 	hand_out(&stored, kind, page);
 	return true;
@@ -104,14 +123,14 @@ static bool
 mesh_pages_next(void *owner, abacus_page_kind kind, const abacus_key *key, abacus_page *page)
 {
 	MeshPages  *pages = owner;
-	int64		columns[PAGE_TABLE_KEYS] = {-1, PG_INT64_MAX};	/* before all but repeated pages */
-	bool		first = key == NULL && kind == ABACUS_REPEATED_PAGES;
+	int64		columns[PAGE_TABLE_KEYS] = {-1, PG_INT64_MAX};	/* behind negative codes */
+	bool		first = key == NULL && least_column(kind) < 0;
 	StoredPage	stored;
 
 	if (key != NULL)
 		to_columns(kind, *key, columns);
 	if (!page_table_next(table_of(pages, kind), first ? NULL : columns, &stored) ||
-		(kind == ABACUS_REPEATED_PAGES && stored.key[0] >= 0))
+		!is_of_kind(kind, &stored))
 		return false;
 	hand_out(&stored, kind, page);
 	return true;
@@ -195,5 +214,6 @@ mesh_host_create(MemoryContext parent, Oid mesh, MeshAccess access)
 	host_register_pages(host, ABACUS_SIMPLEX_PAGES, &functions, pages);
 	host_register_pages(host, ABACUS_STAGED_PAGES, &functions, pages);
 	host_register_pages(host, ABACUS_REPEATED_PAGES, &functions, pages);
+	host_register_pages(host, ABACUS_ATTRIBUTE_PAGES, &functions, pages);
 	return host;
 }

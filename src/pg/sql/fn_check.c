@@ -55,11 +55,12 @@ read_header(Checking *checking, abacus_header *header)
 
 /* Notes the first row besides the header where no page can be. */
 static void
-look_before_pages(Checking *checking)
+look_before_pages(Checking *checking, const abacus_header *header)
 {
+	static const int64 attributes_end[PAGE_TABLE_KEYS] = {-2, PG_INT64_MAX};
 	PageTable  *table = &mesh_pages(checking->host)->simplices;
 	StoredPage	row;
-	bool		found = page_table_next(table, NULL, &row);
+	bool		found = page_table_next(table, header->apart ? attributes_end : NULL, &row);
 
 	if (found && memcmp(row.key, header_key, sizeof(header_key)) == 0)
 		found = page_table_next(table, header_key, &row);
@@ -81,6 +82,15 @@ check_pages(Checking *checking, Oid mesh, const abacus_header *header, int32 lim
 	host_own(host, check, (void (*) (void *)) abacus_check_close);
 }
 
+/* The code of the row that the core has found a fault in. */
+static int64
+row_code(const abacus_fault *fault)
+{
+	uint64		least = strcmp(fault->kind, "attributes") == 0 ? (uint64) PG_INT64_MIN : 0;
+
+	return (int64) (fault->key.code + least);
+}
+
 /* What the core has found first, if anything. */
 static void
 look_for_first_fault(Checking *checking)
@@ -89,7 +99,8 @@ look_for_first_fault(Checking *checking)
 
 	checking->has_fault = host->handle != NULL &&
 		host_check(host, abacus_check_next(host->handle, &checking->fault)) == ABACUS_OK;
-	checking->code = (int64) checking->fault.key.code;
+	if (checking->has_fault)
+		checking->code = row_code(&checking->fault);
 }
 
 static Checking *
@@ -103,7 +114,7 @@ begin_check(Oid mesh, int32 limit, MemoryContext memory)
 	mesh_pages(checking->host)->type = ANY_TYPE;
 	if (read_header(checking, &header))
 	{
-		look_before_pages(checking);
+		look_before_pages(checking, &header);
 		limit -= checking->has_fault;
 		if (limit > 0)
 			check_pages(checking, mesh, &header, limit);
@@ -131,7 +142,7 @@ next_fault(Checking *checking, abacus_fault *fault, int64 *code)
 	if (checking->host->handle == NULL ||
 		host_check(checking->host, abacus_check_next(checking->host->handle, fault)) == ABACUS_END)
 		return false;
-	*code = (int64) fault->key.code;
+	*code = row_code(fault);
 	return true;
 }
 

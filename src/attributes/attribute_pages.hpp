@@ -1,0 +1,117 @@
+// The attributes of a mesh that is changed: attribute_page.hpp tells how they are stored.
+//
+// Of each group one page is held in memory, and written back when another one is needed. Points
+// come and go along the curve, so the next one nearly always belongs to the same page, and a round
+// of insertions writes each page once. A page that gets too many vertices is cut where it is full:
+// what lies before the vertex that has come is finished in this round, and leaves full pages
+// behind. A page that loses most of its vertices takes in the next one.
+#pragma once
+
+#include "attributes/attribute_page.hpp"
+#include "host/memory_resource.hpp"
+
+#include <abacus/header.h>
+
+#include <deque>
+#include <span>
+
+namespace abacus {
+
+/// Those of a group.
+template <int D> class AttributeGroup {
+public:
+    AttributeGroup(const Host &host, const Domain<D> &domain, unsigned group, unsigned columns);
+
+    /// Sets what the vertex at p has. `key` is its attribute_key().
+    void put(const Key &key, const Point<D> &p, const double *values);
+    /// What the vertex at p has, to be changed before the next call: a rank of each attribute of
+    /// the group. Null if there is no such vertex.
+    std::uint64_t *change(const Key &key, const Point<D> &p);
+    /// Takes it away.
+    void drop(const Key &key, const Point<D> &p);
+    /// Reads it. Throws an Error (corrupted) if there is no such vertex.
+    void get(const Key &key, const Point<D> &p, double *values);
+    bool contains(const Key &key, const Point<D> &p);
+    /// Writes the current page.
+    void flush();
+    /// All pages have gone, or may lie elsewhere.
+    void forget() { at_page_ = dirty_ = shrunk_ = grown_ = false; }
+
+private:
+    static constexpr std::size_t none = ~std::size_t{0};
+    /// Bytes that are held as a rule, before pages are cut.
+    static constexpr std::size_t held_bytes = std::size_t{64} << 10;
+
+    /// Makes the page that owns the key the current one.
+    void go_to(const Key &key);
+    Key end_of_page(const Key &lower);
+    void append(const abacus_page &page, const Key &upper);
+    void set(std::size_t row, const Point<D> &p, const double *values);
+    std::size_t lower_bound(const Key &key) const;
+    std::size_t find(const Key &key, const Point<D> &p) const;
+    std::size_t insert(const Key &key);
+    void remove_rows(std::size_t begin, std::size_t end);
+    /// Writes full pages of what lies before the row; whether there were any.
+    bool write_before(std::size_t row);
+    bool goes_on_to(const Key &key);
+    /// How many of the first n rows go to the next page.
+    std::size_t rows_of_page(std::size_t n);
+    /// Writes the first n rows, and goes on with the others as a page that has not been stored.
+    void write_rows(std::size_t n);
+    void absorb_next();
+
+    std::size_t count() const { return keys_.size(); }
+    std::uint64_t *row(std::size_t i) { return rows_.data() + i * stride_; }
+    const std::uint64_t *row(std::size_t i) const { return rows_.data() + i * stride_; }
+
+    const Host &host_;
+    const Domain<D> domain_;
+    const unsigned group_, columns_;
+    const std::size_t stride_; // words of a row
+    AttributePageWriter writer_;
+    AttributePage<D> view_;
+    bool at_page_ = false;       // otherwise what follows says nothing
+    bool dirty_ = false;         // since it was stored
+    bool shrunk_ = false;        // has lost rows
+    bool grown_ = false;         // has left full pages behind
+    Key lower_{}, upper_{};      // interval of the current page
+    std::uint64_t location_ = 0; // where it is stored; 0 = not yet
+    std::size_t most_ = 0;       // rows held
+    Arena<Key> keys_, page_keys_;
+    Arena<std::uint64_t> rows_; // ranks: coordinates, attributes
+};
+
+template <int D> class AttributePages {
+public:
+    AttributePages(const Host &host, const Domain<D> &domain, unsigned attributes);
+
+    /// Sets the attributes of the vertex at p, which has this code.
+    void put(const Point<D> &p, std::uint64_t code, const double *values);
+    /// The same for a vertex that has none yet.
+    void put_new(const Point<D> &p, std::uint64_t code, const double *values);
+    /// Sets some attributes of the vertex at p, which are `which`; false if there is no such
+    /// vertex. Reads and writes only pages that have one of these.
+    bool set(const Point<D> &p, std::uint64_t code, std::span<const std::uint32_t> which,
+             const double *values);
+    void drop(const Point<D> &p, std::uint64_t code);
+    /// Throws an Error (corrupted) if there is no such vertex.
+    void get(const Point<D> &p, std::uint64_t code, double *values);
+    void flush() {
+        for (AttributeGroup<D> &group : pages_) group.flush();
+    }
+    void forget() {
+        for (AttributeGroup<D> &group : pages_) group.forget();
+    }
+
+private:
+    const AttributeGroups groups_;
+    HostMemory memory_;
+    std::pmr::deque<AttributeGroup<D>> pages_; // of each group
+};
+
+extern template class AttributeGroup<2>;
+extern template class AttributeGroup<3>;
+extern template class AttributePages<2>;
+extern template class AttributePages<3>;
+
+} // namespace abacus

@@ -1,0 +1,94 @@
+/*
+ * fn_update.c: abacus_update, other attributes for points that stay where they are.
+ *
+ * The simplices stay as they are, too. So nothing is triangulated, and what is written are the pages
+ * that have attributes.
+ */
+#include "postgres.h"
+
+#include "utils/builtins.h"
+
+#include "pg/base/sql_function.h"
+#include "pg/mesh/change.h"
+#include "pg/mesh/shape.h"
+
+SQL_FUNCTION(abacus_sql_update);
+
+/*
+ * Columns behind the coordinates are attributes by name. Their numbers go to `attributes`, which has
+ * room for all; the shape is that of the rows.
+ */
+static abacus_header *
+shape_of_rows(const Source *source, const abacus_header *header, uint32 *attributes)
+{
+	abacus_header *shape = palloc(sizeof(abacus_header));
+	int			first = source_first_attribute(source, header->dimension);
+	int			columns = source_columns(source);
+
+	*shape = *header;
+	shape->attributes = 0;
+	if (columns <= first)
+		ereport(ERROR,
+				(errcode(ERRCODE_DATATYPE_MISMATCH),
+				 errmsg("source query has no column of an attribute"),
+				 errhint("Behind id and coordinates come columns that are named after attributes.")));
+	for (int i = first; i < columns; i++)
+	{
+		const char *name = source_column_name(source, i);
+
+		attributes[i - first] = (uint32) header_find_attribute(header, name);
+		shape_attribute(shape, name);
+	}
+	return shape;
+}
+
+/* There is no point at the place of a row. */
+static void
+refuse_missing(const Change *change, const abacus_named_place *missing)
+{
+	StringInfoData place;
+
+	initStringInfo(&place);
+	for (uint32 i = 0; i < change->writer.header->dimension; i++)
+		appendStringInfo(&place, "%s%s", i > 0 ? ", " : "",
+						 DatumGetCString(DirectFunctionCall1(float8out,
+															 Float8GetDatum(missing->point[i]))));
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("mesh \"%s\" has no point at the place of point " INT64_FORMAT ", (%s)",
+					RelationGetRelationName(mesh_pages(change->writer.host)->simplices.heap),
+					missing->id, place.data),
+			 errhint("Points keep their coordinates. abacus_insert() adds points.")));
+}
+
+/* Changes the points of a prepared query; returns how many rows it had. */
+static uint64
+update_query(Oid mesh, Source *source)
+{
+	Change	   *change = change_begin(mesh, "abacus_update()");
+	const abacus_header *header = change->writer.header;
+	uint32	   *attributes = palloc(Max(header->attributes, source_columns(source)) * sizeof(uint32));
+	abacus_header *shape = shape_of_rows(source, header, attributes);
+	abacus_named_place missing;
+	uint64		points;
+
+	change_read_gone(change, source, shape);
+	points = change->points;
+	if (change_update(change, attributes, shape->attributes, &missing) < points)
+		refuse_missing(change, &missing);
+	change_end(change);
+	return points;
+}
+
+/* abacus_update(mesh regclass, query text) -> bigint */
+Datum
+abacus_sql_update(PG_FUNCTION_ARGS)
+{
+	Source		source;
+	uint64		points;
+
+	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	points = update_query(PG_GETARG_OID(0), &source);
+	source_finish(&source);
+	PG_RETURN_INT64((int64) points);
+}

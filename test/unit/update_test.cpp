@@ -1,0 +1,208 @@
+// Attributes of points change, and nothing else does.
+#include "points/record.hpp"
+#include "support/point_model.hpp"
+#include "support/sanitized.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace abacus::test {
+namespace {
+
+constexpr std::uint32_t attributes = 70; // three groups of pages, if they are apart
+
+template <int D> class Updated {
+public:
+    Updated(bool apart, std::size_t cache_bytes, int count = static_cast<int>(attributes))
+        : mesh(count, cache_bytes), count_(static_cast<std::size_t>(count)) {
+        mesh.header.apart = apart;
+    }
+
+    /// Points of a kind: 0 uniform, 1 few places, 2 on a line or plane.
+    std::vector<InputOf<D>> fresh(std::size_t n, int kind) {
+        std::vector<InputOf<D>> points;
+        for (; points.size() < n; ++next_id_) {
+            Point<D> p;
+            for (double &x : p)
+                x = kind == 1 ? double(random() % 4)
+                              : std::uniform_real_distribution<double>(0, 1)(random);
+            if (kind == 2) p[D - 1] = 2 * (p[0] = double(next_id_ % 600));
+            if (kind == 2 && D == 3) p[1] = 0;
+            points.push_back({next_id_, p, values(count_)});
+        }
+        return points;
+    }
+    std::vector<double> values(std::size_t n) {
+        std::vector<double> values(n);
+        for (double &x : values) x = double(random() % 1000) / 8;
+        return values;
+    }
+    /// Some attributes, each once, in any order.
+    std::vector<std::uint32_t> some_attributes() {
+        std::vector<std::uint32_t> which(count_);
+        for (std::uint32_t i = 0; i < count_; ++i) which[i] = i;
+        std::shuffle(which.begin(), which.end(), random);
+        which.resize(1 + random() % 5);
+        return which;
+    }
+    /// Other values for some of the points there are, a few of them under another id or twice.
+    std::vector<InputOf<D>> changes(std::size_t n, std::size_t width) {
+        std::vector<InputOf<D>> all = model.points();
+        std::shuffle(all.begin(), all.end(), random);
+        if (all.size() > n) all.resize(n);
+        if (all.size() > 2) all.push_back(all.front());
+        for (InputOf<D> &p : all) {
+            p.attributes = values(width);
+            if (random() % 16 == 0) p.id = -1;
+        }
+        return all;
+    }
+    void insert(const std::vector<InputOf<D>> &points) {
+        model.insert(points);
+        ASSERT_EQ(mesh.insert(points), ABACUS_OK) << mesh.error.detail;
+    }
+    abacus_status update(const std::vector<InputOf<D>> &points,
+                         const std::vector<std::uint32_t> &which, std::size_t memory = 16 << 20) {
+        abacus_header shape = mesh.header;
+        shape.attributes = static_cast<std::uint32_t>(which.size());
+        abacus_stage *stage = nullptr;
+        abacus_status status =
+            abacus_stage_open(mesh.host.table(), &shape, memory, &stage, &mesh.error);
+        for (const InputOf<D> &p : points) {
+            std::vector<std::uint64_t> record(1 + D + which.size());
+            fill_record<D>(record.data(), p.id, p.point, p.attributes.data(), which.size());
+            if (status == ABACUS_OK)
+                status = abacus_stage_add(stage, record.data(), 1, &mesh.error);
+        }
+        if (status == ABACUS_OK)
+            status = mesh.with_build([&](abacus_build *build) {
+                return abacus_build_update(build, stage, which.data(), which.size(), &mesh.header,
+                                           &updated, &missing, &mesh.error);
+            });
+        abacus_stage_close(stage);
+        return status;
+    }
+
+    MeshOf<D> mesh;
+    PointModel<D> model;
+    std::mt19937_64 random{7};
+    std::uint64_t updated = 0;
+    abacus_named_place missing{};
+
+private:
+    std::size_t count_;
+    std::int64_t next_id_ = 0;
+};
+
+/// How many pages are what they were.
+std::size_t same_pages(const MemoryHost::Pages &before, const MemoryHost::Pages &now) {
+    std::size_t same = 0;
+    for (const auto &[key, page] : before) {
+        const auto found = now.find(key);
+        same += found != now.end() && found->second.words == page.words;
+    }
+    return same;
+}
+
+template <class Dimension> class Update : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Update, Dimensions);
+
+TYPED_TEST(Update, ChangesTheAttributesThatAreNamed) {
+    // Of vertices, of points equal to one, and of those that wait since they span no simplex.
+    constexpr int D = TypeParam::value;
+    const std::size_t sizes[] = {1, 2, 10, 100, 400};
+    for (const bool apart : {false, true})
+        for (const int kind : {0, 1, 2})
+            for (const std::size_t cache_bytes : {std::size_t(40) << 10, std::size_t(1) << 20}) {
+                SCOPED_TRACE(kind);
+                Updated<D> world(apart, cache_bytes);
+                for (int step = 0; step < (sanitized ? 10 : 25); ++step) {
+                    const std::size_t n = sizes[world.random() % std::size(sizes)];
+                    if (step == 0 || world.random() % 3 == 0) {
+                        const auto points = world.fresh(n, kind);
+                        if (world.random() % 3 == 0) {
+                            world.model.stage(points);
+                            ASSERT_EQ(world.mesh.stage(points), ABACUS_OK);
+                        } else {
+                            world.insert(points);
+                        }
+                    } else {
+                        const auto which = world.some_attributes();
+                        const auto points = world.changes(n, which.size());
+                        const std::size_t memory = step % 2 == 0 ? 16 << 20 : 64 << 10;
+                        ASSERT_EQ(world.update(points, which, memory), ABACUS_OK)
+                            << world.mesh.error.detail;
+                        ASSERT_EQ(world.updated, points.size());
+                        world.model.update(points, which);
+                    }
+                    world.model.expect(world.mesh);
+                    if (this->HasFatalFailure()) return;
+                }
+            }
+}
+
+TYPED_TEST(Update, WritesOnlyPagesOfTheAttributesThatAreNamed) {
+    constexpr int D = TypeParam::value;
+    Updated<D> world(true, 1 << 20);
+    world.insert(world.fresh(3000, 0));
+    const auto simplices = world.mesh.host.pages;
+    const auto before = world.mesh.host.attribute_pages;
+    const auto points = world.changes(1000, 1);
+    ASSERT_EQ(world.update(points, {attributes - 1}), ABACUS_OK);
+    world.model.update(points, {attributes - 1});
+    world.model.expect(world.mesh);
+    EXPECT_EQ(same_pages(simplices, world.mesh.host.pages), simplices.size());
+    EXPECT_EQ(simplices.size(), world.mesh.host.pages.size());
+    const std::size_t same = same_pages(before, world.mesh.host.attribute_pages);
+    EXPECT_GT(same * 2, before.size()); // two groups of three
+    EXPECT_LT(same, before.size());
+}
+
+TYPED_TEST(Update, SaysWhichPointIsMissing) {
+    constexpr int D = TypeParam::value;
+    for (const bool apart : {false, true})
+        for (const int kind : {0, 2}) {
+            Updated<D> world(apart, 1 << 20, 1);
+            world.insert(world.fresh(50, kind));
+            auto points = world.changes(20, 1);
+            const std::size_t there = points.size();
+            Point<D> nowhere;
+            nowhere.fill(0.5);
+            points.insert(points.begin() + 5, {777, nowhere, {1.}});
+            ASSERT_EQ(world.update(points, {0}), ABACUS_OK);
+            EXPECT_EQ(world.updated, there);
+            EXPECT_EQ(world.missing.id, 777);
+            EXPECT_TRUE(std::equal(nowhere.begin(), nowhere.end(), world.missing.point));
+        }
+    Updated<D> empty(false, 1 << 20, 1);
+    ASSERT_EQ(empty.update({{1, Point<D>{}, {1.}}}, {0}), ABACUS_OK);
+    EXPECT_EQ(empty.updated, 0u);
+    EXPECT_EQ(empty.missing.id, 1);
+    EXPECT_EQ(empty.mesh.header.has_domain, 0u);
+}
+
+TYPED_TEST(Update, LosesNothingWhenAnythingFails) {
+    // A call of the host that fails comes out as an error, and no memory is lost.
+    constexpr int D = TypeParam::value;
+    for (const bool apart : {false, true}) {
+        Updated<D> world(apart, 64 << 10, 3);
+        world.insert(world.fresh(300, 0));
+        const auto points = world.changes(100, 1);
+        for (std::uint64_t at = 0;; at += sanitized ? 7 : 1) {
+            Updated<D> tried(apart, 64 << 10, 3);
+            tried.mesh.host.restore(world.mesh.host);
+            tried.mesh.header = world.mesh.header;
+            tried.mesh.host.fail_at(at);
+            const abacus_status status = tried.update(points, {1});
+            EXPECT_EQ(tried.mesh.host.bytes, 0u);
+            if (status == ABACUS_OK) break;
+            ASSERT_EQ(status, ABACUS_HOST_ERROR);
+        }
+    }
+}
+
+} // namespace
+} // namespace abacus::test
