@@ -1,5 +1,5 @@
 /*
- * draw.h: pictures of a mesh.
+ * draw.h: pictures of a mesh or an octree.
  */
 #ifndef ABACUS_ABACUS_DRAW_H
 #define ABACUS_ABACUS_DRAW_H
@@ -57,7 +57,7 @@ typedef struct abacus_picture
 	int32_t is_blank;   /* 1: nothing of the mesh is seen */
 } abacus_picture;
 
-/* Draws a mesh of dimension 2 as a PNG. */
+/* Draws a mesh of dimension 2, or a quadtree without contours, as a PNG. */
 ABACUS_API abacus_status abacus_draw(const abacus_host *host, const abacus_header *header,
 									 const abacus_drawing *drawing, abacus_picture *picture,
 									 abacus_error *error);
@@ -75,7 +75,7 @@ typedef struct abacus_section
 							the picture is upside down, for a z that is a depth */
 } abacus_section;
 
-/* Draws the section of a mesh of dimension 3 by a plane, as abacus_draw does. */
+/* Draws the section of a mesh of dimension 3, or of an octree, by a plane, as abacus_draw does. */
 ABACUS_API abacus_status abacus_draw_section(const abacus_host *host, const abacus_header *header,
 											 const abacus_section *section,
 											 const abacus_drawing *drawing, abacus_picture *picture,

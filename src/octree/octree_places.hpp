@@ -33,6 +33,7 @@ public:
             if (n % Pacer::stride == 0)
                 host_.progress({ABACUS_PHASE_LOCATING, n, places_.size(),
                                 reader_.cache().counters.loads, 0, 0});
+            host_.poll();
             visit(static_cast<std::int64_t>(record[1]), point(record));
         }
         places_.close();
