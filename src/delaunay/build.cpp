@@ -39,11 +39,11 @@ Build<D>::Build(const Host &host, const abacus_header &header, std::size_t cache
       domain_(domain_of<D>(header)), repeated_(std::in_place, host_, domain_, header.attributes),
       gathered_(host_, record_words(D, header.attributes)) {
     if (header.apart != 0) apart_.emplace(host_, domain_, header.attributes);
-    make_core(header);
+    make_core(header, cache_bytes_);
 }
 
-template <int D> void Build<D>::make_core(const abacus_header &header) {
-    core_.emplace(host_, header, cache_bytes_, apart_ ? &*apart_ : nullptr);
+template <int D> void Build<D>::make_core(const abacus_header &header, std::size_t cache_bytes) {
+    core_.emplace(host_, header, cache_bytes, apart_ ? &*apart_ : nullptr);
 }
 
 template <int D> VertexIndex Build<D>::create(const std::uint64_t *record) {

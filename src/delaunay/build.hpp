@@ -81,7 +81,7 @@ private:
         return static_cast<std::uint64_t>(core_->mesh.simplices() + core_->mesh.ghosts());
     }
     bool has_waiting() const { return header_->inserted < header_->staged; }
-    void make_core(const abacus_header &header);
+    void make_core(const abacus_header &header, std::size_t cache_bytes);
     VertexIndex create(const std::uint64_t *record);
     void store_attributes(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n);
     /// A vertex of the cache as a record.
@@ -104,6 +104,8 @@ private:
     /// Inserts what has been gathered, or takes it away.
     void change_gathered();
     std::size_t thread_cache_bytes() const;
+    /// What the session's cache may take: with threads what gathered points leave of it.
+    std::size_t own_cache_bytes() const;
     bool is_worth_sharing() const;
     Cuts cuts_for_threads() const;
     void insert_gathered_here();
@@ -111,6 +113,9 @@ private:
     void change_on_threads(Cuts &cuts);
     /// Adds the points that the threads have left to the session's to `left`.
     void run_passes(Cuts &cuts, Batch &left, const typename Interval<D>::Removing *how);
+    /// Of a gathered point that the threads have left to the session's: adds it to `left` if the
+    /// mesh is needed for it.
+    void deal_with_left(std::size_t i, Batch &left);
     /// Inserts gathered points that threads would put off.
     void insert_near_borders(const Cuts &cuts);
     void report_pass(std::uint64_t done);

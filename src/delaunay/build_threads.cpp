@@ -14,8 +14,9 @@
 //      put off there is dealt with in the same way: the border is within, now.
 //   4. When there is one interval left, or few points are, the session's thread does the rest.
 //
-// Points that equal a vertex are inserted at the end, in their order, since their pages are those
-// of the session's thread. So points leave at the end that are at a place with such points.
+// Points that equal a vertex are dealt with by the session's thread after each pass, in their
+// order, since their pages are its own; at the end if they give the vertex another id. Those points
+// that are at a place with such ones leave at the end.
 //
 // No points near borders leave first. The session's thread would have to read the mesh for them,
 // and the stars of the full mesh are small.
@@ -95,6 +96,13 @@ template <int D> void Build<D>::begin_to_gather(std::uint64_t points) {
         cache_bytes_ / gathered_share / gathered_.bytes(1), worth_sharing<D>);
     const std::uint64_t parts = std::max<std::uint64_t>(1, (points + room - 1) / room);
     most_gathered_ = std::max<std::uint64_t>((points + parts - 1) / parts, worth_sharing<D>);
+    core_->cache.set_budget(own_cache_bytes());
+}
+
+template <int D> std::size_t Build<D>::own_cache_bytes() const {
+    if (host_.threads() == 1) return cache_bytes_;
+    const std::size_t gathered = gathered_.bytes(std::min<std::uint64_t>(most_gathered_, to_do_));
+    return cache_bytes_ - std::min(gathered, cache_bytes_ / gathered_share);
 }
 
 template <int D>
@@ -205,8 +213,7 @@ void Build<D>::run_passes(Cuts &cuts, Batch &left, const typename Interval<D>::R
             header_->vertices += static_cast<std::uint64_t>(results.vertices);
             header_->outside += results.crowded;
             core_->cache.counters += results.counters;
-            for (const std::size_t i : results.left)
-                left.add(gathered_.record(i), gathered_.code(i));
+            for (const std::size_t i : results.left) deal_with_left(i, left);
             for (const std::size_t i : results.put_off) put_off.push_back(i);
             for (const std::size_t i : results.gone)
                 apart_->drop(record_point<D>(gathered_.record(i)), gathered_.code(i));
@@ -221,6 +228,15 @@ void Build<D>::run_passes(Cuts &cuts, Batch &left, const typename Interval<D>::R
         if (!host_.has_tiny_intervals()) least = worth_sharing<D>;
         if (how != nullptr && how->outlay.is_too_much()) return;
     }
+}
+
+/// What need not wait for the last pass does not take memory until then.
+template <int D> void Build<D>::deal_with_left(std::size_t i, Batch &left) {
+    host_.poll();
+    if (outlet_ != nullptr || on_duplicate_ == ABACUS_REPLACE)
+        left.add(gathered_.record(i), gathered_.code(i));
+    else
+        add_duplicate(gathered_.record(i));
 }
 
 /// Of equal points, which come one after the other, all or none.
@@ -265,7 +281,7 @@ template <int D> void Build<D>::hand_over(const Cuts &cuts) {
 
 template <int D> void Build<D>::forget_cache() {
     const abacus_counters counters = core_->cache.counters;
-    make_core(*header_);
+    make_core(*header_, own_cache_bytes());
     core_->cache.counters = counters;
 }
 
