@@ -151,8 +151,14 @@ TYPED_TEST(Update, WritesOnlyPagesOfTheAttributesThatAreNamed) {
     const auto simplices = world.mesh.host.pages;
     const auto before = world.mesh.host.attribute_pages;
     const auto points = world.changes(1000, 1);
+    const abacus_counters counted = world.mesh.header.counters;
     ASSERT_EQ(world.update(points, {attributes - 1}), ABACUS_OK);
     world.model.update(points, {attributes - 1});
+    const abacus_counters &now = world.mesh.header.counters;
+    EXPECT_GT(now.stores, counted.stores);
+    EXPECT_GE(now.loads - counted.loads, now.rewrites - counted.rewrites);
+    EXPECT_LE(now.stores - counted.stores, before.size() / 2);
+    EXPECT_GT(now.bytes_written, counted.bytes_written);
     world.model.expect(world.mesh);
     EXPECT_EQ(same_pages(simplices, world.mesh.host.pages), simplices.size());
     EXPECT_EQ(simplices.size(), world.mesh.host.pages.size());
