@@ -167,6 +167,25 @@ TYPED_TEST(Update, WritesOnlyPagesOfTheAttributesThatAreNamed) {
     EXPECT_LT(same, before.size());
 }
 
+TYPED_TEST(Update, ReadsEqualPointsOnce) {
+    constexpr int D = TypeParam::value;
+    Updated<D> world(false, 1 << 20, 1);
+    world.insert(world.fresh(50, 0));
+    auto equal = world.fresh(5000, 0);
+    for (InputOf<D> &p : equal) p.point = world.model.points().front().point;
+    world.insert(equal);
+    std::reverse(equal.begin(), equal.end());
+    equal.push_back(equal.front()); // the last one counts
+    for (InputOf<D> &p : equal) p.attributes = world.values(1);
+    const auto before = world.mesh.host.calls;
+    ASSERT_EQ(world.update(equal, {0}), ABACUS_OK);
+    EXPECT_EQ(world.updated, equal.size());
+    EXPECT_LT(world.mesh.host.calls.find - before.find, 300u); // some fifty pages
+    EXPECT_LT(world.mesh.host.calls.put - before.put, 100u);
+    world.model.update(equal, {0});
+    world.model.expect(world.mesh);
+}
+
 TYPED_TEST(Update, SaysWhichPointIsMissing) {
     constexpr int D = TypeParam::value;
     for (const bool apart : {false, true})
