@@ -8,9 +8,10 @@ namespace abacus {
 
 template <int D>
 AttributeGroup<D>::AttributeGroup(const Host &host, const Domain<D> &domain, unsigned group,
-                                  unsigned columns)
+                                  unsigned columns, abacus_counters &counters)
     : host_(host), domain_(domain), group_(group), columns_(columns), stride_(D + columns),
-      writer_(host, D, group, columns), keys_(host), page_keys_(host), rows_(host) {}
+      counters_(counters), writer_(host, D, group, columns), keys_(host), page_keys_(host),
+      rows_(host) {}
 
 template <int D> Key AttributeGroup<D>::end_of_page(const Key &lower) {
     abacus_page page;
@@ -20,6 +21,8 @@ template <int D> Key AttributeGroup<D>::end_of_page(const Key &lower) {
 
 /// Adds the rows of a page to those held.
 template <int D> void AttributeGroup<D>::append(const abacus_page &page, const Key &upper) {
+    ++counters_.loads;
+    counters_.bytes_read += page.size;
     std::size_t at = count();
     keys_.resize(at + view_.vertices());
     rows_.resize((at + view_.vertices()) * stride_);
@@ -163,6 +166,9 @@ template <int D> void AttributeGroup<D>::write_rows(std::size_t n) {
     writer_.write(rows_.data(), n);
     abacus_page page{lower_, writer_.bytes(), writer_.size(), location_};
     host_.put(ABACUS_ATTRIBUTE_PAGES, page);
+    ++counters_.stores;
+    counters_.rewrites += location_ != 0;
+    counters_.bytes_written += page.size;
     location_ = page.location;
     if (n == count()) return;
     lower_ = keys_[n];
@@ -234,7 +240,7 @@ template <int D>
 AttributePages<D>::AttributePages(const Host &host, const Domain<D> &domain, unsigned attributes)
     : groups_(attributes), memory_(host), pages_(&memory_) {
     for (unsigned group = 0; group < groups_.count(); ++group)
-        pages_.emplace_back(host, domain, group, groups_.columns(group));
+        pages_.emplace_back(host, domain, group, groups_.columns(group), counters_);
 }
 
 template <int D>

@@ -14,13 +14,16 @@
 
 #include <deque>
 #include <span>
+#include <utility>
 
 namespace abacus {
 
 /// Those of a group.
 template <int D> class AttributeGroup {
 public:
-    AttributeGroup(const Host &host, const Domain<D> &domain, unsigned group, unsigned columns);
+    /// Counts the pages that it moves in `counters`.
+    AttributeGroup(const Host &host, const Domain<D> &domain, unsigned group, unsigned columns,
+                   abacus_counters &counters);
 
     /// Sets what the vertex at p has. `key` is its attribute_key().
     void put(const Key &key, const Point<D> &p, const double *values);
@@ -68,6 +71,7 @@ private:
     const Domain<D> domain_;
     const unsigned group_, columns_;
     const std::size_t stride_; // words of a row
+    abacus_counters &counters_;
     AttributePageWriter writer_;
     AttributePage<D> view_;
     bool at_page_ = false;       // otherwise what follows says nothing
@@ -102,9 +106,12 @@ public:
     void forget() {
         for (AttributeGroup<D> &group : pages_) group.forget();
     }
+    /// Pages moved since it was last asked; nothing else is counted.
+    abacus_counters take_counters() { return std::exchange(counters_, {}); }
 
 private:
     const AttributeGroups groups_;
+    abacus_counters counters_{};
     HostMemory memory_;
     std::pmr::deque<AttributeGroup<D>> pages_; // of each group
 };

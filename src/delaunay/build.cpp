@@ -191,6 +191,7 @@ void Build<D>::change(abacus_header &header, Change change) {
         if (apart_) {
             apart_->flush();
             apart_->forget();
+            core_->cache.counters += apart_->take_counters();
         }
     }
     header.simplices = static_cast<std::uint64_t>(core_->mesh.simplices());

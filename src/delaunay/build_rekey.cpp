@@ -22,6 +22,7 @@
 
 #include "delaunay/intake.hpp"
 #include "keys/domain_of.hpp"
+#include "mesh/counters.hpp"
 #include "traverse/own_vertices.hpp"
 
 #include <algorithm>
@@ -86,7 +87,10 @@ template <int D> bool Build<D>::change_domain(const Spread<D> &coming, std::size
     set_domain(*header_, box);
     forget_simplices();
     domain_ = domain_of<D>(*header_);
-    if (apart_) apart_.emplace(host_, domain_, attributes_); // where it was: others know it
+    if (apart_) {
+        core_->cache.counters += apart_->take_counters();
+        apart_.emplace(host_, domain_, attributes_); // where it was: others know it
+    }
     repeated_.emplace(host_, domain_, attributes_);
     if (!is_mesh) return true;
 

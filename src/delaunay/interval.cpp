@@ -65,6 +65,7 @@ template <int D> void Interval<D>::finish(Results &results) {
     results.simplices += mesh_.simplices() - static_cast<std::int64_t>(header_.simplices);
     results.ghosts += mesh_.ghosts() - static_cast<std::int64_t>(header_.ghosts);
     results.counters += cache_.counters;
+    if (apart_) results.counters += apart_->take_counters();
 }
 
 template <int D>

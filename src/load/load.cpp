@@ -4,6 +4,7 @@
 #include "keys/domain_of.hpp"
 #include "load/element_writer.hpp"
 #include "load/overlap.hpp"
+#include "mesh/counters.hpp"
 #include "mesh/page_attributes.hpp"
 #include "points/canonical.hpp"
 #include "points/vertex_page.hpp"
@@ -56,8 +57,8 @@ template <int D> void Load<D>::add_simplices(const Word *ids, std::size_t count)
 
 /// Writes the attributes, if they are apart, and lists the vertices beside a mesh that is not
 /// Delaunay. The simplices around a vertex need not be connected there, so a reader of pages could
-/// not tell which vertices it has seen.
-template <int D> void Load<D>::write_vertices(bool is_listed) {
+/// not tell which vertices it has seen. Returns what that adds to the counters.
+template <int D> abacus_counters Load<D>::write_vertices(bool is_listed) {
     const bool are_apart = static_cast<unsigned>(in_pages_) != attributes_;
     VertexPageWriter list(host_, D, static_cast<unsigned>(in_pages_), 0);
     AttributePages<D> attributes(host_, *domain_, are_apart ? attributes_ : 0);
@@ -69,6 +70,7 @@ template <int D> void Load<D>::write_vertices(bool is_listed) {
     if (is_listed) list.finish();
     attributes.flush();
     ordered_.close();
+    return attributes.take_counters();
 }
 
 template <int D> abacus_delaunay Load<D>::outcome() const {
@@ -112,7 +114,8 @@ template <int D> void Load<D>::write(abacus_header &header) {
     ElementWriter<D> pages(host_, layout_, *domain_, in_pages_, is_delaunay);
     pages.write(*elements_, pacer_);
     end(elements_);
-    write_vertices(!is_delaunay);
+    header.counters = pages.counters(); // nothing has been done with it before
+    header.counters += write_vertices(!is_delaunay);
 
     if (keeps_domain_)
         header.outside = outside_;
@@ -122,7 +125,6 @@ template <int D> void Load<D>::write(abacus_header &header) {
     header.simplices = simplex_count_;
     header.not_delaunay = outcome();
     if (!is_delaunay) header.staged = header.inserted = vertex_count_;
-    header.counters = pages.counters(); // nothing has been done with it before
 }
 
 template class Load<2>;

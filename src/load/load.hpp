@@ -91,7 +91,7 @@ private:
 
     // load.cpp
     abacus_delaunay outcome() const;
-    void write_vertices(bool is_listed);
+    abacus_counters write_vertices(bool is_listed);
     void begin(std::optional<RecordSort> &sort, std::size_t stride, std::size_t key) {
         sort.emplace(host_, stride, key, share_);
     }

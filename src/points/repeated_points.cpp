@@ -144,24 +144,6 @@ template <int D> void RepeatedPoints<D>::remove(std::size_t i) {
     dirty_ = true;
 }
 
-template <int D>
-template <class Matches>
-std::size_t RepeatedPoints<D>::find(const Point<D> &p, Matches matches) {
-    const Key from{domain_.code(p), 0};
-    if (!go_to(from)) return none;
-    do {
-        for (std::size_t i = lower_bound(from); i < count(); ++i) {
-            if (record_point<D>(record_of(entry(i))) == p) {
-                if (matches(entry(i))) return i;
-            } else if (key_of(entry(i)).code != from.code) {
-                return none;
-            }
-        }
-        host_.poll();
-    } while (go_on(from.code));
-    return none;
-}
-
 template <int D> bool RepeatedPoints<D>::contains(const Point<D> &p) {
     return find(p, [](const std::uint64_t *) { return true; }) != none;
 }
@@ -171,19 +153,6 @@ template <int D> void RepeatedPoints<D>::offer(const Point<D> &p, Leaving &leavi
         const std::uint64_t *record = record_of(entry);
         return !leaving.offer(record_id(record), record_attributes<D>(record), entry[0]);
     });
-}
-
-template <int D>
-bool RepeatedPoints<D>::set_attributes(const Point<D> &p, std::int64_t id,
-                                       std::span<const std::uint32_t> which, const double *values) {
-    const std::size_t at =
-        find(p, [&](const std::uint64_t *entry) { return record_id(record_of(entry)) == id; });
-    if (at == none) return false;
-    std::uint64_t *const attributes = entry(at) + 1 + record_words(D, 0);
-    for (std::size_t i = 0; i < which.size(); ++i)
-        attributes[which[i]] = std::bit_cast<std::uint64_t>(values[i]);
-    dirty_ = true;
-    return true;
 }
 
 template <int D> std::uint64_t RepeatedPoints<D>::take(const Point<D> &p, const Leaving &leaving) {

@@ -22,8 +22,6 @@
 
 #include <abacus/header.h>
 
-#include <span>
-
 namespace abacus {
 
 template <int D> class RepeatedPoints {
@@ -36,10 +34,16 @@ public:
     bool contains(const Point<D> &p);
     /// Offers the points equal to p, until the others make no difference.
     void offer(const Point<D> &p, Leaving &leaving);
-    /// Gives the first point equal to p that has this id other values of the attributes `which`;
-    /// false if there is none.
-    bool set_attributes(const Point<D> &p, std::int64_t id, std::span<const std::uint32_t> which,
-                        const double *values);
+    /// Calls change(record, is_changed) for the points equal to p, in their order, until it returns
+    /// false. It sets is_changed if it has changed the attributes of the record.
+    template <class Change> void change(const Point<D> &p, Change change) {
+        find(p, [&](std::uint64_t *entry) {
+            bool is_changed = false;
+            const bool goes_on = change(entry + 1, is_changed);
+            dirty_ |= is_changed;
+            return !goes_on;
+        });
+    }
     /// Takes away those that leave, in the order of their pages; each page is read and
     /// written once. Returns how many there were.
     std::uint64_t take(const Point<D> &p, const Leaving &leaving);
@@ -87,6 +91,24 @@ private:
     Arena<std::uint64_t> records_; // its entries
     Arena<std::uint64_t> taken_;   // the record that was taken last
 };
+
+template <int D>
+template <class Matches>
+std::size_t RepeatedPoints<D>::find(const Point<D> &p, Matches matches) {
+    const Key from{domain_.code(p), 0};
+    if (!go_to(from)) return none;
+    do {
+        for (std::size_t i = lower_bound(from); i < count(); ++i) {
+            if (record_point<D>(record_of(entry(i))) == p) {
+                if (matches(entry(i))) return i;
+            } else if (key_of(entry(i)).code != from.code) {
+                return none;
+            }
+        }
+        host_.poll();
+    } while (go_on(from.code));
+    return none;
+}
 
 /// Reads the pages one after the other; checks that they are as they should be.
 template <int D> class RepeatedReader {

@@ -58,6 +58,13 @@ RESET abacus.cache_size;
 -- all forty values
 SELECT bag_eq($$ SELECT id, attributes FROM abacus_vertices('wide') $$,
     $$ SELECT id::bigint, ARRAY(SELECT sin(id * i) FROM generate_series(1, 35) i) || h || ARRAY(SELECT (id / 7 + i)::float8 FROM generate_series(37, 40) i) FROM points $$, 'all of all vertices');
+-- their pages are counted, and an update moves no others
+CREATE TABLE counted AS SELECT name, value FROM abacus_stats('wide') WHERE name !~ '^session|_ns$';
+SELECT is(abacus_update('wide', 'SELECT id, x, y, id / 7 + 40 AS a40 FROM points'), 4000::bigint, 'one of forty is updated');
+SELECT bag_eq($$ SELECT name FROM abacus_stats('wide') s JOIN counted c USING (name) WHERE s.value > c.value AND name !~ '_bytes|^bytes_per' $$,
+    $$ VALUES ('loads'), ('stores'), ('rewrites'), ('bytes_read'), ('bytes_written') $$, 'pages have been read and written');
+SELECT cmp_ok((SELECT s.value - c.value FROM abacus_stats('wide') s JOIN counted c USING (name) WHERE name = 'stores'), '<=',
+    (SELECT count(*)::float8 FROM wide WHERE code < -1) / 2 + 1, 'of one group of two');
 
 -- changes
 CREATE TABLE more AS SELECT id + 10000 AS id, x, y, z, h / 2 AS h FROM points WHERE id % 5 = 0 -- repeated
@@ -75,6 +82,13 @@ END $$;
 SELECT pg_temp.change($$ SELECT abacus_insert(%L, format(%L, 'more')) $$);
 SELECT pg_temp.sound('after an insertion');
 SELECT pg_temp.all_queries('inserted');
+-- other attributes, of vertices and of points that equal one
+CREATE TABLE newer AS SELECT id, x, y, z, CASE WHEN id % 13 > 0 THEN h + 1 END AS h FROM more WHERE id % 2 = 0;
+SELECT pg_temp.change($$ SELECT abacus_update(%L, format(%L, 'newer')) $$);
+SELECT pg_temp.sound('after an update');
+SELECT bag_eq($$ SELECT id, attributes[1] FROM abacus_vertices('narrow') WHERE id > 10000 $$, $$ SELECT m.id::bigint, CASE WHEN n.id IS NULL THEN m.h ELSE n.h END FROM more m LEFT JOIN newer n USING (id) $$, 'other values');
+SELECT pg_temp.same($$ SELECT id, x, y, vertex, attributes[h_of(attributes)] FROM abacus_vertices('%s') $$, 'the same where they are apart');
+SELECT pg_temp.same($$ SELECT id, x, y, z, vertex, attributes[h_of(attributes)] FROM abacus_vertices('%s') $$, 'and in space', 'solid', 'wide_solid');
 -- the repeated ones take over
 SELECT pg_temp.change($$ SELECT abacus_delete(%L, format(%L, 'points WHERE id %% 10 = 0')) $$);
 SELECT pg_temp.sound('after a deletion');

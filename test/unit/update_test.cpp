@@ -151,14 +151,39 @@ TYPED_TEST(Update, WritesOnlyPagesOfTheAttributesThatAreNamed) {
     const auto simplices = world.mesh.host.pages;
     const auto before = world.mesh.host.attribute_pages;
     const auto points = world.changes(1000, 1);
+    const abacus_counters counted = world.mesh.header.counters;
     ASSERT_EQ(world.update(points, {attributes - 1}), ABACUS_OK);
     world.model.update(points, {attributes - 1});
+    const abacus_counters &now = world.mesh.header.counters;
+    EXPECT_GT(now.stores, counted.stores);
+    EXPECT_GE(now.loads - counted.loads, now.rewrites - counted.rewrites);
+    EXPECT_LE(now.stores - counted.stores, before.size() / 2);
+    EXPECT_GT(now.bytes_written, counted.bytes_written);
     world.model.expect(world.mesh);
     EXPECT_EQ(same_pages(simplices, world.mesh.host.pages), simplices.size());
     EXPECT_EQ(simplices.size(), world.mesh.host.pages.size());
     const std::size_t same = same_pages(before, world.mesh.host.attribute_pages);
     EXPECT_GT(same * 2, before.size()); // two groups of three
     EXPECT_LT(same, before.size());
+}
+
+TYPED_TEST(Update, ReadsEqualPointsOnce) {
+    constexpr int D = TypeParam::value;
+    Updated<D> world(false, 1 << 20, 1);
+    world.insert(world.fresh(50, 0));
+    auto equal = world.fresh(5000, 0);
+    for (InputOf<D> &p : equal) p.point = world.model.points().front().point;
+    world.insert(equal);
+    std::reverse(equal.begin(), equal.end());
+    equal.push_back(equal.front()); // the last one counts
+    for (InputOf<D> &p : equal) p.attributes = world.values(1);
+    const auto before = world.mesh.host.calls;
+    ASSERT_EQ(world.update(equal, {0}), ABACUS_OK);
+    EXPECT_EQ(world.updated, equal.size());
+    EXPECT_LT(world.mesh.host.calls.find - before.find, 300u); // some fifty pages
+    EXPECT_LT(world.mesh.host.calls.put - before.put, 100u);
+    world.model.update(equal, {0});
+    world.model.expect(world.mesh);
 }
 
 TYPED_TEST(Update, SaysWhichPointIsMissing) {
