@@ -20,9 +20,9 @@
 // answers when somebody asks (crowding.hpp).
 #include "delaunay/build.hpp"
 
+#include "blocks/counters.hpp"
 #include "delaunay/intake.hpp"
 #include "keys/domain_of.hpp"
-#include "mesh/counters.hpp"
 #include "traverse/own_vertices.hpp"
 
 #include <algorithm>

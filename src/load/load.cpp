@@ -1,10 +1,10 @@
 #include "load/load.hpp"
 
 #include "attributes/attribute_pages.hpp"
+#include "blocks/counters.hpp"
 #include "keys/domain_of.hpp"
 #include "load/element_writer.hpp"
 #include "load/overlap.hpp"
-#include "mesh/counters.hpp"
 #include "mesh/page_attributes.hpp"
 #include "points/canonical.hpp"
 #include "points/vertex_page.hpp"
