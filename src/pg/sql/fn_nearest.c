@@ -48,19 +48,6 @@ typedef struct NearAnswers
 	uint32		attributes;
 } NearAnswers;
 
-static uint64
-count_argument(FunctionCallInfo fcinfo, int argument)
-{
-	int32		k = PG_GETARG_INT32(argument);
-
-	if (k < 1)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("k must be at least 1, not %d", k),
-				 errhint("k is the number of vertices that are wanted.")));
-	return (uint64) k;
-}
-
 /* Adds a vertex near the one place; called by the core. */
 static abacus_host_status
 put_near(void *context, int64_t place, uint64_t rank, const abacus_vertex *vertex, double distance)
@@ -93,19 +80,14 @@ Datum
 abacus_sql_nearest(PG_FUNCTION_ARGS)
 {
 	int			given = PG_NARGS() - 2;
-	uint64		k = count_argument(fcinfo, 1 + given);
+	uint64		k = place_count_argument(fcinfo, 1 + given, "vertices");
 	double		point[ABACUS_MAX_DIMENSION];
 	CachedMesh *cached;
 	NearAnswers near = {.rows.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
 	InitMaterializedSRF(fcinfo, 0);
 	cached = mesh_cache_get(PG_GETARG_OID(0));
-	if (given < (int) cached->dimension)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("z is missing, but the mesh has dimension %u", cached->dimension),
-				 errhint("Give z with a decimal point or as z => 1: a whole number behind y is "
-						 "taken for k.")));
+	place_require_z(given, cached->dimension, "mesh");
 	place_arguments_finite(fcinfo, given, cached->dimension, point);
 	near.rows.host = cached->host;
 	near.rows.dimension = cached->dimension;
@@ -135,7 +117,7 @@ put_ranked(void *context, int64_t place, uint64_t rank, const abacus_vertex *ver
 Datum
 abacus_sql_nearest_places(PG_FUNCTION_ARGS)
 {
-	uint64		k = count_argument(fcinfo, 2);
+	uint64		k = place_count_argument(fcinfo, 2, "vertices");
 	PlacesRead	read;
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 

@@ -65,19 +65,6 @@ put_row(const OctreeAnswers *answers, Datum *values, bool *isnull)
 
 /* ---- Nearest leaves --------------------------------------------------------- */
 
-static uint64
-count_argument(FunctionCallInfo fcinfo, int argument)
-{
-	int32		k = PG_GETARG_INT32(argument);
-
-	if (k < 1)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("k must be at least 1, not %d", k),
-				 errhint("k is the number of leaves that are wanted.")));
-	return (uint64) k;
-}
-
 /* Adds a leaf near the one place; called by the core. */
 static abacus_host_status
 put_near(void *context, int64_t place, uint64_t rank, const abacus_octant *octant, double distance)
@@ -102,19 +89,14 @@ Datum
 abacus_sql_octree_nearest(PG_FUNCTION_ARGS)
 {
 	int			given = PG_NARGS() - 2;
-	uint64		k = count_argument(fcinfo, 1 + given);
+	uint64		k = place_count_argument(fcinfo, 1 + given, "leaves");
 	double		place[ABACUS_MAX_DIMENSION];
 	CachedMesh *cached;
 	OctreeAnswers answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
 	InitMaterializedSRF(fcinfo, 0);
 	cached = mesh_cache_get_octree(PG_GETARG_OID(0));
-	if (given < (int) cached->dimension)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("z is missing, but the octree has dimension %u", cached->dimension),
-				 errhint("Give z with a decimal point or as z => 1: a whole number behind y is "
-						 "taken for k.")));
+	place_require_z(given, cached->dimension, "octree");
 	place_require_octree(given, cached->dimension);
 	place_arguments_finite(fcinfo, given, cached->dimension, place);
 	answers_begin(&answers, cached->host, &cached->header);
@@ -156,7 +138,7 @@ put_ranked(void *context, int64_t place, uint64_t rank, const abacus_octant *oct
 Datum
 abacus_sql_octree_nearest_places(PG_FUNCTION_ARGS)
 {
-	uint64		k = count_argument(fcinfo, 2);
+	uint64		k = place_count_argument(fcinfo, 2, "leaves");
 	OctreePlaces read;
 	OctreeAnswers answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 

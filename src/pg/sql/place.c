@@ -1,5 +1,5 @@
 /*
- * place.c: a place given as x, y and, in space, z behind the mesh.
+ * place.c: a place given as x, y and, in space, z behind the mesh, and k behind it.
  */
 #include "postgres.h"
 
@@ -46,6 +46,32 @@ place_require_octree(int given, uint32 dimension)
 						dimension == 2 ? "given" : "missing", dimension),
 				 dimension == 2 ? errhint("Leave z out.")
 				 : errhint("Give all three coordinates of the place.")));
+}
+
+/* Where k follows: a z that is missing may have been taken for it. */
+void
+place_require_z(int given, uint32 dimension, const char *whole)
+{
+	if (given < (int) dimension)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("z is missing, but the %s has dimension %u", whole, dimension),
+				 errhint("Give z with a decimal point or as z => 1: a whole number behind y is "
+						 "taken for k.")));
+}
+
+/* The argument k of a function that returns the k nearest rows. */
+uint64
+place_count_argument(FunctionCallInfo fcinfo, int argument, const char *rows)
+{
+	int32		k = PG_GETARG_INT32(argument);
+
+	if (k < 1)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("k must be at least 1, not %d", k),
+				 errhint("k is the number of %s that are wanted.", rows)));
+	return (uint64) k;
 }
 
 /* Reads coordinates where an infinite coordinate is an error, too. */

@@ -1,5 +1,5 @@
 /*
- * place.h: a place given as x, y and, in space, z behind the mesh.
+ * place.h: a place given as x, y and, in space, z behind the mesh, and k behind it.
  */
 #ifndef ABACUS_PLACE_H
 #define ABACUS_PLACE_H
@@ -10,5 +10,7 @@ extern bool place_arguments(FunctionCallInfo fcinfo, int given, uint32 dimension
 extern void place_arguments_finite(FunctionCallInfo fcinfo, int given, uint32 dimension,
 								   double *point);
 extern void place_require_octree(int given, uint32 dimension);
+extern void place_require_z(int given, uint32 dimension, const char *whole);
+extern uint64 place_count_argument(FunctionCallInfo fcinfo, int argument, const char *rows);
 
 #endif
