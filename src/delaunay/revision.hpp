@@ -87,7 +87,9 @@ private:
             left += w->id != *first && (w == wants_.begin() || w->id != w[-1].id);
         build_.repeated_->change(place_, [&](std::uint64_t *record, bool &is_changed) {
             const std::int64_t id = record_id(record);
-            const auto by_id = [](const Want &want, std::int64_t id) { return want.id < id; };
+            const auto by_id = [](const Want &want, std::int64_t sought) {
+                return want.id < sought;
+            };
             Want *w = std::lower_bound(wants_.begin(), wants_.end(), id, by_id);
             if (left == 0 || id == *first || w == wants_.end() || w->id != id || w->is_met)
                 return left > 0;
