@@ -182,7 +182,7 @@ ALTER TYPE abacus_octant ALTER ATTRIBUTE level TYPE integer;
 ALTER TYPE abacus_octant ADD ATTRIBUTE extra bigint;
 SELECT throws_ok($$ SELECT abacus_octree_locate('altered_octree', 0.2, 0.2) $$, '55000', 'type abacus_octant has been altered', 'one attribute more: octree_locate');
 SELECT throws_ok($$ SELECT * FROM abacus_octants('altered_octree') $$, '55000', 'type abacus_octant has been altered', 'octants');
-SELECT throws_ok($$ SELECT * FROM abacus_octants('altered_octree', '{0,0}', '{1,1}') $$, '55000', 'type abacus_octant has been altered', 'octants of a window');
+SELECT throws_ok($$ SELECT * FROM abacus_octants('altered_octree', ARRAY[0,0], ARRAY[1,1]) $$, '55000', 'type abacus_octant has been altered', 'octants of a window');
 SELECT is((SELECT count(*) FROM abacus_octree_elements('altered_octree')), 1::bigint, 'the leaves can be read');
 SELECT is((SELECT count(*) FROM abacus_octree_neighbours('altered_octree', 0)), 0::bigint, 'and neighbours');
 ALTER TYPE abacus_octant DROP ATTRIBUTE extra;
