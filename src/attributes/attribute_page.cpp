@@ -80,7 +80,7 @@ std::size_t AttributePageWriter::size(const std::uint64_t *rows, std::size_t n) 
 
 /// Bytes grow with rows, nearly as a line: a few guesses along it will do.
 std::size_t AttributePageWriter::count_that_fits(const std::uint64_t *rows, std::size_t n) {
-    const std::size_t all = std::min(n, most_in_attribute_page);
+    const std::size_t all = std::min(n, most_written_in_attribute_page);
     std::size_t fits = 0, too_many = all + 1, fit_size = sizeof(AttributePageHeader);
     std::size_t guess = all;
     constexpr int guesses = 8;

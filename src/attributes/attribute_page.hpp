@@ -115,8 +115,10 @@ private:
     std::array<Column, AttributeGroups::widest> columns_;
 };
 
-/// Vertices of a page at most, however little they take.
+/// Vertices of a page at most, however little they take: as many as are read, and as are written.
+/// Readers hold 16 bytes for each beside the page.
 inline constexpr std::size_t most_in_attribute_page = 8192;
+inline constexpr std::size_t most_written_in_attribute_page = 1024;
 
 /// Writes pages from rows of ranks: coordinates, then the attributes of a group.
 class AttributePageWriter {

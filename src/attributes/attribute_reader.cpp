@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t fewest_held = 8, most_pages_held = 1 << 16;
 /// Of the keys of a page, as a rule.
-constexpr std::size_t key_bytes = 4096;
+constexpr std::size_t key_bytes = most_written_in_attribute_page / 2 * sizeof(Key);
 
 /// As far as a page may be read: a longer one is refused by its size.
 void copy(const abacus_page &page, std::array<unsigned char, ABACUS_PAGE_BYTES> &bytes) {

@@ -239,7 +239,7 @@ template <int D> void Build<D>::deal_with_left(std::size_t i, Batch &left) {
         add_duplicate(gathered_.record(i));
 }
 
-/// Of equal points, which come one after the other, all or none.
+/// Of points with one code, which come one after the other, all or none: so of equal ones.
 template <int D> void Build<D>::insert_near_borders(const Cuts &cuts) {
     NearBorder<D> border(domain_, cuts);
     Batch near(host_, record_words(D, attributes_));
@@ -249,16 +249,16 @@ template <int D> void Build<D>::insert_near_borders(const Cuts &cuts) {
         near.shorten(0);
     };
     std::size_t kept = 0;
-    Point<D> last{};
+    std::uint64_t last = 0;
     bool is_near = false;
     for (std::size_t begin = 0; begin < gathered_.size(); begin += border.together) {
         const std::size_t end = std::min(begin + border.together, gathered_.size());
         const bool may_be_near = border.look_at(gathered_, begin, end);
         for (std::size_t i = begin; i < end; ++i) {
-            const Point<D> p = record_point<D>(gathered_.record(i));
-            if (i == 0 || !(p == last))
-                is_near = may_be_near && border.is_near(p, gathered_.code(i));
-            last = p;
+            const std::uint64_t code = gathered_.code(i);
+            if (i == 0 || code != last)
+                is_near = may_be_near && border.is_near(record_point<D>(gathered_.record(i)), code);
+            last = code;
             if (is_near)
                 near.add(gathered_.record(i), gathered_.code(i));
             else

@@ -77,7 +77,8 @@ void Interval<D>::insert(const Batch &batch, std::size_t from, std::size_t to, b
         const std::uint64_t *const record = batch.record(i);
         const Point<D> p = record_point<D>(record);
         Inserted inserted = Inserted::put_off;
-        if (put_off == to || !(record_point<D>(batch.record(put_off)) == p))
+        // Equal points have one code, and a run may have others between them.
+        if (put_off == to || batch.code(put_off) != batch.code(i))
             inserted = insertion_.insert_within(p, batch.code(i), record_id(record),
                                                 record_attributes<D>(record));
         switch (inserted) {

@@ -57,9 +57,10 @@ template <int D> Box<D> Overlap<D>::box_of_simplex(const Word *simplex) const {
 
 template <int D>
 void Overlap<D>::check(RecordSort &boundary, RecordSpool &simplices, Faults &faults) {
-    is_shared_ =
-        host_.threads() > 1 && (boundary.size() >= worth_sharing || host_.has_tiny_intervals());
-    if (is_shared_) room_ = std::max(least_room, room_ - room_ / batch_share);
+    // The parts, and so the order of faults, are the same for any number of threads.
+    const bool is_large = boundary.size() >= worth_sharing || host_.has_tiny_intervals();
+    is_shared_ = is_large && host_.threads() > 1;
+    if (is_large) room_ = std::max(least_room, room_ - room_ / batch_share);
     if (boundary.size() <= room_) {
         check_at_once(boundary, simplices, faults);
     } else {

@@ -38,14 +38,15 @@ template <int D> void OctreeCheck<D>::check_pages() {
     PageCursor pages(host_, ABACUS_OCTANT_PAGES, "octree");
     while (pages.fetch()) {
         faults_.at = pages.key();
-        const std::size_t before = faults_.size();
+        bool is_read = false; // the list of faults may be full, so its length does not tell
         faults_.run("page", [&] {
             view_.read(pages.bytes(), pages.size(), static_cast<int>(header_.attributes));
+            is_read = true;
         });
-        if (faults_.size() > before)
-            is_known_ = false;
-        else
+        if (is_read)
             check_leaves();
+        else
+            is_known_ = false;
         const std::uint64_t n = pages.pages_read();
         if (n % 64 == 0) host_.progress({ABACUS_PHASE_CHECKING, n, 0, n, 0, 0});
     }

@@ -169,7 +169,9 @@ class Files(unittest.TestCase):
         """An export that is ended leaves no file."""
         for number, status in (signal.SIGTERM, 143), (signal.SIGINT, 130):
             export = subprocess.Popen(["/usr/bin/python3", str(CLIENT / "abacus-export"), "files_space", str(self.at / "ended.pvd"), "--series",
-                                       "SELECT id, 1 AS step, pg_sleep(5)::text FROM generate_series(1, 2) AS id"], stderr=subprocess.PIPE, text=True)
+                                       "SELECT id, 1 AS step, pg_sleep(5)::text FROM generate_series(1, 2) AS id"], stderr=subprocess.PIPE, text=True,
+                                      # the tests may run where a shell ignores it
+                                      preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
             until = time.monotonic() + 20
             while not (self.at / "ended.pvd.part").exists() and time.monotonic() < until:
                 time.sleep(0.05)

@@ -224,6 +224,11 @@ SELECT lives_ok($$ INSERT INTO shared VALUES (9, 1, 1, 77) $$, 'and after it has
 DROP TRIGGER zz_bump ON shared;
 SELECT results_eq($$ SELECT id, attributes[1] FROM abacus_vertices('tellers') ORDER BY 1, 2 $$,
                   $$ SELECT id, h FROM shared ORDER BY 1, 2 $$, '... it follows');
+DELETE FROM shared WHERE id = 1;
+SELECT is((SELECT value FROM abacus_stats('tellers') WHERE name = 'duplicates'), 0::numeric, 'no two rows are at one place');
+CREATE TRIGGER bump AFTER UPDATE ON shared FOR EACH ROW EXECUTE FUNCTION bump();
+SELECT throws_ok($$ UPDATE shared SET h = 77 WHERE id = 2 $$, '55000', NULL, 'an attribute that is changed again, of such a row');
+DROP TRIGGER bump ON shared;
 ALTER TABLE shared DROP COLUMN h;
 ALTER TABLE shared ADD COLUMN h float8 DEFAULT 99;
 SELECT throws_ok($$ DELETE FROM shared WHERE id = 2 $$, '55000', NULL, 'a column that was replaced');

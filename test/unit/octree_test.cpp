@@ -596,6 +596,22 @@ TYPED_TEST(Octrees, do_not_trust_their_pages) {
     EXPECT_GT(refused, 60);
 }
 
+TYPED_TEST(Octrees, are_checked_behind_a_full_list_of_faults) {
+    constexpr int D = TypeParam::value;
+    const Coded<D> octree;
+    StoredOctree<D> forged(2);
+    forged.host->restore(*octree.host);
+    forged.header = octree.header;
+    ASSERT_GT(forged.host->pages.size(), 2u);
+    for (auto &[key, page] : forged.host->pages) page.bytes()[page.size / 2] ^= 1;
+    const Host h = forged.host->host();
+    OctreeCheck<D> check(h, forged.header, 1);
+    abacus_fault fault;
+    int faults = 0;
+    while (check.next(fault)) ++faults;
+    EXPECT_EQ(faults, 1);
+}
+
 TYPED_TEST(Octrees, survive_failures_of_the_host) {
     constexpr int D = TypeParam::value;
     const Coded<D> octree;

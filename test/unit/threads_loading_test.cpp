@@ -86,6 +86,19 @@ TYPED_TEST(ThreadsLoading, FindsTheSameFaults) {
     }
 }
 
+TYPED_TEST(ThreadsLoading, CutsABoundaryAlike) {
+    // At some of these memories the boundary only just fits.
+    constexpr int D = TypeParam::value;
+    auto t = this->scattered(D == 2 ? 20 : 6);
+    for (int i = 0; i < 4; ++i) this->add_long_one(t, i);
+    t.shuffle(3);
+    for (std::size_t memory = 64 << 10; memory < 1 << 20; memory += memory / 10) {
+        const std::string alone = this->said(t, 1, memory);
+        EXPECT_EQ(alone.substr(0, 9), "simplices");
+        EXPECT_EQ(this->said(t, 2, memory), alone) << memory;
+    }
+}
+
 TYPED_TEST(ThreadsLoading, FindsAFaultWhereverItIs) {
     // A long simplex crosses many others, an ever smaller one at last none: parts miss none of
     // them.

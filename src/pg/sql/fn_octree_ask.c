@@ -1,6 +1,6 @@
 /*
- * fn_octree_ask.c: leaves and values at places of an octree: abacus_octree_nearest,
- * abacus_octree_interpolate, and abacus_octree_locate of many places.
+ * fn_octree_ask.c: leaves and values at places of an octree: abacus_octree_neighbours,
+ * abacus_octree_nearest, abacus_octree_interpolate, and abacus_octree_locate of many places.
  *
  * One place is looked for in the session's cache; many are sorted along the curve first.
  */
@@ -21,6 +21,7 @@
 #include "pg/sql/place.h"
 #include "pg/sql/result.h"
 
+SQL_FUNCTION(abacus_sql_octree_neighbours);
 SQL_FUNCTION(abacus_sql_octree_nearest);
 SQL_FUNCTION(abacus_sql_octree_nearest_places);
 SQL_FUNCTION(abacus_sql_octree_locate_places);
@@ -61,6 +62,44 @@ put_row(const OctreeAnswers *answers, Datum *values, bool *isnull)
 {
 	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
 	MemoryContextReset(answers->row);
+}
+
+/* ---- Neighbours ------------------------------------------------------------- */
+
+/* Adds a neighbour; called by the core. */
+static abacus_host_status
+put_neighbour(void *context, int32_t axis, int32_t side, const abacus_octant *octant)
+{
+	OctreeAnswers *answers = context;
+	Datum		values[2 + OCTANT_COLUMNS];
+	bool		isnull[2 + OCTANT_COLUMNS] = {false};
+
+	GUARD_BEGIN();
+	values[0] = Int32GetDatum(axis + 1);
+	values[1] = Int32GetDatum(side);
+	octant_of_row(answers, octant, values + 2);
+	put_row(answers, values, isnull);
+	GUARD_END(answers->host);
+	return ABACUS_HOST_OK;
+}
+
+/*
+ * abacus_octree_neighbours(octree regclass, code bigint)
+ *     -> axis, side, code, level, lower, upper, attributes
+ */
+Datum
+abacus_sql_octree_neighbours(PG_FUNCTION_ARGS)
+{
+	OctreeAnswers answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+	CachedMesh *cached;
+
+	InitMaterializedSRF(fcinfo, 0);
+	cached = mesh_cache_get_octree(PG_GETARG_OID(0));
+	answers_begin(&answers, cached->host, &cached->header);
+	host_run(cached->host, abacus_octree_neighbours, cached->octree,
+			 (uint64) PG_GETARG_INT64(1), put_neighbour, &answers);
+	host_release(cached->host);
+	PG_RETURN_NULL();
 }
 
 /* ---- Nearest leaves --------------------------------------------------------- */

@@ -1,5 +1,5 @@
 /*
- * fn_octree_read.c: leaves of octrees: at a place, of a window, beside a leaf.
+ * fn_octree_read.c: leaves of octrees: at a place, of a window.
  */
 #include "postgres.h"
 
@@ -9,15 +9,12 @@
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/sql/answers.h"
 #include "pg/sql/octant_row.h"
 #include "pg/sql/place.h"
-#include "pg/sql/result.h"
 #include "pg/sql/set.h"
 #include "pg/sql/window.h"
 
 SQL_FUNCTION(abacus_sql_octree_locate);
-SQL_FUNCTION(abacus_sql_octree_neighbours);
 SQL_FUNCTION(abacus_sql_octants);
 SQL_FUNCTION(abacus_sql_octants_in_ball);
 
@@ -55,47 +52,6 @@ abacus_sql_octree_locate(PG_FUNCTION_ARGS)
 	if (status == ABACUS_END)
 		PG_RETURN_NULL();
 	PG_RETURN_DATUM(octant_row(kept_row_type(fcinfo), &octant, &cached->header));
-}
-
-/* What the report of a neighbour needs. */
-typedef struct Neighbours
-{
-	Answers		answers;
-	const abacus_header *header;
-} Neighbours;
-
-/* Adds a neighbour; called by the core. */
-static abacus_host_status
-put_neighbour(void *context, int32_t axis, int32_t side, const abacus_octant *octant)
-{
-	Neighbours *neighbours = context;
-	Datum		values[2 + OCTANT_COLUMNS];
-	bool		isnull[2 + OCTANT_COLUMNS] = {false};
-
-	values[0] = Int32GetDatum(axis + 1);
-	values[1] = Int32GetDatum(side);
-	octant_columns(octant, neighbours->header, values + 2);
-	return answers_put(&neighbours->answers, values, isnull);
-}
-
-/*
- * abacus_octree_neighbours(octree regclass, code bigint)
- *     -> axis, side, code, level, lower, upper, attributes
- */
-Datum
-abacus_sql_octree_neighbours(PG_FUNCTION_ARGS)
-{
-	Neighbours	neighbours = {.answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo}};
-	CachedMesh *cached;
-
-	InitMaterializedSRF(fcinfo, 0);
-	cached = mesh_cache_get_octree(PG_GETARG_OID(0));
-	neighbours.answers.host = cached->host;
-	neighbours.header = &cached->header;
-	host_run(cached->host, abacus_octree_neighbours, cached->octree,
-			 (uint64) PG_GETARG_INT64(1), put_neighbour, &neighbours);
-	host_release(cached->host);
-	PG_RETURN_NULL();
 }
 
 static void

@@ -3,11 +3,10 @@
  * with a table.
  *
  * It is called once after each statement. Points that a statement adds are inserted first,
- * then those that it takes away are deleted. So the vertex of a row that gets another id is renamed:
- * the new point waits beside the old one and takes over, and the triangulation stays as it is. Before
- * that, points of which only attributes change are updated where they are, unless there are equal
- * points: these have to be told apart by their attributes. A statement that changes no point does not
- * touch the mesh, nor wait for its other writers. In a mesh that follows at commit the points are only noted
+ * then those that it takes away are deleted. So a vertex of which only attributes change is
+ * renamed: the new point waits beside the old one and takes over, and the triangulation
+ * stays as it is. A statement that changes no point does not touch the mesh, nor wait for
+ * its other writers. In a mesh that follows at commit the points are only noted
  * (pending.c).
  *
  * A statement may reach a table through its parent, and it fires the statement triggers only of the
@@ -73,62 +72,33 @@ to_stage(void *context, const uint64 *points, size_t count)
 	change_add(context, points, count);
 }
 
-/* Stages the points of one fate; returns how many. */
+/* Stages the points that are new, or those that are gone; returns how many. */
 static uint64
-stage(Transition *transition, PointFate fate, Change *change)
+stage(Transition *transition, bool new, Change *change)
 {
 	change_open_stage(change, change->writer.header);
-	return transition_send(transition, fate, to_stage, change);
-}
-
-/* Whether points of the mesh are told apart by their places. */
-static bool
-has_distinct_points(const abacus_header *header)
-{
-	return header->vertices > 0 && header->duplicates == 0 && header->inserted == header->staged;
-}
-
-/* Updates the points of which only attributes have changed. */
-static void
-update_attributes(Transition *transition, Change *change, const char *table)
-{
-	const abacus_header *header = change->writer.header;
-	uint32	   *all;
-	abacus_named_place missing;
-	uint64		stay;
-
-	transition->in_place = true;
-	if ((stay = stage(transition, POINT_STAYS, change)) == 0)
-		return;
-	all = palloc(header->attributes * sizeof(uint32));
-	for (uint32 i = 0; i < header->attributes; i++)
-		all[i] = i;
-	in_step_check_found(change, table, "update", stay,
-						change_update(change, all, header->attributes, &missing));
+	return transition_send(transition, new, to_stage, change);
 }
 
 /* What the statement has added and taken away, into the mesh. */
 static void
 follow(const TriggerData *trigger, Transition *transition, Change *change)
 {
-	const char *table = RelationGetRelationName(trigger->tg_relation);
 	uint64		gone;
 
 	in_step_check_shape(change->writer.header, transition->dimension, transition->columns,
 						trigger->tg_trigger->tgname);
 	transition->srid = change->writer.header->srid;
-	if (TRIGGER_FIRED_BY_UPDATE(trigger->tg_event) && change->writer.header->attributes > 0 &&
-		has_distinct_points(change->writer.header))
-		update_attributes(transition, change, table);
-	if (transition->new.rows != NULL && stage(transition, POINT_COMES, change) > 0)
+	if (transition->new.rows != NULL && stage(transition, true, change) > 0)
 	{
 		change_take_srid(change, transition_srid(transition));
 		change_insert(change);
 	}
-	if (transition->old.rows == NULL || (gone = stage(transition, POINT_GOES, change)) == 0)
+	if (transition->old.rows == NULL || (gone = stage(transition, false, change)) == 0)
 		return;
 	/* the point of another row at the place must not be taken for one that is missing */
-	in_step_check_found(change, table, "delete", gone, change_delete(change, true));
+	in_step_check_deleted(change, RelationGetRelationName(trigger->tg_relation), gone,
+						  change_delete(change, true));
 }
 
 /*
@@ -187,8 +157,8 @@ note_statement(const TriggerData *trigger, Transition *transition)
 	Pending    *pending = open_pending(trigger, transition);
 
 	transition->srid = pending_srid(pending);
-	transition_send(transition, POINT_COMES, note_new, pending);
-	transition_send(transition, POINT_GOES, note_gone, pending);
+	transition_send(transition, true, note_new, pending);
+	transition_send(transition, false, note_gone, pending);
 	pending_take_srid(pending, transition_srid(transition));
 }
 

@@ -147,28 +147,22 @@ rewind_all(Transition *transition)
 	rewind_rows(&transition->new);
 }
 
-/* The column behind id and coordinates. */
-static int
-first_attribute(const Transition *transition)
-{
-	return 1 + transition->dimension - (transition->columns - transition->inputs);
-}
-
 /* Whether the row in the slot is a point. */
 static bool
 is_point(const Transition *transition, TupleTableSlot *slot)
 {
-	for (int i = 1; i < first_attribute(transition); i++)
+	int			places = transition->dimension - (transition->columns - transition->inputs);
+
+	for (int i = 1; i <= places; i++)
 		if (slot_attisnull(slot, transition->numbers[i]))
 			return false;
 	return true;
 }
 
-/* Whether the rows in the slots have the same in so many columns. */
 static bool
-is_same(const Transition *transition, int columns)
+is_same_point(const Transition *transition)
 {
-	for (int i = 0; i < columns; i++)
+	for (int i = 0; i < transition->inputs; i++)
 	{
 		Form_pg_attribute attribute = TupleDescAttr(transition->points, i);
 		bool		old_null;
@@ -195,16 +189,8 @@ advance(Transition *transition)
 	CHECK_FOR_INTERRUPTS();
 	old->counts = was && is_point(transition, old->slot);
 	new->counts = is && is_point(transition, new->slot);
-	transition->stays = false;
-	if (old->counts && new->counts)
-	{
-		bool		is_unchanged = is_same(transition, transition->inputs);
-
-		transition->stays = transition->in_place && !is_unchanged &&
-			is_same(transition, first_attribute(transition));
-		if (is_unchanged || transition->stays)
-			old->counts = new->counts = false;
-	}
+	if (old->counts && new->counts && is_same_point(transition))
+		old->counts = new->counts = false;
 	return was || is;
 }
 
@@ -249,11 +235,11 @@ pack(const Transition *transition, TupleTableSlot *row)
 	packer->receiver.receiveSlot(point, &packer->receiver);
 }
 
-/* Sends on the points of one fate; returns how many. */
+/* Sends on the points that are new, or those that are gone; returns how many. */
 uint64
-transition_send(Transition *transition, PointFate fate, PointSink sink, void *context)
+transition_send(Transition *transition, bool new, PointSink sink, void *context)
 {
-	TransitionRows *rows = fate == POINT_GOES ? &transition->old : &transition->new;
+	TransitionRows *rows = new ? &transition->new : &transition->old;
 	RowPacker  *packer;
 	uint64		sent = 0;
 
@@ -263,7 +249,7 @@ transition_send(Transition *transition, PointFate fate, PointSink sink, void *co
 	rewind_all(transition);
 	while (advance(transition))
 	{
-		if (fate == POINT_STAYS ? !transition->stays : !rows->counts)
+		if (!rows->counts)
 			continue;
 		pack(transition, rows->slot);
 		sent++;
@@ -306,7 +292,7 @@ transition_send_row(Transition *transition, const TriggerData *trigger, bool new
 	transition->old.slot = TRIGGER_FIRED_BY_INSERT(trigger->tg_event) ? NULL : trigger->tg_trigslot;
 	if (rows->slot == NULL || !is_point(transition, rows->slot) ||
 		(is_update && is_point(transition, transition->old.slot) &&
-		 is_point(transition, transition->new.slot) && is_same(transition, transition->inputs)))
+		 is_point(transition, transition->new.slot) && is_same_point(transition)))
 		return;
 	pack(transition, rows->slot);
 	sink(context, transition->packer->points, 1);

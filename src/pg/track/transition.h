@@ -18,14 +18,6 @@ typedef struct TransitionRows
 	bool		counts;			/* the row in the slot is a point to be added, or taken away */
 } TransitionRows;
 
-/* What a statement does with a point. */
-typedef enum PointFate
-{
-	POINT_COMES,
-	POINT_GOES,
-	POINT_STAYS					/* with other attributes */
-} PointFate;
-
 typedef struct Transition
 {
 	TransitionRows old;
@@ -35,8 +27,6 @@ typedef struct Transition
 	int			dimension;
 	uint32		srid;			/* of the mesh, for geometries; 0: it has none, or is not known yet */
 	bool		deferred;		/* the mesh follows at commit */
-	bool		in_place;		/* a point of which only attributes change stays */
-	bool		stays;			/* that of the rows in the slots does so */
 	char	  **names;			/* of the columns of points */
 	AttrNumber *numbers;		/* of these columns, in the table */
 	TupleDesc	points;			/* what a point's row looks like */
@@ -57,8 +47,7 @@ extern void transition_open_rows(Transition *transition, uint32 srid);
 extern const abacus_header *transition_shape(const Transition *transition);
 extern int32 transition_srid(const Transition *transition);
 extern bool transition_changes(Transition *transition);
-extern uint64 transition_send(Transition *transition, PointFate fate, PointSink sink,
-							  void *context);
+extern uint64 transition_send(Transition *transition, bool new, PointSink sink, void *context);
 extern void transition_send_row(Transition *transition, const TriggerData *trigger, bool new,
 								PointSink sink, void *context);
 extern void transition_close(Transition *transition);
