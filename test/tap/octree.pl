@@ -114,7 +114,7 @@ SQL
 my %long = (
 	'growing' => q{SELECT abacus_octree_from_size('large', 'SELECT array_fill(0.0002::float8, ARRAY[cardinality($1 || $2) / 2])')},
 	'balancing' => q{BEGIN; SELECT abacus_octree_refine('large', 'SELECT 12, random(), random() FROM generate_series(1, 200000)'); SELECT abacus_octree_balance('large') FROM generate_series(1, 100)},
-	'merging' => q{SELECT abacus_octree_coarsen('large', 'SELECT 1, random(), random() FROM generate_series(1, 1000000)')},
+	'merging' => q{SELECT abacus_octree_coarsen('large', 'SELECT 1, random(), random() FROM generate_series(1, 30000000)')},
 	'updating' => q{SELECT abacus_octree_update('large', 'SELECT code, 1 FROM abacus_octants(''large'') CROSS JOIN generate_series(1, 100)')},
 	'extracting' => q{SELECT count(*) FROM generate_series(1, 100), abacus_octree_nodes('large')});
 my $large = $node->safe_psql('postgres', "SELECT count(*), sum(code), sum(level) FROM abacus_octants('large')");
