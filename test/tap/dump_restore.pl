@@ -39,6 +39,9 @@ SELECT abacus_triangulate('before.named', 'VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1
 SELECT abacus_publish('before.named', geometry => false);
 ALTER TABLE before.named RENAME TO renamed;
 ALTER SCHEMA before RENAME TO after;
+SELECT abacus_octree_create('soil', 3, '{0,0,0}', '{8,4,2}', '{v}');
+SELECT abacus_octree_from_points('soil', 'SELECT i, sin(i) + 1, cos(i) + 1, i / 3e3 FROM generate_series(1, 3000) AS i', 5);
+SELECT abacus_octree_update('soil', 'SELECT code, lower[1] FROM abacus_octants(''soil'')');
 GRANT USAGE ON SCHEMA abacus TO owner;
 SET ROLE owner;
 SELECT abacus_triangulate('s."My Mesh"', 'SELECT i, (i * 7919) % 101, (i * 104729) % 97, (i * 31) % 89 FROM generate_series(1, 3000) AS i', dimension => 3);
@@ -52,6 +55,9 @@ for my $mesh (@meshes)
 	$content{$mesh} = mesh_content($node, 'origin', $mesh);
 	$bytes{$mesh} = mesh_bytes($node, 'origin', $mesh) . mesh_bytes($node, 'origin', $vertices);
 }
+
+sub leaves { return $node->safe_psql($_[0], q{SELECT md5(string_agg(o::text, ',' ORDER BY code)) FROM abacus_octants('soil') AS o}); }
+my $leaves = leaves('origin');
 
 sub vertex_table { return $_[0] =~ s/("?)$/_vertices$1/r; }
 
@@ -102,6 +108,9 @@ sub examine
 	is($node->safe_psql($database, 'SELECT count(*) FROM after.named_points'), 3, "$what: points of a mesh that was renamed");
 	is($node->safe_psql($database, "SELECT abacus_srid('$meshes[0]'), abacus_srid('$meshes[1]')"), '0|2154',
 		"$what: the spatial reference systems");
+	is(leaves($database), $leaves, "$what: an octree");
+	is($node->safe_psql($database, q{SELECT count(*) FROM abacus_check('soil')}), 0, "$what: which is sound");
+	$node->safe_psql($database, q{SELECT abacus_octree_balance('soil')});
 	for my $mesh (@meshes)
 	{
 		is(grow($database, $mesh), $grown{$mesh}, "$what: $mesh grows as the origin does");

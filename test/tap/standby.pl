@@ -24,6 +24,7 @@ CREATE TABLE points AS SELECT i AS id, random() AS x, random() AS y FROM generat
 SELECT abacus_triangulate('once', 'TABLE points');
 SELECT abacus_create('field', 2);
 SELECT abacus_stage('field', 'TABLE points');
+SELECT abacus_octree_create('tree', 2, '{0,0}', '{1,1}');
 -- feedback tells the primary of snapshots, not of locks
 ALTER TABLE field_vertices SET (vacuum_truncate = off);
 SQL
@@ -161,7 +162,11 @@ await_waiting(2);
 $first->query_safe('COMMIT');
 $primary->poll_query_until('postgres', "SELECT count(*) = 1 FROM pg_locks WHERE relation = 'field_vertices'::regclass AND mode = 'AccessExclusiveLock' AND granted")
   or die 'the first batch does not end';
+# an octree, too
+$primary->safe_psql('postgres', q{SELECT abacus_octree_from_points('tree', 'TABLE points', 10)});
 $primary->wait_for_catchup($standby);
+is($standby->safe_psql('postgres', q{SELECT count(*), sum(code) FROM abacus_octants('tree')}),
+	$primary->safe_psql('postgres', q{SELECT count(*), sum(code) FROM abacus_octants('tree')}), 'leaves of an octree');
 $standby->promote;
 $_->quit for $first, $between;
 $builder->finish;
