@@ -3,6 +3,7 @@
 #include "geometry/simplex_box.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace abacus {

@@ -1,5 +1,6 @@
 #include "draw/relief.hpp"
 
+#include <cmath>
 #include <numbers>
 
 namespace abacus {

@@ -4,6 +4,7 @@
 #include "query/weighted_mean.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace abacus {
 

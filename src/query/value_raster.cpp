@@ -12,6 +12,7 @@
 #include "query/weighted_mean.hpp"
 
 #include <bit>
+#include <cmath>
 
 namespace abacus {
 

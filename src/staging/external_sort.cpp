@@ -3,6 +3,7 @@
 #include "points/spread.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace abacus {
 namespace {

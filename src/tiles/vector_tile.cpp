@@ -6,6 +6,7 @@
 #include "tiles/tile_lines.hpp"
 #include "tiles/tile_samples.hpp"
 
+#include <cmath>
 #include <optional>
 
 namespace abacus {
