@@ -121,10 +121,14 @@ void put_around(Patch &patch) {
     double middle[2] = {0, 0};
     for (int i = 0; i < patch.corners; ++i)
         for (int axis = 0; axis < 2; ++axis) middle[axis] += patch.corner[i][axis] / patch.corners;
-    std::array<std::pair<double, int>, Patch::most> order;
-    for (int i = 0; i < patch.corners; ++i)
-        order[i] = {std::atan2(patch.corner[i][1] - middle[1], patch.corner[i][0] - middle[0]), i};
-    std::sort(order.begin(), order.begin() + patch.corners);
+    std::array<std::pair<double, int>, Patch::most> order{}; // by insertion: there are few
+    for (int i = 0; i < patch.corners; ++i) {
+        const std::pair next{
+            std::atan2(patch.corner[i][1] - middle[1], patch.corner[i][0] - middle[0]), i};
+        int at = i;
+        for (; at > 0 && next < order[at - 1]; --at) order[at] = order[at - 1];
+        order[at] = next;
+    }
     const Patch before = patch;
     for (int i = 0; i < patch.corners; ++i)
         std::copy_n(before.corner[order[i].second], 2, patch.corner[i]);

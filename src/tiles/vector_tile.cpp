@@ -273,8 +273,8 @@ void Maker::add_contours(VectorLayer &layer) const {
                 // Upwards, so that both triangles of an edge find the same point.
                 const Corner &low = is_above ? from : to, &high = is_above ? to : from;
                 const double share = (level - low.value) / (high.value - low.value);
-                (is_above ? rise : fall) = {std::lerp(low.at[0], high.at[0], share),
-                                            std::lerp(low.at[1], high.at[1], share)};
+                Point<2> &at = is_above ? rise : fall;
+                for (int k = 0; k < 2; ++k) at[k] = std::lerp(low.at[k], high.at[k], share);
             }
             lines.add(level, rise, fall);
         }
