@@ -1,8 +1,7 @@
 // Octrees against a model in memory: growth, balance, places, windows, neighbours, edits.
-#include "octree/octree_check.hpp"
 #include "octree/octree_edit.hpp"
 #include "octree/octree_load.hpp"
-#include "support/octree_model.hpp"
+#include "support/octrees.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,14 +15,6 @@ namespace {
 template <class T> class Octrees : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(Octrees, Dimensions);
-
-template <int D> void expect_sound(const StoredOctree<D> &octree) {
-    const Host h = octree.host->host();
-    OctreeCheck<D> check(h, octree.header, 10);
-    abacus_fault fault;
-    while (check.next(fault)) ADD_FAILURE() << fault.kind << ": " << fault.message;
-    EXPECT_THAT(octree.host->violations, testing::IsEmpty());
-}
 
 TYPED_TEST(Octrees, octants_are_arithmetic) {
     constexpr int D = TypeParam::value;
@@ -101,22 +92,6 @@ TYPED_TEST(Octrees, hold_so_many_points_in_a_leaf) {
     }
 }
 
-struct Ball {
-    std::uint64_t asked = 0;
-};
-
-template <int D>
-abacus_host_status size_near_center(void *context, std::size_t count, const double *const *centers,
-                                    const double *, double *sizes) {
-    static_cast<Ball *>(context)->asked += count;
-    for (std::size_t k = 0; k < count; ++k) {
-        double square = 0;
-        for (int i = 0; i < D; ++i) square += (centers[i][k] - 0.3) * (centers[i][k] - 0.3);
-        sizes[k] = 0.02 + std::sqrt(square) / 3;
-    }
-    return ABACUS_HOST_OK;
-}
-
 TYPED_TEST(Octrees, are_as_fine_as_a_function_tells) {
     constexpr int D = TypeParam::value;
     std::mt19937_64 random(5);
@@ -126,9 +101,9 @@ TYPED_TEST(Octrees, are_as_fine_as_a_function_tells) {
     octree.split_to(cells);
     for (const auto &[cell, level] : cells) model.split_to(cell, level);
     const Host h = octree.host->host();
-    Ball ball;
+    SizesAsked sizes;
     Growth<D>(h, octree.header, StoredOctree<D>::memory)
-        .to_sizes(size_near_center<D>, &ball, octree.header);
+        .to_sizes(size_near_center<D>, &sizes, octree.header);
     for (bool done = false; !done;) {
         done = true;
         for (const Octant<D> &leaf : model.list()) {
@@ -136,7 +111,7 @@ TYPED_TEST(Octrees, are_as_fine_as_a_function_tells) {
             const double *centers[D];
             for (int i = 0; i < D; ++i) centers[i] = &center[i];
             double size;
-            Ball ignored;
+            SizesAsked ignored;
             size_near_center<D>(&ignored, 1, centers, nullptr, &size);
             if (std::ldexp(1.0, -leaf.level) <= size) continue;
             model.split(leaf);
@@ -144,29 +119,9 @@ TYPED_TEST(Octrees, are_as_fine_as_a_function_tells) {
         }
     }
     ASSERT_EQ(octree.list(), model.list());
-    EXPECT_GT(ball.asked, model.leaves.size() / 2);
+    EXPECT_GT(sizes.asked, model.leaves.size() / 2);
     expect_sound(octree);
 }
-
-/// An octree of some ten thousand leaves with an attribute, its own code, on several pages.
-template <int D> struct Coded : StoredOctree<D> {
-    OctreeModel<D> model;
-    std::mt19937_64 random{6};
-
-    Coded() : StoredOctree<D>(2) {
-        const auto cells = random_cells<D>(random, 3000, D == 2 ? 10 : 7);
-        this->split_to(cells);
-        for (const auto &[cell, level] : cells) model.split_to(cell, level);
-        const Host h = this->host->host();
-        OctreeEdit<D> edit(h, this->header, this->memory, std::size_t{1} << 20);
-        for (const auto &[code, level] : model.leaves) {
-            const double values[2] = {static_cast<double>(code >> 12), level + 0.1};
-            edit.set_at(code, values);
-        }
-        EXPECT_EQ(edit.set(this->header), model.leaves.size());
-        EXPECT_GT(this->host->pages.size(), 5u);
-    }
-};
 
 TYPED_TEST(Octrees, locate_and_keep_attributes) {
     constexpr int D = TypeParam::value;
@@ -370,100 +325,6 @@ TYPED_TEST(Octrees, are_what_a_model_is_after_changes_at_random) {
     }
 }
 
-/// Memory that is taken beyond what is in use now, while something is done.
-template <class Act> std::size_t peak_of(MemoryHost &host, Act act) {
-    const std::size_t before = host.bytes;
-    host.peak_bytes = before;
-    act();
-    return host.peak_bytes - before;
-}
-
-TYPED_TEST(Octrees, take_no_more_memory_than_they_are_given) {
-    constexpr int D = TypeParam::value;
-    constexpr std::size_t block = LeafBlocks<D>::slots * sizeof(Leaf<D>);
-    Coded<D> octree;
-    ASSERT_GT(octree.host->pages.size(), 16u);
-    std::vector<Octant<D>> some;
-    for (const Octant<D> &leaf : octree.model.list())
-        if (leaf.code % 8 == 0) some.push_back(leaf);
-    const auto merge = [&] { octree.merge(some, 1); };
-    EXPECT_LT(peak_of(*octree.host, merge), 8 * block + octree.memory / 2) << "nothing to merge";
-
-    // Places that are fine enough on every page.
-    constexpr std::size_t memory = 12 * block;
-    const auto refine = [&] {
-        const Host h = octree.host->host();
-        Growth<D> growth(h, octree.header, memory);
-        for (std::uint64_t i = 0; i < octree.header.leaves / 512; ++i)
-            growth.add(octree.place(octree.random() % domain_cells<D>), 0);
-        growth.to_levels(octree.header);
-    };
-    EXPECT_LT(peak_of(*octree.host, refine), memory) << "nothing to split";
-
-    StoredOctree<D> empty;
-    empty.spread_root(64);
-    const auto find = [&] {
-        const Host h = empty.host->host();
-        OctreeReader<D> reader(h, empty.header, 1);
-        EXPECT_EQ(reader.cache().octant(reader.find(domain_cells<D> - 1)), Octant<D>{});
-    };
-    EXPECT_LT(peak_of(*empty.host, find), 8 * block) << "a walk over empty pages";
-    empty.host->cancel();
-    EXPECT_THROW(find(), HostFailure) << "... that can be cancelled";
-}
-
-TYPED_TEST(Octrees, keep_the_pages_that_are_read_again) {
-    constexpr int D = TypeParam::value;
-    constexpr std::size_t block = LeafBlocks<D>::slots * sizeof(Leaf<D>);
-    Coded<D> octree;
-    const Host h = octree.host->host();
-    OctreeReader<D> reader(h, octree.header, 8 * block);
-    for (const auto &[key, page] : octree.host->pages) {
-        reader.find(key.code);
-        reader.find(0);
-    }
-    EXPECT_EQ(reader.cache().counters.loads, octree.host->pages.size());
-    EXPECT_GT(reader.cache().counters.evictions, 0u);
-}
-
-TYPED_TEST(Octrees, count_what_they_do_and_tell_how_far_they_are) {
-    constexpr int D = TypeParam::value;
-    Coded<D> octree;
-    std::set<int> phases;
-    octree.host->on_progress = [&](const abacus_progress &progress) {
-        phases.insert(progress.phase);
-        if (progress.total > 0) {
-            EXPECT_LE(progress.done, progress.total);
-        }
-    };
-    const auto tells = [&](std::set<int> expected) {
-        EXPECT_THAT(phases, testing::IsSupersetOf(expected));
-        phases.clear();
-        const abacus_counters &counters = octree.header.counters;
-        EXPECT_EQ(counters.created - counters.deleted, octree.header.leaves);
-        EXPECT_GE(counters.stores, counters.rewrites);
-        EXPECT_GT(counters.bytes_written, octree.host->pages.size());
-    };
-    octree.balance(D);
-    tells({ABACUS_PHASE_SCANNING, ABACUS_PHASE_SORTING, ABACUS_PHASE_FLUSHING});
-    octree.merge({Octant<D>{}.child(1)});
-    tells({ABACUS_PHASE_LOCATING});
-    octree.split_to_points({1, 2, 3}, 1);
-    tells({ABACUS_PHASE_SCANNING, ABACUS_PHASE_FLUSHING});
-    octree.split_to({{domain_cells<D> / 2, finest_level<D>}});
-    tells({ABACUS_PHASE_LOCATING});
-    Ball ball;
-    const Host h = octree.host->host();
-    Growth<D>(h, octree.header, octree.memory).to_sizes(size_near_center<D>, &ball, octree.header);
-    tells({ABACUS_PHASE_SCANNING, ABACUS_PHASE_READING, ABACUS_PHASE_FLUSHING});
-    octree.merge({{}});
-    OctreeLoad<D> load(h, octree.header, octree.memory);
-    const double values[2] = {1, 2};
-    for (int i = 0; i < Octant<D>::children; ++i) load.add(Octant<D>{}.child(i).code, 1, values);
-    load.write(octree.header);
-    tells({ABACUS_PHASE_FLUSHING});
-}
-
 TYPED_TEST(Octrees, keep_the_last_of_several_rows_of_a_leaf) {
     constexpr int D = TypeParam::value;
     StoredOctree<D> octree(1);
@@ -543,104 +404,6 @@ TYPED_TEST(Octrees, are_loaded_leaf_by_leaf) {
     EXPECT_EQ(detail({}), "There are none.");
     EXPECT_EQ(detail({leaves.begin() + 1, leaves.end()}),
               "There is a gap before the octant of row 1.");
-}
-
-TYPED_TEST(Octrees, do_not_depend_on_order_and_memory) {
-    constexpr int D = TypeParam::value;
-    std::mt19937_64 random(7);
-    auto cells = random_cells<D>(random, 4000, D == 2 ? 11 : 8);
-    StoredOctree<D> a, b;
-    a.split_to(cells);
-    std::shuffle(cells.begin(), cells.end(), random);
-    b.split_to(cells);
-    a.balance(D, std::size_t{64} << 20);
-    b.balance(D, 1); // the least that a sort takes
-    EXPECT_EQ(a.list(), b.list());
-    EXPECT_TRUE(b.host->spools.empty());
-    ASSERT_EQ(a.host->pages.size(), b.host->pages.size());
-    // At most a byte a leaf.
-    std::size_t bytes = 0;
-    for (const auto &[key, page] : a.host->pages) bytes += page.size;
-    EXPECT_LE(bytes, a.header.leaves);
-}
-
-TYPED_TEST(Octrees, do_not_trust_their_pages) {
-    constexpr int D = TypeParam::value;
-    const Coded<D> octree;
-    std::mt19937_64 random(8);
-    int refused = 0;
-    for (int round = 0; round < 120; ++round) {
-        StoredOctree<D> forged(2);
-        forged.host->restore(*octree.host);
-        forged.header = octree.header;
-        auto page = std::next(forged.host->pages.begin(),
-                              static_cast<long>(random() % forged.host->pages.size()));
-        for (std::uint64_t n = 1 + random() % 3; n > 0; --n)
-            page->second.bytes()[random() % (round % 2 ? page->second.size : 60)] ^=
-                static_cast<unsigned char>(1u << random() % 8);
-        if (round % 4 != 0) seal_page(page->second.bytes(), page->second.size);
-        try {
-            const Host h = forged.host->host();
-            OctreeReader<D> reader(h, forged.header, 1);
-            const std::uint64_t begin = page->first.code;
-            for (int i = 0; i < 20; ++i)
-                reader.find(
-                    std::min(begin + random() % (domain_cells<D> >> 6), domain_cells<D> - 1));
-            forged.balance(D);
-        } catch (const Error &error) {
-            ASSERT_EQ(error.kind, ABACUS_ERROR_CORRUPTED) << error.what();
-            EXPECT_STREQ(error.what(), "octree is corrupted");
-            ++refused;
-        }
-    }
-    EXPECT_GT(refused, 60);
-}
-
-TYPED_TEST(Octrees, are_checked_behind_a_full_list_of_faults) {
-    constexpr int D = TypeParam::value;
-    const Coded<D> octree;
-    StoredOctree<D> forged(2);
-    forged.host->restore(*octree.host);
-    forged.header = octree.header;
-    ASSERT_GT(forged.host->pages.size(), 2u);
-    for (auto &[key, page] : forged.host->pages) page.bytes()[page.size / 2] ^= 1;
-    const Host h = forged.host->host();
-    OctreeCheck<D> check(h, forged.header, 1);
-    abacus_fault fault;
-    int faults = 0;
-    while (check.next(fault)) ++faults;
-    EXPECT_EQ(faults, 1);
-}
-
-TYPED_TEST(Octrees, survive_failures_of_the_host) {
-    constexpr int D = TypeParam::value;
-    const Coded<D> octree;
-    for (std::uint64_t n = 1;; n += 1 + n / 4) {
-        StoredOctree<D> failing(2);
-        failing.host->restore(*octree.host);
-        failing.header = octree.header;
-        failing.host->fail_at(n);
-        bool failed = false;
-        try {
-            failing.balance(D, 1);
-            const Host h = failing.host->host();
-            OctreeEdit<D> edit(h, failing.header, 1, 1);
-            for (int i = 0; i < 50; ++i)
-                edit.merge_at(
-                    failing.place(
-                        octree.model.find(static_cast<std::uint64_t>(i) * (domain_cells<D> / 50))
-                            .code),
-                    3);
-            edit.merge(failing.header);
-        } catch (const HostFailure &) {
-            failed = true;
-        }
-        ASSERT_THAT(failing.host->violations, testing::IsEmpty());
-        if (!failed) {
-            EXPECT_GT(n, 20u);
-            break;
-        }
-    }
 }
 
 } // namespace
