@@ -43,6 +43,7 @@ SELECT lives_ok($$ SELECT abacus_octree_from_points('octree_divided', 'SELECT id
 SELECT abacus_octree_create('octree_mixed', 2, '{0,0}', '{128,128}');
 SELECT throws_ok($$ SELECT abacus_octree_from_points('octree_mixed', 'SELECT id, ST_SetSRID(geom, 2154 + (id % 2)::int) FROM sites', 20) $$, '22023', NULL, 'nor may they be of two');
 SELECT is(abacus_srid('octree_mixed'), 0, 'and then nothing is kept');
+SELECT throws_ok($$ SELECT * FROM abacus_octree_locate('octree_mixed', 'SELECT id, geom FROM sites') $$, '22023', NULL, 'places of a query have the SRID of the octree');
 SELECT throws_ok($$ SELECT abacus_octree_from_points('octree_solid', 'SELECT id, geom FROM sites', 20) $$, '22023', 'geometry of point 1 has no z, but the octree has dimension 3', 'of space they have a z')
 FROM abacus_octree_create('octree_solid', 3, '{0,0,0}', '{128,128,128}');
 SELECT throws_ok($$ SELECT abacus_octree_from_rows('octree_mixed', 'SELECT 0, geom FROM sites') $$, '42804', 'column 2 (level) of the source query has type geometry', 'a geometry is no level');

@@ -306,16 +306,17 @@ row_packer_create_simplices(TupleDesc desc, const abacus_header *header, size_t 
 	return create(desc, header, &query_of_simplices, header->dimension + 1, 0, 0, false, false, batch);
 }
 
-/* The same for rows of a query that are for an octree. */
+/* The same for rows of a query that are for an octree; `takes_srid` as above. */
 RowPacker *
-row_packer_create_octants(TupleDesc desc, const abacus_header *header, OctantRows rows, size_t batch)
+row_packer_create_octants(TupleDesc desc, const abacus_header *header, OctantRows rows,
+						  bool takes_srid, size_t batch)
 {
 	bool		has_attributes = rows == OCTANT_LEAVES || rows == OCTANT_VALUES;
 	int			coordinates = rows == OCTANT_LEAVES ? 1
 		: rows == OCTANT_VALUES ? 0 : (int) header->dimension;
 
 	return create(desc, header, &queries_of_octants[rows], 1, coordinates,
-				  has_attributes ? header->attributes : 0, rows == OCTANT_POINTS, true, batch);
+				  has_attributes ? header->attributes : 0, rows == OCTANT_POINTS, takes_srid, batch);
 }
 
 void

@@ -80,7 +80,7 @@ extern RowPacker *row_packer_create_tracked(TupleDesc desc, const abacus_header 
 extern RowPacker *row_packer_create_simplices(TupleDesc desc, const abacus_header *header,
 											  size_t batch);
 extern RowPacker *row_packer_create_octants(TupleDesc desc, const abacus_header *header,
-											OctantRows rows, size_t batch);
+											OctantRows rows, bool takes_srid, size_t batch);
 extern void row_packer_reset(RowPacker *packer);
 
 #endif

@@ -190,10 +190,11 @@ source_open_simplices(Source *source, const abacus_header *header)
 
 /* Starts reading rows for an octree; see row_packer_create_octants(). */
 void
-source_open_octants(Source *source, const abacus_header *header, OctantRows rows)
+source_open_octants(Source *source, const abacus_header *header, OctantRows rows, bool takes_srid)
 {
 	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
-	source->packer = row_packer_create_octants(source->portal->tupDesc, header, rows, ROWS_A_BATCH);
+	source->packer = row_packer_create_octants(source->portal->tupDesc, header, rows, takes_srid,
+											   ROWS_A_BATCH);
 }
 
 /* Errors while reading say which query they come from, as SPI's do. */

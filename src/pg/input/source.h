@@ -25,7 +25,8 @@ extern int	source_first_attribute(const Source *source, uint32 dimension);
 extern void source_open(Source *source, const abacus_header *header, bool takes_srid);
 extern void source_open_places(Source *source, const abacus_header *header);
 extern void source_open_simplices(Source *source, const abacus_header *header);
-extern void source_open_octants(Source *source, const abacus_header *header, OctantRows rows);
+extern void source_open_octants(Source *source, const abacus_header *header, OctantRows rows,
+								bool takes_srid);
 extern size_t source_fetch(Source *source, const uint64 **points);
 extern void source_close(Source *source);
 extern void source_finish(Source *source);

@@ -113,7 +113,7 @@ read_rows(OctreeChange *change, OctantRows kind, AddRows add)
 	const uint64 *rows;
 	size_t		count;
 
-	source_open_octants(&change->source, header, kind);
+	source_open_octants(&change->source, header, kind, true);
 	while ((count = source_fetch(&change->source, &rows)) > 0)
 	{
 		host_run(host, add, host->handle, rows, count);

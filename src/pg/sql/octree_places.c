@@ -28,7 +28,7 @@ octree_places_fetch(OctreePlaces *read)
 	host_run(host, abacus_octree_places_open, &host->table, &read->reader->header,
 			 setting_query_sort_bytes(), setting_cache_bytes(), &read->places);
 	host_own(host, read->places, (void (*) (void *)) abacus_octree_places_close);
-	source_open_octants(&read->source, &read->reader->header, OCTANT_POINTS);
+	source_open_octants(&read->source, &read->reader->header, OCTANT_POINTS, false);
 	while ((count = source_fetch(&read->source, &records)) > 0)
 		host_run(host, abacus_octree_places_add, read->places, records, count);
 	source_close(&read->source);
