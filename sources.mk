@@ -293,7 +293,6 @@ PG_SOURCES += src/pg/sql/interpolation.c
 PG_SOURCES += src/pg/sql/line.c
 PG_SOURCES += src/pg/sql/missing.c
 PG_SOURCES += src/pg/sql/octant_row.c
-PG_SOURCES += src/pg/sql/octree_places.c
 PG_SOURCES += src/pg/sql/place.c
 PG_SOURCES += src/pg/sql/places.c
 PG_SOURCES += src/pg/sql/result.c

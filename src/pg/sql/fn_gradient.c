@@ -52,7 +52,7 @@ find_gradient(FunctionCallInfo fcinfo, double *gradient)
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	interpolation_attribute(fcinfo, first + HOW_ATTRIBUTE, &cached->header, &how);
 	interpolation_max_edge(fcinfo, first + HOW_MAX_EDGE, &how);
-	if (!place_arguments(fcinfo, first - 1, cached->dimension, point))
+	if (!place_arguments(fcinfo, first - 1, &cached->header, point))
 		return 0;
 	status = host_run(cached->host, abacus_mesh_gradient, cached->mesh, &how, point, gradient);
 	host_release(cached->host);

@@ -10,15 +10,13 @@
 
 #include "funcapi.h"
 #include "utils/builtins.h"
-#include "utils/memutils.h"
 
 #include "pg/base/sql_function.h"
-#include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/sql/answers.h"
 #include "pg/sql/interpolation.h"
 #include "pg/sql/place.h"
 #include "pg/sql/places.h"
-#include "pg/sql/result.h"
 
 SQL_FUNCTION(abacus_sql_interpolate);
 SQL_FUNCTION(abacus_sql_interpolate_places);
@@ -52,51 +50,13 @@ abacus_sql_interpolate(PG_FUNCTION_ARGS)
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	interpolation_attribute(fcinfo, first + HOW_ATTRIBUTE, &cached->header, &how);
 	interpolation_how(fcinfo, first + HOW_METHOD, &how);
-	if (!place_arguments(fcinfo, first - 1, cached->dimension, point))
+	if (!place_arguments(fcinfo, first - 1, &cached->header, point))
 		PG_RETURN_NULL();
 	status = host_run(cached->host, abacus_mesh_interpolate, cached->mesh, &how, point, &value);
 	host_release(cached->host);
 	if (status == ABACUS_END || isnan(value))
 		PG_RETURN_NULL();
 	PG_RETURN_FLOAT8(value);
-}
-
-/* Columns of the result */
-enum
-{
-	PLACE_ID,
-	PLACE_VALUES,
-	PLACE_COLUMNS
-};
-
-typedef struct Answers
-{
-	Host	   *host;
-	ReturnSetInfo *set;
-	int			attributes;
-	MemoryContext row;			/* for the array of a row */
-} Answers;
-
-/* Adds the row of a place; called by the core. */
-static abacus_host_status
-put_values(void *context, int64_t id, const double *numbers)
-{
-	Answers    *answers = context;
-	Datum		values[PLACE_COLUMNS] = {Int64GetDatum(id)};
-	bool		isnull[PLACE_COLUMNS] = {false, numbers == NULL};
-
-	GUARD_BEGIN();
-	if (numbers != NULL)
-	{
-		MemoryContext old = MemoryContextSwitchTo(answers->row);
-
-		values[PLACE_VALUES] = attribute_array(numbers, answers->attributes);
-		MemoryContextSwitchTo(old);
-	}
-	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
-	MemoryContextReset(answers->row);
-	GUARD_END(answers->host);
-	return ABACUS_HOST_OK;
 }
 
 /*
@@ -114,14 +74,13 @@ abacus_sql_interpolate_places(PG_FUNCTION_ARGS)
 	InitMaterializedSRF(fcinfo, 0);
 	if (interpolation_of_null(fcinfo, 1))
 		PG_RETURN_NULL();
-	places_open(&read, PG_GETARG_OID(0), text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	places_open(&read, PG_GETARG_OID(0), ABACUS_MESH, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	interpolation_attributes(fcinfo, 2 + HOW_ATTRIBUTE, read.header, &how);
 	interpolation_how(fcinfo, 2 + HOW_METHOD, &how);
 	places_fetch(&read);
 	answers.host = read.host;
-	answers.attributes = (int) how.attributes;
-	answers.row = AllocSetContextCreate(CurrentMemoryContext, "Abacus row", ALLOCSET_SMALL_SIZES);
-	host_run(read.host, abacus_places_interpolate, read.places, &how, put_values, &answers);
+	answers_have_arrays(&answers, how.attributes);
+	host_run(read.host, abacus_places_interpolate, read.places, &how, answers_put_values, &answers);
 	places_done(&read);
 	PG_RETURN_NULL();
 }

@@ -16,7 +16,6 @@
 #include "pg/sql/answers.h"
 #include "pg/sql/place.h"
 #include "pg/sql/places.h"
-#include "pg/sql/result.h"
 
 SQL_FUNCTION(abacus_sql_nearest);
 SQL_FUNCTION(abacus_sql_nearest_places);
@@ -41,19 +40,11 @@ enum
 	RANKED_COLUMNS
 };
 
-/* The vertices near one place come with their attributes. */
-typedef struct NearAnswers
-{
-	Answers		rows;
-	uint32		attributes;
-} NearAnswers;
-
 /* Adds a vertex near the one place; called by the core. */
 static abacus_host_status
 put_near(void *context, int64_t place, uint64_t rank, const abacus_vertex *vertex, double distance)
 {
-	NearAnswers *near = context;
-	Answers    *answers = &near->rows;
+	Answers    *answers = context;
 	Datum		values[NEAR_COLUMNS];
 	bool		isnull[NEAR_COLUMNS] = {false};
 
@@ -64,10 +55,9 @@ put_near(void *context, int64_t place, uint64_t rank, const abacus_vertex *verte
 		isnull[NEAR_X + i] = i >= answers->dimension;
 		values[NEAR_X + i] = Float8GetDatum(vertex->point[i]);
 	}
-	values[NEAR_ATTRIBUTES] = attribute_array(vertex->attributes, (int) near->attributes);
+	values[NEAR_ATTRIBUTES] = answers_array(answers, vertex->attributes, answers->attributes);
 	values[NEAR_DISTANCE] = Float8GetDatum(distance);
-	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
-	pfree(DatumGetPointer(values[NEAR_ATTRIBUTES]));
+	answers_add(answers, values, isnull);
 	GUARD_END(answers->host);
 	return ABACUS_HOST_OK;
 }
@@ -83,16 +73,16 @@ abacus_sql_nearest(PG_FUNCTION_ARGS)
 	uint64		k = place_count_argument(fcinfo, 1 + given, "vertices");
 	double		point[ABACUS_MAX_DIMENSION];
 	CachedMesh *cached;
-	NearAnswers near = {.rows.set = (ReturnSetInfo *) fcinfo->resultinfo};
+	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
 	InitMaterializedSRF(fcinfo, 0);
 	cached = mesh_cache_get(PG_GETARG_OID(0));
-	place_require_z(given, cached->dimension, "mesh");
-	place_arguments_finite(fcinfo, given, cached->dimension, point);
-	near.rows.host = cached->host;
-	near.rows.dimension = cached->dimension;
-	near.attributes = cached->header.attributes;
-	host_run(cached->host, abacus_mesh_nearest, cached->mesh, point, k, put_near, &near);
+	place_require_z(given, &cached->header);
+	place_arguments_finite(fcinfo, given, &cached->header, point);
+	answers.host = cached->host;
+	answers.dimension = cached->dimension;
+	answers_have_arrays(&answers, cached->header.attributes);
+	host_run(cached->host, abacus_mesh_nearest, cached->mesh, point, k, put_near, &answers);
 	host_release(cached->host);
 	PG_RETURN_NULL();
 }
@@ -122,7 +112,7 @@ abacus_sql_nearest_places(PG_FUNCTION_ARGS)
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
 	InitMaterializedSRF(fcinfo, 0);
-	places_read(&read, PG_GETARG_OID(0), text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	places_read(&read, PG_GETARG_OID(0), ABACUS_MESH, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	answers.host = read.host;
 	host_run(read.host, abacus_places_nearest, read.places, k, put_ranked, &answers);
 	places_done(&read);

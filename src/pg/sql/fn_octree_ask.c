@@ -10,15 +10,15 @@
 
 #include "funcapi.h"
 #include "utils/builtins.h"
-#include "utils/memutils.h"
 
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/sql/answers.h"
 #include "pg/sql/interpolation.h"
 #include "pg/sql/octant_row.h"
-#include "pg/sql/octree_places.h"
 #include "pg/sql/place.h"
+#include "pg/sql/places.h"
 #include "pg/sql/result.h"
 
 SQL_FUNCTION(abacus_sql_octree_neighbours);
@@ -28,40 +28,23 @@ SQL_FUNCTION(abacus_sql_octree_locate_places);
 SQL_FUNCTION(abacus_sql_octree_interpolate);
 SQL_FUNCTION(abacus_sql_octree_interpolate_places);
 
-/* What the functions that the core reports to need. */
-typedef struct OctreeAnswers
-{
-	Host	   *host;
-	ReturnSetInfo *set;
-	const abacus_header *header;
-	uint32		attributes;		/* that are interpolated */
-	MemoryContext row;			/* for the arrays of a row */
-} OctreeAnswers;
-
+/* Rows have boxes and attributes of leaves. */
 static void
-answers_begin(OctreeAnswers *answers, Host *host, const abacus_header *header)
+answers_begin(Answers *answers, Host *host, const abacus_header *header)
 {
 	answers->host = host;
 	answers->header = header;
-	answers->row = AllocSetContextCreate(CurrentMemoryContext, "Abacus row",
-										 ALLOCSET_DEFAULT_SIZES);
+	answers_have_arrays(answers, header->attributes);
 }
 
 /* The columns of a leaf, good for one row. */
 static void
-octant_of_row(const OctreeAnswers *answers, const abacus_octant *octant, Datum *values)
+octant_of_row(const Answers *answers, const abacus_octant *octant, Datum *values)
 {
 	MemoryContext old = MemoryContextSwitchTo(answers->row);
 
 	octant_columns(octant, answers->header, values);
 	MemoryContextSwitchTo(old);
-}
-
-static void
-put_row(const OctreeAnswers *answers, Datum *values, bool *isnull)
-{
-	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
-	MemoryContextReset(answers->row);
 }
 
 /* ---- Neighbours ------------------------------------------------------------- */
@@ -70,7 +53,7 @@ put_row(const OctreeAnswers *answers, Datum *values, bool *isnull)
 static abacus_host_status
 put_neighbour(void *context, int32_t axis, int32_t side, const abacus_octant *octant)
 {
-	OctreeAnswers *answers = context;
+	Answers    *answers = context;
 	Datum		values[2 + OCTANT_COLUMNS];
 	bool		isnull[2 + OCTANT_COLUMNS] = {false};
 
@@ -78,7 +61,7 @@ put_neighbour(void *context, int32_t axis, int32_t side, const abacus_octant *oc
 	values[0] = Int32GetDatum(axis + 1);
 	values[1] = Int32GetDatum(side);
 	octant_of_row(answers, octant, values + 2);
-	put_row(answers, values, isnull);
+	answers_add(answers, values, isnull);
 	GUARD_END(answers->host);
 	return ABACUS_HOST_OK;
 }
@@ -90,7 +73,7 @@ put_neighbour(void *context, int32_t axis, int32_t side, const abacus_octant *oc
 Datum
 abacus_sql_octree_neighbours(PG_FUNCTION_ARGS)
 {
-	OctreeAnswers answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 	CachedMesh *cached;
 
 	InitMaterializedSRF(fcinfo, 0);
@@ -108,14 +91,14 @@ abacus_sql_octree_neighbours(PG_FUNCTION_ARGS)
 static abacus_host_status
 put_near(void *context, int64_t place, uint64_t rank, const abacus_octant *octant, double distance)
 {
-	OctreeAnswers *answers = context;
+	Answers    *answers = context;
 	Datum		values[OCTANT_COLUMNS + 1];
 	bool		isnull[OCTANT_COLUMNS + 1] = {false};
 
 	GUARD_BEGIN();
 	octant_of_row(answers, octant, values);
 	values[OCTANT_COLUMNS] = Float8GetDatum(distance);
-	put_row(answers, values, isnull);
+	answers_add(answers, values, isnull);
 	GUARD_END(answers->host);
 	return ABACUS_HOST_OK;
 }
@@ -131,13 +114,12 @@ abacus_sql_octree_nearest(PG_FUNCTION_ARGS)
 	uint64		k = place_count_argument(fcinfo, 1 + given, "leaves");
 	double		place[ABACUS_MAX_DIMENSION];
 	CachedMesh *cached;
-	OctreeAnswers answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
 	InitMaterializedSRF(fcinfo, 0);
 	cached = mesh_cache_get_octree(PG_GETARG_OID(0));
-	place_require_z(given, cached->dimension, "octree");
-	place_require_octree(given, cached->dimension);
-	place_arguments_finite(fcinfo, given, cached->dimension, place);
+	place_require_z(given, &cached->header);
+	place_arguments_finite(fcinfo, given, &cached->header, place);
 	answers_begin(&answers, cached->host, &cached->header);
 	host_run(cached->host, abacus_octree_nearest, cached->octree, place, k, put_near, &answers);
 	host_release(cached->host);
@@ -159,18 +141,15 @@ static abacus_host_status
 put_ranked(void *context, int64_t place, uint64_t rank, const abacus_octant *octant,
 		   double distance)
 {
-	OctreeAnswers *answers = context;
+	Answers    *answers = context;
 	Datum		values[RANKED_COLUMNS];
 	bool		isnull[RANKED_COLUMNS] = {false};
 
-	GUARD_BEGIN();
 	values[RANKED_PLACE] = Int64GetDatum(place);
 	values[RANKED_RANK] = Int64GetDatum((int64) rank);
 	values[RANKED_CODE] = Int64GetDatum((int64) octant->code);
 	values[RANKED_DISTANCE] = Float8GetDatum(distance);
-	put_row(answers, values, isnull);
-	GUARD_END(answers->host);
-	return ABACUS_HOST_OK;
+	return answers_put(answers, values, isnull);
 }
 
 /* abacus_octree_nearest(octree regclass, query text, k int) -> id, rank, code, distance */
@@ -178,15 +157,14 @@ Datum
 abacus_sql_octree_nearest_places(PG_FUNCTION_ARGS)
 {
 	uint64		k = place_count_argument(fcinfo, 2, "leaves");
-	OctreePlaces read;
-	OctreeAnswers answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+	PlacesRead	read;
+	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
 	InitMaterializedSRF(fcinfo, 0);
-	octree_places_open(&read, PG_GETARG_OID(0), text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	octree_places_fetch(&read);
-	answers_begin(&answers, read.reader->host, &read.reader->header);
-	host_run(answers.host, abacus_octree_places_nearest, read.places, k, put_ranked, &answers);
-	octree_places_done(&read);
+	places_read(&read, PG_GETARG_OID(0), ABACUS_OCTREE, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	answers_begin(&answers, read.host, read.header);
+	host_run(answers.host, abacus_octree_places_nearest, read.octants, k, put_ranked, &answers);
+	places_done(&read);
 	PG_RETURN_NULL();
 }
 
@@ -196,7 +174,7 @@ abacus_sql_octree_nearest_places(PG_FUNCTION_ARGS)
 static abacus_host_status
 put_located(void *context, int64_t place, const abacus_octant *octant)
 {
-	OctreeAnswers *answers = context;
+	Answers    *answers = context;
 	Datum		values[1 + OCTANT_COLUMNS] = {0};
 	bool		isnull[1 + OCTANT_COLUMNS];
 
@@ -206,7 +184,7 @@ put_located(void *context, int64_t place, const abacus_octant *octant)
 	values[0] = Int64GetDatum(place);
 	if (octant != NULL)
 		octant_of_row(answers, octant, values + 1);
-	put_row(answers, values, isnull);
+	answers_add(answers, values, isnull);
 	GUARD_END(answers->host);
 	return ABACUS_HOST_OK;
 }
@@ -218,15 +196,14 @@ put_located(void *context, int64_t place, const abacus_octant *octant)
 Datum
 abacus_sql_octree_locate_places(PG_FUNCTION_ARGS)
 {
-	OctreePlaces read;
-	OctreeAnswers answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+	PlacesRead	read;
+	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
 	InitMaterializedSRF(fcinfo, 0);
-	octree_places_open(&read, PG_GETARG_OID(0), text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	octree_places_fetch(&read);
-	answers_begin(&answers, read.reader->host, &read.reader->header);
-	host_run(answers.host, abacus_octree_places_locate, read.places, put_located, &answers);
-	octree_places_done(&read);
+	places_read(&read, PG_GETARG_OID(0), ABACUS_OCTREE, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	answers_begin(&answers, read.host, read.header);
+	host_run(answers.host, abacus_octree_places_locate, read.octants, put_located, &answers);
+	places_done(&read);
 	PG_RETURN_NULL();
 }
 
@@ -250,8 +227,7 @@ abacus_sql_octree_interpolate(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	cached = mesh_cache_get_octree(PG_GETARG_OID(0));
 	interpolation_attribute(fcinfo, 1 + given, &cached->header, &how);
-	place_require_octree(given, cached->dimension);
-	if (!place_arguments(fcinfo, given, cached->dimension, place))
+	if (!place_arguments(fcinfo, given, &cached->header, place))
 		PG_RETURN_NULL();		/* outside of any domain */
 	status = host_run(cached->host, abacus_octree_interpolate, cached->octree, how.attribute,
 					  how.attributes, place, &value);
@@ -261,45 +237,24 @@ abacus_sql_octree_interpolate(PG_FUNCTION_ARGS)
 	PG_RETURN_FLOAT8(value);
 }
 
-/* Adds the values at a place; called by the core. */
-static abacus_host_status
-put_values(void *context, int64_t place, const double *numbers)
-{
-	OctreeAnswers *answers = context;
-	Datum		values[2] = {Int64GetDatum(place)};
-	bool		isnull[2] = {false, numbers == NULL};
-
-	GUARD_BEGIN();
-	if (numbers != NULL)
-	{
-		MemoryContext old = MemoryContextSwitchTo(answers->row);
-
-		values[1] = attribute_array(numbers, (int) answers->attributes);
-		MemoryContextSwitchTo(old);
-	}
-	put_row(answers, values, isnull);
-	GUARD_END(answers->host);
-	return ABACUS_HOST_OK;
-}
-
 /* abacus_octree_interpolate(octree regclass, query text, attributes text[]) -> id, values */
 Datum
 abacus_sql_octree_interpolate_places(PG_FUNCTION_ARGS)
 {
-	OctreePlaces read;
+	PlacesRead	read;
 	abacus_interpolation how;
-	OctreeAnswers answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
 	InitMaterializedSRF(fcinfo, 0);
 	if (interpolation_of_null(fcinfo, 1))
 		PG_RETURN_NULL();
-	octree_places_open(&read, PG_GETARG_OID(0), text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	interpolation_attributes(fcinfo, 2, &read.reader->header, &how);
-	octree_places_fetch(&read);
-	answers_begin(&answers, read.reader->host, &read.reader->header);
-	answers.attributes = how.attributes;
-	host_run(answers.host, abacus_octree_places_interpolate, read.places, how.attribute,
-			 how.attributes, put_values, &answers);
-	octree_places_done(&read);
+	places_open(&read, PG_GETARG_OID(0), ABACUS_OCTREE, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	interpolation_attributes(fcinfo, 2, read.header, &how);
+	places_fetch(&read);
+	answers.host = read.host;
+	answers_have_arrays(&answers, how.attributes);
+	host_run(answers.host, abacus_octree_places_interpolate, read.octants, how.attribute,
+			 how.attributes, answers_put_values, &answers);
+	places_done(&read);
 	PG_RETURN_NULL();
 }

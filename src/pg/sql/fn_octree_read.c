@@ -44,8 +44,7 @@ abacus_sql_octree_locate(PG_FUNCTION_ARGS)
 	abacus_octant octant;
 	abacus_status status;
 
-	place_require_octree(PG_NARGS() - 1, cached->dimension);
-	if (!place_arguments(fcinfo, PG_NARGS() - 1, cached->dimension, place))
+	if (!place_arguments(fcinfo, PG_NARGS() - 1, &cached->header, place))
 		PG_RETURN_NULL();		/* outside of any domain */
 	status = host_run(host, abacus_octree_locate, cached->octree, place, &octant);
 	host_release(host);

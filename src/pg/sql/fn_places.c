@@ -49,7 +49,7 @@ abacus_sql_locate_places(PG_FUNCTION_ARGS)
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
 	InitMaterializedSRF(fcinfo, 0);
-	places_read(&read, PG_GETARG_OID(0), text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	places_read(&read, PG_GETARG_OID(0), ABACUS_MESH, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	answers.host = read.host;
 	answers.dimension = read.dimension;
 	host_run(read.host, abacus_places_locate, read.places, put_answer, &answers);

@@ -48,7 +48,7 @@ abacus_sql_weights(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	interpolation_how(fcinfo, 1 + given + HOW_METHOD, &how);
-	if (!place_arguments(fcinfo, given, cached->dimension, point))
+	if (!place_arguments(fcinfo, given, &cached->header, point))
 		PG_RETURN_NULL();
 	status = host_run(cached->host, abacus_mesh_weigh, cached->mesh, &how, point, &weights,
 					  &count);
@@ -99,7 +99,7 @@ abacus_sql_weights_places(PG_FUNCTION_ARGS)
 	if (interpolation_of_null(fcinfo, 1))
 		PG_RETURN_NULL();
 	interpolation_how(fcinfo, 2 + HOW_METHOD, &how);
-	places_read(&read, PG_GETARG_OID(0), text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	places_read(&read, PG_GETARG_OID(0), ABACUS_MESH, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	answers.host = read.host;
 	host_run(read.host, abacus_places_weigh, read.places, &how, put_weights, &answers);
 	places_done(&read);

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "pg/mesh/header.h"
 #include "pg/sql/place.h"
 
 /*
@@ -12,15 +13,16 @@
  * infinite; NaN is an error.
  */
 bool
-place_arguments(FunctionCallInfo fcinfo, int given, uint32 dimension, double *point)
+place_arguments(FunctionCallInfo fcinfo, int given, const abacus_header *header, double *point)
 {
+	uint32		dimension = header->dimension;
 	bool		finite = true;
 
 	if (given != (int) dimension)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("z is %s, but the mesh has dimension %u",
-						dimension == 2 ? "given" : "missing", dimension),
+				 errmsg("z is %s, but the %s has dimension %u",
+						dimension == 2 ? "given" : "missing", type_name(header->type), dimension),
 				 dimension == 2 ? errhint("Leave z out.")
 				 : errhint("Give all three coordinates of the point.")));
 	for (uint32 i = 0; i < dimension; i++)
@@ -35,27 +37,15 @@ place_arguments(FunctionCallInfo fcinfo, int given, uint32 dimension, double *po
 	return finite;
 }
 
-/* An error unless there are as many coordinates as an octree has dimensions. */
-void
-place_require_octree(int given, uint32 dimension)
-{
-	if (given != (int) dimension)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("z is %s, but the octree has dimension %u",
-						dimension == 2 ? "given" : "missing", dimension),
-				 dimension == 2 ? errhint("Leave z out.")
-				 : errhint("Give all three coordinates of the place.")));
-}
-
 /* Where k follows: a z that is missing may have been taken for it. */
 void
-place_require_z(int given, uint32 dimension, const char *whole)
+place_require_z(int given, const abacus_header *header)
 {
-	if (given < (int) dimension)
+	if (given < (int) header->dimension)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("z is missing, but the %s has dimension %u", whole, dimension),
+				 errmsg("z is missing, but the %s has dimension %u", type_name(header->type),
+						header->dimension),
 				 errhint("Give z with a decimal point or as z => 1: a whole number behind y is "
 						 "taken for k.")));
 }
@@ -76,9 +66,10 @@ place_count_argument(FunctionCallInfo fcinfo, int argument, const char *rows)
 
 /* Reads coordinates where an infinite coordinate is an error, too. */
 void
-place_arguments_finite(FunctionCallInfo fcinfo, int given, uint32 dimension, double *point)
+place_arguments_finite(FunctionCallInfo fcinfo, int given, const abacus_header *header,
+					   double *point)
 {
-	if (!place_arguments(fcinfo, given, dimension, point))
+	if (!place_arguments(fcinfo, given, header, point))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("a coordinate of the place is infinite"),

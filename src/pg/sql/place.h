@@ -6,11 +6,13 @@
 
 #include "fmgr.h"
 
-extern bool place_arguments(FunctionCallInfo fcinfo, int given, uint32 dimension, double *point);
-extern void place_arguments_finite(FunctionCallInfo fcinfo, int given, uint32 dimension,
-								   double *point);
-extern void place_require_octree(int given, uint32 dimension);
-extern void place_require_z(int given, uint32 dimension, const char *whole);
+#include "abacus/header.h"
+
+extern bool place_arguments(FunctionCallInfo fcinfo, int given, const abacus_header *header,
+							double *point);
+extern void place_arguments_finite(FunctionCallInfo fcinfo, int given,
+								   const abacus_header *header, double *point);
+extern void place_require_z(int given, const abacus_header *header);
 extern uint64 place_count_argument(FunctionCallInfo fcinfo, int argument, const char *rows);
 
 #endif

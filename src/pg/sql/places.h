@@ -5,6 +5,7 @@
 #ifndef ABACUS_PLACES_H
 #define ABACUS_PLACES_H
 
+#include "abacus/octree_ask.h"
 #include "abacus/read.h"
 #include "pg/input/source.h"
 #include "pg/mesh/reader.h"
@@ -19,12 +20,13 @@ typedef struct PlacesRead
 	Host	   *host;
 	uint32		dimension;
 	const abacus_header *header;
-	abacus_places *places;
+	abacus_places *places;		/* of a mesh */
+	abacus_octree_places *octants;	/* of an octree */
 } PlacesRead;
 
-extern void places_open(PlacesRead *read, Oid mesh, const char *query);
+extern void places_open(PlacesRead *read, Oid mesh, uint32 type, const char *query);
 extern void places_fetch(PlacesRead *read);
-extern void places_read(PlacesRead *read, Oid mesh, const char *query);
+extern void places_read(PlacesRead *read, Oid mesh, uint32 type, const char *query);
 extern void places_done(PlacesRead *read);
 
 #endif
