@@ -183,6 +183,7 @@ CORE_SOURCES += src/tiles/vector_layer.cpp
 CORE_SOURCES += src/tiles/vector_tile.cpp
 
 PG_SOURCES += src/pg/abacus.c
+PG_SOURCES += src/pg/base/extension_type.c
 PG_SOURCES += src/pg/base/float_array.c
 PG_SOURCES += src/pg/base/settings.c
 PG_SOURCES += src/pg/base/utility.c

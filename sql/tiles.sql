@@ -45,6 +45,7 @@ SELECT abacus_tile_vector('hills', -1, 0, 0);
 SELECT abacus_tile_picture('hills', 31, 0, 0);
 SELECT abacus_tile_terrain('hills', 3, 8, 0);
 SELECT abacus_tile_vector('hills', 3, 0, -1);
+SELECT abacus_tile_vector('hills', 3, 0, 0, srid => 0);
 SELECT abacus_tile_vector('sheet', 3, 0, 0, 25832);
 SELECT abacus_tile_vector('sheet', 3, 0, 0, 0);
 SELECT abacus_tile_picture('hills', 3, 0, 0, size => 0);

@@ -188,6 +188,7 @@ Courier::Courier(Desk &desk, const Memory &memory)
     table_.put = Functions::put;
     table_.erase = Functions::erase;
     host_ = Host(table_);
+    requests_.reserve(most_requests); // else an arena asks for more at once
     requests_.resize(most_requests);
     desk.first_ = this;
 }

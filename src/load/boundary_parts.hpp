@@ -17,6 +17,8 @@
 namespace abacus {
 
 template <int D> class BoundaryParts {
+    static constexpr std::uint64_t boxes_a_part = 256;
+
 public:
     /// Of so many parts at most, of `facets` facets each; with spools for records of so many words.
     BoundaryParts(const Host &host, std::size_t parts, std::uint64_t facets, std::size_t simplex,
@@ -28,8 +30,9 @@ public:
             others_.emplace_back(host, boundary);
         }
     }
-    /// What the spools of a part take while they are filled.
-    static constexpr std::size_t bytes_a_part = std::size_t{2} * ((64 << 10) + 8192);
+    /// What the spools of a part take while they are filled, and its boxes.
+    static constexpr std::size_t bytes_a_part =
+        std::size_t{2} * ((64 << 10) + 8192) + boxes_a_part * BoxTree<D>::bytes_per_box;
 
     /// Adds the next facet, by its box.
     void add(const Box<D> &facet) {
@@ -69,8 +72,6 @@ public:
     }
 
 private:
-    static constexpr std::uint64_t boxes_a_part = 256;
-
     std::size_t boxes_of_part() const {
         return static_cast<std::size_t>((facets_ + each_ - 1) / each_);
     }

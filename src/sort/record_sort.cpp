@@ -30,23 +30,6 @@ RecordSort::RecordSort(const Host &host, std::size_t stride, std::size_t key, st
                                     most_sorted_records);
 }
 
-/// What several threads sort.
-class RecordSort::Shared final : public SharedSort::Words {
-public:
-    Shared(RecordSort &sort, const Digits &digits) : sort_(sort), digits_(digits) {}
-
-    void set(std::uint64_t *to, std::size_t begin, std::size_t end) override {
-        sort_.set_words(to, begin, end, digits_);
-    }
-    void refine(std::size_t begin, std::size_t end, const Pacer &pacer) override {
-        sort_.order_ties(begin, end, digits_, pacer);
-    }
-
-private:
-    RecordSort &sort_;
-    const Digits digits_;
-};
-
 void RecordSort::order_few(std::size_t begin, std::size_t end, std::size_t word) {
     std::sort(words_.data() + begin, words_.data() + end, [&](std::uint64_t a, std::uint64_t b) {
         const std::uint64_t *x = record(a), *y = record(b);
@@ -128,8 +111,14 @@ void RecordSort::order_together() {
         }
         if (all.least == all.most) continue;
         const Digits by = digits(word, all);
-        Shared words(*this, by);
-        return shared.sort(words_.data(), words_.data() + count_, count_, by.bits, words);
+        return shared.sort(
+            words_.data(), words_.data() + count_, count_, by.bits,
+            [&](std::uint64_t *to, std::size_t begin, std::size_t end) {
+                set_words(to, begin, end, by);
+            },
+            [&](std::size_t begin, std::size_t end, const Pacer &pacer) {
+                order_ties(begin, end, by, pacer);
+            });
     }
 }
 

@@ -65,7 +65,6 @@ private:
     const std::uint64_t *record(std::uint64_t word) const {
         return records_.data() + (word & index_mask) * stride_;
     }
-    class Shared;
 
     struct Range {
         std::uint64_t least = ~std::uint64_t{0}, most = 0;

@@ -42,7 +42,7 @@ bool SharedSort::is_worth_while(const Host &host, std::size_t n) {
 }
 
 void SharedSort::sort(std::uint64_t *words, std::uint64_t *scratch, std::size_t n, int bits,
-                      Words &how) {
+                      const Set &set, const Refine &refine) {
     const int shift = index_bits + std::max(0, bits - digit_bits);
     Arena<std::uint32_t> counts(host_);
     counts.resize(stretches() * digits);
@@ -50,7 +50,7 @@ void SharedSort::sort(std::uint64_t *words, std::uint64_t *scratch, std::size_t 
     each_stretch(n, [&](std::size_t stretch, std::size_t from, std::size_t to, const Host &host) {
         std::uint32_t *const count = counts.data() + stretch * digits;
         Pacer(host).each_piece(to - from, [&](std::size_t begin, std::size_t end) {
-            how.set(words, from + begin, from + end);
+            set(words, from + begin, from + end);
             for (std::size_t i = from + begin; i < from + end; ++i) ++count[words[i] >> shift];
         });
     });
@@ -67,7 +67,7 @@ void SharedSort::sort(std::uint64_t *words, std::uint64_t *scratch, std::size_t 
         const Pacer pacer(host);
         const auto [begin, end] = pieces[i];
         radix_sort_into(words + begin, scratch + begin, end - begin, pacer);
-        how.refine(begin, end, pacer);
+        refine(begin, end, pacer);
     });
 }
 

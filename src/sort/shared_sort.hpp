@@ -14,21 +14,17 @@
 #include "sort/pacer.hpp"
 #include "sort/radix_sort.hpp"
 
+#include <functional>
+
 namespace abacus {
 
 class SharedSort : public SharedLoop {
 public:
-    /// What is sorted. All is for any thread.
-    class Words {
-    public:
-        /// Sets the words [begin, end) at `to`; their numbers ascend.
-        virtual void set(std::uint64_t *to, std::size_t begin, std::size_t end) = 0;
-        /// The words [begin, end) are in order, and have no key in common with any other.
-        virtual void refine(std::size_t begin, std::size_t end, const Pacer &pacer) = 0;
-
-    protected:
-        ~Words() = default;
-    };
+    /// Sets the words [begin, end) at `to`; their numbers ascend. For any thread.
+    using Set = std::function<void(std::uint64_t *to, std::size_t begin, std::size_t end)>;
+    /// The words [begin, end) are in order, and have no key in common with any other. For any
+    /// thread.
+    using Refine = std::function<void(std::size_t begin, std::size_t end, const Pacer &)>;
 
     using SharedLoop::SharedLoop;
 
@@ -36,7 +32,8 @@ public:
     static bool is_worth_while(const Host &host, std::size_t n);
     bool is_worth_while(std::size_t n) const { return is_worth_while(host_, n); }
     /// Sorts n words, whose keys have so many bits at most, into `words`; `scratch` is as long.
-    void sort(std::uint64_t *words, std::uint64_t *scratch, std::size_t n, int bits, Words &how);
+    void sort(std::uint64_t *words, std::uint64_t *scratch, std::size_t n, int bits, const Set &set,
+              const Refine &refine);
 };
 
 } // namespace abacus

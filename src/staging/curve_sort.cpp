@@ -4,30 +4,19 @@
 
 namespace abacus {
 
-/// What several threads sort.
-template <int D> class CurveSort<D>::Shared final : public SharedSort::Words {
-public:
-    Shared(CurveSort &sort, const Slice<D> &slice) : sort_(sort), slice_(slice) {}
-
-    void set(std::uint64_t *to, std::size_t begin, std::size_t end) override {
-        sort_.set_words(to, begin, end, slice_);
-    }
-    void refine(std::size_t begin, std::size_t end, const Pacer &pacer) override {
-        sort_.refine_ties(begin, end, slice_, pacer);
-    }
-
-private:
-    CurveSort &sort_;
-    const Slice<D> &slice_;
-};
-
 template <int D>
 const std::uint64_t *CurveSort<D>::sort(const std::uint64_t *records, std::size_t n,
                                         const Slice<D> &slice, Pacer &pacer) {
     begin(records, n, pacer);
     if (is_shared(n)) {
-        Shared words(*this, slice);
-        shared_.sort(words_, scratch_, n, slice.first_bits(), words);
+        shared_.sort(
+            words_, scratch_, n, slice.first_bits(),
+            [&](std::uint64_t *to, std::size_t from, std::size_t end) {
+                set_words(to, from, end, slice);
+            },
+            [&](std::size_t from, std::size_t end, const Pacer &piece) {
+                refine_ties(from, end, slice, piece);
+            });
     } else {
         sort_run({0, n, slice}, pacer);
     }

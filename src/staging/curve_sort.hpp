@@ -41,8 +41,6 @@ public:
     void release() { memory_.reset(); }
 
 private:
-    class Shared;
-
     void begin(const std::uint64_t *records, std::size_t n, const Pacer &pacer);
     /// Sets words [begin, end) at `to`.
     void set_words(std::uint64_t *to, std::size_t begin, std::size_t end,

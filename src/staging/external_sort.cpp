@@ -93,14 +93,19 @@ template <int D> void ExternalSort<D>::sort_parts(Arena<Part<D>> &parts) {
     }
 }
 
-/// How many parts from this one on are sorted together: as many as fit, if that is worth it.
+/// How many parts from this one on are sorted together: as many as threads have use for, or as it
+/// takes to be worth it, if they fit.
 template <int D>
 std::size_t ExternalSort<D>::parts_at_once(const Arena<Part<D>> &parts, std::size_t first) const {
-    const std::size_t most = std::min(parts.size() - first, parts_a_thread * host_.threads());
+    if (host_.threads() == 1) return 1;
+    const std::size_t usual = parts_a_thread * host_.threads();
     std::uint64_t records = 0;
     std::size_t n = 0;
-    for (; n < most && records + parts[first + n].spool.size() <= budget_.records; ++n)
-        records += parts[first + n].spool.size();
+    for (; first + n < parts.size() && (n < usual || !sort_.is_shared(records)); ++n) {
+        const std::uint64_t more = parts[first + n].spool.size();
+        if (records + more > budget_.records) break;
+        records += more;
+    }
     return n > 1 && sort_.is_shared(records) ? n : 1;
 }
 

@@ -161,7 +161,11 @@ limit_geometry(Limits *limits, const Condition *condition, Datum geometry, doubl
 
 	/* PostGIS says so of each row that it examines: there may be none to examine */
 	if (condition->kind != CONDITION_BOX && limits->srid != SRID_UNKNOWN && srid != limits->srid)
-		geometry_refuse_srid("the geometry", srid, limits->srid, "mesh");
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("the geometry has SRID %d, but those of the foreign table have SRID %d", srid,
+						limits->srid),
+				 errhint("Transform it. If the SRID of the mesh has been changed, publish the mesh again.")));
 	if (!(distance >= 0))		/* PostGIS says what is wrong with it */
 		return;
 	switch (place)

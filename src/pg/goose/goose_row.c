@@ -8,48 +8,19 @@
 
 #include <math.h>
 
-#include "catalog/dependency.h"
 #include "catalog/pg_type.h"
-#include "commands/extension.h"
-#include "utils/catcache.h"
-#include "utils/syscache.h"
 
+#include "pg/base/extension_type.h"
 #include "pg/base/location.h"
 #include "pg/goose/goose_row.h"
 #include "pg/port/port.h"
-
-/*
- * The type of an extension, wherever its schema is. (Only later minor versions have
- * getExtensionType().)
- */
-static Oid
-type_of_extension(Oid extension, const char *name)
-{
-	CatCList   *types = SearchSysCacheList1(TYPENAMENSP, CStringGetDatum(name));
-	Oid			found = InvalidOid;
-
-	for (int i = 0; i < types->n_members && !OidIsValid(found); i++)
-	{
-		Oid			type = ((Form_pg_type) GETSTRUCT(&types->members[i]->tuple))->oid;
-
-		if (getExtensionOfObject(TypeRelationId, type) == extension)
-			found = type;
-	}
-	ReleaseSysCacheList(types);
-	return found;
-}
 
 /* The type of boxes: PostgreSQL's own in the plane, that of an extension in space. */
 Oid
 goose_box_type(int dimension)
 {
-	Oid			extension;
-	Oid			type;
+	Oid			type = dimension == 2 ? BOXOID : extension_type("cube", "cube");
 
-	if (dimension == 2)
-		return BOXOID;
-	extension = get_extension_oid("cube", true);
-	type = OidIsValid(extension) ? type_of_extension(extension, "cube") : InvalidOid;
 	if (!OidIsValid(type))
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_OBJECT),

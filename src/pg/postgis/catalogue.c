@@ -23,33 +23,13 @@
 #include "utils/memutils.h"
 #include "utils/syscache.h"
 
+#include "pg/base/extension_type.h"
 #include "pg/postgis/catalogue.h"
 
 #define POSTGIS "postgis"
 #define GEOMETRY "geometry"
 
 /* ---- The extension ------------------------------------------------------- */
-
-/* The schema of the extension; InvalidOid if it is not installed. */
-static Oid
-schema_of_postgis(void)
-{
-	Relation	extensions = table_open(ExtensionRelationId, AccessShareLock);
-	ScanKeyData key;
-	SysScanDesc scan;
-	HeapTuple	tuple;
-	Oid			schema = InvalidOid;
-
-	ScanKeyInit(&key, Anum_pg_extension_extname, BTEqualStrategyNumber, F_NAMEEQ,
-				CStringGetDatum(POSTGIS));
-	scan = systable_beginscan(extensions, ExtensionNameIndexId, true, NULL, 1, &key);
-	tuple = systable_getnext(scan);
-	if (HeapTupleIsValid(tuple))
-		schema = ((Form_pg_extension) GETSTRUCT(tuple))->extnamespace;
-	systable_endscan(scan);
-	table_close(extensions, AccessShareLock);
-	return schema;
-}
 
 static bool
 is_member(Oid catalogue, Oid object)
@@ -69,12 +49,7 @@ postgis_owns_function(Oid function)
 Oid
 postgis_geometry(void)
 {
-	Oid			schema = schema_of_postgis();
-	Oid			type = !OidIsValid(schema) ? InvalidOid
-		: GetSysCacheOid2(TYPENAMENSP, Anum_pg_type_oid, CStringGetDatum(GEOMETRY),
-						  ObjectIdGetDatum(schema));
-
-	return OidIsValid(type) && is_member(TypeRelationId, type) ? type : InvalidOid;
+	return extension_type(POSTGIS, GEOMETRY);
 }
 
 /* ---- Types --------------------------------------------------------------- */

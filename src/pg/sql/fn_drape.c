@@ -46,12 +46,9 @@ typedef struct Place
 	double		at[GEOMETRY_COORDINATES];
 } Place;
 
-typedef struct Drape Drape;
-
-struct Drape
+typedef struct Drape
 {
-	void		(*lift) (const Drape *drape, Place *place); /* sets z */
-	CachedMesh *mesh;			/* the surface: either this, or one triangle */
+	CachedMesh *mesh;			/* the surface: either this, or, if it is NULL, one triangle */
 	const double *corners;
 	double		values[3];
 	abacus_interpolation how;
@@ -64,7 +61,7 @@ struct Drape
 	Place		to;
 	bool		has_last;		/* a place between them has come, and waits */
 	Place		last;
-};
+} Drape;
 
 static Place
 read_place(Drape *drape, const GeometryHead *head)
@@ -83,7 +80,6 @@ lift_over_mesh(const Drape *drape, Place *place)
 	CachedMesh *mesh = drape->mesh;
 	double		value = NAN;
 
-	CHECK_FOR_INTERRUPTS();
 	if (!isfinite(place->at[0]) || !isfinite(place->at[1]))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
@@ -117,6 +113,17 @@ lift_over_triangle(const Drape *drape, Place *place)
 	value = values[0] + (p[0] * c[1] - c[0] * p[1]) / area * (values[1] - values[0]) +
 		(b[0] * p[1] - p[0] * b[1]) / area * (values[2] - values[0]);
 	place->at[2] = fmin(fmax(value, least), greatest);	/* a number, however flat the triangle is */
+}
+
+/* Sets z. */
+static void
+lift(const Drape *drape, Place *place)
+{
+	CHECK_FOR_INTERRUPTS();
+	if (drape->mesh != NULL)
+		lift_over_mesh(drape, place);
+	else
+		lift_over_triangle(drape, place);
 }
 
 static void
@@ -205,7 +212,7 @@ drape_line(Drape *drape, const GeometryHead *head)
 	for (uint32 i = 0; i < count; i++)
 	{
 		drape->to = read_place(drape, head);
-		drape->lift(drape, &drape->to);
+		lift(drape, &drape->to);
 		if (drape->densifies && i > 0)
 			put_crossings(drape);
 		put_place(drape, &drape->to);
@@ -221,7 +228,7 @@ drape_point(Drape *drape, const GeometryHead *head)
 	Place		place = read_place(drape, head);
 
 	if (!geometry_is_nowhere(place.at))
-		drape->lift(drape, &place);
+		lift(drape, &place);
 	put_place(drape, &place);
 }
 
@@ -266,7 +273,7 @@ abacus_sql_drape(PG_FUNCTION_ARGS)
 {
 	static const char *const outsides[] = {"null", "nearest", NULL};
 	const GeometryType *type = geometry_argument_type(fcinfo, DRAPE_GEOMETRY);
-	Drape		drape = {.lift = lift_over_mesh, .how = {.method = ABACUS_LINEAR, .max_edge = INFINITY}};
+	Drape		drape = {.how = {.method = ABACUS_LINEAR, .max_edge = INFINITY}};
 
 	if (interpolation_of_null(fcinfo, DRAPE_GEOMETRY))
 		PG_RETURN_NULL();
@@ -288,7 +295,7 @@ Datum
 abacus_sql_cell_part(PG_FUNCTION_ARGS)
 {
 	const GeometryType *type = geometry_argument_type(fcinfo, 0);
-	Drape		drape = {.lift = lift_over_triangle};
+	Drape		drape = {.mesh = NULL};
 	size_t		count;
 
 	drape.corners = geometry_numbers(PG_GETARG_ARRAYTYPE_P(1), 6, &count);

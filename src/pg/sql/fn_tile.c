@@ -95,12 +95,12 @@ tile_srid(FunctionCallInfo fcinfo, const abacus_header *header)
 {
 	int32		srid = PG_ARGISNULL(TILE_SRID) ? (int32) header->srid : PG_GETARG_INT32(TILE_SRID);
 
+	header_require_srid(header, srid);
 	if (srid == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("the mesh has no SRID, so its place on the map is not known"),
 				 errhint("Say by abacus_set_srid(mesh, 4326) that its coordinates are longitude and latitude, or by abacus_set_srid(mesh, 3857) that they are of Web Mercator; or give srid, or world for a map of their own.")));
-	header_require_srid(header, srid);
 	if (srid != 4326 && srid != 3857)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
