@@ -63,10 +63,10 @@ FROM unnest(ARRAY['slanted_cells', 'slanted_points']) AS source, unnest(ARRAY['g
     'ST_Intersects(geom, ''SRID=25832;TIN M (((40 10 1, 44 10 1, 44 13 1, 40 10 1)))''::geometry)']) AS condition
 WHERE condition !~ 'TIN' OR source = 'slanted_points';
 SELECT throws_ok(format('SELECT count(*) FROM slanted_%s WHERE %s', what, condition), '22023', 'the geometry has ' || problem, format('%s: another SRID, %s', what, condition))
-FROM unnest(ARRAY['cells', 'points']) AS what, (VALUES ('ST_Intersects(geom, ST_MakeEnvelope(50, 10, 51, 11, 4326))', 'SRID 4326, but the mesh has SRID 25832'),
-    ('ST_Intersects(geom, ST_MakeEnvelope(5000, 10, 5100, 11, 4326))', 'SRID 4326, but the mesh has SRID 25832'),
-    ('ST_DWithin(ST_MakePoint(-1e4, 5), geom, 2)', 'no SRID, but the mesh has SRID 25832'),
-    ('ST_Within(geom, (SELECT ST_MakeEnvelope(5000, 10, 5100, 11, 3857)))', 'SRID 3857, but the mesh has SRID 25832')) AS c (condition, problem);
+FROM unnest(ARRAY['cells', 'points']) AS what, (VALUES ('ST_Intersects(geom, ST_MakeEnvelope(50, 10, 51, 11, 4326))', 'SRID 4326, but those of the foreign table have SRID 25832'),
+    ('ST_Intersects(geom, ST_MakeEnvelope(5000, 10, 5100, 11, 4326))', 'SRID 4326, but those of the foreign table have SRID 25832'),
+    ('ST_DWithin(ST_MakePoint(-1e4, 5), geom, 2)', 'no SRID, but those of the foreign table have SRID 25832'),
+    ('ST_Within(geom, (SELECT ST_MakeEnvelope(5000, 10, 5100, 11, 3857)))', 'SRID 3857, but those of the foreign table have SRID 25832')) AS c (condition, problem);
 SELECT throws_ok(format('SELECT count(*) FROM slanted_%s WHERE ST_DWithin(geom, ''SRID=25832;POINT(50 10)'', -1)', what), 'XX000', NULL, what || ': a distance below 0')
 FROM unnest(ARRAY['cells', 'points']) AS what;
 SELECT pg_temp.finds('slanted_' || what, format('ST_DWithin(geom, ''SRID=25832;POINT(50 10)'', ''%s'')', distance), format('%s: a distance of %s', what, distance))

@@ -163,8 +163,11 @@ limit_geometry(Limits *limits, const Condition *condition, Datum geometry, doubl
 	if (condition->kind != CONDITION_BOX && limits->srid != SRID_UNKNOWN && srid != limits->srid)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("the geometry has SRID %d, but those of the foreign table have SRID %d", srid,
-						limits->srid),
+				 srid == 0
+				 ? errmsg("the geometry has no SRID, but those of the foreign table have SRID %d",
+						  limits->srid)
+				 : errmsg("the geometry has SRID %d, but those of the foreign table have SRID %d",
+						  srid, limits->srid),
 				 errhint("Transform it. If the SRID of the mesh has been changed, publish the mesh again.")));
 	if (!(distance >= 0))		/* PostGIS says what is wrong with it */
 		return;
