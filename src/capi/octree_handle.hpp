@@ -22,9 +22,9 @@ void describe(const Grid<D> &grid, const Octant<D> &leaf, const double *values,
               abacus_octant &octant) {
     octant.code = leaf.code;
     octant.level = leaf.level;
-    const Point<D> lower = grid.lower(leaf), upper = grid.upper(leaf);
-    std::copy_n(lower.begin(), D, octant.lower);
-    std::copy_n(upper.begin(), D, octant.upper);
+    const Box<D> box = grid.box(leaf);
+    std::copy_n(box.lower.begin(), D, octant.lower);
+    std::copy_n(box.upper.begin(), D, octant.upper);
     octant.values = values;
 }
 

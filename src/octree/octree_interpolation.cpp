@@ -19,7 +19,7 @@ template <int D> bool OctreeInterpolation<D>::values(const Point<D> &place, doub
         values_.clear();
         leaf_ = leaf;
     }
-    const Point<D> lower = reader_.grid().lower(leaf), upper = reader_.grid().upper(leaf);
+    const auto [lower, upper] = reader_.grid().box(leaf);
     Share share;
     for (int i = 0; i < D; ++i)
         share[i] = lower[i] < upper[i]

@@ -54,10 +54,10 @@ private:
 
     template <class Picture> void show(const Octant<3> &octant, Picture &picture) {
         host_.poll();
-        const Box<3> box(reader_.grid().lower(octant), reader_.grid().upper(octant));
+        const Box<3> box = reader_.grid().box(octant);
         if (plane_.misses(box.lower, box.upper)) return;
         Place places[corners];
-        for (int i = 0; i < corners; ++i) places[i] = plane_.place(corner_of(box, i));
+        for (int i = 0; i < corners; ++i) places[i] = plane_.place(box.corner(i));
         if (!is_in_window(places)) return;
         const Handle h = reader_.find(octant.code);
         if (reader_.cache().octant(h).level > octant.level) {
@@ -75,11 +75,6 @@ private:
         }
         patch.spacing = std::sqrt(squares);
         picture.add(patch);
-    }
-    static Point<3> corner_of(const Box<3> &box, int number) {
-        Point<3> p;
-        for (int i = 0; i < 3; ++i) p[i] = (number >> i & 1) != 0 ? box.upper[i] : box.lower[i];
-        return p;
     }
     bool is_in_window(const Place (&places)[corners]) const {
         for (int axis = 0; has_window_ && axis < 2; ++axis) {
@@ -182,8 +177,7 @@ Portrait draw_octree(const Host &host, const abacus_header &header, const abacus
             const Grid<2> grid(header);
             LeafScan<2> leaves(host, header);
             while (leaves.next())
-                show(Box<2>(grid.lower(leaves.leaf()), grid.upper(leaves.leaf())),
-                     value_of(leaves.values()), drawing, picture);
+                show(grid.box(leaves.leaf()), value_of(leaves.values()), drawing, picture);
             return;
         }
         OctreeScan<2> leaves(host, header, {wider.lower[0], wider.lower[1]},
@@ -191,8 +185,7 @@ Portrait draw_octree(const Host &host, const abacus_header &header, const abacus
         for (Handle h; (h = leaves.next()) != no_handle;) {
             OctreeReader<2> &reader = leaves.reader();
             const Octant<2> leaf = reader.cache().octant(h);
-            show(Box<2>(reader.grid().lower(leaf), reader.grid().upper(leaf)),
-                 value_of(reader.cache().values(h)), drawing, picture);
+            show(reader.grid().box(leaf), value_of(reader.cache().values(h)), drawing, picture);
         }
     };
     abacus_drawing plain = drawing;

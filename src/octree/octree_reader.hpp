@@ -65,7 +65,7 @@ public:
     OctreeScan(const Host &host, const abacus_header &header, const Point<D> &lower,
                const Point<D> &upper, std::size_t cache_bytes)
         : reader_(host, header, cache_bytes) {
-        if (!reader_.grid().find(lower, upper, box_)) at_ = domain_cells<D>;
+        if (!reader_.grid().find({lower, upper}, box_)) at_ = domain_cells<D>;
     }
     OctreeScan(const Host &host, const abacus_header &header, const Ball<D> &ball,
                std::size_t cache_bytes)

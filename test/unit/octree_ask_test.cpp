@@ -117,7 +117,7 @@ TYPED_TEST(OctreesAsked, have_nearest_leaves_in_order) {
         const Point<D> place = random_place<D>(random);
         std::vector<std::pair<double, std::uint64_t>> expected, found;
         for (const Octant<D> &leaf : leaves) {
-            const Point<D> lower = reader.grid().lower(leaf), upper = reader.grid().upper(leaf);
+            const auto [lower, upper] = reader.grid().box(leaf);
             double square = 0; // exact: coordinates have few digits
             for (int i = 0; i < D; ++i) {
                 const double x = std::clamp(place[i], lower[i], upper[i]) - place[i];
@@ -223,7 +223,7 @@ TYPED_TEST(OctreesAsked, have_values_between_leaves) {
             ASSERT_EQ(between.values(place, values), leaf != no_handle);
             if (leaf == no_handle) continue;
             const Octant<D> octant = reader.cache().octant(reader.locate(place));
-            const Point<D> lower = reader.grid().lower(octant), upper = reader.grid().upper(octant);
+            const auto [lower, upper] = reader.grid().box(octant);
             Point<D> share;
             for (int i = 0; i < D; ++i) share[i] = (place[i] - lower[i]) / (upper[i] - lower[i]);
             const double expected = slow.inside(octant, share);
@@ -247,7 +247,7 @@ TYPED_TEST(OctreesAsked, have_values_without_a_step) {
     for (const Octant<D> &leaf : octree.list()) {
         if (leaf.code == 0) continue;
         // A place on a lower side, and one just below it.
-        const Point<D> lower = reader.grid().lower(leaf), upper = reader.grid().upper(leaf);
+        const auto [lower, upper] = reader.grid().box(leaf);
         const int axis = static_cast<int>(random() % D);
         if (lower[axis] == 0) continue;
         Point<D> place;

@@ -160,7 +160,7 @@ TYPED_TEST(Octrees, give_the_leaves_of_a_window) {
         }
         std::vector<Octant<D>> expected, found;
         for (const Octant<D> &leaf : octree.model.list()) {
-            const Point<D> a = grid.lower(leaf), b = grid.upper(leaf);
+            const auto [a, b] = grid.box(leaf);
             bool meets = true;
             for (int i = 0; i < D; ++i)
                 meets =
