@@ -1,4 +1,4 @@
-// An octree that is read, and its leaves as the C interface describes them.
+// An octree that is read, and its places and leaves as the C interface has them.
 #pragma once
 
 #include "octree/octree_reader.hpp"
@@ -16,6 +16,12 @@ struct abacus_octree {
 };
 
 namespace abacus {
+
+template <int D> Point<D> place_of(const double *coordinates) {
+    Point<D> place;
+    std::copy_n(coordinates, D, place.begin());
+    return place;
+}
 
 template <int D>
 void describe(const Grid<D> &grid, const Octant<D> &leaf, const double *values,

@@ -2,8 +2,7 @@
 
 #include "draw/plane.hpp"
 #include "geometry/ball.hpp"
-#include "octree/leaf_scan.hpp"
-#include "octree/octree_reader.hpp"
+#include "octree/octree_scan.hpp"
 
 #include <cmath>
 
@@ -169,24 +168,14 @@ Portrait draw_octree(const Host &host, const abacus_header &header, const abacus
     const bool is_whole = shows_whole<2>(drawing);
     const std::int32_t margin = is_whole ? 0 : Canvas::margin_of(drawing);
     abacus_drawing wider = is_whole ? drawing : widened(drawing, margin);
-    const auto value_of = [&](const double *values) {
-        return drawing.attribute >= 0 ? values[drawing.attribute] : NAN;
-    };
     const auto show_leaves = [&](auto &picture) {
-        if (is_whole) {
-            const Grid<2> grid(header);
-            LeafScan<2> leaves(host, header);
-            while (leaves.next())
-                show(grid.box(leaves.leaf()), value_of(leaves.values()), drawing, picture);
-            return;
-        }
-        OctreeScan<2> leaves(host, header, {wider.lower[0], wider.lower[1]},
-                             {wider.upper[0], wider.upper[1]}, cache_bytes);
-        for (Handle h; (h = leaves.next()) != no_handle;) {
-            OctreeReader<2> &reader = leaves.reader();
-            const Octant<2> leaf = reader.cache().octant(h);
-            show(reader.grid().box(leaf), value_of(reader.cache().values(h)), drawing, picture);
-        }
+        const Box<2> window({wider.lower[0], wider.lower[1]}, {wider.upper[0], wider.upper[1]});
+        OctreeScan<2> leaves = is_whole ? OctreeScan<2>(host, header)
+                                        : OctreeScan<2>(host, header, window, cache_bytes);
+        Octant<2> leaf;
+        for (const double *values; leaves.next(leaf, values);)
+            show(leaves.grid().box(leaf), drawing.attribute >= 0 ? values[drawing.attribute] : NAN,
+                 drawing, picture);
     };
     abacus_drawing plain = drawing;
     plain.contour_interval = 0;

@@ -3,6 +3,7 @@
 #include "fuzz/fuzz_mesh.hpp"
 #include "octree/octree_check.hpp"
 #include "octree/octree_nodes.hpp"
+#include "octree/octree_scan.hpp"
 #include "support/octree_model.hpp"
 
 using namespace abacus;
@@ -78,8 +79,9 @@ template <int D> void read_everything(Octree<D> &octree, std::size_t cache_bytes
         Point<D> lower, upper;
         lower.fill(0.2);
         upper.fill(0.6);
-        OctreeScan<D> scan(h, octree.header, lower, upper, cache_bytes);
-        while (scan.next() != no_handle) {
+        OctreeScan<D> scan(h, octree.header, Box<D>(lower, upper), cache_bytes);
+        Octant<D> leaf;
+        for (const double *values; scan.next(leaf, values);) {
         }
     });
     attempt(host, [&] { octree.list(); });

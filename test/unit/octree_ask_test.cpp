@@ -3,6 +3,7 @@
 #include "octree/octree_interpolation.hpp"
 #include "octree/octree_nearest.hpp"
 #include "octree/octree_places.hpp"
+#include "octree/octree_scan.hpp"
 #include "support/octree_model.hpp"
 
 #include <gmock/gmock.h>
@@ -95,8 +96,8 @@ TYPED_TEST(OctreesAsked, have_the_leaves_of_a_ball) {
         for (const Octant<D> &leaf : leaves)
             if (comes_near<D>(leaf, center, radius)) expected.push_back(leaf);
         OctreeScan<D> scan(h, octree.header, Ball<D>{center, radius}, 0);
-        for (Handle leaf; (leaf = scan.next()) != no_handle;)
-            scanned.push_back(scan.reader().cache().octant(leaf));
+        Octant<D> leaf;
+        for (const double *values; scan.next(leaf, values);) scanned.push_back(leaf);
         ASSERT_EQ(scanned, expected) << n;
         found += expected.size();
         touched += radius == 0 && expected.size() == 1;

@@ -1,6 +1,7 @@
 // Octrees against a model in memory: growth, balance, places, windows, neighbours, edits.
 #include "octree/octree_edit.hpp"
 #include "octree/octree_load.hpp"
+#include "octree/octree_scan.hpp"
 #include "support/octrees.hpp"
 
 #include <gmock/gmock.h>
@@ -167,9 +168,12 @@ TYPED_TEST(Octrees, give_the_leaves_of_a_window) {
                     meets && a[i] <= upper[i] && (lower[i] < b[i] || (lower[i] == 1 && b[i] == 1));
             if (meets) expected.push_back(leaf);
         }
-        OctreeScan<D> scan(h, octree.header, lower, upper, std::size_t{1} << 20);
-        for (Handle leaf; (leaf = scan.next()) != no_handle;)
-            found.push_back(scan.reader().cache().octant(leaf));
+        OctreeScan<D> scan(h, octree.header, Box<D>(lower, upper), std::size_t{1} << 20);
+        Octant<D> leaf;
+        for (const double *values; scan.next(leaf, values);) {
+            found.push_back(leaf);
+            ASSERT_EQ(values[1], leaf.level + 0.1);
+        }
         ASSERT_EQ(found, expected) << round;
     }
 }
