@@ -148,9 +148,9 @@ abacus_status abacus_octree_edit_add_merges(abacus_octree_edit *edit, const uint
 }
 
 abacus_status abacus_octree_edit_merge(abacus_octree_edit *edit, abacus_header *header,
-                                       uint64_t *merged, abacus_error *error) {
+                                       abacus_error *error) {
     return abacus::dispatch(edit->edit, error, [&](auto &edited) {
-        abacus::change(header, [&](abacus_header &changed) { *merged = edited.merge(changed); });
+        abacus::change(header, [&](abacus_header &changed) { edited.merge(changed); });
     });
 }
 
