@@ -89,9 +89,9 @@ ABACUS_API abacus_status abacus_octree_edit_open(const abacus_host *host,
 ABACUS_API abacus_status abacus_octree_edit_add_merges(abacus_octree_edit *edit,
 													   const uint64_t *places, size_t count,
 													   abacus_error *error);
-/* Octants of these levels at these places become leaves. *merged: how many leaves went up in others. */
+/* Octants of these levels at these places become leaves. */
 ABACUS_API abacus_status abacus_octree_edit_merge(abacus_octree_edit *edit, abacus_header *header,
-												  uint64_t *merged, abacus_error *error);
+												  abacus_error *error);
 /* Adds `count` rows: each 1 + attributes words: a code, attributes (double; NaN = NULL). */
 ABACUS_API abacus_status abacus_octree_edit_add_values(abacus_octree_edit *edit,
 													   const uint64_t *rows, size_t count,

@@ -2,6 +2,7 @@
 #include "octree/grow.hpp"
 #include "octree/octree_edit.hpp"
 #include "octree/octree_load.hpp"
+#include "points/record.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
@@ -38,13 +39,6 @@ struct abacus_octree_load {
 
 namespace abacus {
 namespace {
-
-/// The coordinates that follow the first word of a record.
-template <int D> Point<D> coordinates(const std::uint64_t *record) {
-    Point<D> p;
-    for (int i = 0; i < D; ++i) p[i] = std::bit_cast<double>(record[1 + i]);
-    return p;
-}
 
 /// Changes the caller's header only if all goes well.
 template <class Change> void change(abacus_header *header, Change change) {
@@ -97,7 +91,7 @@ abacus_status abacus_octree_growth_add(abacus_octree_growth *growth, const uint6
                                        size_t count, int levels, abacus_error *error) {
     return abacus::dispatch(growth->growth, error, [&]<int D>(abacus::Growth<D> &grown) {
         for (; count > 0; --count, places += 1 + D)
-            grown.add(abacus::coordinates<D>(places),
+            grown.add(abacus::record_point<D>(places),
                       levels != 0 ? static_cast<std::int64_t>(places[0]) : 0);
     });
 }
@@ -149,14 +143,14 @@ abacus_status abacus_octree_edit_add_merges(abacus_octree_edit *edit, const uint
                                             size_t count, abacus_error *error) {
     return abacus::dispatch(edit->edit, error, [&]<int D>(abacus::OctreeEdit<D> &edited) {
         for (; count > 0; --count, places += 1 + D)
-            edited.merge_at(abacus::coordinates<D>(places), static_cast<std::int64_t>(places[0]));
+            edited.merge_at(abacus::record_point<D>(places), static_cast<std::int64_t>(places[0]));
     });
 }
 
 abacus_status abacus_octree_edit_merge(abacus_octree_edit *edit, abacus_header *header,
-                                       uint64_t *merged, abacus_error *error) {
+                                       abacus_error *error) {
     return abacus::dispatch(edit->edit, error, [&](auto &edited) {
-        abacus::change(header, [&](abacus_header &changed) { *merged = edited.merge(changed); });
+        abacus::change(header, [&](abacus_header &changed) { edited.merge(changed); });
     });
 }
 

@@ -21,12 +21,6 @@ struct abacus_octree_places {
 namespace abacus {
 namespace {
 
-template <int D> Point<D> point_of(const double *place) {
-    Point<D> p;
-    std::copy_n(place, D, p.begin());
-    return p;
-}
-
 template <int D>
 void report_nearest(OctreeReader<D> &reader, OctreeNearest<D> &nearest, std::int64_t id,
                     const Point<D> &place, std::uint64_t k, abacus_octant_near report,
@@ -45,7 +39,7 @@ abacus_status abacus_octree_nearest(abacus_octree *octree, const double *place, 
                                     abacus_octant_near report, void *context, abacus_error *error) {
     return abacus::dispatch(octree->reader, error, [&]<int D>(abacus::OctreeReader<D> &reader) {
         abacus::OctreeNearest<D> nearest(reader);
-        abacus::report_nearest<D>(reader, nearest, 0, abacus::point_of<D>(place), k, report,
+        abacus::report_nearest<D>(reader, nearest, 0, abacus::place_of<D>(place), k, report,
                                   context);
     });
 }
@@ -56,7 +50,7 @@ abacus_status abacus_octree_interpolate(abacus_octree *octree, const uint32_t *a
     return abacus::guard(error, [&] {
         return octree->reader.visit([&]<int D>(abacus::OctreeReader<D> &reader) {
             abacus::OctreeInterpolation<D> between(reader, attributes, count);
-            return between.values(abacus::point_of<D>(place), values) ? ABACUS_OK : ABACUS_END;
+            return between.values(abacus::place_of<D>(place), values) ? ABACUS_OK : ABACUS_END;
         });
     });
 }

@@ -1,4 +1,4 @@
-// An octree that is read, and its leaves as the C interface describes them.
+// An octree that is read, and its places and leaves as the C interface has them.
 #pragma once
 
 #include "octree/octree_reader.hpp"
@@ -17,14 +17,20 @@ struct abacus_octree {
 
 namespace abacus {
 
+template <int D> Point<D> place_of(const double *coordinates) {
+    Point<D> place;
+    std::copy_n(coordinates, D, place.begin());
+    return place;
+}
+
 template <int D>
 void describe(const Grid<D> &grid, const Octant<D> &leaf, const double *values,
               abacus_octant &octant) {
     octant.code = leaf.code;
     octant.level = leaf.level;
-    const Point<D> lower = grid.lower(leaf), upper = grid.upper(leaf);
-    std::copy_n(lower.begin(), D, octant.lower);
-    std::copy_n(upper.begin(), D, octant.upper);
+    const Box<D> box = grid.box(leaf);
+    std::copy_n(box.lower.begin(), D, octant.lower);
+    std::copy_n(box.upper.begin(), D, octant.upper);
     octant.values = values;
 }
 

@@ -1,52 +1,40 @@
 // Octrees that are read, behind the C interface.
 #include "octree/octree_nodes.hpp"
+#include "octree/octree_scan.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
 #include "capi/octree_handle.hpp"
 
-#include <optional>
-
 namespace abacus {
 namespace {
 
-/// Leaves of a window, or, past any cache, all of them.
+/// Leaves of a window, or all of them.
 template <int D> class WindowScan {
 public:
     WindowScan(const Host &host, const abacus_header &header, const abacus_window &window,
                std::size_t cache_bytes)
-        : grid_(header) {
-        if (window.kind == ABACUS_NO_WINDOW) {
-            all_.emplace(host, header);
-            return;
-        }
-        if (window.kind == ABACUS_BALL_WINDOW) {
-            Ball<D> ball{{}, window.radius};
-            std::copy_n(window.center, D, ball.center.begin());
-            some_.emplace(host, header, ball, cache_bytes);
-            return;
-        }
-        Point<D> lower, upper;
-        std::copy_n(window.lower, D, lower.begin());
-        std::copy_n(window.upper, D, upper.begin());
-        some_.emplace(host, header, lower, upper, cache_bytes);
-    }
+        : leaves_(open(host, header, window, cache_bytes)) {}
 
     bool next(abacus_octant &octant) {
-        if (some_) {
-            const Handle h = some_->next();
-            if (h != no_handle) describe<D>(some_->reader(), h, octant);
-            return h != no_handle;
-        }
-        if (!all_->next()) return false;
-        describe<D>(grid_, all_->leaf(), all_->values(), octant);
+        Octant<D> leaf;
+        const double *values;
+        if (!leaves_.next(leaf, values)) return false;
+        describe<D>(leaves_.grid(), leaf, values, octant);
         return true;
     }
 
 private:
-    Grid<D> grid_;
-    std::optional<LeafScan<D>> all_;
-    std::optional<OctreeScan<D>> some_;
+    static OctreeScan<D> open(const Host &host, const abacus_header &header,
+                              const abacus_window &window, std::size_t cache_bytes) {
+        if (window.kind == ABACUS_NO_WINDOW) return {host, header};
+        if (window.kind == ABACUS_BALL_WINDOW)
+            return {host, header, Ball<D>{place_of<D>(window.center), window.radius}, cache_bytes};
+        return {host, header, Box<D>(place_of<D>(window.lower), place_of<D>(window.upper)),
+                cache_bytes};
+    }
+
+    OctreeScan<D> leaves_;
 };
 
 template <int D> class NodeList {
@@ -128,9 +116,7 @@ abacus_status abacus_octree_locate(abacus_octree *octree, const double *place,
                                    abacus_octant *octant, abacus_error *error) {
     return abacus::guard(error, [&] {
         return octree->reader.visit([&]<int D>(abacus::OctreeReader<D> &reader) {
-            abacus::Point<D> p;
-            std::copy_n(place, D, p.begin());
-            const abacus::Handle h = reader.locate(p);
+            const abacus::Handle h = reader.locate(abacus::place_of<D>(place));
             if (h == abacus::no_handle) return ABACUS_END;
             abacus::describe<D>(reader, h, *octant);
             return ABACUS_OK;

@@ -35,6 +35,18 @@ template <int D> struct Box {
         for (int i = 0; i < D; ++i) contains &= lower[i] <= p[i] && p[i] <= upper[i];
         return contains;
     }
+    /// The point of the box that is nearest to p. No coordinate is rounded.
+    Point<D> nearest(const Point<D> &p) const {
+        Point<D> nearest;
+        for (int i = 0; i < D; ++i) nearest[i] = std::clamp(p[i], lower[i], upper[i]);
+        return nearest;
+    }
+    /// Bit i of a corner's number chooses the upper end of axis i.
+    Point<D> corner(int number) const {
+        Point<D> corner;
+        for (int i = 0; i < D; ++i) corner[i] = (number >> i & 1) != 0 ? upper[i] : lower[i];
+        return corner;
+    }
     bool operator==(const Box &) const = default;
     bool is_point() const { return lower == upper; }
     bool meets(const Box &box) const {

@@ -13,18 +13,11 @@
 
 namespace abacus {
 
-/// Corner `i` of a box: bit k of i chooses the upper end of axis k.
-template <int D> Point<D> corner_of(const Box<D> &box, unsigned i) {
-    Point<D> corner;
-    for (int k = 0; k < D; ++k) corner[k] = (i >> k & 1) != 0 ? box.upper[k] : box.lower[k];
-    return corner;
-}
-
 /// Whether all of the box lies strictly beyond a facet, on the side where the simplex is not; the
 /// corner opposite is not read.
 template <int D> bool lies_beyond(const Box<D> &box, const Corners<D> &corners, int facet) {
-    for (unsigned i = 0; i < 1u << D; ++i)
-        if (facet_side<D>(corners, facet, corner_of<D>(box, i)) >= 0) return false;
+    for (int i = 0; i < 1 << D; ++i)
+        if (facet_side<D>(corners, facet, box.corner(i)) >= 0) return false;
     return true;
 }
 
@@ -35,8 +28,8 @@ inline bool is_kept_apart(const Point<2> *points, int n, const Box<2> &box, bool
     const auto keeps_apart = [&](const Point<2> &a, const Point<2> &b) {
         for (int i = 0; i < n; ++i)
             if (orientation(a, b, points[i]) < 0) return false;
-        for (unsigned i = 0; i < 4; ++i)
-            if (orientation(a, b, corner_of<2>(box, i)) > most) return false;
+        for (int i = 0; i < 4; ++i)
+            if (orientation(a, b, box.corner(i)) > most) return false;
         return true;
     };
     for (int i = 0; i < n; ++i)

@@ -15,24 +15,19 @@ public:
     BallCells(const Grid<D> &grid, const Ball<D> &ball) : grid_(grid), ball_(ball) {}
 
     bool meets(const Octant<D> &octant) const {
-        const Point<D> lower = grid_.lower(octant), upper = grid_.upper(octant);
         const Cell<D> at = octant.cell();
-        Point<D> nearest;
+        const Box<D> box = grid_.box(at, octant.edge());
+        const Point<D> nearest = box.nearest(ball_.center);
         bool is_reached = true;
-        for (int i = 0; i < D; ++i) {
-            nearest[i] = std::clamp(ball_.center[i], lower[i], upper[i]);
-            if (nearest[i] == upper[i] && at[i] + octant.edge() != axis_cells<D>)
+        for (int i = 0; i < D; ++i)
+            if (nearest[i] == box.upper[i] && at[i] + octant.edge() != axis_cells<D>)
                 is_reached = false;
-        }
         return ball_.side(nearest) < is_reached;
     }
     bool contains(const Octant<D> &octant) const {
-        const Point<D> lower = grid_.lower(octant), upper = grid_.upper(octant);
-        for (int i = 0; i < Octant<D>::children; ++i) {
-            Point<D> corner;
-            for (int k = 0; k < D; ++k) corner[k] = (i >> k & 1) != 0 ? upper[k] : lower[k];
-            if (!ball_.contains(corner)) return false;
-        }
+        const Box<D> box = grid_.box(octant);
+        for (int i = 0; i < Octant<D>::children; ++i)
+            if (!ball_.contains(box.corner(i))) return false;
         return true;
     }
     /// The first cell on the curve, from `from` on; domain_cells if there is none.

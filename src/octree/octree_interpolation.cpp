@@ -19,7 +19,7 @@ template <int D> bool OctreeInterpolation<D>::values(const Point<D> &place, doub
         values_.clear();
         leaf_ = leaf;
     }
-    const Point<D> lower = reader_.grid().lower(leaf), upper = reader_.grid().upper(leaf);
+    const auto [lower, upper] = reader_.grid().box(leaf);
     Share share;
     for (int i = 0; i < D; ++i)
         share[i] = lower[i] < upper[i]
@@ -77,14 +77,9 @@ std::optional<Octant<D>> OctreeInterpolation<D>::look_around(const GridPoint<D> 
     const double share = 1.0 / static_cast<double>(orthants<D>(point));
     std::fill_n(values, count_, 0.0);
     for (int orthant = 0; orthant < corners; ++orthant) {
-        GridPoint<D> cell = point;
-        bool is_outside = false;
-        for (int i = 0; i < D; ++i) {
-            cell[i] -= (orthant >> i & 1) == 0;
-            is_outside |= cell[i] >= axis_cells<D>;
-        }
-        if (is_outside) continue;
-        const Handle h = reader_.find(node_key<D>(cell).code);
+        const auto cell = cell_around<D>(point, orthant);
+        if (!cell) continue;
+        const Handle h = reader_.find(*cell);
         const Octant<D> leaf = reader_.cache().octant(h);
         const Cell<D> at = leaf.cell();
         bool is_corner = true;

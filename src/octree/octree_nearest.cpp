@@ -3,10 +3,7 @@
 namespace abacus {
 
 template <int D> void OctreeNearest<D>::add(const Octant<D> &octant, bool is_leaf) {
-    const Point<D> lower = reader_.grid().lower(octant), upper = reader_.grid().upper(octant);
-    Waiting waiting{octant, {}, is_leaf};
-    for (int i = 0; i < D; ++i) waiting.nearest[i] = std::clamp(place_[i], lower[i], upper[i]);
-    waiting_.push_back(waiting);
+    waiting_.push_back({octant, reader_.grid().box(octant).nearest(place_), is_leaf});
     std::push_heap(waiting_.begin(), waiting_.end(), order());
 }
 

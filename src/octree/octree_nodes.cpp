@@ -20,15 +20,12 @@ OctreeNodes<D>::OctreeNodes(const Host &host, const abacus_header &header, std::
 
 template <int D> void OctreeNodes<D>::find_nodes(std::size_t memory, const abacus_header &header) {
     RecordSort corners(host_, 3, 2, memory); // key, level
-    LeafScan<D> leaves(host_, header);
-    while (leaves.next())
-        for (int i = 0; i < Octant<D>::children; ++i) {
-            const NodeKey key = node_key<D>(corner(leaves.leaf(), i));
-            std::uint64_t *const record = corners.add();
-            record[0] = key.code;
-            record[1] = key.ends;
-            record[2] = static_cast<std::uint64_t>(leaves.leaf().level);
-        }
+    each_corner<D>(host_, header, [&](const NodeKey &key, const Octant<D> &leaf, int) {
+        std::uint64_t *const record = corners.add();
+        record[0] = key.code;
+        record[1] = key.ends;
+        record[2] = static_cast<std::uint64_t>(leaf.level);
+    });
     corners.finish();
     const std::uint64_t *next = corners.next();
     while (next != nullptr) {
@@ -53,14 +50,11 @@ template <int D> void OctreeNodes<D>::find_nodes(std::size_t memory, const abacu
 
 template <int D> void OctreeNodes<D>::add_anchors(const GridPoint<D> &point, std::uint64_t level) {
     const std::uint64_t step = axis_cells<D> >> level;
-    std::array<int, D> odd;
-    int n = 0;
-    for (int i = 0; i < D; ++i)
-        if ((point[i] & step) != 0) odd[n++] = i;
-    if (n == 0 || n == D) throw_unbalanced();
-    for (int anchor = 0; anchor < 1 << n; ++anchor) {
+    const MiddleAxes<D> middle = middle_axes<D>(point, level);
+    for (int anchor = 0; anchor < 1 << middle.count; ++anchor) {
         GridPoint<D> at = point;
-        for (int i = 0; i < n; ++i) at[odd[i]] += (anchor >> i & 1) != 0 ? step : 0 - step;
+        for (int i = 0; i < middle.count; ++i)
+            at[middle.axis[i]] += (anchor >> i & 1) != 0 ? step : 0 - step;
         const NodeKey key = node_key<D>(at);
         std::uint64_t *const record = wanted_.add();
         record[0] = key.code;
@@ -109,14 +103,11 @@ template <int D> bool OctreeNodes<D>::next(Node &node) {
 template <int D>
 OctreeElements<D>::OctreeElements(const Host &host, const abacus_header &header, std::size_t memory)
     : scan_(host, header), corners_(host, 2, memory) {
-    LeafScan<D> leaves(host, header);
-    while (leaves.next())
-        for (int i = 0; i < Octant<D>::children; ++i) {
-            const NodeKey key = node_key<D>(corner(leaves.leaf(), i));
-            std::uint64_t *const record = corners_.add();
-            record[0] = key.code;
-            record[1] = key.ends;
-        }
+    each_corner<D>(host, header, [&](const NodeKey &key, const Octant<D> &, int) {
+        std::uint64_t *const record = corners_.add();
+        record[0] = key.code;
+        record[1] = key.ends;
+    });
     corners_.finish();
 }
 

@@ -18,6 +18,8 @@
 
 #include <abacus/header.h>
 
+#include <optional>
+
 namespace abacus {
 
 /// A line of the grid on each axis, 0 to axis_cells.
@@ -60,8 +62,43 @@ template <int D> std::uint64_t orthants(const GridPoint<D> &point) {
     return orthants;
 }
 
+/// The code of the cell in an orthant around a point; bit i of its number tells the side of axis i.
+/// Nothing outside the domain.
+template <int D> std::optional<std::uint64_t> cell_around(const GridPoint<D> &point, int orthant) {
+    Cell<D> cell;
+    for (int i = 0; i < D; ++i) {
+        const std::uint64_t at = point[i] - ((orthant >> i & 1) == 0);
+        if (at >= axis_cells<D>) return std::nullopt;
+        cell[i] = static_cast<std::uint32_t>(at);
+    }
+    return morton<D>(cell);
+}
+/// Calls visit(key, leaf, number) for all corners of all leaves, by their numbers.
+template <int D, class Visit>
+void each_corner(const Host &host, const abacus_header &header, Visit visit) {
+    LeafScan<D> leaves(host, header);
+    while (leaves.next())
+        for (int i = 0; i < Octant<D>::children; ++i)
+            visit(node_key<D>(corner(leaves.leaf(), i)), leaves.leaf(), i);
+}
+
 /// Where a node hangs that is not in the middle of an edge or a face.
 [[noreturn]] void throw_unbalanced();
+
+/// The axes of the edge or the face that a node hangs in the middle of.
+template <int D> struct MiddleAxes {
+    std::array<int, D> axis{};
+    int count = 0;
+};
+/// `level`: of the finest leaves around the node. Throws Error (state) if it is in no such middle.
+template <int D> MiddleAxes<D> middle_axes(const GridPoint<D> &point, std::uint64_t level) {
+    const std::uint64_t step = axis_cells<D> >> level;
+    MiddleAxes<D> middle;
+    for (int i = 0; i < D; ++i)
+        if ((point[i] & step) != 0) middle.axis[middle.count++] = i;
+    if (middle.count == 0 || middle.count == D) throw_unbalanced();
+    return middle;
+}
 
 template <int D> class OctreeNodes {
 public:

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "octree/octree_reader.hpp"
+#include "sort/pacer.hpp"
 #include "sort/record_sort.hpp"
 
 #include <bit>
@@ -14,7 +15,9 @@ public:
     /// Sorts within `memory` bytes and spools, and keeps `cache_bytes` of leaves.
     OctreePlaces(const Host &host, const abacus_header &header, std::size_t memory,
                  std::size_t cache_bytes)
-        : host_(host), places_(host, words, words, memory), reader_(host, header, cache_bytes) {}
+        : pacer_(host), places_(host, words, words, memory), reader_(host, header, cache_bytes) {
+        pacer_.begin(ABACUS_PHASE_READING, 0);
+    }
 
     OctreeReader<D> &reader() { return reader_; }
 
@@ -23,18 +26,16 @@ public:
         std::uint64_t *const record = places_.add();
         std::copy_n(place, 1 + D, record + 1);
         record[0] = morton<D>(reader_.grid().nearest_cell(point(record)));
-        if (places_.size() % (16 * Pacer::stride) == 1)
-            host_.progress({ABACUS_PHASE_READING, places_.size(), 0, 0, 0, 0});
+        if (places_.size() % Pacer::stride == 0) pacer_.reached(places_.size());
     }
     /// Calls visit(id, place) for each of them, along the curve; once.
     template <class Visit> void each(Visit visit) {
         places_.finish();
-        for (std::uint64_t n = 0; const std::uint64_t *record = places_.next(); ++n) {
-            if (n % Pacer::stride == 0)
-                host_.progress({ABACUS_PHASE_LOCATING, n, places_.size(),
-                                reader_.cache().counters.loads, 0, 0});
-            host_.poll();
+        pacer_.begin(ABACUS_PHASE_LOCATING, places_.size());
+        std::uint64_t done = 0;
+        while (const std::uint64_t *record = places_.next()) {
             visit(static_cast<std::int64_t>(record[1]), point(record));
+            pacer_.reached(++done, {reader_.cache().counters.loads, 0});
         }
         places_.close();
     }
@@ -48,7 +49,7 @@ private:
         return p;
     }
 
-    const Host &host_;
+    Pacer pacer_;
     RecordSort places_; // code, id, coordinates
     OctreeReader<D> reader_;
 };

@@ -2,8 +2,7 @@
 
 #include "draw/plane.hpp"
 #include "geometry/ball.hpp"
-#include "octree/leaf_scan.hpp"
-#include "octree/octree_reader.hpp"
+#include "octree/octree_scan.hpp"
 
 #include <cmath>
 
@@ -54,10 +53,10 @@ private:
 
     template <class Picture> void show(const Octant<3> &octant, Picture &picture) {
         host_.poll();
-        const Box<3> box(reader_.grid().lower(octant), reader_.grid().upper(octant));
+        const Box<3> box = reader_.grid().box(octant);
         if (plane_.misses(box.lower, box.upper)) return;
         Place places[corners];
-        for (int i = 0; i < corners; ++i) places[i] = plane_.place(corner_of(box, i));
+        for (int i = 0; i < corners; ++i) places[i] = plane_.place(box.corner(i));
         if (!is_in_window(places)) return;
         const Handle h = reader_.find(octant.code);
         if (reader_.cache().octant(h).level > octant.level) {
@@ -75,11 +74,6 @@ private:
         }
         patch.spacing = std::sqrt(squares);
         picture.add(patch);
-    }
-    static Point<3> corner_of(const Box<3> &box, int number) {
-        Point<3> p;
-        for (int i = 0; i < 3; ++i) p[i] = (number >> i & 1) != 0 ? box.upper[i] : box.lower[i];
-        return p;
     }
     bool is_in_window(const Place (&places)[corners]) const {
         for (int axis = 0; has_window_ && axis < 2; ++axis) {
@@ -174,26 +168,14 @@ Portrait draw_octree(const Host &host, const abacus_header &header, const abacus
     const bool is_whole = shows_whole<2>(drawing);
     const std::int32_t margin = is_whole ? 0 : Canvas::margin_of(drawing);
     abacus_drawing wider = is_whole ? drawing : widened(drawing, margin);
-    const auto value_of = [&](const double *values) {
-        return drawing.attribute >= 0 ? values[drawing.attribute] : NAN;
-    };
     const auto show_leaves = [&](auto &picture) {
-        if (is_whole) {
-            const Grid<2> grid(header);
-            LeafScan<2> leaves(host, header);
-            while (leaves.next())
-                show(Box<2>(grid.lower(leaves.leaf()), grid.upper(leaves.leaf())),
-                     value_of(leaves.values()), drawing, picture);
-            return;
-        }
-        OctreeScan<2> leaves(host, header, {wider.lower[0], wider.lower[1]},
-                             {wider.upper[0], wider.upper[1]}, cache_bytes);
-        for (Handle h; (h = leaves.next()) != no_handle;) {
-            OctreeReader<2> &reader = leaves.reader();
-            const Octant<2> leaf = reader.cache().octant(h);
-            show(Box<2>(reader.grid().lower(leaf), reader.grid().upper(leaf)),
-                 value_of(reader.cache().values(h)), drawing, picture);
-        }
+        const Box<2> window({wider.lower[0], wider.lower[1]}, {wider.upper[0], wider.upper[1]});
+        OctreeScan<2> leaves = is_whole ? OctreeScan<2>(host, header)
+                                        : OctreeScan<2>(host, header, window, cache_bytes);
+        Octant<2> leaf;
+        for (const double *values; leaves.next(leaf, values);)
+            show(leaves.grid().box(leaf), drawing.attribute >= 0 ? values[drawing.attribute] : NAN,
+                 drawing, picture);
     };
     abacus_drawing plain = drawing;
     plain.contour_interval = 0;

@@ -1,7 +1,7 @@
-// Leaves of a stored octree: at a place, in a window, beside a leaf.
+// Leaves of a stored octree: at a place, in a region, beside a leaf.
 #pragma once
 
-#include "octree/ball_cells.hpp"
+#include "octree/grid.hpp"
 #include "octree/octree_cache.hpp"
 
 namespace abacus {
@@ -57,36 +57,6 @@ public:
 private:
     Grid<D> grid_;
     OctreeCache<D> cache_;
-};
-
-/// Leaves that meet a window, a box or a ball, along the curve.
-template <int D> class OctreeScan {
-public:
-    OctreeScan(const Host &host, const abacus_header &header, const Point<D> &lower,
-               const Point<D> &upper, std::size_t cache_bytes)
-        : reader_(host, header, cache_bytes) {
-        if (!reader_.grid().find(lower, upper, box_)) at_ = domain_cells<D>;
-    }
-    OctreeScan(const Host &host, const abacus_header &header, const Ball<D> &ball,
-               std::size_t cache_bytes)
-        : reader_(host, header, cache_bytes) {
-        ball_.emplace(reader_.grid(), ball);
-    }
-
-    /// The next leaf; no_handle after the last.
-    Handle next() {
-        if (at_ == domain_cells<D>) return no_handle;
-        const Handle h = ball_ ? reader_.next_in(*ball_, at_) : reader_.next_in(box_, at_);
-        at_ = h == no_handle ? domain_cells<D> : reader_.cache().octant(h).end();
-        return h;
-    }
-    OctreeReader<D> &reader() { return reader_; }
-
-private:
-    OctreeReader<D> reader_;
-    CellBox<D> box_{};
-    std::optional<BallCells<D>> ball_; // in place of the box
-    std::uint64_t at_ = 0;
 };
 
 } // namespace abacus

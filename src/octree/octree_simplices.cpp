@@ -38,17 +38,14 @@ OctreeSimplices<D>::OctreeSimplices(const Host &host, const abacus_header &heade
 template <int D>
 void OctreeSimplices<D>::find_nodes(const abacus_header &header, std::size_t memory) {
     RecordSort corners(host_, 5, 2, memory); // key, code and level of the leaf, which corner
-    LeafScan<D> leaves(host_, header);
-    while (leaves.next())
-        for (int i = 0; i < Octant<D>::children; ++i) {
-            const NodeKey key = node_key<D>(corner(leaves.leaf(), i));
-            std::uint64_t *const record = corners.add();
-            record[0] = key.code;
-            record[1] = key.ends;
-            record[2] = leaves.leaf().code;
-            record[3] = static_cast<std::uint64_t>(leaves.leaf().level);
-            record[4] = static_cast<std::uint64_t>(i);
-        }
+    each_corner<D>(host_, header, [&](const NodeKey &key, const Octant<D> &leaf, int i) {
+        std::uint64_t *const record = corners.add();
+        record[0] = key.code;
+        record[1] = key.ends;
+        record[2] = leaf.code;
+        record[3] = static_cast<std::uint64_t>(leaf.level);
+        record[4] = static_cast<std::uint64_t>(i);
+    });
     corners.finish();
     std::uint64_t number = 0;
     const std::uint64_t *next = corners.next();
@@ -75,29 +72,19 @@ void OctreeSimplices<D>::send(const GridPoint<D> &point, const Touching &leaves,
         filled |= 1 << (Octant<D>::children - 1 - leaves.corner[i]);
         level = std::max(level, leaves.level[i]);
     }
-    int middle = 0;
-    if (static_cast<std::uint64_t>(leaves.count) < orthants<D>(point)) {
-        const std::uint64_t step = axis_cells<D> >> level;
-        for (const std::uint64_t x : point) middle += (x & step) != 0;
-        if (middle == 0 || middle == D) throw_unbalanced();
-    }
+    const bool hangs = static_cast<std::uint64_t>(leaves.count) < orthants<D>(point);
+    const int middle = hangs ? middle_axes<D>(point, level).count : 0;
     const std::uint64_t order = Split::order(middle, number);
     for (int i = 0; i < leaves.count; ++i)
         send_to({leaves.code[i], static_cast<int>(leaves.level[i])},
                 Split::corner(leaves.corner[i]), order);
-    if (middle == 0) return;
+    if (!hangs) return;
     std::uint64_t last = domain_cells<D>; // a larger leaf has several orthants
     for (int orthant = 0; orthant < Octant<D>::children; ++orthant) {
         if ((filled >> orthant & 1) != 0) continue;
-        GridPoint<D> cell = point;
-        bool is_outside = false;
-        for (int i = 0; i < D; ++i) {
-            cell[i] -= (orthant >> i & 1) == 0;
-            is_outside |= cell[i] >= axis_cells<D>;
-        }
-        if (is_outside) continue;
-        const auto larger = Octant<D>{node_key<D>(cell).code, finest_level<D>}.ancestor(
-            static_cast<int>(level) - 1);
+        const auto cell = cell_around<D>(point, orthant);
+        if (!cell) continue;
+        const auto larger = Octant<D>{*cell, finest_level<D>}.ancestor(static_cast<int>(level) - 1);
         const Cell<D> at = larger.cell();
         std::array<int, D> lattice;
         for (int i = 0; i < D; ++i)

@@ -6,9 +6,7 @@ namespace {
 
 /// A square that no point of the box is nearer to p than, whatever is rounded.
 template <int D> double least_square(const Box<D> &box, const Point<D> &p) {
-    Point<D> nearest;
-    for (int i = 0; i < D; ++i) nearest[i] = std::clamp(p[i], box.lower[i], box.upper[i]);
-    return std::max(0.0, rounded_square<D>(p, nearest) * (1 - 1e-15) - 1e-290);
+    return std::max(0.0, rounded_square<D>(p, box.nearest(p)) * (1 - 1e-15) - 1e-290);
 }
 
 /// One that the point is not farther away than.

@@ -35,7 +35,7 @@ PlaneRegion::PlaneRegion(const CuttingPlane &plane, const Box<3> &around)
         if (!std::all_of(foot.begin(), foot.end(), [](double x) { return std::isfinite(x); }))
             break;
         inside_ = foot;
-        for (int i = 0; i < 3; ++i) foot[i] = std::clamp(foot[i], around.lower[i], around.upper[i]);
+        foot = around.nearest(foot);
     }
     slack_ = 1.01 * std::fabs(plane.height(inside_)); // heights are not exact
 }

@@ -50,8 +50,8 @@ template <int D> bool BoxRegion<D>::may_meet(const Point<D> *const *points, int 
 
 template <int D> bool BoxRegion<D>::lies_beyond(const Corners<D> &facet) const {
     // A ghost is positively oriented around what lies beyond its facet.
-    for (unsigned i = 0; i < 1u << D; ++i)
-        if (facet_side<D>(facet, D, corner_of<D>(box_, i)) <= 0) return false;
+    for (int i = 0; i < 1 << D; ++i)
+        if (facet_side<D>(facet, D, box_.corner(i)) <= 0) return false;
     return true;
 }
 

@@ -69,7 +69,7 @@ private:
     void fit() {
         Box<2> around;
         if (box_) {
-            for (unsigned i = 0; i < 8; ++i) around.extend(camera_.place(corner_of<3>(*box_, i)));
+            for (int i = 0; i < 8; ++i) around.extend(camera_.place(box_->corner(i)));
         } else {
             each_page([&](const PageView<3> &page) {
                 for (int s = 0; s < page.simplices(); ++s)

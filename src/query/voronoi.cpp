@@ -12,17 +12,15 @@ namespace {
 /// Whether the ball around a simplex may meet the box. True where it does, whatever is rounded.
 template <int D> bool ball_may_meet(const Corners<D> &corners, const Box<D> &box) {
     const Point<D> centre = circumcentre<D>(corners, Rounding::whenever);
-    Point<D> nearest;
-    for (int i = 0; i < D; ++i) nearest[i] = std::clamp(centre[i], box.lower[i], box.upper[i]);
     // The centre is right to ten digits of what it is away from the corners.
     const double radius = distance<D>(centre, *corners[0]);
-    return !(distance<D>(centre, nearest) > radius * (1 + 1e-8));
+    return !(distance<D>(centre, box.nearest(centre)) > radius * (1 + 1e-8));
 }
 
 /// The same of what lies beyond the facet of a ghost, whose last corner is not read.
 template <int D> bool half_space_may_meet(const Corners<D> &corners, const Box<D> &box) {
-    for (unsigned i = 0; i < 1u << D; ++i)
-        if (facet_side<D>(corners, D, corner_of<D>(box, i)) >= 0) return true;
+    for (int i = 0; i < 1 << D; ++i)
+        if (facet_side<D>(corners, D, box.corner(i)) >= 0) return true;
     return false;
 }
 

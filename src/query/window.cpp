@@ -16,10 +16,7 @@ template <int D> Box<D> BallRegion<D>::box_around(const Ball<D> &ball) {
 
 // The nearest point of the box is compared, whose coordinates are not rounded.
 template <int D> bool BallRegion<D>::may_meet(const Box<D> &box) const {
-    Point<D> nearest;
-    for (int i = 0; i < D; ++i)
-        nearest[i] = std::clamp(ball_.center[i], box.lower[i], box.upper[i]);
-    return ball_.contains(nearest);
+    return ball_.contains(box.nearest(ball_.center));
 }
 
 template <int D> bool BallRegion<D>::may_meet(const Point<D> *const *points, int n) const {

@@ -1,8 +1,12 @@
-// Damaged octant pages: an octree that is read, checked, changed and extracted, whatever its pages
-// say.
+// Damaged octant pages: an octree that is read, asked, checked, drawn, changed and extracted,
+// whatever its pages say.
 #include "fuzz/fuzz_mesh.hpp"
 #include "octree/octree_check.hpp"
-#include "octree/octree_nodes.hpp"
+#include "octree/octree_interpolation.hpp"
+#include "octree/octree_nearest.hpp"
+#include "octree/octree_portrait.hpp"
+#include "octree/octree_scan.hpp"
+#include "octree/octree_simplices.hpp"
 #include "support/octree_model.hpp"
 
 using namespace abacus;
@@ -61,6 +65,54 @@ template <class Act> void attempt(MemoryHost &host, Act act) {
     fuzz::require(host.bytes == 0, "memory is not given back");
 }
 
+template <int D> void ask_places(Octree<D> &octree, std::size_t cache_bytes) {
+    MemoryHost &host = *octree.host;
+    const Host h = host.host();
+    attempt(host, [&] {
+        Point<D> center;
+        center.fill(0.4);
+        OctreeScan<D> scan(h, octree.header, Ball<D>{center, 0.25}, cache_bytes);
+        Octant<D> leaf;
+        for (const double *values; scan.next(leaf, values);) {
+        }
+    });
+    for (const double at : {0.1, 0.5, 1.5})
+        attempt(host, [&] {
+            OctreeReader<D> reader(h, octree.header, cache_bytes);
+            Point<D> place;
+            place.fill(at);
+            std::uint64_t last = 0;
+            OctreeNearest<D>(reader).find(place, 20, [&](std::uint64_t rank, Handle, double) {
+                fuzz::require(rank == ++last, "ranks do not count");
+            });
+        });
+    for (int i = 0; i < 8; ++i)
+        attempt(host, [&] {
+            OctreeReader<D> reader(h, octree.header, cache_bytes);
+            const std::uint32_t wanted[] = {4, 0};
+            OctreeInterpolation<D> between(reader, wanted, 2);
+            Point<D> place;
+            for (int axis = 0; axis < D; ++axis) place[axis] = 0.13 * i + 0.01 * axis;
+            double values[2];
+            fuzz::require(between.values(place, values), "a place in the domain has no leaf");
+        });
+}
+
+/// A quadtree as a map, an octree cut by a plane.
+template <int D> void draw(Octree<D> &octree) {
+    const Host h = octree.host->host();
+    abacus_drawing drawing{};
+    drawing.width = 32;
+    drawing.height = 32;
+    drawing.attribute = 1;
+    if constexpr (D == 2) {
+        draw_octree(h, octree.header, drawing);
+    } else {
+        const abacus_section section{{0.3, 0.4, 0.5}, {1, 2, 3}, 1};
+        draw_octree_section(h, octree.header, section, drawing);
+    }
+}
+
 template <int D> void read_everything(Octree<D> &octree, std::size_t cache_bytes) {
     MemoryHost &host = *octree.host;
     const Host h = host.host();
@@ -78,8 +130,9 @@ template <int D> void read_everything(Octree<D> &octree, std::size_t cache_bytes
         Point<D> lower, upper;
         lower.fill(0.2);
         upper.fill(0.6);
-        OctreeScan<D> scan(h, octree.header, lower, upper, cache_bytes);
-        while (scan.next() != no_handle) {
+        OctreeScan<D> scan(h, octree.header, Box<D>(lower, upper), cache_bytes);
+        Octant<D> leaf;
+        for (const double *values; scan.next(leaf, values);) {
         }
     });
     attempt(host, [&] { octree.list(); });
@@ -98,6 +151,14 @@ template <int D> void read_everything(Octree<D> &octree, std::size_t cache_bytes
         for (std::array<std::uint64_t, Octant<D>::children> corners; elements.next(corners);) {
         }
     });
+    attempt(host, [&] {
+        OctreeSimplices<D> simplices(h, octree.header, octree.memory);
+        std::uint64_t element;
+        for (std::array<std::uint64_t, D + 1> nodes; simplices.next(element, nodes);) {
+        }
+    });
+    ask_places(octree, cache_bytes);
+    attempt(host, [&] { draw(octree); });
 }
 
 /// Each change comes to the pages that the one before has left, and the header goes with them.

@@ -148,7 +148,7 @@ public:
     }
     /// The lower corner of a cell.
     Point<D> place(std::uint64_t cell) const {
-        return Grid<D>(header).lower({cell, finest_level<D>});
+        return Grid<D>(header).box({cell, finest_level<D>}).lower;
     }
     std::vector<Octant<D>> list() const {
         std::vector<Octant<D>> list;

@@ -1,4 +1,4 @@
-// Octrees for tests: with an attribute on several pages, and a size that grows from a place.
+// Octrees for tests: on several pages, or fine in a few places; and a size that grows from a place.
 #pragma once
 
 #include "octree/octree_check.hpp"
@@ -10,6 +10,8 @@
 #include <cmath>
 
 namespace abacus::test {
+
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 
 template <int D> void expect_sound(const StoredOctree<D> &octree) {
     const Host h = octree.host->host();
@@ -54,5 +56,53 @@ template <int D> struct Coded : StoredOctree<D> {
         EXPECT_GT(this->host->pages.size(), 5u);
     }
 };
+
+/// Fine at a corner and in some places, with an attribute that is a function of the code, and one
+/// that some leaves do not have.
+template <int D> class AskedOctree : public StoredOctree<D> {
+public:
+    explicit AskedOctree(std::uint64_t seed) : StoredOctree<D>(2) {
+        std::mt19937_64 random(seed);
+        auto cells = random_cells<D>(random, 25, D == 2 ? 7 : 5);
+        cells.push_back({domain_cells<D> / 2 - 1, 9});
+        this->split_to(cells);
+        fill();
+    }
+    /// Gives the leaves their attributes.
+    void fill() {
+        const Host h = this->host->host();
+        OctreeEdit<D> edit(h, this->header, this->memory, this->memory);
+        for (const Octant<D> &leaf : this->list()) {
+            const double values[] = {first(leaf), second(leaf)};
+            edit.set_at(leaf.code, values);
+        }
+        edit.set(this->header);
+    }
+    static double first(const Octant<D> &leaf) {
+        return std::ldexp(static_cast<double>(leaf.code * 0x9e3779b97f4a7c15u >> 12), -40);
+    }
+    static double second(const Octant<D> &leaf) {
+        return (leaf.code * 0x9e3779b97f4a7c15u >> 60) == 0 ? NAN : 7;
+    }
+};
+
+/// Places anywhere, on lines of the grid, and beyond the domain.
+template <int D> Point<D> random_place(std::mt19937_64 &random) {
+    Point<D> p;
+    for (double &x : p) switch (random() % 4) {
+        case 0:
+            x = std::ldexp(static_cast<double>(random() % 33), -5);
+            break;
+        case 1:
+            x = std::ldexp(static_cast<double>(random() % 5), -2);
+            break;
+        case 2:
+            x = std::ldexp(static_cast<double>(random() % 1000), -9) - 0.5;
+            break;
+        default:
+            x = std::ldexp(static_cast<double>(random() % 100000), -17);
+        }
+    return p;
+}
 
 } // namespace abacus::test

@@ -1,9 +1,8 @@
 // What octrees are asked about places, against brute force over all leaves.
-#include "octree/octree_edit.hpp"
 #include "octree/octree_interpolation.hpp"
 #include "octree/octree_nearest.hpp"
 #include "octree/octree_places.hpp"
-#include "support/octree_model.hpp"
+#include "support/octrees.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,96 +13,7 @@ namespace abacus::test {
 namespace {
 
 template <class T> class OctreesAsked : public testing::Test {};
-using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(OctreesAsked, Dimensions);
-
-/// Fine at a corner and in some places, with an attribute that is a function of the code, and one
-/// that some leaves do not have.
-template <int D> class AskedOctree : public StoredOctree<D> {
-public:
-    explicit AskedOctree(std::uint64_t seed) : StoredOctree<D>(2) {
-        std::mt19937_64 random(seed);
-        auto cells = random_cells<D>(random, 25, D == 2 ? 7 : 5);
-        cells.push_back({domain_cells<D> / 2 - 1, 9});
-        this->split_to(cells);
-        fill();
-    }
-    /// Gives the leaves their attributes.
-    void fill() {
-        const Host h = this->host->host();
-        OctreeEdit<D> edit(h, this->header, this->memory, this->memory);
-        for (const Octant<D> &leaf : this->list()) {
-            const double values[] = {first(leaf), second(leaf)};
-            edit.set_at(leaf.code, values);
-        }
-        edit.set(this->header);
-    }
-    static double first(const Octant<D> &leaf) {
-        return std::ldexp(static_cast<double>(leaf.code * 0x9e3779b97f4a7c15u >> 12), -40);
-    }
-    static double second(const Octant<D> &leaf) {
-        return (leaf.code * 0x9e3779b97f4a7c15u >> 60) == 0 ? NAN : 7;
-    }
-};
-
-/// Places anywhere, on lines of the grid, and beyond the domain.
-template <int D> Point<D> random_place(std::mt19937_64 &random) {
-    Point<D> p;
-    for (double &x : p) switch (random() % 4) {
-        case 0:
-            x = std::ldexp(static_cast<double>(random() % 33), -5);
-            break;
-        case 1:
-            x = std::ldexp(static_cast<double>(random() % 5), -2);
-            break;
-        case 2:
-            x = std::ldexp(static_cast<double>(random() % 1000), -9) - 0.5;
-            break;
-        default:
-            x = std::ldexp(static_cast<double>(random() % 100000), -17);
-        }
-    return p;
-}
-
-/// Places of the grid that a leaf has, up to its upper sides where the domain ends: exact here.
-template <int D> bool comes_near(const Octant<D> &leaf, const Point<D> &center, double radius) {
-    const Cell<D> at = leaf.cell();
-    double square = 0;
-    bool is_reached = true;
-    for (int i = 0; i < D; ++i) {
-        const double unit = std::ldexp(1.0, -code_bits<D>);
-        const double lower = at[i] * unit;
-        const double upper = static_cast<double>(at[i] + leaf.edge()) * unit;
-        const double x = std::min(std::max(center[i], lower), upper);
-        if (center[i] >= upper && upper < 1) is_reached = false;
-        square += (x - center[i]) * (x - center[i]);
-    }
-    return is_reached ? square <= radius * radius : square < radius * radius;
-}
-
-TYPED_TEST(OctreesAsked, have_the_leaves_of_a_ball) {
-    constexpr int D = TypeParam::value;
-    std::mt19937_64 random(1);
-    const AskedOctree<D> octree(1);
-    const Host h = octree.host->host();
-    const auto leaves = octree.list();
-    std::size_t found = 0, touched = 0;
-    for (int n = 0; n < 300; ++n) {
-        const Point<D> center = random_place<D>(random);
-        const double radius = n % 5 == 0 ? 0 : std::ldexp(static_cast<double>(random() % 33), -6);
-        std::vector<Octant<D>> expected, scanned;
-        for (const Octant<D> &leaf : leaves)
-            if (comes_near<D>(leaf, center, radius)) expected.push_back(leaf);
-        OctreeScan<D> scan(h, octree.header, Ball<D>{center, radius}, 0);
-        for (Handle leaf; (leaf = scan.next()) != no_handle;)
-            scanned.push_back(scan.reader().cache().octant(leaf));
-        ASSERT_EQ(scanned, expected) << n;
-        found += expected.size();
-        touched += radius == 0 && expected.size() == 1;
-    }
-    EXPECT_GT(found, 1000u);
-    EXPECT_GT(touched, 20u); // a place is in one leaf
-}
 
 TYPED_TEST(OctreesAsked, have_nearest_leaves_in_order) {
     constexpr int D = TypeParam::value;
@@ -117,7 +27,7 @@ TYPED_TEST(OctreesAsked, have_nearest_leaves_in_order) {
         const Point<D> place = random_place<D>(random);
         std::vector<std::pair<double, std::uint64_t>> expected, found;
         for (const Octant<D> &leaf : leaves) {
-            const Point<D> lower = reader.grid().lower(leaf), upper = reader.grid().upper(leaf);
+            const auto [lower, upper] = reader.grid().box(leaf);
             double square = 0; // exact: coordinates have few digits
             for (int i = 0; i < D; ++i) {
                 const double x = std::clamp(place[i], lower[i], upper[i]) - place[i];
@@ -223,7 +133,7 @@ TYPED_TEST(OctreesAsked, have_values_between_leaves) {
             ASSERT_EQ(between.values(place, values), leaf != no_handle);
             if (leaf == no_handle) continue;
             const Octant<D> octant = reader.cache().octant(reader.locate(place));
-            const Point<D> lower = reader.grid().lower(octant), upper = reader.grid().upper(octant);
+            const auto [lower, upper] = reader.grid().box(octant);
             Point<D> share;
             for (int i = 0; i < D; ++i) share[i] = (place[i] - lower[i]) / (upper[i] - lower[i]);
             const double expected = slow.inside(octant, share);
@@ -247,7 +157,7 @@ TYPED_TEST(OctreesAsked, have_values_without_a_step) {
     for (const Octant<D> &leaf : octree.list()) {
         if (leaf.code == 0) continue;
         // A place on a lower side, and one just below it.
-        const Point<D> lower = reader.grid().lower(leaf), upper = reader.grid().upper(leaf);
+        const auto [lower, upper] = reader.grid().box(leaf);
         const int axis = static_cast<int>(random() % D);
         if (lower[axis] == 0) continue;
         Point<D> place;

@@ -1,6 +1,6 @@
 // Nodes, anchors and elements of octrees against a table of all corners.
 #include "octree/octree_nodes.hpp"
-#include "support/octree_model.hpp"
+#include "support/octrees.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,6 @@ namespace abacus::test {
 namespace {
 
 template <class T> class OctreeNodesOf : public testing::Test {};
-using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(OctreeNodesOf, Dimensions);
 
 template <int D> struct Extracted {

@@ -9,7 +9,6 @@ namespace abacus::test {
 namespace {
 
 template <class T> class OctreePages : public testing::Test {};
-using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(OctreePages, Dimensions);
 
 /// Memory that is taken beyond what is in use now, while something is done.

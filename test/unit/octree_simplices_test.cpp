@@ -1,6 +1,6 @@
 // Octrees cut into triangles and tetrahedra: they fill each leaf, and fit together.
 #include "octree/octree_simplices.hpp"
-#include "support/octree_model.hpp"
+#include "support/octrees.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,6 @@ namespace abacus::test {
 namespace {
 
 template <class T> class OctreeSimplicesOf : public testing::Test {};
-using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(OctreeSimplicesOf, Dimensions);
 
 template <int D> using Corners = std::array<std::uint64_t, D + 1>;

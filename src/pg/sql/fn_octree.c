@@ -230,13 +230,12 @@ abacus_sql_octree_coarsen(PG_FUNCTION_ARGS)
 {
 	OctreeChange change;
 	Host	   *host;
-	uint64		merged;
 
 	begin(&change, fcinfo, "abacus_octree_coarsen()");
 	host = change.writer.host;
 	open_edit(&change.writer);
 	read_rows(&change, OCTANT_PLACES, add_merges);
-	host_run(host, abacus_octree_edit_merge, host->handle, change.writer.header, &merged);
+	host_run(host, abacus_octree_edit_merge, host->handle, change.writer.header);
 	PG_RETURN_INT64(end(&change));
 }
 
