@@ -57,7 +57,7 @@ PARTS = [
                 ("threads:1", "threads:2", "threads:all"), FEWER, what="threads"),
         SharedReading(2, {"full": (1000000, 1000000), "quick": (200000, 200000), "smoke": (40000, 20000)}, FEWER),
         SharedReading(3, {"full": (500000, 500000), "quick": (50000, 100000), "smoke": (20000, 20000)}, FEWER),
-        SharedLoading(2, {"full": 1000000, "quick": 1000000, "smoke": 100000}, FEWER),
+        SharedLoading(2, {"full": 1000000, "quick": 100000, "smoke": 20000}, FEWER),
         SharedLoading(3, {"full": 1000000, "quick": 100000, "smoke": 20000}, FEWER),
         SharedDeletes(2, {"full": 10000000, "quick": 1000000, "smoke": 100000}),
         SharedDeletes(3, {"full": 1000000, "quick": 100000, "smoke": 20000}))),
