@@ -94,25 +94,6 @@ load_quake() {
         -c "ALTER TABLE quake_points ADD PRIMARY KEY (id)"
 }
 
-# Linear interpolation in a tetrahedron: the weight of a corner is the volume of
-# the tetrahedron in which the point stands in its place.
-define_velocity() {
-    run_psql <<'SQL'
-CREATE FUNCTION volume(a quake_points, b quake_points, c quake_points, d quake_points)
-RETURNS float8 IMMUTABLE
-RETURN (b.x - a.x) * ((c.y - a.y) * (d.z - a.z) - (d.y - a.y) * (c.z - a.z))
-     + (c.x - a.x) * ((d.y - a.y) * (b.z - a.z) - (b.y - a.y) * (d.z - a.z))
-     + (d.x - a.x) * ((b.y - a.y) * (c.z - a.z) - (c.y - a.y) * (b.z - a.z));
-CREATE FUNCTION velocity(x float8, y float8, z float8) RETURNS float8 STABLE
-RETURN (SELECT (volume(p, b, c, d) * a.vs + volume(a, p, c, d) * b.vs
-              + volume(a, b, p, d) * c.vs + volume(a, b, c, p) * d.vs) / volume(a, b, c, d)
-        FROM abacus_locate('quake', x, y, z) AS t
-             JOIN quake_points AS a ON a.id = t.v0 JOIN quake_points AS b ON b.id = t.v1
-             JOIN quake_points AS c ON c.id = t.v2 JOIN quake_points AS d ON d.id = t.v3,
-             (VALUES (ROW(0, x, y, z, 0, 0, 0)::quake_points)) AS point (p));
-SQL
-}
-
 scripts/install-dependencies.sh demo
 heading "Building and installing the extension"
 timed "build and install the extension" install_extension
@@ -124,6 +105,7 @@ heading "The shorelines of the world"
 timed "load the shorelines with COPY" load_shorelines
 timed "triangulate the shorelines: stage, insert, commit" with_progress \
     "SELECT abacus_triangulate('shorelines', 'SELECT id, lon, lat FROM shorelines_points') AS triangles"
+run_psql -c "SELECT abacus_set_srid('shorelines', 4326)" >/dev/null  # longitude and latitude
 
 heading "Which triangle holds the harbour of Bergen? And its neighbours?"
 timed "locate and walk" run_psql <<'SQL'
@@ -154,11 +136,12 @@ timed "triangulate the earthquake model: stage, insert, commit" with_progress \
     "SELECT abacus_triangulate('quake', 'TABLE quake_points', dimension => 3) AS tetrahedra"
 
 heading "Shear waves under six seismographs, metres a second"
-define_velocity
 timed "interpolate below six stations" run_psql <<'SQL'
-SELECT station, round(velocity(x, y, 0)) AS surface, round(velocity(x, y, -100)) AS "100 m",
-       round(velocity(x, y, -1000)) AS "1 km", round(velocity(x, y, -5000)) AS "5 km",
-       round(velocity(x, y, -20000)) AS "20 km"
+SELECT station, round(abacus_interpolate('quake', x, y, 0, 'vs')) AS surface,
+       round(abacus_interpolate('quake', x, y, -100, 'vs')) AS "100 m",
+       round(abacus_interpolate('quake', x, y, -1000, 'vs')) AS "1 km",
+       round(abacus_interpolate('quake', x, y, -5000, 'vs')) AS "5 km",
+       round(abacus_interpolate('quake', x, y, -20000, 'vs')) AS "20 km"
 FROM (VALUES ('valley', 51200, 46300), ('harbour', 36100, 30700), ('airport', 24900, 75600),
              ('university', 61300, 80200), ('observatory', 42500, 70900), ('dam', 93700, 91100))
          AS stations (station, x, y);
@@ -166,7 +149,7 @@ SQL
 timed "interpolate at 10,000 places of the surface" run_psql <<'SQL'
 SELECT count(*) AS places, round(min(v)) AS slowest, round(avg(v)) AS mean, round(max(v)) AS fastest
 FROM generate_series(0, 99) AS i, generate_series(0, 99) AS j,
-     velocity(1000 * i + 497, 1000 * j + 503, 0) AS v;
+     abacus_interpolate('quake', 1000 * i + 497, 1000 * j + 503, 0, 'vs') AS v;
 SQL
 
 heading "Exact verification of every tetrahedron"
@@ -204,7 +187,6 @@ show() {
 # Until Ctrl+C; the viewers and the server of the database end with this script.
 if [[ -n $view ]]; then
     heading "The meshes in a browser"
-    run_psql -c "SELECT abacus_set_srid('shorelines', 4326)" >/dev/null
     viewer/serve --build
     viewers=()
     trap 'kill "${viewers[@]}" 2>/dev/null || true; cluster_stop' EXIT

@@ -39,6 +39,7 @@ class Mesh {
     static async open(database, options) {
         const mesh = new Mesh(database, options);
         mesh.oid = await database.resolve(options.mesh);
+        await database.rows(null, plane.etag, [mesh.oid]); // says of what is no mesh what it is
         const [{ value }] = await database.rows(null, "SELECT value FROM abacus_stats($1::oid::regclass) WHERE name = 'dimension'", [mesh.oid]);
         mesh.dimension = value;
         return mesh;
@@ -53,13 +54,15 @@ class Mesh {
         if (this.known?.etag === etag) return this.known;
         const [{ name, stats, attributes, extent, srid: own }] = await query(this.dimension === 2 ? plane.info : space.info);
         const lower = extent.slice(0, this.dimension), upper = extent.slice(3, 3 + this.dimension);
-        this.map ??= this.place(own, lower, upper);
-        this.known = { etag, name, dimension: this.dimension, ...stats, attributes, lower, upper, ...this.map,
+        const map = this.map ?? this.place(own, lower, upper);
+        if (lower[0] !== null) this.map = map; // a mesh without a simplex has no place yet
+        this.known = { etag, name, dimension: this.dimension, ...stats, attributes, lower, upper, ...map,
             edit: Boolean(this.options.edit && stats.changeable) };
         return this.known;
     }
 
-    /** Where the mesh is on the map. It stays there when the mesh grows: pages that are open know of no other map. */
+    /** Where the mesh is on the map. It stays there when the mesh grows: pages that are open know of no other map.
+        Another server, which may listen at the same port later, may draw the same mesh on another one. */
     place(own, lower, upper) {
         const srid = this.options.srid || (mapped.includes(own) ? own : null);
         // A map of its own: the mesh is in the middle, and takes a thousandth of it.
@@ -89,7 +92,8 @@ async function sendTile(request, response, url, mesh, query) {
     const [, kind, z, x, y] = url.pathname.match(/^\/tiles\/(picture|vector|terrain)\/(\d+)\/(\d+)\/(\d+)$/) ?? [];
     if (!kind || mesh.dimension !== 2) throw new Refused(404, "there is nothing here");
     const known = await mesh.describe(query);
-    const etag = `"${known.etag}-${Buffer.from(url.search).toString("base64url")}"`;
+    const drawn = JSON.stringify([known.srid, known.world, url.search]);
+    const etag = `"${known.etag}-${Buffer.from(drawn).toString("base64url")}"`;
     if (request.headers["if-none-match"] === etag) return send(response, 304, "image/png", undefined, { ETag: etag });
     const { text, values } = tile(kind, z, x, y, new Parameters(url.searchParams), known);
     const [{ tile: bytes }] = await query(text, values);

@@ -1,5 +1,6 @@
 """The part that carries a mesh to others: windows of its foreign table, tiles of web maps, files."""
 import json
+import math
 import pathlib
 import resource
 import subprocess
@@ -47,8 +48,8 @@ class Carried:
         self.file("arrays of {count} tetrahedra", "mesh.npz")
         server.drop("mesh", "mesh_vertices")
 
-    def record(self, question, samples):
-        self.suite.measurements.append({"what": "ask", "question": question, "engine": "abacus", "points": self.points, "samples": samples})
+    def record(self, question, samples, **more):
+        self.suite.measurements.append({"what": "ask", "question": question, "engine": "abacus", "points": self.points, "samples": samples, **more})
         middle = sorted(sample["wall"] for sample in samples)[len(samples) // 2]
         self.suite.say(f"  {question:48} {1000 * middle:9.1f} ms")
 
@@ -93,9 +94,9 @@ class Carried:
             self.record(f"{name}, zoom 0 to 14", samples)
 
     def tile(self, session, call, zoom):
-        place = session.run(f"SELECT floor((lon + 180) / 360 * 2 ^ {zoom})::int, floor((1 - ln(tan(radians(45 + lat / 2))) / pi()) / 2 * 2 ^ {zoom})::int"
-                            f" FROM (VALUES ({MIDDLE[0]}, {MIDDLE[1]})) AS place (lon, lat)")
-        x, y = place.split("|")
+        lon, lat = MIDDLE
+        x = math.floor((lon + 180) / 360 * 2 ** zoom)
+        y = math.floor((1 - math.log(math.tan(math.radians(45 + lat / 2))) / math.pi) / 2 * 2 ** zoom)
         sample = session.timed(f"SELECT length({call.format(z=zoom, x=x, y=y)})")
         sample["bytes"] = int(sample.pop("printed"))
         return sample
@@ -109,8 +110,7 @@ class Carried:
                 used, began = self.used(), time.perf_counter()
                 subprocess.run([paths.ROOT / "client/abacus-export", "mesh", target, *options], check=True, stdout=subprocess.DEVNULL)
                 samples.append({"wall": round(time.perf_counter() - began, 6), "cpu": round(self.used() - used, 6), "bytes": target.stat().st_size})
-        rate = max(sample["bytes"] / sample["wall"] for sample in samples) / 1e6
-        self.record(f"{question.format(count=f'{count:,}')}, at {rate:.0f} MB/s", samples)
+        self.record(question.format(count=f"{count:,}"), samples, written=True)
 
     @staticmethod
     def used():

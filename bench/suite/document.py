@@ -52,8 +52,9 @@ class Document:
 
 
 def table(head, rows):
-    """A table of GitHub's Markdown; columns after the first are right-aligned."""
-    lines = ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 1)]
+    """A table of GitHub's Markdown; columns after the first are right-aligned. An empty one says what it waits for."""
+    lines = [] if rows else ["Not measured yet on the machine of this page.", ""]
+    lines += ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 1)]
     lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
     return "\n".join(lines) + "\n"
 

@@ -5,7 +5,6 @@ geometry, which is kept nowhere, and to committed and indexed rows; the others r
 same points and build in core (bench/comparators).
 """
 import json
-import os
 import subprocess
 
 import paths
@@ -51,13 +50,12 @@ class Abacus:
 
 
 class Threads(Abacus):
-    """The same with the default cache and so many threads, or as many as the machine has processors."""
+    """The same with the default cache and so many threads."""
 
     def __init__(self, threads):
         super().__init__("default")
-        count = os.cpu_count() if threads == "all" else int(threads)
-        self.labels["threads"] = str(count)
-        self.settings = {"abacus__threads": str(count)}
+        self.labels["threads"] = threads
+        self.settings = {"abacus__threads": threads}
 
 
 class PostGIS:

@@ -1,4 +1,6 @@
 """The parts of the suite: what is measured, with how many points, in which mode."""
+import os
+
 from ask import Ask
 from builds import Contest
 from carried import Carried
@@ -22,6 +24,9 @@ def contests(*contests):
 
 
 FEWER = {"full": 3, "quick": 1, "smoke": 1}
+
+# By one thread, by two, and by all processors, each number once
+THREADS = tuple(f"threads:{count}" for count in sorted({1, 2, os.cpu_count()}))
 
 # What the cost of a point of very many is compared with: few, just before them and just after
 BESIDE = Contest(2, "uniform", {"full": 1000000}, ("abacus:64",), what="beside")
@@ -52,12 +57,12 @@ PARTS = [
         BESIDE, Contest(2, "uniform", {"full": 100000000}, ("abacus:64",), FEWER, disk=16 << 30), BESIDE)),
     Part("threads", "the same builds, deletions, checks, locations, sorts and loads by one thread, by two, and by all processors", 8, contests(
         Contest(2, "uniform", {"full": 10000000, "quick": 1000000, "smoke": 100000},
-                ("threads:1", "threads:2", "threads:all"), FEWER, what="threads"),
+                THREADS, FEWER, what="threads"),
         Contest(3, "uniform", {"full": 1000000, "quick": 100000, "smoke": 20000},
-                ("threads:1", "threads:2", "threads:all"), FEWER, what="threads"),
+                THREADS, FEWER, what="threads"),
         SharedReading(2, {"full": (1000000, 1000000), "quick": (200000, 200000), "smoke": (40000, 20000)}, FEWER),
         SharedReading(3, {"full": (500000, 500000), "quick": (50000, 100000), "smoke": (20000, 20000)}, FEWER),
-        SharedLoading(2, {"full": 1000000, "quick": 1000000, "smoke": 100000}, FEWER),
+        SharedLoading(2, {"full": 1000000, "quick": 100000, "smoke": 20000}, FEWER),
         SharedLoading(3, {"full": 1000000, "quick": 100000, "smoke": 20000}, FEWER),
         SharedDeletes(2, {"full": 10000000, "quick": 1000000, "smoke": 100000}),
         SharedDeletes(3, {"full": 1000000, "quick": 100000, "smoke": 20000}))),

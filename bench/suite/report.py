@@ -26,7 +26,7 @@ class Report(Document):
         self.generators |= {"acceptance": self.acceptance, "builds": self.builds, "growth": self.growth,
                             "caches": self.caches,
                             "goose": lambda: habits.goose(results), "rows": lambda: habits.rows(results)}
-        for name in ("location", "cold", "asking", "surfaces", "octrees", "edits", "cancels", "core"):
+        for name in ("location", "cold", "asking", "surfaces", "octrees", "threads", "edits", "cancels", "core"):
             make = getattr(tables, name)
             self.generators[name] = lambda make=make: make(results)
 

@@ -2,6 +2,7 @@
 import statistics
 
 from document import number, points, size, spread, table
+from results import ratio
 from results import spread as spread_of
 from results import values
 
@@ -75,8 +76,30 @@ def asking(results):
         rows.append((f"{points(m['points'])} points: {m['question']}", ENGINES[m["engine"]], f"{spread(wall)} s",
                      f"{number(statistics.median(values(m, 'cpu')))} s" if values(m, "cpu") else "–",
                      number(m["places"] / wall[0]) if "places" in m and "," in m["question"] else "–",
-                     number(pages and pages[0]), len(m["samples"])))
-    return table(("question", "", "wall", "CPU", "places a second", "pages", "runs"), rows)
+                     number(pages and pages[0]), number(rate(m)) if m.get("written") else "–", len(m["samples"])))
+    return table(("question", "", "wall", "CPU", "places a second", "pages", "MB a second", "runs"), rows)
+
+
+def rate(measurement):
+    """Megabytes of a file a second of elapsed time."""
+    return statistics.median(sample["bytes"] / sample["wall"] for sample in measurement["samples"]) / 1e6
+
+
+SHARED = {"build": "`abacus_triangulate`", "check": "`abacus_check`", "locate": "`abacus_locate`, in one call", "natural": "`abacus_weights`, natural, in one call",
+          "nearest": "`abacus_nearest`, 4 of each, in one call", "sort": "`abacus_stage`", "load": "`abacus_load`"}
+
+
+def threads(results):
+    """Builds, readings and loads by several numbers of threads, each beside one thread."""
+    rows, alone = [], {}
+    for m in [*results.all(what="threads"), *results.all(what="shared reading")]:
+        what = f"{mesh_name(m)}: {SHARED[m.get('question', 'build')]}"
+        wall = spread_of(m, "wall")
+        if m["threads"] == "1":
+            alone[what] = wall[0]
+        rows.append((what, m["threads"], f"{spread(wall)} s", f"{number(statistics.median(values(m, 'cpu')))} s",
+                     number(ratio(alone.get(what), wall[0])), len(m["samples"])))
+    return table(("", "threads", "wall", "CPU", "times as fast", "runs"), rows)
 
 
 def edits(results):

@@ -11,6 +11,8 @@ import zipfile
 
 import numpy
 
+from .session import Failed
+
 suffixes = (".npz",)
 
 
@@ -37,6 +39,8 @@ def members(archive, folder, arrays, chunks):
 
 
 def write(mesh, file, z):
+    if z is not None:
+        raise Failed("arrays have all attributes, as values: --z is for other formats")
     n, m, count = mesh.vertices, mesh.simplices, len(mesh.attributes)
     folder = os.path.dirname(os.path.abspath(file.name))
     with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive:

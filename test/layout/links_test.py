@@ -45,13 +45,14 @@ def targets(text):
 def wrong_links(documents, files):
     """(document, link, what is wrong with it) of {path: text}."""
     folders = {folder for file in files for folder in file.parents}
+    headings = {document: anchors(text) for document, text in documents.items()}
     for document, text in documents.items():
         for target in targets(text):
             path, _, anchor = target.partition("#")
             file = (document.parent / path).resolve() if path else document
             if file not in files and file not in folders:
                 yield document, target, "no such file"
-            elif anchor and file.suffix == ".md" and anchor not in anchors(documents[file]):
+            elif anchor and file.suffix == ".md" and anchor not in headings[file]:
                 yield document, target, "no such heading"
 
 

@@ -167,11 +167,11 @@ class Files(unittest.TestCase):
 
     def test_ended(self):
         """An export that is ended leaves no file."""
-        for number, status in (signal.SIGTERM, 143), (signal.SIGINT, 130):
+        for number, status in (signal.SIGTERM, 143), (signal.SIGHUP, 129), (signal.SIGINT, 130):
             export = subprocess.Popen(["/usr/bin/python3", str(CLIENT / "abacus-export"), "files_space", str(self.at / "ended.pvd"), "--series",
                                        "SELECT id, 1 AS step, pg_sleep(5)::text FROM generate_series(1, 2) AS id"], stderr=subprocess.PIPE, text=True,
-                                      # the tests may run where a shell ignores it
-                                      preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+                                      # the tests may run where a shell or nohup ignores it
+                                      preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))
             until = time.monotonic() + 20
             while not (self.at / "ended.pvd.part").exists() and time.monotonic() < until:
                 time.sleep(0.05)
@@ -188,6 +188,7 @@ class Files(unittest.TestCase):
             (("files_plane_points", self.at / "n.ply"), "is not a mesh"),
             (("files_plane'; DROP TABLE files_plane_points; --", self.at / "n.ply"), "syntax"),
             (("files_space", self.at / "n.ply"), "no tetrahedra"),
+            (("files_plane", self.at / "n.npz", "--z", "height"), "--z is for other formats"),
             (("files_plane", self.at / "n.ply", "--z", "wind"), "no attribute wind"),
             (("files_plane", self.at / "n.ply", "--z", "depth"), "missing at some vertices"),
             (("files_plane", self.at / "no" / "n.ply"), "No such file or directory"),

@@ -14,13 +14,14 @@ import acceptance
 import document
 import plots
 import results
+import tables
 from report import Report
 
 
 def build(engine, points, *seconds, **labels):
-    return {"what": "build", "engine": engine, "dimension": 2, "set": "uniform", "points": points, **labels,
-            "samples": [{"wall": wall, "cpu": wall, "memory": 1 << 20, "simplices": 2 * points}
-                        for wall in seconds]}
+    return {"what": "build", "engine": engine, "dimension": 2, "set": "uniform", "points": points} | labels | {
+        "samples": [{"wall": wall, "cpu": wall, "memory": 1 << 20, "simplices": 2 * points}
+                    for wall in seconds]}
 
 
 def of(*measurements):
@@ -122,6 +123,27 @@ class Verdicts(unittest.TestCase):
         self.assertAlmostEqual(acceptance.WANTED[number].measured(of(core, edit)), 3)
         self.assertAlmostEqual(acceptance.WANTED[number].by_cpu(of(core, edit)), 4)
         self.assertEqual(verdict(number, of(edit)), "not measured")
+
+
+class Tables(unittest.TestCase):
+    def test_threads_stand_beside_one(self):
+        def read(threads, seconds):
+            return {"what": "shared reading", "question": "check", "threads": threads, "dimension": 3, "points": 5000, "places": 0,
+                    "samples": [{"wall": seconds, "cpu": 2.0}]}
+        text = tables.threads(of(build("abacus", 10**6, 3.0, what="threads", threads="1"),
+                                 build("abacus", 10**6, 2.0, what="threads", threads="2"), read("1", 1.0), read("2", 0.5)))
+        self.assertIn("| 2D, 1 M points: `abacus_triangulate` | 2 | 2.00 s | 2.00 s | 1.50 | 1 |", text)
+        self.assertIn("| 3D, 5,000 points: `abacus_check` | 1 | 1.00 s | 2.00 s | 1.00 | 1 |", text)
+        self.assertIn("| 3D, 5,000 points: `abacus_check` | 2 | 0.500 s | 2.00 s | 2.00 | 1 |", text)
+
+    def test_files_have_a_rate(self):
+        written = {"what": "ask", "question": "PLY of 8 triangles", "engine": "abacus", "points": 9, "written": True,
+                   "samples": [{"wall": 2.0, "cpu": 1.0, "bytes": 10**7}]}
+        self.assertIn("| 9 points: PLY of 8 triangles | Abacus | 2.00 s | 1.00 s | – | – | 5.00 | 1 |", tables.asking(of(written)))
+
+    def test_an_empty_table_says_so(self):
+        self.assertTrue(tables.asking(of()).startswith("Not measured yet"))
+        self.assertNotIn("Not measured", document.table(("a",), [("b",)]))
 
 
 class Storage(unittest.TestCase):

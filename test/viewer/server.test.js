@@ -265,6 +265,34 @@ test("a mesh is where its SRID says, or an option, or on a map of its own", asyn
     psql("SELECT abacus_set_srid('globe', 0)");
 });
 
+test("an ETag is that of one map", async () => {
+    const etags = [];
+    for (const options of [{}, { srid: 4326 }, { srid: 3857 }]) {
+        const server = await serve("globe", options);
+        const ask = (etag) => fetch(`${server.origin}/tiles/picture/10/532/358`, { headers: { "If-None-Match": etag } });
+        for (const etag of etags) assert.equal((await ask(etag)).status, 200);
+        const own = (await ask('"none"')).headers.get("etag");
+        assert.equal((await ask(own)).status, 304);
+        etags.push(own);
+        await server.stop();
+    }
+});
+
+test("a mesh that was empty gets its map with its first points", async () => {
+    psql("SELECT abacus_create('empty', 2)");
+    const server = await serve("empty");
+    try {
+        const { body: before } = await server.get("/api/info");
+        assert.equal(before.lower[0], null);
+        psql("SELECT abacus_insert('empty', 'SELECT i, 5000 + 100 * (i % 3), 7000 + 100 * (i / 3) FROM generate_series(0, 8) AS i')");
+        const { body: after } = await server.get("/api/info");
+        assert.deepEqual(after.world, [5100 - 102400, 7100 - 102400, 204800]);
+    } finally {
+        await server.stop();
+        psql("DROP TABLE empty");
+    }
+});
+
 test("the map stays when the mesh grows", async () => {
     const { body: before } = await editing.get("/api/info");
     const { body: { session } } = await editing.post("begin");
@@ -315,12 +343,15 @@ test("packages have fixed versions and a hash, and come from npm's registry", ()
 });
 
 test("the command says what is wrong", () => {
+    psql("SELECT abacus_octree_create('cells', 2, '{0,0}', '{1,1}')");
     const run = (...words) => spawnSync(process.execPath, [new URL("../../viewer/server.js", import.meta.url).pathname, ...words], { encoding: "utf8" });
     for (const [words, message] of [[[], /--mesh is missing/], [["--mesh", "terrain", "--srid", "25832"], /--srid must be/], [["--mesh", "terrain", "--port", "x"], /--port must be/],
+        [["--mesh", "cells", "--port", "0"], /"cells" is an octree, not a mesh/],
         [["--mesh", "nothing", "--port", "0"], /relation "nothing" does not exist/], [["--mesh", "terrain", "-d", "dbname=nothing"], /database "nothing" does not exist/], [["--wrong"], /Unknown option/]]) {
         const { status, stderr } = run(...words);
         assert.equal(status, 1, String(words));
         assert.match(stderr, message);
     }
+    psql("DROP TABLE cells");
     assert.match(run("--help").stdout, /usage/);
 });
