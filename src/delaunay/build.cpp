@@ -134,7 +134,8 @@ template <int D> void Build<D>::add_duplicate(const std::uint64_t *record) {
         return;
     case ABACUS_REPLACE:
         if (header_->duplicates > 0) forget_repeated(p);
-        rename(p, record);
+        // Attributes that are apart have been stored when the point came.
+        core_->removal.rename(p, record_id(record), record_attributes<D>(record));
         return;
     case ABACUS_REFUSE:
         throw_duplicate(record_id(record));
