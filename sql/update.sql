@@ -75,7 +75,7 @@ ROLLBACK TO a;
 SELECT count(*) FROM wrong WHERE id > 0;
 COMMIT;
 
--- a table that is followed: an UPDATE of attributes alone touches their pages only
+-- a table that is followed: an UPDATE of attributes alone touches no simplex page
 CREATE TABLE wells AS SELECT id, x, y, 1 AS a, 2 AS b, 3 AS c, 4 AS d, 5 AS e, 6 AS f, height, depth FROM points;
 SELECT abacus_create('followed', 2, '{a,b,c,d,e,f,height,depth}');
 SELECT abacus_track('followed', 'wells');

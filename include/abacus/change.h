@@ -98,7 +98,8 @@ typedef struct abacus_named_place
  * and of several the one with the same id, or else the first. The stage has values of these
  * attributes only; of several for a point the last one counts. *updated says for how many there was
  * a point; *missing has id and place of the first for which there was none. No simplex changes. A
- * mesh whose attributes are apart is changed in the pages of these attributes alone.
+ * mesh whose attributes are apart is changed in the pages of these attributes alone, unless several
+ * points are at a place, or wait.
  */
 ABACUS_API abacus_status abacus_build_update(abacus_build *build, abacus_stage *stage,
 											 const uint32_t *attributes, size_t count,

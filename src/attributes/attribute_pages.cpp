@@ -19,6 +19,14 @@ template <int D> Key AttributeGroup<D>::end_of_page(const Key &lower) {
     return host_.next(ABACUS_ATTRIBUTE_PAGES, &lower, page) && page.key < end ? page.key : end;
 }
 
+/// Of the page held, which begins at lower_.
+template <int D> void AttributeGroup<D>::find_end() {
+    upper_ = end_of_page(lower_);
+    // A search for one of these would look in the next page.
+    if (count() > 0 && upper_ <= keys_.back())
+        throw_corrupted("An attribute page has vertices that another page owns.");
+}
+
 /// Adds the rows of a page to those held.
 template <int D> void AttributeGroup<D>::append(const abacus_page &page, const Key &upper) {
     ++counters_.loads;
@@ -49,10 +57,7 @@ template <int D> void AttributeGroup<D>::go_to(const Key &key) {
         append(page, upper_);
         lower_ = page.key;
         location_ = page.location;
-        upper_ = end_of_page(lower_);
-        // A search for one of these would look in the next page.
-        if (count() > 0 && upper_ <= keys_.back())
-            throw_corrupted("An attribute page has vertices that another page owns.");
+        find_end();
     }
     at_page_ = true;
 }
@@ -71,12 +76,11 @@ template <int D> std::size_t AttributeGroup<D>::find(const Key &key, const Point
     return none;
 }
 
-template <int D>
-void AttributeGroup<D>::set(std::size_t i, const Point<D> &p, const double *values) {
-    std::uint64_t *to = row(i);
-    for (const double x : p) *to++ = ordered(x);
-    for (unsigned n = 0; n < columns_; ++n) *to++ = ordered(values[n]);
-    dirty_ = true;
+/// A page that stays as it is need not be written.
+template <int D> void AttributeGroup<D>::assign(std::uint64_t &to, double value) {
+    const std::uint64_t rank = ordered(value);
+    dirty_ = dirty_ || to != rank;
+    to = rank;
 }
 
 /// Makes room for a row; its number.
@@ -113,17 +117,24 @@ template <int D>
 void AttributeGroup<D>::put(const Key &vertex, const Point<D> &p, const double *values) {
     const Key key = in_group(vertex, group_);
     go_to(key);
-    const std::size_t i = find(key, p);
-    set(i == none ? insert(key) : i, p, values);
+    std::size_t i = find(key, p);
+    if (i == none) {
+        i = insert(key);
+        dirty_ = true;
+        for (int axis = 0; axis < D; ++axis) row(i)[axis] = ordered(p[axis]);
+    }
+    for (unsigned n = 0; n < columns_; ++n) assign(row(i)[D + n], values[n]);
 }
 
-template <int D> std::uint64_t *AttributeGroup<D>::change(const Key &vertex, const Point<D> &p) {
+template <int D>
+bool AttributeGroup<D>::set(const Key &vertex, const Point<D> &p, unsigned first,
+                            std::span<const std::uint32_t> which, const double *values) {
     const Key key = in_group(vertex, group_);
     go_to(key);
     const std::size_t i = find(key, p);
-    if (i == none) return nullptr;
-    dirty_ = true;
-    return row(i) + D;
+    if (i == none) return false;
+    for (const std::uint32_t attribute : which) assign(row(i)[D + attribute - first], *values++);
+    return true;
 }
 
 template <int D> void AttributeGroup<D>::drop(const Key &vertex, const Point<D> &p) {
@@ -196,7 +207,7 @@ template <int D> void AttributeGroup<D>::absorb_next() {
     view_.read(page.bytes, page.size, group_, columns_);
     append(page, group_begin(group_ + 1));
     host_.erase(ABACUS_ATTRIBUTE_PAGES, page);
-    upper_ = end_of_page(lower_);
+    find_end();
 }
 
 /// Whether what has outgrown its page, and has left full ones behind, goes on with the next page,
@@ -259,18 +270,14 @@ template <int D>
 bool AttributePages<D>::set(const Point<D> &p, std::uint64_t code,
                             std::span<const std::uint32_t> which, const double *values) {
     const Key key = attribute_key<D>(p, code);
-    std::uint64_t *row = nullptr;
-    unsigned at = 0; // the group of the row
-    for (std::size_t i = 0; i < which.size(); ++i) {
-        const unsigned group = groups_.group_of(which[i]);
-        if (row == nullptr || at != group) {
-            std::uint64_t *const found = pages_[group].change(key, p);
-            if (found == nullptr && row != nullptr) throw_corrupted("A vertex has no attributes.");
-            if (found == nullptr) return false;
-            row = found;
-            at = group;
-        }
-        row[which[i] - groups_.first(group)] = ordered(values[i]);
+    for (std::size_t begin = 0, end = 0; begin < which.size(); begin = end) {
+        const unsigned group = groups_.group_of(which[begin]);
+        while (end < which.size() && groups_.group_of(which[end]) == group) ++end;
+        if (pages_[group].set(key, p, groups_.first(group), which.subspan(begin, end - begin),
+                              values + begin))
+            continue;
+        if (begin > 0) throw_corrupted("A vertex has no attributes.");
+        return false;
     }
     return true;
 }

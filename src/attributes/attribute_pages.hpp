@@ -27,9 +27,10 @@ public:
 
     /// Sets what the vertex at p has. `key` is its attribute_key().
     void put(const Key &key, const Point<D> &p, const double *values);
-    /// What the vertex at p has, to be changed before the next call: a rank of each attribute of
-    /// the group. Null if there is no such vertex.
-    std::uint64_t *change(const Key &key, const Point<D> &p);
+    /// Sets the attributes `which` of the vertex at p, all of this group, whose first one is
+    /// `first`; false if there is no such vertex.
+    bool set(const Key &key, const Point<D> &p, unsigned first,
+             std::span<const std::uint32_t> which, const double *values);
     /// Takes it away.
     void drop(const Key &key, const Point<D> &p);
     /// Reads it. Throws an Error (corrupted) if there is no such vertex.
@@ -48,8 +49,9 @@ private:
     /// Makes the page that owns the key the current one.
     void go_to(const Key &key);
     Key end_of_page(const Key &lower);
+    void find_end();
     void append(const abacus_page &page, const Key &upper);
-    void set(std::size_t row, const Point<D> &p, const double *values);
+    void assign(std::uint64_t &to, double value);
     std::size_t lower_bound(const Key &key) const;
     std::size_t find(const Key &key, const Point<D> &p) const;
     std::size_t insert(const Key &key);

@@ -59,7 +59,7 @@ template <int D> void Build<D>::start(const std::array<VertexIndex, D + 1> &vert
 
 template <int D> void Build<D>::add(const std::uint64_t *records, std::size_t n) {
     const std::size_t stride = record_words(D, attributes_);
-    const bool is_shared = host_.threads() > 1;
+    const bool is_shared = gathers();
     with_codes(records, n, stride,
                [&](const std::uint64_t *some, const std::uint64_t *codes, std::size_t count) {
                    if (apart_) store_attributes(some, codes, count);
@@ -134,7 +134,8 @@ template <int D> void Build<D>::add_duplicate(const std::uint64_t *record) {
         return;
     case ABACUS_REPLACE:
         if (header_->duplicates > 0) forget_repeated(p);
-        rename(p, record);
+        // Attributes that are apart have been stored when the point came.
+        core_->removal.rename(p, record_id(record), record_attributes<D>(record));
         return;
     case ABACUS_REFUSE:
         throw_duplicate(record_id(record));
@@ -161,7 +162,7 @@ template <int D> void Build<D>::insert_waiting(std::uint64_t limit) {
         start(vertices);
     }
     VertexReader<D> reader(host_, attributes_, from, to, true);
-    begin_to_gather(to - from);
+    begin_to_gather(to - from, record_words(D, attributes_));
     report(ABACUS_PHASE_INSERTING, 0, to - from);
     while (reader.advance()) {
         const std::uint64_t read = reader.sequence() - from;

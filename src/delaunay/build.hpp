@@ -96,8 +96,12 @@ private:
     void with_codes(const std::uint64_t *records, std::size_t n, std::size_t stride,
                     Take take) const;
     void insert_some(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n);
-    /// So many points come, as far as is known.
-    void begin_to_gather(std::uint64_t points);
+    /// So many points come, as far as is known, of which so many words are looked at.
+    void begin_to_gather(std::uint64_t points, std::size_t words);
+    /// Whether there are threads, and room for points that are worth them.
+    bool gathers() const;
+    /// What so many gathered points take, with copies of those that have to wait.
+    std::size_t gathered_bytes(std::size_t points) const;
     /// Those that leave may come without attributes.
     void gather(const std::uint64_t *records, std::size_t n, std::size_t stride);
     void gather_one(const std::uint64_t *record, std::size_t words, std::uint64_t code);

@@ -36,8 +36,8 @@ namespace {
 
 /// Points that are worth the pages written and read again, and the threads.
 template <int D> constexpr std::size_t worth_sharing = D == 2 ? 1 << 16 : 1 << 15;
-/// Share of the memory that gathered points may take.
-constexpr std::size_t gathered_share = 3;
+/// Share of the memory that gathered points may take, and bytes that they always may.
+constexpr std::size_t gathered_share = 3, least_gathered = std::size_t{4} << 20;
 /// Points from which on there is room for all: nothing is moved then.
 constexpr std::size_t worth_reserving = 1 << 15;
 /// For tests: points of an interval on average, unless there would be too many of them.
@@ -88,20 +88,32 @@ private:
     std::atomic<std::uint64_t> done_ = 0;
 };
 
-template <int D> void Build<D>::begin_to_gather(std::uint64_t points) {
+template <int D> void Build<D>::begin_to_gather(std::uint64_t points, std::size_t words) {
     done_ = 0;
     to_do_ = points;
+    gathered_.begin(words);
     // In equal parts: a small one at the end would take as many pages again.
     const std::uint64_t room = std::max<std::uint64_t>(
-        cache_bytes_ / gathered_share / gathered_.bytes(1), worth_sharing<D>);
+        1, std::max(cache_bytes_ / gathered_share, least_gathered) / gathered_bytes(1));
     const std::uint64_t parts = std::max<std::uint64_t>(1, (points + room - 1) / room);
-    most_gathered_ = std::max<std::uint64_t>((points + parts - 1) / parts, worth_sharing<D>);
+    most_gathered_ =
+        std::max((points + parts - 1) / parts, std::min<std::uint64_t>(room, worth_sharing<D>));
     core_->cache.set_budget(own_cache_bytes());
 }
 
+template <int D> bool Build<D>::gathers() const {
+    return host_.threads() > 1 &&
+           (most_gathered_ >= worth_sharing<D> || host_.has_tiny_intervals());
+}
+
+template <int D> std::size_t Build<D>::gathered_bytes(std::size_t points) const {
+    const bool may_wait = outlet_ != nullptr || on_duplicate_ == ABACUS_REPLACE;
+    return gathered_.bytes(may_wait ? 2 * points : points);
+}
+
 template <int D> std::size_t Build<D>::own_cache_bytes() const {
-    if (host_.threads() == 1) return cache_bytes_;
-    const std::size_t gathered = gathered_.bytes(std::min<std::uint64_t>(most_gathered_, to_do_));
+    if (!gathers()) return cache_bytes_;
+    const std::size_t gathered = gathered_bytes(std::min<std::uint64_t>(most_gathered_, to_do_));
     return cache_bytes_ - std::min(gathered, cache_bytes_ / gathered_share);
 }
 
@@ -188,7 +200,7 @@ template <int D> void Build<D>::change_on_threads(Cuts &cuts) {
         if (apart_) apart_->flush();
     }
     hand_over(cuts);
-    Batch left(host_, record_words(D, attributes_));
+    Batch left(host_, gathered_.stride());
     if (leave)
         outlet_->share([&](const auto &how) { run_passes(cuts, left, &how); });
     else
@@ -242,7 +254,7 @@ template <int D> void Build<D>::deal_with_left(std::size_t i, Batch &left) {
 /// Of points with one code, which come one after the other, all or none: so of equal ones.
 template <int D> void Build<D>::insert_near_borders(const Cuts &cuts) {
     NearBorder<D> border(domain_, cuts);
-    Batch near(host_, record_words(D, attributes_));
+    Batch near(host_, gathered_.stride());
     const auto insert = [&] {
         if (near.size() > 0) insert_some(near.record(0), near.codes(), near.size());
         done_ += near.size();
@@ -285,8 +297,10 @@ template <int D> void Build<D>::forget_cache() {
     core_->cache.counters = counters;
 }
 
-template void Build<2>::begin_to_gather(std::uint64_t);
-template void Build<3>::begin_to_gather(std::uint64_t);
+template void Build<2>::begin_to_gather(std::uint64_t, std::size_t);
+template void Build<3>::begin_to_gather(std::uint64_t, std::size_t);
+template bool Build<2>::gathers() const;
+template bool Build<3>::gathers() const;
 template void Build<2>::gather_one(const std::uint64_t *, std::size_t, std::uint64_t);
 template void Build<3>::gather_one(const std::uint64_t *, std::size_t, std::uint64_t);
 template void Build<2>::change_gathered();

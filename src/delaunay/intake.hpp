@@ -17,7 +17,7 @@ public:
     /// So many points come at most.
     Intake(Build &build, std::uint64_t points)
         : build_(build), stride_(record_words(D, build.attributes_)), held_(build.host_) {
-        build_.begin_to_gather(points);
+        build_.begin_to_gather(points, stride_);
         if (build_.has_waiting() && !build_.has_simplices()) stage();
     }
 

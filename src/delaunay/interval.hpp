@@ -53,6 +53,12 @@ public:
     Batch(const Memory &memory, std::size_t stride)
         : stride_(stride), records_(memory), codes_(memory), later_runs_(memory) {}
 
+    /// Begins anew with records of so many words.
+    void begin(std::size_t stride) {
+        shorten(0);
+        stride_ = stride;
+    }
+    std::size_t stride() const { return stride_; }
     void add(const std::uint64_t *record, std::uint64_t code) { add(record, stride_, code); }
     /// Of so many words at most; what is missing nobody will read.
     void add(const std::uint64_t *record, std::size_t words, std::uint64_t code) {
@@ -103,7 +109,7 @@ public:
     }
 
 private:
-    const std::size_t stride_;
+    std::size_t stride_;
     Arena<std::uint64_t> records_, codes_;
     Arena<std::size_t> later_runs_; // where they begin, but for the first
 };

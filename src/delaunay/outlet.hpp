@@ -22,8 +22,8 @@ public:
           outlay_(stage.points(), build.header_->vertices, build.simplices()),
           leaving_(build.host_, build.cache_bytes_ / want_share, exactly, build.attributes_),
           waiting_(build.host_, build.attributes_, exactly) {
-        build_.begin_to_gather(stage.points());
         build_.outlet_ = this;
+        build_.begin_to_gather(stage.points(), words_);
     }
     Outlet(const Outlet &) = delete;
     Outlet &operator=(const Outlet &) = delete;
@@ -43,9 +43,7 @@ public:
     std::size_t held_back() const override { return build_.gathered_.size(); }
 
     /// Whether threads may take points away, too.
-    bool is_shared() const {
-        return build_.host_.threads() > 1 && build_.has_simplices() && !build_.rest_;
-    }
+    bool is_shared() const { return build_.gathers() && build_.has_simplices() && !build_.rest_; }
     /// Takes a point away.
     void take(const std::uint64_t *record) {
         const Point<D> p = record_point<D>(record);

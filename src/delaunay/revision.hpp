@@ -1,8 +1,9 @@
 // Where a stage hands on other attributes for points that stay where they are.
 //
-// Attributes that are apart are found by the place alone, so no simplex page is read or written.
-// Otherwise all pages that have the vertex are. Only where points are equal it matters which of
-// them is meant: the one with the row's id, or else the first, which is the vertex.
+// Attributes that are apart are found by the place alone, so no simplex page is read or written,
+// unless several points are at the place, or wait. Otherwise all pages that have the vertex are.
+// Only where points are equal it matters which of them is meant: the one with the row's id, or else
+// the first, which is the vertex, whose id a simplex page tells.
 #pragma once
 
 #include "delaunay/build.hpp"

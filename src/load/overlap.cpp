@@ -184,16 +184,18 @@ template <class IsSound, class Report>
 void Overlap<D>::look_at_batch(std::size_t words, IsSound is_sound, Report report) {
     const std::size_t n = batch_.size() / words;
     const auto record = [&](std::size_t i) { return batch_.data() + i * words; };
-    Arena<std::size_t> sound(host_); // where those of each stretch end
-    sound.resize(loop_.stretches());
+    struct Rest {
+        std::size_t begin, end;
+    };
+    Arena<Rest> rests(host_); // of each stretch, from the first record that is not sound
+    rests.resize(loop_.stretches());
     loop_.each_stretch(n,
                        [&](std::size_t stretch, std::size_t i, std::size_t end, const Host &host) {
                            while (i < end && is_sound(record(i), host)) ++i;
-                           sound[stretch] = i;
+                           rests[stretch] = {i, end};
                        });
-    for (std::size_t stretch = 0; stretch < sound.size(); ++stretch)
-        for (std::size_t i = sound[stretch]; i < n * (stretch + 1) / sound.size(); ++i)
-            report(record(i));
+    for (const Rest &rest : rests)
+        for (std::size_t i = rest.begin; i < rest.end; ++i) report(record(i));
 }
 
 template <int D> template <class Next> void Overlap<D>::check_simplices(Next next, Faults &faults) {

@@ -47,8 +47,10 @@ template <int D> void Check<D>::check_links_and_points(Together *together) {
 }
 
 template <int D> void Check<D>::report(std::uint64_t pages, unsigned threads) {
-    // Every page is read twice; how many there are is known after the first time.
-    const std::uint64_t total = is_counted_ ? 2 * pages_ : 0;
+    // Every page is read twice, and once more to look for attributes that are apart; how many
+    // there are is known after the first time.
+    const std::uint64_t passes = header_.apart != 0 ? 3 : 2;
+    const std::uint64_t total = is_counted_ ? passes * pages_ : 0;
     host_.progress({ABACUS_PHASE_CHECKING, pages, total, pages, 0, threads});
 }
 
@@ -194,8 +196,10 @@ template <int D> void Check<D>::check_attributes() {
     AttributeReader<D> attributes(host_, domain_, header_.attributes, cache_bytes_ / 2);
     PageScan<D> scan(host_, header_);
     PageView<D> page;
+    std::uint64_t pages = 2 * pages_;
     while (scan.fetch()) {
         faults_.at = scan.key();
+        report_some(++pages);
         page.read(scan.bytes(), scan.size(), page_attributes(header_),
                   PageView<D>::Checksum::ignore);
         for (int v = 0; v < page.vertices(); ++v)

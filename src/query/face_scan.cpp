@@ -15,10 +15,10 @@ namespace {
 template <int D>
 typename RangeScan<D>::Wants pages_with(const std::optional<abacus_range> &range,
                                         const VertexValues<D> &values) {
-    if (!range || values.are_apart()) return {};
-    return [range = *range, &values](const PageView<D> &page) {
-        return values.may_have(page, static_cast<int>(range.attribute), range.least,
-                               range.greatest);
+    if (!range || values.are_apart()) return {}; // as pages without attributes cannot tell
+    return [range = *range](const PageView<D> &page) {
+        return page.may_have_attribute(static_cast<int>(range.attribute), range.least,
+                                       range.greatest);
     };
 }
 

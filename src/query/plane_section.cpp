@@ -65,9 +65,9 @@ bool PlaneRegion::may_meet(const Box<3> &box) const {
 
 PlaneSection::PlaneSection(const Host &host, const abacus_header &header,
                            const abacus_section_query &query)
-    : plane_(plane_of(query)), attribute_(query.attribute), vertex_values_(host, header),
-      max_edge_(query.max_edge), domain_(domain_of<3>(header)),
-      region_(plane_, domain_box<3>(header)), pages_(host, header, &region_) {}
+    : plane_(plane_of(query)), values_(host, header, query.attribute), max_edge_(query.max_edge),
+      domain_(domain_of<3>(header)), region_(plane_, domain_box<3>(header)),
+      pages_(host, header, &region_) {}
 
 bool PlaneSection::next(abacus_polygon &polygon) {
     for (;;) {
@@ -83,6 +83,7 @@ bool PlaneSection::next(abacus_polygon &polygon) {
 
 void PlaneSection::enter() {
     const PageView<3> &page = pages_.page();
+    values_.enter(page);
     for (int v = 0; v < page.vertices(); ++v) heights_[v] = plane_.height(page.point(v));
     in_page_ = true;
     at_ = 0;
@@ -165,7 +166,7 @@ bool PlaneSection::is_too_long(int simplex, int corners) const {
 
 void PlaneSection::add(int vertex, abacus_polygon &polygon) const {
     std::copy_n(pages_.page().point(vertex).begin(), 3, polygon.point[polygon.corners]);
-    polygon.value[polygon.corners++] = value(vertex);
+    polygon.value[polygon.corners++] = values_.value(vertex);
 }
 
 void PlaneSection::add(int below, int above, abacus_polygon &polygon) const {
@@ -176,7 +177,7 @@ void PlaneSection::add(int below, int above, abacus_polygon &polygon) const {
     Point<3> p = point_between(page.point(from), page.point(to), share);
     if (const int axis = plane_.axis(); axis >= 0) p[axis] = plane_.through()[axis] + 0.0;
     std::copy_n(p.begin(), 3, polygon.point[polygon.corners]);
-    polygon.value[polygon.corners++] = value_between(value(from), value(to), share);
+    polygon.value[polygon.corners++] = value_between(values_.value(from), values_.value(to), share);
 }
 
 } // namespace abacus

@@ -12,8 +12,8 @@
 
 #include "geometry/cutting_plane.hpp"
 #include "keys/locational_code.hpp"
+#include "query/page_values.hpp"
 #include "query/range_scan.hpp"
-#include "query/vertex_values.hpp"
 
 #include <abacus/surface.h>
 
@@ -53,13 +53,9 @@ private:
     /// Adds a corner: a vertex, or where the edge between two meets the plane.
     void add(int vertex, abacus_polygon &polygon) const;
     void add(int below, int above, abacus_polygon &polygon) const;
-    double value(int vertex) const {
-        return attribute_ >= 0 ? vertex_values_.value(pages_.page(), vertex, attribute_) : NAN;
-    }
 
     const CuttingPlane plane_;
-    const int attribute_;
-    const VertexValues<3> vertex_values_;
+    PageValues<3> values_;
     const double max_edge_;
     const Domain<3> domain_;
     const PlaneRegion region_;

@@ -3,8 +3,8 @@
 #include "draw/section.hpp"
 #include "geometry/longer_edge.hpp"
 #include "geometry/map_plane.hpp"
+#include "query/page_values.hpp"
 #include "query/range_scan.hpp"
-#include "query/vertex_values.hpp"
 
 #include <array>
 #include <cmath>
@@ -18,14 +18,13 @@ template <int D> class MeshView {
 public:
     static constexpr int dimension = D;
 
+    void enter(const PageView<D> &page) { values_.enter(page); }
+
 protected:
     MeshView(const Host &host, const abacus_header &header, const abacus_drawing &drawing)
-        : vertex_values_(host, header), attribute_(drawing.attribute), max_edge_(drawing.max_edge) {
-    }
+        : values_(host, header, drawing.attribute), max_edge_(drawing.max_edge) {}
 
-    double value(const PageView<D> &page, int vertex) const {
-        return attribute_ >= 0 ? vertex_values_.value(page, vertex, attribute_) : NAN;
-    }
+    double value(int vertex) const { return values_.value(vertex); }
     /// Whether the drawing leaves out the simplex with these first `n` corners.
     bool is_too_long(const PageView<D> &page, int simplex, int n) const {
         return max_edge_ > 0 && has_longer_edge<D>(n, max_edge_, [&](int i) -> const Point<D> & {
@@ -34,8 +33,7 @@ protected:
     }
 
 private:
-    VertexValues<D> vertex_values_;
-    std::int32_t attribute_;
+    PageValues<D> values_;
     double max_edge_;
 };
 
@@ -47,7 +45,6 @@ public:
     FlatView(const Host &host, const abacus_header &header, const abacus_drawing &drawing)
         : MeshView(host, header, drawing), plane_(drawing.is_geographic != 0) {}
 
-    void enter(const PageView<2> &) {}
     bool show(const PageView<2> &page, int simplex, Patch &patch) const {
         if (page.is_ghost(simplex) || is_too_long(page, simplex, 3)) return false;
         for (int i = 0; i < 3; ++i) {
@@ -55,7 +52,7 @@ public:
             const Point<2> p = plane_.project(page.point(v));
             patch.corner[i][0] = p[0];
             patch.corner[i][1] = p[1];
-            patch.value[i] = value(page, v);
+            patch.value[i] = value(v);
         }
         return true;
     }
@@ -75,6 +72,7 @@ public:
         : MeshView(host, header, drawing), plane_(plane) {}
 
     void enter(const PageView<3> &page) {
+        MeshView::enter(page);
         for (int v = 0; v < page.vertices(); ++v) places_[v] = plane_.place(page.point(v));
     }
     bool show(const PageView<3> &page, int simplex, Patch &patch) const {
@@ -93,7 +91,7 @@ private:
         Cut corner[n];
         for (int i = 0; i < n; ++i) {
             const int v = page.corner(simplex, i);
-            corner[i] = {places_[v], value(page, v)};
+            corner[i] = {places_[v], value(v)};
         }
         if (!section(corner, patch)) return false;
         patch.spacing = spacing(page, simplex, n);

@@ -50,7 +50,8 @@ template <int D>
 Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOptions &options,
                   bool in_order)
     : header_(header), size_(header.simplices == 0 ? 0 : header.simplices + header.ghosts),
-      delaunay_(header.not_delaunay == 0), in_order_(in_order), budget_(options.budget),
+      delaunay_(header.not_delaunay == 0), in_order_(in_order),
+      budget_(linked_as(header, options).budget),
       vertex_values_(host, header, options.budget / attributes_share),
       cache_(host, domain_of<D>(header), page_attributes(header), linked_as(header, options)),
       glance_(cache_, vertex_values_, options.budget / 10, in_order), read_ahead_(cache_),

@@ -3,6 +3,7 @@
 #include "geometry/longer_edge.hpp"
 #include "query/outline.hpp"
 #include "query/page_simplex.hpp"
+#include "query/page_values.hpp"
 #include "tiles/tile_lines.hpp"
 #include "tiles/tile_samples.hpp"
 
@@ -32,7 +33,7 @@ public:
     Maker(const Host &host, const abacus_header &header, const TileWindow &window,
           const abacus_tile_vector_kind &kind, const abacus_tile_memory &memory)
         : host_(host), header_(header), window_(window), kind_(kind), memory_(memory),
-          values_(host, header), triangles_(host), hull_(host), bytes_(host) {}
+          values_(host, header, kind.attribute), triangles_(host), hull_(host), bytes_(host) {}
 
     Png make() {
         if (!read() || !write_all()) {
@@ -75,7 +76,7 @@ private:
     const TileWindow &window_;
     const abacus_tile_vector_kind &kind_;
     const abacus_tile_memory &memory_;
-    const VertexValues<2> values_;
+    PageValues<2> values_;
     Arena<Triangle> triangles_;
     TileLines hull_;
     TileBuffer bytes_;
@@ -93,14 +94,13 @@ bool Maker::read() {
 }
 
 bool Maker::read(const PageView<2> &page) {
+    values_.enter(page);
     for (int s = 0; s < page.simplices(); ++s) {
         const bool is_ghost = page.is_ghost(s);
         Triangle triangle{};
         for (int i = 0; i < (is_ghost ? 2 : 3); ++i) {
             const int v = page.corner(s, i);
-            triangle[i] = {place_of_vertex(page.point(v)),
-                           kind_.attribute >= 0 ? values_.value(page, v, kind_.attribute) : NAN,
-                           page.id(v)};
+            triangle[i] = {place_of_vertex(page.point(v)), NAN, page.id(v)};
         }
         if (is_ghost) {
             hull_.add(0, triangle[1].at, triangle[0].at); // as the triangle beside it sees it
@@ -113,6 +113,7 @@ bool Maker::read(const PageView<2> &page) {
             }))
             continue;
         if (triangles_.size() == most_tile_triangles) return false;
+        for (int i = 0; i < 3; ++i) triangle[i].value = values_.value(page.corner(s, i));
         triangles_.push_back(triangle);
     }
     return true;

@@ -60,11 +60,15 @@ SELECT bag_eq($$ SELECT id, attributes FROM abacus_vertices('wide') $$,
     $$ SELECT id::bigint, ARRAY(SELECT sin(id * i) FROM generate_series(1, 35) i) || h || ARRAY(SELECT (id / 7 + i)::float8 FROM generate_series(37, 40) i) FROM points $$, 'all of all vertices');
 -- their pages are counted, and an update moves no others
 CREATE TABLE counted AS SELECT name, value FROM abacus_stats('wide') WHERE name !~ '^session|_ns$';
-SELECT is(abacus_update('wide', 'SELECT id, x, y, id / 7 + 40 AS a40 FROM points'), 4000::bigint, 'one of forty is updated');
+SELECT is(abacus_update('wide', 'SELECT id, x, y, id / 7 + 40 AS a40 FROM points'), 4000::bigint, 'one of forty gets the values it has');
+SELECT bag_eq($$ SELECT name FROM abacus_stats('wide') s JOIN counted c USING (name) WHERE s.value > c.value AND name !~ '_bytes|^bytes_per' $$,
+    $$ VALUES ('loads'), ('bytes_read') $$, 'pages have been read only');
+SELECT is(abacus_update('wide', 'SELECT id, x, y, id / 7 + 41 AS a40 FROM points'), 4000::bigint, 'one of forty is updated');
 SELECT bag_eq($$ SELECT name FROM abacus_stats('wide') s JOIN counted c USING (name) WHERE s.value > c.value AND name !~ '_bytes|^bytes_per' $$,
     $$ VALUES ('loads'), ('stores'), ('rewrites'), ('bytes_read'), ('bytes_written') $$, 'pages have been read and written');
 SELECT cmp_ok((SELECT s.value - c.value FROM abacus_stats('wide') s JOIN counted c USING (name) WHERE name = 'stores'), '<=',
     (SELECT count(*)::float8 FROM wide WHERE code < -1) / 2 + 1, 'of one group of two');
+SELECT is(abacus_update('wide', 'SELECT id, x, y, id / 7 + 40 AS a40 FROM points'), 4000::bigint, 'and is as before');
 
 -- changes
 CREATE TABLE more AS SELECT id + 10000 AS id, x, y, z, h / 2 AS h FROM points WHERE id % 5 = 0 -- repeated

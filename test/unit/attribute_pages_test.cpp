@@ -66,11 +66,14 @@ public:
         pages_.drop(p, domain_.code(p));
     }
     /// In the order of the curve, as a round of insertions.
-    void put_in_order(std::vector<Point<D>> points) {
+    void put_in_order(const std::vector<Point<D>> &points) {
+        for (const Point<D> &p : in_order(points)) put(p);
+    }
+    std::vector<Point<D>> in_order(std::vector<Point<D>> points) const {
         std::sort(points.begin(), points.end(), [&](const Point<D> &a, const Point<D> &b) {
             return domain_.code(a) < domain_.code(b);
         });
-        for (const Point<D> &p : points) put(p);
+        return points;
     }
     Point<D> any() {
         return std::next(known_.begin(), static_cast<std::ptrdiff_t>(random_() % known_.size()))
@@ -115,6 +118,7 @@ public:
     const MemoryHost::Pages &pages() const { return memory_.attribute_pages; }
     MemoryHost::Pages &pages() { return memory_.attribute_pages; }
     std::size_t count() const { return known_.size(); }
+    const std::vector<double> &known(const Point<D> &p) const { return known_.at(p); }
     AttributePages<D> &writer() { return pages_; }
     const Domain<D> &domain() const { return domain_; }
     const Host &host() const { return host_.host; }
@@ -207,6 +211,71 @@ TYPED_TEST(Attributes, RoundsAlongTheCurveLeaveFullPages) {
         model.verify();
         EXPECT_GT(model.fill(), 0.95);
     }
+}
+
+/// Pages are written if what they hold changes, and only these.
+TYPED_TEST(Attributes, WritesOnlyPagesThatChange) {
+    constexpr int D = TypeParam::value;
+    constexpr unsigned attributes = 100, changed = 40;
+    Model<D> model(attributes);
+    AttributePages<D> &pages = model.writer();
+    Places<D> places(5, false);
+    std::vector<Point<D>> points;
+    for (int i = 0; i < 500; ++i) points.push_back(places.next());
+    model.put_in_order(points);
+    model.flush();
+    const auto of_group = static_cast<std::uint64_t>(
+        std::count_if(model.pages().begin(), model.pages().end(), [&](const auto &entry) {
+            return group_of(entry.first) == AttributeGroups(attributes).group_of(changed);
+        }));
+    ASSERT_GT(of_group, 1u);
+    ASSERT_LT(of_group, model.pages().size() / 3);
+    std::vector<std::uint32_t> all(attributes);
+    for (std::uint32_t i = 0; i < attributes; ++i) all[i] = i;
+    std::vector<double> values(attributes);
+    // As it is; then another value of one attribute, by all; then the same by its number.
+    for (const double step : {0.0, 1.0, 2.0, 3.0}) {
+        pages.take_counters();
+        for (const Point<D> &p : model.in_order(points)) {
+            values = model.known(p);
+            if (step > 0) values[changed] = step;
+            const std::uint64_t code = model.domain().code(p);
+            if (step == 2)
+                ASSERT_TRUE(pages.set(p, code, all, values.data()));
+            else if (step == 3)
+                ASSERT_TRUE(pages.set(p, code, {{changed}}, &values[changed]));
+            else
+                pages.put(p, code, values.data());
+        }
+        model.flush();
+        const abacus_counters counters = pages.take_counters();
+        EXPECT_GT(counters.loads, 0u);
+        EXPECT_EQ(counters.stores, step == 0 ? 0 : of_group) << step;
+    }
+}
+
+/// A page with vertices behind the beginning of the next one is not taken in.
+TYPED_TEST(Attributes, AForgedNeighbourIsRefused) {
+    constexpr int D = TypeParam::value;
+    Model<D> model(3);
+    Places<D> places(5, false);
+    std::vector<Point<D>> all;
+    for (int i = 0; i < 2000; ++i) all.push_back(places.next());
+    model.put_in_order(all);
+    model.flush();
+    ASSERT_GT(model.pages().size(), 3u);
+    const auto second = std::next(model.pages().begin()), third = std::next(second);
+    second->second.words = third->second.words;
+    second->second.size = third->second.size;
+    AttributePages<D> &pages = model.writer();
+    const auto shrink = [&] {
+        for (const Point<D> &p : all) {
+            const std::uint64_t code = model.domain().code(p);
+            if (attribute_key<D>(p, code) < second->first) pages.drop(p, code);
+        }
+        pages.flush();
+    };
+    EXPECT_THROW(shrink(), Error);
 }
 
 /// Bytes of any kind are an error, or are read as something.

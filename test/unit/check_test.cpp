@@ -34,24 +34,31 @@ bool flip(const PageEditor &page, int s, int i, std::array<int, 3> &first,
 }
 
 TEST(Check, KnowsHowMuchIsLeftOnceThePagesAreCounted) {
-    Mesh mesh;
-    ASSERT_EQ(mesh.insert(number(unit_square_points(60000, 1))), ABACUS_OK);
-    const std::uint64_t pages = mesh.host.pages.size();
-    ASSERT_GT(pages, 128u);
-    std::vector<abacus_progress> reports;
-    mesh.host.on_progress = [&](const abacus_progress &p) {
-        if (p.phase == ABACUS_PHASE_CHECKING) reports.push_back(p);
-    };
-    EXPECT_TRUE(mesh.check().empty());
-    ASSERT_GE(reports.size(), 4u);
-    EXPECT_EQ(reports.front().total, 0u);
-    EXPECT_EQ(reports.back().total, 2 * pages);
-    std::uint64_t before = 0;
-    for (const abacus_progress &p : reports) {
-        EXPECT_GT(p.done, before);
-        EXPECT_EQ(p.total, p.done <= pages ? 0 : 2 * pages);
-        EXPECT_LE(p.done, 2 * pages);
-        before = p.done;
+    auto points = number(unit_square_points(60000, 1));
+    for (const bool apart : {false, true}) {
+        const std::uint64_t passes = apart ? 3 : 2;
+        for (Input &p : points) p.attributes.assign(apart, p.point[0]);
+        Mesh mesh(apart);
+        mesh.header.apart = apart;
+        ASSERT_EQ(mesh.insert(points), ABACUS_OK);
+        const std::uint64_t pages = mesh.host.pages.size();
+        ASSERT_GT(pages, 128u);
+        std::vector<abacus_progress> reports;
+        mesh.host.on_progress = [&](const abacus_progress &p) {
+            if (p.phase == ABACUS_PHASE_CHECKING) reports.push_back(p);
+        };
+        EXPECT_TRUE(mesh.check().empty());
+        ASSERT_GE(reports.size(), 2 * passes);
+        EXPECT_EQ(reports.front().total, 0u);
+        EXPECT_EQ(reports.back().total, passes * pages);
+        EXPECT_GT(reports.back().done, (passes - 1) * pages);
+        std::uint64_t before = 0;
+        for (const abacus_progress &p : reports) {
+            EXPECT_GT(p.done, before);
+            EXPECT_EQ(p.total, p.done <= pages ? 0 : passes * pages);
+            EXPECT_LE(p.done, passes * pages);
+            before = p.done;
+        }
     }
 }
 

@@ -81,6 +81,24 @@ TYPED_TEST(Threads, ShareMuchWorkEvenly) {
     }
 }
 
+TYPED_TEST(Threads, GatherNoMoreThanTheirShareOfTheMemory) {
+    // Points that take twice the memory of the build; little else does.
+    constexpr int D = TypeParam::value;
+    constexpr std::size_t cache = 8 << 20, sort = 1 << 20;
+    auto input = this->with_ids(this->uniform(20000));
+    for (auto &p : input) p.attributes.assign(100, p.point[0]);
+    for (const auto on_duplicate : {ABACUS_KEEP, ABACUS_REPLACE}) {
+        MeshOf<D> mesh(100, cache);
+        mesh.header.apart = 1;
+        mesh.host.set_threads(2, false);
+        ASSERT_EQ(mesh.insert({input.begin(), input.begin() + 10}), ABACUS_OK);
+        mesh.host.peak_bytes = 0;
+        ASSERT_EQ(mesh.insert(input, sort, on_duplicate), ABACUS_OK) << mesh.error.message;
+        EXPECT_LT(mesh.host.peak_bytes, std::size_t{14} << 20);
+        EXPECT_EQ(mesh.header.vertices, 20000u);
+    }
+}
+
 TYPED_TEST(Threads, KeepTheFirstOfEqualPoints) {
     // On a coarse grid: most points are equal to others, and all are cospherical with some.
     constexpr int D = TypeParam::value;

@@ -58,7 +58,8 @@ new_mesh(text *name, Oid extension_namespace, abacus_header *header, const char 
 	bool		is_octree = header->type == ABACUS_OCTREE;
 	Host	   *host;
 
-	header->apart = abacus_are_apart(header->dimension, header->attributes);
+	if (!is_octree)
+		header->apart = abacus_are_apart(header->dimension, header->attributes);
 	PreventCommandIfReadOnly(command);
 	PreventCommandIfParallelMode(command);
 	if (strlen(vertices_name) >= NAMEDATALEN)
