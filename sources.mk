@@ -48,6 +48,7 @@ CORE_SOURCES += src/delaunay/insertion.cpp
 CORE_SOURCES += src/delaunay/interval.cpp
 CORE_SOURCES += src/delaunay/link_mesh.cpp
 CORE_SOURCES += src/delaunay/removal.cpp
+CORE_SOURCES += src/delaunay/simplex_changes.cpp
 CORE_SOURCES += src/delaunay/star.cpp
 CORE_SOURCES += src/draw/camera.cpp
 CORE_SOURCES += src/draw/canvas.cpp

@@ -44,6 +44,12 @@ Build<D>::Build(const Host &host, const abacus_header &header, std::size_t cache
 
 template <int D> void Build<D>::make_core(const abacus_header &header, std::size_t cache_bytes) {
     core_.emplace(host_, header, cache_bytes, apart_ ? &*apart_ : nullptr);
+    if (changes_ != nullptr) core_->mesh.log = &changes_->log();
+}
+
+template <int D> void Build<D>::log_to(SimplexChanges<D> &changes) {
+    changes_ = &changes;
+    core_->mesh.log = &changes.log();
 }
 
 template <int D> VertexIndex Build<D>::create(const std::uint64_t *record) {

@@ -39,6 +39,8 @@ template <int D> class Build {
 public:
     Build(const Host &host, const abacus_header &header, std::size_t cache_bytes);
 
+    /// From now on keeps account of the simplices that come and go.
+    void log_to(SimplexChanges<D> &changes);
     /// Inserts at most `limit` of the points that wait (0 = all).
     void run(std::uint64_t limit, abacus_header &header);
     /// Inserts what waits, then the points of a stage.
@@ -153,6 +155,8 @@ private:
     void erase_pages(abacus_page_kind kind);
     /// Begins anew without a triangulation.
     void forget_simplices();
+    /// All simplices are about to go: so much for whoever wants to know.
+    void log_all_gone();
     /// Counts a point as one that the domain does not fit if the simplices around it share one code
     /// with more than a page takes. It has just been inserted.
     void count_crowded();
@@ -178,6 +182,7 @@ private:
     std::optional<RepeatedPoints<D>> repeated_; ///< as well
     std::optional<Rest<D>> rest_;               ///< while removals are put off
     Outlet *outlet_ = nullptr;                  ///< while points leave
+    SimplexChanges<D> *changes_ = nullptr;      ///< if somebody wants to know
     abacus_header *header_ = nullptr;           ///< of the current change
     abacus_on_duplicate on_duplicate_ = ABACUS_KEEP;
     bool counts_crowded_ = false; ///< the mesh had vertices before what comes

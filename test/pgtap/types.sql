@@ -52,6 +52,8 @@ INSERT INTO wanted VALUES
     ('abacus_octree_tetrahedra', 'octree regclass, OUT element bigint, OUT nodes bigint[]', 'SETOF record', 's', true, 's'),
     ('abacus_octree_update', 'octree regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_delete', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
+    ('abacus_insert_returning', 'mesh regclass, query text, on_duplicate text DEFAULT ''keep''::text, OUT created boolean, OUT code bigint, OUT v0 bigint, OUT v1 bigint, OUT v2 bigint, OUT v3 bigint, OUT corners double precision[]', 'SETOF record', 'v', true, 'u'),
+    ('abacus_delete_returning', 'mesh regclass, query text, OUT created boolean, OUT code bigint, OUT v0 bigint, OUT v1 bigint, OUT v2 bigint, OUT v3 bigint, OUT corners double precision[]', 'SETOF record', 'v', true, 'u'),
     ('abacus_update', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_load', 'mesh text, vertices text, simplices text, attributes text[] DEFAULT NULL::text[], lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], reorient boolean DEFAULT true, retriangulate boolean DEFAULT false', 'bigint', 'v', false, 'u'),
     ('abacus_insert', 'mesh regclass, query text, on_duplicate text DEFAULT ''keep''::text', 'bigint', 'v', true, 'u'),
