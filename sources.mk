@@ -239,6 +239,7 @@ PG_SOURCES += src/pg/space/vacuum.c
 PG_SOURCES += src/pg/space/vacuum_moves.c
 PG_SOURCES += src/pg/sql/answers.c
 PG_SOURCES += src/pg/sql/drawing.c
+PG_SOURCES += src/pg/sql/fn_attribute_change.c
 PG_SOURCES += src/pg/sql/fn_attributes.c
 PG_SOURCES += src/pg/sql/fn_build.c
 PG_SOURCES += src/pg/sql/fn_cells.c

@@ -105,6 +105,19 @@ ABACUS_API abacus_status abacus_build_update(abacus_build *build, abacus_stage *
 											 const uint32_t *attributes, size_t count,
 											 abacus_header *header, uint64_t *updated,
 											 abacus_named_place *missing, abacus_error *error);
+/* An attribute that no point has had. */
+#define ABACUS_NO_ATTRIBUTE UINT32_MAX
+/*
+ * change_attributes: gives all points other attributes, with `memory` bytes for sorting: as the i-th
+ * of `count` that which has the number source[i], or, if that is ABACUS_NO_ATTRIBUTE, one without a
+ * value and without a name. Simplices stay as they are. Attributes that are many come to be apart;
+ * with those there are this makes a mesh of format 3 one of format 4. The build can only be closed
+ * then.
+ */
+ABACUS_API abacus_status abacus_build_change_attributes(abacus_build *build,
+														const uint32_t *source, size_t count,
+														size_t memory, abacus_header *header,
+														abacus_error *error);
 /* clear: takes away all points, waiting ones included, at the cost of erasing their pages. */
 ABACUS_API abacus_status abacus_build_clear(abacus_build *build, abacus_header *header,
 											uint64_t *deleted, abacus_error *error);

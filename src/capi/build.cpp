@@ -9,6 +9,7 @@
 #include "query/describe.hpp"
 
 #include <abacus/change.h>
+#include <cstring>
 
 struct abacus_build {
     abacus_build(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
@@ -81,6 +82,19 @@ abacus_status abacus_build_update(abacus_build *build, abacus_stage *stage,
                                   abacus_error *error) {
     return run(build, header, error, [&](auto &opened, abacus_header &changed) {
         *updated = opened.update(stage_for(opened, stage), {attributes, count}, changed, *missing);
+    });
+}
+
+abacus_status abacus_build_change_attributes(abacus_build *build, const uint32_t *source,
+                                             size_t count, size_t memory, abacus_header *header,
+                                             abacus_error *error) {
+    return run(build, header, error, [&](auto &opened, abacus_header &changed) {
+        for (std::size_t i = 0; i < count; ++i)
+            if (source[i] == abacus::no_attribute)
+                std::memset(changed.names[i], 0, ABACUS_NAME_BYTES);
+            else
+                std::memcpy(changed.names[i], header->names[source[i]], ABACUS_NAME_BYTES);
+        opened.change_attributes({source, count}, memory, changed);
     });
 }
 

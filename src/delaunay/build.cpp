@@ -1,6 +1,7 @@
 #include "delaunay/build.hpp"
 
 #include "blocks/counters.hpp"
+#include "delaunay/attribute_change.hpp"
 #include "delaunay/crowding.hpp"
 #include "delaunay/distinct.hpp"
 #include "delaunay/intake.hpp"
@@ -297,6 +298,22 @@ std::uint64_t Build<D>::update(Stage<D> &stage, std::span<const std::uint32_t> w
         return points;
     });
     return changed;
+}
+
+template <int D>
+void Build<D>::change_attributes(std::span<const std::uint32_t> source, std::size_t memory,
+                                 abacus_header &header) {
+    const auto count = static_cast<std::uint32_t>(source.size());
+    const bool was_apart = header.apart != 0;
+    const bool will_be_apart =
+        count > 0 && (was_apart || abacus_are_apart(header.dimension, count) != 0);
+    change(header, [&] {
+        Attributes(*this, source, memory).change(was_apart, will_be_apart);
+        header.attributes = count;
+        header.apart = will_be_apart;
+        forget_cache();
+        return header.vertices;
+    });
 }
 
 template <int D> std::uint64_t Build<D>::clear(abacus_header &header) {

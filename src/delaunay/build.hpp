@@ -55,11 +55,16 @@ public:
                          abacus_header &header, abacus_named_place &missing);
     /// Takes away all points, waiting ones included; returns how many there were.
     std::uint64_t clear(abacus_header &header);
+    /// Gives all points other attributes: as the i-th what has been their attribute source[i], or
+    /// no value (no_attribute). `memory` is for sorting. Then nothing else may follow.
+    void change_attributes(std::span<const std::uint32_t> source, std::size_t memory,
+                           abacus_header &header);
     /// Gives a mesh whose domain does not fit its points another one, with `memory` bytes for
     /// sorting; false if there is no better one.
     bool rekey(std::size_t memory, abacus_header &header);
 
 private:
+    class Attributes;
     class Intake;
     class Distinct;
     class Outlet;

@@ -58,6 +58,8 @@ INSERT INTO wanted VALUES
     ('abacus_load', 'mesh text, vertices text, simplices text, attributes text[] DEFAULT NULL::text[], lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], reorient boolean DEFAULT true, retriangulate boolean DEFAULT false', 'bigint', 'v', false, 'u'),
     ('abacus_insert', 'mesh regclass, query text, on_duplicate text DEFAULT ''keep''::text', 'bigint', 'v', true, 'u'),
     ('abacus_attributes', 'mesh regclass, OUT "position" integer, OUT name text, OUT "least" double precision, OUT "greatest" double precision, OUT nulls bigint', 'SETOF record', 's', true, 's'),
+    ('abacus_add_attribute', 'mesh regclass, attribute text', 'void', 'v', true, 'u'),
+    ('abacus_drop_attribute', 'mesh regclass, attribute text', 'void', 'v', true, 'u'),
     ('abacus_rename_attribute', 'mesh regclass, attribute text, name text', 'void', 'v', true, 'u'),
     ('abacus_srid', 'mesh regclass', 'integer', 's', true, 's'),
     ('abacus_set_srid', 'mesh regclass, srid integer', 'void', 'v', true, 'u'),

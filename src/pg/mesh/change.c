@@ -183,6 +183,20 @@ change_update(Change *change, const uint32 *attributes, size_t count, abacus_nam
 	return updated;
 }
 
+/*
+ * Gives all points other attributes, as abacus_build_change_attributes() does. Nothing but the end
+ * of the change may follow.
+ */
+void
+change_attributes(Change *change, const uint32 *source, size_t count)
+{
+	Host	   *host = change->writer.host;
+
+	change_open_build(change);
+	host_run(host, abacus_build_change_attributes, change->build, source, count,
+			 setting_sort_bytes(), change->writer.header);
+}
+
 /* Takes all points away. */
 void
 change_clear(Change *change)
