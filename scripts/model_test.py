@@ -108,6 +108,12 @@ class World:
 
     # ---- Changes: SQL that changes mesh and table alike -----------------------------
 
+    def call(self, function):
+        """SQL up to the arguments; now and then of the function that tells what it has changed."""
+        if function != "abacus_stage" and self.chance.random() < 0.3:
+            return f"SELECT count(*) FROM {function}_returning"
+        return f"SELECT {function}"
+
     def change_mesh(self):
         count, full = self.size("model")
         choice = self.chance.random()
@@ -117,13 +123,16 @@ class World:
             self.done["delete"] += 1
             return [f"CREATE TEMP TABLE step AS {self.some('model', 10**9 if everything else count * (4 if full else 1))};",
                     "DELETE FROM model WHERE id IN (SELECT id FROM step);",
-                    f"SELECT abacus_delete('mesh', 'SELECT {self.columns[:-3] if self.chance.random() < 0.5 else self.columns} FROM step');"]
+                    f"{self.call('abacus_delete')}('mesh', 'SELECT {self.columns[:-3] if self.chance.random() < 0.5 else self.columns} FROM step');"]
         if choice < 0.9:
             how = "abacus_stage" if choice > 0.7 else "abacus_insert"
             self.done[how[7:]] += 1
             return [f"CREATE TEMP TABLE step AS SELECT * FROM ({self.values(self.fresh(count))}) AS v ({self.columns});",
                     "INSERT INTO model TABLE step;",
-                    f"SELECT {how}('mesh', 'TABLE step');"]
+                    f"{self.call(how)}('mesh', 'TABLE step');"]
+        if choice < 0.93:
+            self.done["attribute"] += 1
+            return ["SELECT abacus_add_attribute('mesh', 'more'), abacus_drop_attribute('mesh', 'more');"]
         self.done["triangulate"] += 1
         return ["SELECT abacus_triangulate('mesh');"]
 

@@ -6,6 +6,7 @@
 #define ABACUS_ABACUS_CHANGE_H
 
 #include "abacus/header.h"
+#include "abacus/read.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -105,6 +106,19 @@ ABACUS_API abacus_status abacus_build_update(abacus_build *build, abacus_stage *
 											 const uint32_t *attributes, size_t count,
 											 abacus_header *header, uint64_t *updated,
 											 abacus_named_place *missing, abacus_error *error);
+/* An attribute that no point has had. */
+#define ABACUS_NO_ATTRIBUTE UINT32_MAX
+/*
+ * change_attributes: gives all points other attributes, with `memory` bytes for sorting: as the i-th
+ * of `count` that which has the number source[i], or, if that is ABACUS_NO_ATTRIBUTE, one without a
+ * value and without a name. Simplices stay as they are. Attributes that are many come to be apart;
+ * with those there are this makes a mesh of format 3 one of format 4. The build can only be closed
+ * then.
+ */
+ABACUS_API abacus_status abacus_build_change_attributes(abacus_build *build,
+														const uint32_t *source, size_t count,
+														size_t memory, abacus_header *header,
+														abacus_error *error);
 /* clear: takes away all points, waiting ones included, at the cost of erasing their pages. */
 ABACUS_API abacus_status abacus_build_clear(abacus_build *build, abacus_header *header,
 											uint64_t *deleted, abacus_error *error);
@@ -117,6 +131,26 @@ ABACUS_API abacus_status abacus_build_clear(abacus_build *build, abacus_header *
 ABACUS_API abacus_status abacus_build_rekey(abacus_build *build, size_t memory,
 											abacus_header *header, int *done,
 											abacus_error *error);
+/*
+ * log: from now on the changes keep account of the simplices that they create and remove, within
+ * `memory` bytes, beyond it in spools. Before the first change.
+ */
+ABACUS_API abacus_status abacus_build_log(abacus_build *build, size_t memory,
+										  abacus_error *error);
+/*
+ * Gets a simplex that there was not before (created = 1), or that there is no longer (0).
+ * May fail as a host function may.
+ */
+typedef abacus_host_status (*abacus_change_report)(void *context, int created,
+												   const abacus_simplex *simplex);
+/*
+ * report: reports what the changes since abacus_build_log() have created and removed, all in all:
+ * what has come and gone again is not reported. A simplex whose vertex has another id than before
+ * counts as another one. Their codes are those of the domain that the mesh has now; in order of
+ * these, then of the coordinates and ids of the corners. Once, after the last change.
+ */
+ABACUS_API abacus_status abacus_build_report(abacus_build *build, abacus_change_report report,
+											 void *context, abacus_error *error);
 ABACUS_API void abacus_build_close(abacus_build *build);
 
 /* ---- Loading ---------------------------------------------------------------- */

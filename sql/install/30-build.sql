@@ -53,6 +53,39 @@ LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_delete(regclass, text) IS
     'takes points away from the Delaunay triangulation: for each row (id, x, y[, z][, attribute...]) one with these coordinates, of several the one with this id or else the first; returns how many there were';
 
+CREATE FUNCTION abacus_insert_returning(
+    mesh regclass,
+    query text,
+    on_duplicate text DEFAULT 'keep',
+    OUT created boolean,
+    OUT code bigint,
+    OUT v0 bigint,
+    OUT v1 bigint,
+    OUT v2 bigint,
+    OUT v3 bigint,
+    OUT corners double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_insert_returning'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE COST 1000;
+COMMENT ON FUNCTION abacus_insert_returning(regclass, text, text) IS
+    'abacus_insert, but returns the simplices that it has created and removed, with their corners, in order of their codes';
+
+CREATE FUNCTION abacus_delete_returning(
+    mesh regclass,
+    query text,
+    OUT created boolean,
+    OUT code bigint,
+    OUT v0 bigint,
+    OUT v1 bigint,
+    OUT v2 bigint,
+    OUT v3 bigint,
+    OUT corners double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_delete_returning'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE COST 1000;
+COMMENT ON FUNCTION abacus_delete_returning(regclass, text) IS
+    'abacus_delete, but returns the simplices that it has created and removed, with their corners, in order of their codes';
+
 CREATE FUNCTION abacus_update(mesh regclass, query text)
 RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_update'

@@ -85,6 +85,20 @@ LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100000 ROWS 4;
 COMMENT ON FUNCTION abacus_attributes(regclass) IS
     'the attributes of a mesh: position in abacus_vertices().attributes, name, least and greatest value of all points, and how many have none';
 
+CREATE FUNCTION abacus_add_attribute(mesh regclass, attribute text)
+RETURNS void
+AS 'MODULE_PATHNAME', 'abacus_sql_add_attribute'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_add_attribute(regclass, text) IS
+    'gives a mesh one more attribute, the last one, which is NULL for all points; abacus_update gives it values';
+
+CREATE FUNCTION abacus_drop_attribute(mesh regclass, attribute text)
+RETURNS void
+AS 'MODULE_PATHNAME', 'abacus_sql_drop_attribute'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_drop_attribute(regclass, text) IS
+    'takes an attribute away from a mesh; those after it move up';
+
 CREATE FUNCTION abacus_rename_attribute(mesh regclass, attribute text, name text)
 RETURNS void
 AS 'MODULE_PATHNAME', 'abacus_sql_rename_attribute'

@@ -109,8 +109,13 @@ BlockIndex BlockCache<Owner, Type>::load(const abacus_page &page) {
     Block &block = blocks_[b];
     block.own(contents.lower, contents.upper);
     block.location = page.location;
-    block.count = block.high_water = block.settled = static_cast<std::uint16_t>(contents.records);
-    block.capacity = capacity_.learn(block.count, page.size);
+    block.count = block.high_water = static_cast<std::uint16_t>(contents.records);
+    if (contents.is_outdated) {
+        block.dirty = true; // and as if it were new: it may be packed
+    } else {
+        block.settled = block.count;
+        block.capacity = capacity_.learn(block.count, page.size);
+    }
     directory_.insert(block.lower, b);
     self().tie(b);
     return b;

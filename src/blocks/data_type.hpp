@@ -29,8 +29,9 @@ namespace abacus {
 
 /// What an opened page says of itself.
 struct PageContents {
-    Key lower, upper;      ///< the interval that it owns
-    std::uint32_t records; ///< at most as many as a block has slots
+    Key lower, upper;         ///< the interval that it owns
+    std::uint32_t records;    ///< at most as many as a block has slots
+    bool is_outdated = false; ///< to be written anew, with other bytes for each record
 };
 
 /// A page made of a block; its bytes are valid until the next one is made.

@@ -6,14 +6,23 @@
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
 #include "capi/stage.hpp"
+#include "query/describe.hpp"
 
 #include <abacus/change.h>
+#include <cstring>
 
 struct abacus_build {
     abacus_build(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
-        : host(*table), build(host, header, cache_bytes) {}
+        : host(*table), alone(*table), build(host, header, cache_bytes) {
+        alone.threads = 1;
+        alone.tiny_intervals = 0;
+    }
 
     const abacus::Host host;
+    // Before the build, which writes to it. It sorts with one thread (simplex_changes.hpp).
+    abacus_host alone;
+    std::optional<abacus::Host> lone_host;
+    std::optional<abacus::ByDimension<abacus::SimplexChanges>> changes;
     abacus::ByDimension<abacus::Build> build;
 };
 
@@ -76,6 +85,19 @@ abacus_status abacus_build_update(abacus_build *build, abacus_stage *stage,
     });
 }
 
+abacus_status abacus_build_change_attributes(abacus_build *build, const uint32_t *source,
+                                             size_t count, size_t memory, abacus_header *header,
+                                             abacus_error *error) {
+    return run(build, header, error, [&](auto &opened, abacus_header &changed) {
+        for (std::size_t i = 0; i < count; ++i)
+            if (source[i] == abacus::no_attribute)
+                std::memset(changed.names[i], 0, ABACUS_NAME_BYTES);
+            else
+                std::memcpy(changed.names[i], header->names[source[i]], ABACUS_NAME_BYTES);
+        opened.change_attributes({source, count}, memory, changed);
+    });
+}
+
 abacus_status abacus_build_clear(abacus_build *build, abacus_header *header, uint64_t *deleted,
                                  abacus_error *error) {
     return run(build, header, error,
@@ -86,6 +108,59 @@ abacus_status abacus_build_rekey(abacus_build *build, size_t memory, abacus_head
                                  int *done, abacus_error *error) {
     return run(build, header, error, [&](auto &opened, abacus_header &changed) {
         *done = opened.rekey(memory, changed);
+    });
+}
+
+abacus_status abacus_build_log(abacus_build *build, size_t memory, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        const abacus::Host &lone = build->lone_host.emplace(build->alone);
+        build->build.visit([&]<int D>(abacus::Build<D> &opened) {
+            abacus_header shape{};
+            shape.dimension = D;
+            auto &changes = build->changes.emplace(lone, shape, memory, build->host.threads(),
+                                                   build->host.has_tiny_intervals());
+            opened.log_to(changes.template get<D>());
+        });
+        return ABACUS_OK;
+    });
+}
+
+namespace {
+
+/// As other functions hand it out.
+template <int D> abacus_simplex describe(const abacus::SimplexWords<D> &words) {
+    std::array<abacus::Point<D>, D + 1> points;
+    abacus::Corners<D> ascending;
+    std::array<int, D + 1> order;
+    for (int i = 0; i <= D; ++i) {
+        points[i] = words.point(i);
+        ascending[i] = &points[i];
+        order[i] = i;
+    }
+    if (abacus::orientation<D>(ascending) < 0) std::swap(order[0], order[1]);
+    abacus::DescribedCorners<D> corners;
+    for (int i = 0; i <= D; ++i) {
+        corners.id[i] = words.vertex(order[i]);
+        corners.point[i] = &points[order[i]];
+    }
+    abacus_simplex simplex{};
+    abacus::describe<D>(corners, words.code, false, simplex);
+    return simplex;
+}
+
+} // namespace
+
+abacus_status abacus_build_report(abacus_build *build, abacus_change_report report, void *context,
+                                  abacus_error *error) {
+    return abacus::guard(error, [&] {
+        if (!build->changes) return ABACUS_OK;
+        build->changes->visit([&]<int D>(abacus::SimplexChanges<D> &changes) {
+            changes.each([&](const abacus::SimplexWords<D> &words) {
+                const abacus_simplex simplex = describe(words);
+                abacus::host::require(report(context, words.change > 0, &simplex));
+            });
+        });
+        return ABACUS_OK;
     });
 }
 

@@ -1,6 +1,7 @@
 #include "delaunay/build.hpp"
 
 #include "blocks/counters.hpp"
+#include "delaunay/attribute_change.hpp"
 #include "delaunay/crowding.hpp"
 #include "delaunay/distinct.hpp"
 #include "delaunay/intake.hpp"
@@ -44,6 +45,12 @@ Build<D>::Build(const Host &host, const abacus_header &header, std::size_t cache
 
 template <int D> void Build<D>::make_core(const abacus_header &header, std::size_t cache_bytes) {
     core_.emplace(host_, header, cache_bytes, apart_ ? &*apart_ : nullptr);
+    if (changes_ != nullptr) core_->mesh.log = &changes_->log();
+}
+
+template <int D> void Build<D>::log_to(SimplexChanges<D> &changes) {
+    changes_ = &changes;
+    core_->mesh.log = &changes.log();
 }
 
 template <int D> VertexIndex Build<D>::create(const std::uint64_t *record) {
@@ -292,6 +299,22 @@ std::uint64_t Build<D>::update(Stage<D> &stage, std::span<const std::uint32_t> w
         return points;
     });
     return changed;
+}
+
+template <int D>
+void Build<D>::change_attributes(std::span<const std::uint32_t> source, std::size_t memory,
+                                 abacus_header &header) {
+    const auto count = static_cast<std::uint32_t>(source.size());
+    const bool was_apart = header.apart != 0;
+    const bool will_be_apart =
+        count > 0 && (was_apart || abacus_are_apart(header.dimension, count) != 0);
+    change(header, [&] {
+        Attributes(*this, source, memory).change(was_apart, will_be_apart);
+        header.attributes = count;
+        header.apart = will_be_apart;
+        forget_cache();
+        return header.vertices;
+    });
 }
 
 template <int D> std::uint64_t Build<D>::clear(abacus_header &header) {

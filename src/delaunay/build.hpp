@@ -39,6 +39,8 @@ template <int D> class Build {
 public:
     Build(const Host &host, const abacus_header &header, std::size_t cache_bytes);
 
+    /// From now on keeps account of the simplices that come and go.
+    void log_to(SimplexChanges<D> &changes);
     /// Inserts at most `limit` of the points that wait (0 = all).
     void run(std::uint64_t limit, abacus_header &header);
     /// Inserts what waits, then the points of a stage.
@@ -53,11 +55,16 @@ public:
                          abacus_header &header, abacus_named_place &missing);
     /// Takes away all points, waiting ones included; returns how many there were.
     std::uint64_t clear(abacus_header &header);
+    /// Gives all points other attributes: as the i-th what has been their attribute source[i], or
+    /// no value (no_attribute). `memory` is for sorting. Then nothing else may follow.
+    void change_attributes(std::span<const std::uint32_t> source, std::size_t memory,
+                           abacus_header &header);
     /// Gives a mesh whose domain does not fit its points another one, with `memory` bytes for
     /// sorting; false if there is no better one.
     bool rekey(std::size_t memory, abacus_header &header);
 
 private:
+    class Attributes;
     class Intake;
     class Distinct;
     class Outlet;
@@ -157,6 +164,8 @@ private:
     void erase_pages(abacus_page_kind kind);
     /// Begins anew without a triangulation.
     void forget_simplices();
+    /// All simplices are about to go: so much for whoever wants to know.
+    void log_all_gone();
     /// Counts a point as one that the domain does not fit if the simplices around it share one code
     /// with more than a page takes. It has just been inserted.
     void count_crowded();
@@ -182,6 +191,7 @@ private:
     std::optional<RepeatedPoints<D>> repeated_; ///< as well
     std::optional<Rest<D>> rest_;               ///< while removals are put off
     Outlet *outlet_ = nullptr;                  ///< while points leave
+    SimplexChanges<D> *changes_ = nullptr;      ///< if somebody wants to know
     abacus_header *header_ = nullptr;           ///< of the current change
     abacus_on_duplicate on_duplicate_ = ABACUS_KEEP;
     bool counts_crowded_ = false; ///< the mesh had vertices before what comes

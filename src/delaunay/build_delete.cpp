@@ -2,6 +2,7 @@
 #include "delaunay/build.hpp"
 
 #include "delaunay/intake.hpp"
+#include "keys/domain_of.hpp"
 #include "points/vertex_page.hpp"
 #include "traverse/own_vertices.hpp"
 
@@ -127,7 +128,20 @@ template <int D> void Build<D>::erase_pages(abacus_page_kind kind) {
     }
 }
 
+/// Their codes are those that they have from now on: the header may have another domain by now.
+template <int D> void Build<D>::log_all_gone() {
+    if (changes_ == nullptr || !has_simplices()) return;
+    const Domain<D> domain = domain_of<D>(*header_);
+    Cache<D> &cache = core_->cache;
+    for (Key page = first_key; page < end_key;) {
+        cache.trim();
+        cache.poll();
+        page = cache.visit(page, [&](Handle h) { changes_->log().go(cache, h, domain); });
+    }
+}
+
 template <int D> void Build<D>::forget_simplices() {
+    log_all_gone();
     erase_pages(ABACUS_SIMPLEX_PAGES);
     if (apart_) {
         apart_->forget();

@@ -54,6 +54,12 @@ public:
           results_(&host_memory_) {
         for (std::size_t i = 0; i < cuts.size(); ++i)
             results_.emplace_back(build.crew_->memory().memory());
+        if (build.changes_ != nullptr) build.changes_->work_with(*build.crew_);
+    }
+    Pass(const Pass &) = delete;
+    Pass &operator=(const Pass &) = delete;
+    ~Pass() {
+        if (build_.changes_ != nullptr) build_.changes_->drop_handed();
     }
 
     void piece(std::size_t number, const Host &host) override {
@@ -65,7 +71,7 @@ public:
             if (begin == end) continue;
             if (!interval)
                 interval.emplace(host, *build_.header_, cuts_.first(number), cuts_.last(number),
-                                 build_.thread_cache_bytes());
+                                 build_.thread_cache_bytes(), build_.changes_);
             if (how_ != nullptr)
                 interval->remove(batch, begin, end, *how_, done_, results_[number]);
             else
@@ -74,7 +80,10 @@ public:
         }
         if (interval) interval->finish(results_[number]);
     }
-    void meanwhile() override { build_.report_pass(done_.load(std::memory_order_relaxed)); }
+    void meanwhile() override {
+        if (build_.changes_ != nullptr) build_.changes_->take_handed();
+        build_.report_pass(done_.load(std::memory_order_relaxed));
+    }
     using AllResults = std::pmr::deque<typename Interval<D>::Results>;
     /// Of each interval.
     const AllResults &results() const { return results_; }
@@ -218,6 +227,7 @@ void Build<D>::run_passes(Cuts &cuts, Batch &left, const typename Interval<D>::R
     for (; cuts.size() > 1 && gathered_.size() >= least; cuts.join_pairs()) {
         Pass pass(*this, cuts, how);
         if (!crew_->run(host_.threads(), cuts.size(), pass)) return;
+        if (changes_ != nullptr) changes_->take_handed(); // the last one
         Arena<std::size_t> put_off(host_);
         for (const auto &results : pass.results()) {
             header_->simplices += static_cast<std::uint64_t>(results.simplices);

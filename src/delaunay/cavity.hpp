@@ -46,10 +46,16 @@ protected:
             // The search can come back only where the triangulation is not Delaunay.
             if (cache_.simplex(h).is_free()) refuse();
             ghosts += cache_.simplex(h).is_ghost();
+            if (mesh_.log != nullptr) mesh_.log->go(cache_, h);
             cache_.destroy(h);
         }
         mesh_.forget();
         return ghosts;
+    }
+    /// Of so many that are in their place.
+    void log_created(const Arena<Handle> &created, std::size_t n) {
+        if (mesh_.log == nullptr) return;
+        for (std::size_t i = 0; i < n; ++i) mesh_.log->come(cache_, created[i]);
     }
     [[noreturn]] static void refuse() {
         throw_corrupted("The simplices around a point are not a triangulation.");

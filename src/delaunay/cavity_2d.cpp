@@ -95,6 +95,7 @@ void Cavity<2>::fill(VertexIndex v) {
         for (std::size_t i = 0; i < n; ++i) bring_infinity_last(created_[i]);
     mesh_.count(static_cast<std::int64_t>(n - inside_.size()) - (new_ghosts - ghosts),
                 new_ghosts - ghosts);
+    log_created(created_, n);
 }
 
 void Cavity<2>::bring_infinity_last(Handle h) {

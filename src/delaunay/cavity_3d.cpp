@@ -225,6 +225,7 @@ void Cavity<3>::fill(VertexIndex v) {
         }
     });
     mesh_.count(static_cast<std::int64_t>(rim_.size() - inside_.size()) - ghosts, ghosts);
+    log_created(created_, created_.size());
 }
 
 template <class View>

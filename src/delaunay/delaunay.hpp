@@ -3,6 +3,7 @@
 // change was, and the way from there to the next point.
 #pragma once
 
+#include "delaunay/simplex_log.hpp"
 #include "mesh/cache.hpp"
 #include "traverse/marks.hpp"
 #include "traverse/walk.hpp"
@@ -85,6 +86,8 @@ public:
     }
 
     Marks marks;
+    /// Of simplices that come and go; none unless somebody wants it.
+    SimplexLog<D> *log = nullptr;
 
 private:
     Cache<D> &cache_;

@@ -60,6 +60,7 @@ template <int D> Handle Hole<D>::create(const Vertices &vertices) {
     const Handle h = cache_.create(vertices);
     mesh_.remember(created_++, h);
     ghosts_ += vertices[D] == infinite_vertex;
+    if (mesh_.log != nullptr) mesh_.log->come(cache_, h);
     if (created_ % 4096 == 0) cache_.poll();
     return h;
 }

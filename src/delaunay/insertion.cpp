@@ -76,6 +76,7 @@ template <int D> void Insertion<D>::start(const std::array<VertexIndex, D + 1> &
     cache_.create_first_block();
     std::array<Handle, D + 2> created;
     created[D + 1] = cache_.create(corners);
+    if (mesh_.log != nullptr) mesh_.log->come(cache_, created[D + 1]);
     mesh_.count(1, D + 1);
     for (int i = 0; i <= D; ++i) created[i] = cache_.create(ghost_on(corners, i, infinite_vertex));
     for (std::size_t a = 0; a < created.size(); ++a)

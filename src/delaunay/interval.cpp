@@ -22,13 +22,14 @@ template <int D> AttributePages<D> *Interval<D>::attributes_apart() {
 
 template <int D>
 Interval<D>::Interval(const Host &host, const abacus_header &header, std::uint64_t first,
-                      std::uint64_t last, std::size_t cache_bytes)
+                      std::uint64_t last, std::size_t cache_bytes, SimplexChanges<D> *changes)
     : host_(host), header_(header), cache_(host, domain_of<D>(header), page_attributes(header),
                                            CacheOptions{.budget = cache_bytes}),
       mesh_(host, cache_, static_cast<std::int64_t>(header.simplices),
             static_cast<std::int64_t>(header.ghosts)),
       insertion_(mesh_), removal_(mesh_, attributes_apart()) {
     cache_.keep_within(first, last);
+    if (changes != nullptr) mesh_.log = &log_.emplace(*changes, host).log();
 }
 
 namespace {
@@ -62,6 +63,7 @@ void Interval<D>::each(std::size_t from, std::size_t to, std::atomic<std::uint64
 
 template <int D> void Interval<D>::finish(Results &results) {
     within([&] { cache_.flush(); });
+    if (log_) log_->finish();
     results.simplices += mesh_.simplices() - static_cast<std::int64_t>(header_.simplices);
     results.ghosts += mesh_.ghosts() - static_cast<std::int64_t>(header_.ghosts);
     results.counters += cache_.counters;

@@ -40,6 +40,7 @@
 #include "delaunay/insertion.hpp"
 #include "delaunay/outlay.hpp"
 #include "delaunay/removal.hpp"
+#include "delaunay/simplex_changes.hpp"
 
 #include <abacus/header.h>
 
@@ -137,8 +138,9 @@ public:
     };
 
     /// `header` is that of the whole mesh; pages begin at the codes `first` and `last + 1`.
+    /// `changes`: who wants to know which simplices come and go, or null.
     Interval(const Host &host, const abacus_header &header, std::uint64_t first, std::uint64_t last,
-             std::size_t cache_bytes);
+             std::size_t cache_bytes, SimplexChanges<D> *changes);
 
     /// Inserts points [from, to) of the batch, which are of one run. Adds to `done` as it goes.
     void insert(const Batch &batch, std::size_t from, std::size_t to, bool counts_crowded,
@@ -163,6 +165,7 @@ private:
     Insertion<D> insertion_;
     std::optional<AttributePages<D>> apart_; // read only
     Removal<D> removal_;
+    std::optional<typename SimplexChanges<D>::ThreadLog> log_;
 };
 
 extern template class Interval<2>;

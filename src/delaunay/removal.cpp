@@ -99,7 +99,10 @@ template <int D> bool Removal<D>::stays_within() const {
 template <int D> void Removal<D>::take_out() {
     const auto ghosts = static_cast<std::int64_t>(star_.ghosts());
     const auto simplices = static_cast<std::int64_t>(star_.simplices().size()) - ghosts;
-    for (const Handle h : star_.simplices()) cache_.destroy(h);
+    for (const Handle h : star_.simplices()) {
+        if (mesh_.log != nullptr) mesh_.log->go(cache_, h);
+        cache_.destroy(h);
+    }
     mesh_.count(-simplices, -ghosts);
     effort_ += star_.simplices().size() + hole_.fill(star_);
     cache_.destroy_vertex(star_.vertex());
@@ -129,8 +132,13 @@ bool Removal<D>::rename(const Point<D> &p, std::int64_t id, const double *attrib
 
 template <int D> void Removal<D>::rewrite(Link corner, std::int64_t id, const double *attributes) {
     star_.collect(link_simplex(corner), link_facet(corner));
-    for (const Handle h : star_.simplices()) cache_.mark_dirty(h);
+    for (const Handle h : star_.simplices()) {
+        cache_.mark_dirty(h);
+        if (mesh_.log != nullptr) mesh_.log->go(cache_, h);
+    }
     cache_.rename_vertex(star_.vertex(), id, attributes);
+    if (mesh_.log != nullptr) // a simplex is told by the ids of its vertices
+        for (const Handle h : star_.simplices()) mesh_.log->come(cache_, h);
 }
 
 template <int D> std::optional<std::int64_t> Removal<D>::id_at(const Point<D> &p) {

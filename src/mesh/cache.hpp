@@ -42,6 +42,7 @@
 #include "blocks/block_cache.hpp"
 #include "geometry/predicates.hpp"
 #include "keys/locational_code.hpp"
+#include "mesh/former_attributes.hpp"
 #include "mesh/inner_links.hpp"
 #include "mesh/page_writer.hpp"
 #include "mesh/simplex_blocks.hpp"
@@ -56,6 +57,7 @@ struct CacheOptions {
     bool verify_links = false;      // compare every stored key with the simplex it leads to
     bool verify_checksums = true;   // false: for callers that look for the damage itself
     bool linked_ghosts = true;      // false: a ghost is its own neighbour across its ridges
+    FormerAttributes former{};      // what is loaded with these will be written with those of now
 };
 
 /// A simplex for Cache::append(): its vertices as records (id, coordinates, attributes), the
@@ -243,6 +245,9 @@ private:
     bool follow_stored_link(Handle h, int facet, const Key &beyond);
     bool present(Handle h, int facet) const { return !is_absent(slots_[h].link[facet]); }
     void load_vertices();
+    /// To values_, as they are now.
+    void read_attributes(int vertex);
+    bool has_former_attributes(const abacus_page &page) const;
     VertexRun run_of_vertices() const;
     void load_simplices(Handle first);
     void link_outside();

@@ -7,6 +7,9 @@
 // border vertex and border facet, never for each simplex.
 #include "mesh/cache.hpp"
 
+#include <cstddef>
+#include <limits>
+
 namespace abacus {
 
 template <int D> Link Cache<D>::miss(Handle h, int facet) {
@@ -39,10 +42,29 @@ template <int D> bool Cache<D>::follow_stored_link(Handle h, int facet, const Ke
 }
 
 template <int D> PageContents Cache<D>::open_page(const abacus_page &page) {
-    view_.read(page.bytes, page.size, vertices_.attribute_count(),
-               options_.verify_checksums ? PageView<D>::Checksum::verify
-                                         : PageView<D>::Checksum::ignore);
-    return {view_.lower(), view_.upper(), static_cast<std::uint32_t>(view_.simplices())};
+    const bool is_outdated = has_former_attributes(page);
+    view_.read(
+        page.bytes, page.size, is_outdated ? options_.former.count : vertices_.attribute_count(),
+        options_.verify_checksums ? PageView<D>::Checksum::verify : PageView<D>::Checksum::ignore);
+    return {view_.lower(), view_.upper(), static_cast<std::uint32_t>(view_.simplices()),
+            is_outdated};
+}
+
+template <int D> bool Cache<D>::has_former_attributes(const abacus_page &page) const {
+    constexpr std::size_t at = offsetof(PageHeader, attributes);
+    return options_.former.count >= 0 && page.size > at &&
+           page.bytes[at] == options_.former.count &&
+           options_.former.count != vertices_.attribute_count();
+}
+
+template <int D> void Cache<D>::read_attributes(int vertex) {
+    const bool is_outdated = view_.attributes() != vertices_.attribute_count();
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+        const std::uint32_t source =
+            is_outdated ? options_.former.source[i] : static_cast<std::uint32_t>(i);
+        values_[i] = source == no_attribute ? std::numeric_limits<double>::quiet_NaN()
+                                            : view_.attribute(vertex, static_cast<int>(source));
+    }
 }
 
 template <int D> void Cache<D>::tie(BlockIndex b) {
@@ -67,7 +89,7 @@ template <int D> void Cache<D>::load_vertices() {
     border_.vertices.clear();
     for (int n = 0; n < view_.vertices(); ++n) {
         const Point<D> &p = view_.point(n);
-        for (int i = 0; i < view_.attributes(); ++i) values_[i] = view_.attribute(n, i);
+        read_attributes(n);
         VertexIndex v = border_.has_vertex[n] ? vertices_.find_shared(p) : infinite_vertex;
         if (v == infinite_vertex) {
             v = vertices_.create(p, codes_[n], view_.id(n), values_.data());
@@ -76,8 +98,8 @@ template <int D> void Cache<D>::load_vertices() {
             throw_corrupted("A page has the same vertex twice.");
         } else if (vertices_.id(v) != view_.id(n)) {
             throw_corrupted("Two pages have different ids for one vertex.");
-        } else if (view_.attributes() > 0 && std::memcmp(vertices_.attributes(v), values_.data(),
-                                                         values_.size() * sizeof(double)) != 0) {
+        } else if (!values_.empty() && std::memcmp(vertices_.attributes(v), values_.data(),
+                                                   values_.size() * sizeof(double)) != 0) {
             throw_corrupted("Two pages have different attributes for one vertex.");
         }
         border_.vertices.number(vertices_, v);

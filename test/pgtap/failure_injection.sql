@@ -120,6 +120,24 @@ SELECT pg_temp.inject('updating attributes among the simplices', $$ SELECT abacu
 SELECT is_empty($$ SELECT * FROM abacus_check('field') $$, 'that mesh is sound');
 SELECT bag_eq($$ SELECT id FROM abacus_vertices('field') WHERE attributes[1] = -id $$, $$ SELECT id::bigint FROM points $$, 'and its attributes are right');
 SELECT is(abacus_update('field', 'SELECT id, x, y, height FROM points'), 3000::bigint, 'they are as they were');
+DELETE FROM wide_before;
+INSERT INTO wide_before SELECT code, part, page::bytea FROM wide;
+SELECT pg_temp.inject('adding an attribute', $$ SELECT abacus_add_attribute('wide', 'more') $$, pg_temp.untouched());
+SELECT pg_temp.inject('dropping it', $$ SELECT abacus_drop_attribute('wide', 'more') $$,
+    $$ SELECT count(*) = 9 FROM abacus_attributes('wide') $$);
+SELECT is_empty($$ SELECT * FROM abacus_check('wide') $$, 'it is sound');
+SELECT pg_temp.inject('adding an attribute among the simplices', $$ SELECT abacus_add_attribute('field', 'more') $$,
+    $$ SELECT count(*) = 1 FROM abacus_attributes('field') $$);
+SELECT pg_temp.inject('dropping that', $$ SELECT abacus_drop_attribute('field', 'more') $$,
+    $$ SELECT count(*) = 2 FROM abacus_attributes('field') $$);
+SELECT is_empty($$ SELECT * FROM abacus_check('field') $$, 'that mesh is sound');
+CREATE TEMP TABLE field_before AS SELECT * FROM abacus_simplices('field');
+SELECT pg_temp.inject('a deletion that returns', $$ SELECT count(*) FROM abacus_delete_returning('field', 'SELECT id, x, y FROM points WHERE id % 3 = 0') $$,
+    $$ SELECT (SELECT count(*) FROM abacus_simplices('field')) = (SELECT count(*) FROM field_before) $$);
+SELECT pg_temp.inject('an insertion that returns', $$ SELECT count(*) FROM abacus_insert_returning('field', 'SELECT id, x, y, height FROM points WHERE id % 3 = 0') $$,
+    $$ SELECT (SELECT count(*) FROM abacus_simplices('field')) < (SELECT count(*) FROM field_before) $$);
+SELECT is_empty($$ SELECT * FROM abacus_check('field') $$, 'that mesh is sound');
+SELECT set_eq($$ SELECT v0, v1, v2 FROM abacus_simplices('field') $$, $$ SELECT v0, v1, v2 FROM field_before $$, 'and the same');
 SELECT pg_temp.inject('reading attributes', $$ SELECT sum("values"[2]) FROM abacus_interpolate('wide', 'SELECT id, x, y FROM points') $$, 'SELECT true');
 SELECT bag_eq($$ SELECT id, attributes[1:3] AS a FROM abacus_vertices('wide') $$,
     $$ SELECT id::bigint, CASE WHEN id % 2 = 0 THEN ARRAY[-height, a2, a1] ELSE ARRAY[height, a1, a2] END FROM wide_points WHERE id % 2 = 0 OR id % 9 > 0 $$, 'and they are right');

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <vector>
@@ -70,6 +72,18 @@ public:
         }
         return updated;
     }
+    /// All have other attributes, as abacus_build_change_attributes() says.
+    void change_attributes(const std::vector<std::uint32_t> &source) {
+        for (auto &[place, here] : places_)
+            for (InputOf<D> &p : here) {
+                std::vector<double> values;
+                for (const std::uint32_t i : source)
+                    values.push_back(i == ABACUS_NO_ATTRIBUTE
+                                         ? std::numeric_limits<double>::quiet_NaN()
+                                         : p.attributes[i]);
+                p.attributes = values;
+            }
+    }
     std::vector<InputOf<D>> points() const {
         std::vector<InputOf<D>> all;
         for (const auto &[place, here] : places_) all.insert(all.end(), here.begin(), here.end());
@@ -109,8 +123,9 @@ private:
                 std::find_if(place->second.begin(), place->second.end(),
                              [&](const InputOf<D> &input) { return input.id == v.id; });
             ASSERT_NE(given, place->second.end()) << "a point with another id: " << v.id;
-            ASSERT_TRUE(
-                std::equal(given->attributes.begin(), given->attributes.end(), v.attributes));
+            ASSERT_TRUE(std::equal(
+                given->attributes.begin(), given->attributes.end(), v.attributes,
+                [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }));
             seen[p].push_back(v.id);
         }
         abacus_vertex_scan_close(scan);

@@ -52,7 +52,7 @@ BEGIN
 			FROM generate_series(0, $2) i, (SELECT ARRAY[random(), random(), random()] AS c) AS centre
 			UNION ALL SELECT %2$s + 900 + row_number() OVER (), x, y, z FROM (SELECT * FROM %1$s ORDER BY id DESC LIMIT 5) AS other',
 			noted, first) USING power(random(), 6), (random() * 100)::int;
-	CASE floor(random() * 6)
+	CASE floor(random() * 7)
 	WHEN 0 THEN
 		PERFORM abacus_insert(mesh, fresh);
 	WHEN 1 THEN
@@ -86,6 +86,10 @@ BEGIN
 			NULL;
 		END;
 		PERFORM take_away(dimension, format('SELECT id FROM %s WHERE abs(x - %s) + abs(y - %s) < 0.1', noted, random(), random()));
+	WHEN 6 THEN -- all pages are written twice
+		PERFORM abacus_insert(mesh, fresh);
+		PERFORM abacus_add_attribute(mesh, 'a');
+		PERFORM abacus_drop_attribute(mesh, 'a');
 	END CASE;
 END $$;
 

@@ -129,9 +129,12 @@ change_open_build(Change *change)
 {
 	Host	   *host = change->writer.host;
 
-	if (change->build == NULL)
-		host_run(host, abacus_build_open, &host->table, change->writer.header,
-				 setting_cache_bytes(), &change->build);
+	if (change->build != NULL)
+		return;
+	host_run(host, abacus_build_open, &host->table, change->writer.header,
+			 setting_cache_bytes(), &change->build);
+	if (change->returns)
+		host_run(host, abacus_build_log, change->build, setting_query_sort_bytes());
 }
 
 /* Inserts the points of the stage. */
@@ -180,6 +183,20 @@ change_update(Change *change, const uint32 *attributes, size_t count, abacus_nam
 	return updated;
 }
 
+/*
+ * Gives all points other attributes, as abacus_build_change_attributes() does. Nothing but the end
+ * of the change may follow.
+ */
+void
+change_attributes(Change *change, const uint32 *source, size_t count)
+{
+	Host	   *host = change->writer.host;
+
+	change_open_build(change);
+	host_run(host, abacus_build_change_attributes, change->build, source, count,
+			 setting_sort_bytes(), change->writer.header);
+}
+
 /* Takes all points away. */
 void
 change_clear(Change *change)
@@ -189,6 +206,15 @@ change_clear(Change *change)
 
 	change_open_build(change);
 	host_run(host, abacus_build_clear, change->build, change->writer.header, &deleted);
+}
+
+/* Reports the simplices that have been created and removed, if the change returns them. */
+void
+change_report(Change *change, abacus_change_report report, void *context)
+{
+	Host	   *host = change->writer.host;
+
+	host_run(host, abacus_build_report, change->build, report, context);
 }
 
 /* Closes the mesh, which has not been changed. */

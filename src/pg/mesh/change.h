@@ -19,6 +19,7 @@ typedef struct Change
 	uint64		duplicates;		/* of the mesh before the change */
 	bool		may_replace;	/* the user can choose that */
 	bool		inserts;
+	bool		returns;		/* which simplices it creates and removes */
 	abacus_load *load;			/* a triangulation made elsewhere */
 } Change;
 
@@ -35,7 +36,9 @@ extern void change_insert(Change *change);
 extern uint64 change_delete(Change *change, bool exactly);
 extern uint64 change_update(Change *change, const uint32 *attributes, size_t count,
 							abacus_named_place *missing);
+extern void change_attributes(Change *change, const uint32 *source, size_t count);
 extern void change_clear(Change *change);
+extern void change_report(Change *change, abacus_change_report report, void *context);
 extern void change_abandon(Change *change);
 extern void change_end(Change *change);
 extern uint64 change_insert_query(Oid mesh, Source *source, const char *command,

@@ -326,6 +326,19 @@ mesh_bind_shown_table(Oid mesh, Oid table)
 	bind_object(RelationRelationId, table, mesh);
 }
 
+static bool
+is_foreign_table(Oid relid)
+{
+	return get_rel_relkind(relid) == RELKIND_FOREIGN_TABLE;
+}
+
+/* Whether foreign tables show the mesh. */
+bool
+mesh_is_shown(Oid mesh)
+{
+	return OidIsValid(find_bound_table(RelationRelationId, mesh, false, is_foreign_table));
+}
+
 /* The mesh that a trigger is bound to; InvalidOid if none. */
 Oid
 mesh_of_trigger(Oid trigger)

@@ -37,6 +37,7 @@ extern Oid	mesh_find_vertex_table(Oid mesh);
 extern Oid	mesh_vertex_table(Relation mesh, MeshAccess access);
 extern void mesh_bind_vertex_table(Oid mesh, Oid vertices);
 extern void mesh_bind_shown_table(Oid mesh, Oid table);
+extern bool mesh_is_shown(Oid mesh);
 extern Oid	mesh_of_trigger(Oid trigger);
 extern void mesh_bind_trigger(Oid mesh, Oid trigger);
 extern void mesh_tell_of_restored(void (*tell) (Relation mesh));

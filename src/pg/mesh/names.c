@@ -17,6 +17,7 @@
 #include "lib/stringinfo.h"
 #include "mb/pg_wchar.h"
 
+#include "abacus/change.h"
 #include "pg/mesh/names.h"
 
 /* The first name whose bytes are no text; -1 if all are. */
@@ -103,6 +104,21 @@ names_to_database(abacus_header *header, StoredNames *stored)
 		to_database(stored->names[i], i + 1, header->names[i]);
 	}
 	stored->count = header->attributes;
+}
+
+/*
+ * The attributes are others than when the names were read: as the i-th that which had the number
+ * source[i], or one that has no name yet (ABACUS_NO_ATTRIBUTE).
+ */
+void
+names_move(abacus_header *header, StoredNames *stored, const uint32 *source)
+{
+	for (uint32 i = 0; i < header->attributes; i++)
+		if (source[i] == ABACUS_NO_ATTRIBUTE)
+			header->names[i][0] = '\0';
+		else
+			strlcpy(header->names[i], stored->names[source[i]], ABACUS_NAME_BYTES);
+	names_to_database(header, stored);
 }
 
 static void

@@ -16,6 +16,7 @@ typedef struct StoredNames
 extern int	names_find_invalid(const abacus_header *header);
 extern bool names_are_converted(void);
 extern void names_to_database(abacus_header *header, StoredNames *stored);
+extern void names_move(abacus_header *header, StoredNames *stored, const uint32 *source);
 extern void names_to_storage(abacus_header *header, const StoredNames *stored);
 
 #endif

@@ -31,9 +31,9 @@ shape_check_name(const char *name)
 				 errhint("A name has 1 to %d bytes.", ABACUS_NAME_BYTES - 1)));
 }
 
-/* Adds one attribute. */
+/* An error if there is no room for one more attribute. */
 void
-shape_attribute(abacus_header *header, const char *name)
+shape_check_room(const abacus_header *header)
 {
 	if (header->attributes == ABACUS_MAX_ATTRIBUTES)
 		ereport(ERROR,
@@ -41,6 +41,13 @@ shape_attribute(abacus_header *header, const char *name)
 				 errmsg("%s can have at most %d attributes",
 						header->type == ABACUS_OCTREE ? "an octree" : "a mesh",
 						ABACUS_MAX_ATTRIBUTES)));
+}
+
+/* Adds one attribute. */
+void
+shape_attribute(abacus_header *header, const char *name)
+{
+	shape_check_room(header);
 	shape_check_name(name);
 	if (header_attribute(header, name) >= 0)
 		ereport(ERROR,

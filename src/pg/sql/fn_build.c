@@ -89,6 +89,32 @@ rekey(Writer *writer, abacus_build *build)
 	return done || header->outside != outside;
 }
 
+/*
+ * A change of its own, too: a mesh with many attributes that was made when they went into the
+ * simplex pages gets them apart.
+ */
+static void
+move_attributes_apart(Writer *writer)
+{
+	Host	   *host = writer->host;
+	abacus_header *header = writer->header;
+	uint32	   *same = palloc(header->attributes * sizeof(uint32));
+	abacus_build *build = NULL;
+
+	for (uint32 i = 0; i < header->attributes; i++)
+		same[i] = i;
+	host_run(host, abacus_build_open, &host->table, header, setting_cache_bytes(), &build);
+	host_own(host, build, (void (*) (void *)) abacus_build_close);
+	host_run(host, abacus_build_change_attributes, build, same, header->attributes,
+			 setting_sort_bytes(), header);
+	host_own(host, NULL, NULL);
+	pfree(same);
+	ereport(NOTICE,
+			(errmsg("mesh \"%s\" has its attributes in pages of their own",
+					get_rel_name(mesh_pages(host)->mesh)),
+			 errdetail("It has format 4 now; versions of Abacus that read format 3 only do not read it.")));
+}
+
 /* Ends a change and goes on with the next one. */
 static void
 commit(Writer *writer)
@@ -110,6 +136,11 @@ insert_all(Writer *writer, uint64 batch)
 	uint64		duplicates = header->duplicates;
 	abacus_build *build = NULL;
 
+	if (!header->apart && abacus_are_apart(header->dimension, header->attributes))
+	{
+		move_attributes_apart(writer);
+		commit(writer);
+	}
 	host_run(host, abacus_build_open, &host->table, header, setting_cache_bytes(), &build);
 	host_own(host, build, (void (*) (void *)) abacus_build_close);
 	if (rekey(writer, build))

@@ -1,0 +1,25 @@
+// Pages that are left from when vertices had other attributes in them.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace abacus {
+
+/// Of an attribute that had no value.
+inline constexpr std::uint32_t no_attribute = 0xffffffffu;
+
+/// The value of an attribute where `values` are those of before; `source`: which of these it was.
+inline double value_from(std::uint32_t source, const double *values) {
+    return source == no_attribute ? std::numeric_limits<double>::quiet_NaN() : values[source];
+}
+
+/// How pages that have another number of attributes are read: a vertex gets as its i-th attribute
+/// that which was the attribute source[i].
+struct FormerAttributes {
+    int count = -1; ///< of such a page; negative: there are none
+    std::span<const std::uint32_t> source{};
+};
+
+} // namespace abacus
