@@ -14,6 +14,7 @@ public:
         : attributes_(attributes), count_((attributes + widest - 1) / widest),
           width_(count_ == 0 ? 0 : (attributes + count_ - 1) / count_) {}
 
+    constexpr unsigned attributes() const { return attributes_; }
     constexpr unsigned count() const { return count_; }
     constexpr unsigned first(unsigned group) const { return group * width_; }
     constexpr unsigned columns(unsigned group) const {

@@ -180,7 +180,7 @@ template <int D> void Check<D>::check_attribute_pages() {
     while (scan.fetch()) {
         faults_.at = scan.key();
         scan.read();
-        vertices[scan.group()] += scan.vertices();
+        vertices[scan.group()] += scan.page().rows();
     }
     for (unsigned group = 0; group < groups.count(); ++group)
         if (vertices[group] != header_.vertices)
