@@ -48,6 +48,12 @@ ABACUS_API abacus_status abacus_cells_open_stretch(const abacus_host *host,
  */
 ABACUS_API abacus_status abacus_cells_next(abacus_cells *cells, abacus_simplex *simplex,
 										   double *values, abacus_error *error);
+/*
+ * The labels of a simplex, as many as the header names: of one that abacus_cells_next() has given.
+ * Valid until the next call.
+ */
+ABACUS_API abacus_status abacus_cells_labels(abacus_cells *cells, const abacus_simplex *simplex,
+											 const double **labels, abacus_error *error);
 /* How many pages have been read. */
 ABACUS_API uint64_t abacus_cells_pages(const abacus_cells *cells);
 ABACUS_API void abacus_cells_close(abacus_cells *cells);

@@ -134,8 +134,11 @@ ABACUS_API abacus_status abacus_load_open(const abacus_host *host, const abacus_
 /* Adds vertices, as abacus_stage_add does points; each id once. */
 ABACUS_API abacus_status abacus_load_vertices(abacus_load *load, const uint64_t *points,
 											  size_t count, abacus_error *error);
-/* After all vertices: adds simplices, dimension + 1 ids of vertices each. */
-ABACUS_API abacus_status abacus_load_simplices(abacus_load *load, const int64_t *ids,
+/*
+ * After all vertices: adds simplices. Each is dimension + 1 ids of vertices, followed by its labels,
+ * which are doubles: as many as the header names, NaN where there is none.
+ */
+ABACUS_API abacus_status abacus_load_simplices(abacus_load *load, const uint64_t *simplices,
 											   size_t count, abacus_error *error);
 /*
  * No more simplices come. Checks exactly that they form a complex, and how this is related to

@@ -1,7 +1,7 @@
 // Which attributes share a page: see attribute_page.hpp.
 #pragma once
 
-#include <abacus/host.h>
+#include <abacus/header.h>
 
 namespace abacus {
 
@@ -29,7 +29,7 @@ private:
 
 /// No group is empty.
 static_assert([] {
-    for (unsigned attributes = 1; attributes <= ABACUS_MAX_ATTRIBUTES; ++attributes) {
+    for (unsigned attributes = 1; attributes <= ABACUS_MAX_NAMES; ++attributes) {
         const AttributeGroups groups(attributes);
         if (groups.first(groups.count() - 1) >= attributes) return false;
     }

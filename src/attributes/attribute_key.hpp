@@ -17,6 +17,7 @@
 #include "keys/locational_code.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <type_traits>
 
@@ -99,9 +100,12 @@ template <int D, int K> [[noreturn]] void throw_no_attributes() {
                              : "A simplex has no attributes.");
 }
 
-/// NULL among the attributes of a simplex or a facet: of the numbers that are none, the one with
-/// the greatest rank. A vertex has all of its attributes.
-inline constexpr std::uint64_t null_rank = ~std::uint64_t{0};
-inline constexpr double null_value = from_ordered(null_rank);
+/// What is missing, NULL in SQL, is no number, as everywhere in the core.
+inline constexpr double null_value = std::numeric_limits<double>::quiet_NaN();
+/// Whether the double of that rank is no number.
+constexpr bool is_null(std::uint64_t rank) {
+    constexpr double most = std::numeric_limits<double>::infinity();
+    return rank < ordered(-most) || ordered(most) < rank;
+}
 
 } // namespace abacus

@@ -127,7 +127,7 @@ const std::uint64_t *AttributePageWriter::gather_nulls(const std::uint64_t *valu
     for (std::size_t i = 0; i < n; ++i) {
         std::uint64_t nulls = 0;
         for (unsigned c = 0; c < columns_; ++c)
-            nulls |= std::uint64_t{values[i * stride_ + c] == null_rank} << c;
+            nulls |= std::uint64_t{is_null(values[i * stride_ + c])} << c;
         column_[i] = nulls;
     }
     return column_.data();
@@ -138,9 +138,8 @@ const std::uint64_t *AttributePageWriter::gather_values(const std::uint64_t *val
                                                         std::size_t n) {
     gather(values, n, stride_);
     std::uint64_t *const begin = column_.begin(), *const end = column_.end();
-    const auto is_value = [](std::uint64_t rank) { return rank != null_rank; };
-    const std::uint64_t *const some = std::find_if(begin, end, is_value);
-    std::replace(begin, end, null_rank, some == end ? 0 : *some);
+    const std::uint64_t *const some = std::find_if_not(begin, end, is_null);
+    std::replace_if(begin, end, is_null, some == end ? 0 : *some);
     return begin;
 }
 

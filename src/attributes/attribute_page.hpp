@@ -88,7 +88,7 @@ private:
     }
     std::uint64_t value_rank(std::size_t row, unsigned column) const {
         if constexpr (K > 1)
-            if (nulls_[row] >> column & 1) return null_rank;
+            if (nulls_[row] >> column & 1) return ordered(null_value);
         return columns_[column][row];
     }
     void check_points(std::size_t points) const;

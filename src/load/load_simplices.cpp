@@ -20,6 +20,7 @@ template <int D> Key Load<D>::key_of(const std::array<const Word *, D + 1> &vert
 
 template <int D> void Load<D>::assemble() {
     begin(flanks_, LoadLayout<D>::flank(D), D + 1);
+    begin_labels();
     Arena<Word> corners(host_);
     corners.resize((D + 1) * layout_.vertex);
     Word simplex = 0;
@@ -52,10 +53,12 @@ template <int D> void Load<D>::assemble() {
             std::copy_n(vertices[i], layout_.vertex, record + 2 + i * layout_.vertex);
         for (int i = 0; i <= D; ++i)
             Flank<D, D>(simplex, i, key, [&](int v) { return vertices[v]; }).write(flanks_->add());
+        if (labelled_) place_labels(points);
         ++simplex;
     }
     faults_.raise();
     end(placed_);
+    label_rows_.close();
     simplices_.rewind();
     flanks_->finish();
 }

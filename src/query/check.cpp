@@ -28,9 +28,15 @@ Check<D>::Check(const Host &host, const abacus_header &header, std::size_t cache
         faults_.shorten(before);
         check_links_and_points(nullptr);
     }
-    if (header_.apart == 0) return;
-    faults_.run("attributes", [&] { check_attribute_pages(); });
-    if (faults_.is_sound()) faults_.run("vertex", [&] { check_attributes(); });
+    const auto is_sound = [&] { return faults_.is_sound(); };
+    if (header_.apart != 0) {
+        faults_.run("attributes",
+                    [&] { check_attribute_pages<1>(header_.attributes, header_.vertices); });
+        if (is_sound()) faults_.run("vertex", [&] { check_attributes(); });
+    }
+    if (header_.labels == 0) return;
+    faults_.run("labels", [&] { check_attribute_pages<D + 1>(header_.labels, header_.labelled); });
+    if (is_sound() && header_.labelled > 0) faults_.run("labels", [&] { check_labels(); });
 }
 
 template <int D> void Check<D>::check_links_and_points(Together *together) {
@@ -173,19 +179,23 @@ template <int D> void Check<D>::check_listed_vertices() {
         faults_.add("count", page.key, "There are pages behind the list of vertices.");
 }
 
-template <int D> void Check<D>::check_attribute_pages() {
-    const AttributeGroups groups(header_.attributes);
-    AttributeScan<D> scan(host_, domain_, header_.attributes);
-    std::array<std::uint64_t, AttributeGroups(ABACUS_MAX_ATTRIBUTES).count()> vertices{};
+template <int D>
+template <int K>
+void Check<D>::check_attribute_pages(unsigned attributes, std::uint64_t owners) {
+    const AttributeGroups groups(attributes);
+    AttributeScan<D, K> scan(host_, domain_, attributes);
+    std::array<std::uint64_t, AttributeGroups(ABACUS_MAX_NAMES).count()> rows{};
     while (scan.fetch()) {
         faults_.at = scan.key();
         scan.read();
-        vertices[scan.group()] += scan.page().rows();
+        rows[scan.group()] += scan.page().rows();
     }
     for (unsigned group = 0; group < groups.count(); ++group)
-        if (vertices[group] != header_.vertices)
-            faults_.add("attributes", group_begin(group),
-                        "The attribute pages have another number of vertices than the mesh.");
+        if (rows[group] != owners)
+            faults_.add(K == 1 ? "attributes" : "labels", group_begin(first_group<D, K>() + group),
+                        K == 1
+                            ? "The attribute pages have another number of vertices than the mesh."
+                            : "The pages of labels have other simplices than the header counts.");
 }
 
 /// There are as many vertices with attributes as vertices; so it is enough that each of these has
@@ -204,6 +214,29 @@ template <int D> void Check<D>::check_attributes() {
                 break;
             }
     }
+}
+
+/// There are as many simplices with labels as rows of them; so none is of another simplex if the
+/// mesh has all of those.
+template <int D> void Check<D>::check_labels() {
+    AttributeReader<D, D + 1> labels(host_, domain_, header_.labels, cache_bytes_ / 2);
+    PageScan<D> scan(host_, header_);
+    PageView<D> page;
+    std::uint64_t labelled = 0;
+    while (scan.fetch()) {
+        faults_.at = scan.key();
+        page.read(scan.bytes(), scan.size(), page_attributes(header_),
+                  PageView<D>::Checksum::ignore);
+        for (int s = 0; s < page.simplices(); ++s) {
+            if (page.is_ghost(s)) continue;
+            std::array<Point<D>, D + 1> points;
+            for (int i = 0; i <= D; ++i) points[i] = page.point(page.corner(s, i));
+            labelled += labels.contains(owner_of<D, D + 1>(points));
+        }
+    }
+    if (labelled != header_.labelled)
+        faults_.add("labels", first_key,
+                    "There are labels of simplices that the mesh does not have.");
 }
 
 template class Check<2>;

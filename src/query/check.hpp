@@ -15,7 +15,7 @@
 //             whole; the counts add up
 //
 // If attributes are apart, two more passes look into their pages, and for the attributes of each
-// vertex.
+// vertex. If simplices have labels, two more look into their pages, and whose labels these are.
 //
 // A mesh that is not Delaunay need not fulfil the empty-sphere criterion and Euler's
 // relation, nor have a convex hull, which its stars would be judged by. Instead, the two
@@ -69,8 +69,10 @@ private:
     void check_follows(const Key &last, const Key &at);
     void check_waiting_points();
     void check_listed_vertices();
-    void check_attribute_pages();
+    /// Their pages have so many rows in each group.
+    template <int K> void check_attribute_pages(unsigned attributes, std::uint64_t owners);
     void check_attributes();
+    void check_labels();
 
     void report(std::uint64_t pages, unsigned threads = 0);
     void report_some(std::uint64_t pages) {

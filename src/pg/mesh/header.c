@@ -90,7 +90,10 @@ header_try_decode(Host *host, const StoredPage *row, abacus_header *header)
 		host->failure.kind = ABACUS_ERROR_CORRUPTED;
 		snprintf(host->failure.message, sizeof(host->failure.message), "%s is corrupted", name);
 		snprintf(host->failure.detail, sizeof(host->failure.detail),
-				 "The name of attribute %d is not valid in UTF-8.", invalid + 1);
+				 "The name of %s %d is not valid in UTF-8.",
+				 invalid < (int) header->attributes ? "attribute" : "label",
+				 invalid < (int) header->attributes ? invalid + 1
+				 : invalid - (int) header->attributes + 1);
 		snprintf(host->failure.hint, sizeof(host->failure.hint),
 				 "Restore the %s from a backup or build it anew.", name);
 		return ABACUS_ERROR;
