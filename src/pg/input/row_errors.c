@@ -36,7 +36,8 @@ static const char *
 column_name(const RowPacker *packer, int column)
 {
 	if (packer->ids > 1)
-		return corner_names[column];
+		return column < packer->ids ? corner_names[column]
+			: packer->header->names[packer->header->attributes + column - packer->ids];
 	if (row_has_geometry(packer) && column == GEOMETRY_COLUMN)
 		return "geometry";
 	if (column == 0)
@@ -92,6 +93,8 @@ row_refuse_type(const RowPacker *packer, int column, Form_pg_attribute attribute
 			 errmsg("column %d (%s) of %s has type %s", column + 1, column_name(packer, column),
 					packer->origin->columns_of, format_type_be(attribute->atttypid)),
 			 is_id ? errdetail("%s is smallint, integer or bigint.", packer->origin->an_id)
+			 : packer->ids > 1
+			 ? errdetail("Labels are double precision, real, numeric or integers.")
 			 : errdetail("Coordinates and attributes are double precision, real, numeric or integers."),
 			 errhint("%s", hint != NULL ? hint : packer->origin->type_hint)));
 }

@@ -3,7 +3,7 @@
  * of simplices.
  *
  * A DestReceiver that deforms each slot in place. It packs id, coordinates and attributes, or the
- * ids of a simplex's vertices, into eight-byte words. Columns go by position, as in every function
+ * ids of a simplex's vertices and its labels, into eight-byte words. Columns go by position, as in every function
  * that takes a source query. In place of the coordinates there may be a point of PostGIS. This is the
  * hot path of staging: it takes a few tens of nanoseconds a row, besides the scan itself.
  */
@@ -27,7 +27,7 @@ static const RowOrigin query_of_points = {
 };
 static const RowOrigin query_of_simplices = {
 	"the source query", "the source query", "Cast the column in the query.",
-	NULL, "Leave such simplices out with a WHERE clause.", false,
+	NULL, "Leave such simplices out with a WHERE clause.", true,
 	"mesh", "id", "An id", NULL, false, false
 };
 static const RowOrigin tracked_table = {
@@ -83,7 +83,7 @@ pack_kind(const RowPacker *packer, int column, Form_pg_attribute attribute)
 			break;
 		case TEXTOID:
 			/* a bare NULL of a query is of this type */
-			if (packer->origin->bare_nulls &&
+			if (packer->origin->bare_nulls && !is_id &&
 				row_word(packer, column) > packer->coordinates)
 				return PACK_NULL;
 			break;
@@ -299,11 +299,12 @@ row_packer_create_tracked(TupleDesc desc, const abacus_header *header, size_t ba
 				  true, batch);
 }
 
-/* The same for rows of a query that are simplices: ids of their vertices. */
+/* The same for rows of a query that are simplices: ids of their vertices, and their labels. */
 RowPacker *
 row_packer_create_simplices(TupleDesc desc, const abacus_header *header, size_t batch)
 {
-	return create(desc, header, &query_of_simplices, header->dimension + 1, 0, 0, false, false, batch);
+	return create(desc, header, &query_of_simplices, header->dimension + 1, 0, header->labels, false,
+				  false, batch);
 }
 
 /* The same for rows of a query that are for an octree. */
