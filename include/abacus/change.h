@@ -118,6 +118,34 @@ ABACUS_API abacus_status abacus_build_rekey(abacus_build *build, size_t memory,
 											abacus_error *error);
 ABACUS_API void abacus_build_close(abacus_build *build);
 
+/* ---- Labels ------------------------------------------------------------------ */
+
+typedef struct abacus_labelling abacus_labelling;
+
+/*
+ * Opens the labelling of simplices of a mesh, Delaunay or not. `header` names all labels; the first
+ * `known` of them are not new. Each row has values of `count` labels, whose numbers are `labels`.
+ * `memory` bounds what it uses for sorting, in bytes.
+ */
+ABACUS_API abacus_status abacus_labelling_open(const abacus_host *host,
+											   const abacus_header *header, uint32_t known,
+											   const uint32_t *labels, size_t count, size_t memory,
+											   size_t cache_bytes, abacus_labelling **labelling,
+											   abacus_error *error);
+/*
+ * Adds rows of 8-byte words: code and dimension + 1 ids of a simplex, then the values, NaN where
+ * there is none. Of several rows for a simplex the last one counts.
+ */
+ABACUS_API abacus_status abacus_labelling_add(abacus_labelling *labelling, const uint64_t *rows,
+											  size_t count, abacus_error *error);
+/*
+ * No more rows come: gives the simplices their labels and brings the header up to date. ABACUS_ERROR
+ * (argument) if the mesh has no such simplex.
+ */
+ABACUS_API abacus_status abacus_labelling_end(abacus_labelling *labelling, abacus_header *header,
+											  abacus_error *error);
+ABACUS_API void abacus_labelling_close(abacus_labelling *labelling);
+
 /* ---- Loading ---------------------------------------------------------------- */
 
 typedef struct abacus_load abacus_load;

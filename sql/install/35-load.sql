@@ -1,4 +1,4 @@
--- Meshes made elsewhere.
+-- Meshes made elsewhere, and labels of simplices.
 
 CREATE FUNCTION abacus_load(
     mesh text,
@@ -15,3 +15,17 @@ AS 'MODULE_PATHNAME', 'abacus_sql_load'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_load(text, text, text, text[], double precision[], double precision[], boolean, boolean, text[]) IS
     'makes a mesh of a triangulation made elsewhere, Delaunay or not, from queries for vertices (id, x, y[, z][, attribute...]) and simplices (v0, v1, v2[, v3][, label...]); checks it exactly, triangulates its vertices anew if that is wanted and it is not Abacus'' own, and returns the number of simplices';
+
+CREATE FUNCTION abacus_label(mesh regclass, query text)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_label'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_label(regclass, text) IS
+    'gives simplices labels, numbers by name: for each row (code, v0, v1, v2[, v3], columns named after labels) the simplex with this code and these vertices; returns how many rows there were';
+
+CREATE FUNCTION abacus_labels(mesh regclass)
+RETURNS text[]
+AS 'MODULE_PATHNAME', 'abacus_sql_labels'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100;
+COMMENT ON FUNCTION abacus_labels(regclass) IS
+    'the names of the labels that simplices of a mesh may have, in the order of abacus_cells().labels';

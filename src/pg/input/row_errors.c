@@ -10,7 +10,7 @@
 #include "pg/postgis/geometry_errors.h"
 
 static const char *const coordinate_names[ABACUS_MAX_DIMENSION] = {"x", "y", "z"};
-static const char *const corner_names[ABACUS_MAX_DIMENSION + 1] = {"v0", "v1", "v2", "v3"};
+static const char *const simplex_names[ABACUS_MAX_DIMENSION + 2] = {"code", "v0", "v1", "v2", "v3"};
 
 /* What a column is called in messages, and in tables by default. */
 const char *
@@ -36,8 +36,9 @@ static const char *
 column_name(const RowPacker *packer, int column)
 {
 	if (packer->ids > 1)
-		return column < packer->ids ? corner_names[column]
-			: packer->header->names[packer->header->attributes + column - packer->ids];
+		return column >= packer->ids
+			? packer->header->names[packer->header->attributes + column - packer->ids]
+			: simplex_names[(int) packer->header->dimension + 2 - packer->ids + column];
 	if (row_has_geometry(packer) && column == GEOMETRY_COLUMN)
 		return "geometry";
 	if (column == 0)

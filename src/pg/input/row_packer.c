@@ -30,6 +30,11 @@ static const RowOrigin query_of_simplices = {
 	NULL, "Leave such simplices out with a WHERE clause.", true,
 	"mesh", "id", "An id", NULL, false, false
 };
+static const RowOrigin query_of_labels = {
+	"the source query", "the source query", "Cast the column in the query.",
+	NULL, "Leave such rows out with a WHERE clause.", true,
+	"mesh", "code", "A code or an id", NULL, true, false
+};
 static const RowOrigin tracked_table = {
 	"the tracked table", "the statement", "Track other columns, generated ones for instance.",
 	"Track generated columns", "A row without a point has NULL for a coordinate.", false,
@@ -304,6 +309,14 @@ RowPacker *
 row_packer_create_simplices(TupleDesc desc, const abacus_header *header, size_t batch)
 {
 	return create(desc, header, &query_of_simplices, header->dimension + 1, 0, header->labels, false,
+				  false, batch);
+}
+
+/* The same for rows of a query that label simplices, which have a code before the ids. */
+RowPacker *
+row_packer_create_labels(TupleDesc desc, const abacus_header *shape, size_t batch)
+{
+	return create(desc, shape, &query_of_labels, shape->dimension + 2, 0, shape->labels, false,
 				  false, batch);
 }
 

@@ -21,6 +21,7 @@ close_handles(void *handle)
 	abacus_stage_close(change->stage);
 	abacus_stage_close(change->put_aside);
 	abacus_load_close(change->load);
+	abacus_labelling_close(change->labelling);
 }
 
 /* What a change begins with, once its writer has. */

@@ -20,6 +20,7 @@ typedef struct Change
 	bool		may_replace;	/* the user can choose that */
 	bool		inserts;
 	abacus_load *load;			/* a triangulation made elsewhere */
+	abacus_labelling *labelling;
 } Change;
 
 extern Change *change_begin(Oid mesh, const char *command);

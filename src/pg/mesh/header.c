@@ -210,6 +210,16 @@ header_attribute(const abacus_header *header, const char *name)
 	return -1;
 }
 
+/* Number of the label with this name, -1 if there is none. */
+int
+header_label(const abacus_header *header, const char *name)
+{
+	for (uint32 i = 0; i < header->labels; i++)
+		if (strcmp(header->names[header->attributes + i], name) == 0)
+			return (int) i;
+	return -1;
+}
+
 /* What attributes there are, for messages. */
 static char *
 list_attributes(const abacus_header *header)
