@@ -76,12 +76,20 @@ template <int D, int K> std::uint64_t code_of(const Domain<D> &domain, const Own
     return greatest;
 }
 
+/// The least key of a code in group 0, and the code of a key in any.
+constexpr Key code_begin(std::uint64_t code) {
+    constexpr std::uint64_t low = (std::uint64_t{1} << attribute_code_low_bits) - 1;
+    return {code >> attribute_code_low_bits, (code & low) << attribute_hash_bits};
+}
+constexpr std::uint64_t code_of(const Key &key) {
+    return (key.code & (group_begin(1).code - 1)) << attribute_code_low_bits |
+           key.part >> attribute_hash_bits;
+}
+
 /// The key of an owner with this code, in group 0.
 template <int D, int K = 1> Key attribute_key(const Owner<D, K> &owner, std::uint64_t code) {
-    constexpr std::uint64_t low = (std::uint64_t{1} << attribute_code_low_bits) - 1;
-    return {code >> attribute_code_low_bits,
-            (code & low) << attribute_hash_bits |
-                hash_of<D, K>(owner) >> (64 - attribute_hash_bits)};
+    const Key begin = code_begin(code);
+    return {begin.code, begin.part | hash_of<D, K>(owner) >> (64 - attribute_hash_bits)};
 }
 /// The same in another one.
 constexpr Key in_group(const Key &key, unsigned group) {

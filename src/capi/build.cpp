@@ -11,8 +11,10 @@
 
 struct abacus_build {
     abacus_build(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
-        : host(*table), build(host, header, cache_bytes) {}
+        : stored(abacus::Host(*table)), host(*table, header.labelled > 0 ? &stored : nullptr),
+          build(host, header, cache_bytes, header.labelled > 0 ? &stored : nullptr) {}
 
+    abacus::StoredPages stored;
     const abacus::Host host;
     abacus::ByDimension<abacus::Build> build;
 };

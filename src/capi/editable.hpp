@@ -8,13 +8,8 @@
 namespace abacus {
 
 /// Throws an Error (state) for a mesh that is not Delaunay: insertion and deletion rely on
-/// empty circumspheres and a convex hull. And for one whose simplices have labels, or whose facets
-/// have markers: these name owners that a change may take away.
+/// empty circumspheres and a convex hull.
 inline void require_editable(const abacus_header &header) {
-    if (header.labelled > 0 || header.marked > 0)
-        throw Error(ABACUS_ERROR_STATE, "mesh has labels of simplices or markers of facets",
-                    "Such a mesh can be read, not changed.",
-                    "Make a mesh of its points by abacus_triangulate().");
     if (header.not_delaunay == 0) return;
     const auto delaunay = static_cast<abacus_delaunay>(header.not_delaunay);
     throw Error(ABACUS_ERROR_STATE, abacus_delaunay_clause(delaunay),

@@ -1,6 +1,7 @@
 // Taking points away.
 #include "delaunay/build.hpp"
 
+#include "attributes/rewriting.hpp"
 #include "delaunay/intake.hpp"
 #include "points/vertex_page.hpp"
 #include "traverse/own_vertices.hpp"
@@ -131,7 +132,7 @@ template <int D> void Build<D>::forget_simplices() {
     erase_pages(ABACUS_SIMPLEX_PAGES);
     if (apart_) {
         apart_->forget();
-        erase_pages(ABACUS_ATTRIBUTE_PAGES);
+        erase_attributes<D, 1>(host_);
     }
     header_->vertices = header_->duplicates = header_->simplices = header_->ghosts = 0;
     forget_cache();

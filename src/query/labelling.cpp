@@ -1,6 +1,6 @@
 #include "query/labelling.hpp"
 
-#include "attributes/widen.hpp"
+#include "attributes/rewriting.hpp"
 #include "blocks/counters.hpp"
 #include "keys/domain_of.hpp"
 

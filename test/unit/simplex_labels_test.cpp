@@ -96,6 +96,62 @@ public:
         abacus_places_close(places);
         EXPECT_GT(inside_, 100);
     }
+    /// Gives some simplices other values of these labels, of which the last ones may be new.
+    void label(const std::vector<std::uint32_t> &numbers, unsigned seed) {
+        std::mt19937_64 random(seed);
+        const std::uint32_t known = mesh.header.labels;
+        abacus_header named = mesh.header;
+        for (const std::uint32_t number : numbers)
+            if (number >= named.labels) {
+                named.labels = number + 1;
+                std::strcpy(named.names[number], ("label " + std::to_string(number)).c_str());
+            }
+        labels_ = named.labels;
+        for (auto &[ids, row] : known_) row.resize(labels_, null_value);
+        auto simplices = mesh.simplices(false);
+        std::shuffle(simplices.begin(), simplices.end(), random);
+        simplices.resize(simplices.size() / 2);
+        std::vector<std::uint64_t> rows;
+        for (const abacus_simplex &simplex : simplices) {
+            rows.push_back(simplex.code);
+            Ids<D> ids = ids_of<D>(simplex);
+            std::shuffle(ids.begin(), ids.end(), random);
+            rows.insert(rows.end(), ids.begin(), ids.end());
+            for (const std::uint32_t number : numbers) {
+                const double value = random() % 9 == 0 ? null_value : double(random() % 100);
+                rows.push_back(std::bit_cast<std::uint64_t>(value));
+                known_.at(ids_of<D>(simplex))[number] = value;
+            }
+        }
+        abacus_labelling *labelling = nullptr;
+        ASSERT_EQ(abacus_labelling_open(mesh.host.table(), &named, known, numbers.data(),
+                                        numbers.size(), 1 << 16, 1 << 20, &labelling, &mesh.error),
+                  ABACUS_OK);
+        EXPECT_EQ(abacus_labelling_add(labelling, rows.data(), simplices.size(), &mesh.error),
+                  ABACUS_OK);
+        EXPECT_EQ(abacus_labelling_end(labelling, &named, &mesh.error), ABACUS_OK)
+            << mesh.error.message;
+        abacus_labelling_close(labelling);
+        mesh.header = named;
+    }
+    /// After a change: simplices that are still there have kept theirs, others have none.
+    void expect_followed() {
+        LabelsByIds<D> left;
+        std::uint64_t kept = 0;
+        for (const abacus_simplex &simplex : mesh.simplices(false)) {
+            const auto before = known_.find(ids_of<D>(simplex));
+            const bool is_new = before == known_.end();
+            left[ids_of<D>(simplex)] =
+                is_new ? std::vector<double>(labels_, null_value) : before->second;
+            kept += !is_new;
+        }
+        EXPECT_LT(kept, known_.size());
+        known_ = left;
+        expect_all_in_cells();
+        EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+        EXPECT_EQ(mesh.host.bytes, 0u);
+        EXPECT_TRUE(mesh.host.spools.empty());
+    }
     std::uint64_t labelled() const { return labelled_; }
 
     MeshOf<D> mesh;
@@ -126,14 +182,14 @@ template <int D> Triangulation<D> some_triangulation(int n) {
     return delaunay<D>(points);
 }
 
-template <class Dimension> class LoadLabels : public testing::Test {
+template <class Dimension> class SimplexLabels : public testing::Test {
 protected:
     static constexpr int D = Dimension::value;
 };
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(LoadLabels, Dimensions);
+TYPED_TEST_SUITE(SimplexLabels, Dimensions);
 
-TYPED_TEST(LoadLabels, AreThereForReaders) {
+TYPED_TEST(SimplexLabels, AreThereForReaders) {
     constexpr int D = TestFixture::D;
     for (const unsigned labels : {1u, 3u, 40u, unsigned{ABACUS_MAX_NAMES}})
         for (const std::size_t memory : {std::size_t{1}, std::size_t{64} << 20}) {
@@ -147,7 +203,7 @@ TYPED_TEST(LoadLabels, AreThereForReaders) {
 }
 
 /// As of one that is not convex.
-TYPED_TEST(LoadLabels, OfAMeshWithAHole) {
+TYPED_TEST(SimplexLabels, OfAMeshWithAHole) {
     constexpr int D = TestFixture::D;
     LabelledMesh<D> mesh(2);
     mesh.load(keeping(some_triangulation<D>(1000),
@@ -159,7 +215,7 @@ TYPED_TEST(LoadLabels, OfAMeshWithAHole) {
 }
 
 /// The pages of simplices know nothing of labels.
-TYPED_TEST(LoadLabels, LeaveSimplexPagesAsTheyAre) {
+TYPED_TEST(SimplexLabels, LeaveSimplexPagesAsTheyAre) {
     constexpr int D = TestFixture::D;
     const auto t = some_triangulation<D>(1000);
     LabelledMesh<D> labelled(5), plain(0);
@@ -176,7 +232,7 @@ TYPED_TEST(LoadLabels, LeaveSimplexPagesAsTheyAre) {
     EXPECT_TRUE(plain.mesh.host.attribute_pages.empty());
 }
 
-TYPED_TEST(LoadLabels, OfAMeshThatHasAttributesApart) {
+TYPED_TEST(SimplexLabels, OfAMeshThatHasAttributesApart) {
     constexpr int D = TestFixture::D;
     LabelledMesh<D> mesh(2);
     mesh.mesh.header.attributes = 6;
@@ -189,7 +245,7 @@ TYPED_TEST(LoadLabels, OfAMeshThatHasAttributesApart) {
     EXPECT_EQ(mesh.mesh.check(), std::vector<std::string>{});
 }
 
-TYPED_TEST(LoadLabels, WhoseNobodyHasOrTooFewAreFaults) {
+TYPED_TEST(SimplexLabels, WhoseNobodyHasOrTooFewAreFaults) {
     constexpr int D = TestFixture::D;
     LabelledMesh<D> mesh(2);
     mesh.load(some_triangulation<D>(1500));
@@ -217,23 +273,114 @@ TYPED_TEST(LoadLabels, WhoseNobodyHasOrTooFewAreFaults) {
     EXPECT_EQ(mesh.mesh.check(), std::vector<std::string>{});
 }
 
-/// None of its simplices may go while nobody takes its labels away.
-TYPED_TEST(LoadLabels, AMeshWithThemIsNotChanged) {
+template <int D> std::vector<InputOf<D>> more_points(int n, double width, std::int64_t first_id) {
+    std::mt19937_64 random(static_cast<unsigned>(first_id));
+    std::uniform_real_distribution<double> along(0, width);
+    std::vector<InputOf<D>> points;
+    for (int i = 0; i < n; ++i) {
+        Point<D> p;
+        for (double &x : p) x = along(random);
+        points.push_back({first_id + i, p});
+    }
+    return points;
+}
+
+/// A simplex that a change leaves keeps them, whoever made the change.
+TYPED_TEST(SimplexLabels, StayAndGoWithTheirSimplices) {
+    constexpr int D = TestFixture::D;
+    for (const unsigned threads : {1u, 3u})
+        for (const unsigned labels : {2u, 40u}) {
+            LabelledMesh<D> mesh(labels, 300 << 10);
+            mesh.load(some_triangulation<D>(D == 2 ? 6000 : 1500));
+            mesh.mesh.host.set_threads(threads, threads > 1);
+            for (const int n : {1, 30, 700}) {
+                const auto points = more_points<D>(n, 1, 100000 + n);
+                ASSERT_EQ(mesh.mesh.insert(points), ABACUS_OK) << mesh.mesh.error.message;
+                mesh.expect_followed();
+                std::uint64_t deleted = 0;
+                ASSERT_EQ(mesh.mesh.remove(points, deleted), ABACUS_OK);
+                EXPECT_EQ(deleted, points.size());
+                mesh.expect_followed();
+                if (testing::Test::HasFailure()) return;
+            }
+            EXPECT_GT(mesh.mesh.header.labelled, 100u);
+        }
+}
+
+TYPED_TEST(SimplexLabels, FollowToAnotherDomain) {
+    constexpr int D = TestFixture::D;
+    LabelledMesh<D> mesh(3);
+    mesh.load(some_triangulation<D>(2000));
+    const double before = mesh.mesh.header.upper[0];
+    ASSERT_EQ(mesh.mesh.insert(more_points<D>(4000, 100, 100000)), ABACUS_OK);
+    EXPECT_GT(mesh.mesh.header.upper[0], before);
+    mesh.expect_followed();
+    EXPECT_GT(mesh.mesh.header.labelled, 1000u);
+}
+
+/// Most points leave, and the rest is triangulated anew; then all leave.
+TYPED_TEST(SimplexLabels, OfAMeshThatIsTakenAway) {
+    constexpr int D = TestFixture::D;
+    LabelledMesh<D> mesh(3);
+    const auto t = some_triangulation<D>(2000);
+    mesh.load(t);
+    std::vector<InputOf<D>> many(t.vertices.begin(), t.vertices.end() - 100);
+    std::uint64_t deleted = 0;
+    ASSERT_EQ(mesh.mesh.remove(many, deleted), ABACUS_OK);
+    mesh.expect_followed();
+    ASSERT_EQ(mesh.mesh.remove({t.vertices.end() - 100, t.vertices.end()}, deleted), ABACUS_OK);
+    EXPECT_EQ(mesh.mesh.header.simplices, 0u);
+    EXPECT_EQ(mesh.mesh.header.labelled, 0u);
+    EXPECT_TRUE(mesh.mesh.host.attribute_pages.empty());
+}
+
+TYPED_TEST(SimplexLabels, AreGivenLater) {
+    constexpr int D = TestFixture::D;
+    for (const bool is_delaunay : {true, false}) {
+        LabelledMesh<D> mesh(0);
+        auto t = some_triangulation<D>(1500);
+        if (!is_delaunay) flip(t, 200, 3);
+        mesh.load(t);
+        mesh.label({0}, 1);
+        mesh.expect_all_in_cells();
+        mesh.label({0}, 2); // others
+        mesh.expect_all_in_cells();
+        std::vector<std::uint32_t> many{0};
+        for (std::uint32_t i = 1; i < 70; ++i) many.push_back(i);
+        mesh.label(many, 3); // more than a page of labels has
+        mesh.expect_all_in_cells();
+        mesh.label({5, 69, 2}, 4);
+        mesh.expect_all_in_cells();
+        EXPECT_EQ(mesh.mesh.check(), std::vector<std::string>{});
+        EXPECT_EQ(mesh.mesh.host.bytes, 0u);
+        if (testing::Test::HasFailure()) return;
+    }
+}
+
+TYPED_TEST(SimplexLabels, ForASimplexThatIsNoneAreRefused) {
     constexpr int D = TestFixture::D;
     LabelledMesh<D> mesh(1);
-    mesh.load(some_triangulation<D>(100));
-    Point<D> middle;
-    middle.fill(0.5);
-    EXPECT_EQ(mesh.mesh.insert({{1, middle}}), ABACUS_ERROR);
-    EXPECT_EQ(mesh.mesh.error.kind, ABACUS_ERROR_STATE);
-    std::uint64_t deleted = 0;
-    EXPECT_EQ(mesh.mesh.remove({{1, middle}}, deleted), ABACUS_ERROR);
-    EXPECT_EQ(mesh.mesh.error.kind, ABACUS_ERROR_STATE);
+    mesh.load(some_triangulation<D>(300));
+    const abacus_simplex simplex = mesh.mesh.simplices(false).front();
+    std::vector<std::uint64_t> row{simplex.code};
+    row.insert(row.end(), simplex.id, simplex.id + D + 1);
+    row.back() = 77777;
+    row.push_back(0);
+    const std::uint32_t number = 0;
+    abacus_labelling *labelling = nullptr;
+    abacus_header header = mesh.mesh.header;
+    ASSERT_EQ(abacus_labelling_open(mesh.mesh.host.table(), &header, 1, &number, 1, 1 << 16,
+                                    1 << 20, &labelling, &mesh.mesh.error),
+              ABACUS_OK);
+    ASSERT_EQ(abacus_labelling_add(labelling, row.data(), 1, &mesh.mesh.error), ABACUS_OK);
+    EXPECT_EQ(abacus_labelling_end(labelling, &header, &mesh.mesh.error), ABACUS_ERROR);
+    EXPECT_EQ(mesh.mesh.error.kind, ABACUS_ERROR_ARGUMENT);
+    abacus_labelling_close(labelling);
     mesh.expect_all_in_cells();
 }
 
 /// Nobody has named labels, or no simplex has one.
-TYPED_TEST(LoadLabels, OfWhichThereAreNone) {
+TYPED_TEST(SimplexLabels, OfWhichThereAreNone) {
     constexpr int D = TestFixture::D;
     LabelledMesh<D> mesh(2);
     mesh.load(some_triangulation<D>(100), 64 << 20, 1);

@@ -1,0 +1,36 @@
+// Labels of simplices while the mesh changes: those of simplices that have gone go
+// (label_sweep.hpp), and the others follow it to another domain.
+#include "attributes/rewriting.hpp"
+#include "blocks/counters.hpp"
+#include "delaunay/build.hpp"
+#include "delaunay/label_sweep.hpp"
+
+namespace abacus {
+
+/// Of a change that has been stored.
+template <int D> void Build<D>::sweep_labels() {
+    if (core_->mesh.simplices() == 0) {
+        erase_attributes<D, D + 1>(host_);
+        header_->labelled = 0;
+    }
+    if (header_->labelled > 0) {
+        LabelSweep<D> sweep(host_, *header_, domain_);
+        for (const StoredPages::Stretch &stretch : stored_->stretches())
+            header_->labelled -= sweep.sweep(stretch);
+        core_->cache.counters += sweep.finish();
+    }
+    stored_->clear();
+}
+
+template <int D> void Build<D>::rekey_labels(const Domain<D> &from, std::size_t memory) {
+    if (header_->labelled == 0) return;
+    core_->cache.counters +=
+        rekey_attributes<D, D + 1>(host_, from, domain_, header_->labels, memory);
+}
+
+template void Build<2>::sweep_labels();
+template void Build<3>::sweep_labels();
+template void Build<2>::rekey_labels(const Domain<2> &, std::size_t);
+template void Build<3>::rekey_labels(const Domain<3> &, std::size_t);
+
+} // namespace abacus
