@@ -11,6 +11,7 @@ SELECT abacus_load('notch', 'TABLE corner', 'TABLE part', labels => '{soil,depth
 SELECT abacus_labels('notch');
 SELECT v0, v1, v2, labels FROM abacus_cells('notch') ORDER BY 1, 2, 3;
 SELECT v0, v1, v2, labels FROM abacus_cells('notch', ARRAY[1.5, 0], 0.1);
+SELECT id, v0, v1, v2, labels FROM abacus_locate('notch', 'VALUES (1, 1.5, 0.25), (2, 0.5, 1.75), (3, 1.75, 1.75), (4, 1, 0.75)') ORDER BY id;
 SELECT * FROM abacus_check('notch');
 -- it cannot be changed, but it can be labelled
 SELECT abacus_label('notch', 'SELECT code, v0, v1, v2, NULL AS depth, v0 + v1 AS "a sum" FROM abacus_simplices(''notch'') WHERE v0 = 1');

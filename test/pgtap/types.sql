@@ -69,7 +69,7 @@ INSERT INTO wanted VALUES
     ('abacus_triangulate', 'mesh text, query text, attributes text[] DEFAULT NULL::text[], dimension integer DEFAULT 2, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[]', 'bigint', 'v', false, 'u'),
     ('abacus_locate', 'mesh regclass, x double precision, y double precision', 'abacus_simplex', 's', true, 's'),
     ('abacus_locate', 'mesh regclass, x double precision, y double precision, z double precision', 'abacus_simplex', 's', true, 's'),
-    ('abacus_locate', 'mesh regclass, query text, OUT id bigint, OUT code bigint, OUT v0 bigint, OUT v1 bigint, OUT v2 bigint, OUT v3 bigint', 'SETOF record', 'v', true, 'u'),
+    ('abacus_locate', 'mesh regclass, query text, OUT id bigint, OUT code bigint, OUT v0 bigint, OUT v1 bigint, OUT v2 bigint, OUT v3 bigint, OUT labels double precision[]', 'SETOF record', 'v', true, 'u'),
     ('abacus_star', 'mesh regclass, x double precision, y double precision', 'SETOF abacus_simplex', 's', true, 's'),
     ('abacus_nearest', 'mesh regclass, x double precision, y double precision, k integer DEFAULT 1, OUT vertex bigint, OUT x double precision, OUT y double precision, OUT z double precision, OUT attributes double precision[], OUT distance double precision', 'SETOF record', 's', true, 's'),
     ('abacus_nearest', 'mesh regclass, x double precision, y double precision, z double precision, k integer DEFAULT 1, OUT vertex bigint, OUT x double precision, OUT y double precision, OUT z double precision, OUT attributes double precision[], OUT distance double precision', 'SETOF record', 's', true, 's'),

@@ -56,7 +56,9 @@ cell_row(TupleDesc row_type, const abacus_simplex *simplex, const double *attrib
 	simplex_columns(simplex, header->dimension, values, isnull);
 	values[CELL_CORNERS] = float_matrix(corners, dimension + 1, dimension);
 	values[CELL_VALUES] = float_matrix(attributes, dimension + 1, (int) header->attributes);
-	values[CELL_LABELS] = attribute_array(labels, (int) header->labels);
+	isnull[CELL_LABELS] = header->labels == 0;
+	values[CELL_LABELS] = header->labels == 0 ? (Datum) 0
+		: attribute_array(labels, (int) header->labels);
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
 }
 
@@ -82,7 +84,7 @@ next(FunctionCallInfo fcinfo, WindowForm form, bool is_cells)
 	reader = set->user_fctx;
 	host = reader->host;
 	status = host_run(host, abacus_cells_next, host->handle, &simplex, is_cells ? values : NULL);
-	if (is_cells && status != ABACUS_END)
+	if (is_cells && status != ABACUS_END && reader->header.labels > 0)
 		host_run(host, abacus_cells_labels, host->handle, &simplex, &labels);
 	host_release(host);
 	if (status == ABACUS_END)
