@@ -15,8 +15,11 @@ template <int D> void Build<D>::sweep_labels() {
     }
     if (header_->labelled > 0) {
         LabelSweep<D> sweep(host_, *header_, domain_);
+        std::uint64_t gone = 0;
         for (const StoredPages::Stretch &stretch : stored_->stretches())
-            header_->labelled -= sweep.sweep(stretch);
+            gone += sweep.sweep(stretch);
+        if (gone > header_->labelled) throw_corrupted("The header counts too few labels.");
+        header_->labelled -= gone;
         core_->cache.counters += sweep.finish();
     }
     stored_->clear();
