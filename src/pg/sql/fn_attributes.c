@@ -144,7 +144,9 @@ abacus_sql_rename_attribute(PG_FUNCTION_ARGS)
 	if (header_attribute(header, name) >= 0 || header_label(header, name) >= 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_DUPLICATE_COLUMN),
-				 errmsg("mesh has an attribute \"%s\" already", name)));
+				 header_attribute(header, name) >= 0
+				 ? errmsg("mesh has an attribute \"%s\" already", name)
+				 : errmsg("mesh has a label \"%s\" already", name)));
 	strlcpy(header->names[number], name, ABACUS_NAME_BYTES);
 	writer_end(&writer);
 	PG_RETURN_VOID();
