@@ -13,6 +13,7 @@ SELECT v0, v1, v2, labels FROM abacus_cells('notch') ORDER BY 1, 2, 3;
 SELECT v0, v1, v2, labels FROM abacus_cells('notch', ARRAY[1.5, 0], 0.1);
 SELECT id, v0, v1, v2, labels FROM abacus_locate('notch', 'VALUES (1, 1.5, 0.25), (2, 0.5, 1.75), (3, 1.75, 1.75), (4, 1, 0.75)') ORDER BY id;
 SELECT * FROM abacus_check('notch');
+SELECT abacus_labels('notch', abacus_locate('notch', 0.5, 1.75)), abacus_labels('notch', abacus_locate('notch', 1.75, 1.75)) IS NULL AS outside;
 -- it cannot be changed, but it can be labelled
 SELECT abacus_label('notch', 'SELECT code, v0, v1, v2, NULL AS depth, v0 + v1 AS "a sum" FROM abacus_simplices(''notch'') WHERE v0 = 1');
 SELECT abacus_labels('notch');
@@ -37,6 +38,7 @@ SELECT count(labels[1]) BETWEEN 6000 AND 7800 AS some_are_left FROM abacus_cells
 SELECT abacus_delete('field', 'SELECT id, x, y FROM points WHERE id % 50 = 1');
 TABLE wrong UNION ALL SELECT *, NULL FROM lost UNION ALL SELECT *, NULL FROM found;
 SELECT * FROM abacus_check('field');
+SELECT count(*) FROM abacus_cells('field') WHERE labels IS DISTINCT FROM abacus_labels('field', (code, v0, v1, v2, v3));
 -- another domain
 SELECT abacus_insert('field', 'SELECT 20000 + id, x * 50 + 3000, y * 70 + 3000 FROM points');
 TABLE wrong UNION ALL SELECT *, NULL FROM lost UNION ALL SELECT *, NULL FROM found;
@@ -63,6 +65,7 @@ SELECT abacus_label('notch', 'SELECT 1, 2, 3, 4, 5 AS soil');
 SELECT abacus_label('notch', 'SELECT code, v0, v1, v2, ''clay'' AS soil FROM abacus_simplices(''notch'')');
 SELECT abacus_label('notch', 'SELECT code, v0, v1, NULL::int, 1 AS soil FROM abacus_simplices(''notch'')');
 SELECT abacus_label('solid_mesh', 'SELECT code, v0, v1, v2, v3, 1 AS b FROM abacus_simplices(''solid_mesh'')');
+SELECT abacus_labels('notch', (1, 2, 3, 4, NULL)::abacus_simplex);
 SELECT abacus_load('bad', 'TABLE corner', 'TABLE part');
 SELECT abacus_load('bad', 'TABLE corner', 'TABLE part', labels => '{soil}');
 SELECT abacus_load('bad', 'TABLE corner', 'TABLE part', labels => '{soil,soil}');

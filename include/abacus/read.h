@@ -58,6 +58,12 @@ ABACUS_API abacus_status abacus_mesh_locate(abacus_mesh *mesh, const double *poi
 ABACUS_API abacus_status abacus_mesh_walk(abacus_mesh *mesh, uint64_t code, const int64_t *ids,
 										  int facet, abacus_simplex *simplex, abacus_error *error);
 /*
+ * The labels of the simplex with this code and these corner ids, as many as the header names; valid
+ * until the next call. ABACUS_ERROR (argument) if the mesh has no such simplex.
+ */
+ABACUS_API abacus_status abacus_mesh_labels(abacus_mesh *mesh, uint64_t code, const int64_t *ids,
+											const double **labels, abacus_error *error);
+/*
  * Gets one of the vertices nearest to a place, valid during the call, and its distance: rank 1 is
  * the nearest. May fail as a host function may. `place` is the id of one of many places.
  */

@@ -29,3 +29,10 @@ AS 'MODULE_PATHNAME', 'abacus_sql_labels'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100;
 COMMENT ON FUNCTION abacus_labels(regclass) IS
     'the names of the labels that simplices of a mesh may have, in the order of abacus_cells().labels';
+
+CREATE FUNCTION abacus_labels(mesh regclass, simplex abacus_simplex)
+RETURNS double precision[]
+AS 'MODULE_PATHNAME', 'abacus_sql_labels_of'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
+COMMENT ON FUNCTION abacus_labels(regclass, abacus_simplex) IS
+    'the labels of a simplex; NULL in a mesh without labels';

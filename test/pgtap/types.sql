@@ -56,6 +56,7 @@ INSERT INTO wanted VALUES
     ('abacus_load', 'mesh text, vertices text, simplices text, attributes text[] DEFAULT NULL::text[], lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], reorient boolean DEFAULT true, retriangulate boolean DEFAULT false, labels text[] DEFAULT NULL::text[]', 'bigint', 'v', false, 'u'),
     ('abacus_label', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_labels', 'mesh regclass', 'text[]', 's', true, 's'),
+    ('abacus_labels', 'mesh regclass, simplex abacus_simplex', 'double precision[]', 's', true, 's'),
     ('abacus_insert', 'mesh regclass, query text, on_duplicate text DEFAULT ''keep''::text', 'bigint', 'v', true, 'u'),
     ('abacus_attributes', 'mesh regclass, OUT "position" integer, OUT name text, OUT "least" double precision, OUT "greatest" double precision, OUT nulls bigint', 'SETOF record', 's', true, 's'),
     ('abacus_rename_attribute', 'mesh regclass, attribute text, name text', 'void', 'v', true, 'u'),

@@ -1,5 +1,5 @@
 /*
- * fn_label.c: abacus_label, labels for simplices of a mesh.
+ * fn_label.c: abacus_label and abacus_labels, labels of simplices of a mesh.
  *
  * Nothing is triangulated, and no simplex page is read for writing. So meshes that are not Delaunay
  * can have labels, too.
@@ -14,9 +14,12 @@
 #include "pg/mesh/change.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/mesh/shape.h"
+#include "pg/sql/result.h"
+#include "pg/sql/simplex_row.h"
 
 SQL_FUNCTION(abacus_sql_label);
 SQL_FUNCTION(abacus_sql_labels);
+SQL_FUNCTION(abacus_sql_labels_of);
 
 /*
  * Columns behind those of a simplex are labels by name; the mesh gets those that it does not have.
@@ -105,4 +108,21 @@ abacus_sql_labels(PG_FUNCTION_ARGS)
 		names[i] = CStringGetTextDatum(header->names[header->attributes + i]);
 	PG_RETURN_ARRAYTYPE_P(construct_array(names, (int) header->labels, TEXTOID, -1, false,
 										  TYPALIGN_INT));
+}
+
+/* abacus_labels(mesh regclass, simplex abacus_simplex) -> float8[] */
+Datum
+abacus_sql_labels_of(PG_FUNCTION_ARGS)
+{
+	CachedMesh *cached = mesh_cache_get(PG_GETARG_OID(0));
+	int64		ids[ABACUS_MAX_DIMENSION + 1];
+	uint64		code;
+	const double *labels = NULL;
+
+	if (!simplex_from_argument(PG_GETARG_DATUM(1), cached->dimension, &code, ids) ||
+		cached->header.labels == 0)
+		PG_RETURN_NULL();
+	host_run(cached->host, abacus_mesh_labels, cached->mesh, code, ids, &labels);
+	host_release(cached->host);
+	PG_RETURN_DATUM(attribute_array(labels, (int) cached->header.labels));
 }
