@@ -1,4 +1,4 @@
--- Labels of simplices: given with a load or later, returned, kept as long as the simplex is there.
+-- Labels of simplices, markers of facets: given with a load or later, returned, kept as long as the simplex is there.
 CREATE SCHEMA regress_labels;
 SET search_path = regress_labels, public;
 
@@ -57,6 +57,28 @@ SELECT abacus_triangulate('solid_mesh', 'TABLE solid', dimension => 3);
 SELECT abacus_label('solid_mesh', 'SELECT code, v0, v1, v2, v3, v0 - v3 AS material FROM abacus_simplices(''solid_mesh'') WHERE v0 % 2 = 0') > 0 AS some;
 SELECT count(*) FROM abacus_cells('solid_mesh') WHERE labels[1] IS DISTINCT FROM CASE v0 % 2 WHEN 0 THEN v0 - v3 END;
 SELECT * FROM abacus_check('solid_mesh');
+
+-- Markers of facets: the boundary of a mesh, then all edges of some triangles.
+SELECT abacus_mark('notch', 'SELECT code, v0, v1, v2, f, 7 FROM abacus_simplices(''notch'') s, generate_series(0, 2) f WHERE abacus_walk(''notch'', s, f) IS NULL');
+SELECT marker, v0, v1, v2, corners FROM abacus_facets('notch') ORDER BY v0, v1;
+SELECT abacus_mark('notch', 'SELECT code, v0, v1, v2, f, CASE v2 WHEN 4 THEN -3 END FROM abacus_simplices(''notch'') s, generate_series(0, 2) f WHERE (v0, v1) IN ((1, 3), (4, 5))');
+SELECT marker, v0, v1 FROM abacus_facets('notch') ORDER BY marker, v0, v1;
+SELECT count(*) FROM abacus_facets('notch', -3);
+SELECT * FROM abacus_check('notch');
+CREATE VIEW edges AS SELECT least(a, b) AS a, greatest(a, b) AS b FROM abacus_simplices('field'), LATERAL (VALUES (v0, v1), (v1, v2), (v2, v0)) e (a, b) GROUP BY 1, 2;
+SELECT abacus_mark('field', 'SELECT code, v0, v1, v2, 2, (v0 + v1) % 1000 FROM abacus_simplices(''field'') WHERE v2 % 3 = 0') > 1000 AS many;
+CREATE TABLE marked AS SELECT marker, least(v0, v1) AS a, greatest(v0, v1) AS b FROM abacus_facets('field');
+SELECT count(*) - count(DISTINCT (a, b)) AS twice, count(*) FILTER (WHERE marker <> (a + b) % 1000) AS wrong FROM marked;
+SELECT abacus_delete('field', 'SELECT id, x, y FROM points WHERE id % 50 = 2');
+SELECT abacus_insert('field', 'SELECT 40000 + id, x + 0.25, y + 0.5 FROM points WHERE id % 40 = 3');
+CREATE VIEW kept AS SELECT marker, least(v0, v1) AS a, greatest(v0, v1) AS b FROM abacus_facets('field');
+(SELECT * FROM marked WHERE (a, b) IN (TABLE edges) EXCEPT TABLE kept) UNION ALL (TABLE kept EXCEPT SELECT * FROM marked WHERE (a, b) IN (TABLE edges));
+SELECT (SELECT count(*) FROM kept) < (SELECT count(*) FROM marked) AS some_have_gone;
+SELECT * FROM abacus_check('field');
+SELECT abacus_mark('notch', 'SELECT 1, 2, 3, 4, 0, 1');
+SELECT abacus_mark('notch', 'SELECT code, v0, v1, v2, 3, 1 FROM abacus_simplices(''notch'')');
+SELECT abacus_mark('notch', 'SELECT code, v0, v1, v2, 0, 1.5 FROM abacus_simplices(''notch'')');
+SELECT abacus_mark('notch', 'SELECT code, v0, v1, v2, 0 FROM abacus_simplices(''notch'')');
 
 -- Errors change nothing.
 SELECT abacus_label('notch', 'SELECT 1, 2, 3, 4');

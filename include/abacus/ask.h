@@ -96,6 +96,25 @@ ABACUS_API abacus_status abacus_faces_next_edge(abacus_faces *faces, abacus_edge
 ABACUS_API uint64_t abacus_faces_pages(const abacus_faces *faces);
 ABACUS_API void abacus_faces_close(abacus_faces *faces);
 
+/* A facet with a marker: the ids and places of its `dimension` corners. */
+typedef struct abacus_facet
+{
+	double marker; /* an integer */
+	int64_t id[ABACUS_MAX_DIMENSION];
+	double corner[ABACUS_MAX_DIMENSION][ABACUS_MAX_DIMENSION];
+} abacus_facet;
+/*
+ * The facets with a marker, each once, by marker and then along the curve; NaN: those with any.
+ * Sorts within `memory` bytes.
+ */
+typedef struct abacus_facets abacus_facets;
+ABACUS_API abacus_status abacus_facets_open(const abacus_host *host, const abacus_header *header,
+											double marker, size_t memory, size_t cache_bytes,
+											abacus_facets **facets, abacus_error *error);
+ABACUS_API abacus_status abacus_facets_next(abacus_facets *facets, abacus_facet *facet,
+											abacus_error *error);
+ABACUS_API void abacus_facets_close(abacus_facets *facets);
+
 /* Gets one of several simplices, valid during the call. May fail as a host function may. */
 typedef abacus_host_status (*abacus_simplex_report)(void *context, const abacus_simplex *simplex);
 /*

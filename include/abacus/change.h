@@ -146,6 +146,28 @@ ABACUS_API abacus_status abacus_labelling_end(abacus_labelling *labelling, abacu
 											  abacus_error *error);
 ABACUS_API void abacus_labelling_close(abacus_labelling *labelling);
 
+/* ---- Markers of facets ----------------------------------------------------------- */
+
+typedef struct abacus_marking abacus_marking;
+
+/* Opens the marking of facets of a mesh, Delaunay or not; `memory` as for labels. */
+ABACUS_API abacus_status abacus_marking_open(const abacus_host *host, const abacus_header *header,
+											 size_t memory, size_t cache_bytes,
+											 abacus_marking **marking, abacus_error *error);
+/*
+ * Adds rows of 8-byte words: code and dimension + 1 ids of a simplex, the number of the corner
+ * opposite the facet, and the marker, a double that is a 32-bit integer; NaN takes it away.
+ */
+ABACUS_API abacus_status abacus_marking_add(abacus_marking *marking, const uint64_t *rows,
+											size_t count, abacus_error *error);
+/*
+ * No more rows come: marks the facets, on both of their sides, and brings the header up to date.
+ * ABACUS_ERROR (argument) if the mesh has no such simplex.
+ */
+ABACUS_API abacus_status abacus_marking_end(abacus_marking *marking, abacus_header *header,
+											abacus_error *error);
+ABACUS_API void abacus_marking_close(abacus_marking *marking);
+
 /* ---- Loading ---------------------------------------------------------------- */
 
 typedef struct abacus_load abacus_load;

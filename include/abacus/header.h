@@ -130,7 +130,7 @@ typedef struct abacus_header
 	uint32_t labels;       /* number of labels, which a simplex may have; with attributes at most
 							  ABACUS_MAX_NAMES */
 	uint64_t labelled;     /* simplices that have some */
-	uint64_t marked;       /* facets with a marker */
+	uint64_t marked;       /* simplices beside a facet with a marker */
 	char names[ABACUS_MAX_NAMES][ABACUS_NAME_BYTES]; /* of attributes, then of labels */
 } abacus_header;
 

@@ -1,4 +1,4 @@
--- Meshes made elsewhere, and labels of simplices.
+-- Meshes made elsewhere, labels of simplices, markers of facets.
 
 CREATE FUNCTION abacus_load(
     mesh text,
@@ -36,3 +36,23 @@ AS 'MODULE_PATHNAME', 'abacus_sql_labels_of'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_labels(regclass, abacus_simplex) IS
     'the labels of a simplex; NULL in a mesh without labels';
+
+CREATE FUNCTION abacus_mark(mesh regclass, query text)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_mark'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_mark(regclass, text) IS
+    'gives facets integer markers: for each row (code, v0, v1, v2[, v3], facet, marker) the facet opposite that vertex of the simplex, on both of its sides; NULL takes a marker away; returns how many rows there were';
+
+CREATE FUNCTION abacus_facets(
+    mesh regclass,
+    INOUT marker integer DEFAULT NULL,
+    OUT v0 bigint,
+    OUT v1 bigint,
+    OUT v2 bigint,
+    OUT corners double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_facets'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000;
+COMMENT ON FUNCTION abacus_facets(regclass, integer) IS
+    'the facets of a mesh with a marker, or with this one, each once, by marker and along the curve';

@@ -1,7 +1,7 @@
 // Who has attributes, and the keys under which they are found.
 //
-// A vertex is named by its place, and a simplex or a facet by those of its vertices, in the order
-// of the coordinates. So an owner is a set of one, D or D + 1 points. What names it says nothing of
+// A vertex is named by its place, and a simplex by those of its vertices, in the order of the
+// coordinates. So an owner is a set of one or D + 1 points. What names it says nothing of
 // pages, ids and neighbours: its attributes stay where they are while simplices move.
 //
 // Its key is the greatest code of its points, continued by a hash of their coordinates. The
@@ -43,12 +43,11 @@ inline constexpr int attribute_hash_bits = 53, attribute_code_low_bits = 10;
 /// Codes have 63 bits, a key's words as many.
 inline constexpr int attribute_group_shift = 63 - attribute_code_low_bits;
 
-/// The groups of each kind of owners, of as many as a key has room for.
+/// The groups of each kind of attributes, of as many as a key has room for: those of vertices, the
+/// labels of simplices, and the markers of their facets.
 inline constexpr unsigned groups_of_kind = 256;
-template <int D, int K> constexpr unsigned first_group() {
-    static_assert(K == 1 || K == D || K == D + 1);
-    return K == 1 ? 0 : K == D + 1 ? groups_of_kind : 2 * groups_of_kind;
-}
+template <int K> inline constexpr unsigned first_group = K == 1 ? 0 : groups_of_kind;
+inline constexpr unsigned marker_group = 2 * groups_of_kind;
 
 /// The least key of a group; also the end of the one before.
 constexpr Key group_begin(unsigned group) {
@@ -103,9 +102,7 @@ struct KeyBefore {
 
 /// Somebody has seen an owner that is nowhere among the attributes.
 template <int D, int K> [[noreturn]] void throw_no_attributes() {
-    throw_corrupted(K == 1   ? "A vertex has no attributes."
-                    : K == D ? "A facet has no attributes."
-                             : "A simplex has no attributes.");
+    throw_corrupted(K == 1 ? "A vertex has no attributes." : "A simplex has no attributes.");
 }
 
 /// What is missing, NULL in SQL, is no number, as everywhere in the core.

@@ -221,9 +221,7 @@ void AttributePageWriter::write(const std::uint64_t *rows, std::size_t n) {
 
 template class AttributePage<2>;
 template class AttributePage<3>;
-template class AttributePage<2, 2>;
 template class AttributePage<2, 3>;
-template class AttributePage<3, 3>;
 template class AttributePage<3, 4>;
 
 } // namespace abacus

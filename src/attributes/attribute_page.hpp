@@ -2,7 +2,7 @@
 //
 // A simplex page is complete in itself, so whatever a vertex carries would be stored in each page
 // that names it. A mesh whose attributes take many bytes has them apart: each vertex once, found
-// by its place alone. Location and walks read none of these pages. Simplices and facets have their
+// by its place alone. Location and walks read none of these pages. Simplices have their
 // attributes so as well, those that have any: attribute_key.hpp tells who is named how.
 //
 // The order of owners is that of their keys. Those with the same key, which only happens on
@@ -15,9 +15,9 @@
 //   deltas    of the columns, in the same order
 //   checksum  8 bytes, XXH3 of all before
 //
-// The points of a page of vertices are these. Simplices and facets share their points: a page has
-// each once, in lexicographic order, so the numbers of an owner's ascend. What is NULL takes a bit;
-// its column repeats some other value there, which makes no delta wider.
+// The points of a page of vertices are these. Simplices share their points: a page has each once,
+// in lexicographic order, so the numbers of an owner's ascend. What is NULL takes a bit; its column
+// repeats some other value there, which makes no delta wider.
 //
 // Pages own intervals of keys without saying so: each from its key to that of the next, or to the
 // end of its group; the first one of a group begins at the least key of all. Nothing read here is
@@ -151,9 +151,7 @@ private:
 
 extern template class AttributePage<2>;
 extern template class AttributePage<3>;
-extern template class AttributePage<2, 2>;
 extern template class AttributePage<2, 3>;
-extern template class AttributePage<3, 3>;
 extern template class AttributePage<3, 4>;
 
 } // namespace abacus

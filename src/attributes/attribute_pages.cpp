@@ -250,11 +250,11 @@ template <int D, int K> void AttributeGroup<D, K>::flush() {
 // ---- All of them ----------------------------------------------------------------------
 
 template <int D, int K>
-AttributePages<D, K>::AttributePages(const Host &host, const Domain<D> &domain, unsigned attributes)
+AttributePages<D, K>::AttributePages(const Host &host, const Domain<D> &domain, unsigned attributes,
+                                     unsigned first)
     : groups_(attributes), memory_(host), pages_(&memory_) {
     for (unsigned group = 0; group < groups_.count(); ++group)
-        pages_.emplace_back(host, domain, first_group<D, K>() + group, groups_.columns(group),
-                            counters_);
+        pages_.emplace_back(host, domain, first + group, groups_.columns(group), counters_);
 }
 
 template <int D, int K>
@@ -309,9 +309,7 @@ void AttributePages<D, K>::get(const Name &owner, std::uint64_t code, double *va
 
 template class AttributePages<2>;
 template class AttributePages<3>;
-template class AttributePages<2, 2>;
 template class AttributePages<2, 3>;
-template class AttributePages<3, 3>;
 template class AttributePages<3, 4>;
 
 } // namespace abacus

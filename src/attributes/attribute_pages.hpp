@@ -92,7 +92,9 @@ template <int D, int K = 1> class AttributePages {
 public:
     using Name = Owner<D, K>;
 
-    AttributePages(const Host &host, const Domain<D> &domain, unsigned attributes);
+    /// In groups from `first` on.
+    AttributePages(const Host &host, const Domain<D> &domain, unsigned attributes,
+                   unsigned first = first_group<K>);
 
     /// Sets the attributes of an owner, which has this code.
     void put(const Name &owner, std::uint64_t code, const double *values);
@@ -128,9 +130,7 @@ private:
 
 extern template class AttributePages<2>;
 extern template class AttributePages<3>;
-extern template class AttributePages<2, 2>;
 extern template class AttributePages<2, 3>;
-extern template class AttributePages<3, 3>;
 extern template class AttributePages<3, 4>;
 
 } // namespace abacus

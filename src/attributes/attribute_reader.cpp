@@ -15,10 +15,10 @@ void copy(const abacus_page &page, std::array<unsigned char, ABACUS_PAGE_BYTES> 
     std::memcpy(bytes.data(), page.bytes, std::min(page.size, bytes.size()));
 }
 
-/// The first page of a kind, or of one that follows.
-template <int D, int K> bool find_first(const Host &host, abacus_page &page) {
-    if (K == 1) return host.next(ABACUS_ATTRIBUTE_PAGES, nullptr, page);
-    const Key before = predecessor(group_begin(first_group<D, K>()));
+/// The first page from a group on.
+bool find_first(const Host &host, unsigned group, abacus_page &page) {
+    if (group == 0) return host.next(ABACUS_ATTRIBUTE_PAGES, nullptr, page);
+    const Key before = predecessor(group_begin(group));
     return host.next(ABACUS_ATTRIBUTE_PAGES, &before, page);
 }
 
@@ -26,8 +26,8 @@ template <int D, int K> bool find_first(const Host &host, abacus_page &page) {
 
 template <int D, int K>
 AttributeReader<D, K>::AttributeReader(const Host &host, const Domain<D> &domain,
-                                       unsigned attributes, std::size_t bytes)
-    : host_(host), domain_(domain), groups_(attributes), memory_(host),
+                                       unsigned attributes, std::size_t bytes, unsigned first)
+    : host_(host), domain_(domain), groups_(attributes), first_(first), memory_(host),
       most_held_(std::max<std::size_t>(
           std::clamp(bytes / (sizeof(Held) + key_bytes), fewest_held, most_pages_held),
           groups_.count())),
@@ -91,7 +91,7 @@ template <int D, int K> auto AttributeReader<D, K>::page(const Key &key) -> Held
 
 template <int D, int K> auto AttributeReader<D, K>::find(unsigned group) -> Found {
     if (found_.held != nullptr && found_group_ == group) return found_;
-    const Key key = in_group(key_, first_group<D, K>() + group);
+    const Key key = in_group(key_, first_ + group);
     Held *const held = page(key);
     if (held == nullptr) return {};
     const Key *at = std::lower_bound(held->keys.begin(), held->keys.end(), key, KeyBefore{});
@@ -142,9 +142,9 @@ template <int D, int K> bool AttributeReader<D, K>::contains(const Name &owner) 
 template <int D, int K> bool AttributeScan<D, K>::fetch() {
     host_.poll();
     abacus_page page{};
-    const bool any =
-        started_ ? host_.next(ABACUS_ATTRIBUTE_PAGES, &key_, page) : find_first<D, K>(host_, page);
-    if (!any || group_of(page.key) >= first_group<D, K>() + groups_of_kind) return false;
+    const bool any = started_ ? host_.next(ABACUS_ATTRIBUTE_PAGES, &key_, page)
+                              : find_first(host_, first_, page);
+    if (!any || group_of(page.key) >= first_ + groups_of_kind) return false;
     started_ = true;
     key_ = page.key;
     size_ = page.size;
@@ -171,15 +171,11 @@ template <int D, int K> void AttributeScan<D, K>::read() {
 
 template class AttributeReader<2>;
 template class AttributeReader<3>;
-template class AttributeReader<2, 2>;
 template class AttributeReader<2, 3>;
-template class AttributeReader<3, 3>;
 template class AttributeReader<3, 4>;
 template class AttributeScan<2>;
 template class AttributeScan<3>;
-template class AttributeScan<2, 2>;
 template class AttributeScan<2, 3>;
-template class AttributeScan<3, 3>;
 template class AttributeScan<3, 4>;
 
 } // namespace abacus

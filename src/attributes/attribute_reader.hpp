@@ -3,8 +3,8 @@
 // Who asks for one owner asks for its neighbours soon, which are near on the curve. So a few pages
 // are kept, and one that has not been used for long makes room for another one. Each vertex that is
 // asked for has attributes; so the page is known to be the right one if its last vertex does not
-// come before, and nothing has to be known of the page that follows. Most simplices or facets may
-// have none; so of their pages it is known where they end.
+// come before, and nothing has to be known of the page that follows. Most simplices may have none;
+// so of their pages it is known where they end.
 #pragma once
 
 #include "attributes/attribute_page.hpp"
@@ -23,7 +23,7 @@ public:
 
     /// Keeps pages in about so many bytes, but one of each group at least.
     AttributeReader(const Host &host, const Domain<D> &domain, unsigned attributes,
-                    std::size_t bytes);
+                    std::size_t bytes, unsigned first = first_group<K>);
     AttributeReader(const AttributeReader &) = delete;
     AttributeReader &operator=(const AttributeReader &) = delete;
 
@@ -62,11 +62,12 @@ private:
     /// A place for another page: a clock's hand finds it (Corbató, 1968).
     Held &make_room();
     void read(const Key &key, Held &held);
-    unsigned columns(unsigned group) const { return groups_.columns(group - first_group<D, K>()); }
+    unsigned columns(unsigned group) const { return groups_.columns(group - first_); }
 
     const Host &host_;
     const Domain<D> domain_;
     const AttributeGroups groups_;
+    const unsigned first_; // of the groups
     HostMemory memory_;
     const std::size_t most_held_;
     std::pmr::deque<Held> pages_;
@@ -83,16 +84,15 @@ private:
 
 extern template class AttributeReader<2>;
 extern template class AttributeReader<3>;
-extern template class AttributeReader<2, 2>;
 extern template class AttributeReader<2, 3>;
-extern template class AttributeReader<3, 3>;
 extern template class AttributeReader<3, 4>;
 
 /// All attribute pages of a kind, one after the other; checks that they are as they should be.
 template <int D, int K = 1> class AttributeScan {
 public:
-    AttributeScan(const Host &host, const Domain<D> &domain, unsigned attributes)
-        : host_(host), domain_(domain), groups_(attributes), keys_(host) {}
+    AttributeScan(const Host &host, const Domain<D> &domain, unsigned attributes,
+                  unsigned first = first_group<K>)
+        : host_(host), domain_(domain), groups_(attributes), first_(first), keys_(host) {}
 
     /// Goes to the next page; false after the last.
     bool fetch();
@@ -100,13 +100,14 @@ public:
     void read();
     const Key &key() const { return key_; }
     /// Of those of the kind.
-    unsigned group() const { return group_of(key_) - first_group<D, K>(); }
+    unsigned group() const { return group_of(key_) - first_; }
     const AttributePage<D, K> &page() const { return page_; }
 
 private:
     const Host &host_;
     const Domain<D> domain_;
     const AttributeGroups groups_;
+    const unsigned first_; // of the groups
     bool started_ = false;
     Key key_{}, last_{};        // last_: the greatest of the owners so far
     unsigned last_group_ = ~0u; // of the page before
@@ -118,9 +119,7 @@ private:
 
 extern template class AttributeScan<2>;
 extern template class AttributeScan<3>;
-extern template class AttributeScan<2, 2>;
 extern template class AttributeScan<2, 3>;
-extern template class AttributeScan<3, 3>;
 extern template class AttributeScan<3, 4>;
 
 } // namespace abacus

@@ -15,9 +15,9 @@ constexpr std::size_t key_words = 2;
 /// were read.
 template <int D, int K, class Take>
 std::uint64_t each_owner(const Host &host, const Domain<D> &domain, unsigned attributes,
-                         const Take &take) {
-    AttributeReader<D, K> reader(host, domain, attributes, held_bytes);
-    AttributeScan<D, K> scan(host, domain, attributes);
+                         unsigned first, const Take &take) {
+    AttributeReader<D, K> reader(host, domain, attributes, held_bytes, first);
+    AttributeScan<D, K> scan(host, domain, attributes, first);
     Arena<double> values(host);
     values.resize(attributes);
     std::uint64_t pages = 0;
@@ -49,8 +49,7 @@ Owner<D, K> read_record(const std::uint64_t *record, unsigned attributes, double
 
 } // namespace
 
-template <int D, int K> void erase_attributes(const Host &host) {
-    constexpr unsigned first = first_group<D, K>();
+void erase_attributes(const Host &host, unsigned first) {
     abacus_page page;
     const auto next = [&] {
         if (first == 0) return host.next(ABACUS_ATTRIBUTE_PAGES, nullptr, page);
@@ -67,11 +66,11 @@ template <int D, int K>
 abacus_counters widen_attributes(const Host &host, const Domain<D> &domain, unsigned attributes,
                                  unsigned more) {
     RecordSpool rows(host, D * K + attributes);
-    const std::uint64_t pages_read =
-        each_owner<D, K>(host, domain, attributes, [&](const Owner<D, K> &owner, const double *v) {
+    const std::uint64_t pages_read = each_owner<D, K>(
+        host, domain, attributes, first_group<K>, [&](const Owner<D, K> &owner, const double *v) {
             write_record<D, K>(owner, v, attributes, rows.add());
         });
-    erase_attributes<D, K>(host);
+    erase_attributes(host, first_group<K>);
     AttributePages<D, K> pages(host, domain, attributes + more);
     Arena<double> values(host);
     values.resize(attributes + more);
@@ -90,18 +89,18 @@ abacus_counters widen_attributes(const Host &host, const Domain<D> &domain, unsi
 
 template <int D, int K>
 abacus_counters rekey_attributes(const Host &host, const Domain<D> &from, const Domain<D> &to,
-                                 unsigned attributes, std::size_t memory) {
+                                 unsigned attributes, std::size_t memory, unsigned first) {
     RecordSort rows(host, key_words + D * K + attributes, key_words, memory);
-    const std::uint64_t pages_read =
-        each_owner<D, K>(host, from, attributes, [&](const Owner<D, K> &owner, const double *v) {
+    const std::uint64_t pages_read = each_owner<D, K>(
+        host, from, attributes, first, [&](const Owner<D, K> &owner, const double *v) {
             std::uint64_t *const record = rows.add();
             const Key key = attribute_key<D, K>(owner, code_of<D, K>(to, owner));
             record[0] = key.code;
             record[1] = key.part;
             write_record<D, K>(owner, v, attributes, record + key_words);
         });
-    erase_attributes<D, K>(host);
-    AttributePages<D, K> pages(host, to, attributes);
+    erase_attributes(host, first);
+    AttributePages<D, K> pages(host, to, attributes, first);
     Arena<double> values(host);
     values.resize(attributes);
     rows.finish();
@@ -116,17 +115,13 @@ abacus_counters rekey_attributes(const Host &host, const Domain<D> &from, const 
     return counters;
 }
 
-template void erase_attributes<2, 1>(const Host &);
-template void erase_attributes<3, 1>(const Host &);
-template void erase_attributes<2, 3>(const Host &);
-template void erase_attributes<3, 4>(const Host &);
 template abacus_counters widen_attributes<2, 3>(const Host &, const Domain<2> &, unsigned,
                                                 unsigned);
 template abacus_counters widen_attributes<3, 4>(const Host &, const Domain<3> &, unsigned,
                                                 unsigned);
 template abacus_counters rekey_attributes<2, 3>(const Host &, const Domain<2> &, const Domain<2> &,
-                                                unsigned, std::size_t);
+                                                unsigned, std::size_t, unsigned);
 template abacus_counters rekey_attributes<3, 4>(const Host &, const Domain<3> &, const Domain<3> &,
-                                                unsigned, std::size_t);
+                                                unsigned, std::size_t, unsigned);
 
 } // namespace abacus

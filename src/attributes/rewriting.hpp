@@ -15,9 +15,10 @@ abacus_counters widen_attributes(const Host &host, const Domain<D> &domain, unsi
 /// Other keys: those over another domain.
 template <int D, int K>
 abacus_counters rekey_attributes(const Host &host, const Domain<D> &from, const Domain<D> &to,
-                                 unsigned attributes, std::size_t memory);
+                                 unsigned attributes, std::size_t memory,
+                                 unsigned first = first_group<K>);
 
 /// No owner has any.
-template <int D, int K> void erase_attributes(const Host &host);
+void erase_attributes(const Host &host, unsigned first);
 
 } // namespace abacus

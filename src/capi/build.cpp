@@ -11,8 +11,13 @@
 
 struct abacus_build {
     abacus_build(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
-        : stored(abacus::Host(*table)), host(*table, header.labelled > 0 ? &stored : nullptr),
-          build(host, header, cache_bytes, header.labelled > 0 ? &stored : nullptr) {}
+        : stored(abacus::Host(*table)), host(*table, watch(header)),
+          build(host, header, cache_bytes, watch(header)) {}
+
+    /// Where something may go with a simplex.
+    abacus::StoredPages *watch(const abacus_header &header) {
+        return header.labelled > 0 || header.marked > 0 ? &stored : nullptr;
+    }
 
     abacus::StoredPages stored;
     const abacus::Host host;

@@ -38,7 +38,8 @@ namespace abacus {
 
 template <int D> class Build {
 public:
-    /// `stored` is told by the host what is stored; null if simplices have no labels.
+    /// `stored` is told by the host what is stored; null if simplices have no labels and
+    /// facets no markers.
     Build(const Host &host, const abacus_header &header, std::size_t cache_bytes,
           StoredPages *stored = nullptr);
 
@@ -178,7 +179,7 @@ private:
     const Host &host_;
     const unsigned attributes_;
     const std::size_t cache_bytes_;
-    StoredPages *const stored_; ///< null if simplices have no labels
+    StoredPages *const stored_; ///< null if there are no labels and markers
     Domain<D> domain_;
     std::optional<AttributePages<D>> apart_;    ///< if the mesh has its attributes apart
     std::optional<Core> core_;                  ///< always there; optional, to be made anew

@@ -132,7 +132,7 @@ template <int D> void Build<D>::forget_simplices() {
     erase_pages(ABACUS_SIMPLEX_PAGES);
     if (apart_) {
         apart_->forget();
-        erase_attributes<D, 1>(host_);
+        erase_attributes(host_, first_group<1>);
     }
     header_->vertices = header_->duplicates = header_->simplices = header_->ghosts = 0;
     forget_cache();

@@ -10,7 +10,7 @@
 #include "pg/postgis/geometry_errors.h"
 
 static const char *const coordinate_names[ABACUS_MAX_DIMENSION] = {"x", "y", "z"};
-static const char *const simplex_names[ABACUS_MAX_DIMENSION + 2] = {"code", "v0", "v1", "v2", "v3"};
+static const char *const corner_names[ABACUS_MAX_DIMENSION + 1] = {"v0", "v1", "v2", "v3"};
 
 /* What a column is called in messages, and in tables by default. */
 const char *
@@ -31,6 +31,16 @@ row_word(const RowPacker *packer, int column)
 		? column + packer->columns - packer->inputs : column;
 }
 
+/* What a column of ids is called, where there are several: of a simplex, or of one with a facet. */
+static const char *
+simplex_column(const RowPacker *packer, int column)
+{
+	int			dimension = (int) packer->header->dimension;
+	int			corner = packer->ids > dimension + 1 ? column - 1 : column;
+
+	return corner < 0 ? "code" : corner <= dimension ? corner_names[corner] : "facet";
+}
+
 /* What a column of a row is called. */
 static const char *
 column_name(const RowPacker *packer, int column)
@@ -38,7 +48,7 @@ column_name(const RowPacker *packer, int column)
 	if (packer->ids > 1)
 		return column >= packer->ids
 			? packer->header->names[packer->header->attributes + column - packer->ids]
-			: simplex_names[(int) packer->header->dimension + 2 - packer->ids + column];
+			: simplex_column(packer, column);
 	if (row_has_geometry(packer) && column == GEOMETRY_COLUMN)
 		return "geometry";
 	if (column == 0)

@@ -320,6 +320,20 @@ row_packer_create_labels(TupleDesc desc, const abacus_header *shape, size_t batc
 				  false, batch);
 }
 
+/* The same for rows of a query that mark facets: a number of the corner, and a marker. */
+RowPacker *
+row_packer_create_facets(TupleDesc desc, const abacus_header *header, size_t batch)
+{
+	abacus_header *shape = palloc(sizeof(abacus_header));
+
+	*shape = *header;
+	shape->attributes = 0;
+	shape->labels = 1;
+	strlcpy(shape->names[0], "marker", ABACUS_NAME_BYTES);
+	return create(desc, shape, &query_of_labels, shape->dimension + 3, 0, shape->labels, false,
+				  false, batch);
+}
+
 /* The same for rows of a query that are for an octree. */
 RowPacker *
 row_packer_create_octants(TupleDesc desc, const abacus_header *header, OctantRows rows, size_t batch)
