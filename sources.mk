@@ -89,6 +89,7 @@ CORE_SOURCES += src/load/faults.cpp
 CORE_SOURCES += src/load/load.cpp
 CORE_SOURCES += src/load/load_boundary.cpp
 CORE_SOURCES += src/load/load_labels.cpp
+CORE_SOURCES += src/load/load_markers.cpp
 CORE_SOURCES += src/load/load_simplices.cpp
 CORE_SOURCES += src/load/load_vertices.cpp
 CORE_SOURCES += src/load/overlap.cpp

@@ -80,6 +80,14 @@ SELECT abacus_mark('notch', 'SELECT code, v0, v1, v2, 3, 1 FROM abacus_simplices
 SELECT abacus_mark('notch', 'SELECT code, v0, v1, v2, 0, 1.5 FROM abacus_simplices(''notch'')');
 SELECT abacus_mark('notch', 'SELECT code, v0, v1, v2, 0 FROM abacus_simplices(''notch'')');
 
+-- Markers given with a load.
+SELECT abacus_load('marked_notch', 'TABLE corner', 'SELECT v0, v1, v2 FROM part', facets => 'VALUES (2, 1, 5), (3, 1, 6), (1, 3, 6), (5, 6, NULL)');
+SELECT marker, v0, v1 FROM abacus_facets('marked_notch');
+SELECT * FROM abacus_check('marked_notch');
+SELECT abacus_load('bad', 'TABLE corner', 'SELECT v0, v1, v2 FROM part', facets => 'VALUES (2, 1, 5), (3, 6, 6), (1, 3, 6), (3, 1, 7)');
+SELECT abacus_load('bad', 'TABLE corner', 'SELECT v0, v1, v2 FROM part', facets => 'VALUES (2, 2, 5), (1, 2, 2.5)');
+SELECT abacus_load('bad', 'TABLE corner', 'SELECT v0, v1, v2 FROM part', facets => 'VALUES (2, 1)');
+
 -- Errors change nothing.
 SELECT abacus_label('notch', 'SELECT 1, 2, 3, 4');
 SELECT abacus_label('notch', 'SELECT 1, 2, 3, 4, 5 AS soil, 6 AS soil');

@@ -191,6 +191,12 @@ ABACUS_API abacus_status abacus_load_vertices(abacus_load *load, const uint64_t 
 ABACUS_API abacus_status abacus_load_simplices(abacus_load *load, const uint64_t *simplices,
 											   size_t count, abacus_error *error);
 /*
+ * After all simplices, if at all: adds markers of facets. Each is `dimension` ids of vertices, and a
+ * double that is a 32-bit integer; NaN is none.
+ */
+ABACUS_API abacus_status abacus_load_facets(abacus_load *load, const uint64_t *facets, size_t count,
+											abacus_error *error);
+/*
  * No more simplices come. Checks exactly that they form a complex, and how this is related to
  * the Delaunay triangulation of its vertices. ABACUS_ERROR (argument) names what is wrong: an
  * unknown or repeated vertex, a flat simplex, a facet used too often, an overlap.

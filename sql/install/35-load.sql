@@ -9,12 +9,13 @@ CREATE FUNCTION abacus_load(
     upper double precision[] DEFAULT NULL,
     reorient boolean DEFAULT true,
     retriangulate boolean DEFAULT false,
-    labels text[] DEFAULT NULL)
+    labels text[] DEFAULT NULL,
+    facets text DEFAULT NULL)
 RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_load'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
-COMMENT ON FUNCTION abacus_load(text, text, text, text[], double precision[], double precision[], boolean, boolean, text[]) IS
-    'makes a mesh of a triangulation made elsewhere, Delaunay or not, from queries for vertices (id, x, y[, z][, attribute...]) and simplices (v0, v1, v2[, v3][, label...]); checks it exactly, triangulates its vertices anew if that is wanted and it is not Abacus'' own, and returns the number of simplices';
+COMMENT ON FUNCTION abacus_load(text, text, text, text[], double precision[], double precision[], boolean, boolean, text[], text) IS
+    'makes a mesh of a triangulation made elsewhere, Delaunay or not, from queries for vertices (id, x, y[, z][, attribute...]) and simplices (v0, v1, v2[, v3][, label...]), and for markers of facets (v0, v1[, v2], marker); checks it exactly, triangulates its vertices anew if that is wanted and it is not Abacus'' own, and returns the number of simplices';
 
 CREATE FUNCTION abacus_label(mesh regclass, query text)
 RETURNS bigint

@@ -37,6 +37,12 @@ abacus_status abacus_load_simplices(abacus_load *load, const uint64_t *simplices
                             [&](auto &loading) { loading.add_simplices(simplices, count); });
 }
 
+abacus_status abacus_load_facets(abacus_load *load, const uint64_t *facets, size_t count,
+                                 abacus_error *error) {
+    return abacus::dispatch(load->load, error,
+                            [&](auto &loading) { loading.add_facets(facets, count); });
+}
+
 abacus_status abacus_load_check(abacus_load *load, abacus_delaunay *outcome, abacus_error *error) {
     return abacus::dispatch(load->load, error, [&](auto &loading) {
         try {

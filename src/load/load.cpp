@@ -122,6 +122,7 @@ template <int D> void Load<D>::write(abacus_header &header) {
     header.counters = pages.counters(); // nothing has been done with it before
     header.counters += write_vertices(!is_delaunay);
     if (labelled_) write_labels(header);
+    if (marker_rows_) write_markers(header);
 
     if (keeps_domain_)
         header.outside = outside_;

@@ -89,7 +89,8 @@ template <int D>
 abacus_status MeshOf<D>::load(const std::vector<InputOf<D>> &vertices,
                               const std::vector<std::array<std::int64_t, D + 1>> &simplices,
                               std::size_t memory, bool reorient, bool retriangulate,
-                              const std::vector<std::vector<double>> &labels) {
+                              const std::vector<std::vector<double>> &labels,
+                              const std::vector<std::uint64_t> &facets) {
     abacus_load *load = nullptr;
     abacus_status status = abacus_load_open(host.table(), &header, memory, reorient, &load, &error);
     if (status != ABACUS_OK) return status;
@@ -109,6 +110,8 @@ abacus_status MeshOf<D>::load(const std::vector<InputOf<D>> &vertices,
         }
         status = abacus_load_simplices(load, records.data(), at - begin, &error);
     }
+    if (status == ABACUS_OK && !facets.empty())
+        status = abacus_load_facets(load, facets.data(), facets.size() / (D + 1), &error);
     if (status == ABACUS_OK) status = abacus_load_check(load, &loaded_as, &error);
     if (status == ABACUS_OK && retriangulate && loaded_as != ABACUS_DELAUNAY)
         status = with_stage({}, memory, [&](abacus_stage *stage) {

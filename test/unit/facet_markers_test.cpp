@@ -24,6 +24,27 @@ public:
         t.shuffle(5);
         ASSERT_EQ(mesh.load(t.vertices, t.simplices), ABACUS_OK) << mesh.error.message;
     }
+    /// Loads it with markers of about every third facet, some of them named from both sides.
+    void load_marked(Triangulation<D> t, std::size_t memory) {
+        t.shuffle(5);
+        std::mt19937_64 random(6);
+        std::vector<std::uint64_t> facets;
+        for (const Ids<D> &ids : t.simplices)
+            for (int i = 0; i <= D; ++i) {
+                Facet facet;
+                for (int k = 0; k < D; ++k) facet[k] = ids[k + (k >= i)];
+                Facet sorted = facet;
+                std::sort(sorted.begin(), sorted.end());
+                const auto known = known_.find(sorted);
+                if (known == known_.end() && random() % 6 != 0) continue;
+                const double marker = known == known_.end() ? double(random() % 7) : known->second;
+                known_[sorted] = marker;
+                facets.insert(facets.end(), facet.begin(), facet.end());
+                facets.push_back(std::bit_cast<std::uint64_t>(marker));
+            }
+        ASSERT_EQ(mesh.load(t.vertices, t.simplices, memory, true, false, {}, facets), ABACUS_OK)
+            << mesh.error.message << ' ' << mesh.error.detail;
+    }
     /// Marks a facet of about every `every`th simplex, or takes its marker away.
     void mark(unsigned every, unsigned seed, bool takes_away = false) {
         std::mt19937_64 random(seed);
@@ -170,6 +191,45 @@ TYPED_TEST(Markers, AreGivenAndTakenAway) {
         EXPECT_TRUE(mesh.mesh.host.attribute_pages.empty());
         if (testing::Test::HasFailure()) return;
     }
+}
+
+TYPED_TEST(Markers, ComeWithALoad) {
+    constexpr int D = TestFixture::D;
+    for (const bool is_delaunay : {true, false})
+        for (const std::size_t memory : {std::size_t{1}, std::size_t{64} << 20}) {
+            MarkedMesh<D> mesh;
+            auto t = uniform<D>(D == 2 ? 3000 : 600);
+            if (!is_delaunay)
+                t = keeping(t, [](const Point<D> &c) { return std::abs(c[0] - 0.5) > 0.1; });
+            mesh.load_marked(t, memory);
+            mesh.expect_known();
+            EXPECT_GT(mesh.count(), 300u);
+            if (testing::Test::HasFailure()) return;
+        }
+}
+
+TYPED_TEST(Markers, OfFacetsThatNoSimplexHasAreFaults) {
+    constexpr int D = TestFixture::D;
+    const auto t = uniform<D>(100);
+    const auto load = [&](std::vector<std::int64_t> facet, double marker, int times = 1) {
+        MeshOf<D> mesh(0, 1 << 20);
+        std::vector<std::uint64_t> facets;
+        for (; times > 0; --times, marker += 1) {
+            facets.insert(facets.end(), facet.begin(), facet.end());
+            facets.push_back(std::bit_cast<std::uint64_t>(marker));
+        }
+        const auto status = mesh.load(t.vertices, t.simplices, 16 << 20, true, false, {}, facets);
+        return status == ABACUS_ERROR && mesh.error.kind == ABACUS_ERROR_ARGUMENT;
+    };
+    const Ids<D> &simplex = t.simplices.front();
+    std::vector<std::int64_t> facet(simplex.begin(), simplex.begin() + D);
+    EXPECT_FALSE(load(facet, 1));
+    EXPECT_TRUE(load(facet, 1, 2));
+    EXPECT_TRUE(load(facet, 0.5));
+    facet[0] = 99999;
+    EXPECT_TRUE(load(facet, 1));
+    facet[0] = facet[1];
+    EXPECT_TRUE(load(facet, 1));
 }
 
 TYPED_TEST(Markers, StayAsLongAsTheirFacets) {

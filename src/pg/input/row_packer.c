@@ -320,9 +320,10 @@ row_packer_create_labels(TupleDesc desc, const abacus_header *shape, size_t batc
 				  false, batch);
 }
 
-/* The same for rows of a query that mark facets: a number of the corner, and a marker. */
-RowPacker *
-row_packer_create_facets(TupleDesc desc, const abacus_header *header, size_t batch)
+/* A packer for rows of so many ids and a marker. */
+static RowPacker *
+create_marking(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int ids,
+			   size_t batch)
 {
 	abacus_header *shape = palloc(sizeof(abacus_header));
 
@@ -330,8 +331,21 @@ row_packer_create_facets(TupleDesc desc, const abacus_header *header, size_t bat
 	shape->attributes = 0;
 	shape->labels = 1;
 	strlcpy(shape->names[0], "marker", ABACUS_NAME_BYTES);
-	return create(desc, shape, &query_of_labels, shape->dimension + 3, 0, shape->labels, false,
-				  false, batch);
+	return create(desc, shape, origin, ids, 0, 1, false, false, batch);
+}
+
+/* The same for rows of a query that mark facets, each by a simplex and the number of a corner. */
+RowPacker *
+row_packer_create_facets(TupleDesc desc, const abacus_header *header, size_t batch)
+{
+	return create_marking(desc, header, &query_of_labels, header->dimension + 3, batch);
+}
+
+/* The same for facets of simplices that are loaded, by the ids of their vertices. */
+RowPacker *
+row_packer_create_loaded_facets(TupleDesc desc, const abacus_header *header, size_t batch)
+{
+	return create_marking(desc, header, &query_of_simplices, header->dimension, batch);
 }
 
 /* The same for rows of a query that are for an octree. */

@@ -83,6 +83,8 @@ extern RowPacker *row_packer_create_labels(TupleDesc desc, const abacus_header *
 										   size_t batch);
 extern RowPacker *row_packer_create_facets(TupleDesc desc, const abacus_header *header,
 										   size_t batch);
+extern RowPacker *row_packer_create_loaded_facets(TupleDesc desc, const abacus_header *header,
+												  size_t batch);
 extern RowPacker *row_packer_create_octants(TupleDesc desc, const abacus_header *header,
 											OctantRows rows, size_t batch);
 extern void row_packer_reset(RowPacker *packer);

@@ -204,6 +204,14 @@ source_open_facets(Source *source, const abacus_header *header)
 	source->packer = row_packer_create_facets(source->portal->tupDesc, header, ROWS_A_BATCH);
 }
 
+/* Starts reading facets of simplices that are loaded, by the ids of their vertices, and markers. */
+void
+source_open_loaded_facets(Source *source, const abacus_header *header)
+{
+	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
+	source->packer = row_packer_create_loaded_facets(source->portal->tupDesc, header, ROWS_A_BATCH);
+}
+
 /* Starts reading rows for an octree; see row_packer_create_octants(). */
 void
 source_open_octants(Source *source, const abacus_header *header, OctantRows rows)

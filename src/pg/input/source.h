@@ -28,6 +28,7 @@ extern void source_open_places(Source *source, const abacus_header *header);
 extern void source_open_simplices(Source *source, const abacus_header *header);
 extern void source_open_labels(Source *source, const abacus_header *shape);
 extern void source_open_facets(Source *source, const abacus_header *header);
+extern void source_open_loaded_facets(Source *source, const abacus_header *header);
 extern void source_open_octants(Source *source, const abacus_header *header, OctantRows rows);
 extern size_t source_fetch(Source *source, const uint64 **points);
 extern void source_close(Source *source);

@@ -64,9 +64,13 @@ check(Host *host, abacus_load *load)
 			 errhint("%s", host->failure.hint)));
 }
 
-/* Gives the rows of two prepared queries to the core, which checks them. */
+/*
+ * Gives the rows of two prepared queries to the core, and of one for facets unless that is NULL. The
+ * core checks them.
+ */
 static abacus_delaunay
-read_triangulation(Change *change, Source *vertices, Source *simplices, bool reorient)
+read_triangulation(Change *change, Source *vertices, Source *simplices, Source *facets,
+				   bool reorient)
 {
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
@@ -84,12 +88,19 @@ read_triangulation(Change *change, Source *vertices, Source *simplices, bool reo
 	while ((count = source_fetch(simplices, &records)) > 0)
 		host_run(host, abacus_load_simplices, change->load, records, count);
 	source_close(simplices);
+	if (facets != NULL)
+	{
+		source_open_loaded_facets(facets, header);
+		while ((count = source_fetch(facets, &records)) > 0)
+			host_run(host, abacus_load_facets, change->load, records, count);
+		source_close(facets);
+	}
 	return check(host, change->load);
 }
 
 /* Says of a triangulation that is not Abacus' own what it is. */
 static void
-tell(abacus_delaunay delaunay, bool retriangulated, bool labelled)
+tell(abacus_delaunay delaunay, bool retriangulated, bool labelled, bool marked)
 {
 	const char *reason = abacus_delaunay_reason(delaunay);
 
@@ -97,7 +108,8 @@ tell(abacus_delaunay delaunay, bool retriangulated, bool labelled)
 		ereport(NOTICE,
 				(errmsg("the vertices have been triangulated anew"),
 				 errdetail("Of the triangulation that was given: %s", reason),
-				 labelled ? errhint("The simplices are others: their labels are NULL.") : 0));
+				 labelled ? errhint("The simplices are others: their labels are NULL.") :
+				 marked ? errhint("The facets are others: they have no markers.") : 0));
 	else
 		ereport(NOTICE,
 				(errmsg("%s", abacus_delaunay_clause(delaunay)),
@@ -121,7 +133,7 @@ triangulate_vertices(Change *change)
 
 /*
  * abacus_load(mesh text, vertices text, simplices text, attributes text[],
- * lower float8[], upper float8[], reorient boolean, retriangulate boolean, labels text[])
+ * lower float8[], upper float8[], reorient boolean, retriangulate boolean, labels text[], facets text)
  *     -> bigint
  */
 Datum
@@ -130,6 +142,8 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 	abacus_header *header = palloc0(sizeof(abacus_header));
 	Source		vertices;
 	Source		simplices;
+	Source		facets;
+	bool		has_facets = !PG_ARGISNULL(9);
 	Oid			mesh;
 	Change	   *change;
 	Host	   *host;
@@ -145,6 +159,8 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 				 errmsg("mesh, vertices, simplices, reorient and retriangulate must not be NULL")));
 	source_prepare(&vertices, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	source_prepare(&simplices, text_to_cstring(PG_GETARG_TEXT_PP(2)));
+	if (has_facets)
+		source_prepare(&facets, text_to_cstring(PG_GETARG_TEXT_PP(9)));
 	if (!PG_ARGISNULL(8))
 		labels = shape_names(PG_GETARG_ARRAYTYPE_P(8), "labels", &label_count);
 	shape_dimension(header, dimension_of(&simplices, label_count));
@@ -162,7 +178,8 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 					"abacus_load()");
 	change = change_begin(mesh, "abacus_load()");
 	host = change->writer.host;
-	delaunay = read_triangulation(change, &vertices, &simplices, PG_GETARG_BOOL(6));
+	delaunay = read_triangulation(change, &vertices, &simplices, has_facets ? &facets : NULL,
+								  PG_GETARG_BOOL(6));
 	retriangulate = PG_GETARG_BOOL(7) && delaunay != ABACUS_DELAUNAY;
 	if (retriangulate)
 		triangulate_vertices(change);
@@ -171,7 +188,9 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 	loaded = change->writer.header->simplices;
 	change_end(change);
 	if (delaunay != ABACUS_DELAUNAY)
-		tell(delaunay, retriangulate, label_count > 0);
+		tell(delaunay, retriangulate, label_count > 0, has_facets);
+	if (has_facets)
+		source_finish(&facets);
 	source_finish(&simplices);
 	source_finish(&vertices);
 	PG_RETURN_INT64((int64) loaded);
