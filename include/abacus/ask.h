@@ -48,6 +48,12 @@ ABACUS_API abacus_status abacus_cells_open_stretch(const abacus_host *host,
  */
 ABACUS_API abacus_status abacus_cells_next(abacus_cells *cells, abacus_simplex *simplex,
 										   double *values, abacus_error *error);
+/*
+ * The labels of a simplex, as many as the header names: of one that abacus_cells_next() has given.
+ * Valid until the next call.
+ */
+ABACUS_API abacus_status abacus_cells_labels(abacus_cells *cells, const abacus_simplex *simplex,
+											 const double **labels, abacus_error *error);
 /* How many pages have been read. */
 ABACUS_API uint64_t abacus_cells_pages(const abacus_cells *cells);
 ABACUS_API void abacus_cells_close(abacus_cells *cells);
@@ -89,6 +95,25 @@ ABACUS_API abacus_status abacus_faces_next_edge(abacus_faces *faces, abacus_edge
 												double *ends, abacus_error *error);
 ABACUS_API uint64_t abacus_faces_pages(const abacus_faces *faces);
 ABACUS_API void abacus_faces_close(abacus_faces *faces);
+
+/* A facet with a marker: the ids and places of its `dimension` corners. */
+typedef struct abacus_facet
+{
+	double marker; /* an integer */
+	int64_t id[ABACUS_MAX_DIMENSION];
+	double corner[ABACUS_MAX_DIMENSION][ABACUS_MAX_DIMENSION];
+} abacus_facet;
+/*
+ * The facets with a marker, each once, by marker and then along the curve; NaN: those with any.
+ * Sorts within `memory` bytes.
+ */
+typedef struct abacus_facets abacus_facets;
+ABACUS_API abacus_status abacus_facets_open(const abacus_host *host, const abacus_header *header,
+											double marker, size_t memory, size_t cache_bytes,
+											abacus_facets **facets, abacus_error *error);
+ABACUS_API abacus_status abacus_facets_next(abacus_facets *facets, abacus_facet *facet,
+											abacus_error *error);
+ABACUS_API void abacus_facets_close(abacus_facets *facets);
 
 /* Gets one of several simplices, valid during the call. May fail as a host function may. */
 typedef abacus_host_status (*abacus_simplex_report)(void *context, const abacus_simplex *simplex);

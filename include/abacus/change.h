@@ -153,6 +153,56 @@ ABACUS_API abacus_status abacus_build_report(abacus_build *build, abacus_change_
 											 void *context, abacus_error *error);
 ABACUS_API void abacus_build_close(abacus_build *build);
 
+/* ---- Labels ------------------------------------------------------------------ */
+
+typedef struct abacus_labelling abacus_labelling;
+
+/*
+ * Opens the labelling of simplices of a mesh, Delaunay or not. `header` names all labels; the first
+ * `known` of them are not new. Each row has values of `count` labels, whose numbers are `labels`.
+ * `memory` bounds what it uses for sorting, in bytes.
+ */
+ABACUS_API abacus_status abacus_labelling_open(const abacus_host *host,
+											   const abacus_header *header, uint32_t known,
+											   const uint32_t *labels, size_t count, size_t memory,
+											   size_t cache_bytes, abacus_labelling **labelling,
+											   abacus_error *error);
+/*
+ * Adds rows of 8-byte words: code and dimension + 1 ids of a simplex, then the values, NaN where
+ * there is none. Of several rows for a simplex the last one counts.
+ */
+ABACUS_API abacus_status abacus_labelling_add(abacus_labelling *labelling, const uint64_t *rows,
+											  size_t count, abacus_error *error);
+/*
+ * No more rows come: gives the simplices their labels and brings the header up to date. ABACUS_ERROR
+ * (argument) if the mesh has no such simplex.
+ */
+ABACUS_API abacus_status abacus_labelling_end(abacus_labelling *labelling, abacus_header *header,
+											  abacus_error *error);
+ABACUS_API void abacus_labelling_close(abacus_labelling *labelling);
+
+/* ---- Markers of facets ----------------------------------------------------------- */
+
+typedef struct abacus_marking abacus_marking;
+
+/* Opens the marking of facets of a mesh, Delaunay or not; `memory` as for labels. */
+ABACUS_API abacus_status abacus_marking_open(const abacus_host *host, const abacus_header *header,
+											 size_t memory, size_t cache_bytes,
+											 abacus_marking **marking, abacus_error *error);
+/*
+ * Adds rows of 8-byte words: code and dimension + 1 ids of a simplex, the number of the corner
+ * opposite the facet, and the marker, a double that is a 32-bit integer; NaN takes it away.
+ */
+ABACUS_API abacus_status abacus_marking_add(abacus_marking *marking, const uint64_t *rows,
+											size_t count, abacus_error *error);
+/*
+ * No more rows come: marks the facets, on both of their sides, and brings the header up to date.
+ * ABACUS_ERROR (argument) if the mesh has no such simplex.
+ */
+ABACUS_API abacus_status abacus_marking_end(abacus_marking *marking, abacus_header *header,
+											abacus_error *error);
+ABACUS_API void abacus_marking_close(abacus_marking *marking);
+
 /* ---- Loading ---------------------------------------------------------------- */
 
 typedef struct abacus_load abacus_load;
@@ -169,9 +219,18 @@ ABACUS_API abacus_status abacus_load_open(const abacus_host *host, const abacus_
 /* Adds vertices, as abacus_stage_add does points; each id once. */
 ABACUS_API abacus_status abacus_load_vertices(abacus_load *load, const uint64_t *points,
 											  size_t count, abacus_error *error);
-/* After all vertices: adds simplices, dimension + 1 ids of vertices each. */
-ABACUS_API abacus_status abacus_load_simplices(abacus_load *load, const int64_t *ids,
+/*
+ * After all vertices: adds simplices. Each is dimension + 1 ids of vertices, followed by its labels,
+ * which are doubles: as many as the header names, NaN where there is none.
+ */
+ABACUS_API abacus_status abacus_load_simplices(abacus_load *load, const uint64_t *simplices,
 											   size_t count, abacus_error *error);
+/*
+ * After all simplices, if at all: adds markers of facets. Each is `dimension` ids of vertices, and a
+ * double that is a 32-bit integer; NaN is none.
+ */
+ABACUS_API abacus_status abacus_load_facets(abacus_load *load, const uint64_t *facets, size_t count,
+											abacus_error *error);
 /*
  * No more simplices come. Checks exactly that they form a complex, and how this is related to
  * the Delaunay triangulation of its vertices. ABACUS_ERROR (argument) names what is wrong: an

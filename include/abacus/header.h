@@ -21,7 +21,10 @@ enum
 	ABACUS_STAGED_PAGES,
 	/* Points equal to a vertex: {code, serial number}, an interval as of simplices. */
 	ABACUS_REPEATED_PAGES,
-	/* Attributes of vertices, if they are apart: intervals of keys of their own, group by group. */
+	/*
+	 * Attributes of vertices, if they are apart, labels of simplices, markers of facets: intervals of
+	 * keys of their own, group by group.
+	 */
 	ABACUS_ATTRIBUTE_PAGES
 };
 
@@ -89,6 +92,9 @@ ABACUS_API const char *abacus_delaunay_reason(abacus_delaunay delaunay);
 /* The greatest number of a spatial reference system, as in PostGIS. */
 #define ABACUS_MAX_SRID 999999
 
+/* So many names of attributes and labels the header row has room for. */
+#define ABACUS_MAX_NAMES 115
+
 /* What the pages are of. */
 typedef enum abacus_type
 {
@@ -101,8 +107,7 @@ typedef struct abacus_header
 	uint32_t type;         /* an abacus_type */
 	uint32_t dimension;    /* 2 or 3 */
 	uint32_t attributes;   /* number of attributes, 0 to ABACUS_MAX_ATTRIBUTES */
-	uint32_t apart;        /* whether vertices have them in pages of their own: the mesh's format is
-							  4 then, and else 3 */
+	uint32_t apart;        /* whether vertices have them in pages of their own */
 	uint32_t has_domain;   /* 0 until given or taken from the first points */
 	double lower[ABACUS_MAX_DIMENSION]; /* domain; used for clustering only */
 	double upper[ABACUS_MAX_DIMENSION];
@@ -122,7 +127,11 @@ typedef struct abacus_header
 	uint32_t levels;       /* of an octree: the finest that a leaf may have; */
 	uint64_t leaves;       /* ... of the above it has a domain, attributes, a stamp and an SRID */
 	abacus_counters counters; /* summed over all builds; peak_bytes: the largest */
-	char names[ABACUS_MAX_ATTRIBUTES][ABACUS_NAME_BYTES];
+	uint32_t labels;       /* number of labels, which a simplex may have; with attributes at most
+							  ABACUS_MAX_NAMES */
+	uint64_t labelled;     /* simplices that have some */
+	uint64_t marked;       /* simplices beside a facet with a marker */
+	char names[ABACUS_MAX_NAMES][ABACUS_NAME_BYTES]; /* of attributes, then of labels */
 } abacus_header;
 
 /*

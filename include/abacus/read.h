@@ -58,6 +58,12 @@ ABACUS_API abacus_status abacus_mesh_locate(abacus_mesh *mesh, const double *poi
 ABACUS_API abacus_status abacus_mesh_walk(abacus_mesh *mesh, uint64_t code, const int64_t *ids,
 										  int facet, abacus_simplex *simplex, abacus_error *error);
 /*
+ * The labels of the simplex with this code and these corner ids, as many as the header names; valid
+ * until the next call. ABACUS_ERROR (argument) if the mesh has no such simplex.
+ */
+ABACUS_API abacus_status abacus_mesh_labels(abacus_mesh *mesh, uint64_t code, const int64_t *ids,
+											const double **labels, abacus_error *error);
+/*
  * Gets one of the vertices nearest to a place, valid during the call, and its distance: rank 1 is
  * the nearest. May fail as a host function may. `place` is the id of one of many places.
  */
@@ -85,11 +91,13 @@ ABACUS_API abacus_status abacus_places_open(const abacus_host *host, const abacu
 ABACUS_API abacus_status abacus_places_add(abacus_places *places, const uint64_t *records,
 										   size_t count, abacus_error *error);
 /*
- * Gets the id of a place and the simplex that contains it as abacus_mesh_locate finds it,
- * NULL outside the hull; valid during the call. May fail as a host function may.
+ * Gets the id of a place, and the simplex that contains it as abacus_mesh_locate finds it, with its
+ * labels, as many as the header names; NULL outside the hull. Valid during the call. May fail as a
+ * host function may.
  */
 typedef abacus_host_status (*abacus_place_report)(void *context, int64_t id,
-												  const abacus_simplex *simplex);
+												  const abacus_simplex *simplex,
+												  const double *labels);
 /* No more places come: reports each of them, in the order of the curve. Once. */
 ABACUS_API abacus_status abacus_places_locate(abacus_places *places, abacus_place_report report,
 											  void *context, abacus_error *error);

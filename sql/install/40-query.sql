@@ -26,7 +26,8 @@ CREATE FUNCTION abacus_locate(
     OUT v0 bigint,
     OUT v1 bigint,
     OUT v2 bigint,
-    OUT v3 bigint)
+    OUT v3 bigint,
+    OUT labels double precision[])
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_locate_places'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE COST 1000 ROWS 100000;

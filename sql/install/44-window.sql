@@ -30,12 +30,13 @@ CREATE FUNCTION abacus_cells(
     OUT v2 bigint,
     OUT v3 bigint,
     OUT corners double precision[],
-    OUT "values" double precision[])
+    OUT "values" double precision[],
+    OUT labels double precision[])
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_cells'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision[], double precision) IS
-    'the simplices of a mesh, or of a window, with the coordinates and attributes of their corners';
+    'the simplices of a mesh, or of a window, with the coordinates and attributes of their corners, and their labels';
 
 CREATE FUNCTION abacus_cells(
     mesh regclass,
@@ -48,12 +49,13 @@ CREATE FUNCTION abacus_cells(
     OUT v2 bigint,
     OUT v3 bigint,
     OUT corners double precision[],
-    OUT "values" double precision[])
+    OUT "values" double precision[],
+    OUT labels double precision[])
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_cells_in_ball'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision, double precision) IS
-    'the simplices that come at most as near to a center as a radius, with the coordinates and attributes of their corners';
+    'the simplices that come at most as near to a center as a radius, with the coordinates and attributes of their corners, and their labels';
 
 CREATE FUNCTION abacus_vertices(
     mesh regclass,

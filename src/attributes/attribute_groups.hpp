@@ -1,7 +1,7 @@
 // Which attributes share a page: see attribute_page.hpp.
 #pragma once
 
-#include <abacus/host.h>
+#include <abacus/header.h>
 
 namespace abacus {
 
@@ -14,6 +14,7 @@ public:
         : attributes_(attributes), count_((attributes + widest - 1) / widest),
           width_(count_ == 0 ? 0 : (attributes + count_ - 1) / count_) {}
 
+    constexpr unsigned attributes() const { return attributes_; }
     constexpr unsigned count() const { return count_; }
     constexpr unsigned first(unsigned group) const { return group * width_; }
     constexpr unsigned columns(unsigned group) const {
@@ -28,7 +29,7 @@ private:
 
 /// No group is empty.
 static_assert([] {
-    for (unsigned attributes = 1; attributes <= ABACUS_MAX_ATTRIBUTES; ++attributes) {
+    for (unsigned attributes = 1; attributes <= ABACUS_MAX_NAMES; ++attributes) {
         const AttributeGroups groups(attributes);
         if (groups.first(groups.count() - 1) >= attributes) return false;
     }

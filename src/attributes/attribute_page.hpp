@@ -1,75 +1,36 @@
-// Attributes of vertices in pages of their own.
+// Attributes in pages of their own.
 //
 // A simplex page is complete in itself, so whatever a vertex carries would be stored in each page
 // that names it. A mesh whose attributes take many bytes has them apart: each vertex once, found
-// by its place alone. Location and walks read none of these pages.
+// by its place alone. Location and walks read none of these pages. Simplices have their
+// attributes so as well, those that have any: attribute_key.hpp tells who is named how.
 //
-// The order of vertices is that of their codes, and of a hash of their coordinates where codes are
-// equal. Vertices with the same key, which only happens on purpose, share a page. The attributes of
-// a mesh are cut into groups, and each group has pages of its own, from one end of the curve to the
-// other: who reads one attribute of many reads its group. So the first word of a page's key is the
-// group, followed by the code, which goes on in the second word, followed by the hash.
+// The order of owners is that of their keys. Those with the same key, which only happens on
+// purpose, share a page. Who reads one attribute of many reads its group.
 //
 //   header    what is in it
-//   heads     of the columns (blocks/bit_column.hpp): ranks of the vertices on each axis, then each
-//             attribute of the group
+//   heads     of the columns (blocks/bit_column.hpp): ranks of the points on each axis; for each
+//             point of an owner its number, and which attributes are NULL, unless owners are
+//             vertices; then each attribute of the group
 //   deltas    of the columns, in the same order
 //   checksum  8 bytes, XXH3 of all before
+//
+// The points of a page of vertices are these. Simplices share their points: a page has each once,
+// in lexicographic order, so the numbers of an owner's ascend. What is NULL takes a bit; its column
+// repeats some other value there, which makes no delta wider.
 //
 // Pages own intervals of keys without saying so: each from its key to that of the next, or to the
 // end of its group; the first one of a group begins at the least key of all. Nothing read here is
 // trusted.
 #pragma once
 
-#include "blocks/bit_column.hpp"
-#include "geometry/point.hpp"
-#include "host/arena.hpp"
-#include "keys/key.hpp"
-#include "keys/locational_code.hpp"
-
 #include "attributes/attribute_groups.hpp"
+#include "attributes/attribute_key.hpp"
+#include "host/arena.hpp"
 
 #include <array>
 
 namespace abacus {
-
-inline constexpr int attribute_hash_bits = 53, attribute_code_low_bits = 10;
-/// Codes have 63 bits, a key's words as many.
-inline constexpr int attribute_group_shift = 63 - attribute_code_low_bits;
-
-/// The least key of a group; also the end of the one before.
-constexpr Key group_begin(unsigned group) {
-    return {std::uint64_t{group} << attribute_group_shift, 0};
-}
-constexpr unsigned group_of(const Key &key) {
-    return static_cast<unsigned>(key.code >> attribute_group_shift);
-}
-
-template <int D> std::uint64_t hash_of(const Point<D> &p) {
-    std::uint64_t h = 0;
-    for (const double x : p) {
-        h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ull;
-        h ^= h >> 32;
-    }
-    h *= 0xff51afd7ed558ccdull;
-    return h ^ h >> 29;
-}
-
-/// Key of a vertex in the first group.
-template <int D> Key attribute_key(const Point<D> &p, std::uint64_t code) {
-    constexpr std::uint64_t low = (std::uint64_t{1} << attribute_code_low_bits) - 1;
-    return {code >> attribute_code_low_bits,
-            (code & low) << attribute_hash_bits | hash_of<D>(p) >> (64 - attribute_hash_bits)};
-}
-/// The same in another one.
-constexpr Key in_group(const Key &key, unsigned group) {
-    return {group_begin(group).code | key.code, key.part};
-}
-
-/// For standard algorithms.
-struct KeyBefore {
-    constexpr bool operator()(const Key &a, const Key &b) const { return a < b; }
-};
 
 struct AttributePageHeader {
     static constexpr std::uint32_t expected_magic = 0x54544241; // "ABTT"
@@ -80,52 +41,80 @@ struct AttributePageHeader {
     std::uint8_t dimension;
     std::uint16_t group;
     std::uint16_t columns;
-    std::uint16_t vertices;
-    std::uint32_t reserved; // 0
+    std::uint16_t rows;   // owners
+    std::uint32_t points; // that owners share; 0 if they are vertices
 };
 static_assert(sizeof(AttributePageHeader) == 16);
 
+/// Owners of a page that is read, however little they take.
+inline constexpr std::size_t most_in_attribute_page = 8192;
+
 /// A stored page, checked; read in place, and valid as long as its bytes.
-template <int D> class AttributePage {
+template <int D, int K = 1> class AttributePage {
 public:
     /// Throws Error (corrupted) unless the bytes are a page of this group with so many columns.
     void read(const unsigned char *bytes, std::size_t size, unsigned group, unsigned columns);
 
-    std::size_t vertices() const { return vertices_; }
-    Point<D> point(std::size_t vertex) const {
-        Point<D> p;
-        for (int i = 0; i < D; ++i) p[i] = from_ordered(axes_[i][vertex]);
-        return p;
+    std::size_t rows() const { return rows_; }
+    Owner<D, K> owner(std::size_t row) const {
+        if constexpr (K == 1) {
+            return point(row);
+        } else {
+            Owner<D, K> owner;
+            for (int k = 0; k < K; ++k) owner[k] = point(numbers_[k][row]);
+            return owner;
+        }
     }
-    double value(std::size_t vertex, unsigned column) const {
-        return from_ordered(columns_[column][vertex]);
+    double value(std::size_t row, unsigned column) const {
+        return from_ordered(value_rank(row, column));
     }
-    /// The rank of a coordinate, or of an attribute behind those.
-    std::uint64_t rank(std::size_t vertex, unsigned column) const {
-        return column < D ? axes_[column][vertex] : columns_[column - D][vertex];
+    /// The rank of a coordinate of the owner's points, or of an attribute behind those.
+    std::uint64_t rank(std::size_t row, unsigned word) const {
+        if (word >= D * K) return value_rank(row, word - D * K);
+        if constexpr (K == 1)
+            return axes_[word][row];
+        else
+            return axes_[word % D][numbers_[word / D][row]];
     }
-    /// Computes the keys of the vertices, in the page's group. Throws unless they ascend and lie
+    /// Computes the keys of the owners, in the page's group. Throws unless they ascend and lie
     /// in the interval.
     void keys(const Domain<D> &domain, const Key &lower, const Key &upper, Arena<Key> &keys) const;
 
 private:
-    std::size_t vertices_ = 0;
+    Point<D> point(std::size_t i) const {
+        Point<D> p;
+        for (int axis = 0; axis < D; ++axis) p[axis] = from_ordered(axes_[axis][i]);
+        return p;
+    }
+    std::uint64_t value_rank(std::size_t row, unsigned column) const {
+        if constexpr (K > 1)
+            if (nulls_[row] >> column & 1) return ordered(null_value);
+        return columns_[column][row];
+    }
+    void check_points(std::size_t points) const;
+    void check_owners(std::size_t points, unsigned columns) const;
+
+    std::size_t rows_ = 0;
     unsigned group_ = 0;
     std::array<Column, D> axes_;
+    std::array<Column, K == 1 ? 0 : K> numbers_; // of the points of a row
+    Column nulls_;                               // a bit for each attribute
     std::array<Column, AttributeGroups::widest> columns_;
 };
 
-/// Vertices of a page at most, however little they take: as many as are read, and as are written.
-/// Readers hold 16 bytes for each beside the page.
-inline constexpr std::size_t most_in_attribute_page = 8192;
+/// Owners that a writer puts into a page. Readers hold 16 bytes for each beside the page.
 inline constexpr std::size_t most_written_in_attribute_page = 1024;
 
-/// Writes pages from rows of ranks: coordinates, then the attributes of a group.
+/// Writes pages from rows of ranks: the coordinates of the owner's points, then the attributes of a
+/// group.
 class AttributePageWriter {
 public:
-    AttributePageWriter(const Host &host, int dimension, unsigned group, unsigned columns)
-        : dimension_(dimension), group_(group), stride_(static_cast<unsigned>(dimension) + columns),
-          column_(host) {}
+    /// `points` name an owner.
+    AttributePageWriter(const Host &host, int dimension, int points, unsigned group,
+                        unsigned columns)
+        : dimension_(static_cast<unsigned>(dimension)), points_(static_cast<unsigned>(points)),
+          group_(group), columns_(columns), stride_(dimension_ * points_ + columns), column_(host),
+          corners_(host), numbers_(host), table_(host) {}
 
     unsigned stride() const { return stride_; }
     /// Bytes of a page of the first n rows.
@@ -139,16 +128,33 @@ public:
     std::size_t size() const { return size_; }
 
 private:
-    const std::uint64_t *gather(const std::uint64_t *rows, std::size_t n, unsigned column);
+    /// A point of a row: where its coordinates lie among the rows, and its place in numbers_.
+    struct Corner {
+        std::uint32_t offset, place;
+    };
 
-    const int dimension_;
-    const unsigned group_, stride_;
+    /// Of a page, if owners share points.
+    void number_points(const std::uint64_t *rows, std::size_t n);
+    std::size_t points() const { return table_.size() / dimension_; }
+    /// Calls visit(words, count) for each column, in the order of the page.
+    template <class Visit>
+    void each_column(const std::uint64_t *rows, std::size_t n, const Visit &visit);
+    const std::uint64_t *gather(const std::uint64_t *words, std::size_t n, std::size_t stride);
+    const std::uint64_t *gather_nulls(const std::uint64_t *values, std::size_t n);
+    const std::uint64_t *gather_values(const std::uint64_t *values, std::size_t n);
+
+    const unsigned dimension_, points_, group_, columns_, stride_;
     Arena<std::uint64_t> column_;
+    Arena<Corner> corners_;
+    Arena<std::uint64_t> numbers_; // of the points of all rows
+    Arena<std::uint64_t> table_;   // coordinates of each point
     std::size_t size_ = 0;
     alignas(8) unsigned char bytes_[ABACUS_PAGE_BYTES + sizeof(std::uint64_t)];
 };
 
 extern template class AttributePage<2>;
 extern template class AttributePage<3>;
+extern template class AttributePage<2, 3>;
+extern template class AttributePage<3, 4>;
 
 } // namespace abacus

@@ -2,9 +2,9 @@
 //
 // Of each group one page is held in memory, and written back when another one is needed. Points
 // come and go along the curve, so the next one nearly always belongs to the same page, and a round
-// of insertions writes each page once. A page that gets too many vertices is cut where it is full:
-// what lies before the vertex that has come is finished in this round, and leaves full pages
-// behind. A page that loses most of its vertices takes in the next one.
+// of insertions writes each page once. A page that gets too many owners is cut where it is full:
+// what lies before the owner that has come is finished in this round, and leaves full pages
+// behind. A page that loses most of its owners takes in the next one.
 #pragma once
 
 #include "attributes/attribute_page.hpp"
@@ -18,24 +18,26 @@
 
 namespace abacus {
 
-/// Those of a group.
-template <int D> class AttributeGroup {
+/// Those of a group; K points name an owner (attribute_key.hpp).
+template <int D, int K = 1> class AttributeGroup {
 public:
+    using Name = Owner<D, K>;
+
     /// Counts the pages that it moves in `counters`.
     AttributeGroup(const Host &host, const Domain<D> &domain, unsigned group, unsigned columns,
                    abacus_counters &counters);
 
-    /// Sets what the vertex at p has. `key` is its attribute_key().
-    void put(const Key &key, const Point<D> &p, const double *values);
-    /// Sets the attributes `which` of the vertex at p, all of this group, whose first one is
-    /// `first`; false if there is no such vertex.
-    bool set(const Key &key, const Point<D> &p, unsigned first,
+    /// Sets what the owner has. `key` is its attribute_key().
+    void put(const Key &key, const Name &owner, const double *values);
+    /// Sets the attributes `which` of the owner, all of this group, whose first one is `first`;
+    /// false if there is no such owner.
+    bool set(const Key &key, const Name &owner, unsigned first,
              std::span<const std::uint32_t> which, const double *values);
-    /// Takes it away.
-    void drop(const Key &key, const Point<D> &p);
-    /// Reads it. Throws an Error (corrupted) if there is no such vertex.
-    void get(const Key &key, const Point<D> &p, double *values);
-    bool contains(const Key &key, const Point<D> &p);
+    /// Takes it away; false if there is no such owner.
+    bool erase(const Key &key, const Name &owner);
+    /// Reads it; false if there is no such owner.
+    bool get(const Key &key, const Name &owner, double *values);
+    bool contains(const Key &key, const Name &owner);
     /// Writes the current page.
     void flush();
     /// All pages have gone, or may lie elsewhere.
@@ -53,7 +55,7 @@ private:
     void append(const abacus_page &page, const Key &upper);
     void assign(std::uint64_t &to, double value);
     std::size_t lower_bound(const Key &key) const;
-    std::size_t find(const Key &key, const Point<D> &p) const;
+    std::size_t find(const Key &key, const Name &owner) const;
     std::size_t insert(const Key &key);
     void remove_rows(std::size_t begin, std::size_t end);
     /// Writes full pages of what lies before the row; whether there were any.
@@ -75,7 +77,7 @@ private:
     const std::size_t stride_; // words of a row
     abacus_counters &counters_;
     AttributePageWriter writer_;
-    AttributePage<D> view_;
+    AttributePage<D, K> view_;
     bool at_page_ = false;       // otherwise what follows says nothing
     bool dirty_ = false;         // since it was stored
     bool shrunk_ = false;        // has lost rows
@@ -87,26 +89,36 @@ private:
     Arena<std::uint64_t> rows_; // ranks: coordinates, attributes
 };
 
-template <int D> class AttributePages {
+/// Those of all owners of a kind.
+template <int D, int K = 1> class AttributePages {
 public:
-    AttributePages(const Host &host, const Domain<D> &domain, unsigned attributes);
+    using Name = Owner<D, K>;
 
-    /// Sets the attributes of the vertex at p, which has this code.
-    void put(const Point<D> &p, std::uint64_t code, const double *values);
-    /// The same for a vertex that has none yet.
-    void put_new(const Point<D> &p, std::uint64_t code, const double *values);
-    /// Sets some attributes of the vertex at p, which are `which`; false if there is no such
-    /// vertex. Reads and writes only pages that have one of these.
-    bool set(const Point<D> &p, std::uint64_t code, std::span<const std::uint32_t> which,
+    /// In groups from `first` on.
+    AttributePages(const Host &host, const Domain<D> &domain, unsigned attributes,
+                   unsigned first = first_group<K>);
+
+    /// Sets the attributes of an owner, which has this code.
+    void put(const Name &owner, std::uint64_t code, const double *values);
+    /// The same for an owner that has none yet.
+    void put_new(const Name &owner, std::uint64_t code, const double *values);
+    /// Sets some attributes of an owner, which are `which`; false if it has none. Reads and writes
+    /// only pages that have one of these.
+    bool set(const Name &owner, std::uint64_t code, std::span<const std::uint32_t> which,
              const double *values);
-    void drop(const Point<D> &p, std::uint64_t code);
-    /// Throws an Error (corrupted) if there is no such vertex.
-    void get(const Point<D> &p, std::uint64_t code, double *values);
+    /// Takes them away; false if there are none.
+    bool erase(const Name &owner, std::uint64_t code);
+    /// The same of a vertex; throws an Error (corrupted) if there are none.
+    void drop(const Name &owner, std::uint64_t code) {
+        if (!erase(owner, code)) throw_no_attributes<D, K>();
+    }
+    /// Throws an Error (corrupted) if the owner has none.
+    void get(const Name &owner, std::uint64_t code, double *values);
     void flush() {
-        for (AttributeGroup<D> &group : pages_) group.flush();
+        for (AttributeGroup<D, K> &group : pages_) group.flush();
     }
     void forget() {
-        for (AttributeGroup<D> &group : pages_) group.forget();
+        for (AttributeGroup<D, K> &group : pages_) group.forget();
     }
     /// Pages moved since it was last asked; nothing else is counted.
     abacus_counters take_counters() { return std::exchange(counters_, {}); }
@@ -115,12 +127,12 @@ private:
     const AttributeGroups groups_;
     abacus_counters counters_{};
     HostMemory memory_;
-    std::pmr::deque<AttributeGroup<D>> pages_; // of each group
+    std::pmr::deque<AttributeGroup<D, K>> pages_; // of each group
 };
 
-extern template class AttributeGroup<2>;
-extern template class AttributeGroup<3>;
 extern template class AttributePages<2>;
 extern template class AttributePages<3>;
+extern template class AttributePages<2, 3>;
+extern template class AttributePages<3, 4>;
 
 } // namespace abacus

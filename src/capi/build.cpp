@@ -13,11 +13,18 @@
 
 struct abacus_build {
     abacus_build(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
-        : host(*table), alone(*table), build(host, header, cache_bytes) {
+        : stored(abacus::Host(*table)), host(*table, watch(header)), alone(*table),
+          build(host, header, cache_bytes, watch(header)) {
         alone.threads = 1;
         alone.tiny_intervals = 0;
     }
 
+    /// Where something may go with a simplex.
+    abacus::StoredPages *watch(const abacus_header &header) {
+        return header.labelled > 0 || header.marked > 0 ? &stored : nullptr;
+    }
+
+    abacus::StoredPages stored;
     const abacus::Host host;
     // Before the build, which writes to it. It sorts with one thread (simplex_changes.hpp).
     abacus_host alone;
@@ -94,6 +101,8 @@ abacus_status abacus_build_change_attributes(abacus_build *build, const uint32_t
                 std::memset(changed.names[i], 0, ABACUS_NAME_BYTES);
             else
                 std::memcpy(changed.names[i], header->names[source[i]], ABACUS_NAME_BYTES);
+        std::memcpy(changed.names[count], header->names[header->attributes],
+                    header->labels * std::size_t{ABACUS_NAME_BYTES});
         opened.change_attributes({source, count}, memory, changed);
     });
 }

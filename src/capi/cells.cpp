@@ -1,5 +1,6 @@
 // The simplices of a window behind the C interface.
 #include "query/cell_scan.hpp"
+#include "query/simplex_labels.hpp"
 
 #include "capi/dimension.hpp"
 #include "capi/guard.hpp"
@@ -11,12 +12,12 @@
 struct abacus_cells {
     abacus_cells(const abacus_host *table, const abacus_header &header, const abacus_window &window,
                  double max_edge)
-        : host(*table), values(all.data(), header.attributes),
+        : host(*table), values(all.data(), header.attributes), labels(host, header),
           cells(host, header, window, max_edge) {}
 
     abacus_cells(const abacus_host *table, const abacus_header &header, std::uint64_t least,
                  std::uint64_t greatest)
-        : host(*table), values(all.data(), header.attributes),
+        : host(*table), values(all.data(), header.attributes), labels(host, header),
           cells(host, header, least, greatest) {}
 
     static constexpr std::array<std::uint32_t, ABACUS_MAX_ATTRIBUTES> all = [] {
@@ -27,6 +28,7 @@ struct abacus_cells {
 
     const abacus::Host host;
     abacus::CornerValues values;
+    abacus::ByDimension<abacus::SimplexLabels> labels;
     abacus::ByDimension<abacus::CellScan> cells;
 };
 
@@ -60,6 +62,14 @@ abacus_status abacus_cells_next(abacus_cells *cells, abacus_simplex *simplex, do
                         *values++ = wanted->value(i, n);
             return ABACUS_OK;
         });
+    });
+}
+
+abacus_status abacus_cells_labels(abacus_cells *cells, const abacus_simplex *simplex,
+                                  const double **labels, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        *labels = cells->labels.visit([&](auto &of_all) { return of_all.of(*simplex); });
+        return ABACUS_OK;
     });
 }
 

@@ -1,6 +1,8 @@
 // The header row of a mesh, as bytes: little-endian, fixed fields, then the
-// names of the attributes, and last the SRID where there is one. A user can write any bytes into
-// the row, so decoding checks every field; it accepts exactly what encoding can produce.
+// names of the attributes, and last the SRID where there is one. Where simplices have labels or
+// facets markers, the SRID is there in any case, and what is known of these follows. A user can
+// write any bytes into the row, so decoding checks every field; it accepts exactly what encoding
+// can produce.
 #include "capi/guard.hpp"
 
 #include <abacus/octree.h>
@@ -14,8 +16,9 @@ namespace {
 
 /// A header begins with the bytes "ABACUS" and the format of the mesh: of the header and of
 /// all its pages together. The number is raised when any of them changes. Whether vertices have
-/// their attributes in simplex pages or apart is told by the format alone.
-constexpr std::uint64_t name = 0x535543414241, format = 3, format_apart = 4;
+/// their attributes in simplex pages or apart is told by the format alone, unless there are labels
+/// or markers.
+constexpr std::uint64_t name = 0x535543414241, format = 3, format_apart = 4, format_labelled = 5;
 constexpr int name_bits = 48;
 /// That of an octree begins with the bytes "OCTREE" and a format of its own.
 constexpr std::uint64_t octree_name = 0x454552544f43ull, octree_format = 1;
@@ -139,12 +142,14 @@ void check_counts(const abacus_header &header) {
         throw_corrupted("The header's counts of simplices contradict its count of vertices.");
 }
 
-void read_names(Reader &read, abacus_header &header) {
-    for (unsigned i = 0; i < header.attributes; ++i) {
+void read_names(Reader &read, unsigned begin, unsigned end, abacus_header &header) {
+    for (unsigned i = begin; i < end; ++i) {
         const char *name = read.text(ABACUS_NAME_BYTES);
         const std::size_t length = strnlen(name, ABACUS_NAME_BYTES);
         if (length == 0 || length == ABACUS_NAME_BYTES)
-            throw_corrupted("The name of attribute " + std::to_string(i + 1) + " is not valid.");
+            throw_corrupted(
+                (i < header.attributes ? "The name of attribute " : "The name of label ") +
+                std::to_string(i - begin + 1) + " is not valid.");
         std::memcpy(header.names[i], name, length);
     }
 }
@@ -155,6 +160,30 @@ void read_srid(Reader &read, abacus_header &header) {
     read(header.srid);
     if (header.srid == 0 || header.srid > ABACUS_MAX_SRID)
         throw_corrupted("The header's SRID is out of range.");
+    if (read.left() > 0) throw_corrupted("The header is too long.");
+}
+
+bool is_labelled(const abacus_header &header) { return header.labels > 0 || header.marked > 0; }
+
+template <class Header, class Visit> void visit_label_fields(Header &header, Visit &visit) {
+    visit(header.srid);
+    visit(header.apart);
+    visit(header.labels);
+    visit(header.labelled);
+    visit(header.marked);
+}
+
+/// Labels of simplices and markers of facets.
+void read_labels(Reader &read, abacus_header &header) {
+    visit_label_fields(header, read);
+    if (header.srid > ABACUS_MAX_SRID) throw_corrupted("The header's SRID is out of range.");
+    if (header.apart > 1) throw_corrupted("The header's attributes are neither apart nor not.");
+    if (!is_labelled(header) || header.labels > ABACUS_MAX_NAMES - header.attributes ||
+        header.labelled >= count_limit || header.marked >= count_limit ||
+        (header.labelled > 0 && header.labels == 0) ||
+        (header.labelled + header.marked > 0 && header.simplices == 0))
+        throw_corrupted("The header's counts of labels and markers contradict the others.");
+    read_names(read, header.attributes, header.attributes + header.labels, header);
     if (read.left() > 0) throw_corrupted("The header is too long.");
 }
 
@@ -179,17 +208,22 @@ void check_octree_format(std::uint64_t found) {
                                             std::to_string(octree_format));
 }
 
+std::uint64_t format_of(const abacus_header &header) {
+    if (is_labelled(header)) return format_labelled;
+    return header.apart != 0 ? format_apart : format;
+}
+
 bool has_name(std::uint64_t found, std::uint64_t name) {
     return (found ^ name) << (64 - name_bits) == 0;
 }
 
 void check_format(std::uint64_t found) {
     if (!has_name(found, name)) throw_corrupted("The row with the lowest key is no header.");
-    if (found >> name_bits != format && found >> name_bits != format_apart)
+    if (found >> name_bits < format || found >> name_bits > format_labelled)
         throw Error(ABACUS_ERROR_STATE,
                     "mesh is stored in format " + std::to_string(found >> name_bits) +
                         ", but this version of Abacus reads formats " + std::to_string(format) +
-                        " and " + std::to_string(format_apart),
+                        " to " + std::to_string(format_labelled),
                     {},
                     "Read its points with the version that wrote it (abacus_vertices), and build "
                     "it anew.");
@@ -213,8 +247,7 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
         throw_corrupted("The header's dimension is " + std::to_string(header.dimension) + ".");
     if (header.attributes > ABACUS_MAX_ATTRIBUTES)
         throw_corrupted("The header has " + std::to_string(header.attributes) + " attributes.");
-    if (header.apart != 0 && header.attributes == 0)
-        throw_corrupted("The header has no attributes, and says that they are apart.");
+    const bool labelled = header.type == ABACUS_MESH && found >> name_bits == format_labelled;
     if (is_octree) {
         check_octree(header);
     } else {
@@ -223,11 +256,16 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
     }
     std::uint64_t counters[counter_count]{};
     const std::size_t names = header.attributes * std::size_t{ABACUS_NAME_BYTES};
-    const bool has_all = read.left() >= names + sizeof counters;
+    const bool has_all = labelled || read.left() >= names + sizeof counters;
     for (std::size_t i = 0; i < (has_all ? counter_count : least_counters); ++i) read(counters[i]);
     std::memcpy(&header.counters, counters, sizeof counters);
-    read_names(read, header);
-    read_srid(read, header);
+    read_names(read, 0, header.attributes, header);
+    if (labelled)
+        read_labels(read, header);
+    else
+        read_srid(read, header);
+    if (header.apart != 0 && header.attributes == 0)
+        throw_corrupted("The header has no attributes, and says that they are apart.");
 }
 
 /// An error names what the bytes say they are.
@@ -256,7 +294,7 @@ size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes) {
         write(octree_name | octree_format << name_bits);
         visit_octree_fields(*header, write);
     } else {
-        write(name | (header->apart != 0 ? format_apart : format) << name_bits);
+        write(name | format_of(*header) << name_bits);
         visit_fields(*header, write);
     }
     std::uint64_t counters[counter_count];
@@ -264,7 +302,13 @@ size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes) {
     for (const auto counter : counters) write(counter);
     for (unsigned i = 0; i < header->attributes; ++i)
         write.text(header->names[i], ABACUS_NAME_BYTES);
-    if (header->srid != 0) write(header->srid);
+    if (is_labelled(*header)) {
+        visit_label_fields(*header, write);
+        for (unsigned i = 0; i < header->labels; ++i)
+            write.text(header->names[header->attributes + i], ABACUS_NAME_BYTES);
+    } else if (header->srid != 0) {
+        write(header->srid);
+    }
     return write.size();
 }
 

@@ -31,11 +31,16 @@ abacus_status abacus_load_vertices(abacus_load *load, const uint64_t *points, si
                             [&](auto &loading) { loading.add_vertices(points, count); });
 }
 
-abacus_status abacus_load_simplices(abacus_load *load, const int64_t *ids, size_t count,
+abacus_status abacus_load_simplices(abacus_load *load, const uint64_t *simplices, size_t count,
                                     abacus_error *error) {
-    return abacus::dispatch(load->load, error, [&](auto &loading) {
-        loading.add_simplices(reinterpret_cast<const std::uint64_t *>(ids), count);
-    });
+    return abacus::dispatch(load->load, error,
+                            [&](auto &loading) { loading.add_simplices(simplices, count); });
+}
+
+abacus_status abacus_load_facets(abacus_load *load, const uint64_t *facets, size_t count,
+                                 abacus_error *error) {
+    return abacus::dispatch(load->load, error,
+                            [&](auto &loading) { loading.add_facets(facets, count); });
 }
 
 abacus_status abacus_load_check(abacus_load *load, abacus_delaunay *outcome, abacus_error *error) {

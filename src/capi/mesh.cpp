@@ -75,6 +75,15 @@ abacus_status abacus_mesh_walk(abacus_mesh *mesh, uint64_t code, const int64_t *
     });
 }
 
+abacus_status abacus_mesh_labels(abacus_mesh *mesh, uint64_t code, const int64_t *ids,
+                                 const double **labels, abacus_error *error) {
+    return abacus::dispatch(mesh->reader, error, [&]<int D>(abacus::Reader<D> &reader) {
+        abacus_simplex simplex;
+        reader.describe(code, ids, simplex);
+        *labels = mesh->labels.get<D>().of(simplex);
+    });
+}
+
 abacus_status abacus_mesh_nearest(abacus_mesh *mesh, const double *point, uint64_t k,
                                   abacus_nearest_report report, void *context,
                                   abacus_error *error) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "query/interpolation.hpp"
+#include "query/simplex_labels.hpp"
 
 #include "capi/dimension.hpp"
 
@@ -9,11 +10,13 @@
 
 struct abacus_mesh {
     abacus_mesh(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
-        : host(*table), reader(host, header, cache_bytes), interpolation(host, header) {}
+        : host(*table), reader(host, header, cache_bytes), interpolation(host, header),
+          labels(host, header) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::Reader> reader;
     abacus::ByDimension<abacus::Interpolation> interpolation;
+    abacus::ByDimension<abacus::SimplexLabels> labels;
 };
 
 namespace abacus {

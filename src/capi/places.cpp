@@ -1,5 +1,6 @@
 // Many places behind the C interface.
 #include "query/places.hpp"
+#include "query/simplex_labels.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
@@ -21,7 +22,9 @@ namespace {
 
 template <int D> class Locating final : public Question<D> {
 public:
-    Locating(abacus_place_report report, void *context) : report_(report), context_(context) {}
+    Locating(const Host &host, const abacus_header &header, abacus_place_report report,
+             void *context)
+        : labels_(host, header), report_(report), context_(context) {}
 
     std::size_t words() const override { return 1 + sizeof(abacus_simplex) / 8; }
     bool is_quick() const override { return true; }
@@ -32,11 +35,14 @@ public:
         if (is_inside != 0) tape.put(simplex);
     }
     void tell(std::int64_t id, Tape::Player &answers) const override {
-        const bool is_inside = answers.take<std::uint64_t>() != 0;
-        host::require(report_(context_, id, is_inside ? &answers.take<abacus_simplex>() : nullptr));
+        if (answers.take<std::uint64_t>() == 0)
+            return host::require(report_(context_, id, nullptr, nullptr));
+        const auto &simplex = answers.take<abacus_simplex>();
+        host::require(report_(context_, id, &simplex, labels_.of(simplex)));
     }
 
 private:
+    mutable SimplexLabels<D> labels_; // of the session's thread; what it has read changes no answer
     const abacus_place_report report_;
     void *const context_;
 };
@@ -157,7 +163,7 @@ abacus_status abacus_places_add(abacus_places *places, const uint64_t *records, 
 abacus_status abacus_places_locate(abacus_places *places, abacus_place_report report, void *context,
                                    abacus_error *error) {
     return abacus::dispatch(places->places, error, [&]<int D>(abacus::Places<D> &all) {
-        all.each(abacus::Locating<D>(report, context));
+        all.each(abacus::Locating<D>(places->host, all.header(), report, context));
     });
 }
 

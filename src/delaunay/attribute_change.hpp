@@ -1,6 +1,6 @@
 // Other attributes for all points of a mesh: more, fewer, or the same in another place.
 //
-// The simplices stay as they are, and so does where they lie on the curve. What has attributes is
+// The simplices stay as they are, with their labels, and so does where they lie on the curve. What has attributes is
 // written anew, a kind of pages after the other:
 //
 //   points that wait    behind the others, in their order
@@ -14,6 +14,7 @@
 // the same rule as a new mesh.
 #pragma once
 
+#include "attributes/rewriting.hpp"
 #include "blocks/counters.hpp"
 #include "delaunay/build.hpp"
 #include "points/vertex_page.hpp"
@@ -148,7 +149,7 @@ private:
         build_.apart_->forget();
         build_.core_->cache.counters += build_.apart_->take_counters();
         build_.apart_.reset();
-        build_.erase_pages(ABACUS_ATTRIBUTE_PAGES);
+        erase_attributes(host_, first_group<1>);
     }
 
     /// With so many attributes in the pages of simplices.

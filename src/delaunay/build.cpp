@@ -35,8 +35,9 @@ Build<D>::Core::Core(const Host &host, const abacus_header &header, std::size_t 
       insertion(mesh), removal(mesh, attributes) {}
 
 template <int D>
-Build<D>::Build(const Host &host, const abacus_header &header, std::size_t cache_bytes)
-    : host_(host), attributes_(header.attributes), cache_bytes_(cache_bytes),
+Build<D>::Build(const Host &host, const abacus_header &header, std::size_t cache_bytes,
+                StoredPages *stored)
+    : host_(host), attributes_(header.attributes), cache_bytes_(cache_bytes), stored_(stored),
       domain_(domain_of<D>(header)), repeated_(std::in_place, host_, domain_, header.attributes),
       gathered_(host_, record_words(D, header.attributes)) {
     if (header.apart != 0) apart_.emplace(host_, domain_, header.attributes);
@@ -201,6 +202,7 @@ void Build<D>::change(abacus_header &header, Change change) {
             apart_->forget();
             core_->cache.counters += apart_->take_counters();
         }
+        if (stored_ != nullptr) sweep_labels();
     }
     header.simplices = static_cast<std::uint64_t>(core_->mesh.simplices());
     header.ghosts = static_cast<std::uint64_t>(core_->mesh.ghosts());
@@ -313,6 +315,7 @@ void Build<D>::change_attributes(std::span<const std::uint32_t> source, std::siz
         header.attributes = count;
         header.apart = will_be_apart;
         forget_cache();
+        if (stored_ != nullptr) stored_->clear(); // with the same simplices as before
         return header.vertices;
     });
 }

@@ -24,6 +24,7 @@
 #include "delaunay/removal.hpp"
 #include "delaunay/rest.hpp"
 #include "host/crew.hpp"
+#include "mesh/stored_pages.hpp"
 #include "points/repeated_points.hpp"
 #include "points/vertex_reader.hpp"
 #include "staging/stage.hpp"
@@ -37,7 +38,10 @@ namespace abacus {
 
 template <int D> class Build {
 public:
-    Build(const Host &host, const abacus_header &header, std::size_t cache_bytes);
+    /// `stored` is told by the host what is stored; null if simplices have no labels and
+    /// facets no markers.
+    Build(const Host &host, const abacus_header &header, std::size_t cache_bytes,
+          StoredPages *stored = nullptr);
 
     /// From now on keeps account of the simplices that come and go.
     void log_to(SimplexChanges<D> &changes);
@@ -166,6 +170,9 @@ private:
     void forget_simplices();
     /// All simplices are about to go: so much for whoever wants to know.
     void log_all_gone();
+    void sweep_labels();
+    /// The domain was another one.
+    void rekey_labels(const Domain<D> &from, std::size_t memory);
     /// Counts a point as one that the domain does not fit if the simplices around it share one code
     /// with more than a page takes. It has just been inserted.
     void count_crowded();
@@ -185,6 +192,7 @@ private:
     const Host &host_;
     const unsigned attributes_;
     const std::size_t cache_bytes_;
+    StoredPages *const stored_; ///< null if there are no labels and markers
     Domain<D> domain_;
     std::optional<AttributePages<D>> apart_;    ///< if the mesh has its attributes apart
     std::optional<Core> core_;                  ///< always there; optional, to be made anew

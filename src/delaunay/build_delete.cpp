@@ -1,6 +1,7 @@
 // Taking points away.
 #include "delaunay/build.hpp"
 
+#include "attributes/rewriting.hpp"
 #include "delaunay/intake.hpp"
 #include "keys/domain_of.hpp"
 #include "points/vertex_page.hpp"
@@ -145,7 +146,7 @@ template <int D> void Build<D>::forget_simplices() {
     erase_pages(ABACUS_SIMPLEX_PAGES);
     if (apart_) {
         apart_->forget();
-        erase_pages(ABACUS_ATTRIBUTE_PAGES);
+        erase_attributes(host_, first_group<1>);
     }
     header_->vertices = header_->duplicates = header_->simplices = header_->ghosts = 0;
     forget_cache();

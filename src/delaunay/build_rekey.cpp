@@ -26,6 +26,7 @@
 #include "traverse/own_vertices.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace abacus {
 
@@ -86,7 +87,8 @@ template <int D> bool Build<D>::change_domain(const Spread<D> &coming, std::size
     if (is_mesh) take_repeated(points);
     set_domain(*header_, box);
     forget_simplices();
-    domain_ = domain_of<D>(*header_);
+    const Domain<D> before = std::exchange(domain_, domain_of<D>(*header_));
+    rekey_labels(before, memory);
     if (apart_) {
         core_->cache.counters += apart_->take_counters();
         apart_.emplace(host_, domain_, attributes_); // where it was: others know it

@@ -18,8 +18,9 @@ namespace abacus {
 
 class Host : public Memory, public Control, public Pages, public Spools {
 public:
-    explicit Host(const abacus_host &table)
-        : Memory(table.context, table.resize), Control(table), Pages(table), Spools(table) {}
+    /// `watch` gets to know of stored pages, unless it is null.
+    explicit Host(const abacus_host &table, PageWatch *watch = nullptr)
+        : Memory(table.context, table.resize), Control(table), Pages(table, watch), Spools(table) {}
 };
 
 } // namespace abacus

@@ -5,9 +5,19 @@
 
 namespace abacus {
 
+/// Gets to know of each page that is stored.
+class PageWatch {
+public:
+    virtual void stored(abacus_page_kind kind, const abacus_page &page) = 0;
+
+protected:
+    ~PageWatch() = default;
+};
+
 class Pages {
 public:
-    explicit Pages(const abacus_host &table) : table_(&table) {}
+    explicit Pages(const abacus_host &table, PageWatch *watch = nullptr)
+        : table_(&table), watch_(watch) {}
 
     /// The page with the greatest key that is not above this one; false when there is none.
     bool find(abacus_page_kind kind, abacus_key key, abacus_page &page) const {
@@ -24,6 +34,7 @@ public:
     /// Stores the page, in place of the version at page.location unless that is 0.
     void put(abacus_page_kind kind, abacus_page &page) const {
         host::require(table_->put(table_->context, kind, &page));
+        if (watch_ != nullptr) watch_->stored(kind, page);
     }
     void erase(abacus_page_kind kind, const abacus_page &page) const {
         host::require(table_->erase(table_->context, kind, &page));
@@ -31,6 +42,7 @@ public:
 
 private:
     const abacus_host *table_;
+    PageWatch *watch_;
 };
 
 } // namespace abacus

@@ -15,15 +15,17 @@ namespace abacus {
 
 namespace {
 constexpr std::size_t sorts_at_once = 4;
+constexpr std::size_t sorts_with_labels = sorts_at_once + 1;
 } // namespace
 
 template <int D>
 Load<D>::Load(const Host &host, const abacus_header &header, std::size_t memory, bool reorient)
     : host_(host), attributes_(header.attributes), in_pages_(page_attributes(header)),
-      layout_(static_cast<unsigned>(in_pages_)), vertex_words_(record_words(D, attributes_)),
-      reorient_(reorient), unknown_(host), share_(memory / sorts_at_once), pacer_(host),
+      layout_(static_cast<unsigned>(in_pages_)), labels_(header.labels),
+      vertex_words_(record_words(D, attributes_)), reorient_(reorient), unknown_(host),
+      share_(memory / (labels_ > 0 ? sorts_with_labels : sorts_at_once)), pacer_(host),
       spread_(host), used_(host, vertex_words_), ordered_(host, vertex_words_),
-      simplices_(host, layout_.simplex) {
+      simplices_(host, layout_.simplex), label_rows_(host, std::max(1u, labels_)) {
     if (header.staged > 0 || header.vertices > 0)
         throw Error(ABACUS_ERROR_STATE, "the mesh has points already", {},
                     "Load into an empty mesh.");
@@ -42,8 +44,9 @@ template <int D> void Load<D>::add_vertices(const Word *points, std::size_t coun
     pacer_.reached(vertices_->size());
 }
 
-template <int D> void Load<D>::add_simplices(const Word *ids, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i, ids += D + 1, ++simplex_count_)
+template <int D> void Load<D>::add_simplices(const Word *simplices, std::size_t count) {
+    const Word *ids = simplices;
+    for (std::size_t i = 0; i < count; ++i, ids += D + 1 + labels_, ++simplex_count_) {
         for (int k = 0; k <= D; ++k) {
             if (std::find(ids, ids + k, ids[k]) != ids + k)
                 faults_.add("simplex " + name_of({ids, D + 1}) + " has the same vertex twice", {},
@@ -52,6 +55,8 @@ template <int D> void Load<D>::add_simplices(const Word *ids, std::size_t count)
             corner[0] = ids[k];
             corner[1] = simplex_count_ << 2 | static_cast<Word>(k);
         }
+        if (labels_ > 0) std::copy_n(ids + D + 1, labels_, label_rows_.add());
+    }
     pacer_.reached(vertices_->size() + simplex_count_);
 }
 
@@ -116,6 +121,8 @@ template <int D> void Load<D>::write(abacus_header &header) {
     end(elements_);
     header.counters = pages.counters(); // nothing has been done with it before
     header.counters += write_vertices(!is_delaunay);
+    if (labelled_) write_labels(header);
+    if (marker_rows_) write_markers(header);
 
     if (keeps_domain_)
         header.outside = outside_;

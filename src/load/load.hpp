@@ -13,6 +13,8 @@
 //   boundary by key      overlaps (overlap.hpp)
 //   flanks by ridge      neighbours of ghosts; whether the boundary is a convex hull
 //   elements by key      pages (element_writer.hpp)
+//   labelled by key      pages of the labels of simplices
+//   markers by facet     with its flanks; then by simplex and by key: pages of the markers
 //
 // The mesh is the Delaunay triangulation of its vertices if and only if across every facet
 // the empty-sphere criterion holds under the perturbation, each ridge of the boundary joins
@@ -49,15 +51,17 @@ public:
 
     /// Adds vertices, as in abacus_stage_add; all before the simplices.
     void add_vertices(const std::uint64_t *points, std::size_t count);
-    /// Adds simplices: D + 1 vertex ids each.
-    void add_simplices(const std::uint64_t *ids, std::size_t count);
+    /// Adds simplices: D + 1 vertex ids each, followed by its labels.
+    void add_simplices(const std::uint64_t *simplices, std::size_t count);
+    /// Then markers of facets: D vertex ids each, and the marker.
+    void add_facets(const std::uint64_t *facets, std::size_t count);
     /// No more come: checks.
     abacus_delaunay check();
     /// Writes the pages and brings the header of the empty mesh up to date.
     void write(abacus_header &header);
     /// Or instead: calls add(vertex) with the record of each vertex of a simplex.
     template <class Add> void give_vertices(Add add) {
-        for (auto *sort : {&links_, &boundary_, &elements_})
+        for (auto *sort : {&links_, &boundary_, &elements_, &labelled_, &marker_rows_})
             if (*sort) end(*sort); // whoever takes the vertices needs memory
         while (const Word *vertex = ordered_.next()) add(vertex);
         ordered_.close();
@@ -84,6 +88,19 @@ private:
     void add_ghost(const Word *simplex, int facet, Key &key);
     Key key_of(const std::array<const Word *, D + 1> &vertices, int n) const;
 
+    // load_labels.cpp
+    void begin_labels();
+    void place_labels(const Corners<D> &points);
+    void write_labels(abacus_header &header);
+
+    // load_markers.cpp
+    void begin_markers();
+    void refuse_marks_before(const std::array<Word, D> *ids);
+    void mark_sides(const std::array<Word, D> &ids, std::span<const Word> sides);
+    void end_marks();
+    void place_markers(Word simplex, const Word *record);
+    void write_markers(abacus_header &header);
+
     // load_boundary.cpp
     void link_ghosts();
     void check_hull();
@@ -104,6 +121,7 @@ private:
     const unsigned attributes_;
     const int in_pages_; // attributes of simplex pages: all or none
     const LoadLayout<D> layout_;
+    const unsigned labels_;
     const std::size_t vertex_words_; // of what is given: corners have no attributes that are apart
     const bool reorient_;
     Faults faults_; // of one step: there is no next one if it has some
@@ -121,10 +139,15 @@ private:
     bool keeps_domain_ = false;     // the given one
     Point<D> least_{}, greatest_{}; // of the vertices, lexicographically
 
-    std::optional<RecordSort> vertices_, corners_, placed_, flanks_, links_, boundary_, elements_;
-    RecordSpool used_;      // vertices of simplices
-    RecordSpool ordered_;   // the same along the curve
-    RecordSpool simplices_; // in the order of the query
+    std::optional<RecordSort> vertices_, corners_, placed_, flanks_, links_, boundary_, elements_,
+        labelled_;
+    // Markers by the ids of the facet; by sides of simplices; and by the keys of these.
+    std::optional<RecordSort> marks_, marked_, marker_rows_;
+    const Word *mark_ = nullptr; // the next one to be read
+    RecordSpool used_;           // vertices of simplices
+    RecordSpool ordered_;        // the same along the curve
+    RecordSpool simplices_;      // in the order of the query
+    RecordSpool label_rows_;     // as well
 };
 
 extern template class Load<2>;

@@ -20,6 +20,7 @@ template <int D> Key Load<D>::key_of(const std::array<const Word *, D + 1> &vert
 
 template <int D> void Load<D>::assemble() {
     begin(flanks_, LoadLayout<D>::flank(D), D + 1);
+    begin_labels();
     Arena<Word> corners(host_);
     corners.resize((D + 1) * layout_.vertex);
     Word simplex = 0;
@@ -52,17 +53,22 @@ template <int D> void Load<D>::assemble() {
             std::copy_n(vertices[i], layout_.vertex, record + 2 + i * layout_.vertex);
         for (int i = 0; i <= D; ++i)
             Flank<D, D>(simplex, i, key, [&](int v) { return vertices[v]; }).write(flanks_->add());
+        if (labelled_) place_labels(points);
         ++simplex;
     }
     faults_.raise();
     end(placed_);
+    label_rows_.close();
     simplices_.rewind();
     flanks_->finish();
 }
 
 template <int D> void Load<D>::link() {
     begin(links_, LoadLayout<D>::link, 1);
+    begin_markers();
     each_facet<D, D>(*flanks_, [&](const auto &flanks, std::uint64_t n) {
+        const std::array<Word, 2> sides{flanks[0].place >> 1, flanks[1].place >> 1};
+        if (marks_) mark_sides(flanks[0].ids, std::span(sides).first(n < 2 ? 1 : 2));
         const auto name = [&](int i) { return sorted_name(flanks[i].ids, flanks[i].opposite); };
         const auto facet = [&] { return sorted_name(flanks[0].ids); };
         if (n < 2) return;
@@ -86,6 +92,7 @@ template <int D> void Load<D>::link() {
         add_link(*links_, flanks[0], flanks[1]);
         add_link(*links_, flanks[1], flanks[0]);
     });
+    if (marks_) end_marks();
     faults_.raise();
     end(flanks_);
     links_->finish();
@@ -118,11 +125,13 @@ template <int D> void Load<D>::find_boundary() {
             element[2 + 2 * i] = beyond.code;
             element[3 + 2 * i] = beyond.part;
         }
+        if (marker_rows_) place_markers(simplex, record);
         element[2 + 2 * (D + 1)] = 0;
         std::copy_n(record + 2, (D + 1) * layout_.vertex, element + 3 + 2 * (D + 1));
         ++simplex;
     }
     end(links_);
+    if (marked_) end(marked_);
     boundary_->finish();
 }
 

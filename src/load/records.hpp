@@ -11,6 +11,8 @@
 //             its opposite vertex
 //   element   code, part; code and part of each of D+1 neighbours; 1 for a ghost, else 0;
 //             D+1 vertices, of a ghost D
+//   labelled  key of an owner of attributes, two words (attributes/attribute_key.hpp); its D+1
+//             points; its labels
 #pragma once
 
 #include "geometry/predicates.hpp"

@@ -1,8 +1,11 @@
 #include "query/check.hpp"
 
+#include "delaunay/marker_sweep.hpp"
 #include "keys/domain_of.hpp"
 #include "query/check_threads.hpp"
+#include "sort/record_sort.hpp"
 
+#include <cmath>
 #include <optional>
 
 namespace abacus {
@@ -28,9 +31,16 @@ Check<D>::Check(const Host &host, const abacus_header &header, std::size_t cache
         faults_.shorten(before);
         check_links_and_points(nullptr);
     }
-    if (header_.apart == 0) return;
-    faults_.run("attributes", [&] { check_attribute_pages(); });
-    if (faults_.is_sound()) faults_.run("vertex", [&] { check_attributes(); });
+    const auto is_sound = [&] { return faults_.is_sound(); };
+    if (header_.apart != 0) {
+        faults_.run("attributes", [&] {
+            check_attribute_pages<1>("attributes", header_.attributes, header_.vertices);
+        });
+        if (is_sound()) faults_.run("vertex", [&] { check_attributes(); });
+    }
+    check_labels("labels", header_.labels, header_.labelled, first_group<D + 1>);
+    check_labels("markers", D + 1, header_.marked, marker_group);
+    if (is_sound() && header_.marked > 0) faults_.run("markers", [&] { check_markers(); });
 }
 
 template <int D> void Check<D>::check_links_and_points(Together *together) {
@@ -47,9 +57,10 @@ template <int D> void Check<D>::check_links_and_points(Together *together) {
 }
 
 template <int D> void Check<D>::report(std::uint64_t pages, unsigned threads) {
-    // Every page is read twice, and once more to look for attributes that are apart; how many
-    // there are is known after the first time.
-    const std::uint64_t passes = header_.apart != 0 ? 3 : 2;
+    // Every page is read twice, once more to look for attributes that are apart and for labels,
+    // twice for markers; how many there are is known after the first time.
+    const std::uint64_t passes = 2 + (header_.apart != 0 ? 1 : 0) + (header_.labelled > 0 ? 1 : 0) +
+                                 (header_.marked > 0 ? 2 : 0);
     const std::uint64_t total = is_counted_ ? passes * pages_ : 0;
     host_.progress({ABACUS_PHASE_CHECKING, pages, total, pages, 0, threads});
 }
@@ -175,19 +186,24 @@ template <int D> void Check<D>::check_listed_vertices() {
         faults_.add("count", page.key, "There are pages behind the list of vertices.");
 }
 
-template <int D> void Check<D>::check_attribute_pages() {
-    const AttributeGroups groups(header_.attributes);
-    AttributeScan<D> scan(host_, domain_, header_.attributes);
-    std::array<std::uint64_t, AttributeGroups(ABACUS_MAX_ATTRIBUTES).count()> vertices{};
+template <int D>
+template <int K>
+void Check<D>::check_attribute_pages(const char *kind, unsigned attributes, std::uint64_t owners,
+                                     unsigned first) {
+    const AttributeGroups groups(attributes);
+    AttributeScan<D, K> scan(host_, domain_, attributes, first);
+    std::array<std::uint64_t, AttributeGroups(ABACUS_MAX_NAMES).count()> rows{};
     while (scan.fetch()) {
         faults_.at = scan.key();
         scan.read();
-        vertices[scan.group()] += scan.vertices();
+        rows[scan.group()] += scan.page().rows();
     }
     for (unsigned group = 0; group < groups.count(); ++group)
-        if (vertices[group] != header_.vertices)
-            faults_.add("attributes", group_begin(group),
-                        "The attribute pages have another number of vertices than the mesh.");
+        if (rows[group] != owners)
+            faults_.add(kind, group_begin(first + group),
+                        K == 1
+                            ? "The attribute pages have another number of vertices than the mesh."
+                            : "The pages have another number of simplices than the header counts.");
 }
 
 /// There are as many vertices with attributes as vertices; so it is enough that each of these has
@@ -196,7 +212,7 @@ template <int D> void Check<D>::check_attributes() {
     AttributeReader<D> attributes(host_, domain_, header_.attributes, cache_bytes_ / 2);
     PageScan<D> scan(host_, header_);
     PageView<D> page;
-    std::uint64_t pages = 2 * pages_;
+    std::uint64_t pages = passes_++ * pages_;
     while (scan.fetch()) {
         faults_.at = scan.key();
         report_some(++pages);
@@ -208,6 +224,80 @@ template <int D> void Check<D>::check_attributes() {
                 break;
             }
     }
+}
+
+/// There are as many simplices as rows; so none is of another simplex if the mesh has all of those.
+template <int D>
+void Check<D>::check_labels(const char *kind, unsigned columns, std::uint64_t owners,
+                            unsigned first) {
+    faults_.run(kind, [&] { check_attribute_pages<D + 1>(kind, columns, owners, first); });
+    if (!faults_.is_sound() || owners == 0) return;
+    faults_.run(kind, [&] {
+        AttributeReader<D, D + 1> labels(host_, domain_, columns, cache_bytes_ / 2, first);
+        std::uint64_t found = 0;
+        each_simplex([&](const PageView<D> &page, int s) {
+            if (page.is_ghost(s)) return;
+            std::array<Point<D>, D + 1> points;
+            for (int i = 0; i <= D; ++i) points[i] = page.point(page.corner(s, i));
+            found += labels.contains(owner_of<D, D + 1>(points));
+        });
+        if (found != owners)
+            faults_.add(kind, first_key, "Some are of simplices that the mesh does not have.");
+    });
+}
+
+/// A facet has the same marker on both sides, or is one of the boundary: a ghost is beyond it.
+template <int D> void Check<D>::check_markers() {
+    constexpr std::size_t key_words = 2 + D * D; // key, coordinates; then the marker
+    RecordSort sides(host_, key_words + 1, key_words, cache_bytes_ / 4);
+    const auto add = [&](const Owner<D, D> &facet, double marker) {
+        const Key key = attribute_key<D, D>(facet, code_of<D, D>(domain_, facet));
+        std::uint64_t *const record = sides.add();
+        record[0] = key.code;
+        record[1] = key.part;
+        std::memcpy(record + 2, facet.data(), sizeof facet);
+        record[key_words] = std::bit_cast<std::uint64_t>(marker);
+    };
+    AttributeScan<D, D + 1> scan(host_, domain_, D + 1, marker_group);
+    while (scan.fetch()) {
+        scan.read();
+        for (std::size_t row = 0; row < scan.page().rows(); ++row)
+            for (int i = 0; i <= D; ++i)
+                if (const double marker = scan.page().value(row, static_cast<unsigned>(i));
+                    !std::isnan(marker))
+                    add(facet_of<D>(scan.page().owner(row), i), marker);
+    }
+    each_simplex([&](const PageView<D> &page, int s) {
+        if (!page.is_ghost(s)) return;
+        std::array<Point<D>, D> points;
+        for (int i = 0; i < D; ++i) points[i] = page.point(page.corner(s, i));
+        add(owner_of<D, D>(points), null_value);
+    });
+    sides.finish();
+    std::array<std::uint64_t, key_words + 1> first{};
+    std::uint64_t n = 0; // with the facet of the first
+    bool agree = true;
+    const auto end_facet = [&] {
+        const bool has_marker = !std::isnan(std::bit_cast<double>(first[key_words]));
+        if (n > 0 && ((n == 1 && has_marker) || n > 2 || !agree))
+            faults_.add("markers", {first[0], first[1]},
+                        "The two sides of a facet have different markers.");
+    };
+    while (const std::uint64_t *record = sides.next()) {
+        if (n > 0 && std::equal(record, record + key_words, first.begin())) {
+            const double a = std::bit_cast<double>(first[key_words]),
+                         b = std::bit_cast<double>(record[key_words]);
+            agree = agree && (std::isnan(a) != std::isnan(b) || a == b);
+            ++n;
+            continue;
+        }
+        end_facet();
+        std::copy_n(record, key_words + 1, first.begin());
+        n = 1;
+        agree = true;
+    }
+    end_facet();
+    sides.close();
 }
 
 template class Check<2>;

@@ -15,7 +15,8 @@
 //             whole; the counts add up
 //
 // If attributes are apart, two more passes look into their pages, and for the attributes of each
-// vertex.
+// vertex. If simplices have labels, two more look into their pages, and whose labels these are; the
+// same for markers of facets, on which both sides have to agree.
 //
 // A mesh that is not Delaunay need not fulfil the empty-sphere criterion and Euler's
 // relation, nor have a convex hull, which its stars would be judged by. Instead, the two
@@ -36,6 +37,7 @@
 #pragma once
 
 #include "attributes/attribute_reader.hpp"
+#include "mesh/page_attributes.hpp"
 #include "points/repeated_points.hpp"
 #include "points/vertex_reader.hpp"
 #include "query/page_check.hpp"
@@ -69,8 +71,26 @@ private:
     void check_follows(const Key &last, const Key &at);
     void check_waiting_points();
     void check_listed_vertices();
-    void check_attribute_pages();
+    /// Their pages have so many rows in each group.
+    template <int K>
+    void check_attribute_pages(const char *kind, unsigned attributes, std::uint64_t owners,
+                               unsigned first = first_group<K>);
     void check_attributes();
+    void check_labels(const char *kind, unsigned columns, std::uint64_t owners, unsigned first);
+    void check_markers();
+    /// Calls visit(page, simplex) for all of them.
+    template <class Visit> void each_simplex(const Visit &visit) {
+        PageScan<D> scan(host_, header_);
+        PageView<D> page;
+        std::uint64_t pages = passes_++ * pages_;
+        while (scan.fetch()) {
+            faults_.at = scan.key();
+            report_some(++pages);
+            page.read(scan.bytes(), scan.size(), page_attributes(header_),
+                      PageView<D>::Checksum::ignore);
+            for (int s = 0; s < page.simplices(); ++s) visit(page, s);
+        }
+    }
 
     void report(std::uint64_t pages, unsigned threads = 0);
     void report_some(std::uint64_t pages) {
@@ -83,6 +103,7 @@ private:
     Domain<D> domain_;
     FaultList faults_;
     std::uint64_t pages_ = 0;
+    std::uint64_t passes_ = 2; // over all pages, that are done when labels and the like are looked at
     bool is_counted_ = false; // pages_ are all
     typename PageCheck<D>::Counts counts_;
 };

@@ -44,6 +44,8 @@ public:
     /// False at the hull; throws an Error (argument) if there is no such simplex, or several,
     /// as there may be where points have equal ids.
     bool walk(std::uint64_t code, const std::int64_t *ids, int facet, abacus_simplex &simplex);
+    /// The simplex with this code and these ids, as of walk().
+    void describe(std::uint64_t code, const std::int64_t *ids, abacus_simplex &simplex);
     /// Calls visit(handle) for all finite simplices that contain p, in no order.
     void containing(const Point<D> &p, const std::function<void(Handle)> &visit);
     /// Calls visit(simplex) for all that contain p.

@@ -4,6 +4,11 @@
 namespace abacus {
 
 template <int D>
+void Reader<D>::describe(std::uint64_t code, const std::int64_t *ids, abacus_simplex &simplex) {
+    describe(named(code, ids), simplex);
+}
+
+template <int D>
 void Reader<D>::star(const Point<D> &p, const std::function<void(const abacus_simplex &)> &visit) {
     containing(p, [&](Handle h) {
         abacus_simplex simplex;
@@ -31,6 +36,8 @@ void Reader<D>::neighbours(std::uint64_t code, const std::int64_t *ids, std::uin
     });
 }
 
+template void Reader<2>::describe(std::uint64_t, const std::int64_t *, abacus_simplex &);
+template void Reader<3>::describe(std::uint64_t, const std::int64_t *, abacus_simplex &);
 template void Reader<2>::star(const Point<2> &,
                               const std::function<void(const abacus_simplex &)> &);
 template void Reader<3>::star(const Point<3> &,

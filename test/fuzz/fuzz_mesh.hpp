@@ -123,7 +123,8 @@ public:
             });
     }
 
-    static abacus_host_status ignore_place(void *, std::int64_t, const abacus_simplex *) {
+    static abacus_host_status ignore_place(void *, std::int64_t, const abacus_simplex *,
+                                           const double *) {
         return ABACUS_HOST_OK;
     }
 

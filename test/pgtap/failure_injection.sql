@@ -142,6 +142,21 @@ SELECT pg_temp.inject('reading attributes', $$ SELECT sum("values"[2]) FROM abac
 SELECT bag_eq($$ SELECT id, attributes[1:3] AS a FROM abacus_vertices('wide') $$,
     $$ SELECT id::bigint, CASE WHEN id % 2 = 0 THEN ARRAY[-height, a2, a1] ELSE ARRAY[height, a1, a2] END FROM wide_points WHERE id % 2 = 0 OR id % 9 > 0 $$, 'and they are right');
 
+-- labels of simplices
+DELETE FROM wide_before;
+INSERT INTO wide_before SELECT code, part, page::bytea FROM wide;
+SELECT pg_temp.inject('labelling', $$ SELECT abacus_label('wide', 'SELECT code, v0, v1, v2, v0 AS least FROM abacus_simplices(''wide'')') $$, pg_temp.untouched());
+DELETE FROM wide_before;
+INSERT INTO wide_before SELECT code, part, page::bytea FROM wide;
+SELECT pg_temp.inject('another label', $$ SELECT abacus_label('wide', 'SELECT code, v0, v1, v2, v1 AS next FROM abacus_simplices(''wide'') WHERE v0 % 2 = 0') $$, pg_temp.untouched());
+SELECT is_empty($$ SELECT * FROM abacus_check('wide') $$, 'it is sound');
+DELETE FROM wide_before;
+INSERT INTO wide_before SELECT code, part, page::bytea FROM wide;
+SELECT pg_temp.inject('deleting from a labelled mesh', $$ SELECT abacus_delete('wide', 'SELECT id, x, y FROM points WHERE id % 9 = 1') $$, pg_temp.untouched());
+SELECT is_empty($$ SELECT * FROM abacus_check('wide') $$, 'it is sound');
+SELECT is_empty($$ SELECT FROM abacus_cells('wide') WHERE labels[1] <> v0 OR labels[2] IS DISTINCT FROM CASE WHEN v0 % 2 = 0 AND labels[1] IS NOT NULL THEN v1 END $$, 'and its labels are right');
+SELECT pg_temp.inject('reading labels', $$ SELECT sum(labels[1]) FROM abacus_locate('wide', 'SELECT id, x, y FROM points') $$, 'SELECT true');
+
 -- meshes made elsewhere, Delaunay and not
 CREATE TABLE triangles AS SELECT v0, v1, v2 FROM abacus_simplices('made');
 SELECT pg_temp.inject('load', $$ SELECT abacus_load('loaded', 'SELECT id, x, y FROM abacus_vertices(''made'')', 'TABLE triangles') $$,

@@ -28,13 +28,13 @@ CREATE FUNCTION pg_temp.one_by_one() RETURNS TABLE (id bigint, code bigint, v0 b
     $$ SELECT p.id, s.* FROM places p LEFT JOIN LATERAL abacus_locate('field', x, y) s ON true $$;
 CREATE FUNCTION pg_temp.one_by_one_in_space() RETURNS TABLE (id bigint, code bigint, v0 bigint, v1 bigint, v2 bigint, v3 bigint) LANGUAGE sql AS
     $$ SELECT p.id, s.* FROM places p LEFT JOIN LATERAL abacus_locate('solid', x, y, z) s ON true $$;
-SELECT bag_eq($$ SELECT * FROM abacus_locate('field', 'SELECT id, x, y FROM places') $$, $$ SELECT * FROM pg_temp.one_by_one() $$, 'the answers of each, in the plane');
-SELECT bag_eq($$ SELECT * FROM abacus_locate('solid', 'SELECT id, x, y, z FROM places') $$, $$ SELECT * FROM pg_temp.one_by_one_in_space() $$, 'in space');
+SELECT bag_eq($$ SELECT id, code, v0, v1, v2, v3 FROM abacus_locate('field', 'SELECT id, x, y FROM places') $$, $$ SELECT * FROM pg_temp.one_by_one() $$, 'the answers of each, in the plane');
+SELECT bag_eq($$ SELECT id, code, v0, v1, v2, v3 FROM abacus_locate('solid', 'SELECT id, x, y, z FROM places') $$, $$ SELECT * FROM pg_temp.one_by_one_in_space() $$, 'in space');
 SELECT cmp_ok((SELECT count(*) FROM abacus_locate('field', 'SELECT id, x, y FROM places') WHERE code IS NULL), '>', 1000::bigint, 'some are outside');
 SET LOCAL work_mem = '64kB';
 SET LOCAL abacus.cache_size = '1MB';
-SELECT bag_eq($$ SELECT * FROM abacus_locate('field', 'SELECT id, x, y FROM places') $$, $$ SELECT * FROM pg_temp.one_by_one() $$, 'with little memory, in the plane');
-SELECT bag_eq($$ SELECT * FROM abacus_locate('solid', 'SELECT id, x, y, z FROM places') $$, $$ SELECT * FROM pg_temp.one_by_one_in_space() $$, 'in space');
+SELECT bag_eq($$ SELECT id, code, v0, v1, v2, v3 FROM abacus_locate('field', 'SELECT id, x, y FROM places') $$, $$ SELECT * FROM pg_temp.one_by_one() $$, 'with little memory, in the plane');
+SELECT bag_eq($$ SELECT id, code, v0, v1, v2, v3 FROM abacus_locate('solid', 'SELECT id, x, y, z FROM places') $$, $$ SELECT * FROM pg_temp.one_by_one_in_space() $$, 'in space');
 RESET work_mem;
 RESET abacus.cache_size;
 SELECT results_eq($$ SELECT id FROM abacus_locate('field', 'SELECT id, x, z FROM points ORDER BY x') $$,
@@ -98,7 +98,7 @@ SELECT is((SELECT count(*) FROM abacus_progress WHERE pid = pg_backend_pid()), 0
 -- meshes without simplices, and made elsewhere
 SELECT isnt(abacus_create('empty', 2), NULL, 'an empty mesh');
 SELECT results_eq($$ SELECT * FROM abacus_locate('empty', 'VALUES (1, 0, 0), (2, 3, 4)') ORDER BY id $$,
-                  $$ VALUES (1::bigint, NULL::bigint, NULL::bigint, NULL::bigint, NULL::bigint, NULL::bigint), (2, NULL, NULL, NULL, NULL, NULL) $$, 'all is outside');
+                  $$ VALUES (1::bigint, NULL::bigint, NULL::bigint, NULL::bigint, NULL::bigint, NULL::bigint, NULL::float8[]), (2, NULL, NULL, NULL, NULL, NULL, NULL) $$, 'all is outside');
 CREATE TABLE triangles AS SELECT v0, v1, v2 FROM abacus_simplices('field') WHERE (v0 + v1 + v2) % 9 > 0;
 CREATE TABLE corners AS SELECT id, x, y FROM points WHERE id IN (SELECT v0 FROM triangles UNION SELECT v1 FROM triangles UNION SELECT v2 FROM triangles);
 SELECT isnt(abacus_load('holes', 'TABLE corners', 'TABLE triangles'), NULL, 'a mesh with holes');

@@ -14,8 +14,8 @@ struct LocatedPlace {
     std::optional<abacus_simplex> simplex; ///< nothing outside
 };
 
-inline abacus_host_status keep_place(void *context, std::int64_t id,
-                                     const abacus_simplex *simplex) {
+inline abacus_host_status keep_place(void *context, std::int64_t id, const abacus_simplex *simplex,
+                                     const double *) {
     auto &located = *static_cast<std::vector<LocatedPlace> *>(context);
     located.push_back({id, simplex == nullptr ? std::nullopt : std::optional(*simplex)});
     return ABACUS_HOST_OK;

@@ -88,7 +88,9 @@ abacus_status MeshOf<D>::with_stage(const std::vector<InputOf<D>> &points, std::
 template <int D>
 abacus_status MeshOf<D>::load(const std::vector<InputOf<D>> &vertices,
                               const std::vector<std::array<std::int64_t, D + 1>> &simplices,
-                              std::size_t memory, bool reorient, bool retriangulate) {
+                              std::size_t memory, bool reorient, bool retriangulate,
+                              const std::vector<std::vector<double>> &labels,
+                              const std::vector<std::uint64_t> &facets) {
     abacus_load *load = nullptr;
     abacus_status status = abacus_load_open(host.table(), &header, memory, reorient, &load, &error);
     if (status != ABACUS_OK) return status;
@@ -97,9 +99,19 @@ abacus_status MeshOf<D>::load(const std::vector<InputOf<D>> &vertices,
         status = abacus_load_vertices(load, record.data(), 1, &error);
         if (status != ABACUS_OK) break;
     }
-    for (std::size_t at = 0; status == ABACUS_OK && at < simplices.size(); at += 100)
-        status = abacus_load_simplices(load, simplices[at].data(),
-                                       std::min<std::size_t>(100, simplices.size() - at), &error);
+    std::vector<std::uint64_t> records;
+    for (std::size_t at = 0; status == ABACUS_OK && at < simplices.size();) {
+        records.clear();
+        const std::size_t begin = at;
+        for (; at < std::min(begin + 100, simplices.size()); ++at) {
+            records.insert(records.end(), simplices[at].begin(), simplices[at].end());
+            for (std::uint32_t i = 0; i < header.labels; ++i)
+                records.push_back(std::bit_cast<std::uint64_t>(labels.at(at).at(i)));
+        }
+        status = abacus_load_simplices(load, records.data(), at - begin, &error);
+    }
+    if (status == ABACUS_OK && !facets.empty())
+        status = abacus_load_facets(load, facets.data(), facets.size() / (D + 1), &error);
     if (status == ABACUS_OK) status = abacus_load_check(load, &loaded_as, &error);
     if (status == ABACUS_OK && retriangulate && loaded_as != ABACUS_DELAUNAY)
         status = with_stage({}, memory, [&](abacus_stage *stage) {

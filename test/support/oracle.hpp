@@ -43,11 +43,14 @@ template <int D> struct MeshOf {
     /// `deleted` becomes the number of points that there were.
     abacus_status remove(const std::vector<InputOf<D>> &points, std::uint64_t &deleted,
                          std::size_t memory = 16 << 20, bool exactly = false);
-    /// Loads a triangulation; simplices are named by the ids of their vertices.
+    /// Loads a triangulation; simplices are named by the ids of their vertices, and have as many
+    /// labels as the header; facets are ids and a marker each.
     abacus_status load(const std::vector<InputOf<D>> &vertices,
                        const std::vector<std::array<std::int64_t, D + 1>> &simplices,
                        std::size_t memory = 16 << 20, bool reorient = true,
-                       bool retriangulate = false);
+                       bool retriangulate = false,
+                       const std::vector<std::vector<double>> &labels = {},
+                       const std::vector<std::uint64_t> &facets = {});
     abacus_delaunay loaded_as = ABACUS_DELAUNAY; ///< what load() has found
     /// Where all simplices are, sorted.
     std::vector<Positions<D>> positions();

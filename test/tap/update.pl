@@ -87,7 +87,7 @@ for my $old (@released)
 	if ($unread{$old})
 	{
 		my ($status, $out, $err) = $node->psql($database, "SELECT abacus_locate('field', 1, 1)");
-		like($err, qr/mesh is stored in format \d+, but this version of Abacus reads formats \d+ and \d+\n.*HINT:  Read its points with the version that wrote it/,
+		like($err, qr/mesh is stored in format \d+, but this version of Abacus reads formats \d+ to \d+\n.*HINT:  Read its points with the version that wrote it/,
 			"$old: what became of the format is said");
 		($status, $out, $err) = $node->psql($database, "SELECT abacus_triangulate('field')");
 		like($err, qr/stored in format \d+|of a type of another version of Abacus/, "$old: and that it cannot be changed");

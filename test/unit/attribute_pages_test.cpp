@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 #include <vector>
 
 namespace abacus {
@@ -20,25 +21,54 @@ template <int D> Domain<D> unit_domain() {
     return {lower, upper};
 }
 
-/// Points of a domain of 1 in which nothing is special, or many share a code.
-template <int D> class Places {
+/// Owners in a domain of 1 in which nothing is special, or many share a code. Vertices are
+/// anywhere; simplices have corners near each other, which they share with others.
+template <int D, int K> class Owners {
 public:
-    explicit Places(unsigned seed, bool crowded) : random_(seed), crowded_(crowded) {}
+    explicit Owners(unsigned seed, bool crowded) : random_(seed), crowded_(crowded) {}
 
-    Point<D> next() {
-        std::uniform_real_distribution<double> unit(0, 1);
-        Point<D> p;
-        for (double &x : p) x = crowded_ ? 0.3 + 1e-13 * unit(random_) : unit(random_);
-        return p;
+    Owner<D, K> next() {
+        if constexpr (K == 1) {
+            std::uniform_real_distribution<double> unit(0, 1);
+            Point<D> p;
+            for (double &x : p) x = place(unit(random_));
+            return p;
+        } else {
+            std::array<int, D> cell;
+            for (int &i : cell) i = int(random_() % unsigned(cells));
+            std::set<Point<D>> corners;
+            while (corners.size() < K) {
+                std::array<int, D> at = cell;
+                for (int &i : at) i += int(random_() % 3);
+                corners.insert(corner(at));
+            }
+            std::array<Point<D>, K> points;
+            std::copy(corners.rbegin(), corners.rend(), points.begin());
+            return owner_of<D, K>(points);
+        }
     }
 
 private:
+    static constexpr int cells = D == 2 ? 60 : 14;
+
+    double place(double unit) const { return crowded_ ? 0.3 + 1e-13 * unit : unit; }
+    /// A point of a grid, moved by less than a cell.
+    Point<D> corner(const std::array<int, D> &at) const {
+        std::mt19937_64 random(std::uint64_t(at[0] * 10000 + at[1] * 100 + at[D - 1]));
+        std::uniform_real_distribution<double> within(0, 1);
+        Point<D> p;
+        for (int i = 0; i < D; ++i) p[i] = place((at[i] + within(random)) / (cells + 2));
+        return p;
+    }
+
     std::mt19937_64 random_;
     bool crowded_;
 };
 
-template <int D> class Model {
+template <int D, int K> class Model {
 public:
+    using Name = Owner<D, K>;
+
     explicit Model(unsigned attributes, bool compressible = false)
         : attributes_(attributes), compressible_(compressible), pages_(host_, domain_, attributes) {
     }
@@ -50,32 +80,32 @@ public:
             value = compressible_ ? double(random_() % 4) : normal(random_) * 1e3;
         if (random_() % 50 == 0) values[random_() % attributes_] = NAN;
         if (random_() % 50 == 0) values[random_() % attributes_] = -0.0;
+        if (K > 1 && random_() % 5 == 0) values[random_() % attributes_] = null_value;
         return values;
     }
-    void put(const Point<D> &p) {
-        known_[p] = values();
-        pages_.put(p, domain_.code(p), known_[p].data());
+    void put(const Name &owner) {
+        known_[owner] = values();
+        pages_.put(owner, code(owner), known_[owner].data());
     }
-    void put_new(const Point<D> &p) {
+    void put_new(const Name &owner) {
         const auto given = values();
-        known_.emplace(p, given);
-        pages_.put_new(p, domain_.code(p), given.data());
+        known_.emplace(owner, given);
+        pages_.put_new(owner, code(owner), given.data());
     }
-    void drop(const Point<D> &p) {
-        known_.erase(p);
-        pages_.drop(p, domain_.code(p));
+    void drop(const Name &owner) {
+        known_.erase(owner);
+        pages_.drop(owner, code(owner));
     }
     /// In the order of the curve, as a round of insertions.
-    void put_in_order(const std::vector<Point<D>> &points) {
-        for (const Point<D> &p : in_order(points)) put(p);
+    void put_in_order(const std::vector<Name> &owners) {
+        for (const Name &owner : in_order(owners)) put(owner);
     }
-    std::vector<Point<D>> in_order(std::vector<Point<D>> points) const {
-        std::sort(points.begin(), points.end(), [&](const Point<D> &a, const Point<D> &b) {
-            return domain_.code(a) < domain_.code(b);
-        });
-        return points;
+    std::vector<Name> in_order(std::vector<Name> owners) const {
+        std::sort(owners.begin(), owners.end(),
+                  [&](const Name &a, const Name &b) { return code(a) < code(b); });
+        return owners;
     }
-    Point<D> any() {
+    Name any() {
         return std::next(known_.begin(), static_cast<std::ptrdiff_t>(random_() % known_.size()))
             ->first;
     }
@@ -89,25 +119,31 @@ public:
         const auto is_same = [](double a, double b) {
             return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
         };
-        AttributeReader<D> reader(host_, domain_, attributes_, bytes);
+        AttributeReader<D, K> reader(host_, domain_, attributes_, bytes);
         std::vector<double> all(attributes_);
-        for (const auto &[p, values] : known_) {
-            ASSERT_TRUE(reader.contains(p));
-            reader.values(p, all.data());
+        for (const auto &[owner, values] : known_) {
+            ASSERT_TRUE(reader.contains(owner));
+            reader.values(owner, all.data());
             for (unsigned i = 0; i < attributes_; ++i) {
                 ASSERT_TRUE(is_same(all[i], values[i]));
-                ASSERT_TRUE(is_same(reader.value(p, i), values[i]));
+                ASSERT_TRUE(is_same(reader.value(owner, i), values[i]));
             }
         }
-        Places<D> elsewhere(77, false);
-        for (int i = 0; i < 100; ++i) ASSERT_FALSE(reader.contains(elsewhere.next()));
-        AttributeScan<D> scan(host_, domain_, attributes_);
-        std::size_t vertices = 0;
+        Owners<D, K> elsewhere(77, false);
+        for (int i = 0; i < 100; ++i) {
+            const Name owner = elsewhere.next();
+            if (known_.contains(owner)) continue;
+            ASSERT_FALSE(reader.contains(owner));
+            ASSERT_FALSE(reader.values_if_any(owner, all.data()));
+            for (const double value : all) ASSERT_TRUE(is_same(value, null_value));
+        }
+        AttributeScan<D, K> scan(host_, domain_, attributes_);
+        std::size_t rows = 0;
         while (scan.fetch()) {
             scan.read();
-            vertices += scan.vertices();
+            rows += scan.page().rows();
         }
-        EXPECT_EQ(vertices, known_.size() * AttributeGroups(attributes_).count());
+        EXPECT_EQ(rows, known_.size() * AttributeGroups(attributes_).count());
         EXPECT_EQ(host_.violations(), std::vector<std::string>{});
     }
     double fill() const {
@@ -118,8 +154,9 @@ public:
     const MemoryHost::Pages &pages() const { return memory_.attribute_pages; }
     MemoryHost::Pages &pages() { return memory_.attribute_pages; }
     std::size_t count() const { return known_.size(); }
-    const std::vector<double> &known(const Point<D> &p) const { return known_.at(p); }
-    AttributePages<D> &writer() { return pages_; }
+    const std::vector<double> &known(const Name &owner) const { return known_.at(owner); }
+    std::uint64_t code(const Name &owner) const { return code_of<D, K>(domain_, owner); }
+    AttributePages<D, K> &writer() { return pages_; }
     const Domain<D> &domain() const { return domain_; }
     const Host &host() const { return host_.host; }
 
@@ -136,25 +173,29 @@ private:
     Domain<D> domain_ = unit_domain<D>();
     unsigned attributes_;
     bool compressible_;
-    AttributePages<D> pages_;
-    std::map<Point<D>, std::vector<double>> known_;
+    AttributePages<D, K> pages_;
+    std::map<Name, std::vector<double>> known_;
     std::mt19937_64 random_{1};
 };
 
 template <class T> class Attributes : public testing::Test {};
-using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(Attributes, Dimensions);
+/// Vertices and simplices.
+template <int dimension, int points> struct Kind {
+    static constexpr int D = dimension, K = points;
+};
+using Kinds = testing::Types<Kind<2, 1>, Kind<3, 1>, Kind<2, 3>, Kind<3, 4>>;
+TYPED_TEST_SUITE(Attributes, Kinds);
 
 TYPED_TEST(Attributes, AreFoundWhereTheyWerePut) {
-    constexpr int D = TypeParam::value;
+    constexpr int D = TypeParam::D, K = TypeParam::K;
     for (const unsigned attributes : {1u, 5u, 33u, 100u})
         for (const bool compressible : {false, true})
             for (const bool crowded : {false, true}) {
-                Model<D> model(attributes, compressible);
-                Places<D> places(attributes, crowded);
-                for (int i = 0; i < 300; ++i) model.put(places.next()); // in no order
-                std::vector<Point<D>> round;
-                for (int i = 0; i < 900; ++i) round.push_back(places.next());
+                Model<D, K> model(attributes, compressible);
+                Owners<D, K> owners(attributes, crowded);
+                for (int i = 0; i < 300; ++i) model.put(owners.next()); // in no order
+                std::vector<Owner<D, K>> round;
+                for (int i = 0; i < 900; ++i) round.push_back(owners.next());
                 model.put_in_order(round);
                 model.flush();
                 model.verify();
@@ -163,17 +204,17 @@ TYPED_TEST(Attributes, AreFoundWhereTheyWerePut) {
 }
 
 TYPED_TEST(Attributes, ChangeAndGo) {
-    constexpr int D = TypeParam::value;
+    constexpr int D = TypeParam::D, K = TypeParam::K;
     for (const unsigned attributes : {3u, 40u})
         for (const bool crowded : {false, true}) {
-            Model<D> model(attributes);
-            Places<D> places(9, crowded);
+            Model<D, K> model(attributes);
+            Owners<D, K> owners(9, crowded);
             std::mt19937_64 random(3);
             for (int i = 0; i < 3000; ++i) {
                 // More and more, then less and less.
                 const bool grows = random() % 3000 > static_cast<unsigned>(i);
                 if (model.count() < 5 || grows)
-                    model.put(places.next());
+                    model.put(owners.next());
                 else if (random() % 4 == 0)
                     model.put(model.any());
                 else if (random() % 4 == 0)
@@ -198,13 +239,13 @@ TYPED_TEST(Attributes, ChangeAndGo) {
 }
 
 TYPED_TEST(Attributes, RoundsAlongTheCurveLeaveFullPages) {
-    constexpr int D = TypeParam::value;
+    constexpr int D = TypeParam::D, K = TypeParam::K;
     for (const unsigned attributes : {4u, 60u}) {
-        Model<D> model(attributes);
-        Places<D> places(5, false);
+        Model<D, K> model(attributes);
+        Owners<D, K> owners(5, false);
         for (const int points : {20, 600, 12000}) {
-            std::vector<Point<D>> round;
-            for (int i = 0; i < points; ++i) round.push_back(places.next());
+            std::vector<Owner<D, K>> round;
+            for (int i = 0; i < points; ++i) round.push_back(owners.next());
             model.put_in_order(round);
         }
         model.flush();
@@ -215,18 +256,19 @@ TYPED_TEST(Attributes, RoundsAlongTheCurveLeaveFullPages) {
 
 /// Pages are written if what they hold changes, and only these.
 TYPED_TEST(Attributes, WritesOnlyPagesThatChange) {
-    constexpr int D = TypeParam::value;
+    constexpr int D = TypeParam::D, K = TypeParam::K;
     constexpr unsigned attributes = 100, changed = 40;
-    Model<D> model(attributes);
-    AttributePages<D> &pages = model.writer();
-    Places<D> places(5, false);
-    std::vector<Point<D>> points;
-    for (int i = 0; i < 500; ++i) points.push_back(places.next());
-    model.put_in_order(points);
+    Model<D, K> model(attributes);
+    AttributePages<D, K> &pages = model.writer();
+    Owners<D, K> owners(5, false);
+    std::vector<Owner<D, K>> some;
+    for (int i = 0; i < 500; ++i) some.push_back(owners.next());
+    model.put_in_order(some);
     model.flush();
     const auto of_group = static_cast<std::uint64_t>(
         std::count_if(model.pages().begin(), model.pages().end(), [&](const auto &entry) {
-            return group_of(entry.first) == AttributeGroups(attributes).group_of(changed);
+            return group_of(entry.first) ==
+                   first_group<K> + AttributeGroups(attributes).group_of(changed);
         }));
     ASSERT_GT(of_group, 1u);
     ASSERT_LT(of_group, model.pages().size() / 3);
@@ -236,16 +278,16 @@ TYPED_TEST(Attributes, WritesOnlyPagesThatChange) {
     // As it is; then another value of one attribute, by all; then the same by its number.
     for (const double step : {0.0, 1.0, 2.0, 3.0}) {
         pages.take_counters();
-        for (const Point<D> &p : model.in_order(points)) {
-            values = model.known(p);
+        for (const Owner<D, K> &owner : model.in_order(some)) {
+            values = model.known(owner);
             if (step > 0) values[changed] = step;
-            const std::uint64_t code = model.domain().code(p);
+            const std::uint64_t code = model.code(owner);
             if (step == 2)
-                ASSERT_TRUE(pages.set(p, code, all, values.data()));
+                ASSERT_TRUE(pages.set(owner, code, all, values.data()));
             else if (step == 3)
-                ASSERT_TRUE(pages.set(p, code, {{changed}}, &values[changed]));
+                ASSERT_TRUE(pages.set(owner, code, {{changed}}, &values[changed]));
             else
-                pages.put(p, code, values.data());
+                pages.put(owner, code, values.data());
         }
         model.flush();
         const abacus_counters counters = pages.take_counters();
@@ -254,24 +296,25 @@ TYPED_TEST(Attributes, WritesOnlyPagesThatChange) {
     }
 }
 
-/// A page with vertices behind the beginning of the next one is not taken in.
+/// A page with owners behind the beginning of the next one is not taken in.
 TYPED_TEST(Attributes, AForgedNeighbourIsRefused) {
-    constexpr int D = TypeParam::value;
-    Model<D> model(3);
-    Places<D> places(5, false);
-    std::vector<Point<D>> all;
-    for (int i = 0; i < 2000; ++i) all.push_back(places.next());
+    constexpr int D = TypeParam::D, K = TypeParam::K;
+    Model<D, K> model(3);
+    Owners<D, K> owners(5, false);
+    std::vector<Owner<D, K>> all;
+    for (int i = 0; i < 2000; ++i) all.push_back(owners.next());
     model.put_in_order(all);
     model.flush();
     ASSERT_GT(model.pages().size(), 3u);
     const auto second = std::next(model.pages().begin()), third = std::next(second);
     second->second.words = third->second.words;
     second->second.size = third->second.size;
-    AttributePages<D> &pages = model.writer();
+    AttributePages<D, K> &pages = model.writer();
     const auto shrink = [&] {
-        for (const Point<D> &p : all) {
-            const std::uint64_t code = model.domain().code(p);
-            if (attribute_key<D>(p, code) < second->first) pages.drop(p, code);
+        for (const Owner<D, K> &owner : all) {
+            const std::uint64_t code = model.code(owner);
+            const Key key = in_group(attribute_key<D, K>(owner, code), first_group<K>);
+            if (key < second->first) pages.erase(owner, code); // some are there twice
         }
         pages.flush();
     };
@@ -280,10 +323,10 @@ TYPED_TEST(Attributes, AForgedNeighbourIsRefused) {
 
 /// Bytes of any kind are an error, or are read as something.
 TYPED_TEST(Attributes, DamageIsRefused) {
-    constexpr int D = TypeParam::value;
-    Model<D> model(3);
-    Places<D> places(5, false);
-    for (int i = 0; i < 2000; ++i) model.put(places.next());
+    constexpr int D = TypeParam::D, K = TypeParam::K;
+    Model<D, K> model(3);
+    Owners<D, K> owners(5, false);
+    for (int i = 0; i < 2000; ++i) model.put(owners.next());
     model.flush();
     std::mt19937_64 random(1);
     const MemoryHost::Pages sound = model.pages();
@@ -295,7 +338,7 @@ TYPED_TEST(Attributes, DamageIsRefused) {
         damaged->second.bytes()[at] ^= static_cast<unsigned char>(1 + random() % 255);
         if (i % 3 != 0) seal_page(damaged->second.bytes(), damaged->second.size);
         try {
-            AttributeScan<D> scan(model.host(), model.domain(), 3);
+            AttributeScan<D, K> scan(model.host(), model.domain(), 3);
             while (scan.fetch()) scan.read();
         } catch (const Error &error) {
             ++refused;
@@ -307,26 +350,122 @@ TYPED_TEST(Attributes, DamageIsRefused) {
 }
 
 TYPED_TEST(Attributes, AMissingPageIsNoticed) {
-    constexpr int D = TypeParam::value;
-    Model<D> model(3);
-    Places<D> places(5, false);
-    std::vector<Point<D>> all;
-    for (int i = 0; i < 2000; ++i) all.push_back(places.next());
+    constexpr int D = TypeParam::D, K = TypeParam::K;
+    Model<D, K> model(3);
+    Owners<D, K> owners(5, false);
+    std::vector<Owner<D, K>> all;
+    for (int i = 0; i < 2000; ++i) all.push_back(owners.next());
     model.put_in_order(all);
     model.flush();
     ASSERT_GT(model.pages().size(), 3u);
     model.pages().erase(std::next(model.pages().begin()));
-    AttributeReader<D> reader(model.host(), model.domain(), 3, 1 << 16);
+    AttributeReader<D, K> reader(model.host(), model.domain(), 3, 1 << 16);
     int missing = 0;
-    for (const Point<D> &p : all) {
-        if (reader.contains(p)) continue;
+    for (const Owner<D, K> &owner : all) {
+        if (reader.contains(owner)) continue;
         ++missing;
-        EXPECT_THROW(reader.value(p, 0), Error);
+        EXPECT_THROW(reader.value(owner, 0), Error);
         double values[3];
-        EXPECT_THROW(model.writer().get(p, model.domain().code(p), values), Error);
-        EXPECT_THROW(model.writer().drop(p, model.domain().code(p)), Error);
+        EXPECT_THROW(model.writer().get(owner, model.code(owner), values), Error);
+        EXPECT_THROW(model.writer().drop(owner, model.code(owner)), Error);
     }
     EXPECT_GT(missing, 50);
+}
+
+/// Each kind has pages of its own among those of the others.
+template <int D> void kinds_are_apart() {
+    MemoryHost memory;
+    const Host host{*memory.table()};
+    const Domain<D> domain = unit_domain<D>();
+    AttributePages<D> vertices(host, domain, 40);
+    AttributePages<D, D + 1> labels(host, domain, 40), markers(host, domain, D + 1, marker_group);
+    std::map<Owner<D, 1>, double> of_vertices;
+    std::map<Owner<D, D + 1>, double> of_labels, of_markers;
+    const auto fill = [&]<int K>(AttributePages<D, K> &pages, std::map<Owner<D, K>, double> &known,
+                                 int more) {
+        Owners<D, K> owners(K, false); // labels and markers have the same
+        for (int i = 0; i < 1000; ++i) known[owners.next()] = i + more;
+        std::vector<double> values(40);
+        std::vector<Owner<D, K>> along; // the curve
+        for (const auto &[owner, value] : known) along.push_back(owner);
+        const auto code = [&](const auto &owner) { return code_of<D, K>(domain, owner); };
+        std::sort(along.begin(), along.end(),
+                  [&](const auto &x, const auto &y) { return code(x) < code(y); });
+        for (const auto &owner : along) {
+            values[0] = known[owner];
+            pages.put(owner, code(owner), values.data());
+        }
+        pages.flush();
+    };
+    fill.template operator()<D + 1>(labels, of_labels, 0);
+    fill.template operator()<1>(vertices, of_vertices, 0);
+    fill.template operator()<D + 1>(markers, of_markers, 10000);
+    const auto verify = [&]<int K>(const std::map<Owner<D, K>, double> &known, unsigned count,
+                                   unsigned first) {
+        AttributeReader<D, K> reader(host, domain, count, 1 << 20, first);
+        for (const auto &[owner, value] : known) ASSERT_EQ(reader.value(owner, 0), value);
+        AttributeScan<D, K> scan(host, domain, count, first);
+        std::size_t rows = 0;
+        while (scan.fetch()) {
+            scan.read();
+            rows += scan.page().rows();
+        }
+        EXPECT_EQ(rows, known.size() * AttributeGroups(count).count());
+    };
+    verify.template operator()<1>(of_vertices, 40, first_group<1>);
+    verify.template operator()<D + 1>(of_labels, 40, first_group<D + 1>);
+    verify.template operator()<D + 1>(of_markers, D + 1, marker_group);
+    for (const auto &[owner, value] : of_markers)
+        ASSERT_TRUE(markers.erase(owner, code_of<D, D + 1>(domain, owner)));
+    for (const auto &[owner, value] : of_markers)
+        ASSERT_FALSE(markers.erase(owner, code_of<D, D + 1>(domain, owner)));
+    markers.flush();
+    verify.template operator()<1>(of_vertices, 40, first_group<1>);
+    verify.template operator()<D + 1>(of_labels, 40, first_group<D + 1>);
+    verify.template operator()<D + 1>({}, D + 1, marker_group);
+}
+
+TEST(AttributeKinds, AreApart) {
+    kinds_are_apart<2>();
+    kinds_are_apart<3>();
+}
+
+/// Where few have attributes, one who asks for all reads each page once.
+TEST(AttributeKinds, ThoseWithoutAttributesCostNoReading) {
+    Model<3, 4> model(1);
+    Owners<3, 4> owners(1, false);
+    std::vector<Owner<3, 4>> all;
+    for (int i = 0; i < 30000; ++i) all.push_back(owners.next());
+    std::sort(all.begin(), all.end(),
+              [&](const auto &a, const auto &b) { return model.code(a) < model.code(b); });
+    for (std::size_t i = 0; i < all.size(); i += 10) model.put(all[i]);
+    model.flush();
+    ASSERT_GT(model.pages().size(), 4u);
+    AttributeReader<3, 4> reader(model.host(), model.domain(), 1, 1 << 16);
+    std::size_t found = 0;
+    for (const auto &owner : all) found += reader.contains(owner);
+    EXPECT_GE(found, all.size() / 10);
+    EXPECT_LT(found, all.size() / 2);
+    EXPECT_EQ(reader.pages_read(), model.pages().size());
+}
+
+/// A number that few have takes as many bits as it needs, and one more of those that have it not.
+TEST(AttributeKinds, NullTakesABit) {
+    const auto bytes = [](bool some_are_null) {
+        MemoryHost memory;
+        const Host host{*memory.table()};
+        AttributePages<2, 3> pages(host, unit_domain<2>(), 1);
+        Owners<2, 3> owners(1, false);
+        for (int i = 0; i < 150; ++i) {
+            const auto owner = owners.next();
+            const double value = some_are_null && i % 3 == 0 ? null_value : i % 2;
+            pages.put(owner, code_of<2, 3>(unit_domain<2>(), owner), &value);
+        }
+        pages.flush();
+        EXPECT_EQ(memory.attribute_pages.size(), 1u);
+        return memory.attribute_pages.begin()->second.size;
+    };
+    EXPECT_LE(bytes(true), bytes(false) + 150 / 8 + 1);
 }
 
 } // namespace

@@ -118,6 +118,76 @@ TEST(Header, AWrongSridIsRefused) {
     }
 }
 
+/// Labels and markers come with a format of their own.
+TEST(Header, OfLabelsAndMarkers) {
+    for (const unsigned attributes : {0u, 5u, unsigned{ABACUS_MAX_ATTRIBUTES}})
+        for (const unsigned labels : {0u, 1u, ABACUS_MAX_NAMES - attributes})
+            for (const std::uint32_t srid : {0u, 4326u}) {
+                abacus_header header = full_header(attributes);
+                const auto without = encode(header);
+                header.labels = labels;
+                header.labelled = labels == 0 ? 0 : 4000;
+                header.marked = labels == 0 ? 1 : 0;
+                header.apart = attributes > 4;
+                header.srid = srid;
+                for (unsigned i = 0; i < labels; ++i)
+                    std::strcpy(header.names[attributes + i],
+                                ("label " + std::to_string(i)).c_str());
+                const auto bytes = encode(header);
+                EXPECT_LE(bytes.size(), std::size_t{ABACUS_PAGE_BYTES});
+                EXPECT_EQ(bytes[6], 5);
+                abacus_header decoded;
+                std::memset(&decoded, 0xff, sizeof decoded);
+                ASSERT_TRUE(decodes(bytes, &decoded));
+                EXPECT_EQ(encode(decoded), bytes);
+                EXPECT_EQ(decoded.apart, header.apart);
+                EXPECT_EQ(decoded.srid, srid);
+                EXPECT_EQ(decoded.labels, labels);
+                EXPECT_EQ(decoded.labelled, header.labelled);
+                EXPECT_EQ(decoded.marked, header.marked);
+                if (labels > 0) {
+                    EXPECT_STREQ(decoded.names[attributes], "label 0");
+                }
+                // Without them it is as it always was.
+                header.labels = 0;
+                header.labelled = header.marked = 0;
+                header.apart = 0;
+                header.srid = 0;
+                EXPECT_EQ(encode(header), without);
+            }
+}
+
+TEST(Header, WrongCountsOfLabelsAreRefused) {
+    abacus_header header = full_header(5);
+    header.labels = 2;
+    header.labelled = 17;
+    std::strcpy(header.names[5], "material");
+    std::strcpy(header.names[6], "age");
+    const auto accepts = [&](auto change) {
+        abacus_header changed = header;
+        change(changed);
+        return decodes(encode(changed));
+    };
+    EXPECT_TRUE(accepts([](abacus_header &) {}));
+    EXPECT_TRUE(accepts([](abacus_header &h) { h.labelled = h.simplices; }));
+    EXPECT_FALSE(accepts([](abacus_header &h) { h.labelled = UINT64_MAX; }));
+    EXPECT_FALSE(accepts([](abacus_header &h) { h.apart = 2; }));
+    EXPECT_FALSE(accepts([](abacus_header &h) { h.srid = ABACUS_MAX_SRID + 1; }));
+    EXPECT_FALSE(accepts([](abacus_header &h) { h.marked = UINT64_MAX; }));
+    EXPECT_FALSE(accepts([](abacus_header &h) { h.names[6][0] = 0; }));
+    EXPECT_FALSE(accepts([](abacus_header &h) { h.labels = 0, h.marked = 1; }));
+    EXPECT_FALSE(accepts([](abacus_header &h) { h.attributes = 0, h.apart = 1; }));
+    const auto bytes = encode(header);
+    for (std::size_t cut = 1; cut <= 2 * ABACUS_NAME_BYTES + 40; ++cut) {
+        auto shorter = bytes;
+        shorter.resize(bytes.size() - cut);
+        EXPECT_FALSE(decodes(shorter));
+    }
+    auto longer = bytes;
+    longer.resize(longer.size() + 8);
+    EXPECT_FALSE(decodes(longer));
+}
+
 TEST(Header, OfAnEmptyMesh) {
     abacus_header header{};
     header.dimension = 2;
@@ -192,13 +262,13 @@ TEST(Header, AnotherFormatIsSaid) {
     abacus_header header;
     abacus_error error{};
     const unsigned format = bytes[6] + 256u * bytes[7];
-    for (const unsigned other : {format - 1, format + 2, 0xffffu}) {
+    for (const unsigned other : {format - 1, format + 3, 0xffffu}) {
         bytes[6] = static_cast<unsigned char>(other);
         bytes[7] = static_cast<unsigned char>(other >> 8);
         ASSERT_EQ(abacus_header_decode(bytes.data(), bytes.size(), &header, &error), ABACUS_ERROR);
         EXPECT_EQ(error.kind, ABACUS_ERROR_STATE);
         EXPECT_EQ(error.message, "mesh is stored in format " + std::to_string(other) +
-                                     ", but this version of Abacus reads formats 3 and 4");
+                                     ", but this version of Abacus reads formats 3 to 5");
     }
     bytes[5] ^= 1;
     ASSERT_EQ(abacus_header_decode(bytes.data(), bytes.size(), &header, &error), ABACUS_ERROR);

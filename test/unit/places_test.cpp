@@ -134,8 +134,9 @@ TYPED_TEST(Places, EndWithTheReport) {
     Large<D> mesh(2000);
     std::vector<LocatedPlace> located;
     const std::size_t bytes = mesh.host.bytes;
-    const auto fail_at_ten = [](void *context, std::int64_t id, const abacus_simplex *s) {
-        keep_place(context, id, s);
+    const auto fail_at_ten = [](void *context, std::int64_t id, const abacus_simplex *s,
+                                const double *labels) {
+        keep_place(context, id, s, labels);
         const auto &kept = *static_cast<std::vector<LocatedPlace> *>(context);
         return kept.size() == 10 ? ABACUS_HOST_FAILED : ABACUS_HOST_OK;
     };

@@ -32,7 +32,8 @@ struct Told {
     bool operator==(const Told &) const = default;
 };
 template <int D>
-abacus_host_status keep_simplex(void *to, std::int64_t id, const abacus_simplex *s) {
+abacus_host_status keep_simplex(void *to, std::int64_t id, const abacus_simplex *s,
+                                const double *) {
     auto &told = *static_cast<Told *>(to);
     told.put(id);
     told.put(std::int64_t{s != nullptr});

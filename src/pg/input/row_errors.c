@@ -31,12 +31,24 @@ row_word(const RowPacker *packer, int column)
 		? column + packer->columns - packer->inputs : column;
 }
 
+/* What a column of ids is called, where there are several: of a simplex, or of one with a facet. */
+static const char *
+simplex_column(const RowPacker *packer, int column)
+{
+	int			dimension = (int) packer->header->dimension;
+	int			corner = packer->ids > dimension + 1 ? column - 1 : column;
+
+	return corner < 0 ? "code" : corner <= dimension ? corner_names[corner] : "facet";
+}
+
 /* What a column of a row is called. */
 static const char *
 column_name(const RowPacker *packer, int column)
 {
 	if (packer->ids > 1)
-		return corner_names[column];
+		return column >= packer->ids
+			? packer->header->names[packer->header->attributes + column - packer->ids]
+			: simplex_column(packer, column);
 	if (row_has_geometry(packer) && column == GEOMETRY_COLUMN)
 		return "geometry";
 	if (column == 0)
@@ -92,6 +104,8 @@ row_refuse_type(const RowPacker *packer, int column, Form_pg_attribute attribute
 			 errmsg("column %d (%s) of %s has type %s", column + 1, column_name(packer, column),
 					packer->origin->columns_of, format_type_be(attribute->atttypid)),
 			 is_id ? errdetail("%s is smallint, integer or bigint.", packer->origin->an_id)
+			 : packer->ids > 1
+			 ? errdetail("Labels are double precision, real, numeric or integers.")
 			 : errdetail("Coordinates and attributes are double precision, real, numeric or integers."),
 			 errhint("%s", hint != NULL ? hint : packer->origin->type_hint)));
 }

@@ -3,7 +3,7 @@
  * of simplices.
  *
  * A DestReceiver that deforms each slot in place. It packs id, coordinates and attributes, or the
- * ids of a simplex's vertices, into eight-byte words. Columns go by position, as in every function
+ * ids of a simplex's vertices and its labels, into eight-byte words. Columns go by position, as in every function
  * that takes a source query. In place of the coordinates there may be a point of PostGIS. This is the
  * hot path of staging: it takes a few tens of nanoseconds a row, besides the scan itself.
  */
@@ -27,8 +27,13 @@ static const RowOrigin query_of_points = {
 };
 static const RowOrigin query_of_simplices = {
 	"the source query", "the source query", "Cast the column in the query.",
-	NULL, "Leave such simplices out with a WHERE clause.", false,
+	NULL, "Leave such simplices out with a WHERE clause.", true,
 	"mesh", "id", "An id", NULL, false, false
+};
+static const RowOrigin query_of_labels = {
+	"the source query", "the source query", "Cast the column in the query.",
+	NULL, "Leave such rows out with a WHERE clause.", true,
+	"mesh", "code", "A code or an id", NULL, true, false
 };
 static const RowOrigin tracked_table = {
 	"the tracked table", "the statement", "Track other columns, generated ones for instance.",
@@ -83,7 +88,7 @@ pack_kind(const RowPacker *packer, int column, Form_pg_attribute attribute)
 			break;
 		case TEXTOID:
 			/* a bare NULL of a query is of this type */
-			if (packer->origin->bare_nulls &&
+			if (packer->origin->bare_nulls && !is_id &&
 				row_word(packer, column) > packer->coordinates)
 				return PACK_NULL;
 			break;
@@ -299,11 +304,48 @@ row_packer_create_tracked(TupleDesc desc, const abacus_header *header, size_t ba
 				  true, batch);
 }
 
-/* The same for rows of a query that are simplices: ids of their vertices. */
+/* The same for rows of a query that are simplices: ids of their vertices, and their labels. */
 RowPacker *
 row_packer_create_simplices(TupleDesc desc, const abacus_header *header, size_t batch)
 {
-	return create(desc, header, &query_of_simplices, header->dimension + 1, 0, 0, false, false, batch);
+	return create(desc, header, &query_of_simplices, header->dimension + 1, 0, header->labels, false,
+				  false, batch);
+}
+
+/* The same for rows of a query that label simplices, which have a code before the ids. */
+RowPacker *
+row_packer_create_labels(TupleDesc desc, const abacus_header *shape, size_t batch)
+{
+	return create(desc, shape, &query_of_labels, shape->dimension + 2, 0, shape->labels, false,
+				  false, batch);
+}
+
+/* A packer for rows of so many ids and a marker. */
+static RowPacker *
+create_marking(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int ids,
+			   size_t batch)
+{
+	abacus_header *shape = palloc(sizeof(abacus_header));
+
+	*shape = *header;
+	shape->attributes = 0;
+	shape->labels = 1;
+	strlcpy(shape->names[0], "marker", ABACUS_NAME_BYTES);
+	return create(desc, shape, origin, ids, 0, 1, false, false, batch);
+}
+
+/* The same for rows of a query that mark facets, each by a simplex and the number of a corner. */
+RowPacker *
+row_packer_create_facets(TupleDesc desc, const abacus_header *header, size_t batch)
+{
+	return create_marking(desc, header, &query_of_labels, header->dimension + 3, batch);
+}
+
+/* The same for facets of simplices that are loaded, by the ids of their vertices. */
+RowPacker *
+row_packer_create_loaded_facets(TupleDesc desc, const abacus_header *header, size_t batch)
+{
+	return create_marking(desc, header, &query_of_simplices, header->dimension, batch);
 }
 
 /* The same for rows of a query that are for an octree; `takes_srid` as above. */

@@ -30,7 +30,7 @@ typedef struct RowOrigin
 	const char *type_hint;		/* what to do about a type that cannot be read */
 	const char *geometry_hint;	/* ... that is a geometry: begins a sentence, or NULL */
 	const char *value_hint;		/* ... and a row that cannot be placed */
-	bool		bare_nulls;		/* an attribute may be NULL without a cast */
+	bool		bare_nulls;		/* an attribute or label may be NULL without a cast */
 	const char *whole;			/* what the rows are for */
 	const char *id;				/* the first column */
 	const char *an_id;			/* what a value of it is */
@@ -53,8 +53,8 @@ typedef struct RowPacker
 	DestReceiver receiver;
 	const RowOrigin *origin;
 	const abacus_header *header;
-	int			columns;		/* of a record: id, coordinates, attributes; or ids */
-	int			ids;			/* columns of ids: 1, or all */
+	int			columns;		/* of a record: id, coordinates, attributes; or ids, labels */
+	int			ids;			/* columns of ids: 1, or of a simplex */
 	int			coordinates;	/* columns behind them that must be finite: coordinates, or a level */
 	int			inputs;			/* columns of a row: a geometry stands for all coordinates */
 	PackKind   *kinds;
@@ -79,6 +79,12 @@ extern RowPacker *row_packer_create_tracked(TupleDesc desc, const abacus_header 
 											size_t batch);
 extern RowPacker *row_packer_create_simplices(TupleDesc desc, const abacus_header *header,
 											  size_t batch);
+extern RowPacker *row_packer_create_labels(TupleDesc desc, const abacus_header *shape,
+										   size_t batch);
+extern RowPacker *row_packer_create_facets(TupleDesc desc, const abacus_header *header,
+										   size_t batch);
+extern RowPacker *row_packer_create_loaded_facets(TupleDesc desc, const abacus_header *header,
+												  size_t batch);
 extern RowPacker *row_packer_create_octants(TupleDesc desc, const abacus_header *header,
 											OctantRows rows, bool takes_srid, size_t batch);
 extern void row_packer_reset(RowPacker *packer);

@@ -188,6 +188,30 @@ source_open_simplices(Source *source, const abacus_header *header)
 	source->packer = row_packer_create_simplices(source->portal->tupDesc, header, ROWS_A_BATCH);
 }
 
+/* Starts reading simplices of a mesh, by code and ids, with the labels that a header describes. */
+void
+source_open_labels(Source *source, const abacus_header *shape)
+{
+	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
+	source->packer = row_packer_create_labels(source->portal->tupDesc, shape, ROWS_A_BATCH);
+}
+
+/* Starts reading facets of a mesh, each by a simplex and its corner opposite, with their markers. */
+void
+source_open_facets(Source *source, const abacus_header *header)
+{
+	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
+	source->packer = row_packer_create_facets(source->portal->tupDesc, header, ROWS_A_BATCH);
+}
+
+/* Starts reading facets of simplices that are loaded, by the ids of their vertices, and markers. */
+void
+source_open_loaded_facets(Source *source, const abacus_header *header)
+{
+	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
+	source->packer = row_packer_create_loaded_facets(source->portal->tupDesc, header, ROWS_A_BATCH);
+}
+
 /* Starts reading rows for an octree; see row_packer_create_octants(). */
 void
 source_open_octants(Source *source, const abacus_header *header, OctantRows rows, bool takes_srid)

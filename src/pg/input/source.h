@@ -1,7 +1,8 @@
 /*
  * source.h: the user's query that yields points (id, x, y[, z][, attribute...]) or (id,
  * geometry[, attribute...]), or
- * simplices (v0, v1, v2[, v3]).
+ * simplices (v0, v1, v2[, v3][, label...]), or (code, v0, v1, v2[, v3], label...),
+ * or their facets (code, v0, v1, v2[, v3], facet, marker).
  */
 #ifndef ABACUS_SOURCE_H
 #define ABACUS_SOURCE_H
@@ -25,6 +26,9 @@ extern int	source_first_attribute(const Source *source, uint32 dimension);
 extern void source_open(Source *source, const abacus_header *header, bool takes_srid);
 extern void source_open_places(Source *source, const abacus_header *header);
 extern void source_open_simplices(Source *source, const abacus_header *header);
+extern void source_open_labels(Source *source, const abacus_header *shape);
+extern void source_open_facets(Source *source, const abacus_header *header);
+extern void source_open_loaded_facets(Source *source, const abacus_header *header);
 extern void source_open_octants(Source *source, const abacus_header *header, OctantRows rows,
 								bool takes_srid);
 extern size_t source_fetch(Source *source, const uint64 **points);

@@ -21,6 +21,8 @@ close_handles(void *handle)
 	abacus_stage_close(change->stage);
 	abacus_stage_close(change->put_aside);
 	abacus_load_close(change->load);
+	abacus_labelling_close(change->labelling);
+	abacus_marking_close(change->marking);
 }
 
 /* What a change begins with, once its writer has. */

@@ -21,6 +21,8 @@ typedef struct Change
 	bool		inserts;
 	bool		returns;		/* which simplices it creates and removes */
 	abacus_load *load;			/* a triangulation made elsewhere */
+	abacus_labelling *labelling;
+	abacus_marking *marking;
 } Change;
 
 extern Change *change_begin(Oid mesh, const char *command);

@@ -90,7 +90,10 @@ header_try_decode(Host *host, const StoredPage *row, abacus_header *header)
 		host->failure.kind = ABACUS_ERROR_CORRUPTED;
 		snprintf(host->failure.message, sizeof(host->failure.message), "%s is corrupted", name);
 		snprintf(host->failure.detail, sizeof(host->failure.detail),
-				 "The name of attribute %d is not valid in UTF-8.", invalid + 1);
+				 "The name of %s %d is not valid in UTF-8.",
+				 invalid < (int) header->attributes ? "attribute" : "label",
+				 invalid < (int) header->attributes ? invalid + 1
+				 : invalid - (int) header->attributes + 1);
 		snprintf(host->failure.hint, sizeof(host->failure.hint),
 				 "Restore the %s from a backup or build it anew.", name);
 		return ABACUS_ERROR;
@@ -205,6 +208,29 @@ header_attribute(const abacus_header *header, const char *name)
 		if (strcmp(header->names[i], name) == 0)
 			return (int) i;
 	return -1;
+}
+
+/* Number of the label with this name, -1 if there is none. */
+int
+header_label(const abacus_header *header, const char *name)
+{
+	for (uint32 i = 0; i < header->labels; i++)
+		if (strcmp(header->names[header->attributes + i], name) == 0)
+			return (int) i;
+	return -1;
+}
+
+/* An error if an attribute or a label has this name. */
+void
+header_require_new_name(const abacus_header *header, const char *name)
+{
+	bool		is_attribute = header_attribute(header, name) >= 0;
+
+	if (is_attribute || header_label(header, name) >= 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_DUPLICATE_COLUMN),
+				 is_attribute ? errmsg("%s has an attribute \"%s\" already", type_name(header->type), name)
+				 : errmsg("mesh has a label \"%s\" already", name)));
 }
 
 /* What attributes there are, for messages. */

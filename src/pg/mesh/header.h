@@ -24,6 +24,8 @@ extern void header_require_dimension(const abacus_header *header, uint32 dimensi
 									 const char *hint);
 extern void header_require_srid(const abacus_header *header, int32 srid);
 extern int	header_attribute(const abacus_header *header, const char *name);
+extern int	header_label(const abacus_header *header, const char *name);
+extern void header_require_new_name(const abacus_header *header, const char *name);
 extern int	header_find_attribute(const abacus_header *header, const char *name);
 extern void header_require_attributes(const abacus_header *header);
 extern int	header_only_attribute(const abacus_header *header);

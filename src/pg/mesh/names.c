@@ -1,5 +1,5 @@
 /*
- * names.c: names of attributes in the encoding in which they are stored.
+ * names.c: names of attributes and labels in the encoding in which they are stored.
  *
  * A dump converts texts to the encoding of another database, but not the bytes of
  * pages. So names are stored in UTF-8, whatever encoding the database has. Only in a
@@ -26,7 +26,7 @@ names_find_invalid(const abacus_header *header)
 {
 	if (GetDatabaseEncoding() == PG_SQL_ASCII)
 		return -1;
-	for (uint32 i = 0; i < header->attributes; i++)
+	for (uint32 i = 0; i < header->attributes + header->labels; i++)
 		if (!pg_verify_mbstr(PG_UTF8, header->names[i], strlen(header->names[i]), true))
 			return (int) i;
 	return -1;
@@ -98,17 +98,17 @@ to_database(const char *stored, uint32 number, char *name)
 void
 names_to_database(abacus_header *header, StoredNames *stored)
 {
-	for (uint32 i = 0; i < header->attributes; i++)
+	for (uint32 i = 0; i < header->attributes + header->labels; i++)
 	{
 		strlcpy(stored->names[i], header->names[i], ABACUS_NAME_BYTES);
 		to_database(stored->names[i], i + 1, header->names[i]);
 	}
-	stored->count = header->attributes;
+	stored->count = header->attributes + header->labels;
 }
 
 /*
  * The attributes are others than when the names were read: as the i-th that which had the number
- * source[i], or one that has no name yet (ABACUS_NO_ATTRIBUTE).
+ * source[i], or one that has no name yet (ABACUS_NO_ATTRIBUTE). The labels are the same.
  */
 void
 names_move(abacus_header *header, StoredNames *stored, const uint32 *source)
@@ -118,6 +118,9 @@ names_move(abacus_header *header, StoredNames *stored, const uint32 *source)
 			header->names[i][0] = '\0';
 		else
 			strlcpy(header->names[i], stored->names[source[i]], ABACUS_NAME_BYTES);
+	for (uint32 i = 0; i < header->labels; i++)
+		strlcpy(header->names[header->attributes + i],
+				stored->names[stored->count - header->labels + i], ABACUS_NAME_BYTES);
 	names_to_database(header, stored);
 }
 
@@ -142,7 +145,7 @@ names_to_storage(abacus_header *header, const StoredNames *stored)
 {
 	char		known[ABACUS_NAME_BYTES];
 
-	for (uint32 i = 0; i < header->attributes; i++)
+	for (uint32 i = 0; i < header->attributes + header->labels; i++)
 	{
 		if (stored != NULL && i < stored->count)
 		{

@@ -1,5 +1,5 @@
 /*
- * names.h: names of attributes in the encoding in which they are stored.
+ * names.h: names of attributes and labels in the encoding in which they are stored.
  */
 #ifndef ABACUS_NAMES_H
 #define ABACUS_NAMES_H
@@ -10,7 +10,7 @@
 typedef struct StoredNames
 {
 	uint32		count;
-	char		names[ABACUS_MAX_ATTRIBUTES][ABACUS_NAME_BYTES];
+	char		names[ABACUS_MAX_NAMES][ABACUS_NAME_BYTES];
 } StoredNames;
 
 extern int	names_find_invalid(const abacus_header *header);

@@ -1,5 +1,5 @@
 /*
- * shape.c: what a new mesh is to be: dimension, attributes, domain.
+ * shape.c: what a new mesh is to be: dimension, attributes, labels, domain.
  */
 #include "postgres.h"
 
@@ -31,6 +31,17 @@ shape_check_name(const char *name)
 				 errhint("A name has 1 to %d bytes.", ABACUS_NAME_BYTES - 1)));
 }
 
+/* An error if there is no room for one more name. */
+static void
+check_names(const abacus_header *header)
+{
+	if (header->attributes + header->labels == ABACUS_MAX_NAMES)
+		ereport(ERROR,
+				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
+				 errmsg("a mesh can have at most %d attributes and labels together",
+						ABACUS_MAX_NAMES)));
+}
+
 /* An error if there is no room for one more attribute. */
 void
 shape_check_room(const abacus_header *header)
@@ -41,6 +52,7 @@ shape_check_room(const abacus_header *header)
 				 errmsg("%s can have at most %d attributes",
 						header->type == ABACUS_OCTREE ? "an octree" : "a mesh",
 						ABACUS_MAX_ATTRIBUTES)));
+	check_names(header);
 }
 
 /* Adds one attribute. */
@@ -56,6 +68,25 @@ shape_attribute(abacus_header *header, const char *name)
 				 errhint("Attributes taken from a query have the names of its columns; "
 						 "give each its own with AS.")));
 	strlcpy(header->names[header->attributes++], name, ABACUS_NAME_BYTES);
+}
+
+/* Adds one label of simplices; behind all attributes. */
+void
+shape_label(abacus_header *header, const char *name)
+{
+	uint32		names = header->attributes + header->labels;
+
+	check_names(header);
+	shape_check_name(name);
+	for (uint32 i = 0; i < names; i++)
+		if (strcmp(header->names[i], name) == 0)
+			ereport(ERROR,
+					(errcode(ERRCODE_DUPLICATE_COLUMN),
+					 i < header->attributes
+					 ? errmsg("\"%s\" is both an attribute and a label", name)
+					 : errmsg("label \"%s\" is named twice", name)));
+	strlcpy(header->names[names], name, ABACUS_NAME_BYTES);
+	header->labels++;
 }
 
 /* Elements of a one-dimensional array without NULLs; `what` names it for messages. */

@@ -15,6 +15,7 @@ extern void shape_attribute(abacus_header *header, const char *name);
 extern Datum *shape_names(ArrayType *names, const char *what, int *count);
 extern Datum *shape_numbers(ArrayType *numbers, const char *what, int *count);
 extern void shape_attributes(abacus_header *header, ArrayType *names);
+extern void shape_label(abacus_header *header, const char *name);
 extern void shape_point(const abacus_header *header, ArrayType *point, const char *what,
 						double *values);
 extern void shape_pair(ArrayType *pair, const char *what, double *values);

@@ -1,7 +1,7 @@
 /*
  * fn_attribute_change.c: abacus_add_attribute and abacus_drop_attribute.
  *
- * What vertices have is written anew, the simplices stay as they are. A table that a mesh follows
+ * What vertices have is written anew, the simplices stay as they are, with their labels. A table that a mesh follows
  * has a column for each attribute, and the columns of a published mesh have the numbers of
  * attributes. So a mesh that follows a table keeps its attributes, and a published one those it has.
  */
@@ -73,10 +73,7 @@ abacus_sql_add_attribute(PG_FUNCTION_ARGS)
 	change = begin(fcinfo, "abacus_add_attribute()");
 	header = change->writer.header;
 	count = header->attributes;
-	if (header_attribute(header, name) >= 0)
-		ereport(ERROR,
-				(errcode(ERRCODE_DUPLICATE_COLUMN),
-				 errmsg("mesh has an attribute \"%s\" already", name)));
+	header_require_new_name(header, name);
 	shape_check_room(header);
 	source = palloc((count + 1) * sizeof(uint32));
 	for (uint32 i = 0; i < count; i++)

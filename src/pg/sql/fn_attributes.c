@@ -141,10 +141,7 @@ abacus_sql_rename_attribute(PG_FUNCTION_ARGS)
 	writer_begin_of(&writer, PG_GETARG_OID(0), ANY_TYPE, "abacus_rename_attribute()");
 	header = writer.header;
 	number = header_find_attribute(header, attribute);
-	if (header_attribute(header, name) >= 0)
-		ereport(ERROR,
-				(errcode(ERRCODE_DUPLICATE_COLUMN),
-				 errmsg("mesh has an attribute \"%s\" already", name)));
+	header_require_new_name(header, name);
 	strlcpy(header->names[number], name, ABACUS_NAME_BYTES);
 	writer_end(&writer);
 	PG_RETURN_VOID();

@@ -112,6 +112,7 @@ move_attributes_apart(Writer *writer)
 	ereport(NOTICE,
 			(errmsg("mesh \"%s\" has its attributes in pages of their own",
 					get_rel_name(mesh_pages(host)->mesh)),
+			 header->labels > 0 || header->marked > 0 ? 0 :
 			 errdetail("It has format 4 now; versions of Abacus that read format 3 only do not read it.")));
 }
 

@@ -1,6 +1,6 @@
 /*
  * fn_cells.c: the simplices of a window: abacus_simplices with one, and
- * abacus_cells, which gives their corners and attributes as well.
+ * abacus_cells, which gives their corners, attributes and labels as well.
  */
 #include "postgres.h"
 
@@ -19,11 +19,12 @@ SQL_FUNCTION(abacus_sql_simplices_in_ball);
 SQL_FUNCTION(abacus_sql_cells);
 SQL_FUNCTION(abacus_sql_cells_in_ball);
 
-/* Columns of abacus_cells: those of abacus_simplex, and what its corners are */
+/* Columns of abacus_cells: those of abacus_simplex, what its corners are, and its labels */
 enum
 {
 	CELL_CORNERS = SIMPLEX_COLUMNS,
 	CELL_VALUES,
+	CELL_LABELS,
 	CELL_COLUMNS
 };
 
@@ -43,7 +44,7 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, bool is_ce
 
 static Datum
 cell_row(TupleDesc row_type, const abacus_simplex *simplex, const double *attributes,
-		 const abacus_header *header)
+		 const double *labels, const abacus_header *header)
 {
 	int			dimension = (int) header->dimension;
 	double		corners[(ABACUS_MAX_DIMENSION + 1) * ABACUS_MAX_DIMENSION];
@@ -55,6 +56,9 @@ cell_row(TupleDesc row_type, const abacus_simplex *simplex, const double *attrib
 	simplex_columns(simplex, header->dimension, values, isnull);
 	values[CELL_CORNERS] = float_matrix(corners, dimension + 1, dimension);
 	values[CELL_VALUES] = float_matrix(attributes, dimension + 1, (int) header->attributes);
+	isnull[CELL_LABELS] = header->labels == 0;
+	values[CELL_LABELS] = header->labels == 0 ? (Datum) 0
+		: attribute_array(labels, (int) header->labels);
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
 }
 
@@ -66,6 +70,7 @@ next(FunctionCallInfo fcinfo, WindowForm form, bool is_cells)
 	Host	   *host;
 	abacus_simplex simplex;
 	double		values[(ABACUS_MAX_DIMENSION + 1) * ABACUS_MAX_ATTRIBUTES];
+	const double *labels = NULL;
 	abacus_status status;
 
 	if (SRF_IS_FIRSTCALL())
@@ -79,10 +84,12 @@ next(FunctionCallInfo fcinfo, WindowForm form, bool is_cells)
 	reader = set->user_fctx;
 	host = reader->host;
 	status = host_run(host, abacus_cells_next, host->handle, &simplex, is_cells ? values : NULL);
+	if (is_cells && status != ABACUS_END && reader->header.labels > 0)
+		host_run(host, abacus_cells_labels, host->handle, &simplex, &labels);
 	host_release(host);
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);
-	SRF_RETURN_NEXT(set, is_cells ? cell_row(set->tuple_desc, &simplex, values, &reader->header)
+	SRF_RETURN_NEXT(set, is_cells ? cell_row(set->tuple_desc, &simplex, values, labels, &reader->header)
 					: simplex_row(set->tuple_desc, &simplex, reader->header.dimension));
 }
 
@@ -102,7 +109,7 @@ abacus_sql_simplices_in_ball(PG_FUNCTION_ARGS)
 
 /*
  * abacus_cells(mesh regclass, lower float8[], upper float8[], max_edge float8)
- *     -> code, v0, v1, v2, v3, corners, values
+ *     -> code, v0, v1, v2, v3, corners, values, labels
  */
 Datum
 abacus_sql_cells(PG_FUNCTION_ARGS)

@@ -19,19 +19,23 @@
 
 SQL_FUNCTION(abacus_sql_load);
 
-/* A simplex has as many vertices as its mesh has dimensions, and one more. */
+/* A simplex has as many vertices as its mesh has dimensions, and one more; then come labels. */
 static int
-dimension_of(const Source *simplices)
+dimension_of(const Source *simplices, int labels)
 {
-	int			columns = source_columns(simplices);
+	int			vertices = source_columns(simplices) - labels;
 
-	if (columns < 3 || columns > ABACUS_MAX_DIMENSION + 1)
+	if (vertices < 3 || vertices > ABACUS_MAX_DIMENSION + 1)
 		ereport(ERROR,
 				(errcode(ERRCODE_DATATYPE_MISMATCH),
-				 errmsg("simplices query returns %d columns, not 3 or 4", columns),
-				 errdetail("Columns go by position: v0, v1, v2 of triangles; v0, v1, v2, v3 of "
-						   "tetrahedra.")));
-	return columns - 1;
+				 errmsg("simplices query returns %d columns, not %d or %d",
+						source_columns(simplices), 3 + labels, 4 + labels),
+				 labels > 0
+				 ? errdetail("Columns go by position: v0, v1, v2 of triangles or v0, v1, v2, v3 of "
+							 "tetrahedra, then the labels.")
+				 : errdetail("Columns go by position: v0, v1, v2 of triangles; v0, v1, v2, v3 of "
+							 "tetrahedra.")));
+	return vertices - 1;
 }
 
 /*
@@ -60,9 +64,13 @@ check(Host *host, abacus_load *load)
 			 errhint("%s", host->failure.hint)));
 }
 
-/* Gives the rows of two prepared queries to the core, which checks them. */
+/*
+ * Gives the rows of two prepared queries to the core, and of one for facets unless that is NULL. The
+ * core checks them.
+ */
 static abacus_delaunay
-read_triangulation(Change *change, Source *vertices, Source *simplices, bool reorient)
+read_triangulation(Change *change, Source *vertices, Source *simplices, Source *facets,
+				   bool reorient)
 {
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
@@ -78,21 +86,30 @@ read_triangulation(Change *change, Source *vertices, Source *simplices, bool reo
 	source_close(vertices);
 	source_open_simplices(simplices, header);
 	while ((count = source_fetch(simplices, &records)) > 0)
-		host_run(host, abacus_load_simplices, change->load, (const int64_t *) records, count);
+		host_run(host, abacus_load_simplices, change->load, records, count);
 	source_close(simplices);
+	if (facets != NULL)
+	{
+		source_open_loaded_facets(facets, header);
+		while ((count = source_fetch(facets, &records)) > 0)
+			host_run(host, abacus_load_facets, change->load, records, count);
+		source_close(facets);
+	}
 	return check(host, change->load);
 }
 
 /* Says of a triangulation that is not Abacus' own what it is. */
 static void
-tell(abacus_delaunay delaunay, bool retriangulated)
+tell(abacus_delaunay delaunay, bool retriangulated, bool labelled, bool marked)
 {
 	const char *reason = abacus_delaunay_reason(delaunay);
 
 	if (retriangulated)
 		ereport(NOTICE,
 				(errmsg("the vertices have been triangulated anew"),
-				 errdetail("Of the triangulation that was given: %s", reason)));
+				 errdetail("Of the triangulation that was given: %s", reason),
+				 labelled ? errhint("The simplices are others: their labels are NULL.") :
+				 marked ? errhint("The facets are others: they have no markers.") : 0));
 	else
 		ereport(NOTICE,
 				(errmsg("%s", abacus_delaunay_clause(delaunay)),
@@ -116,7 +133,8 @@ triangulate_vertices(Change *change)
 
 /*
  * abacus_load(mesh text, vertices text, simplices text, attributes text[],
- * lower float8[], upper float8[], reorient boolean, retriangulate boolean) -> bigint
+ * lower float8[], upper float8[], reorient boolean, retriangulate boolean, labels text[], facets text)
+ *     -> bigint
  */
 Datum
 abacus_sql_load(PG_FUNCTION_ARGS)
@@ -124,12 +142,16 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 	abacus_header *header = palloc0(sizeof(abacus_header));
 	Source		vertices;
 	Source		simplices;
+	Source		facets;
+	bool		has_facets = !PG_ARGISNULL(9);
 	Oid			mesh;
 	Change	   *change;
 	Host	   *host;
 	abacus_delaunay delaunay;
 	bool		retriangulate;
 	uint64		loaded;
+	Datum	   *labels = NULL;
+	int			label_count = 0;
 
 	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(2) || PG_ARGISNULL(6) || PG_ARGISNULL(7))
 		ereport(ERROR,
@@ -137,12 +159,18 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 				 errmsg("mesh, vertices, simplices, reorient and retriangulate must not be NULL")));
 	source_prepare(&vertices, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	source_prepare(&simplices, text_to_cstring(PG_GETARG_TEXT_PP(2)));
-	shape_dimension(header, dimension_of(&simplices));
+	if (has_facets)
+		source_prepare(&facets, text_to_cstring(PG_GETARG_TEXT_PP(9)));
+	if (!PG_ARGISNULL(8))
+		labels = shape_names(PG_GETARG_ARRAYTYPE_P(8), "labels", &label_count);
+	shape_dimension(header, dimension_of(&simplices, label_count));
 	if (!PG_ARGISNULL(3))
 		shape_attributes(header, PG_GETARG_ARRAYTYPE_P(3));
 	else
 		for (int i = source_first_attribute(&vertices, header->dimension); i < source_columns(&vertices); i++)
 			shape_attribute(header, source_column_name(&vertices, i));
+	for (int i = 0; i < label_count; i++)
+		shape_label(header, TextDatumGetCString(labels[i]));
 	shape_domain(header, PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4),
 				 PG_ARGISNULL(5) ? NULL : PG_GETARG_ARRAYTYPE_P(5));
 
@@ -150,7 +178,8 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 					"abacus_load()");
 	change = change_begin(mesh, "abacus_load()");
 	host = change->writer.host;
-	delaunay = read_triangulation(change, &vertices, &simplices, PG_GETARG_BOOL(6));
+	delaunay = read_triangulation(change, &vertices, &simplices, has_facets ? &facets : NULL,
+								  PG_GETARG_BOOL(6));
 	retriangulate = PG_GETARG_BOOL(7) && delaunay != ABACUS_DELAUNAY;
 	if (retriangulate)
 		triangulate_vertices(change);
@@ -159,7 +188,9 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 	loaded = change->writer.header->simplices;
 	change_end(change);
 	if (delaunay != ABACUS_DELAUNAY)
-		tell(delaunay, retriangulate);
+		tell(delaunay, retriangulate, label_count > 0, has_facets);
+	if (has_facets)
+		source_finish(&facets);
 	source_finish(&simplices);
 	source_finish(&vertices);
 	PG_RETURN_INT64((int64) loaded);

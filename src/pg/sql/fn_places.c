@@ -7,23 +7,26 @@
 #include "utils/builtins.h"
 
 #include "pg/base/sql_function.h"
+#include "pg/host/guard.h"
 #include "pg/sql/answers.h"
 #include "pg/sql/places.h"
+#include "pg/sql/result.h"
 #include "pg/sql/simplex_row.h"
 
 SQL_FUNCTION(abacus_sql_locate_places);
 
-/* Columns of the result: the id of a place, then those of abacus_simplex */
+/* Columns of the result: the id of a place, those of abacus_simplex, and its labels */
 enum
 {
 	PLACE_ID,
 	PLACE_SIMPLEX,
-	PLACE_COLUMNS = PLACE_SIMPLEX + SIMPLEX_COLUMNS
+	PLACE_LABELS = PLACE_SIMPLEX + SIMPLEX_COLUMNS,
+	PLACE_COLUMNS
 };
 
-/* Adds the row of a place; called by the core. */
+/* Adds the row of a place; called by the core. Attributes of a row are labels of its simplex. */
 static abacus_host_status
-put_answer(void *context, int64_t id, const abacus_simplex *simplex)
+put_answer(void *context, int64_t id, const abacus_simplex *simplex, const double *labels)
 {
 	Answers    *answers = context;
 	Datum		values[PLACE_COLUMNS] = {0};
@@ -35,12 +38,18 @@ put_answer(void *context, int64_t id, const abacus_simplex *simplex)
 	if (simplex != NULL)
 		simplex_columns(simplex, answers->dimension, values + PLACE_SIMPLEX,
 						isnull + PLACE_SIMPLEX);
-	return answers_put(answers, values, isnull);
+	isnull[PLACE_LABELS] = simplex == NULL || answers->attributes == 0;
+	GUARD_BEGIN();
+	if (!isnull[PLACE_LABELS])
+		values[PLACE_LABELS] = answers_array(answers, labels, answers->attributes);
+	answers_add(answers, values, isnull);
+	GUARD_END(answers->host);
+	return ABACUS_HOST_OK;
 }
 
 /*
  * abacus_locate(mesh regclass, query text)
- *     -> id, code, v0, v1, v2, v3
+ *     -> id, code, v0, v1, v2, v3, labels
  */
 Datum
 abacus_sql_locate_places(PG_FUNCTION_ARGS)
@@ -52,6 +61,7 @@ abacus_sql_locate_places(PG_FUNCTION_ARGS)
 	places_read(&read, PG_GETARG_OID(0), ABACUS_MESH, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	answers.host = read.host;
 	answers.dimension = read.dimension;
+	answers_have_arrays(&answers, read.header->labels);
 	host_run(read.host, abacus_places_locate, read.places, put_answer, &answers);
 	places_done(&read);
 	PG_RETURN_NULL();

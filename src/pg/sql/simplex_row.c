@@ -7,9 +7,22 @@
 #include "catalog/pg_type.h"
 #include "funcapi.h"
 #include "utils/memutils.h"
+#include "utils/typcache.h"
 
 #include "pg/sql/result.h"
 #include "pg/sql/simplex_row.h"
+
+/* An error unless the columns of the type are as we have made it. */
+static void
+require_type(TupleDesc row_type)
+{
+	static const Oid types[SIMPLEX_COLUMNS] = {INT8OID, INT8OID, INT8OID, INT8OID, INT8OID};
+
+	result_require_type(row_type, "abacus_simplex", types, SIMPLEX_COLUMNS,
+						"code, v0, v1, v2 and v3, all of type bigint",
+						"abacus_vertices() still returns the points: save them, and make the "
+						"extension and its meshes anew.");
+}
 
 /*
  * Row type of a function that returns simplices, blessed, in the current memory context. Its
@@ -18,13 +31,9 @@
 TupleDesc
 simplex_row_type(FunctionCallInfo fcinfo)
 {
-	static const Oid types[SIMPLEX_COLUMNS] = {INT8OID, INT8OID, INT8OID, INT8OID, INT8OID};
 	TupleDesc	row_type = result_row_type(fcinfo);
 
-	result_require_type(row_type, "abacus_simplex", types, SIMPLEX_COLUMNS,
-						"code, v0, v1, v2 and v3, all of type bigint",
-						"abacus_vertices() still returns the points: save them, and make the "
-						"extension and its meshes anew.");
+	require_type(row_type);
 	return row_type;
 }
 
@@ -145,4 +154,19 @@ simplex_from_row(Datum row, TupleDesc row_type, uint32 dimension, uint64 *code, 
 					 errhint("Pass a simplex of the same mesh.")));
 	*code = (uint64) DatumGetInt64(values[0]);
 	return true;
+}
+
+/* The same in a function that returns something else. */
+bool
+simplex_from_argument(Datum row, uint32 dimension, uint64 *code, int64 *ids)
+{
+	HeapTupleHeader header = DatumGetHeapTupleHeader(row);
+	TupleDesc	row_type = lookup_rowtype_tupdesc(HeapTupleHeaderGetTypeId(header),
+												  HeapTupleHeaderGetTypMod(header));
+	bool		is_simplex;
+
+	require_type(row_type);
+	is_simplex = simplex_from_row(row, row_type, dimension, code, ids);
+	ReleaseTupleDesc(row_type);
+	return is_simplex;
 }

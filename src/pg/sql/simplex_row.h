@@ -29,5 +29,6 @@ extern Datum simplex_row(TupleDesc row_type, const abacus_simplex *simplex, uint
 extern Datum simplex_row_again(SimplexRows *rows, const abacus_simplex *simplex, uint32 dimension);
 extern bool simplex_from_row(Datum row, TupleDesc row_type, uint32 dimension, uint64 *code,
 							 int64 *ids);
+extern bool simplex_from_argument(Datum row, uint32 dimension, uint64 *code, int64 *ids);
 
 #endif

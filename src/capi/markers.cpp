@@ -1,0 +1,72 @@
+// Markers of facets behind the C interface.
+#include "query/marked_facets.hpp"
+#include "query/marking.hpp"
+
+#include "capi/dispatch.hpp"
+#include "capi/handle.hpp"
+
+#include <abacus/change.h>
+#include <cmath>
+
+struct abacus_marking {
+    abacus_marking(const abacus_host *table, const abacus_header &header, std::size_t memory,
+                   std::size_t cache_bytes)
+        : host(*table), marking(host, header, memory, cache_bytes) {}
+
+    const abacus::Host host;
+    abacus::ByDimension<abacus::Marking> marking;
+};
+
+struct abacus_facets {
+    abacus_facets(const abacus_host *table, const abacus_header &header,
+                  std::optional<double> marker, std::size_t memory, std::size_t cache_bytes)
+        : host(*table), facets(host, header, marker, memory, cache_bytes) {}
+
+    const abacus::Host host;
+    abacus::ByDimension<abacus::MarkedFacets> facets;
+};
+
+abacus_status abacus_marking_open(const abacus_host *host, const abacus_header *header,
+                                  size_t memory, size_t cache_bytes, abacus_marking **marking,
+                                  abacus_error *error) {
+    return abacus::guard(error, [&] {
+        *marking = abacus::create_handle<abacus_marking>(host, *header, memory, cache_bytes);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_marking_add(abacus_marking *marking, const uint64_t *rows, size_t count,
+                                 abacus_error *error) {
+    return abacus::dispatch(marking->marking, error,
+                            [&](auto &opened) { opened.add(rows, count); });
+}
+
+abacus_status abacus_marking_end(abacus_marking *marking, abacus_header *header,
+                                 abacus_error *error) {
+    return abacus::dispatch(marking->marking, error, [&](auto &opened) {
+        abacus_header changed = *header; // the caller's stays as it is if this fails
+        opened.set(changed);
+        *header = changed;
+    });
+}
+
+void abacus_marking_close(abacus_marking *marking) { abacus::destroy_handle(marking); }
+
+abacus_status abacus_facets_open(const abacus_host *host, const abacus_header *header,
+                                 double marker, size_t memory, size_t cache_bytes,
+                                 abacus_facets **facets, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        const auto wanted = std::isnan(marker) ? std::nullopt : std::optional(marker);
+        *facets = abacus::create_handle<abacus_facets>(host, *header, wanted, memory, cache_bytes);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_facets_next(abacus_facets *facets, abacus_facet *facet, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        return facets->facets.visit([&](auto &opened) { return opened.next(*facet); }) ? ABACUS_OK
+                                                                                       : ABACUS_END;
+    });
+}
+
+void abacus_facets_close(abacus_facets *facets) { abacus::destroy_handle(facets); }

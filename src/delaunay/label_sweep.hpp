@@ -1,0 +1,98 @@
+// What goes with its simplices when the mesh changes: labels, or markers of facets.
+//
+// Both are found by the places of a simplex' corners, and no insertion or removal looks at them.
+// When all of a change is stored, the rows of each stretch of the curve that it has stored anew are
+// compared with the simplices there: a row whose simplex is no longer in the mesh goes. So it does
+// not matter what came and went on the way, in which order or thread, and whether the mesh was made
+// anew as a whole: a simplex that a change leaves as it is, or brings back, keeps its row.
+//
+// One page of rows after the other is read, and the pages of simplices with these codes.
+#pragma once
+
+#include "attributes/attribute_pages.hpp"
+#include "mesh/page_attributes.hpp"
+#include "mesh/page_format.hpp"
+#include "mesh/stored_pages.hpp"
+
+#include <functional>
+
+namespace abacus {
+
+/// Reads the pages of simplices with codes of a stretch.
+template <int D> class SimplicesOfStretch {
+public:
+    using Simplex = Owner<D, D + 1>;
+
+    SimplicesOfStretch(const Host &host, const abacus_header &header, const Domain<D> &domain)
+        : host_(host), domain_(domain), attributes_(page_attributes(header)) {}
+
+    /// Calls visit(simplex, code) for each finite one with a code of the stretch; visit may not
+    /// call the host.
+    template <class Visit> void each(const StoredPages::Stretch &stretch, const Visit &visit) {
+        abacus_page page;
+        bool more = host_.find(ABACUS_SIMPLEX_PAGES, {stretch.least, 0}, page);
+        while (more) {
+            const Key key = page.key;
+            view_.read(page.bytes, page.size, attributes_);
+            for (int s = 0; s < view_.simplices(); ++s) {
+                if (view_.is_ghost(s)) continue;
+                std::array<Point<D>, D + 1> points;
+                for (int i = 0; i <= D; ++i) points[i] = view_.point(view_.corner(s, i));
+                const Simplex simplex = owner_of<D, D + 1>(points);
+                const std::uint64_t code = code_of<D, D + 1>(domain_, simplex);
+                if (stretch.least <= code && code <= stretch.greatest) visit(simplex, code);
+            }
+            host_.poll();
+            more =
+                host_.next(ABACUS_SIMPLEX_PAGES, &key, page) && page.key.code <= stretch.greatest;
+        }
+    }
+
+private:
+    const Host &host_;
+    const Domain<D> domain_;
+    const int attributes_; // of a simplex page
+    PageView<D> view_;
+};
+
+template <int D> class LabelSweep {
+public:
+    using Simplex = Owner<D, D + 1>;
+    /// Gets a simplex that has gone, and what it had in the first group.
+    using Gone = std::function<void(const Simplex &, const double *)>;
+
+    /// Of so many columns, in groups from `first` on.
+    LabelSweep(const Host &host, const abacus_header &header, const Domain<D> &domain,
+               unsigned columns, unsigned first);
+
+    /// Takes away what is without a simplex in a stretch; returns of how many simplices.
+    std::uint64_t sweep(const StoredPages::Stretch &stretch, const Gone &gone = {});
+    /// Writes what has been changed; returns the pages that have been moved.
+    abacus_counters finish();
+
+    AttributePages<D, D + 1> &pages() { return pages_; }
+    SimplicesOfStretch<D> &simplices() { return simplices_; }
+
+private:
+    /// Reads a page of rows; false if none of its simplices has a code of the stretch.
+    bool read(const abacus_page &page, const StoredPages::Stretch &stretch);
+    void find(const Simplex &simplex, std::uint64_t code);
+    void take_away(std::size_t row, const Gone &gone);
+
+    const Host &host_;
+    const Domain<D> domain_;
+    const unsigned columns_; // of the first group
+    const unsigned group_;
+    AttributePages<D, D + 1> pages_;
+    AttributePage<D, D + 1> rows_;
+    Arena<Key> keys_;
+    std::size_t begin_ = 0, end_ = 0; // the rows of the stretch
+    Arena<bool> is_found_;
+    SimplicesOfStretch<D> simplices_;
+    alignas(8) std::array<unsigned char, ABACUS_PAGE_BYTES> bytes_;
+};
+
+extern template class LabelSweep<2>;
+extern template class LabelSweep<3>;
+
+} // namespace abacus

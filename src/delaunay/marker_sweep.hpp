@@ -1,0 +1,77 @@
+// Markers of facets that stay while simplices beside them come and go.
+//
+// A facet's marker is kept with each simplex beside it, so both sides agree. When a simplex goes,
+// its row goes (label_sweep.hpp), and with it the markers of its facets. Those facets that are
+// still in the mesh have another simplex on that side, which the change has stored: among the
+// simplices of the stretches that it has stored they are looked for, and get their markers again.
+// Neither order nor threads matter to that, as for labels.
+//
+// The facets that have lost a marker go to a spool, and are looked for by the thousand.
+#pragma once
+
+#include "delaunay/label_sweep.hpp"
+#include "sort/record_spool.hpp"
+
+namespace abacus {
+
+/// A facet of a simplex: the one opposite its corner `opposite`, in the order of its points.
+template <int D> Owner<D, D> facet_of(const Owner<D, D + 1> &simplex, int opposite) {
+    Owner<D, D> facet;
+    for (int i = 0; i < D; ++i) facet[i] = simplex[i + (i >= opposite)];
+    return facet;
+}
+
+/// Gives one facet of a simplex a marker; returns whether the simplex had none.
+template <int D>
+bool set_marker(AttributePages<D, D + 1> &pages, const Owner<D, D + 1> &simplex, std::uint64_t code,
+                std::uint32_t opposite, double marker) {
+    if (pages.set(simplex, code, {&opposite, 1}, &marker)) return false;
+    std::array<double, D + 1> markers;
+    markers.fill(null_value);
+    markers[opposite] = marker;
+    pages.put(simplex, code, markers.data());
+    return true;
+}
+
+template <int D> class MarkerSweep {
+public:
+    MarkerSweep(const Host &host, const abacus_header &header, const Domain<D> &domain);
+
+    /// Of a change that has stored these stretches. Returns how many simplices have markers now, if
+    /// `marked` had before.
+    std::uint64_t sweep(const Arena<StoredPages::Stretch> &stretches, std::uint64_t marked);
+    abacus_counters finish() { return rows_.finish(); }
+
+private:
+    using Simplex = Owner<D, D + 1>;
+    struct Lost {
+        Key key;
+        Owner<D, D> facet;
+        double marker;
+    };
+    struct Found {
+        Simplex simplex;
+        std::uint64_t code;
+        std::uint32_t opposite;
+        double marker;
+    };
+    static constexpr std::size_t looked_for_at_once = 1 << 14;
+
+    void lose(const Simplex &simplex, const double *markers);
+    /// Reads the next facets that have lost their markers; false if there are none.
+    bool read_lost();
+    void look_at(const Simplex &simplex, std::uint64_t code);
+    /// Gives what has been found its markers; returns how many simplices had none.
+    std::uint64_t mark_found();
+
+    const Domain<D> domain_;
+    LabelSweep<D> rows_;
+    RecordSpool spool_;
+    Arena<Lost> lost_;
+    Arena<Found> found_; // of a stretch, no more than were lost
+};
+
+extern template class MarkerSweep<2>;
+extern template class MarkerSweep<3>;
+
+} // namespace abacus

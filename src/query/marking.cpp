@@ -1,0 +1,110 @@
+#include "query/marking.hpp"
+
+#include "blocks/counters.hpp"
+#include "delaunay/marker_sweep.hpp"
+#include "keys/domain_of.hpp"
+
+#include <cmath>
+
+namespace abacus {
+
+namespace {
+
+template <int D> Point<D> corner_of(const abacus_simplex &simplex, int corner) {
+    Point<D> p;
+    std::copy_n(simplex.corner[corner], D, p.begin());
+    return p;
+}
+
+/// The corner of a neighbour that the simplex does not have.
+template <int D> int corner_beyond(const abacus_simplex &simplex, const abacus_simplex &neighbour) {
+    for (int i = 0; i <= D; ++i) {
+        bool is_shared = false;
+        for (int k = 0; k <= D; ++k)
+            is_shared |= corner_of<D>(neighbour, i) == corner_of<D>(simplex, k);
+        if (!is_shared) return i;
+    }
+    throw_corrupted("Two neighbours have the same corners.");
+}
+
+} // namespace
+
+template <int D>
+Marking<D>::Marking(const Host &host, const abacus_header &header, std::size_t memory,
+                    std::size_t cache_bytes)
+    : host_(host), header_(header), cache_bytes_(cache_bytes),
+      sort_(host, 1 + row_words, 2, memory) {}
+
+template <int D> void Marking<D>::add(const std::uint64_t *rows, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i, rows += row_words) {
+        const std::uint64_t corner = rows[D + 2];
+        const auto marker = std::bit_cast<double>(rows[D + 3]);
+        if (corner > D)
+            throw Error(ABACUS_ERROR_ARGUMENT,
+                        "facet " + std::to_string(static_cast<std::int64_t>(corner)) +
+                            " does not exist",
+                        {},
+                        "Facets are numbered 0 to " + std::to_string(D) +
+                            "; facet i is the one opposite vertex i.");
+        if (!std::isnan(marker) && !is_marker(marker))
+            throw Error(ABACUS_ERROR_ARGUMENT, "a marker is not an integer", {},
+                        "Markers are integers of four bytes, or NULL.");
+        std::uint64_t *record = sort_.add();
+        record[0] = rows[0];
+        record[1] = sort_.size();
+        std::copy(rows + 1, rows + row_words, record + 2);
+    }
+}
+
+template <int D> void Marking<D>::set(abacus_header &header) {
+    sort_.finish();
+    Reader<D> mesh(host_, header_, cache_bytes_);
+    Pages pages(host_, domain_of<D>(header), D + 1, marker_group);
+    while (const std::uint64_t *record = sort_.next()) mark(mesh, pages, record, header.marked);
+    pages.flush();
+    sort_.close();
+    header.counters += pages.take_counters();
+}
+
+template <int D>
+void Marking<D>::mark(Reader<D> &mesh, Pages &pages, const std::uint64_t *record,
+                      std::uint64_t &marked) {
+    std::array<std::int64_t, D + 1> ids;
+    std::memcpy(ids.data(), record + 2, sizeof ids);
+    const int facet = static_cast<int>(record[D + 3]);
+    const auto marker = std::bit_cast<double>(record[D + 4]);
+    abacus_simplex simplex, neighbour;
+    mesh.describe(record[0], ids.data(), simplex);
+    if (std::count(ids.begin(), ids.end(), ids[facet]) > 1)
+        throw Error(ABACUS_ERROR_ARGUMENT, "two vertices of the simplex have the same id", {},
+                    "Give the points unique ids to name facets of simplices.");
+    const int corner =
+        static_cast<int>(std::find(simplex.id, simplex.id + D, ids[facet]) - simplex.id);
+    mark(pages, simplex, corner, marker, marked);
+    if (mesh.walk(record[0], ids.data(), facet, neighbour))
+        mark(pages, neighbour, corner_beyond<D>(simplex, neighbour), marker, marked);
+}
+
+template <int D>
+void Marking<D>::mark(Pages &pages, const abacus_simplex &simplex, int corner, double marker,
+                      std::uint64_t &marked) {
+    std::array<Point<D>, D + 1> points;
+    for (int i = 0; i <= D; ++i) points[i] = corner_of<D>(simplex, i);
+    const auto owner = owner_of<D, D + 1>(points);
+    const auto opposite = static_cast<std::uint32_t>(
+        std::find(owner.begin(), owner.end(), points[corner]) - owner.begin());
+    if (!std::isnan(marker)) {
+        marked += set_marker<D>(pages, owner, simplex.code, opposite, marker);
+        return;
+    }
+    if (!pages.set(owner, simplex.code, {&opposite, 1}, &marker)) return;
+    std::array<double, D + 1> left;
+    pages.get(owner, simplex.code, left.data());
+    if (std::all_of(left.begin(), left.end(), [](double x) { return std::isnan(x); }))
+        marked -= pages.erase(owner, simplex.code);
+}
+
+template class Marking<2>;
+template class Marking<3>;
+
+} // namespace abacus

@@ -1,0 +1,45 @@
+// Markers given to facets of a mesh, many at once.
+//
+// A row names a facet by a simplex beside it, by code and ids of corners as readers give them out,
+// and by the corner opposite the facet. The simplex on the other side, if there is one, gets the
+// same marker. Sorted by code, rows follow the curve. Of several rows for a facet the last one of
+// the simplex that comes last on the curve counts.
+#pragma once
+
+#include "attributes/attribute_pages.hpp"
+#include "query/reader.hpp"
+#include "sort/record_sort.hpp"
+
+namespace abacus {
+
+template <int D> class Marking {
+public:
+    /// Sorts within `memory` bytes.
+    Marking(const Host &host, const abacus_header &header, std::size_t memory,
+            std::size_t cache_bytes);
+
+    /// Adds rows: code, D + 1 ids, number of the corner, marker; NaN takes one away.
+    void add(const std::uint64_t *rows, std::size_t count);
+    /// No more come: sets them, and brings the header up to date. Throws an Error (argument) if the
+    /// mesh has no such simplex, or several.
+    void set(abacus_header &header);
+
+private:
+    using Pages = AttributePages<D, D + 1>;
+    static constexpr std::size_t row_words = 1 + (D + 1) + 2;
+
+    void mark(Reader<D> &mesh, Pages &pages, const std::uint64_t *record, std::uint64_t &marked);
+    /// One side.
+    static void mark(Pages &pages, const abacus_simplex &simplex, int corner, double marker,
+                     std::uint64_t &marked);
+
+    const Host &host_;
+    const abacus_header header_;
+    const std::size_t cache_bytes_;
+    RecordSort sort_; // code, number of the row, ids, corner, marker
+};
+
+extern template class Marking<2>;
+extern template class Marking<3>;
+
+} // namespace abacus

@@ -1,0 +1,108 @@
+// Damaged pages of labels of simplices. What is not a checksum's matter is sealed again.
+#include "fuzz/fuzz_mesh.hpp"
+
+using namespace abacus::fuzz;
+
+namespace {
+
+/// Gives all simplices two labels.
+void label(Mesh &mesh) {
+    std::vector<std::uint64_t> rows;
+    mesh.run([&](abacus_error &error) {
+        abacus_window window{};
+        abacus_cells *cells = nullptr;
+        abacus_status status =
+            abacus_cells_open(mesh.host.table(), &mesh.header, &window, 0, &cells, &error);
+        if (status != ABACUS_OK) return status;
+        abacus_simplex simplex;
+        const double *labels = nullptr;
+        while ((status = abacus_cells_next(cells, &simplex, nullptr, &error)) == ABACUS_OK &&
+               abacus_cells_labels(cells, &simplex, &labels, &error) == ABACUS_OK) {
+            rows.push_back(simplex.code);
+            rows.insert(rows.end(), simplex.id, simplex.id + mesh.header.dimension + 1);
+            for (int i = 0; i < 2; ++i)
+                rows.push_back(std::bit_cast<std::uint64_t>(double(rows.size() % 7)));
+        }
+        abacus_cells_close(cells);
+        return status;
+    });
+    mesh.run([&](abacus_error &error) {
+        const std::uint32_t numbers[] = {0, 1};
+        const std::size_t words = mesh.header.dimension + 4;
+        abacus_header named = mesh.header;
+        named.labels = 2;
+        for (unsigned i = 0; i < 2; ++i)
+            std::strcpy(named.names[named.attributes + i], i == 0 ? "material" : "age");
+        abacus_labelling *labelling = nullptr;
+        abacus_status status =
+            abacus_labelling_open(mesh.host.table(), &named, mesh.header.labels, numbers, 2,
+                                  1 << 20, 1 << 20, &labelling, &error);
+        if (status != ABACUS_OK) return status;
+        status = abacus_labelling_add(labelling, rows.data(), rows.size() / words, &error);
+        if (status == ABACUS_OK) status = abacus_labelling_end(labelling, &named, &error);
+        abacus_labelling_close(labelling);
+        if (status == ABACUS_OK) mesh.header = named;
+        return status;
+    });
+}
+
+/// Points with unique ids, so that each simplex can be named.
+const Mesh &labelled_mesh(int dimension) {
+    static Mesh meshes[2];
+    Mesh &mesh = meshes[dimension - 2];
+    if (mesh.header.dimension == 0) {
+        mesh.header.dimension = static_cast<std::uint32_t>(dimension);
+        mesh.stage(1, 0);
+        std::mt19937_64 random(1);
+        std::uniform_real_distribution<double> unit(0, 1);
+        mesh.run([&](abacus_error &error) {
+            abacus_stage *stage = nullptr;
+            abacus_status status =
+                abacus_stage_open(mesh.host.table(), &mesh.header, 1 << 20, &stage, &error);
+            for (std::uint64_t id = 2000; id < 2500 && status == ABACUS_OK; ++id) {
+                std::vector<std::uint64_t> record{id};
+                for (int i = 0; i < dimension; ++i)
+                    record.push_back(std::bit_cast<std::uint64_t>(unit(random)));
+                status = abacus_stage_add(stage, record.data(), 1, &error);
+            }
+            if (status == ABACUS_OK) status = abacus_stage_finish(stage, &mesh.header, &error);
+            abacus_stage_close(stage);
+            return status;
+        });
+        require(mesh.build() == ABACUS_OK, "the mesh cannot be built");
+        label(mesh);
+        require(mesh.header.labelled > 0 && mesh.check() == 0, "the mesh is not sound");
+    }
+    return mesh;
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerInitialize(int *argc, char ***argv) {
+    auto seeds = page_seeds(labelled_mesh(2).host.attribute_pages, {2, 0});
+    for (auto &seed : page_seeds(labelled_mesh(3).host.attribute_pages, {3, 1}))
+        seeds.push_back(seed);
+    write_seeds(*argc, *argv, seeds);
+    return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+    Bytes input(data, size);
+    const Mesh &sound = labelled_mesh(input.next<std::uint8_t>() % 2 == 0 ? 2 : 3);
+    const bool sealed = input.next<std::uint8_t>() % 4 != 0;
+    Mesh mesh;
+    mesh.host.restore(sound.host);
+    mesh.header = sound.header;
+    damage(mesh.host.attribute_pages, input);
+    if (sealed) seal(mesh.host.attribute_pages);
+    mesh.locate_places();
+    mesh.check();
+    label(mesh);
+    mesh.check();
+    mesh.stage(20, 3);
+    mesh.build();
+    mesh.remove(80, 1);
+    mesh.check();
+    require(mesh.host.bytes == 0, "memory is not given back");
+    return 0;
+}
