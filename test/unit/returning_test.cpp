@@ -161,16 +161,16 @@ TYPED_TEST(Returning, EndsWellWhateverFails) {
                 const abacus_status ended = abacus_stage_end(stage, &mesh.header, &mesh.error);
                 if (ended != ABACUS_OK) return ended;
                 return mesh.with_build([&](abacus_build *build) {
-                    abacus_status status = abacus_build_log(build, 1, &mesh.error);
-                    if (status == ABACUS_OK)
-                        status = abacus_build_insert(build, stage, ABACUS_KEEP, &mesh.header,
-                                                     &mesh.error);
+                    abacus_status step = abacus_build_log(build, 1, &mesh.error);
+                    if (step == ABACUS_OK)
+                        step = abacus_build_insert(build, stage, ABACUS_KEEP, &mesh.header,
+                                                   &mesh.error);
                     const auto ignore = [](void *, int, const abacus_simplex *) {
                         return ABACUS_HOST_OK;
                     };
-                    if (status == ABACUS_OK)
-                        status = abacus_build_report(build, ignore, nullptr, &mesh.error);
-                    return status;
+                    if (step == ABACUS_OK)
+                        step = abacus_build_report(build, ignore, nullptr, &mesh.error);
+                    return step;
                 });
             });
             failures = status == ABACUS_OK ? 0 : 1;
