@@ -148,6 +148,7 @@ SELECT count(*) FILTER (WHERE code < -1) > 0 AS apart, array_agg(DISTINCT get_by
 SELECT count(*) FROM (SELECT id, x, y, attributes FROM abacus_vertices('former') EXCEPT TABLE former_points) v;
 SELECT count(*) FROM (TABLE former_points EXCEPT SELECT id, x, y, attributes FROM abacus_vertices('former')) v;
 SELECT count(*) FROM (SELECT * FROM abacus_simplices('former') EXCEPT TABLE former_simplices) s;
+SELECT count(*) FROM (TABLE former_simplices EXCEPT SELECT * FROM abacus_simplices('former')) s;
 SELECT * FROM abacus_check('former');
 CALL abacus_build('former'); -- nothing is left to do
 
