@@ -62,7 +62,6 @@ SELECT abacus_rename_attribute('field', 'Height', 'z');
 \echo :LAST_ERROR_SQLSTATE
 RESET ROLE;
 
-
 -- more attributes, and fewer: of vertices, of equal points, of points that wait
 SELECT abacus_create('changing', 2, '{a,b}');
 SELECT abacus_insert('changing', 'SELECT i, i % 30, i / 30, i, -i FROM generate_series(0, 899) i');
@@ -92,7 +91,8 @@ SELECT * FROM abacus_check('changing');
 ROLLBACK;
 SELECT count(vertex), sum(attributes[1]) FROM abacus_vertices('changing');
 -- an empty mesh
-SELECT abacus_create('empty', 3, '{a}'), abacus_add_attribute('empty', 'b'), abacus_drop_attribute('empty', 'a');
+SELECT abacus_create('empty', 3, '{a}');
+SELECT abacus_add_attribute('empty', 'b'), abacus_drop_attribute('empty', 'a');
 SELECT name FROM abacus_attributes('empty');
 -- what it does not do
 SELECT abacus_add_attribute('changing', 'f');
@@ -101,7 +101,8 @@ SELECT abacus_add_attribute('changing', '');
 SELECT abacus_drop_attribute('changing', 'a');
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_add_attribute('changing', NULL), abacus_drop_attribute('changing', NULL);
-SELECT abacus_add_attribute('loaded', 'more');
+SELECT abacus_load('notch', 'VALUES (1, 0, 0, 1), (2, 4, 0, 2), (3, 4, 1, 3), (4, 0, 1, 4), (5, 2, 0.1, 5)', 'VALUES (1, 2, 5), (2, 3, 5), (3, 4, 5)', '{h}');
+SELECT abacus_add_attribute('notch', 'more');
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_create('full', 2, array_agg('a' || i)) FROM generate_series(1, 100) i;
 SELECT abacus_add_attribute('full', 'more');

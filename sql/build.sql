@@ -141,13 +141,16 @@ SELECT abacus_insert('former', 'SELECT id, x, y, z, sin(id), cos(id), tan(id), i
 SELECT abacus_stage('former', 'SELECT 5000 + id, x, y, 1, 2, 3, 4, 5, 6 FROM points WHERE id < 10');
 CREATE TABLE former_points AS SELECT id, x, y, attributes FROM abacus_vertices('former');
 CREATE TABLE former_simplices AS SELECT * FROM abacus_simplices('former');
+CREATE TABLE former_pages AS SELECT count(*) AS pages FROM former WHERE code >= 0;
 SELECT array_agg(DISTINCT get_byte(page::bytea, 6)) AS format_and_attributes, count(*) FILTER (WHERE code < -1) AS apart FROM former;
 CALL abacus_build('former');
 SELECT get_byte(page::bytea, 6) AS format FROM former WHERE code = -1;
 SELECT count(*) FILTER (WHERE code < -1) > 0 AS apart, array_agg(DISTINCT get_byte(page::bytea, 6)) FILTER (WHERE code >= 0) AS attributes_of_simplex_pages FROM former;
+SELECT count(*) * 2.5 < (TABLE former_pages) AS full_pages FROM former WHERE code >= 0;
 SELECT count(*) FROM (SELECT id, x, y, attributes FROM abacus_vertices('former') EXCEPT TABLE former_points) v;
 SELECT count(*) FROM (TABLE former_points EXCEPT SELECT id, x, y, attributes FROM abacus_vertices('former')) v;
 SELECT count(*) FROM (SELECT * FROM abacus_simplices('former') EXCEPT TABLE former_simplices) s;
+SELECT count(*) FROM (TABLE former_simplices EXCEPT SELECT * FROM abacus_simplices('former')) s;
 SELECT * FROM abacus_check('former');
 CALL abacus_build('former'); -- nothing is left to do
 
@@ -158,6 +161,6 @@ CALL abacus_build('line');
 SELECT count(*) FROM pg_locks WHERE pid = pg_backend_pid() AND relation = 'line'::regclass;
 SELECT count(*) FROM abacus_progress WHERE pid = pg_backend_pid();
 
-DROP TABLE points, once, field, solid, solid_once, line, large, small, former, former_points, former_simplices;
+DROP TABLE points, once, field, solid, solid_once, line, large, small, former, former_points, former_simplices, former_pages;
 DROP FUNCTION triangles, counts;
 DROP PROCEDURE build;

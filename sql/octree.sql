@@ -137,6 +137,8 @@ SELECT name, least, greatest, nulls FROM abacus_attributes('quad');
 SELECT abacus_rename_attribute('quad', 'v', 'w');
 SELECT name FROM abacus_attributes('quad');
 SELECT abacus_rename_attribute('quad', 'v', 'w');
+SELECT abacus_add_attribute('quad', 'u');
+SELECT abacus_drop_attribute('quad', 'w');
 SELECT abacus_set_srid('quad', 2154);
 SELECT abacus_octree_coarsen('quad', 'SELECT 10, 1, 1');
 SELECT abacus_srid('quad');

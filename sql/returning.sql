@@ -19,7 +19,7 @@ SELECT created, v0, v1, v2, v3, corners FROM abacus_insert_returning('solid', 'V
 SELECT created, v0, v1, v2, v3 FROM abacus_delete_returning('solid', 'VALUES (4, 0, 0, 1)');
 
 -- the difference of before and after, with any number of threads, in order
-CREATE TABLE points AS SELECT i AS id, (i * 7919) % 1009 AS x, (i * 104729) % 997 AS y, (i * 1299709) % 991 AS z FROM generate_series(1, 4000) i;
+CREATE TABLE points AS SELECT i AS id, (i * 7919) % 1009 AS x, (i * 104729) % 997 AS y, (i * 1299709) % 991 AS z FROM generate_series(1::bigint, 4000) i;
 CREATE TABLE changed (n int GENERATED ALWAYS AS IDENTITY, created boolean, code bigint, v0 bigint, v1 bigint, v2 bigint, v3 bigint, corners float8[]);
 CREATE TABLE before (LIKE abacus_simplex);
 CREATE VIEW difference AS
@@ -79,3 +79,28 @@ SELECT * FROM abacus_delete_returning('grid', 'VALUES (1, 0, 0)');
 COMMIT;
 SELECT abacus_load('notch', 'SELECT * FROM (VALUES (1, 0, 0), (2, 4, 0), (3, 1, 1), (4, 0, 4)) v(id, x, y)', 'SELECT * FROM (VALUES (1, 2, 3), (1, 3, 4)) s(v0, v1, v2)');
 SELECT * FROM abacus_insert_returning('notch', 'VALUES (5, 9, 9)');
+-- who may not change the mesh, and what is rolled back
+CREATE ROLE regress_returning_user;
+GRANT USAGE ON SCHEMA regress_returning TO regress_returning_user;
+GRANT SELECT ON grid, grid_vertices TO regress_returning_user;
+SET ROLE regress_returning_user;
+SELECT * FROM abacus_insert_returning('grid', 'VALUES (1, 4, 0, 6)');
+\echo :LAST_ERROR_SQLSTATE
+SELECT * FROM abacus_delete_returning('grid', 'VALUES (1, 0, 0)');
+RESET ROLE;
+CREATE TABLE kept AS SELECT * FROM abacus_simplices('grid');
+BEGIN;
+SAVEPOINT a;
+SELECT count(*) = (SELECT count(*) FROM kept) AS all_gone, bool_or(created) AS some_new FROM abacus_delete_returning('grid', 'SELECT id, x, y FROM abacus_vertices(''grid'')');
+SELECT count(*) FROM abacus_simplices('grid');
+ROLLBACK TO a;
+SELECT count(*) FROM (SELECT * FROM abacus_simplices('grid') EXCEPT TABLE kept) s;
+-- the whole change takes place, however many rows are wanted
+SELECT count(*) FROM (SELECT FROM abacus_insert_returning('grid', 'VALUES (9001, 0.3, 0.2, 0), (9002, 9.7, 9.8, 0)') LIMIT 1) s;
+SELECT id FROM abacus_vertices('grid') WHERE id > 9000 ORDER BY id;
+ROLLBACK;
+SELECT count(*) FROM (TABLE kept EXCEPT SELECT * FROM abacus_simplices('grid')) s;
+
+SET client_min_messages = warning;
+DROP SCHEMA regress_returning CASCADE;
+DROP ROLE regress_returning_user;

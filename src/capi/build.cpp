@@ -26,11 +26,12 @@ struct abacus_build {
 
     abacus::StoredPages stored;
     const abacus::Host host;
-    // Before the build, which writes to it. It sorts with one thread (simplex_changes.hpp).
+    // Of what sorts with one thread (simplex_changes.hpp).
     abacus_host alone;
     std::optional<abacus::Host> lone_host;
-    std::optional<abacus::ByDimension<abacus::SimplexChanges>> changes;
     abacus::ByDimension<abacus::Build> build;
+    // They go before the build: what a thread has handed over is memory of its crew.
+    std::optional<abacus::ByDimension<abacus::SimplexChanges>> changes;
 };
 
 abacus_status abacus_build_open(const abacus_host *host, const abacus_header *header,

@@ -55,6 +55,9 @@ public:
 
 private:
     static constexpr std::uint64_t report_every = 256; // vertices
+    /// Each page is loaded once, and those that are written tell how much the next ones may hold.
+    /// So a cache for some of them does better than a large one.
+    static constexpr std::size_t pass_bytes = std::size_t{1} << 20;
 
     void convert(const double *from, std::uint64_t *to) const {
         for (const std::uint32_t source : source_)
@@ -155,7 +158,7 @@ private:
     /// With so many attributes in the pages of simplices.
     void rewrite_simplices(int attributes) {
         Cache<D> cache(host_, build_.domain_, attributes,
-                       CacheOptions{.budget = build_.cache_bytes_,
+                       CacheOptions{.budget = std::min(build_.cache_bytes_, pass_bytes),
                                     .former = {static_cast<int>(build_.attributes_), source_}});
         Pacer pacer(host_);
         pacer.begin(ABACUS_PHASE_FLUSHING, build_.header_->simplices + build_.header_->ghosts);

@@ -44,6 +44,8 @@ template <int D> struct SimplexWords {
 
     static constexpr std::uint64_t sign = std::uint64_t{1} << 63; // of an id: turned for sorting
 };
+static_assert(sizeof(SimplexWords<2>) == SimplexWords<2>::words * sizeof(std::uint64_t));
+static_assert(sizeof(SimplexWords<3>) == SimplexWords<3>::words * sizeof(std::uint64_t));
 
 /// Of a simplex that is not a ghost.
 template <int D>
@@ -74,8 +76,8 @@ public:
     };
 
     SimplexLog(const Memory &memory, std::size_t bytes, Overflow &overflow)
-        : most_(std::max(bytes / bytes_each, least)), overflow_(overflow), entries_(memory),
-          hashes_(memory), slots_(memory) {}
+        : most_(std::clamp<std::size_t>(bytes / bytes_each, least, none)), overflow_(overflow),
+          entries_(memory), hashes_(memory), slots_(memory) {}
 
     /// A simplex has been created, or is about to be destroyed. Its vertices are in the cache.
     void come(const Cache<D> &cache, Handle h) { note(cache, h, 1); }
@@ -103,9 +105,9 @@ public:
 
 private:
     static constexpr std::uint32_t none = 0xffffffffu;
-    /// With its slots, of which up to three in four are free.
+    /// Arrays have up to a quarter more room than they need, and three in four slots may be free.
     static constexpr std::size_t bytes_each =
-        sizeof(SimplexWords<D>) + sizeof(std::uint32_t) + 4 * HashSlots<none>::slot_bytes;
+        (sizeof(SimplexWords<D>) + sizeof(std::uint32_t)) * 5 / 4 + 4 * HashSlots<none>::slot_bytes;
     static constexpr std::size_t least = 16;
 
     void note(const Cache<D> &cache, Handle h, std::int64_t change) {

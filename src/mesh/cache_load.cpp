@@ -58,10 +58,13 @@ template <int D> bool Cache<D>::has_former_attributes(const abacus_page &page) c
 }
 
 template <int D> void Cache<D>::read_attributes(int vertex) {
-    const bool is_outdated = view_.attributes() != vertices_.attribute_count();
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-        const std::uint32_t source =
-            is_outdated ? options_.former.source[i] : static_cast<std::uint32_t>(i);
+    const int count = vertices_.attribute_count();
+    if (view_.attributes() == count) {
+        for (int i = 0; i < count; ++i) values_[i] = view_.attribute(vertex, i);
+        return;
+    }
+    for (int i = 0; i < count; ++i) {
+        const std::uint32_t source = options_.former.source[i];
         values_[i] = source == no_attribute ? std::numeric_limits<double>::quiet_NaN()
                                             : view_.attribute(vertex, static_cast<int>(source));
     }

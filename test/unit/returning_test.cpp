@@ -82,7 +82,9 @@ TYPED_TEST(Returning, OfEqualPointsAnotherVertexMakesAnotherSimplex) {
     Returned<D> returned(mesh);
     const auto points = this->grid(600);
     returned.insert(points);
-    returned.insert(this->grid(600)); // all stay beside the vertices
+    auto others = points; // at the same places: all stay beside the vertices
+    for (auto &p : others) p.id = this->next_id++;
+    returned.insert(others);
     EXPECT_TRUE(returned.rows.empty());
     returned.insert(this->grid(40), ABACUS_REPLACE);
     EXPECT_FALSE(returned.rows.empty());
@@ -161,16 +163,16 @@ TYPED_TEST(Returning, EndsWellWhateverFails) {
                 const abacus_status ended = abacus_stage_end(stage, &mesh.header, &mesh.error);
                 if (ended != ABACUS_OK) return ended;
                 return mesh.with_build([&](abacus_build *build) {
-                    abacus_status status = abacus_build_log(build, 1, &mesh.error);
-                    if (status == ABACUS_OK)
-                        status = abacus_build_insert(build, stage, ABACUS_KEEP, &mesh.header,
-                                                     &mesh.error);
+                    abacus_status step = abacus_build_log(build, 1, &mesh.error);
+                    if (step == ABACUS_OK)
+                        step = abacus_build_insert(build, stage, ABACUS_KEEP, &mesh.header,
+                                                   &mesh.error);
                     const auto ignore = [](void *, int, const abacus_simplex *) {
                         return ABACUS_HOST_OK;
                     };
-                    if (status == ABACUS_OK)
-                        status = abacus_build_report(build, ignore, nullptr, &mesh.error);
-                    return status;
+                    if (step == ABACUS_OK)
+                        step = abacus_build_report(build, ignore, nullptr, &mesh.error);
+                    return step;
                 });
             });
             failures = status == ABACUS_OK ? 0 : 1;

@@ -68,7 +68,7 @@ put_simplex(void *context, int created, const abacus_simplex *simplex)
 					isnull + CHANGED_SIMPLEX);
 	GUARD_BEGIN();
 	values[CHANGED_CORNERS] = float_matrix(corners, dimension + 1, dimension);
-	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
+	answers_add(answers, values, isnull);
 	pfree(DatumGetPointer(values[CHANGED_CORNERS]));
 	GUARD_END(answers->host);
 	return ABACUS_HOST_OK;
