@@ -50,6 +50,7 @@ CORE_SOURCES += src/delaunay/crowding.cpp
 CORE_SOURCES += src/delaunay/hole.cpp
 CORE_SOURCES += src/delaunay/insertion.cpp
 CORE_SOURCES += src/delaunay/interval.cpp
+CORE_SOURCES += src/delaunay/label_heirs.cpp
 CORE_SOURCES += src/delaunay/label_sweep.cpp
 CORE_SOURCES += src/delaunay/link_mesh.cpp
 CORE_SOURCES += src/delaunay/marker_sweep.cpp

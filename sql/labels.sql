@@ -24,10 +24,10 @@ SELECT * FROM abacus_check('notch');
 CREATE TABLE points AS SELECT i AS id, (i * 7919) % 1009 AS x, (i * 104729) % 997 AS y FROM generate_series(1, 4000) i;
 SELECT abacus_triangulate('field', 'TABLE points');
 SELECT count(*), count(labels[1]) FROM abacus_cells('field');
-SELECT abacus_label('field', 'SELECT code, v0, v1, v2, v0 * 1000003 + v1 * 1009 + v2 AS n, code % 5 AS fifth FROM abacus_simplices(''field'')')
+SELECT abacus_label('field', 'SELECT code, v0, v1, v2, v0 * 1000003 + v1 * 1009 + v2 AS n, v1 % 5 AS fifth FROM abacus_simplices(''field'')')
     = (SELECT count(*) FROM abacus_simplices('field')) AS all_of_them;
 CREATE VIEW wrong AS SELECT v0, v1, v2, labels FROM abacus_cells('field')
-    WHERE labels <> ARRAY[v0 * 1000003 + v1 * 1009 + v2, code % 5]::float8[];
+    WHERE labels[1] <> v0 * 1000003 + v1 * 1009 + v2 OR labels[2] <> v1 % 5;
 CREATE TABLE before AS SELECT v0, v1, v2 FROM abacus_cells('field');
 CREATE VIEW lost AS SELECT v0, v1, v2 FROM abacus_cells('field') JOIN before USING (v0, v1, v2) WHERE labels[1] IS NULL;
 CREATE VIEW found AS SELECT v0, v1, v2 FROM abacus_cells('field') LEFT JOIN before b USING (v0, v1, v2) WHERE b IS NULL AND labels <> '{NULL,NULL}';
@@ -75,6 +75,12 @@ CREATE VIEW kept AS SELECT marker, least(v0, v1) AS a, greatest(v0, v1) AS b FRO
 (SELECT * FROM marked WHERE (a, b) IN (TABLE edges) EXCEPT TABLE kept) UNION ALL (TABLE kept EXCEPT SELECT * FROM marked WHERE (a, b) IN (TABLE edges));
 SELECT (SELECT count(*) FROM kept) < (SELECT count(*) FROM marked) AS some_have_gone;
 SELECT * FROM abacus_check('field');
+-- edges of the hull that get a triangle beyond them
+SELECT abacus_triangulate('outer', 'VALUES (1, 0, 0), (2, 4, 0), (3, 4, 3), (4, 0, 3), (5, 2, 1)');
+SELECT abacus_mark('outer', 'SELECT code, v0, v1, v2, f, 1 FROM abacus_simplices(''outer'') s, generate_series(0, 2) f WHERE abacus_walk(''outer'', s, f) IS NULL');
+SELECT abacus_insert('outer', 'VALUES (6, 20, 1.5)');
+SELECT marker, v0, v1 FROM abacus_facets('outer') ORDER BY v0, v1;
+SELECT * FROM abacus_check('outer');
 SELECT abacus_mark('notch', 'SELECT 1, 2, 3, 4, 0, 1');
 SELECT abacus_mark('notch', 'SELECT code, v0, v1, v2, 3, 1 FROM abacus_simplices(''notch'')');
 SELECT abacus_mark('notch', 'SELECT code, v0, v1, v2, 0, 1.5 FROM abacus_simplices(''notch'')');
@@ -88,13 +94,122 @@ SELECT abacus_load('bad', 'TABLE corner', 'SELECT v0, v1, v2 FROM part', facets 
 SELECT abacus_load('bad', 'TABLE corner', 'SELECT v0, v1, v2 FROM part', facets => 'VALUES (2, 2, 5), (1, 2, 2.5)');
 SELECT abacus_load('bad', 'TABLE corner', 'SELECT v0, v1, v2 FROM part', facets => 'VALUES (2, 1)');
 
+-- Rays, sections and figures tell them, too.
+SELECT enters, v0, v1, v2, labels FROM abacus_ray('notch', '{0.25, 3}', '{0, -1}');
+SELECT count(*) > 10 AS some, count(*) FILTER (WHERE labels IS DISTINCT FROM abacus_labels('field', (code, v0, v1, v2, v3))) AS wrong FROM abacus_ray('field', '{0, 0}', '{5, 4}');
+SELECT count(*) > 10 AS some, count(*) FILTER (WHERE labels IS DISTINCT FROM abacus_labels('solid_mesh', (code, v0, v1, v2, v3))) AS wrong FROM abacus_ray('solid_mesh', '{-1, 50, 50}', '{1, 0.01, 0.02}');
+SELECT abacus_triangulate('dice', 'VALUES (1, 0, 0, 0), (2, 4, 0, 0), (3, 0, 4, 0), (4, 0, 0, 4)', dimension => 3);
+SELECT labels FROM abacus_section('dice', '{0, 0, 1}', '{0, 0, 1}');
+SELECT abacus_label('dice', 'SELECT code, v0, v1, v2, v3, 6 AS eyes FROM abacus_simplices(''dice'')');
+SELECT polygon, labels FROM abacus_section('dice', '{0, 0, 1}', '{0, 0, 1}');
+SELECT polygon, labels FROM abacus_section('dice', '{0, 0, 0}', '{0, 0, 1}');
+SELECT polygon, labels FROM abacus_section('dice', '{0, 0, 0}', '{0, 0, -1}');
+WITH polygons AS MATERIALIZED (SELECT row_number() OVER () AS id, code, polygon, labels FROM abacus_section('solid_mesh', '{50, 50, 50}', '{1, 2, 3}', 'a'))
+SELECT count(*) > 10 AS some, count(*) FILTER (WHERE NOT EXISTS (SELECT FROM abacus_cells('solid_mesh') c WHERE c.code = p.code AND c.labels IS NOT DISTINCT FROM p.labels)) AS wrong FROM polygons p;
+-- pictures: a window in one triangle has the colour of its label, as that of an attribute
+SELECT abacus_triangulate('tile', 'VALUES (1, 0, 0), (2, 4, 0), (3, 0, 4), (4, 5, 5), (5, -3, -3)');
+SELECT abacus_label('tile', 'SELECT code, v0, v1, v2, NULLIF(v0 + v1 + v2, 8) AS ids FROM abacus_simplices(''tile'')');
+SELECT v0 + v1 + v2 AS ids, labels FROM abacus_cells('tile') ORDER BY ids;
+CREATE FUNCTION window_at(mesh regclass, attribute text, x float8, y float8) RETURNS bytea LANGUAGE sql AS $$
+    SELECT abacus_draw(mesh, width => 8, height => 8, lower => ARRAY[x, y], upper => ARRAY[x + 0.1, y + 0.1], attribute => attribute, edges => false, range => '{0,20}') $$;
+SELECT abacus_triangulate('plain', 'VALUES (1, -50, -50, 9, 6, NULL::float8), (2, 50, -50, 9, 6, NULL), (3, 0, 50, 9, 6, NULL)', '{nine,six,missing}');
+SELECT window_at('tile', 'ids', 3, 3) = window_at('plain', 'nine', 3, 3) AS nine, window_at('tile', 'ids', 1, 1) = window_at('plain', 'six', 1, 1) AS six,
+       window_at('tile', 'ids', 1, -0.5) = window_at('plain', 'missing', 1, -0.5) AS missing, window_at('tile', 'ids', 1, 1) = window_at('tile', 'ids', 3, 3) AS same;
+SELECT length(abacus_draw('tile', 32, attribute => 'ids', contours => 1)) > 0 AS drawn;
+SELECT abacus_triangulate('other_dice', 'VALUES (1, 0, 0, 0, 6), (2, 4, 0, 0, 6), (3, 0, 4, 0, 6), (4, 0, 0, 4, 6)', '{six}', 3);
+SELECT abacus_draw_section('dice', '{0, 0, 1}', '{0, 0, 1}', 16, attribute => 'eyes', range => '{0,20}', edges => false) = abacus_draw_section('other_dice', '{0, 0, 1}', '{0, 0, 1}', 16, attribute => 'six', range => '{0,20}', edges => false) AS six;
+SELECT abacus_draw('tile', attribute => 'none');
+SELECT name, value FROM abacus_stats('notch') WHERE name IN ('labels', 'labelled', 'marked') ORDER BY name;
+SELECT count(*) FROM abacus_stats('dice') WHERE name = 'marked';
+
+-- New simplices inherit: each what the simplex has in which its centroid lay, which a mesh that does not change tells.
+SELECT abacus_create('empty', 2);
+SELECT abacus_inherit_labels('empty');
+CREATE TABLE strewn AS SELECT i AS id, u - floor(u) AS x, v - floor(v) AS y, w - floor(w) AS z FROM generate_series(1, 3000) i,
+    LATERAL (SELECT sin(i * 12.9898) * 43758.5453 AS u, sin(i * 78.233) * 24634.6345 AS v, sin(i * 37.719) * 13758.7431 AS w) s;
+SELECT abacus_triangulate(m, 'SELECT id, x, y FROM strewn WHERE id <= 2000') FROM (VALUES ('heir'), ('old')) m (m);
+SELECT abacus_label(m, format('SELECT code, v0, v1, v2, %s FROM abacus_simplices(%L) WHERE v0 %% 10 > 0', string_agg(format('v0 * %s AS l%s', n, n), ', ' ORDER BY n), m)) > 3000 AS most
+    FROM (VALUES ('heir'), ('old')) m (m), generate_series(1, 40) n GROUP BY m;
+SELECT abacus_inherit_labels('heir');
+CREATE VIEW heirs AS SELECT c.labels AS "is", abacus_labels('old', abacus_locate('old', c.corners[1][1] / 3 + c.corners[2][1] / 3 + c.corners[3][1] / 3, c.corners[1][2] / 3 + c.corners[2][2] / 3 + c.corners[3][2] / 3)) AS was FROM abacus_cells('heir') c;
+SELECT abacus_insert('heir', 'SELECT id, x * 1.1, y * 1.1 FROM strewn WHERE id > 2000'); -- some are outside
+SELECT count(*), count(*) FILTER (WHERE "is"[40] > 0) > 4500 AS most, count(*) FILTER (WHERE "is" IS DISTINCT FROM COALESCE(was, array_fill(NULL::float8, '{40}'))) AS wrong FROM heirs;
+SELECT * FROM abacus_check('heir');
+-- back again: what came goes, and others inherit from it
+SELECT abacus_delete('heir', 'SELECT id, x * 1.1, y * 1.1 FROM strewn WHERE id > 2000');
+SELECT count(*), count(*) FILTER (WHERE "is"[40] > 0) > 3000 AS most FROM heirs;
+SELECT * FROM abacus_check('heir');
+SELECT abacus_inherit_labels('heir', false);
+SELECT value FROM abacus_stats('heir') WHERE name = 'labels_inherited';
+SELECT abacus_insert('heir', 'SELECT id, x * 1.1, y * 1.1 FROM strewn WHERE id > 2000');
+SELECT count(*), count(*) FILTER (WHERE "is"[40] > 0) < 3000 AS fewer FROM heirs;
+SELECT abacus_triangulate(m, 'SELECT id, x, y, z FROM strewn WHERE id <= 700', dimension => 3) FROM (VALUES ('heir_solid'), ('old_solid')) m (m);
+SELECT abacus_label(m, format('SELECT code, v0, v1, v2, v3, v0 AS l FROM abacus_simplices(%L)', m)) > 3000 AS all_of_them FROM (VALUES ('heir_solid'), ('old_solid')) m (m);
+SELECT abacus_inherit_labels('heir_solid');
+SELECT abacus_insert('heir_solid', 'SELECT id, x, y, z FROM strewn WHERE id > 2700'), abacus_delete('heir_solid', 'SELECT id, x, y, z FROM strewn WHERE id > 2700');
+SELECT abacus_insert('heir_solid', 'SELECT id, x, y, z FROM strewn WHERE id > 2700') FROM abacus_label('heir_solid', 'SELECT code, v0, v1, v2, v3, v0 AS l FROM abacus_simplices(''heir_solid'')');
+SELECT count(*), count(*) FILTER (WHERE is_now IS DISTINCT FROM was) AS wrong FROM (SELECT labels[1] AS is_now, (abacus_labels('old_solid', abacus_locate('old_solid', x[1] / 4 + x[2] / 4 + x[3] / 4 + x[4] / 4, y[1] / 4 + y[2] / 4 + y[3] / 4 + y[4] / 4, z[1] / 4 + z[2] / 4 + z[3] / 4 + z[4] / 4)))[1] AS was
+    FROM abacus_cells('heir_solid'), LATERAL (SELECT ARRAY(SELECT corners[i][1] FROM generate_series(1, 4) i) AS x, ARRAY(SELECT corners[i][2] FROM generate_series(1, 4) i) AS y, ARRAY(SELECT corners[i][3] FROM generate_series(1, 4) i) AS z) c) compared;
+SELECT * FROM abacus_check('heir_solid');
+
+-- Attributes come and go, in the simplex pages and apart; labels and markers stay.
+CREATE TABLE solid_labels AS SELECT v0, v1, v2, v3, labels FROM abacus_cells('solid_mesh');
+CREATE VIEW solid_changed AS (SELECT v0, v1, v2, v3, labels FROM abacus_cells('solid_mesh') EXCEPT TABLE solid_labels) UNION ALL (TABLE solid_labels EXCEPT SELECT v0, v1, v2, v3, labels FROM abacus_cells('solid_mesh'));
+SELECT abacus_mark('solid_mesh', 'SELECT code, v0, v1, v2, v3, 0, v1 % 10 FROM abacus_simplices(''solid_mesh'') WHERE v0 % 3 = 0') > 0 AS some;
+CREATE TABLE solid_facets AS SELECT * FROM abacus_facets('solid_mesh');
+SELECT abacus_add_attribute('solid_mesh', 'd');
+SELECT abacus_drop_attribute('solid_mesh', 'a');
+SELECT abacus_labels('solid_mesh'), (SELECT string_agg(name, ' ') FROM abacus_attributes('solid_mesh')) AS attributes;
+TABLE solid_changed;
+SELECT abacus_drop_attribute('solid_mesh', name) FROM (VALUES ('b'), ('c'), ('d')) n (name);
+SELECT abacus_labels('solid_mesh'), (SELECT count(*) FROM abacus_attributes('solid_mesh')) AS attributes;
+TABLE solid_changed;
+TABLE solid_facets EXCEPT SELECT * FROM abacus_facets('solid_mesh');
+SELECT * FROM abacus_check('solid_mesh');
+SELECT abacus_add_attribute('solid_mesh', 'e'), abacus_label('solid_mesh', 'SELECT code, v0, v1, v2, v3, 1 AS e2 FROM abacus_simplices(''solid_mesh'') LIMIT 1');
+SELECT abacus_labels('solid_mesh'), (SELECT string_agg(name, ' ') FROM abacus_attributes('solid_mesh')) AS attributes;
+SELECT * FROM abacus_check('solid_mesh');
+SELECT abacus_rename_attribute('solid_mesh', 'e', 'material');
+SELECT abacus_add_attribute('solid_mesh', 'material');
+SELECT abacus_drop_attribute('solid_mesh', 'material');
+-- a mesh with many attributes in its simplex pages gets them apart
+SELECT abacus_create('former', 2, '{a,b,c,d,e,f}');
+UPDATE former SET page = set_byte(page::bytea, 6, 3)::abacus_page WHERE code = -1;
+SELECT abacus_insert('former', 'SELECT id, x, y, id, id, id, id, id, id FROM points');
+SELECT abacus_label('former', 'SELECT code, v0, v1, v2, v0 AS first FROM abacus_simplices(''former'')') > 0 AS some;
+CALL abacus_build('former');
+SELECT count(*) FROM abacus_cells('former') WHERE labels <> ARRAY[v0]::float8[];
+SELECT array_agg(name) FROM abacus_attributes('former') WHERE "least" = 1 AND "greatest" = 4000;
+SELECT * FROM abacus_check('former');
+-- what a change has changed
+CREATE TABLE told AS SELECT created, v0, v1, v2 FROM abacus_insert_returning('field', 'SELECT 50000, 500.125, 500.375');
+SELECT created, count(*) > 2 AS some FROM told GROUP BY created ORDER BY created;
+SELECT count(*) AS wrong FROM abacus_delete_returning('field', 'SELECT 50000, 500.125, 500.375') d FULL JOIN told t ON (d.v0, d.v1, d.v2, d.created) = (t.v0, t.v1, t.v2, NOT t.created) WHERE d IS NULL OR t IS NULL;
+-- what came back in another call has no labels
+TABLE lost EXCEPT SELECT v0, v1, v2 FROM told WHERE NOT created;
+SELECT (SELECT count(*) FROM lost) = (SELECT count(*) FROM told JOIN before USING (v0, v1, v2) WHERE NOT created) AS all_of_them;
+TABLE wrong UNION ALL SELECT *, NULL FROM found;
+SELECT * FROM abacus_check('field');
+-- all names together
+SELECT abacus_create('names', 2, array_agg('a' || i)) FROM generate_series(1, 90) i;
+SELECT abacus_insert('names', 'SELECT i, i % 2, i / 2, ' || string_agg(n::text, ', ') || ' FROM generate_series(0, 2) i') FROM generate_series(1, 90) n;
+SELECT abacus_label('names', 'SELECT code, v0, v1, v2, ' || string_agg(n || ' AS l' || n, ', ' ORDER BY n) || ' FROM abacus_simplices(''names'')') FROM generate_series(1, 25) n;
+SELECT labels[1] = 1 AND labels[25] = 25 AS all_of_them, array_length(labels, 1) FROM abacus_cells('names');
+SELECT abacus_label('names', 'SELECT code, v0, v1, v2, 1 AS one_more FROM abacus_simplices(''names'')');
+SELECT abacus_add_attribute('names', 'one_more');
+SELECT abacus_drop_attribute('names', 'a2');
+SELECT abacus_label('names', 'SELECT code, v0, v1, v2, 26 AS one_more FROM abacus_simplices(''names'')');
+SELECT labels[1] = 1 AND labels[25] = 25 AND labels[26] = 26 AS all_of_them, (abacus_labels('names'))[26] FROM abacus_cells('names');
+SELECT position, name, "least" FROM abacus_attributes('names') WHERE position IN (1, 2, 89) ORDER BY position;
+SELECT * FROM abacus_check('names');
+
 -- Errors change nothing.
 SELECT abacus_label('notch', 'SELECT 1, 2, 3, 4');
 SELECT abacus_label('notch', 'SELECT 1, 2, 3, 4, 5 AS soil, 6 AS soil');
 SELECT abacus_label('notch', 'SELECT 1, 2, 3, 4, 5 AS soil');
 SELECT abacus_label('notch', 'SELECT code, v0, v1, v2, ''clay'' AS soil FROM abacus_simplices(''notch'')');
 SELECT abacus_label('notch', 'SELECT code, v0, v1, NULL::int, 1 AS soil FROM abacus_simplices(''notch'')');
-SELECT abacus_label('solid_mesh', 'SELECT code, v0, v1, v2, v3, 1 AS b FROM abacus_simplices(''solid_mesh'')');
+SELECT abacus_label('solid_mesh', 'SELECT code, v0, v1, v2, v3, 1 AS e FROM abacus_simplices(''solid_mesh'')');
 SELECT abacus_labels('notch', (1, 2, 3, 4, NULL)::abacus_simplex);
 SELECT abacus_load('bad', 'TABLE corner', 'TABLE part');
 SELECT abacus_load('bad', 'TABLE corner', 'TABLE part', labels => '{soil}');

@@ -30,7 +30,8 @@ typedef struct abacus_drawing
 	   plane within it. */
 	double lower[ABACUS_MAX_DIMENSION], upper[ABACUS_MAX_DIMENSION];
 	int32_t width, height;     /* pixels, 1 to 16384; height 0 = from the window's shape */
-	int32_t attribute;         /* vertex attribute that gives colour and relief; -1 = none */
+	int32_t attribute;         /* vertex attribute that gives colour and relief; -1 = none; of a mesh
+	                              also a label of simplices, numbered behind the attributes */
 	int32_t edges;             /* 1: draw the edges of the triangles, or of the section */
 	double exaggeration;       /* values are multiplied by this for the hill shading; 0 = no shading */
 	double max_edge;           /* leave out simplices with a longer edge; 0 = none */

@@ -131,6 +131,7 @@ typedef struct abacus_header
 							  ABACUS_MAX_NAMES */
 	uint64_t labelled;     /* simplices that have some */
 	uint64_t marked;       /* simplices beside a facet with a marker */
+	uint32_t inherits;     /* 1: a new simplex gets the labels of the one that its centroid lay in */
 	char names[ABACUS_MAX_NAMES][ABACUS_NAME_BYTES]; /* of attributes, then of labels */
 } abacus_header;
 

@@ -12,11 +12,13 @@ extern "C" {
 #endif
 
 /*
- * Gets a simplex that a ray meets, and the parameters between which it does; valid during the call.
- * May fail as a host function may.
+ * Gets a simplex that a ray meets, its labels, as many as the header names, NaN where it has none,
+ * and the parameters between which the ray meets it; valid during the call. May fail as a host
+ * function may.
  */
 typedef abacus_host_status (*abacus_ray_report)(void *context, double enters, double leaves,
-												const abacus_simplex *simplex);
+												const abacus_simplex *simplex,
+												const double *labels);
 /*
  * Reports, in order, the simplices that have more than a point in common with a ray. Of those that
  * have the same piece of it, around an edge or on both sides of a facet, only the one that

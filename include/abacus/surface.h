@@ -80,6 +80,12 @@ ABACUS_API abacus_status abacus_sections_open(const abacus_host *host, const aba
 											  abacus_sections **sections, abacus_error *error);
 ABACUS_API abacus_status abacus_sections_next(abacus_sections *sections, abacus_polygon *polygon,
 											  abacus_error *error);
+/*
+ * The labels of the tetrahedron of the polygon that came last, of a ghost those of the one behind it,
+ * as many as the header names, NaN where it has none; valid until the next call.
+ */
+ABACUS_API abacus_status abacus_sections_labels(abacus_sections *sections, const double **labels,
+												abacus_error *error);
 ABACUS_API void abacus_sections_close(abacus_sections *sections);
 
 #ifdef __cplusplus

@@ -24,6 +24,13 @@ LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_label(regclass, text) IS
     'gives simplices labels, numbers by name: for each row (code, v0, v1, v2[, v3], columns named after labels) the simplex with this code and these vertices; returns how many rows there were';
 
+CREATE FUNCTION abacus_inherit_labels(mesh regclass, inherit boolean DEFAULT true)
+RETURNS void
+AS 'MODULE_PATHNAME', 'abacus_sql_inherit_labels'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_inherit_labels(regclass, boolean) IS
+    'whether from now on a new simplex of a mesh gets the labels of the simplex that its centroid lay in; otherwise it has none';
+
 CREATE FUNCTION abacus_labels(mesh regclass)
 RETURNS text[]
 AS 'MODULE_PATHNAME', 'abacus_sql_labels'

@@ -35,12 +35,13 @@ CREATE FUNCTION abacus_ray(
     OUT v0 bigint,
     OUT v1 bigint,
     OUT v2 bigint,
-    OUT v3 bigint)
+    OUT v3 bigint,
+    OUT labels double precision[])
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_ray'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_line_rows;
 COMMENT ON FUNCTION abacus_ray(regclass, double precision[], double precision[]) IS
-    'the simplices that a ray meets, in order, and where it enters and leaves them, counted in directions';
+    'the simplices that a ray meets, in order, where it enters and leaves them, counted in directions, and their labels';
 
 CREATE FUNCTION abacus_visible(
     mesh regclass,

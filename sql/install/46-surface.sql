@@ -32,9 +32,10 @@ CREATE FUNCTION abacus_section(
     max_edge double precision DEFAULT NULL,
     OUT code bigint,
     OUT polygon double precision[],
-    OUT "values" double precision[])
+    OUT "values" double precision[],
+    OUT labels double precision[])
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_section'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 10000 SUPPORT abacus_surface_rows;
 COMMENT ON FUNCTION abacus_section(regclass, double precision[], double precision[], text, double precision) IS
-    'what the plane through a point with a normal has of each tetrahedron of a mesh of dimension 3, with an attribute at its corners';
+    'what the plane through a point with a normal has of each tetrahedron of a mesh of dimension 3, with an attribute at its corners, and its labels';

@@ -49,6 +49,10 @@ inline constexpr int attribute_group_shift = 63 - attribute_code_low_bits;
 inline constexpr unsigned groups_of_kind = 256;
 template <int K> inline constexpr unsigned first_group = K == 1 ? 0 : groups_of_kind;
 inline constexpr unsigned marker_group = 2 * groups_of_kind;
+/// The group behind those of the kind that begins with a group; the last kind has all others.
+constexpr unsigned end_of_kind(unsigned first) {
+    return first == marker_group ? 4 * groups_of_kind : first + groups_of_kind;
+}
 
 /// The least key of a group; also the end of the one before.
 constexpr Key group_begin(unsigned group) {
@@ -113,7 +117,6 @@ constexpr bool is_null(std::uint64_t rank) {
     constexpr double most = std::numeric_limits<double>::infinity();
     return rank < ordered(-most) || ordered(most) < rank;
 }
-
 
 /// Markers of facets are numbers that are integers of four bytes.
 inline bool is_marker(double marker) {

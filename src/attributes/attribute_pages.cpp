@@ -277,8 +277,10 @@ void AttributePages<D, K>::put(const Name &owner, std::uint64_t code, const doub
 }
 
 template <int D, int K>
-void AttributePages<D, K>::put_new(const Name &owner, std::uint64_t code, const double *values) {
-    if (!pages_[0].contains(attribute_key<D, K>(owner, code), owner)) put(owner, code, values);
+bool AttributePages<D, K>::put_new(const Name &owner, std::uint64_t code, const double *values) {
+    if (pages_[0].contains(attribute_key<D, K>(owner, code), owner)) return false;
+    put(owner, code, values);
+    return true;
 }
 
 template <int D, int K>

@@ -100,8 +100,8 @@ public:
 
     /// Sets the attributes of an owner, which has this code.
     void put(const Name &owner, std::uint64_t code, const double *values);
-    /// The same for an owner that has none yet.
-    void put_new(const Name &owner, std::uint64_t code, const double *values);
+    /// The same for an owner that has none yet; whether it had none.
+    bool put_new(const Name &owner, std::uint64_t code, const double *values);
     /// Sets some attributes of an owner, which are `which`; false if it has none. Reads and writes
     /// only pages that have one of these.
     bool set(const Name &owner, std::uint64_t code, std::span<const std::uint32_t> which,

@@ -144,7 +144,7 @@ template <int D, int K> bool AttributeScan<D, K>::fetch() {
     abacus_page page{};
     const bool any = started_ ? host_.next(ABACUS_ATTRIBUTE_PAGES, &key_, page)
                               : find_first(host_, first_, page);
-    if (!any || group_of(page.key) >= first_ + groups_of_kind) return false;
+    if (!any || group_of(page.key) >= end_of_kind(first_)) return false;
     started_ = true;
     key_ = page.key;
     size_ = page.size;

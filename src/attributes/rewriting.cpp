@@ -56,7 +56,7 @@ void erase_attributes(const Host &host, unsigned first) {
         const Key before = predecessor(group_begin(first));
         return host.next(ABACUS_ATTRIBUTE_PAGES, &before, page);
     };
-    while (next() && group_of(page.key) < first + groups_of_kind) {
+    while (next() && group_of(page.key) < end_of_kind(first)) {
         host.erase(ABACUS_ATTRIBUTE_PAGES, page);
         host.poll();
     }

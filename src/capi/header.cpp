@@ -171,6 +171,7 @@ template <class Header, class Visit> void visit_label_fields(Header &header, Vis
     visit(header.labels);
     visit(header.labelled);
     visit(header.marked);
+    visit(header.inherits);
 }
 
 /// Labels of simplices and markers of facets.
@@ -181,6 +182,7 @@ void read_labels(Reader &read, abacus_header &header) {
     if (!is_labelled(header) || header.labels > ABACUS_MAX_NAMES - header.attributes ||
         header.labelled >= count_limit || header.marked >= count_limit ||
         (header.labelled > 0 && header.labels == 0) ||
+        header.inherits > (header.labels > 0 ? 1u : 0u) ||
         (header.labelled + header.marked > 0 && header.simplices == 0))
         throw_corrupted("The header's counts of labels and markers contradict the others.");
     read_names(read, header.attributes, header.attributes + header.labels, header);

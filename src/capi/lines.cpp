@@ -24,8 +24,8 @@ abacus_status abacus_mesh_ray(abacus_mesh *mesh, const double *origin, const dou
         if (std::all_of(direction, direction + D, [](double d) { return d == 0; }))
             throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the direction of a ray is 0");
         abacus::LineScan<D>(reader, line).each([&](const abacus::LinePiece<D> &piece) {
-            abacus::host::require(
-                report(context, piece.enters.at, piece.leaves.at, &piece.simplex));
+            abacus::host::require(report(context, piece.enters.at, piece.leaves.at, &piece.simplex,
+                                         mesh->labels.get<D>().of(piece.simplex)));
             return true;
         });
     });

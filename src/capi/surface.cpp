@@ -1,6 +1,7 @@
 // Surfaces through a mesh behind the C interface.
 #include "query/isosurface.hpp"
 #include "query/plane_section.hpp"
+#include "query/simplex_labels.hpp"
 
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
@@ -33,10 +34,11 @@ abacus_status abacus_isosurface(const abacus_host *host, const abacus_header *he
 struct abacus_sections {
     abacus_sections(const abacus_host *table, const abacus_header &header,
                     const abacus_section_query &query)
-        : host(*table), section(host, header, query) {}
+        : host(*table), section(host, header, query), labels(host, header) {}
 
     const abacus::Host host;
     abacus::PlaneSection section;
+    abacus::SimplexLabels<3> labels;
 };
 
 abacus_status abacus_sections_open(const abacus_host *host, const abacus_header *header,
@@ -53,6 +55,15 @@ abacus_status abacus_sections_next(abacus_sections *sections, abacus_polygon *po
                                    abacus_error *error) {
     return abacus::guard(error,
                          [&] { return sections->section.next(*polygon) ? ABACUS_OK : ABACUS_END; });
+}
+
+abacus_status abacus_sections_labels(abacus_sections *sections, const double **labels,
+                                     abacus_error *error) {
+    return abacus::guard(error, [&] {
+        const abacus::PlaneSection &section = sections->section;
+        *labels = sections->labels.of_page(section.page(), section.simplex());
+        return ABACUS_OK;
+    });
 }
 
 void abacus_sections_close(abacus_sections *sections) { abacus::destroy_handle(sections); }

@@ -1,7 +1,7 @@
 // Other attributes for all points of a mesh: more, fewer, or the same in another place.
 //
-// The simplices stay as they are, with their labels, and so does where they lie on the curve. What has attributes is
-// written anew, a kind of pages after the other:
+// The simplices stay as they are, with their labels, and so does where they lie on the curve. What
+// has attributes is written anew, a kind of pages after the other:
 //
 //   points that wait    behind the others, in their order
 //   repeated points     by way of a spool, since they keep their keys

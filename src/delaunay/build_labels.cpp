@@ -1,12 +1,17 @@
 // Labels of simplices and markers of facets while the mesh changes: those of simplices that have
-// gone go (label_sweep.hpp), facets keep theirs (marker_sweep.hpp), and all follow the mesh to
-// another domain.
+// gone go (label_sweep.hpp), or others inherit them (label_heirs.hpp), facets keep theirs
+// (marker_sweep.hpp), and all follow the mesh to another domain.
 #include "attributes/rewriting.hpp"
 #include "blocks/counters.hpp"
 #include "delaunay/build.hpp"
+#include "delaunay/label_heirs.hpp"
 #include "delaunay/marker_sweep.hpp"
 
 namespace abacus {
+
+namespace {
+constexpr std::size_t share = 4; // of the cache's memory, beside it
+} // namespace
 
 /// Of a change that has been stored.
 template <int D> void Build<D>::sweep_labels() {
@@ -17,15 +22,22 @@ template <int D> void Build<D>::sweep_labels() {
     }
     if (header_->labelled > 0) {
         LabelSweep<D> sweep(host_, *header_, domain_, header_->labels, first_group<D + 1>);
+        std::optional<LabelHeirs<D>> heirs;
+        typename LabelSweep<D>::Report lose;
+        if (header_->inherits != 0) {
+            heirs.emplace(host_, header_->labels, cache_bytes_ / share);
+            lose = [&](const auto &simplex, const double *v) { heirs->lose(simplex, v); };
+        }
         std::uint64_t gone = 0;
         for (const StoredPages::Stretch &stretch : stored_->stretches())
-            gone += sweep.sweep(stretch);
+            gone += sweep.sweep(stretch, lose);
         if (gone > header_->labelled) throw_corrupted("The header counts too few labels.");
         header_->labelled -= gone;
+        if (heirs) header_->labelled += heirs->pass_on(sweep, stored_->stretches());
         core_->cache.counters += sweep.finish();
     }
     if (header_->marked > 0) {
-        MarkerSweep<D> sweep(host_, *header_, domain_);
+        MarkerSweep<D> sweep(host_, *header_, domain_, cache_bytes_ / share);
         header_->marked = sweep.sweep(stored_->stretches(), header_->marked);
         core_->cache.counters += sweep.finish();
     }

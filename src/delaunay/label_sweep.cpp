@@ -15,50 +15,59 @@ template <int D>
 LabelSweep<D>::LabelSweep(const Host &host, const abacus_header &header, const Domain<D> &domain,
                           unsigned columns, unsigned first)
     : host_(host), domain_(domain), columns_(AttributeGroups(columns).columns(0)), group_(first),
-      pages_(host, domain, columns, first), keys_(host), is_found_(host),
-      simplices_(host, header, domain) {}
+      values_(host), pages_(host, domain, columns, first), keys_(host), is_found_(host),
+      simplices_(host, header, domain) {
+    values_.resize(columns);
+}
 
+// What is written meanwhile may lie in other pages than before. So it goes on from key to key: what
+// has a lesser one is done with.
 template <int D>
-std::uint64_t LabelSweep<D>::sweep(const StoredPages::Stretch &stretch, const Gone &gone) {
+std::uint64_t LabelSweep<D>::sweep(const StoredPages::Stretch &stretch, const Report &gone,
+                                   const Report &kept) {
     std::uint64_t count = 0;
-    const Key begin = row_begin(group_, stretch.least);
     const Key end = row_begin(group_, stretch.greatest + 1);
-    abacus_page page;
-    bool more = host_.find(ABACUS_ATTRIBUTE_PAGES, begin, page) && group_of(page.key) == group_;
-    while (more) {
-        const Key key = page.key;
-        if (read(page, stretch)) {
-            simplices_.each({code_of(keys_[begin_]), code_of(keys_[end_ - 1])},
-                            [&](const Simplex &s, std::uint64_t code) { find(s, code); });
-            for (std::size_t row = begin_; row < end_; ++row) {
-                if (is_found_[row]) continue;
-                take_away(row, gone);
-                ++count;
-            }
-        }
-        // The pages that follow are as they were: what is written is this one at most, and one that
-        // has been taken into it.
+    for (Key from = row_begin(group_, stretch.least); from < end;) {
+        const Key upper = read(from);
+        begin_ = first_row(from);
+        end_ = first_row(std::min(end, upper, KeyBefore{}));
+        from = upper;
         host_.poll();
-        more = host_.next(ABACUS_ATTRIBUTE_PAGES, &key, page) && page.key < end;
+        if (begin_ == end_) continue;
+        simplices_.each(
+            {code_of(keys_[begin_]), code_of(keys_[end_ - 1])},
+            [&](const Simplex &s, std::uint64_t code) { find(s, code); }, [] {});
+        for (std::size_t row = begin_; row < end_; ++row) {
+            if (is_found_[row]) {
+                if (kept) report(row, kept);
+                continue;
+            }
+            take_away(row, gone);
+            ++count;
+        }
     }
     return count;
 }
 
-template <int D>
-bool LabelSweep<D>::read(const abacus_page &page, const StoredPages::Stretch &stretch) {
+template <int D> Key LabelSweep<D>::read(const Key &from) {
+    const Key group_end = group_begin(group_ + 1);
+    keys_.clear();
+    abacus_page page;
+    if (!host_.find(ABACUS_ATTRIBUTE_PAGES, from, page) || group_of(page.key) != group_)
+        return group_end;
     std::memcpy(bytes_.data(), page.bytes, std::min(page.size, bytes_.size()));
     rows_.read(bytes_.data(), page.size, group_, columns_);
-    rows_.keys(domain_, page.key, group_begin(group_ + 1), keys_);
-    const auto first_from = [&](std::uint64_t code) {
-        const Key key = row_begin(group_, code);
-        return static_cast<std::size_t>(
-            std::lower_bound(keys_.begin(), keys_.end(), key, KeyBefore{}) - keys_.begin());
-    };
-    begin_ = first_from(stretch.least);
-    end_ = first_from(stretch.greatest + 1);
+    rows_.keys(domain_, page.key, group_end, keys_);
     is_found_.resize(rows_.rows());
     std::fill(is_found_.begin(), is_found_.end(), false);
-    return begin_ < end_;
+    const Key lower = page.key;
+    return host_.next(ABACUS_ATTRIBUTE_PAGES, &lower, page) && page.key < group_end ? page.key
+                                                                                    : group_end;
+}
+
+template <int D> std::size_t LabelSweep<D>::first_row(const Key &from) const {
+    return static_cast<std::size_t>(
+        std::lower_bound(keys_.begin(), keys_.end(), from, KeyBefore{}) - keys_.begin());
 }
 
 template <int D> void LabelSweep<D>::find(const Simplex &simplex, std::uint64_t code) {
@@ -71,12 +80,16 @@ template <int D> void LabelSweep<D>::find(const Simplex &simplex, std::uint64_t 
     }
 }
 
-template <int D> void LabelSweep<D>::take_away(std::size_t row, const Gone &gone) {
+template <int D> void LabelSweep<D>::report(std::size_t row, const Report &kept) {
+    for (unsigned i = 0; i < columns_; ++i) values_[i] = rows_.value(row, i);
+    kept(rows_.owner(row), values_.data());
+}
+
+template <int D> void LabelSweep<D>::take_away(std::size_t row, const Report &gone) {
     const Simplex simplex = rows_.owner(row);
     if (gone) {
-        std::array<double, AttributeGroups::widest> values;
-        for (unsigned i = 0; i < columns_; ++i) values[i] = rows_.value(row, i);
-        gone(simplex, values.data());
+        pages_.get(simplex, code_of(keys_[row]), values_.data());
+        gone(simplex, values_.data());
     }
     pages_.erase(simplex, code_of(keys_[row]));
 }

@@ -26,9 +26,10 @@ public:
     SimplicesOfStretch(const Host &host, const abacus_header &header, const Domain<D> &domain)
         : host_(host), domain_(domain), attributes_(page_attributes(header)) {}
 
-    /// Calls visit(simplex, code) for each finite one with a code of the stretch; visit may not
-    /// call the host.
-    template <class Visit> void each(const StoredPages::Stretch &stretch, const Visit &visit) {
+    /// Calls visit(simplex, code) for each finite one with a code of the stretch, and after those
+    /// of a page leave(); visit may not call the host.
+    template <class Visit, class Leave>
+    void each(const StoredPages::Stretch &stretch, const Visit &visit, const Leave &leave) {
         abacus_page page;
         bool more = host_.find(ABACUS_SIMPLEX_PAGES, {stretch.least, 0}, page);
         while (more) {
@@ -42,6 +43,7 @@ public:
                 const std::uint64_t code = code_of<D, D + 1>(domain_, simplex);
                 if (stretch.least <= code && code <= stretch.greatest) visit(simplex, code);
             }
+            leave();
             host_.poll();
             more =
                 host_.next(ABACUS_SIMPLEX_PAGES, &key, page) && page.key.code <= stretch.greatest;
@@ -55,18 +57,28 @@ private:
     PageView<D> view_;
 };
 
+/// What there is for simplices of a page in the order of their rows, so that few pages of rows are
+/// come to again; elements have a simplex and a code.
+template <int D, class T> void sort_along_keys(Arena<T> &elements) {
+    const auto key = [](const T &e) { return attribute_key<D, D + 1>(e.simplex, e.code); };
+    std::sort(elements.begin(), elements.end(),
+              [&](const T &a, const T &b) { return key(a) < key(b); });
+}
+
 template <int D> class LabelSweep {
 public:
     using Simplex = Owner<D, D + 1>;
-    /// Gets a simplex that has gone, and what it had in the first group.
-    using Gone = std::function<void(const Simplex &, const double *)>;
+    /// Gets a simplex that has gone, or that is still there, and what it had.
+    using Report = std::function<void(const Simplex &, const double *)>;
 
     /// Of so many columns, in groups from `first` on.
     LabelSweep(const Host &host, const abacus_header &header, const Domain<D> &domain,
                unsigned columns, unsigned first);
 
     /// Takes away what is without a simplex in a stretch; returns of how many simplices.
-    std::uint64_t sweep(const StoredPages::Stretch &stretch, const Gone &gone = {});
+    /// `kept` is for columns of one group.
+    std::uint64_t sweep(const StoredPages::Stretch &stretch, const Report &gone = {},
+                        const Report &kept = {});
     /// Writes what has been changed; returns the pages that have been moved.
     abacus_counters finish();
 
@@ -74,15 +86,18 @@ public:
     SimplicesOfStretch<D> &simplices() { return simplices_; }
 
 private:
-    /// Reads a page of rows; false if none of its simplices has a code of the stretch.
-    bool read(const abacus_page &page, const StoredPages::Stretch &stretch);
+    /// Reads the page that owns the key, if there is one; returns where the next one begins.
+    Key read(const Key &from);
+    std::size_t first_row(const Key &from) const;
     void find(const Simplex &simplex, std::uint64_t code);
-    void take_away(std::size_t row, const Gone &gone);
+    void take_away(std::size_t row, const Report &gone);
+    void report(std::size_t row, const Report &kept);
 
     const Host &host_;
     const Domain<D> domain_;
     const unsigned columns_; // of the first group
     const unsigned group_;
+    Arena<double> values_; // of a simplex
     AttributePages<D, D + 1> pages_;
     AttributePage<D, D + 1> rows_;
     Arena<Key> keys_;

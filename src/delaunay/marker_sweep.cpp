@@ -5,32 +5,29 @@
 namespace abacus {
 
 template <int D>
-MarkerSweep<D>::MarkerSweep(const Host &host, const abacus_header &header, const Domain<D> &domain)
+MarkerSweep<D>::MarkerSweep(const Host &host, const abacus_header &header, const Domain<D> &domain,
+                            std::size_t memory)
     : domain_(domain), rows_(host, header, domain, D + 1, marker_group), spool_(host, D * D + 1),
-      lost_(host), found_(host) {}
+      room_(std::max(least_room, memory / sizeof(Marked))), marked_(host), found_(host) {}
 
 template <int D>
 std::uint64_t MarkerSweep<D>::sweep(const Arena<StoredPages::Stretch> &stretches,
                                     std::uint64_t marked) {
     std::uint64_t gone = 0, come = 0;
-    for (const StoredPages::Stretch &stretch : stretches)
-        gone += rows_.sweep(stretch, [&](const Simplex &simplex, const double *markers) {
-            lose(simplex, markers);
-        });
+    const auto take = [&](const Simplex &s, const double *markers) { add(s, markers); };
+    for (const StoredPages::Stretch &stretch : stretches) gone += rows_.sweep(stretch, take, take);
     if (gone > marked) throw_corrupted("The header counts too few markers.");
     spool_.rewind();
-    while (read_lost())
+    while (read_marked())
         for (const StoredPages::Stretch &stretch : stretches) {
-            rows_.simplices().each(stretch, [&](const Simplex &simplex, std::uint64_t code) {
-                look_at(simplex, code);
-            });
-            come += mark_found();
+            const auto look = [&](const Simplex &s, std::uint64_t code) { look_at(s, code); };
+            rows_.simplices().each(stretch, look, [&] { come += mark_found(); });
         }
     spool_.close();
     return marked - gone + come;
 }
 
-template <int D> void MarkerSweep<D>::lose(const Simplex &simplex, const double *markers) {
+template <int D> void MarkerSweep<D>::add(const Simplex &simplex, const double *markers) {
     for (int i = 0; i <= D; ++i) {
         if (std::isnan(markers[i])) continue;
         const Owner<D, D> facet = facet_of<D>(simplex, i);
@@ -40,29 +37,30 @@ template <int D> void MarkerSweep<D>::lose(const Simplex &simplex, const double 
     }
 }
 
-template <int D> bool MarkerSweep<D>::read_lost() {
-    lost_.clear();
-    while (lost_.size() < looked_for_at_once) {
+template <int D> bool MarkerSweep<D>::read_marked() {
+    marked_.clear();
+    while (marked_.size() < room_) {
         const std::uint64_t *record = spool_.next();
         if (record == nullptr) break;
-        Lost lost;
-        std::memcpy(lost.facet.data(), record, sizeof lost.facet);
-        lost.marker = std::bit_cast<double>(record[D * D]);
-        lost.key = attribute_key<D, D>(lost.facet, code_of<D, D>(domain_, lost.facet));
-        lost_.push_back(lost);
+        Marked marked;
+        std::memcpy(marked.facet.data(), record, sizeof marked.facet);
+        marked.marker = std::bit_cast<double>(record[D * D]);
+        marked.key = attribute_key<D, D>(marked.facet, code_of<D, D>(domain_, marked.facet));
+        marked_.push_back(marked);
     }
-    std::sort(lost_.begin(), lost_.end(),
-              [](const Lost &a, const Lost &b) { return a.key < b.key; });
-    return !lost_.empty();
+    std::sort(marked_.begin(), marked_.end(),
+              [](const Marked &a, const Marked &b) { return a.key < b.key; });
+    return !marked_.empty();
 }
 
 template <int D> void MarkerSweep<D>::look_at(const Simplex &simplex, std::uint64_t code) {
     for (int i = 0; i <= D; ++i) {
         const Owner<D, D> facet = facet_of<D>(simplex, i);
         const Key key = attribute_key<D, D>(facet, code_of<D, D>(domain_, facet));
-        const Lost *at = std::lower_bound(lost_.begin(), lost_.end(), key,
-                                          [](const Lost &a, const Key &b) { return a.key < b; });
-        for (; at != lost_.end() && at->key == key; ++at) {
+        const Marked *at =
+            std::lower_bound(marked_.begin(), marked_.end(), key,
+                             [](const Marked &a, const Key &b) { return a.key < b; });
+        for (; at != marked_.end() && at->key == key; ++at) {
             if (at->facet != facet) continue;
             found_.push_back({simplex, code, static_cast<std::uint32_t>(i), at->marker});
             break; // its other side has the same
@@ -72,6 +70,7 @@ template <int D> void MarkerSweep<D>::look_at(const Simplex &simplex, std::uint6
 
 template <int D> std::uint64_t MarkerSweep<D>::mark_found() {
     std::uint64_t new_rows = 0;
+    sort_along_keys<D>(found_);
     for (const Found &found : found_)
         new_rows +=
             set_marker<D>(rows_.pages(), found.simplex, found.code, found.opposite, found.marker);

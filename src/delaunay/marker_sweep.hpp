@@ -4,9 +4,10 @@
 // its row goes (label_sweep.hpp), and with it the markers of its facets. Those facets that are
 // still in the mesh have another simplex on that side, which the change has stored: among the
 // simplices of the stretches that it has stored they are looked for, and get their markers again.
+// So are the facets of simplices that stay: one at the hull may have got a simplex beyond it.
 // Neither order nor threads matter to that, as for labels.
 //
-// The facets that have lost a marker go to a spool, and are looked for by the thousand.
+// These facets go to a spool, and as many are looked for at once as memory holds.
 #pragma once
 
 #include "delaunay/label_sweep.hpp"
@@ -35,7 +36,8 @@ bool set_marker(AttributePages<D, D + 1> &pages, const Owner<D, D + 1> &simplex,
 
 template <int D> class MarkerSweep {
 public:
-    MarkerSweep(const Host &host, const abacus_header &header, const Domain<D> &domain);
+    MarkerSweep(const Host &host, const abacus_header &header, const Domain<D> &domain,
+                std::size_t memory);
 
     /// Of a change that has stored these stretches. Returns how many simplices have markers now, if
     /// `marked` had before.
@@ -44,7 +46,7 @@ public:
 
 private:
     using Simplex = Owner<D, D + 1>;
-    struct Lost {
+    struct Marked {
         Key key;
         Owner<D, D> facet;
         double marker;
@@ -55,11 +57,11 @@ private:
         std::uint32_t opposite;
         double marker;
     };
-    static constexpr std::size_t looked_for_at_once = 1 << 14;
+    static constexpr std::size_t least_room = 64;
 
-    void lose(const Simplex &simplex, const double *markers);
-    /// Reads the next facets that have lost their markers; false if there are none.
-    bool read_lost();
+    void add(const Simplex &simplex, const double *markers);
+    /// Reads the next facets to be looked for; false if there are none.
+    bool read_marked();
     void look_at(const Simplex &simplex, std::uint64_t code);
     /// Gives what has been found its markers; returns how many simplices had none.
     std::uint64_t mark_found();
@@ -67,8 +69,9 @@ private:
     const Domain<D> domain_;
     LabelSweep<D> rows_;
     RecordSpool spool_;
-    Arena<Lost> lost_;
-    Arena<Found> found_; // of a stretch, no more than were lost
+    const std::size_t room_; // for so many facets at once
+    Arena<Marked> marked_;
+    Arena<Found> found_; // in a page
 };
 
 extern template class MarkerSweep<2>;

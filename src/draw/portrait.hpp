@@ -19,7 +19,7 @@ abacus_drawing widened(const abacus_drawing &drawing, std::int32_t margin);
 template <class Stream>
 Portrait draw_patches(const Host &host, const abacus_header &header, const abacus_drawing &drawing,
                       std::int32_t margin, abacus_ramp usual, double unit, Stream stream) {
-    if (drawing.attribute >= static_cast<std::int32_t>(header.attributes))
+    if (drawing.attribute >= static_cast<std::int32_t>(header.attributes + header.labels))
         throw Error(ABACUS_ERROR_ARGUMENT, "there is no such attribute");
     Extent extent(drawing);
     if (Extent::is_needed(drawing)) stream(extent);

@@ -32,12 +32,13 @@ Check<D>::Check(const Host &host, const abacus_header &header, std::size_t cache
         check_links_and_points(nullptr);
     }
     const auto is_sound = [&] { return faults_.is_sound(); };
-    if (header_.apart != 0) {
+    const bool is_apart = header_.apart != 0;
+    if (is_apart || header_.labels > 0 || header_.marked > 0)
         faults_.run("attributes", [&] {
-            check_attribute_pages<1>("attributes", header_.attributes, header_.vertices);
+            check_attribute_pages<1>("attributes", is_apart ? header_.attributes : 0,
+                                     header_.vertices);
         });
-        if (is_sound()) faults_.run("vertex", [&] { check_attributes(); });
-    }
+    if (is_apart && is_sound()) faults_.run("vertex", [&] { check_attributes(); });
     check_labels("labels", header_.labels, header_.labelled, first_group<D + 1>);
     check_labels("markers", D + 1, header_.marked, marker_group);
     if (is_sound() && header_.marked > 0) faults_.run("markers", [&] { check_markers(); });
@@ -233,6 +234,7 @@ void Check<D>::check_labels(const char *kind, unsigned columns, std::uint64_t ow
     faults_.run(kind, [&] { check_attribute_pages<D + 1>(kind, columns, owners, first); });
     if (!faults_.is_sound() || owners == 0) return;
     faults_.run(kind, [&] {
+        faults_.at = group_begin(first);
         AttributeReader<D, D + 1> labels(host_, domain_, columns, cache_bytes_ / 2, first);
         std::uint64_t found = 0;
         each_simplex([&](const PageView<D> &page, int s) {
@@ -242,7 +244,8 @@ void Check<D>::check_labels(const char *kind, unsigned columns, std::uint64_t ow
             found += labels.contains(owner_of<D, D + 1>(points));
         });
         if (found != owners)
-            faults_.add(kind, first_key, "Some are of simplices that the mesh does not have.");
+            faults_.add(kind, group_begin(first),
+                        "Some are of simplices that the mesh does not have.");
     });
 }
 
@@ -280,7 +283,7 @@ template <int D> void Check<D>::check_markers() {
     const auto end_facet = [&] {
         const bool has_marker = !std::isnan(std::bit_cast<double>(first[key_words]));
         if (n > 0 && ((n == 1 && has_marker) || n > 2 || !agree))
-            faults_.add("markers", {first[0], first[1]},
+            faults_.add("markers", in_group({first[0], first[1]}, marker_group),
                         "The two sides of a facet have different markers.");
     };
     while (const std::uint64_t *record = sides.next()) {

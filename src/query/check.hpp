@@ -84,7 +84,6 @@ private:
         PageView<D> page;
         std::uint64_t pages = passes_++ * pages_;
         while (scan.fetch()) {
-            faults_.at = scan.key();
             report_some(++pages);
             page.read(scan.bytes(), scan.size(), page_attributes(header_),
                       PageView<D>::Checksum::ignore);
@@ -103,7 +102,8 @@ private:
     Domain<D> domain_;
     FaultList faults_;
     std::uint64_t pages_ = 0;
-    std::uint64_t passes_ = 2; // over all pages, that are done when labels and the like are looked at
+    std::uint64_t passes_ =
+        2; // over all pages, that are done when labels and the like are looked at
     bool is_counted_ = false; // pages_ are all
     typename PageCheck<D>::Counts counts_;
 };

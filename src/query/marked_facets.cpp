@@ -45,7 +45,10 @@ template <int D> bool MarkedFacets<D>::next(abacus_facet &facet) {
     const std::uint64_t *record = sort_.next();
     while (record != nullptr && !is_first_ && std::equal(last_.begin(), last_.end(), record))
         record = sort_.next();
-    if (record == nullptr) return false;
+    if (record == nullptr) {
+        sort_.close();
+        return false;
+    }
     is_first_ = false;
     std::copy_n(record, key_words, last_.begin());
     facet.marker = from_ordered(record[0]);

@@ -33,7 +33,7 @@ template <int D>
 Marking<D>::Marking(const Host &host, const abacus_header &header, std::size_t memory,
                     std::size_t cache_bytes)
     : host_(host), header_(header), cache_bytes_(cache_bytes),
-      sort_(host, 1 + row_words, 2, memory) {}
+      sort_(host, 1 + row_words, 2, memory / 2), sides_(host, side_words, side_key, memory / 2) {}
 
 template <int D> void Marking<D>::add(const std::uint64_t *rows, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i, rows += row_words) {
@@ -59,16 +59,17 @@ template <int D> void Marking<D>::add(const std::uint64_t *rows, std::size_t cou
 template <int D> void Marking<D>::set(abacus_header &header) {
     sort_.finish();
     Reader<D> mesh(host_, header_, cache_bytes_);
-    Pages pages(host_, domain_of<D>(header), D + 1, marker_group);
-    while (const std::uint64_t *record = sort_.next()) mark(mesh, pages, record, header.marked);
-    pages.flush();
+    while (const std::uint64_t *record = sort_.next()) add_sides(mesh, record);
     sort_.close();
+    sides_.finish();
+    Pages pages(host_, domain_of<D>(header), D + 1, marker_group);
+    while (const std::uint64_t *side = sides_.next()) mark(pages, side, header.marked);
+    pages.flush();
+    sides_.close();
     header.counters += pages.take_counters();
 }
 
-template <int D>
-void Marking<D>::mark(Reader<D> &mesh, Pages &pages, const std::uint64_t *record,
-                      std::uint64_t &marked) {
+template <int D> void Marking<D>::add_sides(Reader<D> &mesh, const std::uint64_t *record) {
     std::array<std::int64_t, D + 1> ids;
     std::memcpy(ids.data(), record + 2, sizeof ids);
     const int facet = static_cast<int>(record[D + 3]);
@@ -80,28 +81,45 @@ void Marking<D>::mark(Reader<D> &mesh, Pages &pages, const std::uint64_t *record
                     "Give the points unique ids to name facets of simplices.");
     const int corner =
         static_cast<int>(std::find(simplex.id, simplex.id + D, ids[facet]) - simplex.id);
-    mark(pages, simplex, corner, marker, marked);
+    add_side(simplex, corner, marker);
     if (mesh.walk(record[0], ids.data(), facet, neighbour))
-        mark(pages, neighbour, corner_beyond<D>(simplex, neighbour), marker, marked);
+        add_side(neighbour, corner_beyond<D>(simplex, neighbour), marker);
 }
 
 template <int D>
-void Marking<D>::mark(Pages &pages, const abacus_simplex &simplex, int corner, double marker,
-                      std::uint64_t &marked) {
+void Marking<D>::add_side(const abacus_simplex &simplex, int corner, double marker) {
     std::array<Point<D>, D + 1> points;
     for (int i = 0; i <= D; ++i) points[i] = corner_of<D>(simplex, i);
     const auto owner = owner_of<D, D + 1>(points);
-    const auto opposite = static_cast<std::uint32_t>(
-        std::find(owner.begin(), owner.end(), points[corner]) - owner.begin());
+    const auto opposite = std::find(owner.begin(), owner.end(), points[corner]) - owner.begin();
+    const Key key = attribute_key<D, D + 1>(owner, simplex.code);
+    std::uint64_t *side = sides_.add();
+    *side++ = key.code;
+    *side++ = key.part;
+    *side++ = sides_.size();
+    *side++ = simplex.code;
+    std::memcpy(side, owner.data(), sizeof owner);
+    side += D * (D + 1);
+    *side++ = static_cast<std::uint64_t>(opposite);
+    *side = std::bit_cast<std::uint64_t>(marker);
+}
+
+template <int D>
+void Marking<D>::mark(Pages &pages, const std::uint64_t *side, std::uint64_t &marked) {
+    const std::uint64_t code = side[side_key];
+    Owner<D, D + 1> owner;
+    std::memcpy(owner.data(), side + side_key + 1, sizeof owner);
+    const auto opposite = static_cast<std::uint32_t>(side[side_words - 2]);
+    const auto marker = std::bit_cast<double>(side[side_words - 1]);
     if (!std::isnan(marker)) {
-        marked += set_marker<D>(pages, owner, simplex.code, opposite, marker);
+        marked += set_marker<D>(pages, owner, code, opposite, marker);
         return;
     }
-    if (!pages.set(owner, simplex.code, {&opposite, 1}, &marker)) return;
+    if (!pages.set(owner, code, {&opposite, 1}, &marker)) return;
     std::array<double, D + 1> left;
-    pages.get(owner, simplex.code, left.data());
+    pages.get(owner, code, left.data());
     if (std::all_of(left.begin(), left.end(), [](double x) { return std::isnan(x); }))
-        marked -= pages.erase(owner, simplex.code);
+        marked -= pages.erase(owner, code);
 }
 
 template class Marking<2>;

@@ -2,8 +2,10 @@
 //
 // A row names a facet by a simplex beside it, by code and ids of corners as readers give them out,
 // and by the corner opposite the facet. The simplex on the other side, if there is one, gets the
-// same marker. Sorted by code, rows follow the curve. Of several rows for a facet the last one of
-// the simplex that comes last on the curve counts.
+// same marker. Sorted by code, rows follow the curve, so that each page of simplices is read once.
+// What they say of either side is sorted once more, by the keys of the simplices, so that each page
+// of markers is written once. Of several rows for a facet the last one of the simplex that comes
+// last on the curve counts.
 #pragma once
 
 #include "attributes/attribute_pages.hpp"
@@ -27,16 +29,18 @@ public:
 private:
     using Pages = AttributePages<D, D + 1>;
     static constexpr std::size_t row_words = 1 + (D + 1) + 2;
+    static constexpr std::size_t side_key = 3, side_words = side_key + 1 + D * (D + 1) + 2;
 
-    void mark(Reader<D> &mesh, Pages &pages, const std::uint64_t *record, std::uint64_t &marked);
-    /// One side.
-    static void mark(Pages &pages, const abacus_simplex &simplex, int corner, double marker,
-                     std::uint64_t &marked);
+    /// Adds both sides of a row's facet to sides_.
+    void add_sides(Reader<D> &mesh, const std::uint64_t *record);
+    void add_side(const abacus_simplex &simplex, int corner, double marker);
+    static void mark(Pages &pages, const std::uint64_t *side, std::uint64_t &marked);
 
     const Host &host_;
     const abacus_header header_;
     const std::size_t cache_bytes_;
-    RecordSort sort_; // code, number of the row, ids, corner, marker
+    RecordSort sort_;  // code, number of the row, ids, corner, marker
+    RecordSort sides_; // key, number, code and corners of the simplex, the one opposite, marker
 };
 
 extern template class Marking<2>;

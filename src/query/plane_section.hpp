@@ -43,6 +43,9 @@ public:
 
     /// False after the last polygon.
     bool next(abacus_polygon &polygon);
+    /// Whose that was: a simplex of a page, which stays until the next call.
+    const PageView<3> &page() const { return pages_.page(); }
+    int simplex() const { return at_ - 1; }
 
 private:
     void enter();

@@ -5,6 +5,7 @@
 #include "geometry/map_plane.hpp"
 #include "query/page_values.hpp"
 #include "query/range_scan.hpp"
+#include "query/simplex_labels.hpp"
 
 #include <array>
 #include <cmath>
@@ -22,9 +23,15 @@ public:
 
 protected:
     MeshView(const Host &host, const abacus_header &header, const abacus_drawing &drawing)
-        : values_(host, header, drawing.attribute), max_edge_(drawing.max_edge) {}
+        : label_(drawing.attribute - static_cast<int>(header.attributes)), labels_(host, header),
+          values_(host, header, label_ < 0 ? drawing.attribute : -1), max_edge_(drawing.max_edge) {}
 
     double value(int vertex) const { return values_.value(vertex); }
+    /// What the simplex shows is of its label, if the drawing is of one.
+    void set_label(const PageView<D> &page, int simplex, Patch &patch) {
+        if (label_ >= 0)
+            std::fill_n(patch.value, patch.corners, labels_.of_page(page, simplex)[label_]);
+    }
     /// Whether the drawing leaves out the simplex with these first `n` corners.
     bool is_too_long(const PageView<D> &page, int simplex, int n) const {
         return max_edge_ > 0 && has_longer_edge<D>(n, max_edge_, [&](int i) -> const Point<D> & {
@@ -33,6 +40,8 @@ protected:
     }
 
 private:
+    const int label_; // its number; negative: there is an attribute, or nothing
+    SimplexLabels<D> labels_;
     PageValues<D> values_;
     double max_edge_;
 };
@@ -45,7 +54,7 @@ public:
     FlatView(const Host &host, const abacus_header &header, const abacus_drawing &drawing)
         : MeshView(host, header, drawing), plane_(drawing.is_geographic != 0) {}
 
-    bool show(const PageView<2> &page, int simplex, Patch &patch) const {
+    bool show(const PageView<2> &page, int simplex, Patch &patch) {
         if (page.is_ghost(simplex) || is_too_long(page, simplex, 3)) return false;
         for (int i = 0; i < 3; ++i) {
             const int v = page.corner(simplex, i);
@@ -54,6 +63,7 @@ public:
             patch.corner[i][1] = p[1];
             patch.value[i] = value(v);
         }
+        set_label(page, simplex, patch);
         return true;
     }
 
@@ -75,7 +85,7 @@ public:
         MeshView::enter(page);
         for (int v = 0; v < page.vertices(); ++v) places_[v] = plane_.place(page.point(v));
     }
-    bool show(const PageView<3> &page, int simplex, Patch &patch) const {
+    bool show(const PageView<3> &page, int simplex, Patch &patch) {
         const int finite = page.is_ghost(simplex) ? 3 : 4;
         return (finite == 3 ? cut<cut_ghost, 3>(page, simplex, patch)
                             : cut<cut_tetrahedron, 4>(page, simplex, patch)) &&
@@ -83,8 +93,7 @@ public:
     }
 
 private:
-    template <auto section, int n>
-    bool cut(const PageView<3> &page, int simplex, Patch &patch) const {
+    template <auto section, int n> bool cut(const PageView<3> &page, int simplex, Patch &patch) {
         int sides = 0;
         for (int i = 0; i < n; ++i) sides += places_[page.corner(simplex, i)].side;
         if (std::abs(sides) == n) return false;
@@ -94,6 +103,7 @@ private:
             corner[i] = {places_[v], value(v)};
         }
         if (!section(corner, patch)) return false;
+        set_label(page, simplex, patch);
         patch.spacing = spacing(page, simplex, n);
         return true;
     }

@@ -4,6 +4,7 @@
 
 #include "attributes/attribute_reader.hpp"
 #include "keys/domain_of.hpp"
+#include "query/behind_facet.hpp"
 
 #include <abacus/read.h>
 
@@ -17,7 +18,7 @@ public:
 
     /// Keeps them in about so many bytes.
     SimplexLabels(const Host &host, const abacus_header &header, std::size_t bytes = default_bytes)
-        : values_(host) {
+        : behind_(host, header), values_(host) {
         values_.resize(header.labels);
         std::fill(values_.begin(), values_.end(), null_value);
         if (header.labelled > 0) pages_.emplace(host, domain_of<D>(header), header.labels, bytes);
@@ -25,14 +26,28 @@ public:
 
     /// All labels of a finite simplex, NULL where it has none; valid until the next call.
     const double *of(const abacus_simplex &simplex) {
-        if (!pages_) return values_.data();
         std::array<Point<D>, D + 1> points;
         for (int i = 0; i <= D; ++i) std::copy_n(simplex.corner[i], D, points[i].begin());
-        pages_->values_if_any(owner_of<D, D + 1>(points), values_.data());
+        return of(owner_of<D, D + 1>(points));
+    }
+    const double *of(const Owner<D, D + 1> &simplex) {
+        if (pages_) pages_->values_if_any(simplex, values_.data());
         return values_.data();
+    }
+    /// The same of a page's simplex; of a ghost those of the simplex behind it.
+    const double *of_page(const PageView<D> &page, int simplex) {
+        if (!pages_) return values_.data();
+        std::array<Point<D>, D + 1> points;
+        const int finite = D + !page.is_ghost(simplex);
+        for (int i = 0; i < finite; ++i) points[i] = page.point(page.corner(simplex, i));
+        if (finite > D) return of(owner_of<D, D + 1>(points));
+        std::array<Point<D>, D> facet;
+        std::copy_n(points.begin(), D, facet.begin());
+        return of(behind_.of(facet));
     }
 
 private:
+    BehindFacet<D> behind_;
     std::optional<AttributeReader<D, D + 1>> pages_;
     Arena<double> values_;
 };

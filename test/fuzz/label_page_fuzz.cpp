@@ -1,13 +1,15 @@
-// Damaged pages of labels of simplices. What is not a checksum's matter is sealed again.
+// Damaged pages of labels of simplices and of markers of facets. What is not a checksum's matter is
+// sealed again.
 #include "fuzz/fuzz_mesh.hpp"
+
+#include <cmath>
 
 using namespace abacus::fuzz;
 
 namespace {
 
-/// Gives all simplices two labels.
-void label(Mesh &mesh) {
-    std::vector<std::uint64_t> rows;
+/// Calls take(simplex) for each, after its labels have been read.
+template <class Take> void each_simplex(Mesh &mesh, Take take) {
     mesh.run([&](abacus_error &error) {
         abacus_window window{};
         abacus_cells *cells = nullptr;
@@ -17,14 +19,25 @@ void label(Mesh &mesh) {
         abacus_simplex simplex;
         const double *labels = nullptr;
         while ((status = abacus_cells_next(cells, &simplex, nullptr, &error)) == ABACUS_OK &&
-               abacus_cells_labels(cells, &simplex, &labels, &error) == ABACUS_OK) {
-            rows.push_back(simplex.code);
-            rows.insert(rows.end(), simplex.id, simplex.id + mesh.header.dimension + 1);
-            for (int i = 0; i < 2; ++i)
-                rows.push_back(std::bit_cast<std::uint64_t>(double(rows.size() % 7)));
-        }
+               (status = abacus_cells_labels(cells, &simplex, &labels, &error)) == ABACUS_OK)
+            take(simplex);
         abacus_cells_close(cells);
         return status;
+    });
+}
+
+void name(std::vector<std::uint64_t> &rows, const Mesh &mesh, const abacus_simplex &simplex) {
+    rows.push_back(simplex.code);
+    rows.insert(rows.end(), simplex.id, simplex.id + mesh.header.dimension + 1);
+}
+
+/// Gives all simplices two labels.
+void label(Mesh &mesh) {
+    std::vector<std::uint64_t> rows;
+    each_simplex(mesh, [&](const abacus_simplex &simplex) {
+        name(rows, mesh, simplex);
+        for (int i = 0; i < 2; ++i)
+            rows.push_back(std::bit_cast<std::uint64_t>(double(rows.size() % 7)));
     });
     mesh.run([&](abacus_error &error) {
         const std::uint32_t numbers[] = {0, 1};
@@ -46,13 +59,50 @@ void label(Mesh &mesh) {
     });
 }
 
+/// Gives a facet of each simplex a marker, or takes it away.
+void mark(Mesh &mesh) {
+    std::vector<std::uint64_t> rows;
+    each_simplex(mesh, [&](const abacus_simplex &simplex) {
+        name(rows, mesh, simplex);
+        rows.push_back(simplex.code % (mesh.header.dimension + 1));
+        const double marker = simplex.code % 5 == 0 ? NAN : double(simplex.code % 7);
+        rows.push_back(std::bit_cast<std::uint64_t>(marker));
+    });
+    mesh.run([&](abacus_error &error) {
+        const std::size_t words = mesh.header.dimension + 4;
+        abacus_marking *marking = nullptr;
+        abacus_status status = abacus_marking_open(mesh.host.table(), &mesh.header, 1 << 20,
+                                                   1 << 20, &marking, &error);
+        if (status != ABACUS_OK) return status;
+        status = abacus_marking_add(marking, rows.data(), rows.size() / words, &error);
+        if (status == ABACUS_OK) status = abacus_marking_end(marking, &mesh.header, &error);
+        abacus_marking_close(marking);
+        return status;
+    });
+}
+
+void read_facets(Mesh &mesh) {
+    mesh.run([&](abacus_error &error) {
+        abacus_facets *facets = nullptr;
+        abacus_status status = abacus_facets_open(mesh.host.table(), &mesh.header, NAN, 1 << 20,
+                                                  1 << 20, &facets, &error);
+        if (status != ABACUS_OK) return status;
+        abacus_facet facet;
+        while ((status = abacus_facets_next(facets, &facet, &error)) == ABACUS_OK) {
+        }
+        abacus_facets_close(facets);
+        return status;
+    });
+}
+
 /// Points with unique ids, so that each simplex can be named.
 const Mesh &labelled_mesh(int dimension) {
     static Mesh meshes[2];
     Mesh &mesh = meshes[dimension - 2];
     if (mesh.header.dimension == 0) {
         mesh.header.dimension = static_cast<std::uint32_t>(dimension);
-        mesh.stage(1, 0);
+        mesh.header.has_domain = 1;
+        std::fill_n(mesh.header.upper, dimension, 1.0);
         std::mt19937_64 random(1);
         std::uniform_real_distribution<double> unit(0, 1);
         mesh.run([&](abacus_error &error) {
@@ -71,7 +121,10 @@ const Mesh &labelled_mesh(int dimension) {
         });
         require(mesh.build() == ABACUS_OK, "the mesh cannot be built");
         label(mesh);
-        require(mesh.header.labelled > 0 && mesh.check() == 0, "the mesh is not sound");
+        mark(mesh);
+        mesh.header.inherits = dimension == 3;
+        require(mesh.header.labelled > 0 && mesh.header.marked > 0 && mesh.check() == 0,
+                "the mesh is not sound");
     }
     return mesh;
 }
@@ -96,8 +149,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     damage(mesh.host.attribute_pages, input);
     if (sealed) seal(mesh.host.attribute_pages);
     mesh.locate_places();
+    read_facets(mesh);
     mesh.check();
     label(mesh);
+    mark(mesh);
     mesh.check();
     mesh.stage(20, 3);
     mesh.build();

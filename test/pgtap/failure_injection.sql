@@ -156,6 +156,19 @@ SELECT pg_temp.inject('deleting from a labelled mesh', $$ SELECT abacus_delete('
 SELECT is_empty($$ SELECT * FROM abacus_check('wide') $$, 'it is sound');
 SELECT is_empty($$ SELECT FROM abacus_cells('wide') WHERE labels[1] <> v0 OR labels[2] IS DISTINCT FROM CASE WHEN v0 % 2 = 0 AND labels[1] IS NOT NULL THEN v1 END $$, 'and its labels are right');
 SELECT pg_temp.inject('reading labels', $$ SELECT sum(labels[1]) FROM abacus_locate('wide', 'SELECT id, x, y FROM points') $$, 'SELECT true');
+DELETE FROM wide_before;
+INSERT INTO wide_before SELECT code, part, page::bytea FROM wide;
+SELECT pg_temp.inject('marking', $$ SELECT abacus_mark('wide', 'SELECT code, v0, v1, v2, 0, v1 % 7 FROM abacus_simplices(''wide'') WHERE v0 % 3 = 0') $$, pg_temp.untouched());
+SELECT abacus_inherit_labels('wide');
+DELETE FROM wide_before;
+INSERT INTO wide_before SELECT code, part, page::bytea FROM wide;
+SELECT pg_temp.inject('inheriting labels, keeping markers', $$ SELECT abacus_delete('wide', 'SELECT id, x, y FROM points WHERE id % 9 = 2') $$, pg_temp.untouched());
+DELETE FROM wide_before;
+INSERT INTO wide_before SELECT code, part, page::bytea FROM wide;
+SELECT pg_temp.inject('another attribute beside labels', $$ SELECT abacus_add_attribute('wide', 'more') $$, pg_temp.untouched());
+SELECT pg_temp.inject('reading markers', $$ SELECT count(*) FROM abacus_facets('wide') $$, 'SELECT true');
+SELECT pg_temp.inject('a picture of labels', $$ SELECT abacus_draw('wide', 64, attribute => 'least') $$, 'SELECT true');
+SELECT is_empty($$ SELECT * FROM abacus_check('wide') $$, 'it is sound');
 
 -- meshes made elsewhere, Delaunay and not
 CREATE TABLE triangles AS SELECT v0, v1, v2 FROM abacus_simplices('made');

@@ -7,7 +7,7 @@ use warnings;
 use Exporter 'import';
 use Test::More;
 
-our @EXPORT = qw(has_shortcuts mesh_figure mesh_content mesh_bytes mesh_pages spread_mesh create_rest other_simplices is_sound is_intact);
+our @EXPORT = qw(has_shortcuts mesh_figure mesh_content mesh_labels mesh_bytes mesh_pages spread_mesh create_rest other_simplices is_sound is_intact);
 
 # Whether the module does more than PostgreSQL offers to extensions (abacus.shortcuts).
 sub has_shortcuts
@@ -33,6 +33,16 @@ SELECT 'simplices ' || count(*) || ' ' || md5(string_agg(s, ' ' ORDER BY s))
 FROM (SELECT concat_ws(' ', v0, v1, v2, v3) AS s FROM abacus_simplices('$mesh') OFFSET 0) AS t;
 SELECT 'points ' || count(*) || ' ' || md5(string_agg(p, ' ' ORDER BY p))
 FROM (SELECT concat_ws(' ', id, x, y, z, attributes, vertex) AS p FROM abacus_vertices('$mesh') OFFSET 0) AS t;
+SQL
+}
+
+# Digests of the labels of its simplices and of the markers of its facets.
+sub mesh_labels
+{
+	my ($node, $database, $mesh) = @_;
+	return $node->safe_psql($database, <<"SQL");
+SELECT 'labels ' || count(labels[1]) || ' ' || md5(string_agg(concat_ws(' ', corners, labels), ' ' ORDER BY corners)) FROM abacus_cells('$mesh');
+SELECT 'markers ' || count(*) || ' ' || md5(string_agg(concat_ws(' ', corners, marker), ' ' ORDER BY corners)) FROM abacus_facets('$mesh');
 SQL
 }
 

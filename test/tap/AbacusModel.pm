@@ -43,6 +43,7 @@ CREATE FUNCTION change(dimension int) RETURNS void LANGUAGE plpgsql AS $$
 DECLARE
 	mesh text := 'mesh' || dimension;
 	noted text := mesh || '_noted';
+	corners text := CASE dimension WHEN 2 THEN 'v0, v1, v2' ELSE 'v0, v1, v2, v3' END;
 	first bigint := nextval('numbers');
 	fresh text := format('SELECT %s FROM %s WHERE id >= %s AND id < %s + 1000 ORDER BY id', columns(dimension), noted, first, first);
 	undo text := format('DELETE FROM %s WHERE id >= %s AND id < %s + 1000', noted, first, first);
@@ -52,7 +53,7 @@ BEGIN
 			FROM generate_series(0, $2) i, (SELECT ARRAY[random(), random(), random()] AS c) AS centre
 			UNION ALL SELECT %2$s + 900 + row_number() OVER (), x, y, z FROM (SELECT * FROM %1$s ORDER BY id DESC LIMIT 5) AS other',
 			noted, first) USING power(random(), 6), (random() * 100)::int;
-	CASE floor(random() * 7)
+	CASE floor(random() * 8)
 	WHEN 0 THEN
 		PERFORM abacus_insert(mesh, fresh);
 	WHEN 1 THEN
@@ -90,6 +91,10 @@ BEGIN
 		PERFORM abacus_insert(mesh, fresh);
 		PERFORM abacus_add_attribute(mesh, 'a');
 		PERFORM abacus_drop_attribute(mesh, 'a');
+	WHEN 7 THEN -- labels and markers that tell whose they are
+		PERFORM abacus_insert(mesh, fresh);
+		PERFORM abacus_label(mesh, format('SELECT code, %s, (SELECT max(c) FROM unnest(corners) c) AS greatest FROM abacus_cells(%L)', corners, mesh));
+		PERFORM abacus_mark(mesh, format('SELECT code, %s, 0, hashfloat8((SELECT max(c) FROM unnest(corners[2:]) c)) FROM abacus_cells(%L) WHERE v0 %% 3 = 0', corners, mesh));
 	END CASE;
 END $$;
 
@@ -132,8 +137,8 @@ SQL
 	return;
 }
 
-# Four tests: it has the points of the committed changes and no other, their
-# simplices, and sound pages and indexes.
+# Six tests: it has the points of the committed changes and no other, their
+# simplices, labels and markers of these and no others, and sound pages and indexes.
 sub is_as_noted
 {
 	my ($node, $d, $what) = @_;
@@ -144,6 +149,10 @@ SELECT abacus_triangulate('wanted', 'SELECT ' || columns($d) || ' FROM mesh${d}_
 SQL
 	is(other_simplices($node, 'postgres', "mesh$d", 'wanted', $d)
 		  && $node->safe_psql('postgres', "SELECT other_simplices($d)"), 0, "$what: their simplices");
+	is($node->safe_psql('postgres', "SELECT count(*) FROM abacus_cells('mesh$d') WHERE labels[1] <> (SELECT max(c) FROM unnest(corners) c)"),
+		0, "$what: labels are where they were put");
+	is($node->safe_psql('postgres', "SELECT count(*) FROM abacus_facets('mesh$d') WHERE marker <> hashfloat8((SELECT max(c) FROM unnest(corners) c))"),
+		0, "$what: so are markers");
 	return is_intact($node, 'postgres', "mesh$d", $what);
 }
 

@@ -47,12 +47,15 @@ SET ROLE owner;
 SELECT abacus_triangulate('s."My Mesh"', 'SELECT i, (i * 7919) % 101, (i * 104729) % 97, (i * 31) % 89 FROM generate_series(1, 3000) AS i', dimension => 3);
 SELECT abacus_publish('s."My Mesh"', geometry => false);
 SELECT abacus_set_srid('s."My Mesh"', 2154);
+SELECT abacus_label('s."My Mesh"', 'SELECT code, v0, v1, v2, v3, v0 % 5 AS material, v1 AS n FROM abacus_simplices(''s."My Mesh"'') WHERE v2 % 7 > 0');
+SELECT abacus_mark('s."My Mesh"', 'SELECT code, v0, v1, v2, v3, 1, v0 % 9 FROM abacus_simplices(''s."My Mesh"'') WHERE v2 % 3 = 0');
 SQL
-my (%content, %bytes, %grown);
+my (%content, %labels, %bytes, %grown);
 for my $mesh (@meshes)
 {
 	my $vertices = $mesh =~ s/("?)$/_vertices$1/r;
 	$content{$mesh} = mesh_content($node, 'origin', $mesh);
+	$labels{$mesh} = mesh_labels($node, 'origin', $mesh);
 	$bytes{$mesh} = mesh_bytes($node, 'origin', $mesh) . mesh_bytes($node, 'origin', $vertices);
 }
 
@@ -69,7 +72,7 @@ sub grow
 	my ($database, $mesh) = @_;
 	$node->safe_psql($database,
 		"SELECT abacus_stage('$mesh', '$more{$mesh}'), abacus_triangulate('$mesh')");
-	return mesh_content($node, $database, $mesh);
+	return mesh_content($node, $database, $mesh) . mesh_labels($node, $database, $mesh);
 }
 
 # Whether the vertex table goes where its mesh goes.
@@ -97,6 +100,7 @@ sub examine
 	{
 		my $vertices = vertex_table($mesh);
 		is(mesh_content($node, $database, $mesh), $content{$mesh}, "$what: $mesh");
+		is(mesh_labels($node, $database, $mesh), $labels{$mesh}, "$what: its labels and markers");
 		is(mesh_bytes($node, $database, $mesh) . mesh_bytes($node, $database, $vertices),
 			$bytes{$mesh}, "$what: its pages, byte by byte");
 		is_sound($node, $database, $mesh, "$what: $mesh");
@@ -177,6 +181,8 @@ $node->safe_psql('copied', "COPY field FROM '$folder/field.text'; COPY field_ver
 is(mesh_content($node, 'copied', 'field'), $content{'public.field'}, 'COPY out and in');
 is_sound($node, 'copied', 'field', 'COPY out and in');
 
+like($labels{$meshes[1]}, qr/^labels [1-9]\d{3,} .*\nmarkers [1-9]\d{3,} /, 'there are labels and markers');
+
 # everything else is compared with what the origin becomes
 $grown{$_} = grow('origin', $_) for @meshes;
 
@@ -229,6 +235,7 @@ sub characters_of
 	my ($database) = @_;
 	return $node->safe_psql($database, q{SELECT string_agg(name, '|' ORDER BY position) FROM abacus_attributes('kinds')});
 }
+sub labels_of { return $node->safe_psql($_[0], q{SELECT array_to_string(abacus_labels('kinds'), '|')}); }
 my $kinds = "h\xc3\xb6he|\xe9\xab\x98\xe3\x81\x95|\xf0\x9f\x9c\x81x|" . "\xe9\xab\x98" x 20;
 my $escaped = "h\xc3\xb6he|\\9AD8\\3055|\\+01F701x|" . '\9AD8' x 12 . '~4';
 sub copy_kinds
@@ -244,9 +251,12 @@ sub copy_kinds
 }
 $node->safe_psql('in_utf8', q{SELECT abacus_create('kinds', 2, ARRAY[U&'h\00f6he', U&'\9AD8\3055', U&'\+01F701x', repeat(U&'\9AD8', 20)])});
 $node->safe_psql('in_utf8', q{SELECT abacus_insert('kinds', 'VALUES (1, 0, 0, 1, 1, 1, 1), (2, 1, 0, 2, 2, 2, 2), (3, 0, 1, 3, 3, 3, 3)')});
+$node->safe_psql('in_utf8', q{SELECT abacus_label('kinds', U&'SELECT code, v0, v1, v2, 1 AS "b\00f6den", 2 AS "\9AD8" FROM abacus_simplices(''kinds'')')});
 is(characters_of('in_utf8'), $kinds, 'names of many characters');
+is(labels_of('in_utf8'), "b\xc3\xb6den|\xe9\xab\x98", '... of labels, too');
 copy_kinds('in_utf8', 'in_latin1');
 is(characters_of('in_latin1'), $escaped, '... escaped where the encoding lacks them');
+is(labels_of('in_latin1'), "b\xc3\xb6den|\\9AD8", '... of labels, too');
 is($node->safe_psql('in_latin1', q{SELECT count(*) FROM abacus_check('kinds')}), 0, '... in a mesh that is sound');
 is($node->safe_psql('in_latin1', q{SELECT substr(abacus_draw('kinds', attribute => '\9AD8\3055'), 2, 3) = 'PNG'}), 't', '... and that knows them so');
 is($node->safe_psql('in_latin1', q{SELECT abacus_insert('kinds', 'VALUES (4, 1, 1, 4, 4, 4, 4)')}), 1, '... and is changed');
@@ -256,6 +266,12 @@ $node->safe_psql('in_latin1', q{SELECT abacus_rename_attribute('kinds', '\9AD8\3
 like(characters_of('in_latin1'), qr/^h\xc3\xb6he\|H\xc3\xb6he\|\\\+01F701x\|/, 'another name');
 copy_kinds('in_latin1', 'in_utf8');
 like(characters_of('in_utf8'), qr/^h\xc3\xb6he\|H\xc3\xb6he\|\xf0\x9f\x9c\x81x\|/, '... and the others as they were');
+is(labels_of('in_utf8'), "b\xc3\xb6den|\xe9\xab\x98", '... those of labels, too');
+$node->safe_psql('in_latin1', q{SELECT abacus_add_attribute('kinds', U&'gr\00f6sse'), abacus_drop_attribute('kinds', U&'h\00f6he')});
+is(characters_of('in_latin1'), "H\xc3\xb6he|\\+01F701x|" . '\9AD8' x 12 . "~3|gr\xc3\xb6sse", 'one more, and one less');
+copy_kinds('in_latin1', 'in_utf8');
+is(characters_of('in_utf8'), "H\xc3\xb6he|\xf0\x9f\x9c\x81x|" . "\xe9\xab\x98" x 20 . "|gr\xc3\xb6sse", '... and the others as they were');
+is(labels_of('in_utf8'), "b\xc3\xb6den|\xe9\xab\x98", '... those of labels, too');
 
 # what is no text is no name, except where nobody knows
 $node->safe_psql('in_utf8', q{UPDATE heights SET page = replace(page::text, 'c3b6', '66f6')::abacus_page WHERE code = -1});

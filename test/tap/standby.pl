@@ -162,11 +162,20 @@ await_waiting(2);
 $first->query_safe('COMMIT');
 $primary->poll_query_until('postgres', "SELECT count(*) = 1 FROM pg_locks WHERE relation = 'field_vertices'::regclass AND mode = 'AccessExclusiveLock' AND granted")
   or die 'the first batch does not end';
-# an octree, too
+# an octree and labels, too
+$primary->safe_psql('postgres', <<'SQL');
+SELECT abacus_triangulate('labelled', 'SELECT * FROM points WHERE id <= 5000');
+SELECT abacus_label('labelled', 'SELECT code, v0, v1, v2, v0 AS first, code % 3 AS third FROM abacus_simplices(''labelled'')');
+SELECT abacus_mark('labelled', 'SELECT code, v0, v1, v2, 1, 7 FROM abacus_simplices(''labelled'') WHERE v1 % 3 = 0');
+SELECT abacus_insert('labelled', 'SELECT * FROM points WHERE id BETWEEN 10001 AND 10500');
+SELECT abacus_delete('labelled', 'SELECT * FROM points WHERE id BETWEEN 1001 AND 1200');
+SQL
 $primary->safe_psql('postgres', q{SELECT abacus_octree_from_points('tree', 'TABLE points', 10)});
 $primary->wait_for_catchup($standby);
 is($standby->safe_psql('postgres', q{SELECT count(*), sum(code) FROM abacus_octants('tree')}),
 	$primary->safe_psql('postgres', q{SELECT count(*), sum(code) FROM abacus_octants('tree')}), 'leaves of an octree');
+is(mesh_labels($standby, 'postgres', 'labelled'), mesh_labels($primary, 'postgres', 'labelled'), 'labels and markers');
+is_sound($standby, 'postgres', 'labelled', 'with labels');
 $standby->promote;
 $_->quit for $first, $between;
 $builder->finish;
@@ -176,6 +185,12 @@ $standby->safe_psql('postgres', "CALL abacus_build('field')");
 is(mesh_content($standby, 'postgres', 'field'), mesh_content($primary, 'postgres', 'field'),
 	'both end with the same mesh');
 is_intact($standby, 'postgres', 'field', 'promoted, built on');
+for my $node ($primary, $standby)
+{
+	$node->safe_psql('postgres', q{SELECT abacus_insert('labelled', 'SELECT * FROM points WHERE id BETWEEN 11001 AND 11500')});
+}
+is(mesh_labels($standby, 'postgres', 'labelled'), mesh_labels($primary, 'postgres', 'labelled'), 'promoted: labels and markers stay as on the primary');
+is_intact($standby, 'postgres', 'labelled', 'promoted, with labels');
 
 $standby->stop;
 $primary->stop;

@@ -101,8 +101,9 @@ public:
         for (const Name &owner : in_order(owners)) put(owner);
     }
     std::vector<Name> in_order(std::vector<Name> owners) const {
+        const auto key = [&](const Name &owner) { return attribute_key<D, K>(owner, code(owner)); };
         std::sort(owners.begin(), owners.end(),
-                  [&](const Name &a, const Name &b) { return code(a) < code(b); });
+                  [&](const Name &a, const Name &b) { return key(a) < key(b); });
         return owners;
     }
     Name any() {

@@ -128,6 +128,7 @@ TEST(Header, OfLabelsAndMarkers) {
                 header.labels = labels;
                 header.labelled = labels == 0 ? 0 : 4000;
                 header.marked = labels == 0 ? 1 : 0;
+                header.inherits = labels > 1;
                 header.apart = attributes > 4;
                 header.srid = srid;
                 for (unsigned i = 0; i < labels; ++i)
@@ -145,12 +146,14 @@ TEST(Header, OfLabelsAndMarkers) {
                 EXPECT_EQ(decoded.labels, labels);
                 EXPECT_EQ(decoded.labelled, header.labelled);
                 EXPECT_EQ(decoded.marked, header.marked);
+                EXPECT_EQ(decoded.inherits, header.inherits);
                 if (labels > 0) {
                     EXPECT_STREQ(decoded.names[attributes], "label 0");
                 }
                 // Without them it is as it always was.
                 header.labels = 0;
                 header.labelled = header.marked = 0;
+                header.inherits = 0;
                 header.apart = 0;
                 header.srid = 0;
                 EXPECT_EQ(encode(header), without);

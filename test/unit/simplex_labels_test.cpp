@@ -1,6 +1,8 @@
 // Labels of simplices: what a mesh is loaded with is there for every reader, and the check tells
 // what is not as it should be.
 #include "attributes/attribute_key.hpp"
+#include "geometry/predicates.hpp"
+#include "keys/domain_of.hpp"
 #include "support/located_places.hpp"
 #include "support/triangulations.hpp"
 
@@ -152,11 +154,78 @@ public:
         EXPECT_EQ(mesh.host.bytes, 0u);
         EXPECT_TRUE(mesh.host.spools.empty());
     }
+    /// A simplex that has labels.
+    struct Labelled {
+        Owner<D, D + 1> simplex;
+        std::vector<double> labels;
+    };
+    std::vector<Labelled> all_labelled() {
+        std::vector<Labelled> result;
+        for (const abacus_simplex &simplex : mesh.simplices(false)) {
+            const auto &labels = known_.at(ids_of<D>(simplex));
+            if (std::all_of(labels.begin(), labels.end(), [](double x) { return std::isnan(x); }))
+                continue;
+            result.push_back({owner(simplex), labels});
+        }
+        return result;
+    }
+    /// After a change: those that are still there have kept theirs, others have what the one had
+    /// before in which their centroid lies. Returns how many have got some so.
+    std::size_t expect_inherited(const std::vector<Labelled> &before) {
+        LabelsByIds<D> now;
+        std::size_t heirs = 0;
+        for (const abacus_simplex &simplex : mesh.simplices(false)) {
+            const Ids<D> ids = ids_of<D>(simplex);
+            if (known_.contains(ids)) {
+                now[ids] = known_[ids];
+                continue;
+            }
+            const Labelled *from = has_centroid(before, owner(simplex));
+            now[ids] = from == nullptr ? std::vector<double>(labels_, null_value) : from->labels;
+            heirs += from != nullptr;
+        }
+        known_ = now;
+        expect_all_in_cells();
+        EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+        EXPECT_EQ(mesh.host.bytes, 0u);
+        EXPECT_TRUE(mesh.host.spools.empty());
+        return heirs;
+    }
     std::uint64_t labelled() const { return labelled_; }
 
     MeshOf<D> mesh;
 
 private:
+    static Owner<D, D + 1> owner(const abacus_simplex &simplex) {
+        std::array<Point<D>, D + 1> points;
+        for (int i = 0; i <= D; ++i) std::copy_n(simplex.corner[i], D, points[i].begin());
+        return owner_of<D, D + 1>(points);
+    }
+    static int position(const Owner<D, D + 1> &simplex, const Point<D> &p) {
+        Corners<D> corners;
+        for (int i = 0; i <= D; ++i) corners[i] = &simplex[i];
+        if (orientation<D>(corners) < 0) std::swap(corners[0], corners[1]);
+        return in_simplex<D>(corners, p);
+    }
+    /// Of several the one with the least key; null if there is none.
+    const Labelled *has_centroid(const std::vector<Labelled> &all, const Owner<D, D + 1> &simplex) {
+        const Domain<D> domain = domain_of<D>(mesh.header);
+        Point<D> centroid{};
+        for (const Point<D> &p : simplex)
+            for (int axis = 0; axis < D; ++axis) centroid[axis] += p[axis] / (D + 1);
+        if (position(simplex, centroid) <= 0) return nullptr;
+        const auto key = [&](const Labelled &labelled) {
+            return attribute_key<D, D + 1>(labelled.simplex,
+                                           code_of<D, D + 1>(domain, labelled.simplex));
+        };
+        const Labelled *first = nullptr;
+        for (const Labelled &labelled : all)
+            if (position(labelled.simplex, centroid) >= 0 &&
+                (first == nullptr || key(labelled) < key(*first)))
+                first = &labelled;
+        return first;
+    }
+
     static abacus_host_status expect_labels(void *context, std::int64_t,
                                             const abacus_simplex *simplex, const double *labels) {
         auto &of = *static_cast<LabelledMesh *>(context);
@@ -305,6 +374,44 @@ TYPED_TEST(SimplexLabels, StayAndGoWithTheirSimplices) {
             }
             EXPECT_GT(mesh.mesh.header.labelled, 100u);
         }
+}
+
+/// A new one gets those of the one that its centroid lay in, if the mesh wants that.
+TYPED_TEST(SimplexLabels, AreInherited) {
+    constexpr int D = TestFixture::D;
+    for (const unsigned threads : {1u, 3u})
+        for (const unsigned labels : {2u, 40u}) {
+            LabelledMesh<D> mesh(labels, 300 << 10);
+            mesh.load(some_triangulation<D>(D == 2 ? 1500 : 400));
+            mesh.mesh.header.inherits = 1;
+            mesh.mesh.host.set_threads(threads, threads > 1);
+            for (const int n : {1, 30, 300}) {
+                const auto points = more_points<D>(n, 1.1, 100000 + n); // some are outside
+                auto before = mesh.all_labelled();
+                ASSERT_EQ(mesh.mesh.insert(points), ABACUS_OK) << mesh.mesh.error.message;
+                const std::size_t heirs = mesh.expect_inherited(before);
+                EXPECT_GE(heirs, n > 1 ? static_cast<std::size_t>(n) : 0u);
+                before = mesh.all_labelled();
+                std::uint64_t deleted = 0;
+                ASSERT_EQ(mesh.mesh.remove(points, deleted), ABACUS_OK);
+                EXPECT_EQ(deleted, points.size());
+                mesh.expect_inherited(before);
+                if (testing::Test::HasFailure()) return;
+            }
+        }
+}
+
+TYPED_TEST(SimplexLabels, AreInheritedInAnotherDomain) {
+    constexpr int D = TestFixture::D;
+    LabelledMesh<D> mesh(3);
+    mesh.load(some_triangulation<D>(D == 2 ? 1000 : 400));
+    mesh.mesh.header.inherits = 1;
+    const double width = mesh.mesh.header.upper[0];
+    const auto before = mesh.all_labelled();
+    ASSERT_EQ(mesh.mesh.insert(more_points<D>(2000, 100, 100000)), ABACUS_OK);
+    EXPECT_GT(mesh.mesh.header.upper[0], width);
+    mesh.expect_inherited(before);
+    EXPECT_GT(mesh.mesh.header.labelled, 500u);
 }
 
 TYPED_TEST(SimplexLabels, FollowToAnotherDomain) {

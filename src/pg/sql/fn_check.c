@@ -60,7 +60,8 @@ look_before_pages(Checking *checking, const abacus_header *header)
 	static const int64 attributes_end[PAGE_TABLE_KEYS] = {-2, PG_INT64_MAX};
 	PageTable  *table = &mesh_pages(checking->host)->simplices;
 	StoredPage	row;
-	bool		found = page_table_next(table, header->apart ? attributes_end : NULL, &row);
+	bool		has_attributes = header->apart || header->labels > 0 || header->marked > 0;
+	bool		found = page_table_next(table, has_attributes ? attributes_end : NULL, &row);
 
 	if (found && memcmp(row.key, header_key, sizeof(header_key)) == 0)
 		found = page_table_next(table, header_key, &row);
@@ -86,9 +87,12 @@ check_pages(Checking *checking, Oid mesh, const abacus_header *header, int32 lim
 static int64
 row_code(const abacus_fault *fault)
 {
-	uint64		least = strcmp(fault->kind, "attributes") == 0 ? (uint64) PG_INT64_MIN : 0;
+	static const char *const kinds[] = {"attributes", "labels", "markers"};
 
-	return (int64) (fault->key.code + least);
+	for (int i = 0; i < lengthof(kinds); i++)
+		if (strcmp(fault->kind, kinds[i]) == 0)
+			return (int64) (fault->key.code + (uint64) PG_INT64_MIN);
+	return (int64) fault->key.code;
 }
 
 /* What the core has found first, if anything. */

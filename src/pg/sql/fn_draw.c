@@ -140,14 +140,39 @@ open_drawn(Oid drawn)
 	return reader_open_of(drawn, ANY_TYPE, CurrentMemoryContext);
 }
 
-/* Contours are lines through values that change; in a leaf of an octree there is but one. */
+/* The number of an attribute, or, behind these, of a label, by its name; -1 if it is not given. */
+static int
+attribute_or_label(FunctionCallInfo fcinfo, int argument, const abacus_header *header)
+{
+	if (!PG_ARGISNULL(argument))
+	{
+		const char *name = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+		int			label = header_label(header, name);
+
+		if (label >= 0)
+			return (int) header->attributes + label;
+		if (header->labels > 0 && header_attribute(header, name) < 0)
+			ereport(ERROR,
+					(errcode(ERRCODE_UNDEFINED_COLUMN),
+					 errmsg("mesh has no attribute or label \"%s\"", name)));
+	}
+	return drawing_attribute(fcinfo, argument, header);
+}
+
+/*
+ * Contours are lines through values that change; in a leaf of an octree there is but one, and a
+ * simplex has one label of a name.
+ */
 static void
 leave_contours_out(const abacus_header *header, abacus_drawing *drawing)
 {
-	if (header->type != ABACUS_OCTREE || drawing->contour_interval == 0)
+	bool		is_octree = header->type == ABACUS_OCTREE;
+
+	if (drawing->contour_interval == 0 ||
+		!(is_octree || drawing->attribute >= (int) header->attributes))
 		return;
 	drawing->contour_interval = 0;
-	ereport(NOTICE, (errmsg("contours has no effect on an octree")));
+	ereport(NOTICE, (errmsg("contours has no effect on %s", is_octree ? "an octree" : "a label")));
 }
 
 /* Tells why a picture shows nothing; `place` is where nothing is. */
@@ -194,7 +219,7 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	header_require_dimension(&reader->header, 2, "Use abacus_draw_section for a cut through it.");
 	drawing.width = drawing_pixels(fcinfo, DRAW_WIDTH, 1024, "width");
 	drawing.height = drawing_pixels(fcinfo, DRAW_HEIGHT, 0, "height");
-	drawing.attribute = drawing_attribute(fcinfo, DRAW_ATTRIBUTE, &reader->header);
+	drawing.attribute = attribute_or_label(fcinfo, DRAW_ATTRIBUTE, &reader->header);
 	drawing.edges = PG_ARGISNULL(DRAW_EDGES) || PG_GETARG_BOOL(DRAW_EDGES);
 	drawing.exaggeration = drawing_factor(fcinfo, DRAW_EXAGGERATION, "exaggeration");
 	drawing.max_edge = drawing_factor(fcinfo, DRAW_MAX_EDGE, "max_edge");
@@ -239,7 +264,7 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 		PG_GETARG_FLOAT8(SECTION_EXAGGERATION);
 	drawing.width = drawing_pixels(fcinfo, SECTION_WIDTH, 1024, "width");
 	drawing.height = drawing_pixels(fcinfo, SECTION_HEIGHT, 0, "height");
-	drawing.attribute = drawing_attribute(fcinfo, SECTION_ATTRIBUTE, &reader->header);
+	drawing.attribute = attribute_or_label(fcinfo, SECTION_ATTRIBUTE, &reader->header);
 	drawing.edges = PG_ARGISNULL(SECTION_EDGES) || PG_GETARG_BOOL(SECTION_EDGES);
 	drawing.max_edge = drawing_factor(fcinfo, SECTION_MAX_EDGE, "max_edge");
 	drawing_range(fcinfo, SECTION_RANGE, &drawing);

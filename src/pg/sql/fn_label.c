@@ -1,5 +1,5 @@
 /*
- * fn_label.c: abacus_label and abacus_labels, labels of simplices of a mesh.
+ * fn_label.c: abacus_label, abacus_inherit_labels and abacus_labels, labels of simplices of a mesh.
  *
  * Nothing is triangulated, and no simplex page is read for writing. So meshes that are not Delaunay
  * can have labels, too.
@@ -14,10 +14,12 @@
 #include "pg/mesh/change.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/mesh/shape.h"
+#include "pg/mesh/writer.h"
 #include "pg/sql/result.h"
 #include "pg/sql/simplex_row.h"
 
 SQL_FUNCTION(abacus_sql_label);
+SQL_FUNCTION(abacus_sql_inherit_labels);
 SQL_FUNCTION(abacus_sql_labels);
 SQL_FUNCTION(abacus_sql_labels_of);
 
@@ -95,6 +97,23 @@ abacus_sql_label(PG_FUNCTION_ARGS)
 	labelled = label_query(PG_GETARG_OID(0), &source);
 	source_finish(&source);
 	PG_RETURN_INT64((int64) labelled);
+}
+
+/* abacus_inherit_labels(mesh regclass, inherit boolean) */
+Datum
+abacus_sql_inherit_labels(PG_FUNCTION_ARGS)
+{
+	Writer		writer;
+
+	writer_begin_of(&writer, PG_GETARG_OID(0), ABACUS_MESH, "abacus_inherit_labels()");
+	if (writer.header->labels == 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("mesh has no labels"),
+				 errhint("Give some to its simplices first, with abacus_label().")));
+	writer.header->inherits = PG_GETARG_BOOL(1) ? 1 : 0;
+	writer_end(&writer);
+	PG_RETURN_VOID();
 }
 
 /* abacus_labels(mesh regclass) -> text[] */

@@ -116,6 +116,22 @@ put_srid(Figures *figures, const abacus_header *header)
 				   "spatial reference system of the coordinates, as PostGIS numbers it");
 }
 
+/* Of what only some meshes have. */
+static void
+put_labels(Figures *figures, const abacus_header *header)
+{
+	if (header->labels > 0)
+	{
+		put_figure(figures, "labels", header->labels, "labels that a simplex may have");
+		put_figure(figures, "labelled", (double) header->labelled, "simplices that have labels");
+		put_figure(figures, "labels_inherited", header->inherits,
+				   "1: new simplices get the labels of the one that their centroid lay in; 0: none");
+	}
+	if (header->marked > 0)
+		put_figure(figures, "marked", (double) header->marked,
+				   "simplices beside a facet with a marker");
+}
+
 static void
 put_octree_counts(Figures *figures, const abacus_header *header)
 {
@@ -161,6 +177,7 @@ put_counts(Figures *figures, const abacus_header *header)
 	put_figure(figures, "outside", (double) header->outside,
 			   "points that the domain does not fit, since it was last chosen");
 	put_delaunay(figures, header->not_delaunay);
+	put_labels(figures, header);
 	put_srid(figures, header);
 }
 

@@ -166,6 +166,7 @@ enum
 	POLYGON_CODE,
 	POLYGON_CORNERS,
 	POLYGON_VALUES,
+	POLYGON_LABELS,
 	POLYGON_COLUMNS
 };
 
@@ -228,22 +229,25 @@ begin_section(FunctionCallInfo fcinfo, FuncCallContext *set)
 }
 
 static Datum
-polygon_row(TupleDesc row_type, const abacus_polygon *polygon, bool has_values)
+polygon_row(TupleDesc row_type, const abacus_polygon *polygon, bool has_values,
+			const double *labels, uint32 label_count)
 {
 	Datum		values[POLYGON_COLUMNS] = {0};
-	bool		isnull[POLYGON_COLUMNS] = {false, false, !has_values};
+	bool		isnull[POLYGON_COLUMNS] = {false, false, !has_values, label_count == 0};
 
 	values[POLYGON_CODE] = Int64GetDatum((int64) polygon->code);
 	values[POLYGON_CORNERS] = attribute_array(polygon->point[0], polygon->corners * 3);
 	if (has_values)
 		values[POLYGON_VALUES] = attribute_array(polygon->value, polygon->corners);
+	if (label_count > 0)
+		values[POLYGON_LABELS] = attribute_array(labels, (int) label_count);
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
 }
 
 /*
  * abacus_section(mesh regclass, through float8[], normal float8[], attribute text,
  *                max_edge float8)
- *     -> code, polygon, values
+ *     -> code, polygon, values, labels
  */
 Datum
 abacus_sql_section(PG_FUNCTION_ARGS)
@@ -252,6 +256,8 @@ abacus_sql_section(PG_FUNCTION_ARGS)
 	Section    *section;
 	Host	   *host;
 	abacus_polygon polygon;
+	const double *labels = NULL;
+	uint32		label_count;
 	abacus_status status;
 
 	if (SRF_IS_FIRSTCALL())
@@ -265,9 +271,13 @@ abacus_sql_section(PG_FUNCTION_ARGS)
 	set = SRF_PERCALL_SETUP();
 	section = set->user_fctx;
 	host = section->reader->host;
+	label_count = section->reader->header.labels;
 	status = host_run(host, abacus_sections_next, host->handle, &polygon);
+	if (status != ABACUS_END && label_count > 0)
+		host_run(host, abacus_sections_labels, host->handle, &labels);
 	host_release(host);
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);
-	SRF_RETURN_NEXT(set, polygon_row(set->tuple_desc, &polygon, section->has_values));
+	SRF_RETURN_NEXT(set, polygon_row(set->tuple_desc, &polygon, section->has_values, labels,
+									 label_count));
 }
