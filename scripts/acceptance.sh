@@ -4,17 +4,18 @@
 # points with COPY into a table, abacus_triangulate, abacus_check, simplices
 # with COPY out, oracle_compare.
 #
-#   acceptance.sh [quick|full|goose] [2d|3d] [DATA SET...]
+#   acceptance.sh [quick|full|threads|goose] [2d|3d] [DATA SET...]
 #
-# quick takes two or three minutes, full (up to 14 M points a set) two hours; goose does the
-# same with abacus_goose and few points, in a minute. 2d and 3d choose a dimension, names choose
-# data sets; without any, all are compared.
+# quick takes two or three minutes, full (up to 14 M points a set) two hours; threads builds the sets
+# of full by 2, 3, 4 and 7 threads, in 40 minutes; goose does the same with abacus_goose and few
+# points, in a minute. 2d and 3d choose a dimension, names choose data sets; without any, all are
+# compared.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh
 . scripts/points.sh
 
-usage="usage: $0 [quick|full|goose] [2d|3d] [DATA SET...]"
+usage="usage: $0 [quick|full|threads|goose] [2d|3d] [DATA SET...]"
 mode=${1:-quick}
 shift $(($# > 0))
 # dimension:data set:points, and cache (MB or a word of cache_size):order.
@@ -29,7 +30,7 @@ quick)
     runs=(smallest:made default:shuffled largest:sorted smallest:reversed smallest:grown
         smallest:threads)
     ;;
-full)
+full | threads)
     sets=(2:uniform:1000000 2:grid:4000000 2:circle:100000 2:rounded_circle:100000
         2:wheel:100000 2:lines:1000000 2:flat_but_one:100000 2:clusters:1000000
         2:exponents:20000 2:duplicates:1000000 2:octree:1000000 2:shorelines:0
@@ -39,6 +40,7 @@ full)
         3:exponents:5000 3:duplicates:1000000 3:octree:1000000 3:curves:200000)
     runs=(smallest:made 8:made 64:made largest:made default:shuffled smallest:sorted 8:reversed
         8:grown smallest:threads default:threads)
+    if [[ $mode == threads ]]; then runs=(smallest:threads default:2threads 8:3threads 64:4threads); fi
     ;;
 goose)
     sets=(2:uniform:5000 2:grid:4900 2:circle:300 2:rounded_circle:300 2:wheel:301 2:lines:2000
@@ -77,8 +79,8 @@ oracle=$ABACUS_BUILD/release/test/oracle
 compared=0 differing=0
 
 # Builds the mesh of the table points, with its rows in order $1; `grown`: all points but the
-# last one first, and that one in a second step; `threads`: by many threads, each with a tiny part;
-# `goose`: by abacus_goose.
+# last one first, and that one in a second step; `Nthreads`: by so many; `threads`: by many, each
+# with a tiny part; `goose`: by abacus_goose.
 build_mesh() {
     local query="SELECT id, $columns FROM points" grow=() settings=()
     case $1 in
@@ -95,6 +97,7 @@ build_mesh() {
             -c "SELECT abacus_triangulate('mesh')")
         query+=" WHERE id < $count"
         ;;
+    ?threads) settings=(-c "SET abacus.threads = ${1%threads}") ;;
     threads) settings=(-c "SET abacus.threads = 7" -c "SET abacus.tiny_intervals = on") ;;
     esac
     run_psql -o /dev/null "${settings[@]}" -c "SET abacus.cache_size = '${cache}MB'" \
@@ -113,7 +116,7 @@ compare() {
     fi
     if ((dimension == 3)); then corners+=", v3"; fi
     # Equal points are one vertex, which has the id of the first: where the file has it.
-    case $order in made | grown | threads | goose) first_ids=1 ;; esac
+    case $order in made | grown | *threads | goose) first_ids=1 ;; esac
     start=${EPOCHREALTIME/./}
     build_mesh "$order"
     built=${EPOCHREALTIME/./}
