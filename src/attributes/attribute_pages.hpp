@@ -102,6 +102,10 @@ public:
     void drop(const Point<D> &p, std::uint64_t code);
     /// Throws an Error (corrupted) if there is no such vertex.
     void get(const Point<D> &p, std::uint64_t code, double *values);
+    /// Whether there is such a vertex; reads a page of the first group.
+    bool contains(const Point<D> &p, std::uint64_t code) {
+        return pages_.front().contains(attribute_key<D>(p, code), p);
+    }
     void flush() {
         for (AttributeGroup<D> &group : pages_) group.flush();
     }
