@@ -100,8 +100,9 @@ SELECT abacus_create('twin_mesh', 2, '{v,w}');
 SELECT abacus_track('twin_mesh', 'twins');
 INSERT INTO twins SELECT 7, 0, 0, i / 2, 0 FROM generate_series(0, 9) i;
 UPDATE twins SET v = v + 1;
-CREATE VIEW twins_astray AS (SELECT x, y, v::float8, w::float8 FROM twins EXCEPT ALL SELECT x, y, attributes[1], attributes[2] FROM abacus_vertices('twin_mesh'))
-UNION ALL (SELECT x, y, attributes[1], attributes[2] FROM abacus_vertices('twin_mesh') EXCEPT ALL SELECT x, y, v, w FROM twins);
+CREATE VIEW twin_rows AS SELECT id, x, y, NULLIF(v, 'NaN')::float8 AS v, NULLIF(w, 'NaN')::float8 AS w FROM twins;
+CREATE VIEW twin_points AS SELECT id, x, y, attributes[1] AS v, attributes[2] AS w FROM abacus_vertices('twin_mesh');
+CREATE VIEW twins_astray AS (TABLE twin_rows EXCEPT ALL TABLE twin_points) UNION ALL (TABLE twin_points EXCEPT ALL TABLE twin_rows);
 SELECT * FROM twins_astray;
 INSERT INTO twins VALUES (1, 4, 0, 1, 1), (2, 0, 4, 2, 'NaN'), (7, 4, 4, NULL, '-0');
 UPDATE twins SET v = CASE WHEN v > 3 THEN v - 1 ELSE v + 1 END, w = 0;
