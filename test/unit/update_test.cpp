@@ -92,7 +92,7 @@ private:
         abacus_status status =
             abacus_stage_open(mesh.host.table(), &shape, memory, &stage, &mesh.error);
         for (const InputOf<D> &p : points) {
-            std::vector<std::uint64_t> record(1 + D + width);
+            std::vector<std::uint64_t> record(record_words(D, shape.attributes));
             fill_record<D>(record.data(), p.id, p.point, p.attributes.data(), width);
             if (status == ABACUS_OK)
                 status = abacus_stage_add(stage, record.data(), 1, &mesh.error);
