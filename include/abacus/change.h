@@ -100,10 +100,12 @@ typedef struct abacus_named_place
  * attributes only; of several for a point the last one counts. *updated says for how many there was
  * a point; *missing has id and place of the first for which there was none. No simplex changes. A
  * mesh whose attributes are apart is changed in the pages of these attributes alone, unless several
- * points are at a place, or wait.
+ * points are at a place, or wait. With `exactly` the stage has, behind these values, those of all
+ * attributes as they were. A point of the mesh must have them, and where several are at a place the
+ * id, too; each is taken once. The mesh needs simplices then: no point that waits is found.
  */
 ABACUS_API abacus_status abacus_build_update(abacus_build *build, abacus_stage *stage,
-											 const uint32_t *attributes, size_t count,
+											 const uint32_t *attributes, size_t count, int exactly,
 											 abacus_header *header, uint64_t *updated,
 											 abacus_named_place *missing, abacus_error *error);
 /* An attribute that no point has had. */

@@ -317,6 +317,10 @@ void AttributePages<D, K>::get(const Name &owner, std::uint64_t code, double *va
             throw_no_attributes<D, K>();
 }
 
+template <int D, int K> bool AttributePages<D, K>::contains(const Name &owner, std::uint64_t code) {
+    return pages_.front().contains(attribute_key<D, K>(owner, code), owner);
+}
+
 template class AttributePages<2>;
 template class AttributePages<3>;
 template class AttributePages<2, 3>;

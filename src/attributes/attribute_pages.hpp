@@ -114,6 +114,8 @@ public:
     }
     /// Throws an Error (corrupted) if the owner has none.
     void get(const Name &owner, std::uint64_t code, double *values);
+    /// Whether the owner has any; reads a page of the first group.
+    bool contains(const Name &owner, std::uint64_t code);
     void flush() {
         for (AttributeGroup<D, K> &group : pages_) group.flush();
     }

@@ -85,11 +85,12 @@ abacus_status abacus_build_delete(abacus_build *build, abacus_stage *stage, int 
 }
 
 abacus_status abacus_build_update(abacus_build *build, abacus_stage *stage,
-                                  const uint32_t *attributes, size_t count, abacus_header *header,
-                                  uint64_t *updated, abacus_named_place *missing,
-                                  abacus_error *error) {
+                                  const uint32_t *attributes, size_t count, int exactly,
+                                  abacus_header *header, uint64_t *updated,
+                                  abacus_named_place *missing, abacus_error *error) {
     return run(build, header, error, [&](auto &opened, abacus_header &changed) {
-        *updated = opened.update(stage_for(opened, stage), {attributes, count}, changed, *missing);
+        *updated = opened.update(stage_for(opened, stage), {attributes, count}, exactly != 0,
+                                 changed, *missing);
     });
 }
 

@@ -281,14 +281,14 @@ std::uint64_t Build<D>::remove(Stage<D> &stage, bool exactly, abacus_header &hea
 }
 
 template <int D>
-std::uint64_t Build<D>::update(Stage<D> &stage, std::span<const std::uint32_t> which,
+std::uint64_t Build<D>::update(Stage<D> &stage, std::span<const std::uint32_t> which, bool exactly,
                                abacus_header &header, abacus_named_place &missing) {
-    check_attributes(stage, which.size());
+    check_attributes(stage, which.size() + (exactly ? attributes_ : 0));
     std::uint64_t changed = 0;
     change(header, [&] {
         const std::uint64_t points = stage.points();
         insert_waiting(0);
-        Revision revision(*this, which);
+        Revision revision(*this, which, exactly);
         abacus_header ordered = header; // which may have no domain, if it has no points
         stage.end(ordered);
         stage.emit(revision, ordered);

@@ -53,9 +53,10 @@ public:
     /// `exactly`, only one that has its id and attributes. Returns how many there were.
     std::uint64_t remove(Stage<D> &stage, bool exactly, abacus_header &header);
     /// Inserts what waits, then gives the points of a stage, which have values of the attributes
-    /// `which` only, these values. Returns for how many of them there was a point; `missing`
+    /// `which` only, these values. With `exactly` those of all attributes, as they were, come
+    /// behind them, and a point must have them. Returns for how many there was a point; `missing`
     /// becomes the first for which there was none.
-    std::uint64_t update(Stage<D> &stage, std::span<const std::uint32_t> which,
+    std::uint64_t update(Stage<D> &stage, std::span<const std::uint32_t> which, bool exactly,
                          abacus_header &header, abacus_named_place &missing);
     /// Takes away all points, waiting ones included; returns how many there were.
     std::uint64_t clear(abacus_header &header);

@@ -37,12 +37,14 @@ template <int D> Link Removal<D>::find(const Point<D> &p, Leaving *want) {
     const Link corner = find(p);
     if (corner == nowhere || want == nullptr) return corner;
     const VertexIndex v = vertex_of(corner);
-    return want->takes(cache_.vertices().id(v), attributes_of(v, *want)) ? corner : nowhere;
+    return want->takes(cache_.vertices().id(v), attributes_of(v, want->compares_attributes()))
+               ? corner
+               : nowhere;
 }
 
-template <int D> const double *Removal<D>::attributes_of(VertexIndex v, const Leaving &leaving) {
+template <int D> const double *Removal<D>::attributes_of(VertexIndex v, bool are_compared) {
     if (attributes_ == nullptr) return cache_.vertices().attributes(v);
-    if (!leaving.compares_attributes()) return nullptr;
+    if (!are_compared) return nullptr;
     const Vertex<D> &vertex = cache_.vertices()[v];
     attributes_->get(vertex.point, vertex.code, values_.data());
     return values_.data();
@@ -114,7 +116,8 @@ template <int D> std::optional<bool> Removal<D>::offer(const Point<D> &p, Leavin
     std::optional<bool> more;
     if (corner != nowhere) {
         const VertexIndex v = vertex_of(corner);
-        more = leaving.offer(cache_.vertices().id(v), attributes_of(v, leaving), 0);
+        more = leaving.offer(cache_.vertices().id(v),
+                             attributes_of(v, leaving.compares_attributes()), 0);
     }
     mesh_.finish(anywhere);
     return more;
@@ -141,10 +144,16 @@ template <int D> void Removal<D>::rewrite(Link corner, std::int64_t id, const do
         for (const Handle h : star_.simplices()) mesh_.log->come(cache_, h);
 }
 
-template <int D> std::optional<std::int64_t> Removal<D>::id_at(const Point<D> &p) {
+template <int D>
+std::optional<std::int64_t> Removal<D>::id_at(const Point<D> &p, std::span<double> attributes) {
     const Link corner = find(p);
     std::optional<std::int64_t> id;
-    if (corner != nowhere) id = cache_.vertices().id(vertex_of(corner));
+    if (corner != nowhere) {
+        const VertexIndex v = vertex_of(corner);
+        id = cache_.vertices().id(v);
+        if (!attributes.empty())
+            std::copy_n(attributes_of(v, true), attributes.size(), attributes.begin());
+    }
     mesh_.finish(anywhere);
     return id;
 }

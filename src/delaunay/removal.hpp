@@ -46,8 +46,9 @@ public:
     /// Gives the vertex there another id and, unless they are apart, other attributes (null if
     /// there are none). Returns false if there is no vertex.
     bool rename(const Point<D> &p, std::int64_t id, const double *attributes);
-    /// The id of the vertex there; nothing if there is none.
-    std::optional<std::int64_t> id_at(const Point<D> &p);
+    /// The id of the vertex there; nothing if there is none. `attributes` become its own: there is
+    /// room for all, or for none.
+    std::optional<std::int64_t> id_at(const Point<D> &p, std::span<double> attributes = {});
     /// Gives the vertex there, whose attributes are not apart, other values of the attributes
     /// `which`. Returns false if there is no vertex.
     bool set_attributes(const Point<D> &p, std::span<const std::uint32_t> which,
@@ -78,8 +79,8 @@ private:
     void rewrite(Link corner, std::int64_t id, const double *attributes);
     /// Takes the vertex of the star out.
     void take_out();
-    /// What tells a vertex from others at its place; read by the next call.
-    const double *attributes_of(VertexIndex v, const Leaving &leaving);
+    /// What a vertex has, until the next call; null if it is apart, unless it is compared.
+    const double *attributes_of(VertexIndex v, bool are_compared);
 
     Delaunay<D> &mesh_;
     Cache<D> &cache_;

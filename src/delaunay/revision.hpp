@@ -4,9 +4,14 @@
 // unless several points are at the place, or wait. Otherwise all pages that have the vertex are.
 // Only where points are equal it matters which of them is meant: the one with the row's id, or else
 // the first, which is the vertex, whose id a simplex page tells.
+//
+// A mesh that follows a table is changed `exactly`: a point is only meant if it has the attributes
+// that the row had before and, where points are equal, its id (points/identities.hpp). Each row is
+// for a point of its own then. So a row is missing if the mesh has missed a change of it.
 #pragma once
 
 #include "delaunay/build.hpp"
+#include "points/identities.hpp"
 #include "points/waiting_changes.hpp"
 
 #include <algorithm>
@@ -15,23 +20,28 @@ namespace abacus {
 
 template <int D> class Build<D>::Revision final : public RecordSink {
 public:
-    /// The values of a record are those of the attributes `which`.
-    Revision(Build &build, std::span<const std::uint32_t> which)
-        : build_(build), which_(which), waiting_(build.host_, build.attributes_, which),
-          wants_(build.host_), values_(build.host_) {}
+    /// The values of a record are those of the attributes `which`; with `exactly`, those of all
+    /// attributes before the change come behind them.
+    Revision(Build &build, std::span<const std::uint32_t> which, bool exactly)
+        : build_(build), which_(which), exactly_(exactly),
+          waiting_(build.host_, build.attributes_, which),
+          identities_(build.host_, exactly ? build.attributes_ : 0), wants_(build.host_),
+          values_(build.host_) {}
 
     void add(const std::uint64_t *record) override {
         if (!build_.has_simplices()) {
-            waiting_.want(record);
-            if (waiting_.is_full()) change_waiting();
+            wait_for(record);
             return;
         }
         if (++done_ % 256 == 0) build_.host_.poll();
         const Point<D> p = record_point<D>(record);
         if (!wants_.empty() && (!(p == place_) || is_full())) revise_place();
         place_ = p;
-        wants_.push_back({record_id(record), static_cast<std::uint32_t>(wants_.size()), false});
-        std::copy_n(record_attributes<D>(record), which_.size(), values_.extend(which_.size()));
+        const double *values = record_attributes<D>(record);
+        const std::int64_t id = record_id(record);
+        wants_.push_back({id, exactly_ ? identities_.enter(id, values + which_.size()) : id,
+                          static_cast<std::uint32_t>(wants_.size())});
+        std::copy_n(values, which_.size(), values_.extend(which_.size()));
     }
     void finish() override {
         if (!wants_.empty()) revise_place();
@@ -53,57 +63,125 @@ private:
 
     struct Want {
         std::int64_t id;
+        std::int64_t identity; ///< what tells the point: its id, or a number of identities_
         std::uint32_t order;
-        bool is_met;
+        bool is_met = false;
+        bool is_of_vertex = false;
+        std::uint32_t dealt_with = 0; ///< of the first one of an identity: how many of these
     };
 
+    /// Points that wait are not looked for exactly.
+    void wait_for(const std::uint64_t *record) {
+        if (exactly_) {
+            miss(record_id(record), record_point<D>(record));
+            return;
+        }
+        waiting_.want(record);
+        if (waiting_.is_full()) change_waiting();
+    }
+    void miss(std::int64_t id, const Point<D> &p) {
+        if (!missing_) fill_record<D>(missing_.emplace().data(), id, p, nullptr, 0);
+    }
     void change_waiting() {
         changed_ += waiting_.apply(build_.header_->inserted, build_.header_->staged, missing_);
     }
-    bool is_full() const { return wants_.size() * (sizeof(Want) + 8 * which_.size()) >= most; }
+    bool is_full() const {
+        return wants_.size() * (sizeof(Want) + 8 * which_.size() + identities_.bytes_each()) >=
+               most;
+    }
     const double *values(const Want &want) const {
         return values_.data() + want.order * which_.size();
     }
     /// All wants for a place at once, so that the points that equal its vertex are read once.
     void revise_place() {
-        if (build_.header_->duplicates > 0 && build_.repeated_->contains(place_)) revise_repeated();
+        if (build_.header_->duplicates > 0 && build_.repeated_->contains(place_))
+            revise_repeated();
+        else if (!exactly_)
+            for (Want &want : wants_) want.is_of_vertex = true;
+        else // an attribute page does not tell the id
+            wants_[0].is_of_vertex = vertex_has(wants_[0]);
         for (const Want &want : wants_) {
-            if (want.is_met || set_of_vertex(values(want)))
+            if (want.is_met || (want.is_of_vertex && set_of_vertex(values(want))))
                 ++changed_;
-            else if (!missing_)
-                fill_record<D>(missing_.emplace().data(), want.id, place_, nullptr, 0);
+            else
+                miss(want.id, place_);
         }
         wants_.clear();
         values_.clear();
+        identities_.clear();
     }
     /// Leaves those for the vertex.
     void revise_repeated() {
-        const std::optional<std::int64_t> first = build_.core_->removal.id_at(place_);
-        if (!first) throw_corrupted("A repeated point equals no vertex of the mesh.");
         std::sort(wants_.begin(), wants_.end(), [](const Want &a, const Want &b) {
-            return a.id < b.id || (a.id == b.id && a.order < b.order);
+            return a.identity < b.identity || (a.identity == b.identity && a.order < b.order);
         });
-        std::size_t left = 0; // ids
-        for (const Want *w = wants_.begin(); w != wants_.end(); ++w)
-            left += w->id != *first && (w == wants_.begin() || w->id != w[-1].id);
+        std::size_t left = wants_.size() - give_to_vertex();
         build_.repeated_->change(place_, [&](std::uint64_t *record, bool &is_changed) {
-            const std::int64_t id = record_id(record);
-            const auto by_id = [](const Want &want, std::int64_t sought) {
-                return want.id < sought;
-            };
-            Want *w = std::lower_bound(wants_.begin(), wants_.end(), id, by_id);
-            if (left == 0 || id == *first || w == wants_.end() || w->id != id || w->is_met)
-                return left > 0;
-            for (; w != wants_.end() && w->id == id; ++w) {
-                w->is_met = true;
-                for (std::size_t i = 0; i < which_.size(); ++i)
-                    record[1 + D + which_[i]] = std::bit_cast<std::uint64_t>(values(*w)[i]);
+            if (left > 0) {
+                const std::size_t met =
+                    give(identity(record_id(record), record_attributes<D>(record)), record);
+                is_changed = met > 0;
+                left -= met;
             }
-            is_changed = true;
-            return --left > 0;
+            return left > 0;
         });
         std::sort(wants_.begin(), wants_.end(),
                   [](const Want &a, const Want &b) { return a.order < b.order; });
+        if (!exactly_) // no other point has the id
+            for (Want &want : wants_) want.is_of_vertex = !want.is_met;
+    }
+    std::int64_t identity(std::int64_t id, const double *attributes) {
+        return exactly_ ? identities_.find(id, attributes) : id;
+    }
+    /// The first want for a point of this identity that has not been dealt with, or the end.
+    Want *next_for(std::int64_t identity, Want *&first) {
+        first = std::lower_bound(
+            wants_.begin(), wants_.end(), identity,
+            [](const Want &want, std::int64_t sought) { return want.identity < sought; });
+        if (first == wants_.end() || first->identity != identity) return wants_.end();
+        Want *next = first + first->dealt_with;
+        return next == wants_.end() || next->identity != identity ? wants_.end() : next;
+    }
+    /// Deals with what a point of this identity takes: one want exactly, or else all there are.
+    template <class Take> std::size_t deal_with(std::int64_t identity, Take take) {
+        std::size_t n = 0;
+        Want *first;
+        for (Want *want;
+             (want = next_for(identity, first)) != wants_.end() && (n == 0 || !exactly_); ++n) {
+            take(*want);
+            ++first->dealt_with;
+        }
+        return n;
+    }
+    /// How many wants are for the vertex.
+    std::size_t give_to_vertex() {
+        const std::optional<std::int64_t> id = read_vertex();
+        if (!id) throw_corrupted("A repeated point equals no vertex of the mesh.");
+        return deal_with(identity(*id, now_.data()), [](Want &want) { want.is_of_vertex = true; });
+    }
+    /// How many wants are for a repeated point.
+    std::size_t give(std::int64_t identity, std::uint64_t *record) {
+        return deal_with(identity, [&](Want &want) {
+            want.is_met = true;
+            for (std::size_t i = 0; i < which_.size(); ++i)
+                record[1 + D + which_[i]] = std::bit_cast<std::uint64_t>(values(want)[i]);
+        });
+    }
+    /// The id of the vertex; exactly, now_ becomes what attributes it has.
+    std::optional<std::int64_t> read_vertex() {
+        const std::size_t compared = exactly_ ? build_.attributes_ : 0;
+        return build_.core_->removal.id_at(place_, {now_.data(), compared});
+    }
+    /// Whether the vertex has the attributes that a want is for.
+    bool vertex_has(const Want &want) {
+        if (build_.apart_) {
+            const std::uint64_t code = build_.domain_.code(place_);
+            if (!build_.apart_->contains(place_, code)) return false;
+            build_.apart_->get(place_, code, now_.data());
+        } else if (!read_vertex()) {
+            return false;
+        }
+        return identities_.find(want.id, now_.data()) == want.identity;
     }
     bool set_of_vertex(const double *values) {
         if (build_.apart_)
@@ -113,10 +191,13 @@ private:
 
     Build &build_;
     const std::span<const std::uint32_t> which_;
+    const bool exactly_;
     WaitingChanges<D> waiting_;
+    Identities identities_; // wanted at the place, exactly
     Point<D> place_{};
     Arena<Want> wants_; // at the place
     Arena<double> values_;
+    std::array<double, ABACUS_MAX_ATTRIBUTES> now_; // of the vertex
     std::optional<std::array<std::uint64_t, 1 + D>> missing_;
     std::uint64_t changed_ = 0;
     std::uint64_t done_ = 0;

@@ -89,7 +89,7 @@ public:
             status = mesh.with_build([&](abacus_build *build) {
                 std::uint64_t updated = 0;
                 abacus_named_place missing;
-                return abacus_build_update(build, stage, &last, 1, &mesh.header, &updated, &missing,
+                return abacus_build_update(build, stage, &last, 1, 0, &mesh.header, &updated, &missing,
                                            &mesh.error);
             });
         abacus_stage_close(stage);

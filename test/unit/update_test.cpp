@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <random>
 
 namespace abacus::test {
@@ -65,24 +66,13 @@ public:
     }
     abacus_status update(const std::vector<InputOf<D>> &points,
                          const std::vector<std::uint32_t> &which, std::size_t memory = 16 << 20) {
-        abacus_header shape = mesh.header;
-        shape.attributes = static_cast<std::uint32_t>(which.size());
-        abacus_stage *stage = nullptr;
-        abacus_status status =
-            abacus_stage_open(mesh.host.table(), &shape, memory, &stage, &mesh.error);
-        for (const InputOf<D> &p : points) {
-            std::vector<std::uint64_t> record(1 + D + which.size());
-            fill_record<D>(record.data(), p.id, p.point, p.attributes.data(), which.size());
-            if (status == ABACUS_OK)
-                status = abacus_stage_add(stage, record.data(), 1, &mesh.error);
-        }
-        if (status == ABACUS_OK)
-            status = mesh.with_build([&](abacus_build *build) {
-                return abacus_build_update(build, stage, which.data(), which.size(), &mesh.header,
-                                           &updated, &missing, &mesh.error);
-            });
-        abacus_stage_close(stage);
-        return status;
+        return update(points, which, false, memory);
+    }
+    /// The points have values of all attributes, and behind them those that they had.
+    abacus_status update_exactly(const std::vector<InputOf<D>> &points) {
+        std::vector<std::uint32_t> all(count_);
+        std::iota(all.begin(), all.end(), 0);
+        return update(points, all, true, 16 << 20);
     }
 
     MeshOf<D> mesh;
@@ -92,6 +82,30 @@ public:
     abacus_named_place missing{};
 
 private:
+    abacus_status update(const std::vector<InputOf<D>> &points,
+                         const std::vector<std::uint32_t> &which, bool exactly,
+                         std::size_t memory) {
+        const std::size_t width = which.size() + (exactly ? count_ : 0);
+        abacus_header shape = mesh.header;
+        shape.attributes = static_cast<std::uint32_t>(width);
+        abacus_stage *stage = nullptr;
+        abacus_status status =
+            abacus_stage_open(mesh.host.table(), &shape, memory, &stage, &mesh.error);
+        for (const InputOf<D> &p : points) {
+            std::vector<std::uint64_t> record(record_words(D, shape.attributes));
+            fill_record<D>(record.data(), p.id, p.point, p.attributes.data(), width);
+            if (status == ABACUS_OK)
+                status = abacus_stage_add(stage, record.data(), 1, &mesh.error);
+        }
+        if (status == ABACUS_OK)
+            status = mesh.with_build([&](abacus_build *build) {
+                return abacus_build_update(build, stage, which.data(), which.size(), exactly,
+                                           &mesh.header, &updated, &missing, &mesh.error);
+            });
+        abacus_stage_close(stage);
+        return status;
+    }
+
     std::size_t count_;
     std::int64_t next_id_ = 0;
 };
@@ -184,6 +198,101 @@ TYPED_TEST(Update, ReadsEqualPointsOnce) {
     EXPECT_LT(world.mesh.host.calls.put - before.put, 100u);
     world.model.update(equal, {0});
     world.model.expect(world.mesh);
+}
+
+/// Points of the model with other values, and those that they have behind them.
+template <int D> std::vector<InputOf<D>> exact_changes(Updated<D> &world, std::size_t n) {
+    std::vector<InputOf<D>> all = world.model.points();
+    std::shuffle(all.begin(), all.end(), world.random);
+    if (all.size() > n) all.resize(n);
+    for (InputOf<D> &p : all) {
+        std::vector<double> now = world.values(p.attributes.size());
+        if (world.random() % 8 == 0) now[0] = p.attributes[0];
+        now.insert(now.end(), p.attributes.begin(), p.attributes.end());
+        p.attributes = now;
+    }
+    return all;
+}
+
+TYPED_TEST(Update, ExactlyChangesPointsThatAreAsTheyWere) {
+    constexpr int D = TypeParam::value;
+    for (const bool apart : {false, true})
+        for (const int kind : {0, 1}) {
+            SCOPED_TRACE(kind);
+            const int count = apart ? 50 : 3;
+            Updated<D> world(apart, std::size_t(64) << 10, count);
+            world.insert(world.fresh(300, kind));
+            for (int step = 0; step < (sanitized ? 5 : 20); ++step) {
+                const auto points = exact_changes(world, 1 + world.random() % 200);
+                ASSERT_EQ(world.update_exactly(points), ABACUS_OK) << world.mesh.error.detail;
+                ASSERT_EQ(world.updated, points.size());
+                std::vector<std::uint32_t> all(static_cast<std::size_t>(count));
+                std::iota(all.begin(), all.end(), 0);
+                world.model.update(points, all);
+                world.model.expect(world.mesh);
+                if (this->HasFatalFailure()) return;
+            }
+            // one with an attribute that it has not, and one of another place
+            auto points = exact_changes(world, 5);
+            points[2].attributes.back() += 1;
+            ASSERT_EQ(world.update_exactly(points), ABACUS_OK);
+            EXPECT_EQ(world.updated, 4u);
+            EXPECT_EQ(world.missing.id, points[2].id);
+            points = exact_changes(world, 1);
+            points[0].point.fill(0.25);
+            ASSERT_EQ(world.update_exactly(points), ABACUS_OK);
+            EXPECT_EQ(world.updated, 0u);
+        }
+}
+
+/// The first attribute of all points at the place of this one, in order.
+template <int D> std::vector<double> values_at(MeshOf<D> &mesh, const InputOf<D> &like) {
+    std::vector<double> values;
+    abacus_vertex_scan *scan = nullptr;
+    EXPECT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header, mesh.cache_bytes, &scan,
+                                      &mesh.error),
+              ABACUS_OK);
+    abacus_vertex v;
+    while (abacus_vertex_scan_next(scan, &v, &mesh.error) == ABACUS_OK)
+        if (std::equal(like.point.begin(), like.point.end(), v.point))
+            values.push_back(v.attributes[0]);
+    abacus_vertex_scan_close(scan);
+    std::sort(values.begin(), values.end());
+    return values;
+}
+
+TYPED_TEST(Update, ExactlyTakesEachOfEqualPointsOnce) {
+    // Rows that agree in all but attributes, or in these, too; one of them is the vertex.
+    constexpr int D = TypeParam::value;
+    for (const bool apart : {false, true}) {
+        Updated<D> world(apart, 1 << 20, 1);
+        const auto around = world.fresh(50, 0);
+        ASSERT_EQ(world.mesh.insert(around), ABACUS_OK);
+        InputOf<D> point = around[0];
+        for (const double value : {1., 2., 2., 3.}) {
+            point.attributes = {value};
+            ASSERT_EQ(world.mesh.insert({point}), ABACUS_OK);
+        }
+        const auto change = [&](const std::vector<std::pair<double, double>> &changes) {
+            std::vector<InputOf<D>> points;
+            for (const auto &[from, to] : changes) {
+                points.push_back(point);
+                points.back().attributes = {to, from};
+            }
+            ASSERT_EQ(world.update_exactly(points), ABACUS_OK) << world.mesh.error.detail;
+        };
+        const double first = around[0].attributes[0];
+        change({{2, 3}, {3, 2}, {1, 2}, {2, 2.5}, {first, -1}});
+        EXPECT_EQ(world.updated, 5u);
+        EXPECT_EQ(values_at<D>(world.mesh, point), (std::vector<double>{-1, 2, 2, 2.5, 3}));
+        change({{2, 7}, {2, 7}, {2, 7}}); // there are two
+        EXPECT_EQ(world.updated, 2u);
+        EXPECT_EQ(world.missing.id, point.id);
+        point.id = -5; // nobody's
+        change({{3, 4}});
+        EXPECT_EQ(world.updated, 0u);
+        EXPECT_EQ(world.mesh.check(), std::vector<std::string>{});
+    }
 }
 
 TYPED_TEST(Update, SaysWhichPointIsMissing) {

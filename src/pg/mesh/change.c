@@ -170,17 +170,19 @@ change_delete(Change *change, bool exactly)
 }
 
 /*
- * Gives points other values of some attributes, which are all that those of the stage have. Returns
- * how many there were; if not all, *missing is one of the others.
+ * Gives points other values of some attributes, which are all that those of the stage have; with
+ * `exactly`, to points with the attributes that come behind them. Returns how many there were; if
+ * not all, *missing is one of the others.
  */
 uint64
-change_update(Change *change, const uint32 *attributes, size_t count, abacus_named_place *missing)
+change_update(Change *change, const uint32 *attributes, size_t count, bool exactly,
+			  abacus_named_place *missing)
 {
 	Host	   *host = change->writer.host;
 	uint64		updated;
 
 	change_open_build(change);
-	host_run(host, abacus_build_update, change->build, change->stage, attributes, count,
+	host_run(host, abacus_build_update, change->build, change->stage, attributes, count, exactly,
 			 change->writer.header, &updated, missing);
 	return updated;
 }

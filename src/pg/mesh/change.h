@@ -36,7 +36,7 @@ extern void change_swap_stages(Change *change);
 extern void change_open_build(Change *change);
 extern void change_insert(Change *change);
 extern uint64 change_delete(Change *change, bool exactly);
-extern uint64 change_update(Change *change, const uint32 *attributes, size_t count,
+extern uint64 change_update(Change *change, const uint32 *attributes, size_t count, bool exactly,
 							abacus_named_place *missing);
 extern void change_attributes(Change *change, const uint32 *source, size_t count);
 extern void change_clear(Change *change);

@@ -5,7 +5,8 @@
  * It is called once after each statement. Points that a statement adds are inserted first,
  * then those that it takes away are deleted. So a vertex of which only attributes change is
  * renamed: the new point waits beside the old one and takes over, and the triangulation
- * stays as it is. A statement that changes no point does not touch the mesh, nor wait for
+ * stays as it is. Where a statement changes nothing but attributes, not even that is needed: they
+ * are changed where they are. A statement that changes no point does not touch the mesh, nor wait for
  * its other writers. In a mesh that follows at commit the points are only noted
  * (pending.c).
  *
@@ -80,6 +81,39 @@ stage(Transition *transition, bool new, Change *change)
 	return transition_send(transition, new, to_stage, change);
 }
 
+/* Other attributes of points that stay, into the mesh. */
+static void
+revise(const TriggerData *trigger, Transition *transition, Change *change)
+{
+	abacus_header *header = change->writer.header;
+	abacus_header *shape = palloc(sizeof(abacus_header));
+	uint32	   *attributes = palloc(header->attributes * sizeof(uint32));
+	abacus_named_place missing;
+	uint64		rows;
+
+	for (uint32 i = 0; i < header->attributes; i++)
+		attributes[i] = i;
+	*shape = *header;
+	shape->attributes = 2 * header->attributes;
+	change_open_stage(change, shape);
+	rows = transition_send_revisions(transition, to_stage, change);
+	change_take_srid(change, transition_srid(transition));
+	in_step_check_found(change, RelationGetRelationName(trigger->tg_relation), "change", rows,
+						change_update(change, attributes, header->attributes, true, &missing));
+	pfree(attributes);
+	pfree(shape);
+}
+
+/* Whether revise() can do it: points that wait are found by id and place only. */
+static bool
+can_be_revised(Transition *transition, const Change *change)
+{
+	const abacus_header *header = change->writer.header;
+
+	return header->simplices > 0 && 2 * header->attributes <= ABACUS_MAX_ATTRIBUTES &&
+		transition_revises(transition);
+}
+
 /* What the statement has added and taken away, into the mesh. */
 static void
 follow(const TriggerData *trigger, Transition *transition, Change *change)
@@ -89,6 +123,11 @@ follow(const TriggerData *trigger, Transition *transition, Change *change)
 	in_step_check_shape(change->writer.header, transition->dimension, transition->columns,
 						trigger->tg_trigger->tgname);
 	transition->srid = change->writer.header->srid;
+	if (can_be_revised(transition, change))
+	{
+		revise(trigger, transition, change);
+		return;
+	}
 	if (transition->new.rows != NULL && stage(transition, true, change) > 0)
 	{
 		change_take_srid(change, transition_srid(transition));
@@ -97,8 +136,8 @@ follow(const TriggerData *trigger, Transition *transition, Change *change)
 	if (transition->old.rows == NULL || (gone = stage(transition, false, change)) == 0)
 		return;
 	/* the point of another row at the place must not be taken for one that is missing */
-	in_step_check_deleted(change, RelationGetRelationName(trigger->tg_relation), gone,
-						  change_delete(change, true));
+	in_step_check_found(change, RelationGetRelationName(trigger->tg_relation), "delete", gone,
+						change_delete(change, true));
 }
 
 /*

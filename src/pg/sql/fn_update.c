@@ -74,7 +74,7 @@ update_query(Oid mesh, Source *source)
 
 	change_read_gone(change, source, shape);
 	points = change->points;
-	if (change_update(change, attributes, shape->attributes, &missing) < points)
+	if (change_update(change, attributes, shape->attributes, false, &missing) < points)
 		refuse_missing(change, &missing);
 	change_end(change);
 	return points;

@@ -34,17 +34,18 @@ in_step_check_srid(Change *change, int32 srid)
 	change_take_srid(change, srid);
 }
 
-/* Whether all points have been deleted that are gone from the table. */
+/* Whether all points have been found that the table has changed; `what`: "delete" or "change". */
 void
-in_step_check_deleted(const Change *change, const char *table, uint64 gone, uint64 deleted)
+in_step_check_found(const Change *change, const char *table, const char *what, uint64 wanted,
+					uint64 found)
 {
-	if (deleted != gone)
+	if (found != wanted)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("mesh \"%s\" is not in step with table \"%s\"",
 						RelationGetRelationName(mesh_pages(change->writer.host)->simplices.heap), table),
-				 errdetail("Points to delete: " UINT64_FORMAT "; found: " UINT64_FORMAT ".", gone,
-						   deleted),
+				 errdetail("Points to %s: " UINT64_FORMAT "; found: " UINT64_FORMAT ".", what, wanted,
+						   found),
 				 errhint("Bring it in step with abacus_track(mesh, table, synchronize => true). If "
 						 "an AFTER trigger changes the rows of its own statement again, make it a "
 						 "BEFORE trigger: such changes cannot be followed.")));

@@ -9,7 +9,7 @@
 extern void in_step_check_shape(const abacus_header *header, int dimension, int columns,
 								const char *trigger);
 extern void in_step_check_srid(Change *change, int32 srid);
-extern void in_step_check_deleted(const Change *change, const char *table, uint64 gone,
-								  uint64 deleted);
+extern void in_step_check_found(const Change *change, const char *table, const char *what,
+								uint64 wanted, uint64 found);
 
 #endif

@@ -259,8 +259,8 @@ change_mesh(Pending *pending)
 	if (pending->extent.went > 0)
 	{
 		stage(pending, true, change);
-		in_step_check_deleted(change, pending->table, pending->extent.went,
-							  change_delete(change, true));
+		in_step_check_found(change, pending->table, "delete", pending->extent.went,
+							change_delete(change, true));
 	}
 	change_end(change);
 }

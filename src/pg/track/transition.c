@@ -159,10 +159,11 @@ is_point(const Transition *transition, TupleTableSlot *slot)
 	return true;
 }
 
+/* Whether the rows agree in the first columns of a point: all, or id and place. */
 static bool
-is_same_point(const Transition *transition)
+agree(const Transition *transition, int columns)
 {
-	for (int i = 0; i < transition->inputs; i++)
+	for (int i = 0; i < columns; i++)
 	{
 		Form_pg_attribute attribute = TupleDescAttr(transition->points, i);
 		bool		old_null;
@@ -175,6 +176,12 @@ is_same_point(const Transition *transition)
 			return false;
 	}
 	return true;
+}
+
+static bool
+is_same_point(const Transition *transition)
+{
+	return agree(transition, transition->inputs);
 }
 
 /* Goes on to the next rows; false at the end of both tables. */
@@ -203,6 +210,25 @@ transition_changes(Transition *transition)
 		if (transition->old.counts || transition->new.counts)
 			return true;
 	return false;
+}
+
+/* Whether the statement has changed attributes alone: each point stays, with its id. */
+bool
+transition_revises(Transition *transition)
+{
+	int			attributes = transition->columns - 1 - transition->dimension;
+
+	if (attributes == 0 || transition->old.rows == NULL || transition->new.rows == NULL)
+		return false;
+	rewind_all(transition);
+	while (advance(transition))
+	{
+		if (transition->old.counts != transition->new.counts)
+			return false;
+		if (transition->new.counts && !agree(transition, transition->inputs - attributes))
+			return false;
+	}
+	return true;
 }
 
 /* Has room for so many points that are packed. */
@@ -262,6 +288,63 @@ transition_send(Transition *transition, bool new, PointSink sink, void *context)
 	if (packer->count > 0)
 		sink(context, packer->points, packer->count);
 	row_packer_reset(packer);
+	return sent;
+}
+
+/* Leaves of the pairs of points that are packed, as they are and as they were, one record each. */
+static void
+join_pairs(const Transition *transition)
+{
+	size_t		columns = transition->columns;
+	size_t		attributes = columns - 1 - transition->dimension;
+	uint64	   *points = transition->packer->points;
+	uint64	   *to = points;
+
+	for (size_t i = 0; i + 1 < transition->packer->count; i += 2)
+	{
+		memmove(to, points + i * columns, columns * sizeof(uint64));
+		to += columns;
+		memmove(to, points + (i + 2) * columns - attributes, attributes * sizeof(uint64));
+		to += attributes;
+	}
+}
+
+static void
+flush_revisions(const Transition *transition, PointSink sink, void *context)
+{
+	RowPacker  *packer = transition->packer;
+
+	if (packer->count > 0)
+	{
+		join_pairs(transition);
+		sink(context, packer->points, packer->count / 2);
+	}
+	row_packer_reset(packer);
+}
+
+/*
+ * Sends on the points that are new, each with the attributes that it had behind those that it has;
+ * returns how many. The statement is one that transition_revises().
+ */
+uint64
+transition_send_revisions(Transition *transition, PointSink sink, void *context)
+{
+	uint64		sent = 0;
+
+	open_packer(transition, POINTS_A_BATCH);
+	transition->packer->row = 0;
+	rewind_all(transition);
+	while (advance(transition))
+	{
+		if (!transition->new.counts)
+			continue;
+		pack(transition, transition->new.slot);
+		pack(transition, transition->old.slot);
+		sent++;
+		if (transition->packer->count == POINTS_A_BATCH)
+			flush_revisions(transition, sink, context);
+	}
+	flush_revisions(transition, sink, context);
 	return sent;
 }
 

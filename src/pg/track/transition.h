@@ -47,6 +47,8 @@ extern void transition_open_rows(Transition *transition, uint32 srid);
 extern const abacus_header *transition_shape(const Transition *transition);
 extern int32 transition_srid(const Transition *transition);
 extern bool transition_changes(Transition *transition);
+extern bool transition_revises(Transition *transition);
+extern uint64 transition_send_revisions(Transition *transition, PointSink sink, void *context);
 extern uint64 transition_send(Transition *transition, bool new, PointSink sink, void *context);
 extern void transition_send_row(Transition *transition, const TriggerData *trigger, bool new,
 								PointSink sink, void *context);
