@@ -17,11 +17,11 @@ CREATE FUNCTION pg_temp.unused(mesh regclass) RETURNS TABLE (block bigint) LANGU
 SELECT abacus_triangulate('small', pg_temp.points(1, 5000));
 SELECT is_empty($$ SELECT pg_temp.unused('small') $$, 'a small table has no page that is not used');
 
--- Many: less than a sixteenth is left.
+-- Many: a sixteenth of the rows stored is left at most, of which some were stored twice.
 SELECT abacus_triangulate('large', pg_temp.points(1, 160000)); -- other numbers may use the last step up
 CREATE TEMP TABLE left_over AS SELECT array_agg(block) AS blocks FROM pg_temp.unused('large');
 SELECT cmp_ok((SELECT cardinality(blocks) FROM left_over), '>', 0, 'the last step was not used up');
-SELECT cmp_ok((SELECT cardinality(blocks) FROM left_over), '<=', (SELECT count(*) FROM large)::int / 16, 'but nearly');
+SELECT cmp_ok((SELECT cardinality(blocks) FROM left_over), '<=', (SELECT count(*) FROM large)::int / 12, 'but nearly');
 SELECT cmp_ok((SELECT max(block) FROM left_over, unnest(blocks) AS block) + 1, '=', pg_relation_size('large') / 8192,
               'it is the end of the table');
 SELECT is_empty($$ SELECT code FROM large, left_over WHERE (large.ctid::text::point)[0] = ANY (blocks) $$, 'no rows are there');
