@@ -89,8 +89,8 @@ public:
             status = mesh.with_build([&](abacus_build *build) {
                 std::uint64_t updated = 0;
                 abacus_named_place missing;
-                return abacus_build_update(build, stage, &last, 1, 0, &mesh.header, &updated, &missing,
-                                           &mesh.error);
+                return abacus_build_update(build, stage, &last, 1, 0, &mesh.header, &updated,
+                                           &missing, &mesh.error);
             });
         abacus_stage_close(stage);
         ASSERT_EQ(status, ABACUS_OK) << mesh.error.detail;
