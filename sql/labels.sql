@@ -203,6 +203,32 @@ SELECT labels[1] = 1 AND labels[25] = 25 AND labels[26] = 26 AS all_of_them, (ab
 SELECT position, name, "least" FROM abacus_attributes('names') WHERE position IN (1, 2, 89) ORDER BY position;
 SELECT * FROM abacus_check('names');
 
+-- Of a statement on a table that the mesh follows, before and after are what others see.
+CREATE TABLE moving AS SELECT * FROM (VALUES (1, 0, 0), (2, 4, 0), (3, 2, 3), (4, 2, -1.4), (5, 2, -10)) AS p(id, x, y);
+SELECT abacus_triangulate('followed', 'TABLE moving');
+SELECT abacus_track('followed', 'moving');
+SELECT abacus_label('followed', 'SELECT code, v0, v1, v2, 10 * v0 + v1 AS soil FROM abacus_simplices(''followed'')');
+SELECT abacus_inherit_labels('followed');
+SELECT abacus_mark('followed', 'SELECT code, v0, v1, v2, f, 7 FROM abacus_simplices(''followed''), generate_series(0, 2) AS f
+                                WHERE 1 IN (v0, v1, v2) AND 2 IN (v0, v1, v2) AND (ARRAY[v0, v1, v2])[f + 1] > 2');
+SELECT v0, v1, v2, labels FROM abacus_cells('followed') ORDER BY v0, v1, v2;
+-- with the point at both places the edge from 1 to 2 is not in the mesh
+UPDATE moving SET y = 2 WHERE id = 4;
+SELECT marker, v0, v1 FROM abacus_facets('followed');
+SELECT v0, v1, v2, labels FROM abacus_cells('followed') ORDER BY v0, v1, v2;
+SELECT abacus_track('followed', 'moving', deferred => true);
+BEGIN;
+UPDATE moving SET y = -1.4 WHERE id = 4;
+UPDATE moving SET y = 2.5 WHERE id = 4;
+COMMIT;
+SELECT marker, v0, v1 FROM abacus_facets('followed');
+SELECT * FROM abacus_check('followed');
+-- a row with NULLs alone is none
+SELECT abacus_label('followed', 'SELECT code, v0, v1, v2, NULL AS soil FROM abacus_simplices(''followed'') LIMIT 2');
+SELECT name, value FROM abacus_stats('followed') WHERE name IN ('labelled', 'marked') ORDER BY name;
+TRUNCATE moving;
+SELECT name, value FROM abacus_stats('followed') WHERE name IN ('labelled', 'marked', 'simplices') ORDER BY name;
+
 -- Errors change nothing.
 SELECT abacus_label('notch', 'SELECT 1, 2, 3, 4');
 SELECT abacus_label('notch', 'SELECT 1, 2, 3, 4, 5 AS soil, 6 AS soil');

@@ -94,6 +94,14 @@ typedef struct abacus_named_place
 } abacus_named_place;
 
 /*
+ * hold: until settle the changes are one for labels of simplices and markers of facets: those of a
+ * simplex or facet that was there before, and is there in the end, stay. Whatever comes between.
+ */
+ABACUS_API abacus_status abacus_build_hold(abacus_build *build, abacus_error *error);
+ABACUS_API abacus_status abacus_build_settle(abacus_build *build, abacus_header *header,
+											 abacus_error *error);
+
+/*
  * update: inserts what waits, then gives a point for each point of a stage that has ended other
  * values of `count` attributes, whose numbers are `attributes`. It is one with the same coordinates,
  * and of several the one with the same id, or else the first. The stage has values of these

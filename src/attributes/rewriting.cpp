@@ -51,12 +51,11 @@ Owner<D, K> read_record(const std::uint64_t *record, unsigned attributes, double
 
 void erase_attributes(const Host &host, unsigned first) {
     abacus_page page;
-    const auto next = [&] {
-        if (first == 0) return host.next(ABACUS_ATTRIBUTE_PAGES, nullptr, page);
-        const Key before = predecessor(group_begin(first));
-        return host.next(ABACUS_ATTRIBUTE_PAGES, &before, page);
-    };
-    while (next() && group_of(page.key) < end_of_kind(first)) {
+    const Key before = first > 0 ? predecessor(group_begin(first)) : first_key;
+    bool more = host.next(ABACUS_ATTRIBUTE_PAGES, first > 0 ? &before : nullptr, page);
+    // From page to page: what has been erased is still in the way of a search for the first one.
+    for (; more && group_of(page.key) < end_of_kind(first);
+         more = host.next(ABACUS_ATTRIBUTE_PAGES, &page.key, page)) {
         host.erase(ABACUS_ATTRIBUTE_PAGES, page);
         host.poll();
     }

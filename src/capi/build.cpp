@@ -69,6 +69,18 @@ abacus_status abacus_build_run(abacus_build *build, uint64_t limit, abacus_heade
                [&](auto &opened, abacus_header &changed) { opened.run(limit, changed); });
 }
 
+abacus_status abacus_build_hold(abacus_build *build, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        build->build.visit([](auto &opened) { opened.hold(); });
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_build_settle(abacus_build *build, abacus_header *header, abacus_error *error) {
+    return run(build, header, error,
+               [&](auto &opened, abacus_header &changed) { opened.settle(changed); });
+}
+
 abacus_status abacus_build_insert(abacus_build *build, abacus_stage *stage,
                                   abacus_on_duplicate on_duplicate, abacus_header *header,
                                   abacus_error *error) {

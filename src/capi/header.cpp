@@ -180,10 +180,9 @@ void read_labels(Reader &read, abacus_header &header) {
     if (header.srid > ABACUS_MAX_SRID) throw_corrupted("The header's SRID is out of range.");
     if (header.apart > 1) throw_corrupted("The header's attributes are neither apart nor not.");
     if (!is_labelled(header) || header.labels > ABACUS_MAX_NAMES - header.attributes ||
-        header.labelled >= count_limit || header.marked >= count_limit ||
+        header.labelled > header.simplices || header.marked > header.simplices ||
         (header.labelled > 0 && header.labels == 0) ||
-        header.inherits > (header.labels > 0 ? 1u : 0u) ||
-        (header.labelled + header.marked > 0 && header.simplices == 0))
+        header.inherits > (header.labels > 0 ? 1u : 0u))
         throw_corrupted("The header's counts of labels and markers contradict the others.");
     read_names(read, header.attributes, header.attributes + header.labels, header);
     if (read.left() > 0) throw_corrupted("The header is too long.");

@@ -202,12 +202,17 @@ void Build<D>::change(abacus_header &header, Change change) {
             apart_->forget();
             core_->cache.counters += apart_->take_counters();
         }
-        if (stored_ != nullptr) sweep_labels();
+        if (stored_ != nullptr && !holds_) sweep_labels();
     }
     header.simplices = static_cast<std::uint64_t>(core_->mesh.simplices());
     header.ghosts = static_cast<std::uint64_t>(core_->mesh.ghosts());
     core_->cache.counters.total_ns = time;
     header.counters += core_->cache.counters;
+}
+
+template <int D> void Build<D>::settle(abacus_header &header) {
+    holds_ = false;
+    change(header, [] { return std::uint64_t{0}; });
 }
 
 template <int D> void Build<D>::run(std::uint64_t limit, abacus_header &header) {

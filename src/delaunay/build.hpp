@@ -45,6 +45,10 @@ public:
 
     /// From now on keeps account of the simplices that come and go.
     void log_to(SimplexChanges<D> &changes);
+    /// Until settle() labels and markers stay with simplices as they are now: the changes between
+    /// are one.
+    void hold() { holds_ = true; }
+    void settle(abacus_header &header);
     /// Inserts at most `limit` of the points that wait (0 = all).
     void run(std::uint64_t limit, abacus_header &header);
     /// Inserts what waits, then the points of a stage.
@@ -194,6 +198,7 @@ private:
     const unsigned attributes_;
     const std::size_t cache_bytes_;
     StoredPages *const stored_; ///< null if there are no labels and markers
+    bool holds_ = false;        ///< labels and markers
     Domain<D> domain_;
     std::optional<AttributePages<D>> apart_;    ///< if the mesh has its attributes apart
     std::optional<Core> core_;                  ///< always there; optional, to be made anew

@@ -29,7 +29,7 @@ std::uint64_t MarkerSweep<D>::sweep(const Arena<StoredPages::Stretch> &stretches
 
 template <int D> void MarkerSweep<D>::add(const Simplex &simplex, const double *markers) {
     for (int i = 0; i <= D; ++i) {
-        if (std::isnan(markers[i])) continue;
+        if (!has_marker(markers[i])) continue;
         const Owner<D, D> facet = facet_of<D>(simplex, i);
         std::uint64_t *const record = spool_.add();
         std::memcpy(record, facet.data(), sizeof facet);

@@ -22,6 +22,13 @@ template <int D> Owner<D, D> facet_of(const Owner<D, D + 1> &simplex, int opposi
     return facet;
 }
 
+/// Whether a facet has a marker: what a page has for it is one, or nothing.
+inline bool has_marker(double stored) {
+    if (!std::isnan(stored) && !is_marker(stored))
+        throw_corrupted("A facet has a marker that is no integer of four bytes.");
+    return !std::isnan(stored);
+}
+
 /// Gives one facet of a simplex a marker; returns whether the simplex had none.
 template <int D>
 bool set_marker(AttributePages<D, D + 1> &pages, const Owner<D, D + 1> &simplex, std::uint64_t code,

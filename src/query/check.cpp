@@ -267,7 +267,7 @@ template <int D> void Check<D>::check_markers() {
         for (std::size_t row = 0; row < scan.page().rows(); ++row)
             for (int i = 0; i <= D; ++i)
                 if (const double marker = scan.page().value(row, static_cast<unsigned>(i));
-                    !std::isnan(marker))
+                    has_marker(marker))
                     add(facet_of<D>(scan.page().owner(row), i), marker);
     }
     each_simplex([&](const PageView<D> &page, int s) {
@@ -281,8 +281,8 @@ template <int D> void Check<D>::check_markers() {
     std::uint64_t n = 0; // with the facet of the first
     bool agree = true;
     const auto end_facet = [&] {
-        const bool has_marker = !std::isnan(std::bit_cast<double>(first[key_words]));
-        if (n > 0 && ((n == 1 && has_marker) || n > 2 || !agree))
+        const bool is_marked = !std::isnan(std::bit_cast<double>(first[key_words]));
+        if (n > 0 && ((n == 1 && is_marked) || n > 2 || !agree))
             faults_.add("markers", in_group({first[0], first[1]}, marker_group),
                         "The two sides of a facet have different markers.");
     };

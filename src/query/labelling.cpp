@@ -11,7 +11,7 @@ Labelling<D>::Labelling(const Host &host, const abacus_header &header, unsigned 
                         std::span<const std::uint32_t> labels, std::size_t memory,
                         std::size_t cache_bytes)
     : host_(host), header_(header), known_(known), cache_bytes_(cache_bytes), labels_(host),
-      sort_(host, 1 + name_words + labels.size(), 2, memory) {
+      some_(host), all_(host), sort_(host, 1 + name_words + labels.size(), 2, memory) {
     for (const std::uint32_t label : labels) labels_.push_back(label);
 }
 
@@ -36,6 +36,28 @@ template <int D> Owner<D, D + 1> Labelling<D>::owner(Reader<D> &mesh, const std:
     return owner_of<D, D + 1>(points);
 }
 
+/// A row with nothing in it is none.
+template <int D>
+void Labelling<D>::set_row(AttributePages<D, D + 1> &pages, const Owner<D, D + 1> &simplex,
+                           std::uint64_t code, std::uint64_t &labelled) {
+    const auto is_empty = [](const Arena<double> &values) {
+        return std::all_of(values.begin(), values.end(), [](double x) { return std::isnan(x); });
+    };
+    const bool takes_away = is_empty(some_);
+    if (pages.set(simplex, code, {labels_.data(), labels_.size()}, some_.data())) {
+        if (!takes_away) return;
+        pages.get(simplex, code, all_.data());
+        if (!is_empty(all_)) return;
+        pages.erase(simplex, code);
+        if (labelled-- == 0) throw_corrupted("The header counts too few labels.");
+    } else if (!takes_away) {
+        std::fill(all_.begin(), all_.end(), null_value);
+        for (std::size_t i = 0; i < labels_.size(); ++i) all_[labels_[i]] = some_[i];
+        pages.put(simplex, code, all_.data());
+        ++labelled;
+    }
+}
+
 template <int D> void Labelling<D>::set(abacus_header &header) {
     sort_.finish();
     const Domain<D> domain = domain_of<D>(header);
@@ -44,18 +66,12 @@ template <int D> void Labelling<D>::set(abacus_header &header) {
             widen_attributes<D, D + 1>(host_, domain, known_, header.labels - known_);
     Reader<D> mesh(host_, header_, cache_bytes_);
     AttributePages<D, D + 1> pages(host_, domain, header.labels);
-    Arena<double> all(host_), some(host_);
-    all.resize(header.labels);
-    some.resize(labels_.size());
+    all_.resize(header.labels);
+    some_.resize(labels_.size());
     while (const std::uint64_t *record = sort_.next()) {
         const Owner<D, D + 1> simplex = owner(mesh, record);
-        const std::uint64_t code = record[0];
-        std::memcpy(some.data(), record + 1 + name_words, some.size() * sizeof(double));
-        if (pages.set(simplex, code, {labels_.data(), labels_.size()}, some.data())) continue;
-        std::fill(all.begin(), all.end(), null_value);
-        for (std::size_t i = 0; i < labels_.size(); ++i) all[labels_[i]] = some[i];
-        pages.put(simplex, code, all.data());
-        ++header.labelled;
+        std::memcpy(some_.data(), record + 1 + name_words, some_.size() * sizeof(double));
+        set_row(pages, simplex, record[0], header.labelled);
     }
     pages.flush();
     sort_.close();

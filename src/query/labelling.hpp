@@ -6,7 +6,7 @@
 // changes, so any mesh may be given labels, whether or not it is Delaunay.
 #pragma once
 
-#include "attributes/attribute_key.hpp"
+#include "attributes/attribute_pages.hpp"
 #include "query/reader.hpp"
 #include "sort/record_sort.hpp"
 
@@ -31,13 +31,16 @@ private:
     static constexpr std::size_t name_words = 1 + (D + 1); // code and ids
 
     static Owner<D, D + 1> owner(Reader<D> &mesh, const std::uint64_t *record);
+    void set_row(AttributePages<D, D + 1> &pages, const Owner<D, D + 1> &simplex,
+                 std::uint64_t code, std::uint64_t &labelled);
 
     const Host &host_;
     const abacus_header header_;
     const unsigned known_;
     const std::size_t cache_bytes_;
     Arena<std::uint32_t> labels_;
-    RecordSort sort_; // code, number of the row, ids, values
+    Arena<double> some_, all_; // of a simplex: those of a row, those of the mesh
+    RecordSort sort_;          // code, number of the row, ids, values
 };
 
 extern template class Labelling<2>;

@@ -28,7 +28,7 @@ void MarkedFacets<D>::read(const Host &host, const abacus_header &header,
             const Owner<D, D + 1> simplex = scan.page().owner(row);
             for (int i = 0; i <= D; ++i) {
                 const double found = scan.page().value(row, static_cast<unsigned>(i));
-                if (std::isnan(found) || (marker && found != *marker)) continue;
+                if (!has_marker(found) || (marker && found != *marker)) continue;
                 const Owner<D, D> facet = facet_of<D>(simplex, i);
                 const Key key = attribute_key<D, D>(facet, code_of<D, D>(domain, facet));
                 std::uint64_t *const record = sort_.add();

@@ -118,8 +118,9 @@ void Marking<D>::mark(Pages &pages, const std::uint64_t *side, std::uint64_t &ma
     if (!pages.set(owner, code, {&opposite, 1}, &marker)) return;
     std::array<double, D + 1> left;
     pages.get(owner, code, left.data());
-    if (std::all_of(left.begin(), left.end(), [](double x) { return std::isnan(x); }))
-        marked -= pages.erase(owner, code);
+    if (!std::all_of(left.begin(), left.end(), [](double x) { return std::isnan(x); })) return;
+    pages.erase(owner, code);
+    if (marked-- == 0) throw_corrupted("The header counts too few markers.");
 }
 
 template class Marking<2>;

@@ -135,8 +135,26 @@ change_open_build(Change *change)
 		return;
 	host_run(host, abacus_build_open, &host->table, change->writer.header,
 			 setting_cache_bytes(), &change->build);
+	if (change->holds)
+		host_run(host, abacus_build_hold, change->build);
 	if (change->returns)
 		host_run(host, abacus_build_log, change->build, setting_query_sort_bytes());
+}
+
+/* What comes until it is settled is one change for labels and markers. Before the first one. */
+void
+change_hold(Change *change)
+{
+	change->holds = true;
+}
+
+void
+change_settle(Change *change)
+{
+	Host	   *host = change->writer.host;
+
+	if (change->build != NULL)
+		host_run(host, abacus_build_settle, change->build, change->writer.header);
 }
 
 /* Inserts the points of the stage. */

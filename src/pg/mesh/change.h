@@ -19,6 +19,7 @@ typedef struct Change
 	uint64		duplicates;		/* of the mesh before the change */
 	bool		may_replace;	/* the user can choose that */
 	bool		inserts;
+	bool		holds;			/* labels and markers, until it is settled */
 	bool		returns;		/* which simplices it creates and removes */
 	abacus_load *load;			/* a triangulation made elsewhere */
 	abacus_labelling *labelling;
@@ -34,6 +35,8 @@ extern void change_read_gone(Change *change, Source *source, const abacus_header
 extern void change_take_srid(Change *change, int32 srid);
 extern void change_swap_stages(Change *change);
 extern void change_open_build(Change *change);
+extern void change_hold(Change *change);
+extern void change_settle(Change *change);
 extern void change_insert(Change *change);
 extern uint64 change_delete(Change *change, bool exactly);
 extern uint64 change_update(Change *change, const uint32 *attributes, size_t count, bool exactly,

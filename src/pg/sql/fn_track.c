@@ -257,12 +257,14 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 						   UINT64_FORMAT ".", missing, surplus),
 				 errhint("With synchronize => true they are inserted and deleted.")));
 	/* inserted first, a point whose attributes alone differ takes over from the other */
+	change_hold(change);
 	change_swap_stages(change);
 	if (missing > 0)
 		change_insert(change);
 	change_swap_stages(change);
 	if (surplus > 0)
 		change_delete(change, true);
+	change_settle(change);
 	return missing + surplus > 0 || srid != header->srid;
 }
 

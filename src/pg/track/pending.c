@@ -251,6 +251,7 @@ change_mesh(Pending *pending)
 	in_step_check_shape(change->writer.header, pending->dimension, pending->columns,
 						pending->trigger);
 	in_step_check_srid(change, (int32) pending->srid);
+	change_hold(change);
 	if (pending->extent.came > 0)
 	{
 		stage(pending, false, change);
@@ -262,6 +263,7 @@ change_mesh(Pending *pending)
 		in_step_check_found(change, pending->table, "delete", pending->extent.went,
 							change_delete(change, true));
 	}
+	change_settle(change);
 	change_end(change);
 }
 
