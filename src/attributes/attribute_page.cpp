@@ -113,30 +113,31 @@ void AttributePageWriter::number_points(const std::uint64_t *rows, std::size_t n
     }
 }
 
-const std::uint64_t *AttributePageWriter::gather(const std::uint64_t *words, std::size_t n,
-                                                 std::size_t stride) {
+/// The words `first`, `first` + stride, ...; with none of them `words` may be null.
+const std::uint64_t *AttributePageWriter::gather(const std::uint64_t *words, std::size_t first,
+                                                 std::size_t n, std::size_t stride) {
     column_.resize(n);
     std::uint64_t *const to = column_.data();
-    for (std::size_t i = 0; i < n; ++i) to[i] = words[i * stride];
+    for (std::size_t i = 0; i < n; ++i) to[i] = words[first + i * stride];
     return to;
 }
 
 /// Which attributes of each row are NULL.
-const std::uint64_t *AttributePageWriter::gather_nulls(const std::uint64_t *values, std::size_t n) {
+const std::uint64_t *AttributePageWriter::gather_nulls(const std::uint64_t *rows, std::size_t n) {
     column_.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
         std::uint64_t nulls = 0;
         for (unsigned c = 0; c < columns_; ++c)
-            nulls |= std::uint64_t{is_null(values[i * stride_ + c])} << c;
+            nulls |= std::uint64_t{is_null(rows[i * stride_ + dimension_ * points_ + c])} << c;
         column_[i] = nulls;
     }
     return column_.data();
 }
 
 /// An attribute, with some value of it in place of NULL.
-const std::uint64_t *AttributePageWriter::gather_values(const std::uint64_t *values,
-                                                        std::size_t n) {
-    gather(values, n, stride_);
+const std::uint64_t *AttributePageWriter::gather_values(const std::uint64_t *rows,
+                                                        unsigned attribute, std::size_t n) {
+    gather(rows, dimension_ * points_ + attribute, n, stride_);
     std::uint64_t *const begin = column_.begin(), *const end = column_.end();
     const std::uint64_t *const some = std::find_if_not(begin, end, is_null);
     std::replace_if(begin, end, is_null, some == end ? 0 : *some);
@@ -146,16 +147,15 @@ const std::uint64_t *AttributePageWriter::gather_values(const std::uint64_t *val
 template <class Visit>
 void AttributePageWriter::each_column(const std::uint64_t *rows, std::size_t n,
                                       const Visit &visit) {
-    const std::uint64_t *const values = rows + dimension_ * points_;
     if (points_ == 1) {
-        for (unsigned i = 0; i < stride_; ++i) visit(gather(rows + i, n, stride_), n);
+        for (unsigned i = 0; i < stride_; ++i) visit(gather(rows, i, n, stride_), n);
         return;
     }
     for (unsigned i = 0; i < dimension_; ++i)
-        visit(gather(table_.data() + i, points(), dimension_), points());
-    for (unsigned k = 0; k < points_; ++k) visit(gather(numbers_.data() + k, n, points_), n);
-    visit(gather_nulls(values, n), n);
-    for (unsigned i = 0; i < columns_; ++i) visit(gather_values(values + i, n), n);
+        visit(gather(table_.data(), i, points(), dimension_), points());
+    for (unsigned k = 0; k < points_; ++k) visit(gather(numbers_.data(), k, n, points_), n);
+    visit(gather_nulls(rows, n), n);
+    for (unsigned i = 0; i < columns_; ++i) visit(gather_values(rows, i, n), n);
 }
 
 std::size_t AttributePageWriter::size(const std::uint64_t *rows, std::size_t n) {

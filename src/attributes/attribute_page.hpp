@@ -139,9 +139,11 @@ private:
     /// Calls visit(words, count) for each column, in the order of the page.
     template <class Visit>
     void each_column(const std::uint64_t *rows, std::size_t n, const Visit &visit);
-    const std::uint64_t *gather(const std::uint64_t *words, std::size_t n, std::size_t stride);
-    const std::uint64_t *gather_nulls(const std::uint64_t *values, std::size_t n);
-    const std::uint64_t *gather_values(const std::uint64_t *values, std::size_t n);
+    const std::uint64_t *gather(const std::uint64_t *words, std::size_t first, std::size_t n,
+                                std::size_t stride);
+    const std::uint64_t *gather_nulls(const std::uint64_t *rows, std::size_t n);
+    const std::uint64_t *gather_values(const std::uint64_t *rows, unsigned attribute,
+                                       std::size_t n);
 
     const unsigned dimension_, points_, group_, columns_, stride_;
     Arena<std::uint64_t> column_;
