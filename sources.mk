@@ -143,6 +143,7 @@ CORE_SOURCES += src/query/glance.cpp
 CORE_SOURCES += src/query/gradient.cpp
 CORE_SOURCES += src/query/interpolation.cpp
 CORE_SOURCES += src/query/isosurface.cpp
+CORE_SOURCES += src/query/label_range.cpp
 CORE_SOURCES += src/query/labelling.cpp
 CORE_SOURCES += src/query/light_edges.cpp
 CORE_SOURCES += src/query/line_scan.cpp

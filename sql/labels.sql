@@ -51,11 +51,39 @@ SELECT count(labels[1]) FROM abacus_cells('field');
 ROLLBACK;
 SELECT count(labels[1]) > 5000 AS there_again FROM abacus_cells('field');
 
+-- Those with a label in a range, of all of the mesh and of windows.
+CREATE VIEW ranges AS SELECT n AS label, f AS first, f + w AS last
+    FROM (VALUES ('n', 1, 0), ('n', 1e6, 3e7), ('n', -1, 1e12), ('fifth', 3, 0), ('fifth', 2.5, 2), ('fifth', 7, 9)) r (n, f, w);
+SELECT label, first, last, count(*) FILTER (WHERE found) AS found, count(*) FILTER (WHERE NOT found OR NOT there) AS wrong FROM ranges,
+    LATERAL (SELECT f.code IS NOT NULL AS found, e.code IS NOT NULL AS there
+        FROM abacus_cells('field', label => label, range => ARRAY[first, last]) f
+        FULL JOIN (SELECT * FROM abacus_cells('field') a WHERE a.labels[CASE label WHEN 'n' THEN 1 ELSE 2 END] BETWEEN first AND last) e USING (code, v0, v1, v2, labels, corners)) c
+    GROUP BY 1, 2, 3 ORDER BY 1, 2, 3;
+SELECT label, first, last, count(*) FILTER (WHERE found) AS found, count(*) FILTER (WHERE NOT found OR NOT there) AS wrong FROM ranges,
+    LATERAL (SELECT f.code IS NOT NULL AS found, e.code IS NOT NULL AS there
+        FROM abacus_cells('field', '{300, 300}', 200, label => label, range => ARRAY[first, last]) f
+        FULL JOIN (SELECT * FROM abacus_cells('field', '{300, 300}', 200, 1e9) a WHERE a.labels[CASE label WHEN 'n' THEN 1 ELSE 2 END] BETWEEN first AND last) e USING (code, v0, v1, v2, labels, corners)) c
+    GROUP BY 1, 2, 3 ORDER BY 1, 2, 3;
+SELECT v0, v1, v2, labels FROM abacus_cells('notch', label => 'a sum', range => '{4,Infinity}') ORDER BY 1, 2, 3;
+SELECT v0, v1, v2, labels FROM abacus_cells('notch', label => 'soil') ORDER BY 1, 2, 3;
+SELECT v0, v1, v2, labels FROM abacus_cells('notch', ARRAY[1.5, 0], ARRAY[2, 2], label => 'soil', range => '{7,7}');
+SELECT count(*) FROM abacus_cells('notch', label => 'soil', range => '{9,9}');
+SELECT * FROM abacus_cells('notch', label => 'salt');
+SELECT * FROM abacus_cells('notch', label => 'soil', range => '{9,8}');
+SELECT * FROM abacus_cells('notch', label => 'soil', range => '{9,NaN}');
+SELECT * FROM abacus_cells('notch', label => 'soil', range => '{9}');
+SELECT * FROM abacus_cells('notch', range => '{8,9}');
+
 -- In space, with attributes, of which there are many.
 CREATE TABLE solid AS SELECT i AS id, (i * 7919) % 109 AS x, (i * 104729) % 97 AS y, (i * 31337) % 101 AS z, i AS a, i AS b, i AS c FROM generate_series(1, 600) i;
 SELECT abacus_triangulate('solid_mesh', 'TABLE solid', dimension => 3);
 SELECT abacus_label('solid_mesh', 'SELECT code, v0, v1, v2, v3, v0 - v3 AS material FROM abacus_simplices(''solid_mesh'') WHERE v0 % 2 = 0') > 0 AS some;
 SELECT count(*) FROM abacus_cells('solid_mesh') WHERE labels[1] IS DISTINCT FROM CASE v0 % 2 WHEN 0 THEN v0 - v3 END;
+SELECT count(*) > 20 AS some, count(*) = (SELECT count(*) FROM abacus_cells('solid_mesh') WHERE labels[1] BETWEEN -400 AND -50) AS all_of_them
+    FROM abacus_cells('solid_mesh', label => 'material', range => '{-400,-50}') WHERE labels[1] BETWEEN -400 AND -50;
+SELECT * FROM abacus_cells('solid_mesh', label => 'a');
+SELECT abacus_triangulate('bare', 'TABLE points');
+SELECT * FROM abacus_cells('bare', label => 'a');
 SELECT * FROM abacus_check('solid_mesh');
 
 -- Markers of facets: the boundary of a mesh, then all edges of some triangles.

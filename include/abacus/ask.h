@@ -29,14 +29,25 @@ typedef struct abacus_window
 	double radius;
 } abacus_window;
 
+/* The values of an attribute, or of a label, that are wanted; ends may be infinite. */
+typedef struct abacus_range
+{
+	uint32_t attribute; /* its number, or that of the label */
+	double least;
+	double greatest;
+} abacus_range;
+
 /*
  * The simplices that meet a window, exactly, in the order in which their pages are found; those of
- * all of the mesh in key order. Those with an edge longer than max_edge are left out, unless it is 0.
+ * all of the mesh in key order. Those with an edge longer than max_edge are left out, unless it is
+ * 0; and those that have not a label within a range, unless that is NULL: their pages are
+ * passed over by what the heads of pages of labels say.
  */
 typedef struct abacus_cells abacus_cells;
 ABACUS_API abacus_status abacus_cells_open(const abacus_host *host, const abacus_header *header,
 										   const abacus_window *window, double max_edge,
-										   abacus_cells **cells, abacus_error *error);
+										   const abacus_range *label, abacus_cells **cells,
+										   abacus_error *error);
 /* The simplices with codes from `least` to `greatest`, page by page in key order. */
 ABACUS_API abacus_status abacus_cells_open_stretch(const abacus_host *host,
 												   const abacus_header *header, uint64_t least,
@@ -67,13 +78,6 @@ ABACUS_API abacus_status abacus_faces_open(const abacus_host *host, const abacus
 										   const abacus_window *window, int edges, double max_edge,
 										   size_t cache_bytes, abacus_faces **faces,
 										   abacus_error *error);
-/* The values of an attribute that are wanted; ends may be infinite. */
-typedef struct abacus_range
-{
-	uint32_t attribute; /* its number */
-	double least;
-	double greatest;
-} abacus_range;
 /*
  * Those vertices of the window of which an attribute is within a range. Pages without such a value
  * are passed over by the heads of their columns.

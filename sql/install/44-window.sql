@@ -24,6 +24,8 @@ CREATE FUNCTION abacus_cells(
     lower double precision[] DEFAULT NULL,
     upper double precision[] DEFAULT NULL,
     max_edge double precision DEFAULT NULL,
+    label text DEFAULT NULL,
+    range double precision[] DEFAULT NULL,
     OUT code bigint,
     OUT v0 bigint,
     OUT v1 bigint,
@@ -35,14 +37,16 @@ CREATE FUNCTION abacus_cells(
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_cells'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision[], double precision) IS
-    'the simplices of a mesh, or of a window, with the coordinates and attributes of their corners, and their labels';
+COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision[], double precision, text, double precision[]) IS
+    'the simplices of a mesh, or of a window, or those of which a label is within a range, with the coordinates and attributes of their corners, and their labels';
 
 CREATE FUNCTION abacus_cells(
     mesh regclass,
     center double precision[],
     radius double precision,
     max_edge double precision DEFAULT NULL,
+    label text DEFAULT NULL,
+    range double precision[] DEFAULT NULL,
     OUT code bigint,
     OUT v0 bigint,
     OUT v1 bigint,
@@ -54,8 +58,8 @@ CREATE FUNCTION abacus_cells(
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_cells_in_ball'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision, double precision) IS
-    'the simplices that come at most as near to a center as a radius, with the coordinates and attributes of their corners, and their labels';
+COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision, double precision, text, double precision[]) IS
+    'the simplices that come at most as near to a center as a radius, or those of them of which a label is within a range, with the coordinates and attributes of their corners, and their labels';
 
 CREATE FUNCTION abacus_vertices(
     mesh regclass,

@@ -68,6 +68,10 @@ public:
     double value(std::size_t row, unsigned column) const {
         return from_ordered(value_rank(row, column));
     }
+    /// Whether the head of a column lets a value be in a range; true where one is.
+    bool may_have(unsigned column, double least, double greatest) const {
+        return rows_ > 0 && column_may_have(columns_[column], least, greatest);
+    }
     /// The rank of a coordinate of the owner's points, or of an attribute behind those.
     std::uint64_t rank(std::size_t row, unsigned word) const {
         if (word >= D * K) return value_rank(row, word - D * K);

@@ -159,6 +159,13 @@ private:
     unsigned shift_ = 0;
 };
 
+/// Whether the head of a column of ranks lets a double be in a range; true where one is.
+inline bool column_may_have(const Column &column, double least, double greatest) {
+    // -0 and 0 have different ranks.
+    return column.may_have(ordered(least == 0 ? -0.0 : least),
+                           ordered(greatest == 0 ? 0.0 : greatest));
+}
+
 /// Puts bits one after the other into bytes. Writes up to 8 bytes beyond them.
 class BitWriter {
 public:

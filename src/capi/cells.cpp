@@ -11,9 +11,9 @@
 
 struct abacus_cells {
     abacus_cells(const abacus_host *table, const abacus_header &header, const abacus_window &window,
-                 double max_edge)
+                 double max_edge, const abacus_range *label)
         : host(*table), values(all.data(), header.attributes), labels(host, header),
-          cells(host, header, window, max_edge) {}
+          cells(host, header, window, max_edge, label) {}
 
     abacus_cells(const abacus_host *table, const abacus_header &header, std::uint64_t least,
                  std::uint64_t greatest)
@@ -33,10 +33,11 @@ struct abacus_cells {
 };
 
 abacus_status abacus_cells_open(const abacus_host *host, const abacus_header *header,
-                                const abacus_window *window, double max_edge, abacus_cells **cells,
+                                const abacus_window *window, double max_edge,
+                                const abacus_range *label, abacus_cells **cells,
                                 abacus_error *error) {
     return abacus::guard(error, [&] {
-        *cells = abacus::create_handle<abacus_cells>(host, *header, *window, max_edge);
+        *cells = abacus::create_handle<abacus_cells>(host, *header, *window, max_edge, label);
         return ABACUS_OK;
     });
 }

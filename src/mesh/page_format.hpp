@@ -145,9 +145,7 @@ public:
     /// Whether the head of an attribute's column lets a value be from `least` to `greatest`; true
     /// where one is.
     bool may_have_attribute(int i, double least, double greatest) const {
-        // -0 and 0 have different ranks.
-        return attributes_[i].may_have(ordered(least == 0 ? -0.0 : least),
-                                       ordered(greatest == 0 ? 0.0 : greatest));
+        return column_may_have(attributes_[i], least, greatest);
     }
     double attribute(int vertex, int i) const { return from_ordered(attributes_[i][vertex]); }
 

@@ -7,9 +7,14 @@ namespace abacus {
 
 template <int D>
 CellScan<D>::CellScan(const Host &host, const abacus_header &header, const abacus_window &window,
-                      double max_edge)
+                      double max_edge, const abacus_range *label)
     : domain_(domain_of<D>(header)), filter_(window, max_edge), vertex_values_(host, header) {
-    pages_.emplace(host, header, filter_.region());
+    typename RangeScan<D>::Wants wants;
+    if (label != nullptr) {
+        label_.emplace(host, header, *label);
+        wants = [this](const PageView<D> &page) { return label_->may_be_in(page); };
+    }
+    pages_.emplace(host, header, filter_.region(), wants);
 }
 
 template <int D>
@@ -20,9 +25,10 @@ CellScan<D>::CellScan(const Host &host, const abacus_header &header, std::uint64
     stretch_.emplace(host, header, least, greatest);
 }
 
-template <int D> bool CellScan<D>::wants(int simplex) const {
+template <int D> bool CellScan<D>::wants(int simplex) {
     if (page().is_ghost(simplex)) return false;
-    if (!stretch_) return filter_.wants(page(), simplex);
+    if (!stretch_)
+        return filter_.wants(page(), simplex) && (!label_ || label_->wants(page(), simplex));
     const std::uint64_t code = code_of(page(), simplex, domain_);
     return least_ <= code && code <= greatest_;
 }

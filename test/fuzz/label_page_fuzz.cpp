@@ -8,13 +8,15 @@ using namespace abacus::fuzz;
 
 namespace {
 
-/// Calls take(simplex) for each, after its labels have been read.
-template <class Take> void each_simplex(Mesh &mesh, Take take) {
+/// Calls take(simplex) for each, or for those with a label in a range, after its labels have been
+/// read.
+template <class Take>
+void each_simplex(Mesh &mesh, Take take, const abacus_range *range = nullptr) {
     mesh.run([&](abacus_error &error) {
         abacus_window window{};
         abacus_cells *cells = nullptr;
         abacus_status status =
-            abacus_cells_open(mesh.host.table(), &mesh.header, &window, 0, &cells, &error);
+            abacus_cells_open(mesh.host.table(), &mesh.header, &window, 0, range, &cells, &error);
         if (status != ABACUS_OK) return status;
         abacus_simplex simplex;
         const double *labels = nullptr;
@@ -149,6 +151,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     damage(mesh.host.attribute_pages, input);
     if (sealed) seal(mesh.host.attribute_pages);
     mesh.locate_places();
+    const abacus_range some{1, 2, 4};
+    each_simplex(
+        mesh, [](const abacus_simplex &) {}, &some);
     read_facets(mesh);
     mesh.check();
     label(mesh);

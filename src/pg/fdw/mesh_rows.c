@@ -177,7 +177,7 @@ mesh_rows_begin(MeshRows *rows, const Bounds *bounds)
 			host_run(host, abacus_cells_open_stretch, &host->table, &reader->header,
 					 bounds->least_code, bounds->greatest_code, &rows->cells);
 		else
-			host_run(host, abacus_cells_open, &host->table, &reader->header, &bounds->window, 0.0,
+			host_run(host, abacus_cells_open, &host->table, &reader->header, &bounds->window, 0.0, NULL,
 					 &rows->cells);
 		host_own(host, rows->cells, (void (*) (void *)) abacus_cells_close);
 		return;

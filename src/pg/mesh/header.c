@@ -233,15 +233,15 @@ header_require_new_name(const abacus_header *header, const char *name)
 				 : errmsg("mesh has a label \"%s\" already", name)));
 }
 
-/* What attributes there are, for messages. */
+/* Some of the names, for messages. */
 static char *
-list_attributes(const abacus_header *header)
+list_names(const abacus_header *header, uint32 first, uint32 count)
 {
 	StringInfoData names;
 
 	initStringInfo(&names);
-	for (uint32 i = 0; i < header->attributes; i++)
-		appendStringInfo(&names, "%s\"%s\"", i > 0 ? ", " : "", header->names[i]);
+	for (uint32 i = 0; i < count; i++)
+		appendStringInfo(&names, "%s\"%s\"", i > 0 ? ", " : "", header->names[first + i]);
 	return names.data;
 }
 
@@ -256,7 +256,23 @@ header_find_attribute(const abacus_header *header, const char *name)
 				(errcode(ERRCODE_UNDEFINED_COLUMN),
 				 errmsg("%s has no attribute \"%s\"", type_name(header->type), name),
 				 header->attributes == 0 ? errdetail("It has no attributes.")
-				 : errdetail("Its attributes are %s.", list_attributes(header))));
+				 : errdetail("Its attributes are %s.", list_names(header, 0, header->attributes))));
+	return number;
+}
+
+/* Number of the label with this name, which must be there. */
+int
+header_find_label(const abacus_header *header, const char *name)
+{
+	int			number = header_label(header, name);
+
+	if (number < 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_COLUMN),
+				 errmsg("mesh has no label \"%s\"", name),
+				 header->labels == 0 ? errdetail("It has no labels.")
+				 : errdetail("Its labels are %s.",
+							 list_names(header, header->attributes, header->labels))));
 	return number;
 }
 
@@ -282,7 +298,7 @@ header_only_attribute(const abacus_header *header)
 		ereport(ERROR,
 				(errcode(ERRCODE_AMBIGUOUS_COLUMN),
 				 errmsg("%s has %u attributes", type_name(header->type), header->attributes),
-				 errdetail("Its attributes are %s.", list_attributes(header)),
+				 errdetail("Its attributes are %s.", list_names(header, 0, header->attributes)),
 				 errhint("Say which one with the argument attribute.")));
 	return 0;
 }

@@ -27,6 +27,7 @@ extern int	header_attribute(const abacus_header *header, const char *name);
 extern int	header_label(const abacus_header *header, const char *name);
 extern void header_require_new_name(const abacus_header *header, const char *name);
 extern int	header_find_attribute(const abacus_header *header, const char *name);
+extern int	header_find_label(const abacus_header *header, const char *name);
 extern void header_require_attributes(const abacus_header *header);
 extern int	header_only_attribute(const abacus_header *header);
 

@@ -35,10 +35,13 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, bool is_ce
 	Host	   *host = reader->host;
 	abacus_window window = {0};
 	abacus_cells *cells = NULL;
+	abacus_range label;
 	double		max_edge = is_cells ? window_max_edge(fcinfo, 3) : 0;
+	bool		has_label = is_cells && window_label(fcinfo, 4, &reader->header, &label);
 
 	window_arguments(fcinfo, 1, form, &reader->header, &window);
-	host_run(host, abacus_cells_open, &host->table, &reader->header, &window, max_edge, &cells);
+	host_run(host, abacus_cells_open, &host->table, &reader->header, &window, max_edge,
+			 has_label ? &label : NULL, &cells);
 	host_own(host, cells, (void (*) (void *)) abacus_cells_close);
 }
 
@@ -108,7 +111,8 @@ abacus_sql_simplices_in_ball(PG_FUNCTION_ARGS)
 }
 
 /*
- * abacus_cells(mesh regclass, lower float8[], upper float8[], max_edge float8)
+ * abacus_cells(mesh regclass, lower float8[], upper float8[], max_edge float8, label text,
+ * range float8[])
  *     -> code, v0, v1, v2, v3, corners, values, labels
  */
 Datum
@@ -118,7 +122,8 @@ abacus_sql_cells(PG_FUNCTION_ARGS)
 }
 
 /*
- * abacus_cells(mesh regclass, center float8[], radius float8, max_edge float8)
+ * abacus_cells(mesh regclass, center float8[], radius float8, max_edge float8, label text,
+ * range float8[])
  *     -> the same
  */
 Datum

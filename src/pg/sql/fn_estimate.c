@@ -166,18 +166,21 @@ is_null_argument(const SupportRequestRows *request, int argument)
 /*
  * abacus_window_rows(internal) -> internal, for simplices of a window: arguments 1 and 2. How much
  * of the mesh a window has only the header and the pages tell, so PostgreSQL's own guess at a
- * range is taken.
+ * range is taken; and again where they must have a label, argument 4.
  */
 Datum
 abacus_sql_window_rows(PG_FUNCTION_ARGS)
 {
 	SupportRequestRows *request = (SupportRequestRows *) PG_GETARG_POINTER(0);
-	bool		is_whole;
+	double		share = 1;
 
 	if (!IsA(request, SupportRequestRows) || !is_funcclause(request->node))
 		PG_RETURN_POINTER(NULL);
-	is_whole = is_null_argument(request, 1) && is_null_argument(request, 2);
-	return estimate(fcinfo, is_whole ? 1 : DEFAULT_RANGE_INEQ_SEL, false);
+	if (!is_null_argument(request, 1) || !is_null_argument(request, 2))
+		share = DEFAULT_RANGE_INEQ_SEL;
+	if (list_length(((FuncExpr *) request->node)->args) > 4 && !is_null_argument(request, 4))
+		share *= DEFAULT_RANGE_INEQ_SEL;
+	return estimate(fcinfo, share, false);
 }
 
 /*

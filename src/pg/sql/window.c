@@ -1,11 +1,14 @@
 /*
  * window.c: the part of a mesh that a call is about: a box, which may be flat,
- * or a ball.
+ * or a ball; and which simplices there, by the length of edges and by a label.
  */
 #include "postgres.h"
 
 #include <math.h>
 
+#include "utils/builtins.h"
+
+#include "pg/mesh/header.h"
 #include "pg/mesh/mesh_pages.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/window.h"
@@ -91,4 +94,36 @@ window_max_edge(FunctionCallInfo fcinfo, int argument)
 				 errmsg("max_edge must be a finite number, at least 0"),
 				 errhint("Leave it out, or give 0, for edges of any length.")));
 	return value;
+}
+
+/*
+ * The label that simplices must have, and its range: the first of two arguments. Without a range any
+ * value will do. False if no label is wanted.
+ */
+bool
+window_label(FunctionCallInfo fcinfo, int first, const abacus_header *header, abacus_range *range)
+{
+	double		ends[2] = {-INFINITY, INFINITY};
+
+	if (PG_ARGISNULL(first))
+	{
+		if (!PG_ARGISNULL(first + 1))
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("range is that of a label, and none is given"),
+					 errhint("Name the label, as in label => 'material'.")));
+		return false;
+	}
+	range->attribute = (uint32) header_find_label(header,
+												  text_to_cstring(PG_GETARG_TEXT_PP(first)));
+	if (!PG_ARGISNULL(first + 1))
+		shape_pair(PG_GETARG_ARRAYTYPE_P(first + 1), "range", ends);
+	if (!(ends[0] <= ends[1]))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("range must be two numbers, the greater one not before the other"),
+				 errhint("Give -Infinity or Infinity for a range without an end.")));
+	range->least = ends[0];
+	range->greatest = ends[1];
+	return true;
 }

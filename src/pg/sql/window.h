@@ -1,5 +1,5 @@
 /*
- * window.h: the part of a mesh that a call is about.
+ * window.h: the part of a mesh that a call is about: where it is, and which simplices.
  */
 #ifndef ABACUS_WINDOW_H
 #define ABACUS_WINDOW_H
@@ -18,5 +18,7 @@ typedef enum WindowForm
 extern void window_arguments(FunctionCallInfo fcinfo, int first, WindowForm form,
 							 const abacus_header *header, abacus_window *window);
 extern double window_max_edge(FunctionCallInfo fcinfo, int argument);
+extern bool window_label(FunctionCallInfo fcinfo, int first, const abacus_header *header,
+						 abacus_range *range);
 
 #endif
