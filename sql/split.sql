@@ -19,7 +19,7 @@ SELECT abacus_load('refused', 'TABLE node', 'SELECT v0, v1, v2 FROM triangle');
 SELECT abacus_load('fault', 'TABLE node', 'SELECT v0, v1, v2, is_right::int FROM triangle', labels => '{is_right}',
                    facets => 'VALUES (22, 23, 7), (23, 24, 7), (22, 123, 8), (123, 124, 7), (12, 22, 9)', split_nodes => true);
 SELECT * FROM abacus_check('fault');
-SELECT name, value FROM abacus_stats('fault') WHERE name IN ('vertices', 'simplices', 'hull_facets', 'delaunay', 'changeable') ORDER BY name;
+SELECT name, value FROM abacus_stats('fault') WHERE name IN ('vertices', 'simplices', 'hull_facets', 'delaunay', 'changeable', 'split_nodes') ORDER BY name;
 SELECT id, x, y, attributes FROM abacus_vertices('fault') WHERE x = 2 ORDER BY y, id;
 
 -- A place is on one side; on the fault itself it is the first simplex of both.
@@ -126,6 +126,8 @@ SELECT count(DISTINCT c.number) AS corners, count(DISTINCT c.place) AS places
 FROM abacus_isosurface('crossed', 0.5, attribute => 'level') AS s,
     LATERAL (VALUES (s.v0, s.corners[1:1]), (s.v1, s.corners[2:2]), (s.v2, s.corners[3:3])) AS c (number, place);
 SELECT sum(labels[1]) / count(*) AS quarter, count(*) > 0 AS has_some FROM abacus_section('crossed', '{0.5, 0.5, 0.5}', '{0, 0, 1}', attribute => 'speed') WHERE labels = '{4}' GROUP BY labels;
+-- at the bottom the simplices behind the facets of the border
+SELECT labels, count(*) FROM abacus_section('crossed', '{0.5, 0.5, 0}', '{0, 0, 1}', attribute => 'speed') GROUP BY labels ORDER BY labels;
 SELECT count(*) = (SELECT value FROM abacus_stats('crossed') WHERE name = 'hull_facets') AS border FROM (SELECT DISTINCT ring FROM abacus_hull('crossed')) AS ring;
 SELECT count(*), count(DISTINCT v0 || ' ' || v1) FROM abacus_edges('crossed', '{1, 1, 0.5}'::float8[], '{1, 1, 0.5}'::float8[]);
 SELECT id FROM abacus_vertices('crossed', '{1, 1, 1}'::float8[], '{1, 1, 1}'::float8[]) ORDER BY id;

@@ -39,6 +39,8 @@ SELECT is(abacus_load('cube_split', 'SELECT id, x, y, z, value FROM cube_node', 
           (SELECT count(*) FROM cube_element), 'all tetrahedra');
 SELECT is_empty($$ SELECT * FROM abacus_check('plane_split') $$, 'the plane is sound');
 SELECT is_empty($$ SELECT * FROM abacus_check('cube_split') $$, 'the cube is sound');
+SELECT is((SELECT value FROM abacus_stats('plane_split') WHERE name = 'split_nodes'),
+          (SELECT sum(n)::float8 FROM (SELECT count(*) AS n FROM plane_node GROUP BY x, y HAVING count(*) > 1) AS place), 'so many share their places');
 SELECT cmp_ok((SELECT count(*) FROM plane_node), '>', (SELECT count(*) + 30 FROM plane), 'vertices are split');
 
 SELECT set_eq($$ SELECT id, x, y, attributes[1] FROM abacus_vertices('plane_split') $$, $$ SELECT id, x, y, value FROM plane_node $$, 'the vertices of the plane');
