@@ -93,6 +93,7 @@ CORE_SOURCES += src/load/load_boundary.cpp
 CORE_SOURCES += src/load/load_labels.cpp
 CORE_SOURCES += src/load/load_markers.cpp
 CORE_SOURCES += src/load/load_simplices.cpp
+CORE_SOURCES += src/load/load_split.cpp
 CORE_SOURCES += src/load/load_vertices.cpp
 CORE_SOURCES += src/load/overlap.cpp
 CORE_SOURCES += src/mesh/cache.cpp

@@ -221,11 +221,12 @@ typedef struct abacus_load abacus_load;
  * Opens the loading of a triangulation made elsewhere into a mesh without points.
  * `memory` bounds what it uses, in bytes (maintenance_work_mem); beyond it everything
  * goes to spools. With `reorient` simplices of negative orientation are turned; without,
- * they are refused.
+ * they are refused. With `split_nodes` vertices at one place are told apart by their ids; without,
+ * they are refused. No attributes are apart then.
  */
 ABACUS_API abacus_status abacus_load_open(const abacus_host *host, const abacus_header *header,
-										  size_t memory, int reorient, abacus_load **load,
-										  abacus_error *error);
+										  size_t memory, int reorient, int split_nodes,
+										  abacus_load **load, abacus_error *error);
 /* Adds vertices, as abacus_stage_add does points; each id once. */
 ABACUS_API abacus_status abacus_load_vertices(abacus_load *load, const uint64_t *points,
 											  size_t count, abacus_error *error);

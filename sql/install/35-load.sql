@@ -10,12 +10,13 @@ CREATE FUNCTION abacus_load(
     reorient boolean DEFAULT true,
     retriangulate boolean DEFAULT false,
     labels text[] DEFAULT NULL,
-    facets text DEFAULT NULL)
+    facets text DEFAULT NULL,
+    split_nodes boolean DEFAULT false)
 RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_load'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
-COMMENT ON FUNCTION abacus_load(text, text, text, text[], double precision[], double precision[], boolean, boolean, text[], text) IS
-    'makes a mesh of a triangulation made elsewhere, Delaunay or not, from queries for vertices (id, x, y[, z][, attribute...]) and simplices (v0, v1, v2[, v3][, label...]), and for markers of facets (v0, v1[, v2], marker); checks it exactly, triangulates its vertices anew if that is wanted and it is not Abacus'' own, and returns the number of simplices';
+COMMENT ON FUNCTION abacus_load(text, text, text, text[], double precision[], double precision[], boolean, boolean, text[], text, boolean) IS
+    'makes a mesh of a triangulation made elsewhere, Delaunay or not, from queries for vertices (id, x, y[, z][, attribute...]) and simplices (v0, v1, v2[, v3][, label...]), and for markers of facets (v0, v1[, v2], marker); checks it exactly, triangulates its vertices anew if that is wanted and it is not Abacus'' own, keeps vertices at one place apart by their ids if that is wanted, and returns the number of simplices';
 
 CREATE FUNCTION abacus_label(mesh regclass, query text)
 RETURNS bigint

@@ -1,8 +1,8 @@
 // The header row of a mesh, as bytes: little-endian, fixed fields, then the
-// names of the attributes, and last the SRID where there is one. Where simplices have labels or
-// facets markers, the SRID is there in any case, and what is known of these follows. A user can
-// write any bytes into the row, so decoding checks every field; it accepts exactly what encoding
-// can produce.
+// names of the attributes, and last the SRID where there is one. Where simplices have labels,
+// facets markers or vertices share their places, the SRID is there in any case, and what is known
+// of these follows. A user can write any bytes into the row, so decoding checks every field; it
+// accepts exactly what encoding can produce.
 #include "capi/guard.hpp"
 
 #include <abacus/octree.h>
@@ -17,8 +17,9 @@ namespace {
 /// A header begins with the bytes "ABACUS" and the format of the mesh: of the header and of
 /// all its pages together. The number is raised when any of them changes. Whether vertices have
 /// their attributes in simplex pages or apart is told by the format alone, unless there are labels
-/// or markers.
-constexpr std::uint64_t name = 0x535543414241, format = 3, format_apart = 4, format_labelled = 5;
+/// or markers, or vertices that share their places.
+constexpr std::uint64_t name = 0x535543414241, format = 3, format_apart = 4, format_labelled = 5,
+                        format_split = 6;
 constexpr int name_bits = 48;
 /// That of an octree begins with the bytes "OCTREE" and a format of its own.
 constexpr std::uint64_t octree_name = 0x454552544f43ull, octree_format = 1;
@@ -174,16 +175,31 @@ template <class Header, class Visit> void visit_label_fields(Header &header, Vis
     visit(header.inherits);
 }
 
-/// Labels of simplices and markers of facets.
-void read_labels(Reader &read, abacus_header &header) {
-    visit_label_fields(header, read);
-    if (header.srid > ABACUS_MAX_SRID) throw_corrupted("The header's SRID is out of range.");
-    if (header.apart > 1) throw_corrupted("The header's attributes are neither apart nor not.");
-    if (!is_labelled(header) || header.labels > ABACUS_MAX_NAMES - header.attributes ||
+void check_labels(const abacus_header &header) {
+    if (header.labels > ABACUS_MAX_NAMES - header.attributes ||
         header.labelled > header.simplices || header.marked > header.simplices ||
         (header.labelled > 0 && header.labels == 0) ||
         header.inherits > (header.labels > 0 ? 1u : 0u))
         throw_corrupted("The header's counts of labels and markers contradict the others.");
+}
+
+void check_split(const abacus_header &header) {
+    if (header.split < 2 || header.split > header.vertices || header.not_delaunay == 0 ||
+        header.apart != 0)
+        throw_corrupted("The header's count of vertices that share their places is not valid.");
+}
+
+/// Labels of simplices and markers of facets; where vertices share their places, how many.
+void read_labels(Reader &read, bool is_split, abacus_header &header) {
+    visit_label_fields(header, read);
+    if (is_split) read(header.split);
+    if (header.srid > ABACUS_MAX_SRID) throw_corrupted("The header's SRID is out of range.");
+    if (header.apart > 1) throw_corrupted("The header's attributes are neither apart nor not.");
+    check_labels(header);
+    if (is_split)
+        check_split(header);
+    else if (!is_labelled(header))
+        throw_corrupted("The header has room for labels and markers, and there are none.");
     read_names(read, header.attributes, header.attributes + header.labels, header);
     if (read.left() > 0) throw_corrupted("The header is too long.");
 }
@@ -210,6 +226,7 @@ void check_octree_format(std::uint64_t found) {
 }
 
 std::uint64_t format_of(const abacus_header &header) {
+    if (header.split > 0) return format_split;
     if (is_labelled(header)) return format_labelled;
     return header.apart != 0 ? format_apart : format;
 }
@@ -220,11 +237,11 @@ bool has_name(std::uint64_t found, std::uint64_t name) {
 
 void check_format(std::uint64_t found) {
     if (!has_name(found, name)) throw_corrupted("The row with the lowest key is no header.");
-    if (found >> name_bits < format || found >> name_bits > format_labelled)
+    if (found >> name_bits < format || found >> name_bits > format_split)
         throw Error(ABACUS_ERROR_STATE,
                     "mesh is stored in format " + std::to_string(found >> name_bits) +
                         ", but this version of Abacus reads formats " + std::to_string(format) +
-                        " to " + std::to_string(format_labelled),
+                        " to " + std::to_string(format_split),
                     {},
                     "Read its points with the version that wrote it (abacus_vertices), and build "
                     "it anew.");
@@ -248,7 +265,7 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
         throw_corrupted("The header's dimension is " + std::to_string(header.dimension) + ".");
     if (header.attributes > ABACUS_MAX_ATTRIBUTES)
         throw_corrupted("The header has " + std::to_string(header.attributes) + " attributes.");
-    const bool labelled = header.type == ABACUS_MESH && found >> name_bits == format_labelled;
+    const bool labelled = !is_octree && found >> name_bits >= format_labelled;
     if (is_octree) {
         check_octree(header);
     } else {
@@ -262,7 +279,7 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
     std::memcpy(&header.counters, counters, sizeof counters);
     read_names(read, 0, header.attributes, header);
     if (labelled)
-        read_labels(read, header);
+        read_labels(read, found >> name_bits == format_split, header);
     else
         read_srid(read, header);
     if (header.apart != 0 && header.attributes == 0)
@@ -303,8 +320,9 @@ size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes) {
     for (const auto counter : counters) write(counter);
     for (unsigned i = 0; i < header->attributes; ++i)
         write.text(header->names[i], ABACUS_NAME_BYTES);
-    if (is_labelled(*header)) {
+    if (is_labelled(*header) || header->split > 0) {
         visit_label_fields(*header, write);
+        if (header->split > 0) write(header->split);
         for (unsigned i = 0; i < header->labels; ++i)
             write.text(header->names[header->attributes + i], ABACUS_NAME_BYTES);
     } else if (header->srid != 0) {

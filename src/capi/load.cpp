@@ -9,8 +9,8 @@
 
 struct abacus_load {
     abacus_load(const abacus_host *table, const abacus_header &header, std::size_t memory,
-                bool reorient)
-        : host(*table), load(host, header, memory, reorient) {}
+                bool reorient, bool split_nodes)
+        : host(*table), load(host, header, memory, reorient, split_nodes) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::Load> load;
@@ -18,9 +18,11 @@ struct abacus_load {
 };
 
 abacus_status abacus_load_open(const abacus_host *host, const abacus_header *header, size_t memory,
-                               int reorient, abacus_load **load, abacus_error *error) {
+                               int reorient, int split_nodes, abacus_load **load,
+                               abacus_error *error) {
     return abacus::guard(error, [&] {
-        *load = abacus::create_handle<abacus_load>(host, *header, memory, reorient != 0);
+        *load = abacus::create_handle<abacus_load>(host, *header, memory, reorient != 0,
+                                                   split_nodes != 0);
         return ABACUS_OK;
     });
 }

@@ -6,9 +6,11 @@ namespace abacus {
 
 template <int D>
 ElementWriter<D>::ElementWriter(const Host &host, const LoadLayout<D> &layout,
-                                const Domain<D> &domain, int attributes, bool linked_ghosts)
+                                const Domain<D> &domain, int attributes, bool linked_ghosts,
+                                bool split_nodes)
     : host_(host), layout_(layout),
-      cache_(host_, domain, attributes, CacheOptions{.linked_ghosts = linked_ghosts}),
+      cache_(host_, domain, attributes,
+             CacheOptions{.linked_ghosts = linked_ghosts, .split_nodes = split_nodes}),
       least_capacity_(cache_.capacity()), crowded_(host), waiting_(host), loose_(host) {}
 
 template <int D> void ElementWriter<D>::write(RecordSort &elements, Pacer &pacer) {

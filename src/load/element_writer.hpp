@@ -21,7 +21,7 @@ namespace abacus {
 template <int D> class ElementWriter {
 public:
     ElementWriter(const Host &host, const LoadLayout<D> &layout, const Domain<D> &domain,
-                  int attributes, bool linked_ghosts);
+                  int attributes, bool linked_ghosts, bool split_nodes);
 
     /// Writes the pages of all elements, which are sorted; reads them twice.
     void write(RecordSort &elements, Pacer &pacer);

@@ -19,12 +19,13 @@ constexpr std::size_t sorts_with_labels = sorts_at_once + 1;
 } // namespace
 
 template <int D>
-Load<D>::Load(const Host &host, const abacus_header &header, std::size_t memory, bool reorient)
+Load<D>::Load(const Host &host, const abacus_header &header, std::size_t memory, bool reorient,
+              bool split_nodes)
     : host_(host), attributes_(header.attributes), in_pages_(page_attributes(header)),
       layout_(static_cast<unsigned>(in_pages_)), labels_(header.labels),
-      vertex_words_(record_words(D, attributes_)), reorient_(reorient), unknown_(host),
-      share_(memory / (labels_ > 0 ? sorts_with_labels : sorts_at_once)), pacer_(host),
-      spread_(host), used_(host, vertex_words_), ordered_(host, vertex_words_),
+      vertex_words_(record_words(D, attributes_)), reorient_(reorient), split_nodes_(split_nodes),
+      unknown_(host), share_(memory / (labels_ > 0 ? sorts_with_labels : sorts_at_once)),
+      pacer_(host), spread_(host), used_(host, vertex_words_), ordered_(host, vertex_words_),
       simplices_(host, layout_.simplex), label_rows_(host, std::max(1u, labels_)) {
     if (header.staged > 0 || header.vertices > 0)
         throw Error(ABACUS_ERROR_STATE, "the mesh has points already", {},
@@ -97,7 +98,9 @@ template <int D> abacus_delaunay Load<D>::check() {
     find_boundary();
 
     pacer_.begin(ABACUS_PHASE_CHECKING, 0);
-    Overlap<D>(host_, layout_, share_).check(*boundary_, simplices_, faults_);
+    if (split_count_ > 0) leave_out_split_facets();
+    Overlap<D>(host_, layout_, share_).check(outer_ ? *outer_ : *boundary_, simplices_, faults_);
+    if (outer_) end(outer_);
     simplices_.close();
     if (is_empty_) {
         link_ghosts();
@@ -116,7 +119,7 @@ template <int D> void Load<D>::write(abacus_header &header) {
     elements_->finish();
 
     pacer_.begin(ABACUS_PHASE_FLUSHING, elements_->size());
-    ElementWriter<D> pages(host_, layout_, *domain_, in_pages_, is_delaunay);
+    ElementWriter<D> pages(host_, layout_, *domain_, in_pages_, is_delaunay, split_count_ > 0);
     pages.write(*elements_, pacer_);
     end(elements_);
     header.counters = pages.counters(); // nothing has been done with it before
@@ -131,6 +134,7 @@ template <int D> void Load<D>::write(abacus_header &header) {
     header.vertices = vertex_count_;
     header.simplices = simplex_count_;
     header.not_delaunay = outcome();
+    header.split = split_count_;
     if (!is_delaunay) header.staged = header.inserted = vertex_count_;
 }
 

@@ -6,10 +6,11 @@
 //
 //   vertices by id       two of one id are found; merged with
 //   corners by id        unknown ids are found; vertices without simplices are left out
-//   vertices by place    two at one place are found; their order along the curve
+//   vertices by place    two at one place are found, or split nodes; their order along the curve
 //   corners by simplex   coordinates: orientation, flat simplices, keys
 //   flanks by facet      neighbours; facets used more than twice, or twice from one side
 //   links by simplex     the Delaunay criterion; what has no neighbour is the boundary
+//   boundary by place    the two sides of a fault: of these the overlaps need nothing
 //   boundary by key      overlaps (overlap.hpp)
 //   flanks by ridge      neighbours of ghosts; whether the boundary is a convex hull
 //   elements by key      pages (element_writer.hpp)
@@ -25,6 +26,14 @@
 // would have the least or the greatest vertex of all beyond one of its facets: if both were
 // in both pieces, so would be all that lies between them, which overlap.hpp excludes but for
 // an edge, and at such an edge four facets meet.
+//
+// Split nodes. Vertices may share their places, told apart by their ids: so the two sides of a
+// fault are kept apart. Their facets are matched by ids, so both sides are of the boundary, and
+// each has its ghost. Two facets of the boundary at the same place, with simplices on different
+// sides, touch and do not overlap; what is left must be a complex as if each place had one vertex.
+// Such a mesh is never convex. The two ghosts of a fault have the same key, which no page divides;
+// elements of one key go by the keys of their neighbours, so that pages do not depend on the order
+// of rows.
 //
 // In a mesh that is not Delaunay, a ghost knows the simplex behind it, and is its own
 // neighbour across its ridges. At a pinched ridge four or more ghosts would meet. Nothing
@@ -46,8 +55,10 @@ namespace abacus {
 
 template <int D> class Load {
 public:
-    /// `reorient`: simplices of negative orientation are turned, not refused.
-    Load(const Host &host, const abacus_header &header, std::size_t memory, bool reorient);
+    /// `reorient`: simplices of negative orientation are turned, not refused. `split_nodes`:
+    /// vertices at one place are kept apart, not refused; no attributes are apart then.
+    Load(const Host &host, const abacus_header &header, std::size_t memory, bool reorient,
+         bool split_nodes);
 
     /// Adds vertices, as in abacus_stage_add; all before the simplices.
     void add_vertices(const std::uint64_t *points, std::size_t count);
@@ -88,6 +99,9 @@ private:
     void add_ghost(const Word *simplex, int facet, Key &key);
     Key key_of(const std::array<const Word *, D + 1> &vertices, int n) const;
 
+    // load_split.cpp
+    void leave_out_split_facets();
+
     // load_labels.cpp
     void begin_labels();
     void place_labels(const Corners<D> &points);
@@ -123,7 +137,7 @@ private:
     const LoadLayout<D> layout_;
     const unsigned labels_;
     const std::size_t vertex_words_; // of what is given: corners have no attributes that are apart
-    const bool reorient_;
+    const bool reorient_, split_nodes_;
     Faults faults_; // of one step: there is no next one if it has some
     Arena<Unknown> unknown_;
     const std::size_t share_; // of memory, for one of the sorts that are open at once
@@ -135,12 +149,14 @@ private:
     /// hull, and of cospherical vertices those are joined that the perturbation joins.
     bool is_empty_ = true, is_convex_ = true, is_own_ = true;
     Word vertex_count_ = 0, simplex_count_ = 0;
+    Word split_count_ = 0;          // vertices that share their places
     Word outside_ = 0;              // vertices, of a given domain
     bool keeps_domain_ = false;     // the given one
     Point<D> least_{}, greatest_{}; // of the vertices, lexicographically
 
     std::optional<RecordSort> vertices_, corners_, placed_, flanks_, links_, boundary_, elements_,
         labelled_;
+    std::optional<RecordSort> outer_; // the boundary without faults, if vertices share their places
     // Markers by the ids of the facet; by sides of simplices; and by the keys of these.
     std::optional<RecordSort> marks_, marked_, marker_rows_;
     const Word *mark_ = nullptr; // the next one to be read

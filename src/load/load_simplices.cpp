@@ -99,7 +99,7 @@ template <int D> void Load<D>::link() {
 }
 
 template <int D> void Load<D>::find_boundary() {
-    begin(elements_, layout_.element, 2);
+    begin(elements_, layout_.element, split_count_ > 0 ? 2 + 2 * (D + 1) : 2);
     begin(boundary_, layout_.boundary, 2);
     LinkReader<D> links(*links_);
     Word simplex = 0;

@@ -87,31 +87,36 @@ template <int D> void Load<D>::choose_domain() {
     if (!keeps_domain_) domain_ = domain_around<D>(box_.lower, box_.upper);
 }
 
+/// Two vertices at one place are refused, or they are split nodes and go by their ids.
 template <int D> void Load<D>::order_vertices() {
-    // Code, coordinates, then the rest of the record.
-    RecordSort places(host_, 1 + vertex_words_, 1 + D, share_);
+    // Code, coordinates, id with its sign turned, then the rest of the record.
+    constexpr Word sign = Word{1} << 63;
+    RecordSort places(host_, 1 + vertex_words_, 2 + D, share_);
     used_.rewind();
     while (const Word *vertex = used_.next()) {
         Word *place = places.add();
         place[0] = domain_->code(point_in<D>(vertex));
         std::copy_n(vertex + 1, D, place + 1);
-        place[1 + D] = vertex[0];
+        place[1 + D] = vertex[0] ^ sign;
         std::copy_n(vertex + 1 + D, attributes_, place + 2 + D);
     }
     used_.close();
     places.finish();
     Word previous = 0;
+    bool is_split = false; // whether the one before is known to share its place
     std::optional<Point<D>> previous_point;
     while (const Word *place = places.next()) {
         const Point<D> &p = point_in<D>(place);
-        const Word id = place[1 + D];
-        if (previous_point == p) {
-            const auto [lesser, greater] =
-                std::minmax({static_cast<std::int64_t>(previous), static_cast<std::int64_t>(id)});
-            faults_.add("vertices " + std::to_string(lesser) + " and " + std::to_string(greater) +
+        const Word id = place[1 + D] ^ sign;
+        const bool shares = previous_point == p;
+        if (shares && !split_nodes_)
+            faults_.add("vertices " + number(previous) + " and " + number(id) +
                             " have the same coordinates",
-                        {}, "Give the simplices one vertex for each place.");
-        }
+                        {},
+                        "Give the simplices one vertex for each place, or let split_nodes => true "
+                        "keep them apart.");
+        if (shares) split_count_ += is_split ? 1 : 2;
+        is_split = shares;
         previous = id;
         previous_point = p;
         Word *vertex = ordered_.add();
@@ -120,6 +125,7 @@ template <int D> void Load<D>::order_vertices() {
         std::copy_n(place + 2 + D, attributes_, vertex + 1 + D);
     }
     faults_.raise();
+    if (split_count_ > 0) is_convex_ = false;
     ordered_.rewind();
     places.close();
 }

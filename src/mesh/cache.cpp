@@ -9,9 +9,9 @@ template <int D>
 Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
                 const CacheOptions &options)
     : Blocks(host, options.budget, last_pass_room<D>(), PageCapacity(simplex_pages<D>(attributes))),
-      domain_(domain), options_(options), vertices_(host, attributes), visible_(host),
-      inner_links_(host), writer_(host), border_(host), left_(host), uses_(host), values_(host),
-      codes_(host), guesses_(host) {
+      domain_(domain), options_(options), vertices_(host, attributes, options.split_nodes),
+      visible_(host), inner_links_(host), writer_(host), border_(host), left_(host), uses_(host),
+      values_(host), codes_(host), guesses_(host) {
     values_.resize(static_cast<std::size_t>(attributes));
 }
 

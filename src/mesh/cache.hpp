@@ -57,6 +57,7 @@ struct CacheOptions {
     bool verify_links = false;      // compare every stored key with the simplex it leads to
     bool verify_checksums = true;   // false: for callers that look for the damage itself
     bool linked_ghosts = true;      // false: a ghost is its own neighbour across its ridges
+    bool split_nodes = false;       // vertices at one place are told apart by their ids
     FormerAttributes former{};      // what is loaded with these will be written with those of now
 };
 

@@ -7,11 +7,11 @@ namespace abacus {
 template <int D> VertexIndex Cache<D>::appended_vertex(const std::uint64_t *record) {
     if (record == nullptr) return infinite_vertex;
     Point<D> p;
+    std::int64_t id;
     std::memcpy(p.data(), record + 1, sizeof p);
-    VertexIndex v = vertices_.find_shared(p);
+    std::memcpy(&id, record, sizeof id);
+    VertexIndex v = vertices_.find_shared(p, id);
     if (v == infinite_vertex) {
-        std::int64_t id;
-        std::memcpy(&id, record, sizeof id);
         v = vertices_.create(p, domain_.code(p), id,
                              reinterpret_cast<const double *>(record + 1 + D));
         vertices_.share(v);

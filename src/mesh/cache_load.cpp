@@ -93,7 +93,8 @@ template <int D> void Cache<D>::load_vertices() {
     for (int n = 0; n < view_.vertices(); ++n) {
         const Point<D> &p = view_.point(n);
         read_attributes(n);
-        VertexIndex v = border_.has_vertex[n] ? vertices_.find_shared(p) : infinite_vertex;
+        VertexIndex v =
+            border_.has_vertex[n] ? vertices_.find_shared(p, view_.id(n)) : infinite_vertex;
         if (v == infinite_vertex) {
             v = vertices_.create(p, codes_[n], view_.id(n), values_.data());
             if (border_.has_vertex[n]) vertices_.share(v);

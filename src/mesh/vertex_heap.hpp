@@ -1,7 +1,8 @@
 // The vertices of the cached simplices (dissertation §4.4.1-2, §4.5.1).
 //
 // What the geometry reads is kept apart from what only pages need (the user's id
-// and attributes). Vertices are identified by their coordinates. Only those that
+// and attributes). Vertices are identified by their coordinates; where a mesh has several
+// at one place, by their ids besides. Only those that
 // a page outside the cache may name as well are `shared` and entered in the hash
 // table: the vertices on the border of evicted or loaded blocks. A vertex made by
 // an insertion and surrounded by cached simplices is never hashed.
@@ -28,9 +29,10 @@ template <int D> struct Vertex {
 
 template <int D> class VertexHeap {
 public:
-    VertexHeap(const Host &host, int attributes)
-        : attributes_(attributes), vertices_(host), ids_(host), values_(host), free_(host),
-          slots_(host) {
+    /// `by_id`: several vertices may be at one place.
+    VertexHeap(const Host &host, int attributes, bool by_id = false)
+        : attributes_(attributes), by_id_(by_id), vertices_(host), ids_(host), values_(host),
+          free_(host), slots_(host) {
         // Vertex 0 is the point at infinity; NaN fails every floating-point filter.
         Point<D> nowhere;
         nowhere.fill(std::numeric_limits<double>::quiet_NaN());
@@ -156,10 +158,12 @@ public:
         slots_.add(hash(point(v)), to_number(v));
     }
 
-    /// The shared vertex at p, or infinite_vertex.
-    VertexIndex find_shared(const Point<D> &p) const {
-        return VertexIndex{slots_.find(
-            hash(p), [&](std::uint32_t number) { return point(VertexIndex{number}) == p; })};
+    /// The shared vertex at p, or infinite_vertex; where it takes an id, too, the one with this.
+    VertexIndex find_shared(const Point<D> &p, std::int64_t id) const {
+        return VertexIndex{slots_.find(hash(p), [&](std::uint32_t number) {
+            const VertexIndex v{number};
+            return point(v) == p && (!by_id_ || ids_[v] == id);
+        })};
     }
 
     void prefetch_id(VertexIndex v) const {
@@ -187,6 +191,7 @@ private:
     }
 
     int attributes_;
+    bool by_id_;
     Arena<Vertex<D>, VertexIndex> vertices_;
     Arena<std::int64_t, VertexIndex> ids_;
     Arena<double> values_;

@@ -57,15 +57,23 @@ void Cavities::number_page() {
 
 void Cavities::finish() {
     facets_.finish();
-    std::array<std::uint64_t, facet_words> side;
+    std::array<std::uint64_t, facet_words> side{};
+    std::uint64_t n = 0; // sides of the facet at hand; of a fault's four, all beside its ghosts
+    const auto end_facet = [&] {
+        if (n % 2 != 0) throw_corrupted("A facet has one side alone.");
+    };
     while (const std::uint64_t *facet = facets_.next()) {
+        if (n > 0 && std::equal(facet, facet + corner_words, side.begin())) {
+            parts_.join(static_cast<std::uint32_t>(side.back()),
+                        static_cast<std::uint32_t>(facet[corner_words]));
+            ++n;
+            continue;
+        }
+        end_facet();
         std::copy_n(facet, facet_words, side.begin());
-        const std::uint64_t *const other = facets_.next();
-        if (other == nullptr || !std::equal(other, other + corner_words, side.begin()))
-            throw_corrupted("A facet has one side alone.");
-        parts_.join(static_cast<std::uint32_t>(side.back()),
-                    static_cast<std::uint32_t>(other[corner_words]));
+        n = 1;
     }
+    end_facet();
     facets_.close();
 }
 

@@ -3,7 +3,8 @@
 // What is not kept hangs together across facets. The part that has the ghosts is the outside; all
 // others are cavities. Within a page parts are found in memory (union and find). A part that goes
 // on in other pages gets a number, and its facets on the page's border are noted under their
-// corners. Sorted by these, a facet comes twice in a row, and joins the numbers of both its sides.
+// corners. Sorted by these, a facet comes twice in a row, and joins the numbers of both its sides;
+// one of a fault may come four times, since each side has a ghost, and all are outside.
 // A part that neither goes on nor has a ghost is a cavity of its own, and takes no memory.
 #pragma once
 

@@ -163,8 +163,11 @@ template <int D> void Check<D>::check_listed_vertices() {
     Reader<D> mesh(host_, header_, {.budget = cache_bytes_, .verify_checksums = false});
     VertexReader<D> list(host_, static_cast<unsigned>(page_attributes(header_)), 0, header_.staged);
     std::uint64_t in_pages = 0;
-    // Along the curve, and those of one code by their coordinates as words: so abacus_load sorts.
+    // Along the curve, those of one code by their coordinates as words, those at one place by their
+    // ids: so abacus_load sorts.
     std::array<std::uint64_t, 1 + D> place{}, previous{};
+    std::int64_t previous_id = 0;
+    std::uint64_t split = 0, at_place = 0;
     Key last = first_key;
     while (list.advance()) {
         faults_.at = {list.sequence(), 0};
@@ -172,9 +175,15 @@ template <int D> void Check<D>::check_listed_vertices() {
         last = list.page_key();
         place[0] = domain_.code(list.point());
         std::copy_n(list.record() + 1, D, place.begin() + 1);
-        if (list.sequence() > 0 && place <= previous)
+        const std::int64_t id = record_id(list.record());
+        const bool shares = list.sequence() > 0 && place == previous;
+        if (list.sequence() > 0 &&
+            (shares ? header_.split == 0 || id <= previous_id : place < previous))
             faults_.add("vertex", "The list of vertices is not in order.");
+        at_place = shares ? at_place + 1 : 1;
+        if (at_place > 1) split += at_place == 2 ? 2 : 1;
         previous = place;
+        previous_id = id;
         const std::uint64_t pages = mesh.pages_with(list.record());
         if (pages == 0)
             faults_.add("vertex", "A vertex of the list is none of the mesh, or another one.");
@@ -182,6 +191,9 @@ template <int D> void Check<D>::check_listed_vertices() {
     }
     if (in_pages != counts_.vertices)
         faults_.add("vertex", first_key, "The mesh has vertices that are not in the list.");
+    if (split != header_.split)
+        faults_.add("count", first_key,
+                    "The header counts other vertices that share their places than there are.");
     abacus_page page;
     if (host_.next(ABACUS_STAGED_PAGES, &last, page))
         faults_.add("count", page.key, "There are pages behind the list of vertices.");
@@ -249,7 +261,8 @@ void Check<D>::check_labels(const char *kind, unsigned columns, std::uint64_t ow
     });
 }
 
-/// A facet has the same marker on both sides, or is one of the boundary: a ghost is beyond it.
+/// A facet has the same marker on both sides, or is one of the boundary: a ghost is beyond it. The
+/// two sides of a fault are both of the boundary, and have markers of their own.
 template <int D> void Check<D>::check_markers() {
     constexpr std::size_t key_words = 2 + D * D; // key, coordinates; then the marker
     RecordSort sides(host_, key_words + 1, key_words, cache_bytes_ / 4);
@@ -278,26 +291,33 @@ template <int D> void Check<D>::check_markers() {
     });
     sides.finish();
     std::array<std::uint64_t, key_words + 1> first{};
-    std::uint64_t n = 0; // with the facet of the first
+    std::uint64_t ghosts = 0, marked = 0; // with the facet of the first
     bool agree = true;
     const auto end_facet = [&] {
-        const bool is_marked = !std::isnan(std::bit_cast<double>(first[key_words]));
-        if (n > 0 && ((n == 1 && is_marked) || n > 2 || !agree))
+        const std::uint64_t sides_of_boundary = header_.split > 0 && ghosts == 2 ? 2 : 1;
+        const bool is_sound = ghosts == 0 ? marked == 0 || (marked == 2 && agree)
+                                          : ghosts <= sides_of_boundary && marked <= ghosts;
+        if (!is_sound)
             faults_.add("markers", in_group({first[0], first[1]}, marker_group),
                         "The two sides of a facet have different markers.");
     };
     while (const std::uint64_t *record = sides.next()) {
-        if (n > 0 && std::equal(record, record + key_words, first.begin())) {
-            const double a = std::bit_cast<double>(first[key_words]),
-                         b = std::bit_cast<double>(record[key_words]);
-            agree = agree && (std::isnan(a) != std::isnan(b) || a == b);
-            ++n;
+        const auto marker = std::bit_cast<double>(record[key_words]);
+        if (ghosts + marked == 0 || !std::equal(record, record + key_words, first.begin())) {
+            end_facet();
+            std::copy_n(record, key_words, first.begin());
+            first[key_words] = std::bit_cast<std::uint64_t>(null_value);
+            ghosts = marked = 0;
+            agree = true;
+        }
+        if (std::isnan(marker)) {
+            ++ghosts;
             continue;
         }
-        end_facet();
-        std::copy_n(record, key_words + 1, first.begin());
-        n = 1;
-        agree = true;
+        const auto before = std::bit_cast<double>(first[key_words]);
+        agree = agree && (std::isnan(before) || before == marker);
+        first[key_words] = record[key_words];
+        ++marked;
     }
     end_facet();
     sides.close();

@@ -26,7 +26,8 @@ ContourWindow::ContourWindow(const abacus_window &window) {
     }
 }
 
-ContourEdge::ContourEdge(const Point<2> &p, double value_p, const Point<2> &q, double value_q)
+ContourEdge::ContourEdge(const ContourPoint &p, double value_p, const ContourPoint &q,
+                         double value_q)
     : a(&p), b(&q), value_a(value_p), value_b(value_q) {
     if (*a < *b) return;
     std::swap(a, b);
@@ -67,7 +68,7 @@ bool clip(const ContourEdge &edge, const ContourWindow &window, ContourLevels &l
     return true;
 }
 
-bool ContourCut::take(const Corners<2> &corners, const std::array<double, 3> &values,
+bool ContourCut::take(const ContourCorners &corners, const std::array<double, 3> &values,
                       const std::array<std::int64_t, 3> &ranks) {
     corners_ = corners;
     values_ = values;

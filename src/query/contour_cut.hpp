@@ -44,10 +44,17 @@ constexpr ContourKind operator+(ContourKind first, int n) {
     return static_cast<ContourKind>(static_cast<int>(first) + n);
 }
 
+/// A vertex. Several may be at one place, told apart by their ids: an edge on one side of a fault
+/// is another one than that on the other side.
+struct ContourPoint : Point<2> {
+    std::int64_t id = 0;
+};
+using ContourCorners = std::array<const ContourPoint *, 3>;
+
 /// Points are told apart by where they lie in memory: within a page, a vertex has one.
 struct ContourNode {
     ContourKind kind = ContourKind::end;
-    const Point<2> *a = nullptr, *b = nullptr; // ends of an edge
+    const ContourPoint *a = nullptr, *b = nullptr; // ends of an edge
 
     bool operator==(const ContourNode &) const = default;
 };
@@ -84,11 +91,11 @@ private:
 
 /// An edge of the triangulation.
 struct ContourEdge {
-    const Point<2> *a, *b; // the lexicographically lesser first
+    const ContourPoint *a, *b; // the lexicographically lesser first
     double value_a, value_b;
 
     ContourEdge() = default;
-    ContourEdge(const Point<2> &p, double value_p, const Point<2> &q, double value_q);
+    ContourEdge(const ContourPoint &p, double value_p, const ContourPoint &q, double value_q);
 
     Point<2> crossing(double level) const;
 };
@@ -133,7 +140,7 @@ public:
         : window_(window), levels_(levels), bands_(bands) {}
 
     /// Takes a triangle in positive orientation; false if it has no inside in the window.
-    bool take(const Corners<2> &corners, const std::array<double, 3> &values,
+    bool take(const ContourCorners &corners, const std::array<double, 3> &values,
               const std::array<std::int64_t, 3> &ranks);
     /// Calls put(piece) for each of its pieces.
     template <class Put> void each(Put put) const {
@@ -188,7 +195,7 @@ private:
     const ContourWindow &window_;
     ContourLevels &levels_;
     const bool bands_;
-    Corners<2> corners_{};
+    ContourCorners corners_{};
     std::array<double, 3> values_{};
     std::array<std::int64_t, 3> ranks_{};
     std::array<ContourEdge, 3> edges_; // from a corner to the next

@@ -53,7 +53,7 @@ void rotate_to_least(Arena<Point<2>> &points) {
 ContourPieces::ContourPieces(const Host &host, std::size_t memory)
     : host_(host), memory_(memory / 6), pieces_(host), slots_(host), successors_(host),
       follows_(host), chain_spool_(host, chain_words), point_spool_(host, 2),
-      ends_(host, end_words, end_key, memory_), lines_(host, line_words, 9, memory_),
+      ends_(host, end_words, end_key, memory_), lines_(host, line_words, line_words - 1, memory_),
       points_(host, 4, 2, memory_) {}
 
 auto ContourPieces::words(const ContourEnd &end) -> NodeWords {
@@ -65,6 +65,8 @@ auto ContourPieces::words(const ContourEnd &end) -> NodeWords {
         words[3 + i] = ordered((*a)[i]);
         words[5 + i] = ordered((*b)[i]);
     }
+    words[7] = static_cast<std::uint64_t>(a->id);
+    words[8] = static_cast<std::uint64_t>(b->id);
     return words;
 }
 
@@ -132,8 +134,8 @@ void ContourPieces::add_end(const ContourPiece &piece, const ContourNode &node, 
     std::uint64_t *const to = ends_.add();
     to[0] = word_of(piece.level);
     std::copy(of_node.begin() + 2, of_node.end(), to + 1);
-    to[6] = begins;
-    to[7] = chains_;
+    to[begins_at] = begins;
+    to[begins_at + 1] = chains_;
 }
 
 /// Stores what follows a piece, and it; each then counts as its own successor.
@@ -174,7 +176,9 @@ void ContourPieces::finish() {
     slots_.reset();
     RecordSort successors(host_, 2, 1, memory_);
     find_successors(successors);
-    RecordSort chains(host_, 12, 11, memory_); // name of the line, level, least node, number, place
+    // Of chains: name of the line, level, least node, number, points, place.
+    constexpr std::size_t number_at = 2 + node_words;
+    RecordSort chains(host_, number_at + 3, number_at + 2, memory_);
     {
         ChainRank ranks(host_, memory_);
         const std::uint64_t *successor = successors.next();
@@ -194,10 +198,10 @@ void ContourPieces::finish() {
             std::uint64_t *const to = chains.add();
             to[0] = rank.chain << 1 | rank.is_closed;
             to[1] = chain[0];
-            std::copy_n(chain + 2, 7, to + 2);
-            to[9] = i;
-            to[10] = chain[1];
-            to[11] = rank.position;
+            std::copy_n(chain + 2, node_words, to + 2);
+            to[number_at] = i;
+            to[number_at + 1] = chain[1];
+            to[number_at + 2] = rank.position;
         }
         ranks.close();
     }
@@ -218,10 +222,11 @@ void ContourPieces::find_successors(RecordSort &successors) {
     while (const std::uint64_t *end = ends_.next()) {
         const bool meets = has_before && std::equal(end, end + end_key - 1, before.begin());
         if (meets) {
-            if (before[6] != 0 || end[6] != 1) throw_corrupted("Triangles overlap.");
+            if (before[begins_at] != 0 || end[begins_at] != 1)
+                throw_corrupted("Triangles overlap.");
             std::uint64_t *const to = successors.add();
-            to[0] = before[7];
-            to[1] = end[7];
+            to[0] = before[begins_at + 1];
+            to[1] = end[begins_at + 1];
         }
         std::copy_n(end, end_words, before.begin());
         has_before = true;
@@ -237,9 +242,9 @@ void ContourPieces::number(RecordSort &chains) {
         if (chain[0] == name) continue;
         name = chain[0];
         std::uint64_t *const to = lines_.add(); // its least node comes first
-        std::copy_n(chain + 1, 8, to);
-        to[8] = name;
-        to[9] = 0;
+        std::copy_n(chain + 1, 1 + node_words, to);
+        to[1 + node_words] = name;
+        to[2 + node_words] = 0;
     }
     lines_.finish();
     chains.rewind();
@@ -250,7 +255,7 @@ void ContourPieces::place_points(RecordSort &chains) {
     RecordSort numbers(host_, 2, 1, memory_); // of lines, by name
     for (std::uint64_t n = 0; const std::uint64_t *line = lines_.next(); ++n) {
         std::uint64_t *const to = numbers.add();
-        to[0] = line[8];
+        to[0] = line[1 + node_words];
         to[1] = n;
     }
     numbers.finish();
@@ -259,10 +264,10 @@ void ContourPieces::place_points(RecordSort &chains) {
     while (const std::uint64_t *chain = chains.next()) {
         while (number[0] != chain[0]) number = numbers.next();
         std::uint64_t *const to = places.add();
-        to[0] = chain[9];
-        to[1] = chain[10];
+        to[0] = chain[2 + node_words];
+        to[1] = chain[3 + node_words];
         to[2] = number[1];
-        to[3] = chain[11];
+        to[3] = chain[4 + node_words];
     }
     numbers.close();
     places.finish();
@@ -285,7 +290,7 @@ bool ContourPieces::next(std::int64_t &level, bool &is_closed, Arena<Point<2>> &
     const std::uint64_t *const line = lines_.next();
     if (line == nullptr) return false;
     level = level_of(line[0]);
-    is_closed = line[8] & 1;
+    is_closed = line[1 + node_words] & 1;
     Path path(points);
     for (; point_ != nullptr && point_[0] == at_; point_ = points_.next())
         path.add({std::bit_cast<double>(point_[2]), std::bit_cast<double>(point_[3])});

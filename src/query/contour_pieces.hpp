@@ -8,8 +8,8 @@
 // order, and each line is read as a whole.
 //
 // The order of lines: by level, then by their least node, which is a place and, where several nodes
-// have that, the edge it is on. So it depends on the mesh alone. Memory holds one line, and shares
-// of what the caller grants.
+// have that, the edge it is on, by the places of its ends and by their ids. So it depends on the
+// mesh alone. Memory holds one line, and shares of what the caller grants.
 #pragma once
 
 #include "host/arena.hpp"
@@ -48,11 +48,14 @@ private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
     /// A node with its place, in words that are compared one by one.
-    using NodeWords = std::array<std::uint64_t, 7>;
+    using NodeWords = std::array<std::uint64_t, 9>;
 
     // Records. Of an end: level, node, whether a chain begins there, its number. Of a chain: level,
     // points, least node. Of a line: level, least node, number of the chain that names it, closed.
-    static constexpr std::size_t end_words = 8, end_key = 7, chain_words = 9, line_words = 10;
+    static constexpr std::size_t node_words = std::tuple_size_v<NodeWords>;
+    static constexpr std::size_t begins_at = node_words - 1; // in an end, which has no place
+    static constexpr std::size_t end_words = begins_at + 2, end_key = begins_at + 1;
+    static constexpr std::size_t chain_words = 2 + node_words, line_words = 3 + node_words;
 
     static NodeWords words(const ContourEnd &end);
     static bool less(const ContourEnd &a, const ContourEnd &b);

@@ -8,54 +8,60 @@ namespace abacus {
 
 namespace {
 
-void put(std::uint64_t *to, const Point<2> &p) {
+void put(std::uint64_t *to, const ContourPoint &p) {
     for (int i = 0; i < 2; ++i) to[i] = ordered(p[i]);
+    to[2] = static_cast<std::uint64_t>(p.id);
 }
-Point<2> point(const std::uint64_t *from) { return {from_ordered(from[0]), from_ordered(from[1])}; }
+ContourPoint point(const std::uint64_t *from) {
+    return {{from_ordered(from[0]), from_ordered(from[1])}, static_cast<std::int64_t>(from[2])};
+}
 
 /// Where b is as seen from `center`, turning clockwise from a: 0 before half a turn, 1 at that, 2
-/// behind it.
+/// behind it, 3 after a full turn.
 int part_of_turn(const Point<2> &center, const Point<2> &a, const Point<2> &b) {
-    return 1 + orientation(center, a, b);
+    const int part = 1 + orientation(center, a, b);
+    return part == 1 && (a < center) == (b < center) ? 3 : part;
 }
 
 } // namespace
 
 ContourRims::ContourRims(const Host &host, const ContourWindow &window, ContourLevels &levels,
                          std::size_t memory)
-    : window_(window), levels_(levels), edges_(host, 7, 4, memory / 2),
-      spokes_(host, 7, 5, memory / 2), arrive_(host), leave_(host) {}
+    : window_(window), levels_(levels), edges_(host, edge_words, 2 * end_words, memory / 2),
+      spokes_(host, edge_words, 2 * end_words + 1, memory / 2), arrive_(host), leave_(host) {}
 
-void ContourRims::add(const Point<2> &from, double value_from, const Point<2> &to,
+void ContourRims::add(const ContourPoint &from, double value_from, const ContourPoint &to,
                       double value_to) {
     const bool rises = from < to;
-    std::uint64_t *const words = edges_.add();
+    std::uint64_t *words = edges_.add();
     put(words, rises ? from : to);
-    put(words + 2, rises ? to : from);
-    words[4] = rises;
-    words[5] = std::bit_cast<std::uint64_t>(rises ? value_from : value_to);
-    words[6] = std::bit_cast<std::uint64_t>(rises ? value_to : value_from);
+    put(words + end_words, rises ? to : from);
+    words += 2 * end_words;
+    words[0] = rises;
+    words[1] = std::bit_cast<std::uint64_t>(rises ? value_from : value_to);
+    words[2] = std::bit_cast<std::uint64_t>(rises ? value_to : value_from);
 }
 
 /// Those without a triangle on their other side, at both of their ends.
 void ContourRims::find_spokes() {
     edges_.finish();
-    std::array<std::uint64_t, 7> edge{};
+    std::array<std::uint64_t, edge_words> edge{};
+    const std::uint64_t *const rest = edge.data() + 2 * end_words;
     int same = 0;
     const auto take = [&] {
         if (same > 2) throw_corrupted("An edge has more than two triangles.");
         if (same != 1) return;
         for (int end = 0; end < 2; ++end) {
             std::uint64_t *const to = spokes_.add();
-            std::copy_n(edge.data() + 2 * end, 2, to);
-            to[2] = (edge[4] != 0) == (end == 0);
-            std::copy_n(edge.data() + 2 * (1 - end), 2, to + 3);
-            to[5] = edge[5 + end];
-            to[6] = edge[6 - end];
+            std::copy_n(edge.data() + end_words * end, end_words, to);
+            to[end_words] = (rest[0] != 0) == (end == 0);
+            std::copy_n(edge.data() + end_words * (1 - end), end_words, to + end_words + 1);
+            to[2 * end_words + 1] = rest[1 + end];
+            to[2 * end_words + 2] = rest[2 - end];
         }
     };
     while (const std::uint64_t *next = edges_.next()) {
-        if (same == 0 || !std::equal(next, next + 4, edge.begin())) {
+        if (same == 0 || !std::equal(next, next + 2 * end_words, edge.begin())) {
             take();
             same = 0;
         }
@@ -69,7 +75,7 @@ void ContourRims::find_spokes() {
 
 void ContourRims::finish(ContourPieces &pieces) {
     find_spokes();
-    Point<2> vertex{};
+    ContourPoint vertex;
     const auto end_vertex = [&] {
         go_on(vertex, pieces);
         pieces.flush(); // which name points here
@@ -77,18 +83,19 @@ void ContourRims::finish(ContourPieces &pieces) {
         leave_.clear();
     };
     while (const std::uint64_t *spoke = spokes_.next()) {
-        const Point<2> at = point(spoke);
-        if (at != vertex) end_vertex();
+        const ContourPoint at = point(spoke);
+        if (at != vertex || at.id != vertex.id) end_vertex();
         vertex = at;
-        (spoke[2] != 0 ? leave_ : arrive_)
-            .push_back({point(spoke + 3), std::bit_cast<double>(spoke[5]),
-                        std::bit_cast<double>(spoke[6])});
+        const std::uint64_t *const rest = spoke + end_words;
+        (rest[0] != 0 ? leave_ : arrive_)
+            .push_back({point(rest + 1), std::bit_cast<double>(rest[1 + end_words]),
+                        std::bit_cast<double>(rest[2 + end_words])});
     }
     end_vertex();
     spokes_.close();
 }
 
-void ContourRims::go_on(const Point<2> &vertex, ContourPieces &pieces) const {
+void ContourRims::go_on(const ContourPoint &vertex, ContourPieces &pieces) const {
     if (arrive_.size() != leave_.size()) throw_corrupted("The mesh ends within an edge.");
     for (const Spoke &from : arrive_)
         add_pieces(vertex, from, next_clockwise(vertex, from), pieces);
@@ -107,7 +114,7 @@ auto ContourRims::next_clockwise(const Point<2> &vertex, const Spoke &from) cons
 }
 
 /// Of the edge that arrives from there; the rim goes on to another.
-void ContourRims::add_pieces(const Point<2> &vertex, const Spoke &from, const Spoke &to,
+void ContourRims::add_pieces(const ContourPoint &vertex, const Spoke &from, const Spoke &to,
                              ContourPieces &pieces) const {
     const ContourEdge edge(from.other, from.other_value, vertex, from.value);
     ContourCorner begin{from.other,

@@ -67,6 +67,7 @@ bool Contours::read_values() {
             values_[v] = std::numeric_limits<double>::quiet_NaN();
             continue;
         }
+        points_[v] = {page.point(v), page.id(v)};
         ranks_[v] = levels_.rank(values_[v]);
         differ = differ || (before >= 0 && ranks_[v] != ranks_[before]);
         before = v;
@@ -86,7 +87,8 @@ void Contours::read_triangle(int triangle) {
         if (std::isnan(values[i])) return;
     }
     if (how_.bands == 0 && ranks[0] == ranks[1] && ranks[0] == ranks[2]) return;
-    const Corners<2> corners = corners_of(page, triangle);
+    const ContourCorners corners{&points_[vertices[0]], &points_[vertices[1]],
+                                 &points_[vertices[2]]};
     for (int i = 0; how_.max_edge > 0 && i < 3; ++i)
         if (!is_within<2>(how_.max_edge, *corners[i], *corners[(i + 1) % 3])) return;
     if (!cut_.take(corners, values, ranks)) return;
@@ -110,11 +112,9 @@ void Contours::note_edge(int from, int to) {
 
 /// Of the edges that have one triangle in the page.
 void Contours::note_rims() {
-    const Page &page = pages_.page();
     for (const PageEdge &edge : edges_)
         if (edge.from != edge.to && !edge.has_two)
-            rims_.add(page.point(edge.from), values_[edge.from], page.point(edge.to),
-                      values_[edge.to]);
+            rims_.add(points_[edge.from], values_[edge.from], points_[edge.to], values_[edge.to]);
 }
 
 void Contours::report_lines(abacus_contour_report report, void *context) {

@@ -54,7 +54,8 @@ private:
     ContourCut cut_;
     ContourPieces pieces_;
     ContourRims rims_;
-    std::array<double, page_vertices<2>> values_; // of the page's vertices; NaN: not finite
+    std::array<ContourPoint, page_vertices<2>> points_; // of the page's vertices
+    std::array<double, page_vertices<2>> values_;       // of the page's vertices; NaN: not finite
     std::array<std::int64_t, page_vertices<2>> ranks_;
     Arena<PageEdge> edges_; // of the page, hashed
 };

@@ -76,22 +76,22 @@ template <int D> bool FaceScan<D>::is_wanted() const {
     return window_.meets(point(0), point(1));
 }
 
-template <int D> std::size_t FaceScan<D>::place(const FacePoints &face) {
+template <int D> std::size_t FaceScan<D>::place(const FaceCorners &face) {
     std::uint64_t hash = 0;
-    for (const Point<D> &p : face)
-        for (const double x : p) hash = (hash ^ ordered(x)) * 0x9e3779b97f4a7c15;
+    for (const Corner &corner : face)
+        for (const double x : corner.point) hash = (hash ^ ordered(x)) * 0x9e3779b97f4a7c15;
     return hash >> 32 & (most_known - 1);
 }
 
 template <int D> bool FaceScan<D>::is_of_ghost(int ghost) {
-    FacetPoints facet;
+    FacetCorners facet;
     Corners<D> corners{}; // the last one stays unread
     for (int i = 0; i < D; ++i) {
-        facet[i] = page().point(page().corner(ghost, i));
-        corners[i] = &facet[i];
+        facet[i] = corner(page().corner(ghost, i));
+        corners[i] = &facet[i].point;
     }
     if (corners_ == D) return leads_inside(corners, D); // outside of the facet
-    const FacePoints face{point(0), point(corners_ - 1)};
+    const FaceCorners face{corner(vertices_[0]), corner(vertices_[corners_ - 1])};
     known_.resize(most_known);
     std::optional<Known> &known = known_[place(face)];
     if (!known || known->face != face) known = Known{face, find_owner()};
@@ -99,32 +99,36 @@ template <int D> bool FaceScan<D>::is_of_ghost(int ghost) {
     return known->owner == facet;
 }
 
-template <int D> auto FaceScan<D>::find_owner() -> std::optional<FacetPoints> {
+template <int D> auto FaceScan<D>::find_owner() -> std::optional<FacetCorners> {
     if (!reader_) reader_.emplace(host_, header_, cache_bytes_);
     const Cache<D> &cache = reader_->cache();
-    std::pmr::map<FacetPoints, int> facets(&memory_); // around the face: of how many simplices
-    const auto add = [&](const Corners<D> &corners, int left_out) {
-        FacetPoints points;
+    std::pmr::map<FacetCorners, int> facets(&memory_); // around the face: of how many simplices
+    const auto add = [&](const Simplex<D> &s, int left_out) {
+        FacetCorners facet;
         for (int i = 0, n = 0; i <= D; ++i)
-            if (i != left_out) points[n++] = *corners[i];
-        std::sort(points.begin(), points.end());
-        ++facets[points];
+            if (i != left_out)
+                facet[n++] = {cache.point(s.vertex[i]), cache.vertices().id(s.vertex[i])};
+        std::sort(facet.begin(), facet.end());
+        ++facets[facet];
     };
     bool leads_outside = true;
     reader_->containing(point(0), [&](Handle h) {
-        const Corners<D> corners = cache.corners(cache.simplex(h));
+        const Simplex<D> &s = cache.simplex(h);
+        const Corners<D> corners = cache.corners(s);
         unsigned here = 0; // the face as the simplex has it
         for (int i = 0; i <= D; ++i)
             for (int k = 0; k < corners_; ++k)
-                if (*corners[i] == point(k)) here |= 1u << i;
+                if (*corners[i] == point(k) &&
+                    cache.vertices().id(s.vertex[i]) == page().id(vertices_[k]))
+                    here |= 1u << i;
         if (std::popcount(here) != corners_) return;
         leads_outside = leads_outside && !leads_into<D>(corners, here);
         for (int i = 0; i <= D; ++i)
-            if ((here >> i & 1) == 0) add(corners, i);
+            if ((here >> i & 1) == 0) add(s, i);
     });
     if (!leads_outside) return std::nullopt;
-    for (const auto &[points, simplices] : facets)
-        if (simplices == 1) return points;
+    for (const auto &[facet, simplices] : facets)
+        if (simplices == 1) return facet;
     throw_corrupted("A facet of the boundary has no simplex.");
 }
 

@@ -48,7 +48,14 @@ private:
              int corners, double max_edge, std::size_t cache_bytes,
              std::optional<abacus_range> range);
 
-    using FacetPoints = std::array<Point<D>, D>;
+    /// Vertices of different ids may be at one place.
+    struct Corner {
+        Point<D> point;
+        std::int64_t id;
+
+        auto operator<=>(const Corner &) const = default;
+    };
+    using FacetCorners = std::array<Corner, D>;
 
     bool take(int simplex, unsigned face);
     void compare_values();
@@ -57,17 +64,18 @@ private:
     bool is_of_ghost(int ghost);
     /// The ghost to which it belongs, by its corners in order; nothing if the direction leads into
     /// a simplex.
-    std::optional<FacetPoints> find_owner();
+    std::optional<FacetCorners> find_owner();
 
     /// What has been found of a face.
-    using FacePoints = std::array<Point<D>, 2>; // both the same of a vertex
+    using FaceCorners = std::array<Corner, 2>; // both the same of a vertex
     struct Known {
-        FacePoints face;
-        std::optional<FacetPoints> owner;
+        FaceCorners face;
+        std::optional<FacetCorners> owner;
     };
     static constexpr std::size_t most_known = 1024;
-    static std::size_t place(const FacePoints &face);
+    static std::size_t place(const FaceCorners &face);
     const Point<D> &point(int corner) const { return page().point(vertices_[corner]); }
+    Corner corner(int vertex) const { return {page().point(vertex), page().id(vertex)}; }
 
     const Host &host_;
     const abacus_header header_;

@@ -17,15 +17,15 @@ constexpr std::uint64_t number_mask = (std::uint64_t{1} << number_bits) - 1;
 
 Isosurface::Isosurface(const Host &host, const abacus_header &header,
                        const abacus_isosurface_query &query, std::size_t memory)
-    : query_(query), filter_(query.window, query.max_edge), vertex_values_(host, header),
-      pacer_(host),
+    : query_(query), is_split_(header.split > 0), filter_(query.window, query.max_edge),
+      vertex_values_(host, header), pacer_(host),
       pages_(host, header, filter_.region(),
              [this](const PageView<3> &page) {
                  pacer_.reached(seen_ += static_cast<std::uint64_t>(page.simplices()));
                  return vertex_values_.may_have(page, static_cast<int>(query_.attribute),
                                                 query_.value, query_.value);
              }),
-      edges_(host), numbers_(host, 6, memory), pages_made_(host, 1),
+      edges_(host), numbers_(host, header.split > 0 ? 8 : 6, memory), pages_made_(host, 1),
       corners_(host, query.carried >= 0 ? 4 : 3), triangles_(host, 1), corners_here_(host) {
     pacer_.begin(ABACUS_PHASE_SCANNING,
                  filter_.region() == nullptr ? header.simplices + header.ghosts : 0);
@@ -100,6 +100,8 @@ std::size_t Isosurface::corner(const PageView<3> &page, int below, int above) {
     std::uint64_t *word = numbers_.add(); // by the ends of the edge
     for (const int end : {from, to})
         for (const double x : page.point(end)) *word++ = ordered(x);
+    if (is_split_) // an edge on each side of a fault
+        for (const int end : {from, to}) *word++ = static_cast<std::uint64_t>(page.id(end));
     word = corners_.add();
     for (const double x : point_between(page.point(from), page.point(to), share))
         *word++ = std::bit_cast<std::uint64_t>(x);

@@ -58,6 +58,7 @@ private:
     void close();
 
     const abacus_isosurface_query query_;
+    const bool is_split_; // vertices at one place are told apart by their ids
     const CellFilter<3> filter_;
     const VertexValues<3> vertex_values_;
     Pacer pacer_;

@@ -4,6 +4,7 @@
 #include "query/weighted_mean.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace abacus {
@@ -42,6 +43,16 @@ template <int D> bool Crossing<D>::is_same_place(const Crossing &other) const {
         if ((weight[i] > 0 && !has(other, corner[i])) ||
             (other.weight[i] > 0 && !has(*this, other.corner[i])))
             return false;
+    return true;
+}
+
+template <int D> bool Crossing<D>::has_values_of(const Crossing &other) const {
+    for (int i = 0; i < D; ++i)
+        for (int k = 0; k < D; ++k)
+            if (weight[i] > 0 && other.weight[k] > 0 && corner[i] == other.corner[k] &&
+                std::bit_cast<std::uint64_t>(value[i]) !=
+                    std::bit_cast<std::uint64_t>(other.value[k]))
+                return false;
     return true;
 }
 
@@ -104,6 +115,7 @@ template <int D> void LineScan<D>::consider(Handle h, const Crossing<D> &enters)
 
 template <int D> bool LineScan<D>::hand_out(Piece &piece) {
     piece.follows = left_ && left_->is_same_place(piece.enters);
+    piece.jumps = piece.follows && !piece.enters.is_end && !piece.enters.has_values_of(*left_);
     // What is in order must not be rounded out of it.
     const double before = left_ ? left_->at : 0, end = line_.to ? 1.0 : INFINITY;
     piece.enters.at = piece.follows ? before : std::clamp(piece.enters.at, before, end);

@@ -50,12 +50,15 @@ template <int D> struct Crossing {
     /// The mean of the values by weight; a corner without weight does not count.
     double mean() const;
     bool is_same_place(const Crossing &other) const;
+    /// Whether the corners that count have the same values, at the same place.
+    bool has_values_of(const Crossing &other) const;
 };
 
 /// What a simplex has of a line.
 template <int D> struct LinePiece {
     Crossing<D> enters, leaves;
     bool follows = false; // the piece before, without a gap
+    bool jumps = false;   // ... and has other values there: the piece before is beyond a fault
     abacus_simplex simplex;
 };
 

@@ -30,8 +30,10 @@ template <int D> void Nearest<D>::search(const Point<D> &p, std::uint64_t k) {
 template <int D> void Nearest<D>::offer(Handle simplex, VertexIndex vertex) {
     const bool is_full = candidates_.size() == k_;
     const Point<D> &point = cache_.point(vertex);
-    if (is_full && !comes_nearer<D>(p_, point, candidates_.rbegin()->point)) return;
-    const auto [place, is_new] = candidates_.insert({point, candidates_.size(), simplex, vertex});
+    const Candidate candidate{point, cache_.vertices().id(vertex), candidates_.size(), simplex,
+                              vertex};
+    if (is_full && !Order{p_}(candidate, *candidates_.rbegin())) return;
+    const auto [place, is_new] = candidates_.insert(candidate);
     if (!is_new) return;
     if (is_full) {
         const auto last = std::prev(candidates_.end());

@@ -1,5 +1,5 @@
 // The vertices nearest to a place, nearest first, exactly; of those equally far the
-// lexicographically least comes first.
+// lexicographically least comes first, of those at one place the one with the least id.
 //
 // In a Delaunay mesh they are found along edges. Let q be a vertex at the distance d from the place
 // p, and let some vertex be nearer. Blow up a ball that touches q from inside the ball of radius d
@@ -55,6 +55,7 @@ public:
 private:
     struct Candidate {
         Point<D> point;
+        std::int64_t id;
         mutable std::size_t slot; // of its record; no part of the order
         Handle simplex;           // that has it as a corner, ...
         VertexIndex vertex;
@@ -62,7 +63,7 @@ private:
     struct Order {
         const Point<D> &p;
         bool operator()(const Candidate &a, const Candidate &b) const {
-            return comes_nearer<D>(p, a.point, b.point);
+            return a.point == b.point ? a.id < b.id : comes_nearer<D>(p, a.point, b.point);
         }
     };
     using Candidates = std::pmr::set<Candidate, Order>;

@@ -11,8 +11,12 @@ namespace abacus {
 
 namespace {
 
-/// Words that tell a vertex from others, in its order among them: its code, its coordinates.
-template <int D> constexpr std::size_t key_words = 1 + D;
+/// Words that tell a vertex from others, in its order among them: its code, its coordinates; if
+/// vertices share their places its id, with its sign turned.
+template <int D> std::size_t key_words(const abacus_header &header) {
+    return 1 + D + (header.split > 0 ? 1 : 0);
+}
+constexpr std::uint64_t sign = std::uint64_t{1} << 63;
 
 constexpr const char *other_count = "The header counts other vertices than the pages hold.";
 
@@ -32,6 +36,7 @@ void name_vertices(const Host &host, const abacus_header &header, Add add) {
             std::uint64_t *key = add(page, v);
             *key++ = domain.code(p);
             for (const double x : p) *key++ = ordered(x);
+            if (header.split > 0) *key = static_cast<std::uint64_t>(page.id(v)) ^ sign;
         }
     }
 }
@@ -42,19 +47,18 @@ void name_vertices(const Host &host, const abacus_header &header, Add add) {
 template <int D>
 NumberedVertices<D>::NumberedVertices(const Host &host, const abacus_header &header,
                                       std::size_t memory)
-    : vertex_values_(host, header),
-      named_(host, key_words<D> + 1 + static_cast<unsigned>(page_attributes(header)), key_words<D>,
-             memory),
+    : vertex_values_(host, header), key_(key_words<D>(header)),
+      named_(host, 1 + D + 1 + static_cast<unsigned>(page_attributes(header)), key_, memory),
       left_(header.vertices), current_(host), apart_(host) {
     name_vertices<D>(host, header, [&](const PageView<D> &page, int v) {
-        std::uint64_t *const name = named_.add(), *rest = name + key_words<D>;
-        *rest++ = static_cast<std::uint64_t>(page.id(v));
+        std::uint64_t *const name = named_.add(), *rest = name + 1 + D;
+        *rest++ = static_cast<std::uint64_t>(page.id(v)) ^ sign;
         if (!vertex_values_.are_apart())
             vertex_values_.all(page, v, reinterpret_cast<double *>(rest));
         return name;
     });
     named_.finish();
-    current_.resize(key_words<D> + 1 + static_cast<unsigned>(page_attributes(header)));
+    current_.resize(1 + D + 1 + static_cast<unsigned>(page_attributes(header)));
     if (vertex_values_.are_apart()) apart_.resize(header.attributes);
     ahead_ = named_.next();
 }
@@ -68,12 +72,12 @@ template <int D> bool NumberedVertices<D>::next(abacus_vertex &vertex) {
     --left_;
     std::copy_n(ahead_, current_.size(), current_.data());
     do ahead_ = named_.next();
-    while (ahead_ != nullptr && std::equal(ahead_, ahead_ + key_words<D>, current_.data()));
+    while (ahead_ != nullptr && std::equal(ahead_, ahead_ + key_, current_.data()));
 
     vertex = {};
     for (int axis = 0; axis < D; ++axis) vertex.point[axis] = from_ordered(current_[1 + axis]);
-    const std::uint64_t *const rest = current_.data() + key_words<D>;
-    vertex.id = vertex.vertex = static_cast<std::int64_t>(rest[0]);
+    const std::uint64_t *const rest = current_.data() + 1 + D;
+    vertex.id = vertex.vertex = static_cast<std::int64_t>(rest[0] ^ sign);
     vertex.attributes = reinterpret_cast<const double *>(rest + 1);
     if (vertex_values_.are_apart()) {
         Point<D> p;
@@ -87,8 +91,8 @@ template <int D> bool NumberedVertices<D>::next(abacus_vertex &vertex) {
 template <int D>
 NumberedSimplices<D>::NumberedSimplices(const Host &host, const abacus_header &header,
                                         std::size_t memory)
-    : domain_(domain_of<D>(header)), ranks_(host, key_words<D>, memory), pages_(host, header),
-      numbers_(host) {
+    : domain_(domain_of<D>(header)), ranks_(host, key_words<D>(header), memory),
+      pages_(host, header), numbers_(host) {
     name_vertices<D>(host, header, [&](const PageView<D> &, int) { return ranks_.add(); });
     if (ranks_.finish() != header.vertices) throw_corrupted(other_count);
 }

@@ -2,10 +2,10 @@
 // numbers of their corners.
 //
 // Vertices are numbered from 0 in the order of their codes along the curve, of one code by their
-// coordinates: so the numbers are those of the points alone, and near ones are near in the array.
-// No page knows a number. Each page names its vertices; an external sort by code brings the names
-// of a vertex together, and its place among all is the number. Where simplices need the numbers,
-// another sort brings them back to the pages (sort/dense_ranks.hpp).
+// coordinates, at one place by their ids: so the numbers are those of the points alone, and near
+// ones are near in the array. No page knows a number. Each page names its vertices; an external
+// sort by code brings the names of a vertex together, and its place among all is the number. Where
+// simplices need the numbers, another sort brings them back to the pages (sort/dense_ranks.hpp).
 #pragma once
 
 #include "keys/locational_code.hpp"
@@ -28,6 +28,7 @@ public:
 
 private:
     const VertexValues<D> vertex_values_;
+    const std::size_t key_;      // words of a name that tell the vertex
     RecordSort named_;           // without attributes that are apart
     std::uint64_t left_;         // vertices, as the header counts them
     const std::uint64_t *ahead_; // the next record, null after the last

@@ -66,8 +66,8 @@ bool PlaneRegion::may_meet(const Box<3> &box) const {
 PlaneSection::PlaneSection(const Host &host, const abacus_header &header,
                            const abacus_section_query &query)
     : plane_(plane_of(query)), values_(host, header, query.attribute), max_edge_(query.max_edge),
-      domain_(domain_of<3>(header)), region_(plane_, domain_box<3>(header)),
-      pages_(host, header, &region_) {}
+      is_split_(header.split > 0), domain_(domain_of<3>(header)),
+      region_(plane_, domain_box<3>(header)), pages_(host, header, &region_) {}
 
 bool PlaneSection::next(abacus_polygon &polygon) {
     for (;;) {
@@ -96,6 +96,7 @@ bool PlaneSection::take(int simplex, abacus_polygon &polygon) const {
         if (!cut(simplex, polygon)) return false;
     } else {
         if (!is_bottom(simplex) || is_too_long(simplex, 3)) return false;
+        if (is_split_ && is_of_fault(simplex)) return false; // the simplex below gives the facet
         // The facet as seen from inside, which is above.
         for (const int i : {0, 2, 1}) add(page.corner(simplex, i), polygon);
     }
@@ -152,6 +153,23 @@ bool PlaneSection::is_bottom(int ghost) const {
         return Point<2>{p[(axis + 1) % 3], p[(axis + 2) % 3]};
     };
     return (orientation(flat(0), flat(1), flat(2)) > 0) == (normal[axis] < 0);
+}
+
+/// Whether another ghost has its facet at the same place: it has the same key, so it is on the
+/// page.
+bool PlaneSection::is_of_fault(int ghost) const {
+    const PageView<3> &page = pages_.page();
+    const auto has_corner = [&](int other, const Point<3> &p) {
+        return page.point(page.corner(other, 0)) == p || page.point(page.corner(other, 1)) == p ||
+               page.point(page.corner(other, 2)) == p;
+    };
+    for (int other = 0; other < page.simplices(); ++other) {
+        if (other == ghost || !page.is_ghost(other)) continue;
+        int shared = 0;
+        for (int i = 0; i < 3; ++i) shared += has_corner(other, page.point(page.corner(ghost, i)));
+        if (shared == 3) return true;
+    }
+    return false;
 }
 
 bool PlaneSection::is_too_long(int simplex, int corners) const {

@@ -52,6 +52,7 @@ private:
     bool take(int simplex, abacus_polygon &polygon) const;
     bool cut(int simplex, abacus_polygon &polygon) const;
     bool is_bottom(int ghost) const;
+    bool is_of_fault(int ghost) const;
     bool is_too_long(int simplex, int corners) const;
     /// Adds a corner: a vertex, or where the edge between two meets the plane.
     void add(int vertex, abacus_polygon &polygon) const;
@@ -60,6 +61,7 @@ private:
     const CuttingPlane plane_;
     PageValues<3> values_;
     const double max_edge_;
+    const bool is_split_; // vertices at one place are told apart by their ids
     const Domain<3> domain_;
     const PlaneRegion region_;
     RangeScan<3> pages_;

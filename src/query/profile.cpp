@@ -52,7 +52,9 @@ template <int D> void Profile<D>::put_line(const Point<D> &from, const Point<D> 
     LineScan<D> scan(reader_, Line<D>::between(from, to), static_cast<int>(how_.attribute[0]));
     scan.each([&](const LinePiece<D> &piece) {
         const Crossing<D> &in = piece.enters, &out = piece.leaves;
-        if (!piece.follows) {
+        if (piece.jumps) {
+            put({distance_to(in), in.place(), true}, in.mean());
+        } else if (!piece.follows) {
             if (left)
                 put_outside(distance_to(*left), left->place());
             else if (!in.is_end)

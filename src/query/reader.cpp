@@ -18,6 +18,7 @@ constexpr std::size_t attributes_share = 8;
 
 CacheOptions linked_as(const abacus_header &header, CacheOptions options) {
     options.linked_ghosts = header.not_delaunay == 0;
+    options.split_nodes = header.split > 0;
     if (header.apart != 0) options.budget -= options.budget / attributes_share;
     return options;
 }
@@ -136,6 +137,7 @@ template <int D> std::uint64_t Reader<D>::pages_with(const std::uint64_t *vertex
             for (int i = 0; i < s.finite_vertices(); ++i) {
                 const VertexIndex v = s.vertex[i];
                 if (!(cache_.point(v) == p)) continue;
+                if (header_.split > 0 && heap.id(v) != record_id(vertex)) continue;
                 here = true;
                 same = same && heap.id(v) == record_id(vertex) &&
                        (heap.attribute_count() == 0 ||

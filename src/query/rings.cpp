@@ -193,7 +193,7 @@ void Rings::find_least(RecordSort &rings, RecordSort &least) const {
     Point<2> first{}, last{}, point{}, before{}, after{}; // `point` is the least so far
     bool is_after_open = false;
     const auto end_ring = [&] {
-        if (size == 0) return;
+        if (size < 3) return; // none, or both sides of an edge of a fault
         if (begin == 0) before = last;
         if (is_after_open) after = first;
         std::uint64_t *const record = least.add();
@@ -251,13 +251,14 @@ void Rings::number_rings(RecordSort &least, RecordSort &numbers) const {
 void Rings::put_in_order(RecordSort &rings, RecordSort &numbers) {
     numbers.finish();
     rings.rewind();
-    const std::uint64_t *number = nullptr;
+    const std::uint64_t *number = numbers.next();
     std::uint64_t position = 0;
     while (const std::uint64_t *visit = rings.next()) {
-        if (number == nullptr || visit[0] != number[0]) {
+        while (number != nullptr && number[0] < visit[0]) {
             number = numbers.next();
             position = 0;
         }
+        if (number == nullptr || number[0] != visit[0]) continue; // it has no number
         const std::uint64_t begin = number[2], size = number[3];
         std::uint64_t *const row = rows_.add();
         std::copy_n(visit, words, row);

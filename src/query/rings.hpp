@@ -5,7 +5,8 @@
 // more than once: where a hole touches another one, or the outline. Rings do not cross. So what
 // lies between two visits of a vertex is a ring of its own, but for what lies between two visits of
 // another vertex there. These pieces nest, and a stack of those that are open tells whose a visit
-// is. What is left comes through each vertex once, and is a polygon.
+// is. What is left comes through each place once, and is a polygon; or it is both sides of an edge
+// of a fault, which is left out. So a fault that ends within the mesh leaves no trace.
 //
 // A ring goes counterclockwise around what is kept, or clockwise around a hole. It begins with its
 // lexicographically least vertex, and rings come in the order of these; of rings that share it

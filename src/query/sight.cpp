@@ -164,7 +164,7 @@ abacus_sight Sight::look_along(const Line<2> &line) {
             const bool above = is_above(line, crossing, sample);
             is_hidden = is_blocked(sample, above);
         };
-        if (!piece.follows && !piece.enters.is_end) {
+        if ((!piece.follows || piece.jumps) && !piece.enters.is_end) {
             last_.reset(); // nothing blocks before
             passes(piece.enters);
         }

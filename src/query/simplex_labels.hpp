@@ -43,7 +43,9 @@ public:
         if (finite > D) return of(owner_of<D, D + 1>(points));
         std::array<Point<D>, D> facet;
         std::copy_n(points.begin(), D, facet.begin());
-        return of(behind_.of(facet));
+        std::array<std::int64_t, D> ids;
+        for (int i = 0; i < D; ++i) ids[i] = page.id(page.corner(simplex, i));
+        return of(behind_.of(facet, ids));
     }
 
 private:

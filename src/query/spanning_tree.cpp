@@ -48,7 +48,8 @@ SpanningTree<D>::SpanningTree(const Host &host, const abacus_header &header, std
 }
 
 template <int D> void SpanningTree<D>::rank(LightEdges<D> &edges, RecordSort &ends) {
-    RecordSort by_length(host_, length_words, length_words - 2, share_);
+    // Of vertices at one place, which count as one, the ids tell which edge comes first.
+    RecordSort by_length(host_, length_words, length_words, share_);
     edges.each([&](const typename LightEdges<D>::Edge &edge) {
         std::uint64_t *const record = by_length.add();
         const LengthKey key = length_key<D>(edge.point[0], edge.point[1]);

@@ -309,7 +309,9 @@ void ValueRaster<D>::fill_row(const PageView<D> &page, int simplex, std::uint32_
         const int facets = column == first  ? at_first
                            : column == last ? at_last
                                             : at_first & at_last;
-        if (facets != 0 && std::popcount(static_cast<unsigned>(facets)) < D) {
+        // A vertex has one value, unless it shares its place.
+        if (facets != 0 &&
+            (header_.split > 0 || std::popcount(static_cast<unsigned>(facets)) < D)) {
             marks_[pixel(row, column)] = asked;
             continue;
         }

@@ -92,7 +92,9 @@ abacus_status MeshOf<D>::load(const std::vector<InputOf<D>> &vertices,
                               const std::vector<std::vector<double>> &labels,
                               const std::vector<std::uint64_t> &facets) {
     abacus_load *load = nullptr;
-    abacus_status status = abacus_load_open(host.table(), &header, memory, reorient, &load, &error);
+    if (split_nodes) header.apart = 0;
+    abacus_status status =
+        abacus_load_open(host.table(), &header, memory, reorient, split_nodes, &load, &error);
     if (status != ABACUS_OK) return status;
     for (const InputOf<D> &vertex : vertices) {
         const std::vector<std::uint64_t> record = record_of(vertex);

@@ -52,6 +52,7 @@ template <int D> struct MeshOf {
                        const std::vector<std::vector<double>> &labels = {},
                        const std::vector<std::uint64_t> &facets = {});
     abacus_delaunay loaded_as = ABACUS_DELAUNAY; ///< what load() has found
+    bool split_nodes = false;                    ///< load() keeps vertices at one place apart
     /// Where all simplices are, sorted.
     std::vector<Positions<D>> positions();
     /// What a scan gives; fails the test if it does not end well.

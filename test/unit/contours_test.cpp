@@ -60,7 +60,7 @@ double area(const std::vector<Point<2>> &ring) {
 TEST(ContourCut, BandsFollowOneAnotherAlongALine) {
     const abacus_contouring how = levels_of(1);
     ContourLevels levels(how);
-    const Point<2> a{0, 0}, b{10, 0};
+    const ContourPoint a{{0, 0}, 1}, b{{10, 0}, 2};
     for (const auto &[from, to] : {std::pair{0.5, 3.5}, {3.5, 0.5}, {2.0, 2.5}, {1.0, 3.0}}) {
         const ContourEdge edge(a, from, b, to);
         std::vector<ContourPiece> pieces;
@@ -86,7 +86,7 @@ TEST(ContourCut, BandsFollowOneAnotherAlongALine) {
 TEST(ContourCut, CrossingsDependOnTheEdgeAlone) {
     Random random(3);
     for (int i = 0; i < 1000; ++i) {
-        const Point<2> p{unit(random), unit(random)}, q{unit(random), unit(random)};
+        const ContourPoint p{{unit(random), unit(random)}, 1}, q{{unit(random), unit(random)}, 2};
         const double value_p = unit(random), value_q = unit(random);
         for (const double level : {value_p, value_q, (value_p + value_q) / 2}) {
             const Point<2> one = ContourEdge(p, value_p, q, value_q).crossing(level);
@@ -183,7 +183,8 @@ std::multiset<std::multiset<Point<2>>> walked(MeshOf<2> &mesh,
     const auto crossing = [&](const std::set<std::int64_t> &edge) {
         const auto &a = points[static_cast<std::size_t>(*edge.begin())],
                    &b = points[static_cast<std::size_t>(*edge.rbegin())];
-        return ContourEdge(a.point, a.attributes[0], b.point, b.attributes[0]).crossing(level);
+        const ContourPoint from{a.point, a.id}, to{b.point, b.id};
+        return ContourEdge(from, a.attributes[0], to, b.attributes[0]).crossing(level);
     };
     std::map<std::set<std::int64_t>, std::vector<std::set<std::int64_t>>> next;
     for (const abacus_simplex &s : mesh.simplices(false)) {

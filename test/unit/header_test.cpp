@@ -265,13 +265,13 @@ TEST(Header, AnotherFormatIsSaid) {
     abacus_header header;
     abacus_error error{};
     const unsigned format = bytes[6] + 256u * bytes[7];
-    for (const unsigned other : {format - 1, format + 3, 0xffffu}) {
+    for (const unsigned other : {format - 1, format + 4, 0xffffu}) {
         bytes[6] = static_cast<unsigned char>(other);
         bytes[7] = static_cast<unsigned char>(other >> 8);
         ASSERT_EQ(abacus_header_decode(bytes.data(), bytes.size(), &header, &error), ABACUS_ERROR);
         EXPECT_EQ(error.kind, ABACUS_ERROR_STATE);
         EXPECT_EQ(error.message, "mesh is stored in format " + std::to_string(other) +
-                                     ", but this version of Abacus reads formats 3 to 5");
+                                     ", but this version of Abacus reads formats 3 to 6");
     }
     bytes[5] ^= 1;
     ASSERT_EQ(abacus_header_decode(bytes.data(), bytes.size(), &header, &error), ABACUS_ERROR);
@@ -290,6 +290,34 @@ TEST(Header, TheFormatTellsWhereAttributesAre) {
     abacus_header header = full_header(0);
     header.apart = 1;
     EXPECT_FALSE(decodes(encode(header)));
+}
+
+TEST(Header, OfVerticesThatShareTheirPlaces) {
+    abacus_header header = full_header(2);
+    header.not_delaunay = ABACUS_NOT_CONVEX;
+    header.staged = header.inserted = header.vertices;
+    header.serials = header.duplicates = 0;
+    EXPECT_EQ(encode(header)[6], 3);
+    header.split = 2;
+    for (const bool marked : {false, true}) {
+        header.marked = marked ? 3 : 0;
+        const auto bytes = encode(header);
+        EXPECT_EQ(bytes[6], 6);
+        abacus_header decoded;
+        ASSERT_TRUE(decodes(bytes, &decoded));
+        EXPECT_EQ(decoded.split, 2u);
+        EXPECT_EQ(decoded.marked, header.marked);
+        EXPECT_EQ(encode(decoded), bytes);
+    }
+    const auto refused = [&](auto change) {
+        abacus_header changed = header;
+        change(changed);
+        return !decodes(encode(changed));
+    };
+    EXPECT_TRUE(refused([](abacus_header &h) { h.split = 1; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.split = h.vertices + 1; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.apart = 1; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.not_delaunay = ABACUS_DELAUNAY; }));
 }
 
 TEST(Header, EveryTruncationIsRefused) {

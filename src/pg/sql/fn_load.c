@@ -70,7 +70,7 @@ check(Host *host, abacus_load *load)
  */
 static abacus_delaunay
 read_triangulation(Change *change, Source *vertices, Source *simplices, Source *facets,
-				   bool reorient)
+				   bool reorient, bool split_nodes)
 {
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
@@ -78,7 +78,7 @@ read_triangulation(Change *change, Source *vertices, Source *simplices, Source *
 	size_t		count;
 
 	host_run(host, abacus_load_open, &host->table, header, setting_sort_bytes(), reorient,
-			 &change->load);
+			 split_nodes, &change->load);
 	source_open(vertices, header, true);
 	while ((count = source_fetch(vertices, &records)) > 0)
 		host_run(host, abacus_load_vertices, change->load, records, count);
@@ -123,7 +123,10 @@ static void
 triangulate_vertices(Change *change)
 {
 	Host	   *host = change->writer.host;
+	abacus_header *header = change->writer.header;
 
+	/* vertices at one place are repeated points now, as anywhere */
+	header->apart = abacus_are_apart(header->dimension, header->attributes);
 	change_open_stage(change, change->writer.header);
 	host_run(host, abacus_load_stage, change->load, change->stage);
 	abacus_load_close(change->load);
@@ -133,7 +136,8 @@ triangulate_vertices(Change *change)
 
 /*
  * abacus_load(mesh text, vertices text, simplices text, attributes text[],
- * lower float8[], upper float8[], reorient boolean, retriangulate boolean, labels text[], facets text)
+ * lower float8[], upper float8[], reorient boolean, retriangulate boolean, labels text[], facets text,
+ * split_nodes boolean)
  *     -> bigint
  */
 Datum
@@ -144,6 +148,7 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 	Source		simplices;
 	Source		facets;
 	bool		has_facets = !PG_ARGISNULL(9);
+	bool		split_nodes = PG_GETARG_BOOL(10);
 	Oid			mesh;
 	Change	   *change;
 	Host	   *host;
@@ -153,10 +158,11 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 	Datum	   *labels = NULL;
 	int			label_count = 0;
 
-	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(2) || PG_ARGISNULL(6) || PG_ARGISNULL(7))
+	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(2) || PG_ARGISNULL(6) || PG_ARGISNULL(7) ||
+		PG_ARGISNULL(10))
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
-				 errmsg("mesh, vertices, simplices, reorient and retriangulate must not be NULL")));
+				 errmsg("mesh, vertices, simplices, reorient, retriangulate and split_nodes must not be NULL")));
 	source_prepare(&vertices, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	source_prepare(&simplices, text_to_cstring(PG_GETARG_TEXT_PP(2)));
 	if (has_facets)
@@ -178,8 +184,11 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 					"abacus_load()");
 	change = change_begin(mesh, "abacus_load()");
 	host = change->writer.host;
+	/* attributes that are apart are found by place alone */
+	if (split_nodes)
+		change->writer.header->apart = 0;
 	delaunay = read_triangulation(change, &vertices, &simplices, has_facets ? &facets : NULL,
-								  PG_GETARG_BOOL(6));
+								  PG_GETARG_BOOL(6), split_nodes);
 	retriangulate = PG_GETARG_BOOL(7) && delaunay != ABACUS_DELAUNAY;
 	if (retriangulate)
 		triangulate_vertices(change);

@@ -177,6 +177,9 @@ put_counts(Figures *figures, const abacus_header *header)
 	put_figure(figures, "outside", (double) header->outside,
 			   "points that the domain does not fit, since it was last chosen");
 	put_delaunay(figures, header->not_delaunay);
+	if (header->split > 0)
+		put_figure(figures, "split_nodes", (double) header->split,
+				   "vertices that share their place with another one");
 	put_labels(figures, header);
 	put_srid(figures, header);
 }

@@ -1,0 +1,83 @@
+// The two sides of a fault: facets of the boundary at one place, of vertices that share theirs.
+//
+// They are found by sorting the boundary by the places of its facets. Of two that are at one place
+// the simplices lie on different sides. As if they were matched, the number of simplices that cover
+// a place is the same on both sides. So overlap.hpp need not know of them.
+#include "blocks/bit_column.hpp"
+#include "geometry/point.hpp"
+#include "load/load.hpp"
+
+#include <algorithm>
+
+namespace abacus {
+
+namespace {
+
+// A side of a facet: the places of its corners, whether their order is an odd permutation of its
+// own, and its record of the boundary.
+template <int D> constexpr std::size_t place_words = D *D;
+template <int D> constexpr std::size_t head_words = place_words<D> + 1;
+
+template <int D> void write_side(const LoadLayout<D> &layout, const Word *boundary, Word *to) {
+    std::array<const Point<D> *, D> corner;
+    bool odd = false;
+    for (int i = 0; i < D; ++i) {
+        const Point<D> &p = point_in<D>(layout.boundary_vertex(boundary, i));
+        int at = i;
+        for (; at > 0 && lexicographically_less<D>(p, *corner[at - 1]); --at, odd = !odd)
+            corner[at] = corner[at - 1];
+        corner[at] = &p;
+    }
+    for (const Point<D> *p : corner)
+        for (const double x : *p) *to++ = ordered(x);
+    *to++ = odd;
+    std::copy_n(boundary, layout.boundary, to);
+}
+
+} // namespace
+
+template <int D> void Load<D>::leave_out_split_facets() {
+    RecordSort sides(host_, head_words<D> + layout_.boundary, head_words<D>, share_);
+    boundary_->rewind();
+    while (const Word *record = boundary_->next()) write_side<D>(layout_, record, sides.add());
+    sides.finish();
+    begin(outer_, layout_.boundary, 2);
+    Arena<Word> first(host_);
+    first.resize(head_words<D> + layout_.boundary);
+    std::uint64_t n = 0; // at the place of the first
+    const auto facet_of = [&](const Word *side) {
+        std::array<Word, D> ids;
+        for (int i = 0; i < D; ++i) ids[i] = layout_.boundary_vertex(side + head_words<D>, i)[0];
+        return ids;
+    };
+    const auto simplex_of = [&](const Word *side) {
+        return sorted_name(facet_of(side), layout_.behind(side + head_words<D>)[2]);
+    };
+    const auto end_place = [&] {
+        if (n == 1) std::copy_n(first.data() + head_words<D>, layout_.boundary, outer_->add());
+    };
+    while (const Word *side = sides.next()) {
+        const bool is_same = n > 0 && std::equal(side, side + place_words<D>, first.data());
+        if (!is_same) {
+            end_place();
+            n = 0;
+        } else if (side[place_words<D>] == first[place_words<D>]) {
+            faults_.add(names_of(simplex_of(first.data()), simplex_of(side)) + " overlap",
+                        "They lie on the same side of their facets " +
+                            sorted_name(facet_of(first.data())) + " and " +
+                            sorted_name(facet_of(side)) + ", which are at one place.",
+                        "A fault has two sides, and on each one simplex at most at a place.");
+        }
+        std::copy_n(side, first.size(), first.data());
+        ++n;
+    }
+    end_place();
+    faults_.raise();
+    sides.close();
+    outer_->finish();
+}
+
+template class Load<2>;
+template class Load<3>;
+
+} // namespace abacus
