@@ -51,7 +51,7 @@ SELECT abacus_create('bad', 2, '{a,NULL}');
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_create('bad', 2, ARRAY[repeat('a', 64)]);
 \echo :LAST_ERROR_SQLSTATE
-SELECT abacus_create('bad', 2, array_agg('a' || i)) FROM generate_series(1, 101) i;
+SELECT abacus_create('bad', 2, array_agg('a' || i)) FROM generate_series(1, 1001) i;
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_create('bad', 2, lower => '{0,0}');
 \echo :LAST_ERROR_SQLSTATE

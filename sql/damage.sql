@@ -10,8 +10,8 @@ CREATE FUNCTION faults() RETURNS text LANGUAGE sql AS
 
 -- the type: bytes in, bytes out, no more than a page
 SELECT '\x0102'::abacus_page, ''::abacus_page, '\x0102'::bytea::abacus_page, ('\x0102'::abacus_page)::bytea;
-SELECT length(repeat('x', 7936)::bytea::abacus_page::bytea);
-SELECT length(repeat('x', 7937)::bytea::abacus_page::bytea);
+SELECT length(repeat('x', 8064)::bytea::abacus_page::bytea);
+SELECT length(repeat('x', 8065)::bytea::abacus_page::bytea);
 \echo :LAST_ERROR_SQLSTATE
 SELECT bool_and(page::bytea::abacus_page::text = page::text) AS same FROM field;
 SELECT max(pg_column_size(f.*)) <= 8000 AS fits FROM field f;

@@ -90,6 +90,7 @@ SELECT abacus_load('many', 'SELECT id, x, y, ' || string_agg(format('slip + %s A
                    'SELECT v0, v1, v2 FROM triangle', split_nodes => true) FROM generate_series(1, 40) AS i;
 SELECT id, attributes[40] FROM abacus_vertices('many') WHERE x = 2 ORDER BY id;
 SELECT abacus_interpolate('many', 1.75, 3.25, attribute => 'a40'), abacus_interpolate('many', 2.25, 3.25, attribute => 'a40');
+SELECT abacus_load('more', (SELECT format('SELECT id, x, y, %s FROM node', string_agg(format('x + %s AS a%1$s', n), ', ')) FROM generate_series(1, 101) AS n), 'SELECT v0, v1, v2 FROM triangle', split_nodes => true);
 SELECT * FROM abacus_check('many');
 -- The option alone changes nothing.
 SELECT abacus_load('whole', 'SELECT * FROM node WHERE id < 100', 'SELECT v0 % 100, v1 % 100, v2 % 100 FROM triangle', split_nodes => true);

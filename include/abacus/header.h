@@ -5,6 +5,8 @@
 #ifndef ABACUS_ABACUS_HEADER_H
 #define ABACUS_ABACUS_HEADER_H
 
+#include <string.h>
+
 #include "abacus/host.h"
 
 #ifdef __cplusplus
@@ -92,8 +94,11 @@ ABACUS_API const char *abacus_delaunay_reason(abacus_delaunay delaunay);
 /* The greatest number of a spatial reference system, as in PostGIS. */
 #define ABACUS_MAX_SRID 999999
 
-/* So many names of attributes and labels the header row has room for. */
-#define ABACUS_MAX_NAMES 115
+/* So many labels simplices may have. */
+#define ABACUS_MAX_LABELS 115
+#define ABACUS_MAX_NAMES (ABACUS_MAX_ATTRIBUTES + ABACUS_MAX_LABELS)
+/* So many names of attributes and labels the header row has room for; more are in rows of names. */
+#define ABACUS_HEADER_NAMES 115
 
 /* What the pages are of. */
 typedef enum abacus_type
@@ -102,6 +107,7 @@ typedef enum abacus_type
 	ABACUS_OCTREE              /* or a quadtree */
 } abacus_type;
 
+/* Copied by abacus_header_copy(): its room for names is much larger than most of them take. */
 typedef struct abacus_header
 {
 	uint32_t type;         /* an abacus_type */
@@ -127,8 +133,7 @@ typedef struct abacus_header
 	uint32_t levels;       /* of an octree: the finest that a leaf may have; */
 	uint64_t leaves;       /* ... of the above it has a domain, attributes, a stamp and an SRID */
 	abacus_counters counters; /* summed over all builds; peak_bytes: the largest */
-	uint32_t labels;       /* number of labels, which a simplex may have; with attributes at most
-							  ABACUS_MAX_NAMES */
+	uint32_t labels;       /* number of labels, which a simplex may have, to ABACUS_MAX_LABELS */
 	uint64_t labelled;     /* simplices that have some */
 	uint64_t marked;       /* simplices beside a facet with a marker */
 	uint32_t inherits;     /* 1: a new simplex gets the labels of the one that its centroid lay in */
@@ -136,7 +141,34 @@ typedef struct abacus_header
 							  unless 0 the mesh was loaded and is not Delaunay, and no attribute is
 							  apart */
 	char names[ABACUS_MAX_NAMES][ABACUS_NAME_BYTES]; /* of attributes, then of labels */
+#ifdef __cplusplus
+	abacus_header() = default;
+	abacus_header(const abacus_header &other) { copy(other); }
+	abacus_header &operator=(const abacus_header &other) { return copy(other); }
+
+  private:
+	abacus_header &copy(const abacus_header &other);
+#endif
 } abacus_header;
+
+/* All that counts; names behind those that there are are left as they are. */
+static inline void
+abacus_header_copy(abacus_header *to, const abacus_header *from)
+{
+	if (to != from)
+		memcpy((void *) to, from,
+			   offsetof(abacus_header, names) +
+				   (size_t) (from->attributes + from->labels) * ABACUS_NAME_BYTES);
+}
+
+#ifdef __cplusplus
+inline abacus_header &
+abacus_header::copy(const abacus_header &other)
+{
+	abacus_header_copy(this, &other);
+	return *this;
+}
+#endif
 
 /*
  * Whether a new mesh should have so many attributes apart: a few take less room in the simplex
@@ -148,10 +180,19 @@ ABACUS_API uint32_t abacus_are_apart(uint32_t dimension, uint32_t attributes);
 ABACUS_API size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes);
 /*
  * Checks and reads a header row; ABACUS_ERROR (corrupted) if it is none, (state) if it is one
- * of another format.
+ * of another format. If it has rows of names beside it, its names are empty until these are read.
  */
 ABACUS_API abacus_status abacus_header_decode(const unsigned char *bytes, size_t size,
 											  abacus_header *header, abacus_error *error);
+
+/* Rows of names beside the header row; 0 if this has room for all names. */
+ABACUS_API uint32_t abacus_header_name_rows(const abacus_header *header);
+/* The same of such a row, from 0. */
+ABACUS_API size_t abacus_header_encode_names(const abacus_header *header, uint32_t row,
+											 unsigned char *bytes);
+ABACUS_API abacus_status abacus_header_decode_names(const unsigned char *bytes, size_t size,
+													uint32_t row, abacus_header *header,
+													abacus_error *error);
 
 #ifdef __cplusplus
 }

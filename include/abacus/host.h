@@ -17,12 +17,16 @@ extern "C" {
 
 /* Largest dimension a mesh can have. */
 #define ABACUS_MAX_DIMENSION 3
-/* Largest number of attributes of a vertex: their names share one header page. */
-#define ABACUS_MAX_ATTRIBUTES 100
+/* Largest number of attributes of a vertex. */
+#define ABACUS_MAX_ATTRIBUTES 1000
+/* ... of those that are in a page with simplices or leaves: the columns of one page. */
+#define ABACUS_MAX_PAGE_ATTRIBUTES 100
 /* Bytes of an attribute name, with its terminating zero (as NAMEDATALEN). */
 #define ABACUS_NAME_BYTES 64
-/* Largest page the core hands to the host, bytes. */
+/* Bytes of a full page. */
 #define ABACUS_PAGE_BYTES 7936
+/* Largest page the core hands to the host: of one point with so many attributes. */
+#define ABACUS_MAX_PAGE_BYTES 8064
 
 /* ---- Status and errors ------------------------------------------------- */
 
@@ -83,7 +87,7 @@ typedef struct abacus_page
 {
 	abacus_key key;             /* lower end of the page's interval */
 	const unsigned char *bytes; /* aligned to 8 */
-	size_t size;                /* bytes, at most ABACUS_PAGE_BYTES */
+	size_t size;                /* bytes, at most ABACUS_MAX_PAGE_BYTES */
 	uint64_t location;          /* the host's own mark of the stored page; 0 = not stored yet */
 } abacus_page;
 

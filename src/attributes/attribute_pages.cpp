@@ -8,10 +8,11 @@ namespace abacus {
 
 template <int D, int K>
 AttributeGroup<D, K>::AttributeGroup(const Host &host, const Domain<D> &domain, unsigned group,
-                                     unsigned columns, abacus_counters &counters)
+                                     unsigned columns, std::size_t held_bytes,
+                                     abacus_counters &counters)
     : host_(host), domain_(domain), group_(group), columns_(columns), stride_(D * K + columns),
-      counters_(counters), writer_(host, D, K, group, columns), keys_(host), page_keys_(host),
-      rows_(host) {}
+      held_bytes_(held_bytes), counters_(counters), writer_(host, D, K, group, columns),
+      keys_(host), page_keys_(host), rows_(host) {}
 
 template <int D, int K> Key AttributeGroup<D, K>::end_of_page(const Key &lower) {
     abacus_page page;
@@ -48,7 +49,7 @@ template <int D, int K> void AttributeGroup<D, K>::go_to(const Key &key) {
     at_page_ = false;
     keys_.clear();
     rows_.clear();
-    most_ = held_bytes / (stride_ * sizeof(std::uint64_t));
+    most_ = held_bytes_ / (stride_ * sizeof(std::uint64_t));
     location_ = 0;
     lower_ = group_begin(group_);
     upper_ = group_begin(group_ + 1);
@@ -265,8 +266,10 @@ template <int D, int K>
 AttributePages<D, K>::AttributePages(const Host &host, const Domain<D> &domain, unsigned attributes,
                                      unsigned first)
     : groups_(attributes), memory_(host), pages_(&memory_) {
+    const std::size_t held =
+        std::clamp(held_together / std::max(groups_.count(), 1u), least_held, most_held);
     for (unsigned group = 0; group < groups_.count(); ++group)
-        pages_.emplace_back(host, domain, first + group, groups_.columns(group), counters_);
+        pages_.emplace_back(host, domain, first + group, groups_.columns(group), held, counters_);
 }
 
 template <int D, int K>

@@ -23,9 +23,9 @@ template <int D, int K = 1> class AttributeGroup {
 public:
     using Name = Owner<D, K>;
 
-    /// Counts the pages that it moves in `counters`.
+    /// Holds about so many bytes before pages are cut. Counts pages that it moves in `counters`.
     AttributeGroup(const Host &host, const Domain<D> &domain, unsigned group, unsigned columns,
-                   abacus_counters &counters);
+                   std::size_t held_bytes, abacus_counters &counters);
 
     /// Sets what the owner has. `key` is its attribute_key().
     void put(const Key &key, const Name &owner, const double *values);
@@ -45,9 +45,6 @@ public:
 
 private:
     static constexpr std::size_t none = ~std::size_t{0};
-    /// Bytes that are held as a rule, before pages are cut.
-    static constexpr std::size_t held_bytes = std::size_t{64} << 10;
-
     /// Makes the page that owns the key the current one.
     void go_to(const Key &key);
     Key end_of_page(const Key &lower);
@@ -75,6 +72,7 @@ private:
     const Domain<D> domain_;
     const unsigned group_, columns_;
     const std::size_t stride_; // words of a row
+    const std::size_t held_bytes_;
     abacus_counters &counters_;
     AttributePageWriter writer_;
     AttributePage<D, K> view_;
@@ -126,6 +124,11 @@ public:
     abacus_counters take_counters() { return std::exchange(counters_, {}); }
 
 private:
+    /// Rows that are held: of a group, and about as much of many groups together.
+    static constexpr std::size_t most_held = std::size_t{64} << 10,
+                                 least_held = std::size_t{16} << 10,
+                                 held_together = std::size_t{256} << 10;
+
     const AttributeGroups groups_;
     abacus_counters counters_{};
     HostMemory memory_;

@@ -1,11 +1,13 @@
 // The header row of a mesh, as bytes: little-endian, fixed fields, then the
-// names of the attributes, and last the SRID where there is one. Where simplices have labels,
-// facets markers or vertices share their places, the SRID is there in any case, and what is known
-// of these follows. A user can write any bytes into the row, so decoding checks every field; it
-// accepts exactly what encoding can produce.
+// names of the attributes, and last the SRID where there is one. Where simplices have labels or
+// facets markers, the SRID is there in any case, and what is known of these follows. What is newer
+// has one form: all these words, how many vertices share their places, and then the names, unless
+// there are so many that they have rows of their own. A user can write any bytes into these rows,
+// so decoding checks every field; it accepts exactly what encoding can produce.
 #include "capi/guard.hpp"
 
 #include <abacus/octree.h>
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -17,9 +19,9 @@ namespace {
 /// A header begins with the bytes "ABACUS" and the format of the mesh: of the header and of
 /// all its pages together. The number is raised when any of them changes. Whether vertices have
 /// their attributes in simplex pages or apart is told by the format alone, unless there are labels
-/// or markers, or vertices that share their places.
+/// or markers, vertices that share their places, or names in rows of their own.
 constexpr std::uint64_t name = 0x535543414241, format = 3, format_apart = 4, format_labelled = 5,
-                        format_split = 6;
+                        format_extended = 6;
 constexpr int name_bits = 48;
 /// That of an octree begins with the bytes "OCTREE" and a format of its own.
 constexpr std::uint64_t octree_name = 0x454552544f43ull, octree_format = 1;
@@ -41,11 +43,13 @@ public:
     }
     void operator()(std::uint32_t value) { (*this)(std::uint64_t{value}); }
     void operator()(double value) { (*this)(std::bit_cast<std::uint64_t>(value)); }
-    void text(const char *text, std::size_t size) {
-        const std::size_t length = strnlen(text, size - 1);
-        std::memcpy(at_, text, length);
-        std::memset(at_ + length, 0, size - length);
-        at_ += size;
+    void names(const abacus_header &header, unsigned begin, unsigned end) {
+        for (unsigned i = begin; i < end; ++i) {
+            const std::size_t length = strnlen(header.names[i], ABACUS_NAME_BYTES - 1);
+            std::memcpy(at_, header.names[i], length);
+            std::memset(at_ + length, 0, ABACUS_NAME_BYTES - length);
+            at_ += ABACUS_NAME_BYTES;
+        }
     }
     std::size_t size() const { return static_cast<std::size_t>(at_ - begin_); }
 
@@ -150,8 +154,10 @@ void read_names(Reader &read, unsigned begin, unsigned end, abacus_header &heade
         if (length == 0 || length == ABACUS_NAME_BYTES)
             throw_corrupted(
                 (i < header.attributes ? "The name of attribute " : "The name of label ") +
-                std::to_string(i - begin + 1) + " is not valid.");
+                std::to_string(i < header.attributes ? i + 1 : i - header.attributes + 1) +
+                " is not valid.");
         std::memcpy(header.names[i], name, length);
+        std::memset(header.names[i] + length, 0, ABACUS_NAME_BYTES - length);
     }
 }
 
@@ -162,6 +168,18 @@ void read_srid(Reader &read, abacus_header &header) {
     if (header.srid == 0 || header.srid > ABACUS_MAX_SRID)
         throw_corrupted("The header's SRID is out of range.");
     if (read.left() > 0) throw_corrupted("The header is too long.");
+}
+
+unsigned names_of(const abacus_header &header) { return header.attributes + header.labels; }
+
+/// Whether the names are in rows of their own.
+bool is_wide(const abacus_header &header) {
+    return header.attributes > ABACUS_MAX_PAGE_ATTRIBUTES || names_of(header) > ABACUS_HEADER_NAMES;
+}
+/// So many are in a row.
+constexpr unsigned names_in_row = ABACUS_PAGE_BYTES / ABACUS_NAME_BYTES;
+unsigned first_name(const abacus_header &header, unsigned row) {
+    return std::min(row * names_in_row, names_of(header));
 }
 
 bool is_labelled(const abacus_header &header) { return header.labels > 0 || header.marked > 0; }
@@ -175,32 +193,37 @@ template <class Header, class Visit> void visit_label_fields(Header &header, Vis
     visit(header.inherits);
 }
 
+/// What only the latest format can tell.
+bool is_extended(const abacus_header &header) { return header.split > 0 || is_wide(header); }
+
 void check_labels(const abacus_header &header) {
-    if (header.labels > ABACUS_MAX_NAMES - header.attributes ||
-        header.labelled > header.simplices || header.marked > header.simplices ||
-        (header.labelled > 0 && header.labels == 0) ||
+    if (header.apart > 1 || (header.apart == 0 && header.attributes > ABACUS_MAX_PAGE_ATTRIBUTES))
+        throw_corrupted("The header's attributes are neither apart nor not.");
+    if (header.labels > ABACUS_MAX_LABELS || header.labelled > header.simplices ||
+        header.marked > header.simplices || (header.labelled > 0 && header.labels == 0) ||
         header.inherits > (header.labels > 0 ? 1u : 0u))
         throw_corrupted("The header's counts of labels and markers contradict the others.");
 }
 
 void check_split(const abacus_header &header) {
-    if (header.split < 2 || header.split > header.vertices || header.not_delaunay == 0 ||
-        header.apart != 0)
+    if (header.split > 0 && (header.split < 2 || header.split > header.vertices ||
+                             header.not_delaunay == 0 || header.apart != 0))
         throw_corrupted("The header's count of vertices that share their places is not valid.");
 }
 
-/// Labels of simplices and markers of facets; where vertices share their places, how many.
-void read_labels(Reader &read, bool is_split, abacus_header &header) {
+/// Labels of simplices, markers of facets, vertices that share their places; then names.
+void read_labels(Reader &read, bool extended, abacus_header &header) {
     visit_label_fields(header, read);
-    if (is_split) read(header.split);
+    if (extended) read(header.split);
     if (header.srid > ABACUS_MAX_SRID) throw_corrupted("The header's SRID is out of range.");
-    if (header.apart > 1) throw_corrupted("The header's attributes are neither apart nor not.");
     check_labels(header);
-    if (is_split)
-        check_split(header);
-    else if (!is_labelled(header))
-        throw_corrupted("The header has room for labels and markers, and there are none.");
-    read_names(read, header.attributes, header.attributes + header.labels, header);
+    check_split(header);
+    if (is_extended(header) != extended || !(extended || is_labelled(header)))
+        throw_corrupted("The header's format does not fit what it tells.");
+    if (is_wide(header))
+        for (unsigned i = 0; i < names_of(header); ++i) header.names[i][0] = '\0';
+    else
+        read_names(read, extended ? 0 : header.attributes, names_of(header), header);
     if (read.left() > 0) throw_corrupted("The header is too long.");
 }
 
@@ -226,7 +249,7 @@ void check_octree_format(std::uint64_t found) {
 }
 
 std::uint64_t format_of(const abacus_header &header) {
-    if (header.split > 0) return format_split;
+    if (is_extended(header)) return format_extended;
     if (is_labelled(header)) return format_labelled;
     return header.apart != 0 ? format_apart : format;
 }
@@ -237,11 +260,11 @@ bool has_name(std::uint64_t found, std::uint64_t name) {
 
 void check_format(std::uint64_t found) {
     if (!has_name(found, name)) throw_corrupted("The row with the lowest key is no header.");
-    if (found >> name_bits < format || found >> name_bits > format_split)
+    if (found >> name_bits < format || found >> name_bits > format_extended)
         throw Error(ABACUS_ERROR_STATE,
                     "mesh is stored in format " + std::to_string(found >> name_bits) +
                         ", but this version of Abacus reads formats " + std::to_string(format) +
-                        " to " + std::to_string(format_split),
+                        " to " + std::to_string(format_extended),
                     {},
                     "Read its points with the version that wrote it (abacus_vertices), and build "
                     "it anew.");
@@ -263,9 +286,10 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
     }
     if (header.dimension < 2 || header.dimension > ABACUS_MAX_DIMENSION)
         throw_corrupted("The header's dimension is " + std::to_string(header.dimension) + ".");
-    if (header.attributes > ABACUS_MAX_ATTRIBUTES)
+    const bool extended = !is_octree && found >> name_bits == format_extended,
+               labelled = !is_octree && found >> name_bits >= format_labelled;
+    if (header.attributes > (extended ? ABACUS_MAX_ATTRIBUTES : ABACUS_MAX_PAGE_ATTRIBUTES))
         throw_corrupted("The header has " + std::to_string(header.attributes) + " attributes.");
-    const bool labelled = !is_octree && found >> name_bits >= format_labelled;
     if (is_octree) {
         check_octree(header);
     } else {
@@ -277,9 +301,9 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
     const bool has_all = labelled || read.left() >= names + sizeof counters;
     for (std::size_t i = 0; i < (has_all ? counter_count : least_counters); ++i) read(counters[i]);
     std::memcpy(&header.counters, counters, sizeof counters);
-    read_names(read, 0, header.attributes, header);
+    if (!extended) read_names(read, 0, header.attributes, header);
     if (labelled)
-        read_labels(read, found >> name_bits == format_split, header);
+        read_labels(read, extended, header);
     else
         read_srid(read, header);
     if (header.apart != 0 && header.attributes == 0)
@@ -318,23 +342,49 @@ size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes) {
     std::uint64_t counters[counter_count];
     std::memcpy(counters, &header->counters, sizeof counters);
     for (const auto counter : counters) write(counter);
-    for (unsigned i = 0; i < header->attributes; ++i)
-        write.text(header->names[i], ABACUS_NAME_BYTES);
-    if (is_labelled(*header) || header->split > 0) {
+    const bool extended = header->type == ABACUS_MESH && is_extended(*header);
+    if (!extended) write.names(*header, 0, header->attributes);
+    if (extended || is_labelled(*header)) {
         visit_label_fields(*header, write);
-        if (header->split > 0) write(header->split);
-        for (unsigned i = 0; i < header->labels; ++i)
-            write.text(header->names[header->attributes + i], ABACUS_NAME_BYTES);
+        if (extended) write(header->split);
+        if (!is_wide(*header))
+            write.names(*header, extended ? 0 : header->attributes, names_of(*header));
     } else if (header->srid != 0) {
         write(header->srid);
     }
     return write.size();
 }
 
+uint32_t abacus_header_name_rows(const abacus_header *header) {
+    using namespace abacus;
+    return is_wide(*header) ? (names_of(*header) + names_in_row - 1) / names_in_row : 0;
+}
+
+size_t abacus_header_encode_names(const abacus_header *header, uint32_t row, unsigned char *bytes) {
+    using namespace abacus;
+    Writer write(bytes);
+    write.names(*header, first_name(*header, row), first_name(*header, row + 1));
+    return write.size();
+}
+
+abacus_status abacus_header_decode_names(const unsigned char *bytes, size_t size, uint32_t row,
+                                         abacus_header *header, abacus_error *error) {
+    using namespace abacus;
+    return guard(error, [&] {
+        const unsigned begin = first_name(*header, row), end = first_name(*header, row + 1);
+        if (size != (end - begin) * std::size_t{ABACUS_NAME_BYTES})
+            throw_corrupted("A row of names is missing or does not have the size of its names.");
+        Reader read(bytes, size);
+        read_names(read, begin, end, *header);
+        return ABACUS_OK;
+    });
+}
+
 abacus_status abacus_header_decode(const unsigned char *bytes, size_t size, abacus_header *header,
                                    abacus_error *error) {
     return abacus::guard(error, [&] {
-        abacus_header decoded{};
+        abacus_header decoded;
+        std::memset(static_cast<void *>(&decoded), 0, offsetof(abacus_header, names));
         abacus::decode_named(bytes, size, decoded);
         *header = decoded;
         return ABACUS_OK;

@@ -189,7 +189,7 @@ private:
     std::array<PagePatch<D>, patches_of(block_slots<D>)> patches_;
     std::array<Column, D> axes_;
     Column ids_;
-    std::array<Column, ABACUS_MAX_ATTRIBUTES> attributes_;
+    std::array<Column, ABACUS_MAX_PAGE_ATTRIBUTES> attributes_;
     Column codes_, parts_;
     BitFields link_vertices_;
     bool has_parts_;

@@ -59,7 +59,7 @@ public:
 private:
     OctantPageHead head_;
     Column levels_;
-    std::array<Column, ABACUS_MAX_ATTRIBUTES> columns_;
+    std::array<Column, ABACUS_MAX_PAGE_ATTRIBUTES> columns_;
 };
 
 /// Makes a page of leaves that come in the order of the curve.

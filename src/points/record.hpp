@@ -5,6 +5,8 @@
 
 #include "geometry/point.hpp"
 
+#include <abacus/host.h>
+
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +17,13 @@ namespace abacus {
 /// Words of a record.
 constexpr std::size_t record_words(unsigned dimension, unsigned attributes) {
     return 1 + dimension + attributes;
+}
+
+/// How many of so many words each a page holds besides a header. It has ABACUS_PAGE_BYTES at most,
+/// unless a single one with very many attributes takes more.
+constexpr std::size_t records_in_page(std::size_t words, std::size_t header_words) {
+    const std::size_t fit = (ABACUS_PAGE_BYTES / 8 - header_words) / words;
+    return fit > 0 ? fit : 1;
 }
 
 inline std::int64_t record_id(const std::uint64_t *record) {

@@ -23,6 +23,10 @@ constexpr std::size_t entry_words(unsigned dimension, unsigned attributes) {
     return 1 + record_words(dimension, attributes);
 }
 
+static_assert(RepeatedPageHeader::words +
+                  entry_words(ABACUS_MAX_DIMENSION, ABACUS_MAX_ATTRIBUTES) <=
+              ABACUS_MAX_PAGE_BYTES / 8);
+
 [[noreturn]] void throw_bad_page(const char *what) {
     throw_corrupted(std::string("A page of repeated points ") + what + ".");
 }
@@ -61,8 +65,8 @@ void decode(const abacus_page &page, const Domain<D> &domain, unsigned attribute
 template <int D>
 RepeatedPoints<D>::RepeatedPoints(const Host &host, const Domain<D> &domain, unsigned attributes)
     : host_(host), domain_(domain), attributes_(attributes), stride_(entry_words(D, attributes)),
-      capacity_((ABACUS_PAGE_BYTES / 8 - RepeatedPageHeader::words) / stride_), records_(host),
-      taken_(host) {}
+      capacity_(records_in_page(stride_, RepeatedPageHeader::words)), records_(host), taken_(host) {
+}
 
 template <int D> bool RepeatedPoints<D>::go_to(Key key) {
     if (at_page_ && lower_ <= key && key < upper_) return true;
@@ -107,16 +111,13 @@ template <int D> std::size_t RepeatedPoints<D>::lower_bound(const Key &key) {
 template <int D> void RepeatedPoints<D>::add(std::uint64_t serial, const std::uint64_t *record) {
     const Key key{domain_.code(record_point<D>(record)), serial};
     if (!go_to(key)) create_first_page();
-    if (count() == capacity_) {
-        split();
-        go_to(key);
-    }
     const std::size_t at = lower_bound(key);
     records_.extend(stride_);
     std::copy_backward(entry(at), records_.end() - stride_, records_.end());
     entry(at)[0] = serial;
     std::copy_n(record, stride_ - 1, entry(at) + 1);
     dirty_ = true;
+    if (count() > capacity_) split();
 }
 
 /// Writes the upper half as a page of its own.
@@ -203,7 +204,7 @@ template <int D> void RepeatedPoints<D>::flush() {
         if (location_ != 0) host_.erase(ABACUS_REPEATED_PAGES, {lower_, nullptr, 0, location_});
         return;
     }
-    std::uint64_t words[ABACUS_PAGE_BYTES / 8];
+    std::uint64_t words[ABACUS_MAX_PAGE_BYTES / 8];
     const RepeatedPageHeader header{RepeatedPageHeader::current_magic, D,
                                     static_cast<std::uint16_t>(attributes_), count()};
     std::memcpy(words, &header, sizeof header);

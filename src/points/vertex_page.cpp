@@ -4,6 +4,8 @@
 
 namespace abacus {
 
+static_assert(VertexPageHeader::words + record_words(ABACUS_MAX_DIMENSION, ABACUS_MAX_ATTRIBUTES) <=
+              ABACUS_MAX_PAGE_BYTES / 8);
 static_assert(std::endian::native == std::endian::little,
               "pages are little-endian and are read and written as they are in memory");
 
@@ -11,7 +13,7 @@ VertexPageWriter::VertexPageWriter(const Host &host, unsigned dimension, unsigne
                                    std::uint64_t first)
     : host_(host), dimension_(dimension), attributes_(attributes),
       stride_(record_words(dimension, attributes)),
-      capacity_((ABACUS_PAGE_BYTES / 8 - VertexPageHeader::words) / stride_), first_(first) {}
+      capacity_(records_in_page(stride_, VertexPageHeader::words)), first_(first) {}
 
 void VertexPageWriter::flush() {
     VertexPageHeader header;

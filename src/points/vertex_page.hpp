@@ -62,7 +62,7 @@ private:
     std::uint64_t first_;
     std::size_t count_ = 0;
     std::uint64_t pages_ = 0;
-    std::uint64_t page_[ABACUS_PAGE_BYTES / 8];
+    std::uint64_t page_[ABACUS_MAX_PAGE_BYTES / 8];
 };
 
 /// A checked view of a page's words, which it does not own.

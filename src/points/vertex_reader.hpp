@@ -60,7 +60,7 @@ private:
     abacus_key key_{};           // of the page
     std::uint64_t location_ = 0; // of the page
     std::optional<VertexPage<D>> page_;
-    std::uint64_t copy_[ABACUS_PAGE_BYTES / 8];
+    std::uint64_t copy_[ABACUS_MAX_PAGE_BYTES / 8];
 };
 
 } // namespace abacus

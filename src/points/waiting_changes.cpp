@@ -57,7 +57,7 @@ template <int D> std::uint64_t WaitingChanges<D>::choose() {
 /// Each page once.
 template <int D> void WaitingChanges<D>::write() {
     const std::size_t stride = record_words(D, attributes_);
-    std::uint64_t words[ABACUS_PAGE_BYTES / 8];
+    std::uint64_t words[ABACUS_MAX_PAGE_BYTES / 8];
     for (const Found *found = found_.begin(); found != found_.end();) {
         host_.poll();
         abacus_page page;

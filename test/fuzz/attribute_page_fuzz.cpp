@@ -4,8 +4,8 @@
 using namespace abacus::fuzz;
 
 extern "C" int LLVMFuzzerInitialize(int *argc, char ***argv) {
-    auto seeds = page_seeds(sound_mesh(2, true).host.attribute_pages, {2, 0});
-    for (auto &seed : page_seeds(sound_mesh(3, true).host.attribute_pages, {3, 1}))
+    auto seeds = page_seeds(sound_mesh(2, Carried::apart).host.attribute_pages, {2, 0});
+    for (auto &seed : page_seeds(sound_mesh(3, Carried::apart).host.attribute_pages, {3, 1}))
         seeds.push_back(seed);
     write_seeds(*argc, *argv, seeds);
     return 0;
@@ -29,6 +29,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
             mesh.check();
             require(mesh.host.bytes == 0, "memory is not given back");
         },
-        true);
+        Carried::apart);
     return 0;
 }

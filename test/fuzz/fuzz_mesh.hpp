@@ -230,31 +230,44 @@ public:
     }
 };
 
-/// The sound mesh: five attributes make small pages; some points are repeated, some wait. With
-/// `apart` the attributes have pages of their own.
-inline const Mesh &sound_mesh(int dimension, bool apart = false) {
-    static Mesh meshes[4];
-    Mesh &mesh = meshes[dimension - 2 + 2 * apart];
+/// What vertices have: some attributes in the pages of simplices, or in pages of their own; or as
+/// many as there can be, so that a point that waits or is repeated takes a page.
+enum class Carried { in_pages, apart, many };
+
+/// The sound mesh: its attributes make small pages; some points are repeated, some wait.
+inline const Mesh &sound_mesh(int dimension, Carried carried = Carried::in_pages) {
+    static Mesh meshes[6];
+    Mesh &mesh = meshes[dimension - 2 + 2 * static_cast<int>(carried)];
     if (mesh.header.dimension == 0) {
+        const bool many = carried == Carried::many;
         mesh.header.dimension = static_cast<std::uint32_t>(dimension);
-        mesh.header.attributes = 5;
-        mesh.header.apart = apart;
-        for (int i = 0; i < 5; ++i) std::strcpy(mesh.header.names[i], "height");
-        mesh.stage(160, 1);
-        mesh.stage(80, 1); // once more
+        mesh.header.attributes = many ? ABACUS_MAX_ATTRIBUTES : 5;
+        mesh.header.apart = carried != Carried::in_pages;
+        for (unsigned i = 0; i < mesh.header.attributes; ++i)
+            std::strcpy(mesh.header.names[i], "height");
+        const int points = many ? 10 : 40;
+        mesh.stage(4 * points, 1);
+        mesh.stage(2 * points, 1); // once more
         require(mesh.build() == ABACUS_OK, "the sound mesh cannot be built");
-        mesh.stage(40, 2);
+        mesh.stage(points, 2);
         require(mesh.check() == 0, "the sound mesh is not sound");
     }
     return mesh;
 }
 
+/// The first byte of an input chooses a mesh.
+constexpr std::uint8_t many = 64;
+inline int dimension_of(std::uint8_t choice) { return choice % 2 == 0 ? 2 : 3; }
+inline Carried carried_by(std::uint8_t choice) {
+    return (choice & many) != 0 ? Carried::many : Carried::in_pages;
+}
+
 /// Calls act(mesh) with a fresh copy of the sound mesh.
 inline void with_copy(int dimension, std::size_t cache_bytes,
-                      const std::function<void(Mesh &)> &act, bool apart = false) {
+                      const std::function<void(Mesh &)> &act, Carried carried = Carried::in_pages) {
     Mesh mesh;
-    mesh.host.restore(sound_mesh(dimension, apart).host);
-    mesh.header = sound_mesh(dimension, apart).header;
+    mesh.host.restore(sound_mesh(dimension, carried).host);
+    mesh.header = sound_mesh(dimension, carried).header;
     mesh.cache_bytes = cache_bytes;
     act(mesh);
 }
@@ -298,7 +311,7 @@ template <class Pages> void damage(Pages &pages, Bytes &input) {
         MemoryHost::Page &replaced = page();
         if (input.rest() == 0) return; // a database has no values of no bytes
         const std::uint64_t location = replaced.location;
-        replaced.assign(input.data(), std::min<std::size_t>(input.rest(), ABACUS_PAGE_BYTES));
+        replaced.assign(input.data(), std::min<std::size_t>(input.rest(), ABACUS_MAX_PAGE_BYTES));
         replaced.location = location;
         return;
     }

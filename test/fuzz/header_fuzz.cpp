@@ -21,14 +21,44 @@ extern "C" int LLVMFuzzerInitialize(int *argc, char ***argv) {
     empty.dimension = 3;
     abacus_header with_srid = sound_mesh(2).header;
     with_srid.srid = 4326;
+    abacus_header wide = sound_mesh(2).header;
+    wide.attributes = ABACUS_MAX_ATTRIBUTES;
+    wide.apart = 1;
+    for (auto &name : wide.names) std::snprintf(name, sizeof name, "a");
+    std::vector<std::uint8_t> names(ABACUS_PAGE_BYTES);
+    names.resize(abacus_header_encode_names(&wide, 0, names.data()));
     write_seeds(*argc, *argv,
                 {encode(sound_mesh(2).header), encode(sound_mesh(3).header), encode(empty),
-                 encode(with_srid)});
+                 encode(with_srid), encode(wide), names});
     return 0;
 }
 
+namespace {
+
+/// The bytes are also a row of names of a mesh with many attributes.
+void read_names(const std::uint8_t *data, std::size_t size) {
+    abacus_header header{};
+    header.dimension = 2;
+    header.attributes = static_cast<std::uint32_t>(std::min<std::size_t>(
+        size / ABACUS_NAME_BYTES + ABACUS_MAX_PAGE_ATTRIBUTES, ABACUS_MAX_ATTRIBUTES));
+    header.apart = 1;
+    for (std::uint32_t row = 0; row < abacus_header_name_rows(&header); ++row) {
+        abacus_error error{};
+        if (abacus_header_decode_names(data, size, row, &header, &error) != ABACUS_OK) {
+            require(error.kind == ABACUS_ERROR_CORRUPTED, "names are refused for another reason");
+            continue;
+        }
+        std::vector<std::uint8_t> bytes(ABACUS_PAGE_BYTES);
+        bytes.resize(abacus_header_encode_names(&header, row, bytes.data()));
+        require(bytes.size() == size, "a row of names changes its size");
+    }
+}
+
+} // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
-    abacus_header header;
+    read_names(data, size);
+    abacus_header header{};
     abacus_error error{};
     if (abacus_header_decode(data, size, &header, &error) != ABACUS_OK) {
         require(error.kind == ABACUS_ERROR_CORRUPTED || error.kind == ABACUS_ERROR_STATE,
@@ -36,7 +66,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
         return 0;
     }
     const std::vector<std::uint8_t> bytes = encode(header);
-    abacus_header again;
+    abacus_header again{};
     require(bytes.size() == size, "a header changes its size");
     require(abacus_header_decode(bytes.data(), bytes.size(), &again, &error) == ABACUS_OK &&
                 std::memcmp(&header, &again, sizeof header) == 0,

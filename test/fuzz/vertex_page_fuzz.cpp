@@ -4,17 +4,20 @@
 using namespace abacus::fuzz;
 
 extern "C" int LLVMFuzzerInitialize(int *argc, char ***argv) {
-    auto seeds = page_seeds(sound_mesh(2).host.staged_pages, {2});
-    for (auto &seed : page_seeds(sound_mesh(3).host.staged_pages, {3})) seeds.push_back(seed);
+    std::vector<std::vector<std::uint8_t>> seeds;
+    for (const std::uint8_t choice : {2, 3, 2 | many, 3 | many})
+        for (auto &seed : page_seeds(
+                 sound_mesh(dimension_of(choice), carried_by(choice)).host.staged_pages, {choice}))
+            seeds.push_back(seed);
     write_seeds(*argc, *argv, seeds);
     return 0;
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
     Bytes input(data, size);
-    const int dimension = input.next<std::uint8_t>() % 2 == 0 ? 2 : 3;
-    for (const bool alone : {false, true}) // beside a mesh, and as all there is
-        with_copy(dimension, 1 << 20, [&](Mesh &mesh) {
+    const auto choice = input.next<std::uint8_t>();
+    for (const bool alone : {false, true}) { // beside a mesh, and as all there is
+        const auto act = [&](Mesh &mesh) {
             Bytes again = input;
             damage(mesh.host.staged_pages, again);
             if (alone) {
@@ -26,6 +29,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
             mesh.build();
             mesh.check();
             require(mesh.host.bytes == 0, "memory is not given back");
-        });
+        };
+        with_copy(dimension_of(choice), 1 << 20, act, carried_by(choice));
+    }
     return 0;
 }

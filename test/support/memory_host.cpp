@@ -175,7 +175,7 @@ struct MemoryHost::Functions {
         Page stored;
         stored.assign(page->bytes, page->size);
         if (!host.enter(host.calls.put)) return ABACUS_HOST_FAILED;
-        if (page->size == 0 || page->size > ABACUS_PAGE_BYTES)
+        if (page->size == 0 || page->size > ABACUS_MAX_PAGE_BYTES)
             return fail(host, "a page of " + std::to_string(page->size) + " bytes is put");
         if (page->key.code >> 63 != 0 || page->key.part >> 63 != 0)
             return fail(host, "a key is out of range");

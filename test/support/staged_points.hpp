@@ -76,7 +76,7 @@ template <int D> Input<D> staged(MemoryHost &host, const abacus_header &header) 
     Input<D> result;
     for (auto &[key, page] : host.staged_pages) {
         EXPECT_EQ(key.code, result.size());
-        EXPECT_LE(page.size, std::size_t{ABACUS_PAGE_BYTES});
+        EXPECT_LE(page.size, std::size_t{ABACUS_MAX_PAGE_BYTES});
         const VertexPage<D> view(page.words.data(), page.size, header.attributes, key);
         for (std::size_t i = 0; i < view.size(); ++i) {
             const std::uint64_t *record = view.record(i);

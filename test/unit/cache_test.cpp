@@ -225,9 +225,10 @@ TEST(Cache, SplitsACodeIntoParts) {
 }
 
 TEST(Cache, CarriesAttributesThroughPagesBitForBit) {
-    for (const int attributes : {1, 3, 17, ABACUS_MAX_ATTRIBUTES}) {
+    for (const int attributes : {1, 3, 17, ABACUS_MAX_PAGE_ATTRIBUTES}) {
         Random random(8);
-        const auto points = unit_square_points(attributes == ABACUS_MAX_ATTRIBUTES ? 150 : 600, 9);
+        const auto points =
+            unit_square_points(attributes == ABACUS_MAX_PAGE_ATTRIBUTES ? 150 : 600, 9);
         std::vector<Input> inputs = number(points);
         for (Input &input : inputs) {
             input.id = std::bit_cast<std::int64_t>(random());

@@ -62,23 +62,24 @@ bool decodes(const std::vector<unsigned char> &bytes, abacus_header *header = nu
 }
 
 TEST(Header, ComesBackAsItWas) {
-    for (const unsigned attributes : {0u, 1u, unsigned{ABACUS_MAX_ATTRIBUTES}}) {
+    for (const unsigned attributes : {0u, 1u, unsigned{ABACUS_MAX_PAGE_ATTRIBUTES}}) {
         const abacus_header header = full_header(attributes);
         const auto bytes = encode(header);
         EXPECT_LE(bytes.size(), std::size_t{ABACUS_PAGE_BYTES});
         abacus_header decoded;
-        std::memset(&decoded, 0xff, sizeof decoded);
+        std::memset(static_cast<void *>(&decoded), 0xff, sizeof decoded);
         ASSERT_TRUE(decodes(bytes, &decoded));
         EXPECT_EQ(encode(decoded), bytes);
         EXPECT_EQ(decoded.lower[2], header.lower[2]);
         EXPECT_EQ(decoded.simplices, header.simplices);
         EXPECT_EQ(decoded.counters.peak_bytes, UINT64_MAX);
-        EXPECT_STREQ(decoded.names[0], attributes > 0 ? "attribute 0" : "");
+        for (unsigned i = 0; i < attributes; ++i)
+            EXPECT_EQ(decoded.names[i], "attribute " + std::to_string(i));
     }
 }
 
 TEST(Header, KeepsTheSridBehindTheNames) {
-    for (const unsigned attributes : {0u, 2u, unsigned{ABACUS_MAX_ATTRIBUTES}}) {
+    for (const unsigned attributes : {0u, 2u, unsigned{ABACUS_MAX_PAGE_ATTRIBUTES}}) {
         abacus_header header = full_header(attributes);
         const auto without = encode(header);
         for (const std::uint32_t srid : {1u, 4326u, unsigned{ABACUS_MAX_SRID}}) {
@@ -120,8 +121,8 @@ TEST(Header, AWrongSridIsRefused) {
 
 /// Labels and markers come with a format of their own.
 TEST(Header, OfLabelsAndMarkers) {
-    for (const unsigned attributes : {0u, 5u, unsigned{ABACUS_MAX_ATTRIBUTES}})
-        for (const unsigned labels : {0u, 1u, ABACUS_MAX_NAMES - attributes})
+    for (const unsigned attributes : {0u, 5u, unsigned{ABACUS_MAX_PAGE_ATTRIBUTES}})
+        for (const unsigned labels : {0u, 1u, ABACUS_HEADER_NAMES - attributes})
             for (const std::uint32_t srid : {0u, 4326u}) {
                 abacus_header header = full_header(attributes);
                 const auto without = encode(header);
@@ -138,7 +139,7 @@ TEST(Header, OfLabelsAndMarkers) {
                 EXPECT_LE(bytes.size(), std::size_t{ABACUS_PAGE_BYTES});
                 EXPECT_EQ(bytes[6], 5);
                 abacus_header decoded;
-                std::memset(&decoded, 0xff, sizeof decoded);
+                std::memset(static_cast<void *>(&decoded), 0xff, sizeof decoded);
                 ASSERT_TRUE(decodes(bytes, &decoded));
                 EXPECT_EQ(encode(decoded), bytes);
                 EXPECT_EQ(decoded.apart, header.apart);
@@ -158,6 +159,103 @@ TEST(Header, OfLabelsAndMarkers) {
                 header.srid = 0;
                 EXPECT_EQ(encode(header), without);
             }
+}
+
+/// The header and the rows of names beside it.
+std::vector<std::vector<unsigned char>> encode_rows(const abacus_header &header) {
+    std::vector<std::vector<unsigned char>> rows{encode(header)};
+    for (std::uint32_t row = 0; row < abacus_header_name_rows(&header); ++row) {
+        auto &bytes = rows.emplace_back(ABACUS_PAGE_BYTES);
+        bytes.resize(abacus_header_encode_names(&header, row, bytes.data()));
+    }
+    return rows;
+}
+
+bool decodes_rows(const std::vector<std::vector<unsigned char>> &rows, abacus_header &header) {
+    if (!decodes(rows[0], &header)) return false;
+    EXPECT_EQ(abacus_header_name_rows(&header), rows.size() - 1);
+    for (std::uint32_t row = 0; row + 1 < rows.size(); ++row) {
+        abacus_error error{};
+        const std::vector<unsigned char> copy(rows[row + 1]);
+        if (abacus_header_decode_names(copy.data(), copy.size(), row, &header, &error) == ABACUS_OK)
+            continue;
+        EXPECT_EQ(error.kind, ABACUS_ERROR_CORRUPTED);
+        return false;
+    }
+    return true;
+}
+
+abacus_header wide_header(unsigned attributes, unsigned labels) {
+    abacus_header header = full_header(attributes);
+    header.apart = 1;
+    header.labels = labels;
+    for (unsigned i = 0; i < labels; ++i)
+        std::strcpy(header.names[attributes + i], ("label " + std::to_string(i)).c_str());
+    return header;
+}
+
+/// Many names are in rows of their own, which come with a format of their own.
+TEST(Header, OfManyNames) {
+    struct Case {
+        unsigned attributes, labels, rows;
+    };
+    for (const auto &[attributes, labels, rows] :
+         {Case{100, 15, 0}, Case{101, 0, 1}, Case{100, 16, 1}, Case{1, ABACUS_MAX_LABELS, 1},
+          Case{124, 0, 1}, Case{125, 0, 2}, Case{ABACUS_MAX_ATTRIBUTES, 0, 9},
+          Case{ABACUS_MAX_ATTRIBUTES, ABACUS_MAX_LABELS, 9}})
+        for (const std::uint32_t srid : {0u, 4326u}) {
+            abacus_header header = wide_header(attributes, labels);
+            header.srid = srid;
+            const auto bytes = encode_rows(header);
+            ASSERT_EQ(bytes.size(), rows + 1);
+            EXPECT_EQ(bytes[0][6], rows > 0 ? 6 : 5);
+            abacus_header decoded;
+            std::memset(static_cast<void *>(&decoded), 0xff, sizeof decoded);
+            ASSERT_TRUE(decodes_rows(bytes, decoded));
+            EXPECT_EQ(encode_rows(decoded), bytes);
+            EXPECT_EQ(decoded.srid, srid);
+            EXPECT_EQ(decoded.apart, 1u);
+            EXPECT_EQ(decoded.labels, labels);
+            const std::string last = "attribute " + std::to_string(attributes - 1);
+            EXPECT_EQ(decoded.names[attributes - 1], last);
+        }
+}
+
+TEST(Header, WrongRowsOfNamesAreRefused) {
+    abacus_header decoded;
+    const auto refuses = [&](unsigned attributes, unsigned labels, auto change) {
+        abacus_header header = wide_header(attributes, labels);
+        change(header);
+        return !decodes_rows(encode_rows(header), decoded);
+    };
+    EXPECT_FALSE(refuses(500, 2, [](abacus_header &) {}));
+    EXPECT_TRUE(refuses(500, 2, [](abacus_header &h) { h.apart = 0; }));
+    EXPECT_TRUE(refuses(500, 2, [](abacus_header &h) { h.names[499][0] = 0; }));
+    EXPECT_TRUE(refuses(500, 2, [](abacus_header &h) { h.names[501][0] = 0; }));
+    EXPECT_TRUE(refuses(500, 0, [](abacus_header &h) { h.labelled = 1; }));
+    EXPECT_TRUE(refuses(500, 2, [](abacus_header &h) { h.srid = ABACUS_MAX_SRID + 1; }));
+    const auto rows = encode_rows(wide_header(500, 2));
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        auto changed = rows;
+        changed[row].pop_back();
+        EXPECT_FALSE(decodes_rows(changed, decoded));
+        changed[row].resize(rows[row].size() + 8);
+        EXPECT_FALSE(decodes_rows(changed, decoded));
+    }
+    // The counts of attributes and labels: too many, or as few as the header row has room for.
+    constexpr std::size_t attributes = 16;
+    const std::size_t labels = rows[0].size() - 40;
+    for (const unsigned count : {0u, 100u, 1001u}) {
+        auto changed = rows;
+        changed[0][attributes] = static_cast<unsigned char>(count & 255);
+        changed[0][attributes + 1] = static_cast<unsigned char>(count >> 8);
+        EXPECT_FALSE(decodes(changed[0]));
+    }
+    auto changed = rows;
+    changed[0][labels] = ABACUS_MAX_LABELS;
+    EXPECT_TRUE(decodes(changed[0]));
+    changed[0][labels] = ABACUS_MAX_LABELS + 1;
+    EXPECT_FALSE(decodes(changed[0]));
 }
 
 TEST(Header, WrongCountsOfLabelsAreRefused) {
@@ -204,7 +302,7 @@ TEST(Header, OfAnEmptyMesh) {
 }
 
 TEST(Header, OfAMeshFromBeforeThreadsWereCounted) {
-    for (const unsigned attributes : {0u, 1u, unsigned{ABACUS_MAX_ATTRIBUTES}}) {
+    for (const unsigned attributes : {0u, 1u, unsigned{ABACUS_MAX_PAGE_ATTRIBUTES}}) {
         abacus_header header = full_header(attributes);
         const auto before = encode(header);
         header.counters.passes = 1;
@@ -314,6 +412,18 @@ TEST(Header, OfVerticesThatShareTheirPlaces) {
         change(changed);
         return !decodes(encode(changed));
     };
+    // With many names, too.
+    header.attributes = 100;
+    header.labels = 20;
+    for (unsigned i = 0; i < 120; ++i)
+        std::strcpy(header.names[i], ("name " + std::to_string(i)).c_str());
+    const auto rows = encode_rows(header);
+    EXPECT_EQ(rows.size(), 2u);
+    abacus_header decoded;
+    ASSERT_TRUE(decodes_rows(rows, decoded));
+    EXPECT_EQ(decoded.split, 2u);
+    EXPECT_EQ(encode_rows(decoded), rows);
+    EXPECT_TRUE(refused([](abacus_header &h) { h.attributes = 101; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.split = 1; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.split = h.vertices + 1; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.apart = 1; }));

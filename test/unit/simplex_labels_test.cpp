@@ -16,7 +16,7 @@ TYPED_TEST_SUITE(SimplexLabels, Dimensions);
 
 TYPED_TEST(SimplexLabels, AreThereForReaders) {
     constexpr int D = TestFixture::D;
-    for (const unsigned labels : {1u, 3u, 40u, unsigned{ABACUS_MAX_NAMES}})
+    for (const unsigned labels : {1u, 3u, 40u, unsigned{ABACUS_MAX_LABELS}})
         for (const std::size_t memory : {std::size_t{1}, std::size_t{64} << 20}) {
             LabelledMesh<D> mesh(labels);
             mesh.load(some_triangulation<D>(D == 2 ? 2000 : 500), memory);

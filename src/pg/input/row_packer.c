@@ -327,7 +327,7 @@ create_marking(TupleDesc desc, const abacus_header *header, const RowOrigin *ori
 {
 	abacus_header *shape = palloc(sizeof(abacus_header));
 
-	*shape = *header;
+	abacus_header_copy(shape, header);
 	shape->attributes = 0;
 	shape->labels = 1;
 	strlcpy(shape->names[0], "marker", ABACUS_NAME_BYTES);

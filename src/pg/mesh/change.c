@@ -268,7 +268,7 @@ change_insert_query(Oid mesh, Source *source, const char *command, abacus_header
 	change_read(change, source);
 	change_insert(change);
 	points = change->points;
-	*header = *change->writer.header;
+	abacus_header_copy(header, change->writer.header);
 	change_end(change);
 	return points;
 }

@@ -5,6 +5,10 @@
  * with a new random stamp. So a stamp names one state of the mesh for ever, even if the
  * transaction that made it is rolled back. A session's cache is good exactly as long as
  * the header that it sees has the stamp it was filled under.
+ *
+ * The names of many attributes are in rows of their own, under (-1, 1) and so on. They are changed
+ * with the header alone, so whoever sees it sees those that belong to it. Those that stay as they
+ * are are not written.
  */
 #include "postgres.h"
 
@@ -23,27 +27,78 @@ new_stamp(abacus_header *header)
 				(errcode(ERRCODE_INTERNAL_ERROR), errmsg("could not generate a random number")));
 }
 
-static size_t
-encode(Host *host, const abacus_header *header, unsigned char *bytes)
+/* The key of a row of names, from 0. */
+static void
+name_key(uint32 row, int64 *key)
 {
-	abacus_header stored = *header;
+	key[0] = header_key[0];
+	key[1] = header_key[1] + 1 + row;
+}
+
+/* Writes the rows of names that have changed, and removes those that are too many. */
+static void
+store_names(Host *host, const abacus_header *header)
+{
+	MeshPages  *pages = mesh_pages(host);
+	uint32		rows = abacus_header_name_rows(header);
+	unsigned char bytes[ABACUS_PAGE_BYTES];
+
+	for (uint32 i = 0; i < Max(rows, pages->name_rows); i++)
+	{
+		size_t		size = i < rows ? abacus_header_encode_names(header, i, bytes) : 0;
+		int64		key[PAGE_TABLE_KEYS];
+		StoredPage	row;
+		ItemPointerData tid;
+
+		name_key(i, key);
+		if (i >= pages->name_rows || !page_table_get(&pages->simplices, key, &row))
+			page_table_insert(&pages->simplices, key, bytes, size, &tid);
+		else if (i >= rows || row.size != size || memcmp(row.bytes, bytes, size) != 0)
+		{
+			tid = row.tid;
+			if (i >= rows)
+				page_table_delete(&pages->simplices, &tid);
+			else
+				page_table_update(&pages->simplices, key, bytes, size, &tid);
+		}
+	}
+	pages->name_rows = rows;
+}
+
+/* Writes the header in place of that at *tid, or, if this is not valid, that of a new mesh. */
+static void
+store(Host *host, const abacus_header *header, ItemPointer tid)
+{
+	abacus_header *converted = NULL;
+	unsigned char bytes[ABACUS_PAGE_BYTES];
+	size_t		size;
 
 	if (names_are_converted())
-		names_to_storage(&stored, host->names);
-	return abacus_header_encode(&stored, bytes);
+	{
+		converted = palloc(sizeof(abacus_header));
+		abacus_header_copy(converted, header);
+		names_to_storage(converted, host->names);
+		header = converted;
+	}
+	size = abacus_header_encode(header, bytes);
+	if (ItemPointerIsValid(tid))
+		page_table_update(&mesh_pages(host)->simplices, header_key, bytes, size, tid);
+	else
+		page_table_insert(&mesh_pages(host)->simplices, header_key, bytes, size, tid);
+	store_names(host, header);
+	if (converted != NULL)
+		pfree(converted);
 }
 
 /* Writes the header of a new mesh. */
 void
 header_insert(Host *host, abacus_header *header)
 {
-	unsigned char bytes[ABACUS_PAGE_BYTES];
 	ItemPointerData tid;
-	size_t		size;
 
 	new_stamp(header);
-	size = encode(host, header, bytes);
-	page_table_insert(&mesh_pages(host)->simplices, header_key, bytes, size, &tid);
+	ItemPointerSetInvalid(&tid);
+	store(host, header, &tid);
 }
 
 /* The header row as the active snapshot sees it. */
@@ -75,13 +130,38 @@ header_open_vertices(Host *host, const abacus_header *header)
 		page_table_refuse_newer(&pages->vertices);
 }
 
-/* Decodes the header; an error goes to host->failure. */
+/* Reads the rows of names beside a header. */
+static abacus_status
+try_decode_names(Host *host, abacus_header *header)
+{
+	MeshPages  *pages = mesh_pages(host);
+	abacus_status status = ABACUS_OK;
+
+	pages->name_rows = abacus_header_name_rows(header);
+	for (uint32 i = 0; i < pages->name_rows && status == ABACUS_OK; i++)
+	{
+		static const StoredPage missing;
+		int64		key[PAGE_TABLE_KEYS];
+		StoredPage	row;
+
+		name_key(i, key);
+		if (!page_table_get(&pages->simplices, key, &row))
+			row = missing;
+		status = abacus_header_decode_names(row.bytes, row.size, i, header, &host->failure);
+	}
+	return status;
+}
+
+/* Decodes the header, with the names beside it; an error goes to host->failure. */
 abacus_status
 header_try_decode(Host *host, const StoredPage *row, abacus_header *header)
 {
 	abacus_status status = abacus_header_decode(row->bytes, row->size, header, &host->failure);
-	int			invalid = status == ABACUS_OK ? names_find_invalid(header) : -1;
+	int			invalid;
 
+	if (status == ABACUS_OK)
+		status = try_decode_names(host, header);
+	invalid = status == ABACUS_OK ? names_find_invalid(header) : -1;
 	if (invalid >= 0)
 	{
 		const char *name = type_name(header->type);
@@ -162,10 +242,7 @@ header_read(Host *host, abacus_header *header, ItemPointer tid)
 void
 header_rewrite(Host *host, const abacus_header *header, ItemPointer tid)
 {
-	unsigned char bytes[ABACUS_PAGE_BYTES];
-	size_t		size = encode(host, header, bytes);
-
-	page_table_update(&mesh_pages(host)->simplices, header_key, bytes, size, tid);
+	store(host, header, tid);
 }
 
 /* Replaces the header at *tid, which the caller has locked. */

@@ -187,7 +187,7 @@ open_handle(Entry *entry, const abacus_header *header)
 	else
 		open_mesh(entry, header);
 	entry->cached.dimension = header->dimension;
-	entry->cached.header = *header;
+	abacus_header_copy(&entry->cached.header, header);
 }
 
 /* Makes the entry for `relid` valid under the active snapshot. */

@@ -25,6 +25,7 @@ typedef struct MeshPages
 	Oid			mesh;
 	uint32		type;			/* an abacus_type: what the header must be of, or ANY_TYPE */
 	MeshAccess	access;
+	uint32		name_rows;		/* rows of names that there are beside the header: header.c */
 	PageTable	simplices;
 	PageTable	vertices;		/* its OID is looked up when first needed */
 } MeshPages;

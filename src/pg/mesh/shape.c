@@ -31,28 +31,19 @@ shape_check_name(const char *name)
 				 errhint("A name has 1 to %d bytes.", ABACUS_NAME_BYTES - 1)));
 }
 
-/* An error if there is no room for one more name. */
-static void
-check_names(const abacus_header *header)
-{
-	if (header->attributes + header->labels == ABACUS_MAX_NAMES)
-		ereport(ERROR,
-				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
-				 errmsg("a mesh can have at most %d attributes and labels together",
-						ABACUS_MAX_NAMES)));
-}
-
 /* An error if there is no room for one more attribute. */
 void
 shape_check_room(const abacus_header *header)
 {
-	if (header->attributes == ABACUS_MAX_ATTRIBUTES)
+	bool		is_octree = header->type == ABACUS_OCTREE;
+	uint32		most = is_octree ? ABACUS_MAX_PAGE_ATTRIBUTES : ABACUS_MAX_ATTRIBUTES;
+
+	if (header->attributes == most)
 		ereport(ERROR,
 				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
-				 errmsg("%s can have at most %d attributes",
-						header->type == ABACUS_OCTREE ? "an octree" : "a mesh",
-						ABACUS_MAX_ATTRIBUTES)));
-	check_names(header);
+				 errmsg("%s can have at most %u attributes", is_octree ? "an octree" : "a mesh", most),
+				 is_octree ? 0 : errhint("Drop attributes that are not needed with "
+										 "abacus_drop_attribute(), or keep them in another mesh.")));
 }
 
 /* Adds one attribute. */
@@ -76,7 +67,10 @@ shape_label(abacus_header *header, const char *name)
 {
 	uint32		names = header->attributes + header->labels;
 
-	check_names(header);
+	if (header->labels == ABACUS_MAX_LABELS)
+		ereport(ERROR,
+				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
+				 errmsg("a mesh can have at most %d labels", ABACUS_MAX_LABELS)));
 	shape_check_name(name);
 	for (uint32 i = 0; i < names; i++)
 		if (strcmp(header->names[i], name) == 0)

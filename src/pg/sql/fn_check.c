@@ -53,7 +53,7 @@ read_header(Checking *checking, abacus_header *header)
 	return !checking->has_fault;
 }
 
-/* Notes the first row besides the header where no page can be. */
+/* Notes the first row besides those of the header where no page can be. */
 static void
 look_before_pages(Checking *checking, const abacus_header *header)
 {
@@ -63,8 +63,13 @@ look_before_pages(Checking *checking, const abacus_header *header)
 	bool		has_attributes = header->apart || header->labels > 0 || header->marked > 0;
 	bool		found = page_table_next(table, has_attributes ? attributes_end : NULL, &row);
 
-	if (found && memcmp(row.key, header_key, sizeof(header_key)) == 0)
-		found = page_table_next(table, header_key, &row);
+	for (uint32 i = 0; i <= abacus_header_name_rows(header) && found; i++)
+	{
+		int64		key[PAGE_TABLE_KEYS] = {header_key[0], header_key[1] + i};
+
+		if (memcmp(row.key, key, sizeof(key)) == 0)
+			found = page_table_next(table, key, &row);
+	}
 	if (found && row.key[0] < 0)
 		note_fault(checking, "interval", row.key, "A row lies before the beginning of the curve.");
 }

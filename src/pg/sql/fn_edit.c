@@ -154,7 +154,7 @@ delete_query(Oid mesh, Source *source, Answers *answers, const char *command)
 	uint64		deleted;
 
 	/* id and coordinates say which points; attributes may follow, as in abacus_insert() */
-	*shape = *change->writer.header;
+	abacus_header_copy(shape, change->writer.header);
 	if (source_columns(source) == source_first_attribute(source, shape->dimension))
 		shape->attributes = 0;
 	change_read_gone(change, source, shape);

@@ -34,7 +34,7 @@ shape_of_rows(const Source *source, abacus_header *header, uint32 *labels)
 	int			first = 2 + (int) header->dimension;	/* behind code and vertices */
 	int			columns = source_columns(source);
 
-	*shape = *header;
+	abacus_header_copy(shape, header);
 	shape->attributes = shape->labels = 0;
 	if (columns <= first)
 		ereport(ERROR,

@@ -177,6 +177,12 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 			shape_attribute(header, source_column_name(&vertices, i));
 	for (int i = 0; i < label_count; i++)
 		shape_label(header, TextDatumGetCString(labels[i]));
+	if (split_nodes && header->attributes > ABACUS_MAX_PAGE_ATTRIBUTES)
+		ereport(ERROR,
+				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
+				 errmsg("a mesh with split nodes can have at most %u attributes",
+						ABACUS_MAX_PAGE_ATTRIBUTES),
+				 errhint("Name those that are needed, or keep the others in a table by id.")));
 	shape_domain(header, PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4),
 				 PG_ARGISNULL(5) ? NULL : PG_GETARG_ARRAYTYPE_P(5));
 

@@ -93,7 +93,7 @@ revise(const TriggerData *trigger, Transition *transition, Change *change)
 
 	for (uint32 i = 0; i < header->attributes; i++)
 		attributes[i] = i;
-	*shape = *header;
+	abacus_header_copy(shape, header);
 	shape->attributes = 2 * header->attributes;
 	change_open_stage(change, shape);
 	rows = transition_send_revisions(transition, to_stage, change);

@@ -25,7 +25,7 @@ shape_of_rows(const Source *source, const abacus_header *header, uint32 *attribu
 	int			first = source_first_attribute(source, header->dimension);
 	int			columns = source_columns(source);
 
-	*shape = *header;
+	abacus_header_copy(shape, header);
 	shape->attributes = 0;
 	if (columns <= first)
 		ereport(ERROR,

@@ -95,7 +95,7 @@ page_table_open(PageTable *table)
 	{
 		table->indexes = page_index_open_all(table->heap);
 		if (table->datum == NULL)
-			table->datum = palloc0(PAGE_TYPE_OVERHEAD + ABACUS_PAGE_BYTES);
+			table->datum = palloc0(PAGE_TYPE_OVERHEAD + ABACUS_MAX_PAGE_BYTES);
 	}
 	MemoryContextSwitchTo(old);
 }
@@ -193,7 +193,7 @@ page_table_get(PageTable *table, const int64 *key, StoredPage *page)
 
 	page_table_open(table);
 	page_table_see_own_changes(table);
-	/* used for the header row only: a scan of its own is not worth keeping */
+	/* used for the rows of the header only: a scan of its own is not worth keeping */
 	close_scan(&table->forward);
 	table->at_key = false;
 	for (int i = 0; i < PAGE_TABLE_KEYS; i++)

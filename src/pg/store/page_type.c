@@ -25,11 +25,11 @@ make_page(const void *bytes, size_t size)
 {
 	struct varlena *page;
 
-	if (size > ABACUS_PAGE_BYTES)
+	if (size > ABACUS_MAX_PAGE_BYTES)
 		ereport(ERROR,
 				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
 				 errmsg("value too long for type abacus_page"),
-				 errdetail("A page has at most %d bytes, not %zu.", ABACUS_PAGE_BYTES, size)));
+				 errdetail("A page has at most %d bytes, not %zu.", ABACUS_MAX_PAGE_BYTES, size)));
 	page = palloc0(PAGE_TYPE_OVERHEAD + size);
 	page_type_fill(page, bytes, size);
 	return PointerGetDatum(page);

@@ -27,7 +27,7 @@ stored_page_read(TupleTableSlot *slot, StoredPage *page)
 		return;
 	datum = (struct varlena *) DatumGetPointer(slot->tts_values[PAGE_TABLE_KEYS]);
 	if (VARATT_IS_4B_U(datum) && VARSIZE(datum) >= PAGE_TYPE_OVERHEAD &&
-		VARSIZE(datum) <= PAGE_TYPE_OVERHEAD + ABACUS_PAGE_BYTES && PointerIsAligned(datum, double))
+		VARSIZE(datum) <= PAGE_TYPE_OVERHEAD + ABACUS_MAX_PAGE_BYTES && PointerIsAligned(datum, double))
 	{
 		page->bytes = page_type_bytes(datum);
 		page->size = page_type_size(datum);
