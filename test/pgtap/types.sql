@@ -55,7 +55,7 @@ INSERT INTO wanted VALUES
     ('abacus_insert_returning', 'mesh regclass, query text, on_duplicate text DEFAULT ''keep''::text, OUT created boolean, OUT code bigint, OUT v0 bigint, OUT v1 bigint, OUT v2 bigint, OUT v3 bigint, OUT corners double precision[]', 'SETOF record', 'v', true, 'u'),
     ('abacus_delete_returning', 'mesh regclass, query text, OUT created boolean, OUT code bigint, OUT v0 bigint, OUT v1 bigint, OUT v2 bigint, OUT v3 bigint, OUT corners double precision[]', 'SETOF record', 'v', true, 'u'),
     ('abacus_update', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
-    ('abacus_load', 'mesh text, vertices text, simplices text, attributes text[] DEFAULT NULL::text[], lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], reorient boolean DEFAULT true, retriangulate boolean DEFAULT false, labels text[] DEFAULT NULL::text[], facets text DEFAULT NULL::text', 'bigint', 'v', false, 'u'),
+    ('abacus_load', 'mesh text, vertices text, simplices text, attributes text[] DEFAULT NULL::text[], lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], reorient boolean DEFAULT true, retriangulate boolean DEFAULT false, labels text[] DEFAULT NULL::text[], facets text DEFAULT NULL::text, split_nodes boolean DEFAULT false', 'bigint', 'v', false, 'u'),
     ('abacus_label', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_mark', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_facets', 'mesh regclass, INOUT marker integer DEFAULT NULL::integer, OUT v0 bigint, OUT v1 bigint, OUT v2 bigint, OUT corners double precision[]', 'SETOF record', 's', false, 's'),
