@@ -292,6 +292,7 @@ std::uint64_t Build<D>::update(Stage<D> &stage, std::span<const std::uint32_t> w
     std::uint64_t changed = 0;
     change(header, [&] {
         const std::uint64_t points = stage.points();
+        const bool come = has_waiting();
         insert_waiting(0);
         Revision revision(*this, which, exactly);
         abacus_header ordered = header; // which may have no domain, if it has no points
@@ -302,6 +303,10 @@ std::uint64_t Build<D>::update(Stage<D> &stage, std::span<const std::uint32_t> w
             missing.id = record_id(revision.missing()->data());
             const Point<D> p = record_point<D>(revision.missing()->data());
             std::copy(p.begin(), p.end(), missing.point);
+        }
+        if (stored_ != nullptr && !holds_ && !come) { // with the same simplices as before
+            core_->cache.flush();
+            stored_->clear();
         }
         return points;
     });

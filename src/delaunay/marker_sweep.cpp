@@ -7,8 +7,9 @@ namespace abacus {
 template <int D>
 MarkerSweep<D>::MarkerSweep(const Host &host, const abacus_header &header, const Domain<D> &domain,
                             std::size_t memory)
-    : domain_(domain), rows_(host, header, domain, D + 1, marker_group), spool_(host, D * D + 1),
-      room_(std::max(least_room, memory / sizeof(Marked))), marked_(host), found_(host) {}
+    : host_(host), domain_(domain), rows_(host, header, domain, D + 1, marker_group),
+      spool_(host, D * D + 1), room_(std::max(least_room, memory / sizeof(Marked))), marked_(host),
+      found_(host) {}
 
 template <int D>
 std::uint64_t MarkerSweep<D>::sweep(const Arena<StoredPages::Stretch> &stretches,
@@ -48,8 +49,10 @@ template <int D> bool MarkerSweep<D>::read_marked() {
         marked.key = attribute_key<D, D>(marked.facet, code_of<D, D>(domain_, marked.facet));
         marked_.push_back(marked);
     }
-    std::sort(marked_.begin(), marked_.end(),
-              [](const Marked &a, const Marked &b) { return a.key < b.key; });
+    std::sort(marked_.begin(), marked_.end(), [this](const Marked &a, const Marked &b) {
+        host_.poll(); // there may be millions
+        return a.key < b.key;
+    });
     return !marked_.empty();
 }
 

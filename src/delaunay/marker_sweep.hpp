@@ -73,6 +73,7 @@ private:
     /// Gives what has been found its markers; returns how many simplices had none.
     std::uint64_t mark_found();
 
+    const Host &host_;
     const Domain<D> domain_;
     LabelSweep<D> rows_;
     RecordSpool spool_;

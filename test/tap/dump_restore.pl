@@ -62,6 +62,13 @@ for my $mesh (@meshes)
 sub leaves { return $node->safe_psql($_[0], q{SELECT md5(string_agg(o::text, ',' ORDER BY code)) FROM abacus_octants('soil') AS o}); }
 my $leaves = leaves('origin');
 
+# Names of many attributes are in rows beside the header, and points that wait take rows of their own.
+my $values = join(', ', map { "i / $_.0::float8 AS a$_" } 1 .. 1000);
+$node->safe_psql('origin', "SELECT abacus_triangulate('many', 'SELECT i, i % 7, i / 7, $values FROM generate_series(1, 40) AS i'); SELECT abacus_stage('many', 'SELECT i, i, i, $values FROM generate_series(50, 55) AS i')");
+sub many { return $node->safe_psql($_[0], q{SELECT count(*), md5(string_agg(v::text, ',' ORDER BY id)), (SELECT md5(string_agg(name, ',' ORDER BY position)) FROM abacus_attributes('many')) FROM abacus_vertices('many') AS v}); }
+my $many = many('origin');
+like($many, qr/^46\|/, 'a mesh with 1,000 attributes');
+
 sub vertex_table { return $_[0] =~ s/("?)$/_vertices$1/r; }
 
 # The foreign table of its cells, or of its points.
@@ -115,6 +122,8 @@ sub examine
 	is(leaves($database), $leaves, "$what: an octree");
 	is($node->safe_psql($database, q{SELECT count(*) FROM abacus_check('soil')}), 0, "$what: which is sound");
 	$node->safe_psql($database, q{SELECT abacus_octree_balance('soil')});
+	is(many($database), $many, "$what: a mesh with 1,000 attributes");
+	is_sound($node, $database, 'many', "$what: a mesh with 1,000 attributes");
 	for my $mesh (@meshes)
 	{
 		is(grow($database, $mesh), $grown{$mesh}, "$what: $mesh grows as the origin does");
@@ -224,10 +233,12 @@ attribute_works('in_latin1');
 ($status, $out, $err) = $node->psql('in_latin1', q{SELECT abacus_create('long', 2, ARRAY[repeat(U&'\00f6', 32)])});
 like($err, qr/the name of an attribute is too long/, 'a name that is too long in UTF-8');
 is($node->safe_psql('in_latin1', q{SELECT abacus_create('fits', 2, ARRAY[repeat(U&'\00f6', 31)])}), 'fits', 'one that is not');
+is($node->safe_psql('in_latin1', q{SELECT abacus_create('many', 2, (SELECT array_agg(U&'\00f6' || i) FROM generate_series(1, 300) i))}), 'many', '300 of them');
 $node->command_ok([ 'pg_dump', '-Fc', '-d', $node->connstr('in_latin1'), '-f', "$folder/latin1" ], 'dumped in LATIN1');
 $node->command_ok([ 'pg_restore', '-e', '-d', $node->connstr('in_utf8'), "$folder/latin1" ], 'restored in UTF8');
 attribute_works('in_utf8');
 is($node->safe_psql('in_utf8', q{SELECT count(*) FROM abacus_check('heights')}), 0, 'sound there');
+is($node->safe_psql('in_utf8', q{SELECT count(*) FROM abacus_attributes('many') WHERE name = U&'\00f6' || position}), 300, 'and so are 300 names');
 
 # characters that the encoding of a database lacks: read there as escapes, and still stored
 sub characters_of

@@ -181,6 +181,25 @@ TYPED_TEST(Update, WritesOnlyPagesOfTheAttributesThatAreNamed) {
     EXPECT_LT(same, before.size());
 }
 
+TYPED_TEST(Update, LooksForNoLabels) {
+    // The simplices stay as they are, also where attributes are in their pages.
+    constexpr int D = TypeParam::value;
+    std::size_t found[2];
+    for (const bool labelled : {false, true}) {
+        Updated<D> world(false, 1 << 20, 1);
+        world.insert(world.fresh(2000, 0));
+        world.mesh.header.labels = world.mesh.header.labelled = labelled; // none is stored
+        const auto points = world.changes(1000, 1);
+        const std::size_t before = world.mesh.host.calls.find;
+        ASSERT_EQ(world.update(points, {0}), ABACUS_OK) << world.mesh.error.detail;
+        found[labelled] = world.mesh.host.calls.find - before;
+        world.mesh.header.labels = world.mesh.header.labelled = 0;
+        world.model.update(points, {0});
+        world.model.expect(world.mesh);
+    }
+    EXPECT_EQ(found[0], found[1]);
+}
+
 TYPED_TEST(Update, ReadsEqualPointsOnce) {
     constexpr int D = TypeParam::value;
     Updated<D> world(false, 1 << 20, 1);
