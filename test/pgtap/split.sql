@@ -101,9 +101,9 @@ SELECT set_eq($$ SELECT code, v0, v1, v2 FROM abacus_simplices('plane_again') $$
 SELECT throws_ok($$ SELECT abacus_insert('plane_split', 'SELECT 1, 2, 3, 4') $$, '55000', NULL, 'it cannot be changed');
 SELECT throws_ok($$ SELECT abacus_add_attribute('plane_split', 'more') $$, '55000', NULL, 'nor get attributes');
 SELECT throws_ok($$ SELECT abacus_voronoi('plane_split') $$, '55000', NULL, 'nor has it Voronoi cells');
--- A header that counts other split nodes than there are is damaged.
+-- A header that counts other split nodes than there are is damaged: the word before the name of the attribute.
 UPDATE plane_again SET page = abacus_page_from_bytea(set_byte(b, at, get_byte(b, at) - 1))
-FROM (SELECT abacus_page_to_bytea(page) AS b, length(abacus_page_to_bytea(page)) - 8 AS at FROM plane_again WHERE code < 0) AS h WHERE code < 0;
+FROM (SELECT abacus_page_to_bytea(page) AS b, length(abacus_page_to_bytea(page)) - 72 AS at FROM plane_again WHERE code < 0) AS h WHERE code < 0;
 SELECT isnt_empty($$ SELECT * FROM abacus_check('plane_again') $$, 'the count is checked');
 
 -- Few attributes and many.
