@@ -24,7 +24,8 @@ public:
 
     /// The vertex at p leaves.
     void leave_out(const Point<D> &p) {
-        std::array<std::uint64_t, record_words(D, ABACUS_MAX_ATTRIBUTES)> record{};
+        std::array<std::uint64_t, record_words(D, ABACUS_MAX_ATTRIBUTES)> record;
+        std::fill_n(record.data(), record_words(D, header_.attributes), 0);
         fill_record<D>(record.data(), 0, p, nullptr, 0);
         points_.add(record.data(), 1);
         last_ = p;

@@ -94,7 +94,7 @@ private:
         abacus_page page;
         std::uint64_t ticket; // for the place of a page that is put
         abacus_host_status answer;
-        alignas(8) unsigned char bytes[ABACUS_PAGE_BYTES];
+        alignas(8) unsigned char bytes[ABACUS_MAX_PAGE_BYTES];
     };
     static constexpr std::size_t most_requests = 16;
     /// A location with this bit is a ticket; the host's own have it not.

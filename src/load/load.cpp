@@ -30,6 +30,9 @@ Load<D>::Load(const Host &host, const abacus_header &header, std::size_t memory,
     if (header.staged > 0 || header.vertices > 0)
         throw Error(ABACUS_ERROR_STATE, "the mesh has points already", {},
                     "Load into an empty mesh.");
+    if (split_nodes && header.apart != 0)
+        throw Error(ABACUS_ERROR_ARGUMENT,
+                    "attributes that are apart are found by place, which split nodes share");
     if (header.has_domain != 0) domain_ = domain_of<D>(header);
     begin(vertices_, vertex_words_, 1);
     begin(corners_, 2, 2);

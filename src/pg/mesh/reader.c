@@ -24,7 +24,7 @@ Reader *
 reader_open_of(Oid mesh, uint32 type, MemoryContext memory)
 {
 	Relation	table = mesh_table_open(mesh, MESH_READ);
-	Reader	   *reader = MemoryContextAllocZero(memory, sizeof(Reader));
+	Reader	   *reader = MemoryContextAlloc(memory, sizeof(Reader));
 
 	reader->host = mesh_host_create(memory, mesh, MESH_READ);
 	mesh_pages(reader->host)->type = type;
