@@ -15,7 +15,7 @@ BEGIN
 END $$;
 
 COMMENT ON TYPE abacus_simplex_page IS
-    'row of a mesh: a page of simplices, keyed by the start of its interval of the curve; (-1, 0) is the header; where code is less, a page of attributes of vertices that are apart from the simplices, of labels of simplices or of markers of their facets';
+    'row of a mesh: a page of simplices, keyed by the start of its interval of the curve; (-1, 0) is the header, and those from (-1, 1) on have its names, if there are very many; where code is less, a page of attributes of vertices that are apart from the simplices, of labels of simplices or of markers of their facets';
 COMMENT ON COLUMN abacus_simplex_page.code IS
     'locational code, lower end of the page''s interval; of attributes their group and the code''s upper bits, less 2^63';
 COMMENT ON COLUMN abacus_simplex_page.part IS
