@@ -4,8 +4,8 @@
 #include "host/host.hpp"
 
 #include <abacus/header.h>
-#include <optional>
 #include <utility>
+#include <variant>
 
 namespace abacus {
 
@@ -15,10 +15,10 @@ public:
     ByDimension(const Host &host, const abacus_header &header, Args &&...args) {
         switch (header.dimension) {
         case 2:
-            flat_.emplace(host, header, std::forward<Args>(args)...);
+            any_.template emplace<1>(host, header, std::forward<Args>(args)...);
             break;
         case 3:
-            solid_.emplace(host, header, std::forward<Args>(args)...);
+            any_.template emplace<2>(host, header, std::forward<Args>(args)...);
             break;
         default:
             throw Error(ABACUS_ERROR_ARGUMENT, "a mesh has 2 or 3 dimensions");
@@ -26,23 +26,17 @@ public:
     }
 
     template <class Visit> decltype(auto) visit(Visit &&visit) {
-        return flat_ ? visit(*flat_) : visit(*solid_);
+        return any_.index() == 1 ? visit(std::get<1>(any_)) : visit(std::get<2>(any_));
     }
 
     template <class Visit> decltype(auto) visit(Visit &&visit) const {
-        return flat_ ? visit(*flat_) : visit(*solid_);
+        return any_.index() == 1 ? visit(std::get<1>(any_)) : visit(std::get<2>(any_));
     }
 
-    template <int D> T<D> &get() {
-        if constexpr (D == 2)
-            return flat_.value();
-        else
-            return solid_.value();
-    }
+    template <int D> T<D> &get() { return std::get<D - 1>(any_); }
 
 private:
-    std::optional<T<2>> flat_;
-    std::optional<T<3>> solid_;
+    std::variant<std::monostate, T<2>, T<3>> any_; // empty while it is made
 };
 
 } // namespace abacus
