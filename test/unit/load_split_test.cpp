@@ -151,26 +151,26 @@ TYPED_TEST_SUITE(LoadSplit, Dimensions);
 TYPED_TEST(LoadSplit, WhatIsGivenIsThereAndSound) {
     constexpr int D = TestFixture::D;
     for (const auto &t : meshes<D>())
-        for (const std::size_t memory : {tiny, ample})
-            for (const int attributes : {0, 1}) {
-                MeshOf<D> mesh(attributes, little);
-                mesh.split_nodes = true;
-                if (attributes > 0) mesh.host.set_threads(3, true);
-                ASSERT_EQ(mesh.load(t.vertices, t.simplices, memory), ABACUS_OK)
-                    << mesh.error.message << ' ' << mesh.error.detail;
-                EXPECT_NE(mesh.header.not_delaunay, 0u);
-                EXPECT_GT(mesh.header.split, 0u);
-                EXPECT_EQ(mesh.header.split, split(t));
-                EXPECT_EQ(mesh.header.vertices, t.vertices.size());
-                EXPECT_EQ(mesh.header.ghosts, boundary(t));
-                EXPECT_EQ(stored<D>(mesh), sorted<D>(t.simplices));
-                EXPECT_EQ(mesh.check(), std::vector<std::string>{});
-                EXPECT_TRUE(mesh.host.spools.empty());
-                EXPECT_EQ(mesh.host.bytes, 0u);
-                EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
-                --mesh.header.split;
-                EXPECT_NE(mesh.check(), std::vector<std::string>{});
-            }
+        for (const int attributes : {0, 1}) {
+            const std::size_t memory = attributes > 0 ? tiny : ample;
+            MeshOf<D> mesh(attributes, little);
+            mesh.split_nodes = true;
+            if (attributes > 0) mesh.host.set_threads(3, true);
+            ASSERT_EQ(mesh.load(t.vertices, t.simplices, memory), ABACUS_OK)
+                << mesh.error.message << ' ' << mesh.error.detail;
+            EXPECT_NE(mesh.header.not_delaunay, 0u);
+            EXPECT_GT(mesh.header.split, 0u);
+            EXPECT_EQ(mesh.header.split, split(t));
+            EXPECT_EQ(mesh.header.vertices, t.vertices.size());
+            EXPECT_EQ(mesh.header.ghosts, boundary(t));
+            EXPECT_EQ(stored<D>(mesh), sorted<D>(t.simplices));
+            EXPECT_EQ(mesh.check(), std::vector<std::string>{});
+            EXPECT_TRUE(mesh.host.spools.empty());
+            EXPECT_EQ(mesh.host.bytes, 0u);
+            EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
+            --mesh.header.split;
+            EXPECT_NE(mesh.check(), std::vector<std::string>{});
+        }
 }
 
 TYPED_TEST(LoadSplit, PagesDoNotDependOnTheOrderOfRows) {

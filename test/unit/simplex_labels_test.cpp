@@ -31,7 +31,7 @@ TYPED_TEST(SimplexLabels, SelectSimplicesByRange) {
     constexpr int D = TestFixture::D;
     for (const unsigned labels : {1u, 40u}) {
         LabelledMesh<D> mesh(labels);
-        mesh.load(some_triangulation<D>(D == 2 ? 6000 : 1500));
+        mesh.load(some_triangulation<D>(D == 2 ? 3000 : 800));
         mesh.expect_in_ranges();
         mesh.label({0, labels / 2}, 3);
         mesh.expect_in_ranges();
