@@ -121,7 +121,7 @@ window_label(FunctionCallInfo fcinfo, int first, const abacus_header *header, ab
 	if (!(ends[0] <= ends[1]))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("range must be two numbers, the greater one not before the other"),
+				 errmsg("range must be two numbers that do not descend"),
 				 errhint("Give -Infinity or Infinity for a range without an end.")));
 	range->least = ends[0];
 	range->greatest = ends[1];
