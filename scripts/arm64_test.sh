@@ -5,6 +5,7 @@
 #   arm64_test.sh [FILTER]      all unit tests, or those of a GoogleTest filter
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
+. scripts/suites.sh
 
 if [[ ${ABACUS_CHROOT:-} != arm64 ]]; then # not in there yet
     exec scripts/chroot.sh arm64 scripts/arm64_test.sh "$@"
@@ -23,4 +24,8 @@ cmake -S . -B build/arm64 -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aar
     -DCMAKE_LIBRARY_ARCHITECTURE=aarch64-linux-gnu -DABACUS_BENCH=OFF -DCMAKE_CXX_FLAGS=-Wno-psabi \
     -DCMAKE_CROSSCOMPILING_EMULATOR=qemu-aarch64 >/dev/null
 cmake --build build/arm64 -j "$ABACUS_JOBS" --target abacus_unit_tests
-qemu-aarch64 build/arm64/test/abacus_unit_tests --gtest_filter="${1:-*}" --gtest_brief=1
+if (($#)); then
+    qemu-aarch64 build/arm64/test/abacus_unit_tests --gtest_filter="$1" --gtest_brief=1
+else
+    unit_tests build/arm64
+fi

@@ -35,7 +35,6 @@ declare -A command=(
     [build]=build_release
     [build-sanitized]="build_with_clang build/sanitize -DABACUS_SANITIZE=ON"
     [build-threads]="build_with_clang build/threads -DABACUS_SANITIZE_THREADS=ON"
-    [build-fuzz]="build_with_clang build/fuzz -DABACUS_FUZZ=ON"
     [tidy]=tidy_core
     [unit]="unit_tests build/release"
     [unit-sanitized]="unit_tests build/sanitize"
@@ -59,14 +58,14 @@ declare -A command=(
 # The order. The second line runs beside the first, since servers mostly wait, and few of
 # its suites use more than one processor.
 first_builds=(format layout build-extension build)
-first_line=(build-sanitized build-threads build-fuzz tidy unit unit-sanitized unit-threads fuzz)
+first_line=(build-sanitized build-threads tidy unit unit-sanitized unit-threads fuzz)
 second_line=(regress pgtap docs oracles viewer tap acceptance acceptance-goose model reports bench evaluation)
 # Then, beside each other.
 other_versions=(postgresql-17 postgresql-18)
 # These take long, or load much: only where they are named.
 not_in_all=(tidy "${other_versions[@]}")
 # The builds that a suite needs.
-declare -A needs=([unit]=build [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-fuzz)
+declare -A needs=([unit]=build [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-sanitized)
 for name in build regress pgtap docs oracles viewer tap; do needs[$name]=build-extension; done
 for name in acceptance acceptance-goose model bench evaluation "${other_versions[@]}"; do needs[$name]=build; done
 if [[ -n ${ABACUS_SHORT:-} ]]; then needs[acceptance]=build-extension; fi # the oracle was brought
@@ -130,9 +129,7 @@ summary() {
         tail -n 1
 }
 
-# build_with_clang FOLDER OPTION: clang takes half of gcc's time for this. Sanitized tests and
-# fuzz targets are compiled apart, since what the fuzzer needs would make all tests take twice
-# their time.
+# build_with_clang FOLDER OPTION: clang takes half of gcc's time for this.
 build_with_clang() {
     CC=clang CXX=clang++ cmake -S . -B "$1" "$2" -DABACUS_WERROR=ON >/dev/null &&
         cmake --build "$1" -j "$ABACUS_JOBS"
@@ -162,7 +159,7 @@ fuzz_target() {
     local folders=("build/fuzz/corpus/$1")
     mkdir -p "${folders[0]}"
     if [[ -d test/fuzz/corpus/$1 ]]; then folders+=("test/fuzz/corpus/$1"); fi
-    "build/fuzz/test/$1" -max_total_time="$2" -artifact_prefix=build/fuzz/ -print_final_stats=1 \
+    "build/sanitize/test/$1" -max_total_time="$2" -artifact_prefix=build/fuzz/ -print_final_stats=1 \
         -verbosity=1 "${folders[@]}"
 }
 

@@ -172,7 +172,7 @@ TYPED_TEST(Markers, AreGivenAndTakenAway) {
     constexpr int D = TestFixture::D;
     for (const bool is_delaunay : {true, false}) {
         MarkedMesh<D> mesh;
-        auto t = uniform<D>(1500);
+        auto t = uniform<D>(D == 2 ? 1500 : 300);
         if (!is_delaunay)
             t = keeping(t, [](const Point<D> &c) { return std::abs(c[0] - 0.5) > 0.1; });
         mesh.load(t);
@@ -236,7 +236,7 @@ TYPED_TEST(Markers, StayAsLongAsTheirFacets) {
     constexpr int D = TestFixture::D;
     for (const unsigned threads : {1u, 3u}) {
         MarkedMesh<D> mesh(300 << 10);
-        mesh.load(uniform<D>(D == 2 ? 6000 : 1500));
+        mesh.load(uniform<D>(D == 2 ? 3000 : 800));
         mesh.mark(2, 1);
         mesh.mesh.host.set_threads(threads, threads > 1);
         for (const int n : {1, 30, 700}) {

@@ -132,9 +132,9 @@ TEST(LoadComplex, OfTriangles) {
 }
 
 TEST(LoadComplex, OfTetrahedra) {
-    compare<3>(4000 / scale, 7, 3, 2, 53);
-    compare<3>(3000 / scale, 8, 4, 3, 54);
-    compare<3>(2000 / scale, 12, 5, 3, 55);
+    compare<3>(2000 / scale, 7, 3, 2, 53);
+    compare<3>(1500 / scale, 8, 4, 3, 54);
+    compare<3>(1000 / scale, 12, 5, 3, 55);
 }
 
 } // namespace

@@ -93,7 +93,7 @@ template <int D> std::vector<Triangulation<D>> meshes() {
     // Along any facets of points at random.
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> unit(0, 1);
-    std::vector<Point<D>> points(D == 2 ? 600 : 300);
+    std::vector<Point<D>> points(D == 2 ? 400 : 150);
     for (auto &p : points)
         for (double &x : p) x = unit(random);
     result.push_back(cut<D>(delaunay<D>(points), [](const auto &p) {

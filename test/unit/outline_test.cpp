@@ -3,6 +3,7 @@
 #include "geometry/circumradius.hpp"
 #include "geometry/distance.hpp"
 #include "support/point_sets.hpp"
+#include "support/sanitized.hpp"
 #include "support/triangulations.hpp"
 
 #include <CGAL/Alpha_shape_2.h>
@@ -122,7 +123,7 @@ template <int D> void expect_outlines(MeshOf<D> &mesh, std::initializer_list<dou
 }
 
 template <int D> void expect_outlines_of_sets() {
-    constexpr std::size_t most = D == 2 ? 400 : 120;
+    constexpr std::size_t most = D == 2 ? 300 : sanitized ? 30 : 60;
     Random random(2);
     for (const PointSet<D> &set : point_sets<D>()) {
         SCOPED_TRACE(set.name);

@@ -56,8 +56,8 @@ template <int D> void insert_and_remove(int grid, int steps, int verified_every)
     }
     EXPECT_GT(mesh.cache.counters.evictions, 0u);
 }
-TEST(RemovalInTurns, InThePlane) { insert_and_remove<2>(40, 20000 / scale, 100); }
-TEST(RemovalInTurns, InSpace) { insert_and_remove<3>(12, 12000 / scale, 200); }
+TEST(RemovalInTurns, InThePlane) { insert_and_remove<2>(40, 8000 / scale, 100); }
+TEST(RemovalInTurns, InSpace) { insert_and_remove<3>(12, 5000 / scale, 200); }
 
 // ---- Very many neighbours -----------------------------------------------------------
 
@@ -80,17 +80,17 @@ template <int D> void remove_hub(const std::vector<Point<D>> &points, const Poin
 
 TEST(RemovalOfAHub, CentreOfACircle) {
     std::vector<Point<2>> points;
-    for (int i = 0; i < 100000 / scale; ++i) {
-        const double angle = 6.283185307179586 * i * scale / 100000;
+    for (int i = 0; i < 50000 / scale; ++i) {
+        const double angle = 6.283185307179586 * i * scale / 50000;
         points.push_back({std::cos(angle), std::sin(angle)});
     }
     remove_hub<2>(points, {0.001, 0.002});
 }
 TEST(RemovalOfAHub, ApexOverALineWithPointsOnTheOtherSide) {
     std::vector<Point<2>> points;
-    for (int i = 0; i < 100000 / scale; ++i) points.push_back({i + 0.0, 0});
+    for (int i = 0; i < 50000 / scale; ++i) points.push_back({i + 0.0, 0});
     points.push_back({7, -100});
-    remove_hub<2>(points, {50000.0 / scale, 1e9});
+    remove_hub<2>(points, {25000.0 / scale, 1e9});
 }
 TEST(RemovalOfAHub, CentreOfASphere) {
     Random random(1);
@@ -103,14 +103,14 @@ TEST(RemovalOfAHub, CentreOfASphere) {
     remove_hub<3>(points, {0.001, 0.002, -0.001});
 }
 TEST(RemovalOfAHub, ApexOverAGridWithAPointBelow) {
-    constexpr int side = 200 / (scale > 1 ? 4 : 1);
+    constexpr int side = 120 / (scale > 1 ? 4 : 1);
     std::vector<Point<3>> points;
     for (int i = 0; i < side * side; ++i) points.push_back({i % side + 0.0, i / side + 0.0, 0});
     points.push_back({side / 2.0, side / 3.0, -5});
     remove_hub<3>(points, {side / 2.0, side / 2.0, 1e6});
 }
 TEST(RemovalOfAHub, ApexOverABumpyGrid) {
-    constexpr int side = 150 / (scale > 1 ? 4 : 1);
+    constexpr int side = 80 / (scale > 1 ? 4 : 1);
     std::vector<Point<3>> points;
     for (int i = 0; i < side * side; ++i) {
         const double x = i % side, y = i / side;
@@ -239,7 +239,7 @@ TEST(Removal, FindsNothingInAnEmptyMesh) {
 
 template <int D> void rename_all() {
     Random random(5);
-    std::vector<Point<D>> points(6000 / scale);
+    std::vector<Point<D>> points((D == 2 ? 6000 : 2500) / scale);
     for (auto &p : points)
         for (double &x : p) x = unit(random);
     MeshInChange<D> mesh(cube<D>(0, 1), little, 1);

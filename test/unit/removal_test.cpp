@@ -10,8 +10,8 @@ namespace {
 // A cache of three blocks or so: everything is evicted and loaded again all the time.
 constexpr std::size_t little = 60 << 10;
 
-// Inputs that take long under a sanitizer are smaller there.
-constexpr std::size_t scale = sanitized ? 10 : 1;
+// Of each input, a part.
+constexpr std::size_t scale = sanitized ? 10 : 2;
 
 template <int D> void remove_all(std::vector<Point<D>> points, std::size_t cache_bytes) {
     MeshInChange<D> mesh(box_around<D>(points), cache_bytes);

@@ -131,9 +131,9 @@ TYPED_TEST(SimplexLabels, StayAndGoWithTheirSimplices) {
     for (const unsigned threads : {1u, 3u})
         for (const unsigned labels : {2u, 40u}) {
             LabelledMesh<D> mesh(labels, 300 << 10);
-            mesh.load(some_triangulation<D>(D == 2 ? 6000 : 1500));
+            mesh.load(some_triangulation<D>(D == 2 ? 3000 : 700));
             mesh.mesh.host.set_threads(threads, threads > 1);
-            for (const int n : {1, 30, 700}) {
+            for (const int n : {1, 30, 300}) {
                 const auto points = more_points<D>(n, 1, 100000 + n);
                 ASSERT_EQ(mesh.mesh.insert(points), ABACUS_OK) << mesh.mesh.error.message;
                 mesh.expect_followed();
@@ -153,10 +153,10 @@ TYPED_TEST(SimplexLabels, AreInherited) {
     for (const unsigned threads : {1u, 3u})
         for (const unsigned labels : {2u, 40u}) {
             LabelledMesh<D> mesh(labels, 300 << 10);
-            mesh.load(some_triangulation<D>(D == 2 ? 1500 : 400));
+            mesh.load(some_triangulation<D>(D == 2 ? 800 : 200));
             mesh.mesh.header.inherits = 1;
             mesh.mesh.host.set_threads(threads, threads > 1);
-            for (const int n : {1, 30, 300}) {
+            for (const int n : {1, 30, 100}) {
                 const auto points = more_points<D>(n, 1.1, 100000 + n); // some are outside
                 auto before = mesh.all_labelled();
                 ASSERT_EQ(mesh.mesh.insert(points), ABACUS_OK) << mesh.mesh.error.message;
@@ -216,7 +216,7 @@ TYPED_TEST(SimplexLabels, AreGivenLater) {
     constexpr int D = TestFixture::D;
     for (const bool is_delaunay : {true, false}) {
         LabelledMesh<D> mesh(0);
-        auto t = some_triangulation<D>(1500);
+        auto t = some_triangulation<D>(D == 2 ? 1500 : 500);
         if (!is_delaunay) flip(t, 200, 3);
         mesh.load(t);
         mesh.label({0}, 1);

@@ -62,7 +62,8 @@ using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_
 TYPED_TEST_SUITE(ThreadsRemoval, Dimensions);
 
 TYPED_TEST(ThreadsRemoval, GivesTheMeshOfThePointsLeft) {
-    for (const std::size_t cache : {little, ample}) this->come_and_go(this->uniform(1000), cache);
+    const auto points = this->uniform(TypeParam::value == 2 ? 700 : 300);
+    for (const std::size_t cache : {little, ample}) this->come_and_go(points, cache);
 }
 
 TYPED_TEST(ThreadsRemoval, TakesHardInput) {
@@ -71,7 +72,7 @@ TYPED_TEST(ThreadsRemoval, TakesHardInput) {
         SCOPED_TRACE(set.name);
         auto points = set.points(this->random);
         std::shuffle(points.begin(), points.end(), this->random);
-        points.resize(std::min<std::size_t>(points.size(), sanitized ? 100 : 250));
+        points.resize(std::min<std::size_t>(points.size(), sanitized ? 60 : 150));
         this->come_and_go(points, little, {2, 7});
         if (this->HasFatalFailure()) return;
     }
@@ -80,9 +81,9 @@ TYPED_TEST(ThreadsRemoval, TakesHardInput) {
 TYPED_TEST(ThreadsRemoval, TakesTheRightOnesOfEqualPoints) {
     // Wanted by their ids, by others, more often than there are, and where there are none.
     constexpr int D = TypeParam::value;
-    std::vector<Point<D>> points(2000);
+    std::vector<Point<D>> points(1000);
     for (auto &p : points)
-        for (double &x : p) x = double(this->random() % (D == 2 ? 40 : 12));
+        for (double &x : p) x = double(this->random() % (D == 2 ? 28 : 9));
     const auto all = this->with_ids(points);
     for (const unsigned threads : {2, 4, 7}) {
         MeshOf<D> mesh(1, little);

@@ -11,8 +11,8 @@ TYPED_TEST_SUITE(ThreadsReturning, Dimensions);
 
 TYPED_TEST(ThreadsReturning, IsTheDifferenceOfBeforeAndAfter) {
     constexpr int D = TypeParam::value;
-    const auto points = this->with_ids(this->uniform(2000)),
-               more = this->with_ids(this->uniform(700));
+    const auto points = this->with_ids(this->uniform(1000)),
+               more = this->with_ids(this->uniform(300));
     auto others = points; // at the same places
     others.resize(50);
     for (auto &p : others) p.id = this->next_id++;

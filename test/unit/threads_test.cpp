@@ -42,14 +42,14 @@ TYPED_TEST_SUITE(Threads, Dimensions);
 
 TYPED_TEST(Threads, GiveTheSameMeshOfUniformPoints) {
     for (const std::size_t cache : {little, ample})
-        this->expect_same({this->with_ids(this->uniform(2500)), this->with_ids(this->uniform(1)),
-                           this->with_ids(this->uniform(700))},
+        this->expect_same({this->with_ids(this->uniform(1200)), this->with_ids(this->uniform(1)),
+                           this->with_ids(this->uniform(400))},
                           cache);
 }
 
 TYPED_TEST(Threads, GiveTheMeshOfCgal) {
     constexpr int D = TypeParam::value;
-    const auto points = this->uniform(3000);
+    const auto points = this->uniform(2000);
     MeshOf<D> mesh(1);
     mesh.host.set_threads(4, true);
     ASSERT_EQ(mesh.insert(this->with_ids(points)), ABACUS_OK);
