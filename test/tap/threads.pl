@@ -21,24 +21,25 @@ my $before = $node->safe_psql('postgres', "SELECT count(*), sum(v0) FROM abacus_
 my $insertion = "SELECT abacus_insert('field', 'SELECT id + 1000000, x + 0.3, y + 0.3 FROM points')";
 my $deletion = "SELECT abacus_delete('field', 'TABLE points')";
 
-# Starts a change in a session of its own; returns that, and its process once it has threads.
+# Starts a change in a session of its own; returns that, and its process once it has threads. It does
+# not commit: a change that is over before it is stopped leaves the mesh as it was, too.
 sub begin_change
 {
 	my ($change) = @_;
 	my ($out, $err) = ('', '');
 	my $session = IPC::Run::start(
-		[ 'psql', '-X', '-d', $node->connstr('postgres'), '-c', 'SET abacus.threads = 3', '-c',
-			'SET abacus.tiny_intervals = on', '-c', "SET application_name = 'threads'", '-c',
+		[ 'psql', '-XAtq', '-d', $node->connstr('postgres'), '-c', 'SET abacus.threads = 3', '-c',
+			'SET abacus.tiny_intervals = on', '-c', 'SELECT pg_backend_pid()', '-c', 'BEGIN', '-c',
 			$change ],
 		'>', \$out, '2>', \$err);
+	$session->pump until $out =~ /(\d+)/;
+	my $pid = $1;
 	my $deadline = time() + 120;
-	while (time() < $deadline)
+	while (time() < $deadline && -e "/proc/$pid")
 	{
-		my $pid = $node->safe_psql('postgres',
-			"SELECT pid FROM pg_stat_activity WHERE application_name = 'threads' AND state = 'active'");
-		my @tasks = $pid ? glob("/proc/$pid/task/*") : ();
+		my @tasks = glob("/proc/$pid/task/*");
 		return ($session, $pid) if @tasks > 2;
-		sleep 0.01;
+		sleep 0.001;
 	}
 	die 'no threads were started';
 }
@@ -70,6 +71,7 @@ foreach my $case (map { [ $_, $insertion ], [ $_, $deletion ] } ('cancel', 'term
 	$session->finish;
 	cmp_ok(time() - $began, '<', 20, "$way: the session ends soon");
 	wait_for_server();
+	sleep 0.01 while -e "/proc/$pid" && time() - $began < 20; # psql ends before it
 	is(-e "/proc/$pid" ? 1 : 0, 0, "$way: its process has gone");
 	is($node->safe_psql('postgres', "SELECT count(*), sum(v0) FROM abacus_simplices('field')"), $before, "$way: the mesh is as it was");
 	is($node->safe_psql('postgres', "SELECT count(*) FROM abacus_check('field')"), 0, "$way: and sound");
