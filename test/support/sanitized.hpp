@@ -1,4 +1,4 @@
-// Whether this is the build with sanitizers, where inputs that take long are smaller.
+// Whether this is a build with sanitizers, where inputs that take long are smaller.
 #pragma once
 
 namespace abacus::test {
