@@ -65,7 +65,7 @@ other_versions=(postgresql-17 postgresql-18)
 # These take long, or load much: only where they are named.
 not_in_all=(tidy "${other_versions[@]}")
 # The builds that a suite needs.
-declare -A needs=([unit]=build [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-sanitized)
+declare -A needs=([unit]=build [build-sanitized]=build [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-sanitized)
 for name in build regress pgtap docs oracles viewer tap; do needs[$name]=build-extension; done
 for name in acceptance acceptance-goose model bench evaluation "${other_versions[@]}"; do needs[$name]=build; done
 if [[ -n ${ABACUS_SHORT:-} ]]; then needs[acceptance]=build-extension; fi # the oracle was brought
@@ -225,6 +225,7 @@ export ABACUS_BUILT=1 # tells the scripts below that all is built and installed
 export ABACUS_CORE_OBJECTS=$ABACUS_BUILD/extension # what is tested is what is installed
 for name in "${first_builds[@]}"; do suite "$name"; done
 unset ABACUS_CORE_OBJECTS
+export ABACUS_TEST_OBJECTS=$ABACUS_BUILD/release/test/CMakeFiles/abacus_unit_tests.dir # for the sanitized core
 if ((${#second_line[@]})); then second_begin; fi
 for name in "${first_line[@]}"; do suite "$name"; done
 if ((${#second_line[@]})); then second_end; fi

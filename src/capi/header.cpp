@@ -57,9 +57,9 @@ private:
     unsigned char *begin_, *at_;
 };
 
-class Reader {
+class HeaderReader {
 public:
-    Reader(const unsigned char *bytes, std::size_t size) : at_(bytes), end_(bytes + size) {}
+    HeaderReader(const unsigned char *bytes, std::size_t size) : at_(bytes), end_(bytes + size) {}
 
     void operator()(std::uint64_t &value) {
         const unsigned char *from = take(8);
@@ -147,7 +147,7 @@ void check_counts(const abacus_header &header) {
         throw_corrupted("The header's counts of simplices contradict its count of vertices.");
 }
 
-void read_names(Reader &read, unsigned begin, unsigned end, abacus_header &header) {
+void read_names(HeaderReader &read, unsigned begin, unsigned end, abacus_header &header) {
     for (unsigned i = begin; i < end; ++i) {
         const char *name = read.text(ABACUS_NAME_BYTES);
         const std::size_t length = strnlen(name, ABACUS_NAME_BYTES);
@@ -162,7 +162,7 @@ void read_names(Reader &read, unsigned begin, unsigned end, abacus_header &heade
 }
 
 /// A mesh without SRID has no word for it.
-void read_srid(Reader &read, abacus_header &header) {
+void read_srid(HeaderReader &read, abacus_header &header) {
     if (read.left() == 0) return;
     read(header.srid);
     if (header.srid == 0 || header.srid > ABACUS_MAX_SRID)
@@ -212,7 +212,7 @@ void check_split(const abacus_header &header) {
 }
 
 /// Labels of simplices, markers of facets, vertices that share their places; then names.
-void read_labels(Reader &read, bool extended, abacus_header &header) {
+void read_labels(HeaderReader &read, bool extended, abacus_header &header) {
     visit_label_fields(header, read);
     if (extended) read(header.split);
     if (header.srid > ABACUS_MAX_SRID) throw_corrupted("The header's SRID is out of range.");
@@ -271,7 +271,7 @@ void check_format(std::uint64_t found) {
 }
 
 void decode(const unsigned char *bytes, std::size_t size, abacus_header &header) {
-    Reader read(bytes, size);
+    HeaderReader read(bytes, size);
     std::uint64_t found;
     read(found);
     const bool is_octree = has_name(found, octree_name);
@@ -374,7 +374,7 @@ abacus_status abacus_header_decode_names(const unsigned char *bytes, size_t size
         const unsigned begin = first_name(*header, row), end = first_name(*header, row + 1);
         if (size != (end - begin) * std::size_t{ABACUS_NAME_BYTES})
             throw_corrupted("A row of names is missing or does not have the size of its names.");
-        Reader read(bytes, size);
+        HeaderReader read(bytes, size);
         read_names(read, begin, end, *header);
         return ABACUS_OK;
     });

@@ -36,7 +36,8 @@ protected:
         inside_.push_back(h);
         if (inside_.size() % 4096 == 0) {
             cache_.poll();
-            if (inside_.size() > cache_.cached_blocks() * std::size_t(block_slots<D>)) refuse();
+            if (inside_.size() > cache_.cached_blocks() * std::size_t(block_slots<D>))
+                throw_no_triangulation();
         }
     }
     /// Destroys them; returns how many were ghosts.
@@ -44,7 +45,7 @@ protected:
         std::int64_t ghosts = 0;
         for (const Handle h : inside_) {
             // The search can come back only where the triangulation is not Delaunay.
-            if (cache_.simplex(h).is_free()) refuse();
+            if (cache_.simplex(h).is_free()) throw_no_triangulation();
             ghosts += cache_.simplex(h).is_ghost();
             if (mesh_.log != nullptr) mesh_.log->go(cache_, h);
             cache_.destroy(h);
@@ -56,9 +57,6 @@ protected:
     void log_created(const Arena<Handle> &created, std::size_t n) {
         if (mesh_.log == nullptr) return;
         for (std::size_t i = 0; i < n; ++i) mesh_.log->come(cache_, created[i]);
-    }
-    [[noreturn]] static void refuse() {
-        throw_corrupted("The simplices around a point are not a triangulation.");
     }
 
     Delaunay<D> &mesh_;

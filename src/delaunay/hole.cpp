@@ -9,10 +9,6 @@ namespace abacus {
 
 namespace {
 
-[[noreturn]] void throw_no_triangulation() {
-    throw_corrupted("The simplices around a point are not a triangulation.");
-}
-
 /// The point at infinity in the place of a corner, and brought to the end of the simplex
 /// by two exchanges, which keep the orientation.
 template <int D>

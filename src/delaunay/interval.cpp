@@ -11,7 +11,7 @@
 namespace abacus {
 
 namespace {
-constexpr std::size_t report_every = 256;   // points
+constexpr std::size_t poll_every = 256;     // points
 constexpr std::uint64_t told_effort = 1024; // of removals: others are told then
 } // namespace
 
@@ -52,7 +52,7 @@ void Interval<D>::each(std::size_t from, std::size_t to, std::atomic<std::uint64
     std::size_t reported = from;
     within([&] {
         for (std::size_t i = from; i < to; i = change(i)) {
-            if (i - reported < report_every) continue;
+            if (i - reported < poll_every) continue;
             host_.poll();
             done.fetch_add(i - reported, std::memory_order_relaxed);
             reported = i;

@@ -10,11 +10,7 @@ namespace abacus {
 namespace {
 
 /// With fewer neighbours their order does not matter.
-constexpr std::size_t few = 24;
-
-[[noreturn]] void throw_no_triangulation() {
-    throw_corrupted("The simplices around a point are not a triangulation.");
-}
+constexpr std::size_t few_neighbours = 24;
 
 /// Half of all numbers are in round 0, the last one, a fourth in round -1, and so on.
 int round_of(std::uint64_t n) {
@@ -59,7 +55,7 @@ void LinkMesh<D>::list(const Cache<D> &cache, const Star<D> &star, const Vertice
     }
     const std::size_t n = names_.size();
     most_ = std::min(n * n, std::size_t{1} << 29);
-    if (n < few) return;
+    if (n < few_neighbours) return;
     std::sort(order_.begin(), order_.end(), [](const Place &a, const Place &b) {
         return a.round != b.round ? a.round < b.round : a.code < b.code;
     });

@@ -60,8 +60,7 @@ public:
         const Entry &entry = table_[slot(vertices)];
         if (entry.epoch == epoch_) {
             Facet &facet = facets_[entry.facet];
-            if (!facet.open || facet.vertices.odd != vertices.odd)
-                throw_corrupted("The simplices around a point are not a triangulation.");
+            if (!facet.open || facet.vertices.odd != vertices.odd) throw_no_triangulation();
             facet.open = false;
             --open_;
             cache.connect(make_link(h, i), facet.rim.outer);

@@ -37,14 +37,14 @@ class Ridges {
         void add(std::uint32_t a, std::uint32_t b, Link link) const {
             Entry &entry = find_(a, b);
             if ((entry ^ epoch_) >> 32 == 0) [[unlikely]]
-                refuse();
+                throw_no_triangulation();
             entry = epoch_ | to_bits(link);
         }
         /// What lies on the other side; throws when there is nothing.
         Link across(std::uint32_t a, std::uint32_t b) const {
             const Entry entry = find_(b, a);
             if ((entry ^ epoch_) >> 32 != 0) [[unlikely]]
-                refuse();
+                throw_no_triangulation();
             return Link{static_cast<std::uint32_t>(entry)};
         }
 
@@ -92,9 +92,6 @@ public:
 private:
     static constexpr std::uint32_t numbers = 64;
 
-    [[noreturn]] static void refuse() {
-        throw_corrupted("The simplices around a point are not a triangulation.");
-    }
     void forget() {
         std::fill(table_.begin(), table_.end(), Entry{});
         std::fill(hashed_.begin(), hashed_.end(), Hashed{});

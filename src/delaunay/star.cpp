@@ -14,14 +14,14 @@ template <int D> void Star<D>::collect(Handle h, int corner) {
         turn_around(h, corner);
     else
         search_around(h);
-    if (link_.size() <= D) throw_corrupted("The simplices around a point are not a triangulation.");
+    if (link_.size() <= D) throw_no_triangulation();
 }
 
 template <int D> void Star<D>::add(Handle h, int corner) {
     const Link outer = cache_.cross(h, corner);
     const Simplex<D> &s = cache_.simplex(h);
     if (cache_.simplex(link_simplex(outer)).vertex[link_facet(outer)] == vertex_)
-        throw_corrupted("The simplices around a point are not a triangulation.");
+        throw_no_triangulation();
     simplices_.push_back(h);
     rim_.push_back({outer, corner, s.vertex});
     ghosts_ += s.is_ghost();

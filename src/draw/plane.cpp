@@ -104,14 +104,14 @@ bool Plane::misses(const Point<3> &lower, const Point<3> &upper) const {
     return height(lowest) > slack || height(highest) < -slack;
 }
 
-Window Plane::window(const Point<3> &lower, const Point<3> &upper) const {
+SheetWindow Plane::window(const Point<3> &lower, const Point<3> &upper) const {
     for (int i = 0; i < 3; ++i)
         if (!std::isfinite(lower[i]) || !std::isfinite(upper[i])) refuse("window is not finite");
     Place corner[8];
     for (int i = 0; i < 8; ++i)
         corner[i] = place({i & 1 ? upper[0] : lower[0], i & 2 ? upper[1] : lower[1],
                            i & 4 ? upper[2] : lower[2]});
-    Window window;
+    SheetWindow window;
     for (int axis = 0; axis < 2; ++axis) {
         double &low = window.lower[axis] = std::numeric_limits<double>::infinity();
         double &high = window.upper[axis] = -low;

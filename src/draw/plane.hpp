@@ -24,7 +24,7 @@ struct Place {
 };
 
 /// A rectangle of the sheet.
-struct Window {
+struct SheetWindow {
     double lower[2], upper[2];
 };
 
@@ -45,7 +45,7 @@ public:
     bool misses(const Point<3> &lower, const Point<3> &upper) const;
     /// The rectangle of the sheet that just holds its part within the box. Throws an
     /// Error (argument) if there is no such part.
-    Window window(const Point<3> &lower, const Point<3> &upper) const;
+    SheetWindow window(const Point<3> &lower, const Point<3> &upper) const;
 
 private:
     double height(const Point<3> &p) const;

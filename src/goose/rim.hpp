@@ -34,8 +34,7 @@ public:
         for (std::size_t i = 0; i < facets_.size();) {
             std::size_t next = i + 1;
             while (next < facets_.size() && facets_[next].number == facets_[i].number) ++next;
-            if (next - i > 2)
-                throw_corrupted("The simplices around a point are not a triangulation.");
+            if (next - i > 2) throw_no_triangulation();
             if (next - i == 1) facets_[kept++] = facets_[i];
             i = next;
         }

@@ -42,8 +42,8 @@ template <int D> void Load<D>::leave_out_split_facets() {
     while (const Word *record = boundary_->next()) write_side<D>(layout_, record, sides.add());
     sides.finish();
     begin(outer_, layout_.boundary, 2);
-    Arena<Word> first(host_);
-    first.resize(head_words<D> + layout_.boundary);
+    Arena<Word> of_first(host_);
+    Word *const first = of_first.extend(head_words<D> + layout_.boundary);
     std::uint64_t n = 0; // at the place of the first
     const auto facet_of = [&](const Word *side) {
         std::array<Word, D> ids;
@@ -54,21 +54,21 @@ template <int D> void Load<D>::leave_out_split_facets() {
         return sorted_name(facet_of(side), layout_.behind(side + head_words<D>)[2]);
     };
     const auto end_place = [&] {
-        if (n == 1) std::copy_n(first.data() + head_words<D>, layout_.boundary, outer_->add());
+        if (n == 1) std::copy_n(first + head_words<D>, layout_.boundary, outer_->add());
     };
     while (const Word *side = sides.next()) {
-        const bool is_same = n > 0 && std::equal(side, side + place_words<D>, first.data());
+        const bool is_same = n > 0 && std::equal(side, side + place_words<D>, first);
         if (!is_same) {
             end_place();
             n = 0;
         } else if (side[place_words<D>] == first[place_words<D>]) {
-            faults_.add(names_of(simplex_of(first.data()), simplex_of(side)) + " overlap",
+            faults_.add(names_of(simplex_of(first), simplex_of(side)) + " overlap",
                         "They lie on the same side of their facets " +
-                            sorted_name(facet_of(first.data())) + " and " +
-                            sorted_name(facet_of(side)) + ", which are at one place.",
+                            sorted_name(facet_of(first)) + " and " + sorted_name(facet_of(side)) +
+                            ", which are at one place.",
                         "A fault has two sides, and on each one simplex at most at a place.");
         }
-        std::copy_n(side, first.size(), first.data());
+        std::copy_n(side, of_first.size(), first);
         ++n;
     }
     end_place();

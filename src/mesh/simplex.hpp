@@ -12,6 +12,7 @@
 #pragma once
 
 #include "blocks/block.hpp"
+#include "host/error.hpp"
 
 #include <array>
 #include <cstdint>
@@ -113,5 +114,10 @@ template <int D, class Index> struct FacetVertices {
             }
     }
 };
+
+/// Stored simplices that no triangulation has.
+[[noreturn]] inline void throw_no_triangulation() {
+    throw_corrupted("The simplices around a point are not a triangulation.");
+}
 
 } // namespace abacus

@@ -108,8 +108,7 @@ template <int D> void Check<D>::check_topology() {
 }
 
 template <int D> void Check<D>::check_stars(const StarCounts &stars) {
-    if (stars.count != header_.vertices)
-        faults_.add("count", first_key, "The header counts other vertices than the pages hold.");
+    if (stars.count != header_.vertices) faults_.add("count", first_key, other_vertex_count);
     if (stars.corners != (D + 1) * counts_.simplices + D * counts_.ghosts)
         faults_.add("overlap", first_key, "A vertex has two separate stars.");
     else if (stars.are_wound_once && stars.least != 1)

@@ -5,7 +5,7 @@ namespace abacus {
 namespace {
 
 /// Simplices that are worth the threads.
-constexpr std::uint64_t worth_sharing = 1 << 16;
+constexpr std::uint64_t simplices_worth_sharing = 1 << 16;
 /// Batches of pages in memory for each thread: one at work, one that waits.
 constexpr std::size_t batches_a_thread = 2;
 /// Parts of the curve for each thread, so that none waits long for the last one.
@@ -15,8 +15,8 @@ constexpr std::size_t parts_a_thread = 4;
 
 template <int D>
 bool Check<D>::Together::is_worth_while(const Host &host, const abacus_header &header) {
-    return host.threads() > 1 &&
-           (header.simplices + header.ghosts >= worth_sharing || host.has_tiny_intervals());
+    return host.threads() > 1 && (header.simplices + header.ghosts >= simplices_worth_sharing ||
+                                  host.has_tiny_intervals());
 }
 
 template <int D>

@@ -18,8 +18,6 @@ template <int D> std::size_t key_words(const abacus_header &header) {
 }
 constexpr std::uint64_t sign = std::uint64_t{1} << 63;
 
-constexpr const char *other_count = "The header counts other vertices than the pages hold.";
-
 /// Calls add(page, vertex) for all vertices of all pages; it returns room for the key.
 template <int D, class Add>
 void name_vertices(const Host &host, const abacus_header &header, Add add) {
@@ -64,7 +62,7 @@ NumberedVertices<D>::NumberedVertices(const Host &host, const abacus_header &hea
 }
 
 template <int D> bool NumberedVertices<D>::next(abacus_vertex &vertex) {
-    if ((ahead_ == nullptr) != (left_ == 0)) throw_corrupted(other_count);
+    if ((ahead_ == nullptr) != (left_ == 0)) throw_corrupted(other_vertex_count);
     if (ahead_ == nullptr) {
         named_.close();
         return false;
@@ -94,7 +92,7 @@ NumberedSimplices<D>::NumberedSimplices(const Host &host, const abacus_header &h
     : domain_(domain_of<D>(header)), ranks_(host, key_words<D>(header), memory),
       pages_(host, header), numbers_(host) {
     name_vertices<D>(host, header, [&](const PageView<D> &, int) { return ranks_.add(); });
-    if (ranks_.finish() != header.vertices) throw_corrupted(other_count);
+    if (ranks_.finish() != header.vertices) throw_corrupted(other_vertex_count);
 }
 
 template <int D> void NumberedSimplices<D>::enter_page() {

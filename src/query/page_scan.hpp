@@ -11,6 +11,9 @@
 
 namespace abacus {
 
+inline constexpr const char *other_vertex_count =
+    "The header counts other vertices than the pages hold.";
+
 template <int D> class PageScan {
 public:
     PageScan(const Host &host, const abacus_header &header)

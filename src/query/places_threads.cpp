@@ -10,7 +10,7 @@ namespace abacus {
 namespace {
 
 /// Places that are worth the threads, and what is read and decoded more than once.
-constexpr std::size_t worth_sharing = 1 << 13;
+constexpr std::size_t places_worth_sharing = 1 << 13;
 /// Of a quick question: if there are fewer places, pages that come by the session's thread take
 /// longer than what is done with them.
 constexpr std::uint64_t simplices_a_place = 32;
@@ -42,8 +42,8 @@ bool PlacesTogether<D>::is_worth_while(const Host &host, const abacus_header &he
     if (host.threads() == 1 || host.has_tiny_intervals()) return host.threads() > 1;
     const std::uint64_t least =
         question.is_quick() ? (header.simplices + header.ghosts) / simplices_a_place : 0;
-    return total >= std::max<std::uint64_t>(least, worth_sharing) &&
-           room(host, stride + question.words(), cache_bytes) >= worth_sharing;
+    return total >= std::max<std::uint64_t>(least, places_worth_sharing) &&
+           room(host, stride + question.words(), cache_bytes) >= places_worth_sharing;
 }
 
 template <int D>

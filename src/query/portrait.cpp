@@ -211,9 +211,9 @@ Portrait draw_section(const Host &host, const abacus_header &header, const abacu
     const Plane plane(section);
     abacus_drawing sheet = drawing;
     const bool has_window = !shows_whole<3>(drawing);
-    const Window window =
+    const SheetWindow window =
         has_window ? plane.window(std::to_array(drawing.lower), std::to_array(drawing.upper))
-                   : Window{};
+                   : SheetWindow{};
     std::copy_n(window.lower, 2, sheet.lower);
     std::copy_n(window.upper, 2, sheet.upper);
     const std::int32_t margin = has_window ? Canvas::margin_of(drawing) : 0;

@@ -47,10 +47,10 @@ bool has_height(const abacus_simplex &simplex, const CornerValues &heights, cons
     return true;
 }
 
-class Sight {
+class LineOfSight {
 public:
-    Sight(Reader<2> &reader, std::uint32_t attribute, const abacus_sight_end &observer,
-          const abacus_sight_end &target)
+    LineOfSight(Reader<2> &reader, std::uint32_t attribute, const abacus_sight_end &observer,
+                const abacus_sight_end &target)
         : reader_(reader), attribute_(attribute), from_(find(observer)), to_(find(target)) {}
 
     abacus_sight look();
@@ -76,7 +76,7 @@ private:
     double blocked_ = 0;         // where it is
 };
 
-End Sight::find(const abacus_sight_end &given) {
+End LineOfSight::find(const abacus_sight_end &given) {
     End end{{given.place[0] + 0.0, given.place[1] + 0.0}, {}, {}, 0, 0, 0};
     abacus_simplex simplex;
     CornerValues heights(&attribute_, 1);
@@ -96,7 +96,7 @@ End Sight::find(const abacus_sight_end &given) {
     return end;
 }
 
-abacus_sight Sight::blocked_at(double at) const {
+abacus_sight LineOfSight::blocked_at(double at) const {
     abacus_sight sight{ABACUS_SIGHT_BLOCKED, {}};
     for (int axis = 0; axis < 2; ++axis)
         sight.place[axis] = from_.place[axis] * (1 - at) + to_.place[axis] * at;
@@ -104,7 +104,7 @@ abacus_sight Sight::blocked_at(double at) const {
     return sight;
 }
 
-abacus_sight Sight::look() {
+abacus_sight LineOfSight::look() {
     if (!from_.z || !to_.z) return {ABACUS_SIGHT_UNKNOWN, {}};
     if (from_.above > 0) return blocked_at(0);
     if (!(from_.place == to_.place)) return look_along(Line<2>::between(from_.place, to_.place));
@@ -113,8 +113,8 @@ abacus_sight Sight::look() {
     return {ABACUS_SIGHT_BLOCKED, {to_.place[0], to_.place[1], CGAL::to_double(*to_.ground)}};
 }
 
-bool Sight::is_above(const Line<2> &line, const Crossing<2> &crossing,
-                     std::optional<Sample> &sample) {
+bool LineOfSight::is_above(const Line<2> &line, const Crossing<2> &crossing,
+                           std::optional<Sample> &sample) {
     sample.reset();
     double least = INFINITY, greatest = -INFINITY;
     for (int i = 0; i < 2; ++i) {
@@ -141,7 +141,7 @@ bool Sight::is_above(const Line<2> &line, const Crossing<2> &crossing,
     return sum / whole > *from_.z + at * (*to_.z - *from_.z);
 }
 
-bool Sight::is_blocked(const std::optional<Sample> &sample, bool is_above) {
+bool LineOfSight::is_blocked(const std::optional<Sample> &sample, bool is_above) {
     if (is_above) {
         blocked_ = sample->at;
         if (last_ && sample->above > 0) { // from a place where the ground is not above the line
@@ -154,7 +154,7 @@ bool Sight::is_blocked(const std::optional<Sample> &sample, bool is_above) {
     return false;
 }
 
-abacus_sight Sight::look_along(const Line<2> &line) {
+abacus_sight LineOfSight::look_along(const Line<2> &line) {
     bool is_hidden = false, ends_inside = false;
     if (from_.ground) last_ = Sample{0, from_.ground_above};
     LineScan<2> scan(reader_, line, static_cast<int>(attribute_));
@@ -183,7 +183,7 @@ abacus_sight Sight::look_along(const Line<2> &line) {
 
 abacus_sight look(Reader<2> &reader, std::uint32_t attribute, const abacus_sight_end &observer,
                   const abacus_sight_end &target) {
-    return Sight(reader, attribute, observer, target).look();
+    return LineOfSight(reader, attribute, observer, target).look();
 }
 
 } // namespace abacus

@@ -1,6 +1,7 @@
 #include "query/vertex_scan.hpp"
 
 #include "keys/domain_of.hpp"
+#include "query/page_scan.hpp"
 
 namespace abacus {
 namespace {
@@ -12,8 +13,6 @@ template <int D> void fill(abacus_vertex &vertex, const std::uint64_t *record) {
     std::copy(p.begin(), p.end(), vertex.point);
     vertex.attributes = record_attributes<D>(record);
 }
-
-constexpr const char *other_count = "The header counts other vertices than the pages hold.";
 
 } // namespace
 
@@ -44,12 +43,12 @@ template <int D> void VertexScan<D>::collect() {
 template <int D> bool VertexScan<D>::next_vertex(abacus_vertex &vertex) {
     while (at_ == records_.size()) {
         if (!(page_ < end_key)) {
-            if (vertices_left_ != 0) throw_corrupted(other_count);
+            if (vertices_left_ != 0) throw_corrupted(other_vertex_count);
             return false;
         }
         collect();
     }
-    if (vertices_left_ == 0) throw_corrupted(other_count);
+    if (vertices_left_ == 0) throw_corrupted(other_vertex_count);
     --vertices_left_;
     fill<D>(vertex, records_.data() + at_);
     at_ += record_words(D, attributes_);

@@ -1,12 +1,9 @@
-// Whether this is a build with sanitizers, where inputs that take long are smaller.
+// Whether this is a build with sanitizers, where inputs that take long are smaller. It is asked
+// when a test runs, since one build's tests are linked with another's core (test/CMakeLists.txt).
 #pragma once
 
 namespace abacus::test {
 
-#ifdef ABACUS_SANITIZED // CMakeLists.txt; of the compilers each has another word for it
-constexpr bool sanitized = true;
-#else
-constexpr bool sanitized = false;
-#endif
+extern const bool sanitized;
 
 } // namespace abacus::test

@@ -21,7 +21,7 @@ using Random = std::mt19937_64;
 constexpr std::size_t little = 40 << 10, ample = 64 << 20;
 
 // Inputs that take long under a sanitizer are smaller there.
-constexpr int scale = sanitized ? 10 : 1;
+const int scale = sanitized ? 10 : 1;
 
 double unit(Random &random) { return std::uniform_real_distribution<double>(0, 1)(random); }
 

@@ -32,7 +32,7 @@ template <int D> struct GooseRun {
 };
 
 // Fewer still where it is sanitized.
-constexpr std::size_t scale = sanitized ? 3 : 1;
+const std::size_t scale = sanitized ? 3 : 1;
 
 /// Points of the set in random order, fewer than make a test of all boxes slow.
 template <int D> std::vector<Point<D>> some_points(const PointSet<D> &set, std::size_t most) {

@@ -19,7 +19,7 @@ namespace abacus::test {
 namespace {
 
 // Fewer sets under a sanitizer.
-constexpr int scale = sanitized ? 8 : 1;
+const int scale = sanitized ? 8 : 1;
 
 using Kernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
 

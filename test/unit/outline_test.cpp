@@ -123,7 +123,7 @@ template <int D> void expect_outlines(MeshOf<D> &mesh, std::initializer_list<dou
 }
 
 template <int D> void expect_outlines_of_sets() {
-    constexpr std::size_t most = D == 2 ? 300 : sanitized ? 30 : 60;
+    const std::size_t most = D == 2 ? 300 : sanitized ? 30 : 60;
     Random random(2);
     for (const PointSet<D> &set : point_sets<D>()) {
         SCOPED_TRACE(set.name);

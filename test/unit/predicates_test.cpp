@@ -157,7 +157,7 @@ template <int D> Point<D> point(const Source &source, Random &random) {
 }
 
 // Inputs that take long under a sanitizer are smaller there.
-constexpr int scale = test::sanitized ? 10 : 1;
+const int scale = test::sanitized ? 10 : 1;
 
 class Predicates : public testing::TestWithParam<Source> {
 protected:

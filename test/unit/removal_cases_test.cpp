@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t little = 60 << 10, ample = std::size_t(1) << 30;
 
 // Inputs that take long under a sanitizer are smaller there.
-constexpr int scale = sanitized ? 10 : 1;
+const int scale = sanitized ? 10 : 1;
 
 template <int D> Domain<D> cube(double lower, double upper) {
     Point<D> from, to;
@@ -103,14 +103,14 @@ TEST(RemovalOfAHub, CentreOfASphere) {
     remove_hub<3>(points, {0.001, 0.002, -0.001});
 }
 TEST(RemovalOfAHub, ApexOverAGridWithAPointBelow) {
-    constexpr int side = 120 / (scale > 1 ? 4 : 1);
+    const int side = 120 / (scale > 1 ? 4 : 1);
     std::vector<Point<3>> points;
     for (int i = 0; i < side * side; ++i) points.push_back({i % side + 0.0, i / side + 0.0, 0});
     points.push_back({side / 2.0, side / 3.0, -5});
     remove_hub<3>(points, {side / 2.0, side / 2.0, 1e6});
 }
 TEST(RemovalOfAHub, ApexOverABumpyGrid) {
-    constexpr int side = 80 / (scale > 1 ? 4 : 1);
+    const int side = 80 / (scale > 1 ? 4 : 1);
     std::vector<Point<3>> points;
     for (int i = 0; i < side * side; ++i) {
         const double x = i % side, y = i / side;

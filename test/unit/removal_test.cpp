@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t little = 60 << 10;
 
 // Of each input, a part.
-constexpr std::size_t scale = sanitized ? 10 : 2;
+const std::size_t scale = sanitized ? 10 : 2;
 
 template <int D> void remove_all(std::vector<Point<D>> points, std::size_t cache_bytes) {
     MeshInChange<D> mesh(box_around<D>(points), cache_bytes);

@@ -12,7 +12,7 @@
 namespace abacus::test {
 namespace {
 
-constexpr int scale = sanitized ? 4 : 1;
+const int scale = sanitized ? 4 : 1;
 
 template <class Dimension> class Rest : public testing::Test {
 protected:
