@@ -19,7 +19,7 @@ layout_check() {
 # .clang-tidy over some files: tidy_check FILE.... Nothing is compiled in build/tidy; it only
 # tells how each file would be.
 tidy_check() {
-    CC=clang CXX=clang++ cmake -S . -B build/tidy -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null &&
+    CC=clang CXX=clang++ cmake -S . -B build/tidy -DABACUS_UNITS=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null &&
         printf '%s\0' "$@" | xargs -0 -n 1 -P "$ABACUS_JOBS" clang-tidy --quiet -p build/tidy
 }
 

@@ -1,5 +1,7 @@
 #include "draw/camera.hpp"
 
+#include "draw/products.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,12 +12,6 @@ namespace {
 
 [[noreturn]] void refuse(const char *message, const char *hint) {
     throw Error(ABACUS_ERROR_ARGUMENT, message, {}, hint);
-}
-
-double dot(const Point<3> &a, const Point<3> &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Point<3> cross(const Point<3> &a, const Point<3> &b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 /// A vector of length 1; 0 of one without length.

@@ -1,5 +1,7 @@
 #include "draw/plane.hpp"
 
+#include "draw/products.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,25 +12,19 @@ namespace {
 
 [[noreturn]] void refuse(const char *message) { throw Error(ABACUS_ERROR_ARGUMENT, message); }
 
-double dot(const Point<3> &a, const Point<3> &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 Point<3> times(const Point<3> &a, double f) { return {a[0] * f, a[1] * f, a[2] * f}; }
 
-Point<3> unit(const Point<3> &a) { return times(a, 1 / std::sqrt(dot(a, a))); }
-
-Point<3> cross(const Point<3> &a, const Point<3> &b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+Point<3> of_length_1(const Point<3> &a) { return times(a, 1 / std::sqrt(dot(a, a))); }
 
 /// The part of a direction that lies in the plane.
 Point<3> along(const Point<3> &direction, const Point<3> &normal) {
     const double off = dot(direction, normal);
-    return unit({direction[0] - off * normal[0], direction[1] - off * normal[1],
-                 direction[2] - off * normal[2]});
+    return of_length_1({direction[0] - off * normal[0], direction[1] - off * normal[1],
+                        direction[2] - off * normal[2]});
 }
 
 /// An infinite or undefined length becomes a large one.
-double bounded(double x) {
+double finite(double x) {
     constexpr double most = std::numeric_limits<double>::max();
     return std::fmin(std::fmax(x, -most), most);
 }
@@ -52,7 +48,7 @@ Plane::Plane(const abacus_section &section) {
         through_[i] = section.through[i] * scale;
         normal_[i] = std::scalbn(section.normal[i], -exponent);
     }
-    const Point<3> n = unit(normal_);
+    const Point<3> n = of_length_1(normal_);
     const bool is_map = std::fabs(n[2]) > std::hypot(n[0], n[1]);
     const Point<3> up = along(is_map ? Point<3>{0, 1, 0} : Point<3>{0, 0, 1}, n);
     const Point<3> right = cross(up, n);
@@ -78,7 +74,7 @@ Place Plane::place(const Point<3> &p) const {
     const Point<3> q = times(p, scale);
     const double h = height(p);
     const bool is_on = std::fabs(h) <= tolerance(p);
-    return {{bounded(dot(axis_[0], q)), bounded(dot(axis_[1], q))}, h, is_on ? 0 : h < 0 ? -1 : 1};
+    return {{finite(dot(axis_[0], q)), finite(dot(axis_[1], q))}, h, is_on ? 0 : h < 0 ? -1 : 1};
 }
 
 Point<3> Plane::point(const double (&at)[2]) const {
@@ -88,7 +84,7 @@ Point<3> Plane::point(const double (&at)[2]) const {
     const double out = dot(normal_, through_) / dot(normal_, normal_);
     Point<3> p;
     for (int i = 0; i < 3; ++i)
-        p[i] = bounded((axis_[0][i] * right + axis_[1][i] * up + normal_[i] * out) / scale);
+        p[i] = finite((axis_[0][i] * right + axis_[1][i] * up + normal_[i] * out) / scale);
     return p;
 }
 

@@ -18,7 +18,9 @@ constexpr int passes = 3;
 bool is_height(float h) { return h == h; }
 
 /// Steeper than any picture can tell; its square is still a float.
-float bounded(double rise) { return static_cast<float>(std::fmin(std::fmax(rise, -1e12), 1e12)); }
+float bounded_rise(double rise) {
+    return static_cast<float>(std::fmin(std::fmax(rise, -1e12), 1e12));
+}
 
 /// Share that a pixel takes over from its neighbour, by the spacing of the vertices: from a table,
 /// since each pixel asks sixteen times. Between entries it is off by less than a picture can tell.
@@ -48,8 +50,8 @@ private:
 
 Relief::Relief(const Host &host, std::int32_t width, std::int32_t height_in_pixels, double rise_x,
                double rise_y, const double (&light)[2])
-    : host_(&host), width_(width), height_(height_in_pixels), rise_x_(bounded(rise_x)),
-      rise_y_(bounded(rise_y)), heights_(host), spacings_(host) {
+    : host_(&host), width_(width), height_(height_in_pixels), rise_x_(bounded_rise(rise_x)),
+      rise_y_(bounded_rise(rise_y)), heights_(host), spacings_(host) {
     const auto pixels = static_cast<std::size_t>(width) * height_in_pixels;
     heights_.resize(pixels);
     spacings_.resize(pixels);

@@ -6,9 +6,9 @@
 // other.
 #include "geometry/contact.hpp"
 
+#include "geometry/cgal_points.hpp"
 #include "geometry/predicates.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Intersections_3/Segment_3_Triangle_3.h>
 #include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
 
@@ -18,9 +18,8 @@ namespace abacus {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-Kernel::Point_3 cgal(const Point<3> *p) { return {(*p)[0], (*p)[1], (*p)[2]}; }
+using exact::cgal;
+using exact::Kernel;
 
 /// Brings common vertices to the front of both; returns how many there are.
 template <int D> int align(Facet<D> &a, Facet<D> &b) {
@@ -62,14 +61,14 @@ bool meet_improperly(Facet<3> a, Facet<3> b) {
     const int common = align<3>(a, b);
     if (common == 2) {
         if (orientation(*a[0], *a[1], *a[2], *b[2]) != 0) return false;
-        return Kernel().coplanar_orientation_3_object()(cgal(a[0]), cgal(a[1]), cgal(a[2]),
-                                                        cgal(b[2])) == CGAL::POSITIVE;
+        return Kernel().coplanar_orientation_3_object()(cgal(*a[0]), cgal(*a[1]), cgal(*a[2]),
+                                                        cgal(*b[2])) == CGAL::POSITIVE;
     }
-    const Kernel::Triangle_3 first(cgal(a[0]), cgal(a[1]), cgal(a[2]));
-    const Kernel::Triangle_3 second(cgal(b[0]), cgal(b[1]), cgal(b[2]));
+    const Kernel::Triangle_3 first(cgal(*a[0]), cgal(*a[1]), cgal(*a[2]));
+    const Kernel::Triangle_3 second(cgal(*b[0]), cgal(*b[1]), cgal(*b[2]));
     if (common == 0) return CGAL::do_intersect(first, second);
-    return CGAL::do_intersect(first, Kernel::Segment_3(cgal(b[1]), cgal(b[2]))) ||
-           CGAL::do_intersect(second, Kernel::Segment_3(cgal(a[1]), cgal(a[2])));
+    return CGAL::do_intersect(first, Kernel::Segment_3(cgal(*b[1]), cgal(*b[2]))) ||
+           CGAL::do_intersect(second, Kernel::Segment_3(cgal(*a[1]), cgal(*a[2])));
 }
 
 } // namespace abacus

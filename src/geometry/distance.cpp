@@ -1,17 +1,8 @@
 #include "geometry/distance.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include "geometry/cgal_points.hpp"
 
 namespace abacus::exact {
-
-namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-Kernel::Point_2 cgal(const Point<2> &p) { return {p[0], p[1]}; }
-Kernel::Point_3 cgal(const Point<3> &p) { return {p[0], p[1], p[2]}; }
-
-} // namespace
 
 template <int D> int compare_distance(const Point<D> &p, const Point<D> &a, const Point<D> &b) {
     if constexpr (D == 2)

@@ -6,18 +6,13 @@
 // arithmetic first, then exact numbers.
 #include "geometry/predicates.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include "geometry/cgal_points.hpp"
 
 #include <optional>
 
 namespace abacus::exact {
 
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-Kernel::Point_2 cgal(const Point<2> &p) { return {p[0], p[1]}; }
-Kernel::Point_3 cgal(const Point<3> &p) { return {p[0], p[1], p[2]}; }
 
 using Wide = __int128;
 

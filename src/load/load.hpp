@@ -53,6 +53,9 @@
 
 namespace abacus {
 
+/// Words of a key in records that are sorted by it.
+inline constexpr std::size_t key_words = 2;
+
 template <int D> class Load {
 public:
     /// `reorient`: simplices of negative orientation are turned, not refused. `split_nodes`:

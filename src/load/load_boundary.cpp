@@ -73,7 +73,4 @@ template <int D> void Load<D>::add_ghosts() {
     }
 }
 
-template class Load<2>;
-template class Load<3>;
-
 } // namespace abacus

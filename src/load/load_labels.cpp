@@ -12,10 +12,6 @@
 
 namespace abacus {
 
-namespace {
-constexpr std::size_t key_words = 2;
-} // namespace
-
 template <int D> void Load<D>::begin_labels() {
     if (labels_ == 0) return;
     begin(labelled_, key_words + D * (D + 1) + labels_, key_words);
@@ -54,8 +50,5 @@ template <int D> void Load<D>::write_labels(abacus_header &header) {
     header.counters += pages.take_counters();
     end(labelled_);
 }
-
-template class Load<2>;
-template class Load<3>;
 
 } // namespace abacus

@@ -10,7 +10,6 @@
 namespace abacus {
 
 namespace {
-constexpr std::size_t key_words = 2;
 constexpr std::size_t pieces = 4; // of the share of one of the large sorts
 } // namespace
 
@@ -114,8 +113,5 @@ template <int D> void Load<D>::write_markers(abacus_header &header) {
     header.counters += pages.take_counters();
     end(marker_rows_);
 }
-
-template class Load<2>;
-template class Load<3>;
 
 } // namespace abacus

@@ -151,7 +151,4 @@ template <int D> void Load<D>::add_ghost(const Word *simplex, int facet, Key &ke
     std::copy_n(layout_.simplex_vertex(simplex, facet), 1 + D, ghost);
 }
 
-template class Load<2>;
-template class Load<3>;
-
 } // namespace abacus

@@ -77,7 +77,4 @@ template <int D> void Load<D>::leave_out_split_facets() {
     outer_->finish();
 }
 
-template class Load<2>;
-template class Load<3>;
-
 } // namespace abacus

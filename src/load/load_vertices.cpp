@@ -130,7 +130,4 @@ template <int D> void Load<D>::order_vertices() {
     places.close();
 }
 
-template class Load<2>;
-template class Load<3>;
-
 } // namespace abacus

@@ -43,7 +43,5 @@ bool Cache<D>::append(const Key &lower, const Key &upper, const LooseSimplex<D> 
     return this->end_appended(b);
 }
 
-template class Cache<2>;
-template class Cache<3>;
 
 } // namespace abacus

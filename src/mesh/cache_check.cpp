@@ -66,7 +66,5 @@ template <int D> const char *Cache<D>::check_invariants(bool forged) const {
     return check_vertices();
 }
 
-template class Cache<2>;
-template class Cache<3>;
 
 } // namespace abacus

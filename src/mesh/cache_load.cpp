@@ -189,7 +189,5 @@ template <int D> bool Cache<D>::leads_to(const Key &link, Handle h) const {
     return link.part == unknown_part || link.part == 0 || link.part == part(slots_[h]);
 }
 
-template class Cache<2>;
-template class Cache<3>;
 
 } // namespace abacus

@@ -146,7 +146,5 @@ template <int D> EncodedPage Cache<D>::encode_page(BlockIndex b) {
     return {writer_.bytes(), writer_.size(), fits};
 }
 
-template class Cache<2>;
-template class Cache<3>;
 
 } // namespace abacus

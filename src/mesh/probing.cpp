@@ -190,7 +190,5 @@ template <int D> bool Cache<D>::probe_every_page(Handle h, int facet) {
     return false;
 }
 
-template class Cache<2>;
-template class Cache<3>;
 
 } // namespace abacus

@@ -168,7 +168,5 @@ template <int D> bool Check<D>::Together::check_topology() {
     return true;
 }
 
-template class Check<2>::Together;
-template class Check<3>::Together;
 
 } // namespace abacus

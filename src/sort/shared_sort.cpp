@@ -11,8 +11,8 @@ namespace {
 
 /// Words that are worth starting threads.
 constexpr std::size_t worth_sharing = 1 << 16;
-constexpr int digit_bits = 11;
-constexpr std::size_t digits = std::size_t{1} << digit_bits;
+constexpr int shared_digit_bits = 11;
+constexpr std::size_t shared_digits = std::size_t{1} << shared_digit_bits;
 /// Pieces for each thread, so that none waits long for the last one.
 constexpr std::size_t pieces_a_thread = 8;
 
@@ -21,15 +21,15 @@ struct Piece {
     std::size_t begin, end;
 };
 
-/// Makes the counts of digits in each stretch the places of the first word of each digit from
-/// there. Adds pieces of whole digits, of so many words at least.
+/// Makes the counts of digits in each stretch the places of the first word of each digit
+/// from there. Adds pieces of whole digits, of so many words at least.
 void place(Arena<std::uint32_t> &counts, std::size_t least, Arena<Piece> &pieces) {
     std::uint32_t sum = 0;
     std::size_t begin = 0;
-    for (std::size_t digit = 0; digit < digits; ++digit) {
-        for (std::size_t at = digit; at < counts.size(); at += digits)
+    for (std::size_t digit = 0; digit < shared_digits; ++digit) {
+        for (std::size_t at = digit; at < counts.size(); at += shared_digits)
             sum += std::exchange(counts[at], sum);
-        if (sum - begin < least && digit + 1 < digits) continue;
+        if (sum - begin < least && digit + 1 < shared_digits) continue;
         if (sum > begin) pieces.push_back({begin, sum});
         begin = sum;
     }
@@ -43,12 +43,12 @@ bool SharedSort::is_worth_while(const Host &host, std::size_t n) {
 
 void SharedSort::sort(std::uint64_t *words, std::uint64_t *scratch, std::size_t n, int bits,
                       const Set &set, const Refine &refine) {
-    const int shift = index_bits + std::max(0, bits - digit_bits);
+    const int shift = index_bits + std::max(0, bits - shared_digit_bits);
     Arena<std::uint32_t> counts(host_);
-    counts.resize(stretches() * digits);
+    counts.resize(stretches() * shared_digits);
     std::fill(counts.begin(), counts.end(), 0);
     each_stretch(n, [&](std::size_t stretch, std::size_t from, std::size_t to, const Host &host) {
-        std::uint32_t *const count = counts.data() + stretch * digits;
+        std::uint32_t *const count = counts.data() + stretch * shared_digits;
         Pacer(host).each_piece(to - from, [&](std::size_t begin, std::size_t end) {
             set(words, from + begin, from + end);
             for (std::size_t i = from + begin; i < from + end; ++i) ++count[words[i] >> shift];
@@ -57,7 +57,7 @@ void SharedSort::sort(std::uint64_t *words, std::uint64_t *scratch, std::size_t 
     Arena<Piece> pieces(host_);
     place(counts, n / (stretches() * pieces_a_thread) + 1, pieces);
     each_stretch(n, [&](std::size_t stretch, std::size_t from, std::size_t to, const Host &host) {
-        std::uint32_t *const at = counts.data() + stretch * digits;
+        std::uint32_t *const at = counts.data() + stretch * shared_digits;
         Pacer(host).each_piece(to - from, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = from + begin; i < from + end; ++i)
                 scratch[at[words[i] >> shift]++] = words[i];

@@ -1,0 +1,16 @@
+// Products of vectors in space, rounded: pictures need no more.
+#pragma once
+
+#include "geometry/point.hpp"
+
+namespace abacus {
+
+inline double dot(const Point<3> &a, const Point<3> &b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+inline Point<3> cross(const Point<3> &a, const Point<3> &b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+} // namespace abacus
