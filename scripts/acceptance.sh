@@ -9,7 +9,7 @@
 # quick takes two or three minutes, full (up to 14 M points a set) two hours; threads builds the sets
 # of full by 2, 3, 4 and 7 threads, in 40 minutes; goose does the same with abacus_goose and few
 # points, in a minute. 2d and 3d choose a dimension, names choose data sets; without any, all are
-# compared.
+# compared. Of the runs of each set, ABACUS_SHARE=K/N are every Nth, others in each set.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh
@@ -157,7 +157,10 @@ for set in "${sets[@]}"; do
     fi
     create_points "$dimension" "$folder/points.copy"
     count=$(run_psql -A -t -c "SELECT max(id) FROM points")
-    for run in "${runs[@]}"; do
+    sets_done=$((${sets_done:--1} + 1))
+    for number in "${!runs[@]}"; do
+        if [[ -n ${ABACUS_SHARE:-} ]] && (((number + sets_done) % ${ABACUS_SHARE#*/} != ${ABACUS_SHARE%/*})); then continue; fi
+        run=${runs[number]}
         compare "$(cache_size "${run%:*}")" "${run#*:}"
     done
     run_psql -c "DROP TABLE points"

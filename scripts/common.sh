@@ -10,6 +10,15 @@ PG_CONFIG=${PG_CONFIG:-/usr/lib/postgresql/$ABACUS_POSTGRESQL/bin/pg_config}
 cd "$ABACUS_ROOT"
 mkdir -p "$ABACUS_BUILD"
 
+# ccache, where there is one: the same for all checkouts, whose folder is no part of an object file but for
+# the debugger.
+compilers=()
+if command -v ccache >/dev/null; then
+    compilers=("CC=ccache ${CC:-gcc}" "CXX=ccache ${CXX:-g++}")
+    export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+    export CCACHE_BASEDIR=$ABACUS_ROOT CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+fi
+
 as_root() {
     if ((EUID == 0)); then "$@"; else sudo "$@"; fi
 }
@@ -26,7 +35,7 @@ fail() {
 # Builds, and installs, the extensions as a packager does, but in a folder of its
 # own, so that the source tree stays clean.
 extension_make=(make -s -C "$ABACUS_BUILD/extension" -f "$ABACUS_ROOT/Makefile.pgxs"
-    PG_CONFIG="$PG_CONFIG")
+    PG_CONFIG="$PG_CONFIG" "${compilers[@]}")
 
 build_extension() {
     mkdir -p "$ABACUS_BUILD/extension"

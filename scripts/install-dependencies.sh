@@ -27,7 +27,7 @@ server=(
     "postgresql-$version-pgtap" libtap-parser-sourcehandler-pgtap-perl libipc-run-perl mount
 )
 core=(
-    cmake libgtest-dev libgmock-dev libpng-dev
+    ccache cmake libgtest-dev libgmock-dev libpng-dev
 )
 test=(
     "${server[@]}" "${core[@]}"

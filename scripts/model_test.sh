@@ -20,4 +20,4 @@ fi
 cluster_start model_test
 run_psql -c "CREATE EXTENSION abacus"
 mkdir -p "$ABACUS_BUILD/model_test"
-scripts/model_test.py --oracle "$oracle" --folder "$ABACUS_BUILD/model_test" "$@"
+scripts/model_test.py ${ABACUS_SEED:+-s "$ABACUS_SEED"} --oracle "$oracle" --folder "$ABACUS_BUILD/model_test" "$@"

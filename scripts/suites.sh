@@ -29,9 +29,12 @@ build_unit_tests() {
         ABACUS_CORE_OBJECTS=$ABACUS_BUILD/extension build_release abacus_unit_tests
 }
 
-# Unit tests of a build, in shards: unit_tests FOLDER.
+# Unit tests of a build, in shards: unit_tests FOLDER [OPTION of ctest...]. Of ABACUS_SHARE=K/N these are
+# every Nth shard.
 unit_tests() {
-    ctest --test-dir "$1" -j "$ABACUS_JOBS" --output-on-failure --no-tests=error &&
+    local share=()
+    if [[ -n ${ABACUS_SHARE:-} ]]; then share=(-I "$((${ABACUS_SHARE%/*} + 1)),,${ABACUS_SHARE#*/}"); fi
+    ctest --test-dir "$1" "${@:2}" "${share[@]}" -j "$ABACUS_JOBS" --output-on-failure --no-tests=error &&
         awk '/PASSED/ { n += $4 } END { print "All " n " tests passed" }' \
             "$1/Testing/Temporary/LastTest.log"
 }
@@ -39,19 +42,41 @@ unit_tests() {
 # Regression and isolation tests: regression_tests ["SQL TEST..." ["ISOLATION TEST..."]]; all without
 # arguments.
 regression_tests() {
-    local chosen=()
-    if (($#)); then chosen=(REGRESS="$1" ISOLATION="${2:-}"); fi
-    "${extension_make[@]}" installcheck "${chosen[@]}" && return
-    cat build/extension/regression.diffs build/extension/output_iso/regression.diffs 2>/dev/null
+    local status=0 runs=() run
+    if (($#)); then
+        regression_part chosen "$1" "${2:-}" || status=1
+    else
+        # Two parts and the isolation tests side by side, in databases of their own. Roles are the
+        # server's, so tests that make some are in one part.
+        local with_roles others
+        with_roles=$(grep -l 'CREATE ROLE' sql/*.sql | xargs -n 1 basename -s .sql | paste -sd ' ')
+        others=$(grep -L 'CREATE ROLE' sql/*.sql | xargs -n 1 basename -s .sql | paste -sd ' ')
+        regression_part roles "$with_roles" "" & runs+=($!)
+        regression_part others "$others" "" & runs+=($!)
+        regression_part isolation "" "$(basename -s .spec test/isolation/specs/*.spec | paste -sd ' ')" & runs+=($!)
+        for run in "${runs[@]}"; do wait "$run" || status=1; done
+    fi
+    return "$status"
+}
+
+# regression_part NAME "SQL TEST..." "ISOLATION TEST...": in a database and a folder of that name.
+regression_part() {
+    local folder=build/regress/$1
+    rm -rf "$folder"
+    mkdir -p "$folder/isolation"
+    local options="--load-extension=abacus --dbname=regress_$1 --outputdir=$ABACUS_ROOT/$folder"
+    "${extension_make[@]}" installcheck REGRESS="$2" REGRESS_OPTS="$options" \
+        ISOLATION="$3" ISOLATION_OPTS="--inputdir=$ABACUS_ROOT/test/isolation $options/isolation" && return
+    cat "$folder"/regression.diffs "$folder"/isolation/regression.diffs 2>/dev/null
     return 1
 }
 
-# pgTAP files; all without arguments.
+# pgTAP files; all without arguments. Each has a database of its own, so several run side by side.
 pgtap_tests() {
     if ((!$#)); then set -- test/pgtap/*.sql; fi
     run_psql -c "DROP DATABASE IF EXISTS abacus_pgtap" -c "CREATE DATABASE abacus_pgtap" &&
         run_psql -d abacus_pgtap -c "CREATE EXTENSION pgtap" -c "CREATE EXTENSION abacus" &&
-        pg_prove -d abacus_pgtap "$@"
+        pg_prove --psql-bin test/pgtap/in_own_database -j "$ABACUS_JOBS" "$@"
 }
 
 # The TAP files are copied to a folder where the server's user may write. A small file system

@@ -1,51 +1,62 @@
 #!/bin/bash
-# All set-up and all tests, from a clean clone, re-runnable: packages, builds,
-# unit tests (plain and sanitized), a bounded fuzzing run, SQL tests, crashes, the
-# examples of the documentation, comparison with CGAL, SciPy, matplotlib and VTK, the
-# viewer in a browser without a screen, random changes against a model, reports of
-# benchmarks, smoke runs of the benchmarks and the evaluation. Logs are left in build/test.
+# All set-up and tests, from a clean clone, re-runnable: packages, builds, unit tests (plain and
+# sanitized), a bounded fuzzing run, SQL tests, crashes, the examples of the documentation, comparison
+# with CGAL, SciPy, matplotlib and VTK, the viewer in a browser without a screen, random changes against
+# a model, other versions of PostgreSQL, smoke runs of the benchmarks and the evaluation. Logs are left
+# in build/test, and the times of the suites in build/test/times.
 #
-#   test.sh             all suites but tidy and other versions
-#   test.sh NAME...     these, after the builds that they need; `all` are those of above
-#   test.sh list        the names
+#   test.sh             the usual size: less than 35 minutes on two quiet cores
+#   test.sh quick       what shows most faults of SQL, in some minutes
+#   test.sh everything  all, whole
+#   test.sh NAME...     these suites, whole, after the builds that they need
+#   test.sh list [quick|usual|everything]
+#                       the names: all, or those of a size; test/sizes says which is in which
 #   test.sh --postgresql N [short|NAME...]
 #                       with PostgreSQL 17 or 18, in a Debian that has it (chroot.sh): all that a
 #                       server and the core concerns, compiled there; these suites; or, in some
 #                       minutes, what differs between servers, with the core as it is compiled here
+#
+# ABACUS_SEED is a number that decides what has its turn in the usual size, and where servers are
+# killed; without it the tree does.
 set -uo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh
 . scripts/suites.sh
+. scripts/sizes.sh
 . scripts/other_version.sh
 
 FUZZ_SECONDS=${FUZZ_SECONDS:-30}
 logs=$ABACUS_BUILD/test
 mkdir -p "$logs"
-passed=0 failed=0 skipped=0
 
 # The short form: TAP files that concern what differs between versions, and data sets.
 short_tap="standby.pl logical.pl pg_upgrade.pl vacuum.pl build_crash.pl"
 short_sets="wheel octree duplicates"
 
-# Each suite, and what runs it.
+# Each suite, and what runs it, in the order in which they begin: each as soon as what it needs is there.
+suites=(format layout build-extension build tap build-benchmarks build-sanitized build-threads
+    postgresql-17 postgresql-18 viewer unit-sanitized unit-threads unit acceptance unit-apart oracles pgtap
+    regress docs model fuzz reports acceptance-goose tidy bench evaluation)
 declare -A command=(
     [format]=format_check
     [layout]=layout_check
     [build-extension]=install_extension
-    [build]=build_release
+    [build]="build_with_core abacus_tests"
+    [build-benchmarks]="build_with_core all"
     [build-sanitized]="build_with_clang build/sanitize -DABACUS_SANITIZE=ON"
     [build-threads]="build_with_clang build/threads -DABACUS_SANITIZE_THREADS=ON"
     [tidy]=tidy_core
-    [unit]="unit_tests build/release"
+    [unit]="unit_tests build/release -E apart"
+    [unit-apart]="unit_tests build/release -R apart"
     [unit-sanitized]="unit_tests build/sanitize"
     [unit-threads]="unit_tests build/threads"
     [fuzz]=fuzz
-    [regress]=regression_tests
-    [pgtap]=pgtap_tests
-    [docs]=documentation_examples
-    [oracles]=oracle_tests
-    [viewer]=viewer_tests
-    [tap]="tap_tests ${ABACUS_SHORT:+$short_tap}"
+    [regress]="with_server regression_tests"
+    [pgtap]="with_server pgtap_tests"
+    [docs]="with_server documentation_examples"
+    [oracles]="with_server oracle_tests"
+    [viewer]="with_server viewer_tests"
+    [tap]="with_server tap_suite ${ABACUS_SHORT:+$short_tap}"
     [acceptance]="scripts/acceptance.sh quick ${ABACUS_SHORT:+$short_sets}"
     [acceptance-goose]="scripts/acceptance.sh goose"
     [model]="scripts/model_test.sh -t 30"
@@ -55,73 +66,13 @@ declare -A command=(
     [postgresql-17]="scripts/test.sh --postgresql 17 short"
     [postgresql-18]="scripts/test.sh --postgresql 18 short"
 )
-# The order. The second line runs beside the first, since servers mostly wait, and few of
-# its suites use more than one processor.
-first_builds=(format layout build-extension build)
-first_line=(build-sanitized build-threads tidy unit unit-sanitized unit-threads fuzz)
-second_line=(regress pgtap docs oracles viewer tap acceptance acceptance-goose model reports bench evaluation)
-# Then, beside each other.
-other_versions=(postgresql-17 postgresql-18)
-# These take long, or load much: only where they are named.
-not_in_all=(tidy "${other_versions[@]}")
-# The builds that a suite needs.
-declare -A needs=([unit]=build [build-sanitized]=build [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-sanitized)
+# What must have passed before a suite.
+declare -A needs=([unit]=build [unit-apart]=build [build-sanitized]=build [build-benchmarks]=build
+    [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-sanitized
+    [build-threads]=build-extension [bench]=build-benchmarks [evaluation]=build-benchmarks)
 for name in build regress pgtap docs oracles viewer tap; do needs[$name]=build-extension; done
-for name in acceptance acceptance-goose model bench evaluation "${other_versions[@]}"; do needs[$name]=build; done
+for name in acceptance acceptance-goose model postgresql-17 postgresql-18; do needs[$name]=build; done
 if [[ -n ${ABACUS_SHORT:-} ]]; then needs[acceptance]=build-extension; fi # the oracle was brought
-
-# choose NAME...: leaves in the lists these, and what they need.
-declare -A chosen=()
-choose() {
-    local name
-    for name in "$@"; do
-        [[ -n ${command[$name]:-} ]] || fail "No suite $name. There are: $(suites)"
-        while [[ -n $name ]]; do
-            chosen[$name]=1
-            name=${needs[$name]:-}
-        done
-    done
-    keep_chosen first_builds
-    keep_chosen first_line
-    keep_chosen second_line
-    keep_chosen other_versions
-}
-
-suites() {
-    echo "${first_builds[@]}" "${first_line[@]}" "${second_line[@]}" "${other_versions[@]}"
-}
-
-# The names that `all` stands for.
-all_suites() {
-    suites | tr ' ' '\n' | grep -vxF -f <(printf '%s\n' "${not_in_all[@]}")
-}
-
-keep_chosen() {
-    local -n line=$1
-    local name kept=()
-    for name in "${line[@]}"; do
-        if [[ -n ${chosen[$name]:-} ]]; then kept+=("$name"); fi
-    done
-    line=("${kept[@]}")
-}
-
-# suite NAME: runs it, output into a log that is shown on failure. Status 77: it cannot be run here.
-suite() {
-    local name=$1 start=$SECONDS log=$logs/$1.log status=0
-    # shellcheck disable=SC2086 # the words of a command
-    (${command[$name]}) >"$log" 2>&1 || status=$?
-    if ((status == 0)); then
-        passed=$((passed + 1))
-        printf 'ok      %-18s %4d s   %s\n' "$name" $((SECONDS - start)) "$(summary "$log")"
-    elif ((status == 77)); then
-        skipped=$((skipped + 1))
-        printf 'SKIPPED %-18s %4d s   %s\n' "$name" $((SECONDS - start)) "$(tail -n 1 "$log")"
-    else
-        failed=$((failed + 1))
-        printf 'FAILED  %-18s %4d s   (%s)\n' "$name" $((SECONDS - start)) "${log#"$ABACUS_ROOT"/}"
-        tail -n 40 "$log"
-    fi
-}
 
 # The line of a log that says how much was tested.
 summary() {
@@ -129,9 +80,15 @@ summary() {
         tail -n 1
 }
 
+# What is tested is what is installed.
+build_with_core() {
+    ABACUS_CORE_OBJECTS=$ABACUS_BUILD/extension build_release "$@"
+}
+
 # build_with_clang FOLDER OPTION: clang takes half of gcc's time for this.
 build_with_clang() {
-    CC=clang CXX=clang++ cmake -S . -B "$1" "$2" -DABACUS_WERROR=ON >/dev/null &&
+    ABACUS_TEST_OBJECTS=$ABACUS_BUILD/release/test/CMakeFiles/abacus_unit_tests.dir \
+        CC=clang CXX=clang++ cmake -S . -B "$1" "$2" -DABACUS_WERROR=ON >/dev/null &&
         cmake --build "$1" -j "$ABACUS_JOBS"
 }
 
@@ -163,73 +120,139 @@ fuzz_target() {
         -verbosity=1 "${folders[@]}"
 }
 
-# The second line is a process group, which ends with this script.
-second_begin() {
-    cluster_start test
-    if [[ -n ${chosen[tap]:-} ]]; then tap_begin; fi
-    set -m
-    second_run 9>&- &
-    second=$!
-    set +m
-    trap 'kill -INT -- "-$second"; second_end; cluster_stop' EXIT
+# The suite in a server of its own.
+with_server() {
+    cluster_start "$suite" && "$@"
 }
 
-second_run() {
-    local name
-    trap 'exit "${#second_line[@]}"' INT # with none of what is left
-    passed=0 failed=0 skipped=0
-    for name in "${second_line[@]}"; do suite "$name"; done
-    exit $((failed + 16 * skipped))
+tap_suite() {
+    tap_begin
+    trap 'tap_end; cluster_stop' EXIT
+    tap_tests "$@"
 }
 
-# Waits for the second line, and counts its suites: its exit status is the number of those that
-# failed, and 16 for each that was skipped, or the number of all if it was interrupted.
-second_end() {
-    local count=${#second_line[@]} status=0 lost left
-    wait "$second" || status=$?
-    lost=$((status % 16)) left=$((status / 16))
-    if ((lost + left > count)); then lost=$count left=0; fi
-    passed=$((passed + count - lost - left)) failed=$((failed + lost)) skipped=$((skipped + left))
-    tap_end
-    trap cluster_stop EXIT
-}
+# --suite NAME: one suite, its times noted by timed.py, which runs this.
+if [[ ${1:-} == --suite ]]; then
+    suite=$2
+    # shellcheck disable=SC2086 # the words of a command
+    ${command[$suite]}
+    exit
+fi
 
-# Each in a Debian of its own, and none waits for another. They are process groups, which end with
-# this script; what runs in a Debian takes only signal 9.
-other_versions_run() {
-    local name run before
-    before=$(trap -p EXIT) # stops the server of the second line
-    runs=()
-    set -m
-    for name in "${other_versions[@]}"; do
-        (passed=0 failed=0 skipped=0; suite "$name"; exit $((failed + 2 * skipped))) &
-        runs+=($!)
+# choose NAME...: leaves in `suites` these, and what they need.
+choose() {
+    local name kept=()
+    declare -A chosen=()
+    for name in "$@"; do
+        [[ -n ${command[$name]:-} ]] || fail "No suite $name. There are: ${suites[*]}"
+        while [[ -n $name ]]; do
+            chosen[$name]=1
+            name=${needs[$name]:-}
+        done
     done
-    set +m
-    trap "kill -KILL -- ${runs[*]/#/-}; ${before:+cluster_stop}" EXIT
-    for run in "${runs[@]}"; do
-        wait "$run"
-        case $? in 0) passed=$((passed + 1)) ;; 2) skipped=$((skipped + 1)) ;; *) failed=$((failed + 1)) ;; esac
+    for name in "${suites[@]}"; do
+        if [[ -n ${chosen[$name]:-} ]]; then kept+=("$name"); fi
     done
-    eval "${before:-trap - EXIT}"
+    suites=("${kept[@]}")
 }
 
-case ${1:-all} in
-list) suites | tr ' ' '\n'; exit ;;
+# start NAME: the suite in the background, as a process group, its output into a log.
+start() {
+    local share=
+    if [[ $size != everything && $size != named ]]; then share=$(share_of "$1" "$seed"); fi
+    rm -f "$logs/$1.times"
+    set -m
+    ABACUS_SHARE=$share scripts/timed.py "$logs/$1.times" scripts/test.sh --suite "$1" >"$logs/$1.log" 2>&1 9>&- &
+    running[$!]=$1
+    set +m
+}
+
+# ended PID STATUS: says how its suite ended, with the end of the log of one that failed. Status 77: it
+# cannot be run here.
+ended() {
+    local name=${running[$1]} status=$2 log=$logs/${running[$1]}.log word=ok said elapsed=- used=- kernel=-
+    unset "running[$1]"
+    said=$(summary "$log")
+    case $status in
+    0) passed=$((passed + 1)) good[$name]=1 ;;
+    77) skipped=$((skipped + 1)) word=SKIPPED said=$(tail -n 1 "$log") ;;
+    *) failed=$((failed + 1)) word=FAILED said="(${log#"$ABACUS_ROOT"/})" ;;
+    esac
+    if [[ -s $logs/$name.times ]]; then read -r elapsed used kernel <"$logs/$name.times"; fi
+    printf '%-16s %9s %9s %9s  %s\n' "$name" "$elapsed" "$used" "$kernel" "$word" >>"$logs/times"
+    printf '[%d/%d] %-7s %-16s %6s s   %s\n' $((passed + failed + skipped)) ${#suites[@]} "$word" "$name" "$elapsed" "$said"
+    if [[ $word == FAILED ]]; then tail -n 40 "$log"; fi
+}
+
+# The first of the suites left whose need has passed; those whose need has failed fail.
+next_suite() {
+    local name need
+    ready=
+    for name in "${!left[@]}"; do
+        need=${needs[${left[name]}]:-}
+        if [[ -z $need || -n ${good[$need]:-} ]]; then
+            ready=${left[name]}
+            unset "left[name]"
+            return
+        elif [[ " ${left[*]} ${running[*]} " != *" $need "* ]]; then
+            failed=$((failed + 1))
+            echo "[$((passed + failed + skipped))/${#suites[@]}] FAILED  ${left[name]}: $need is missing"
+            unset "left[name]"
+        fi
+    done
+}
+
+# All suites, as many side by side as there are processors: servers mostly wait, and few suites use more
+# than one.
+run_suites() {
+    local left=("${suites[@]}") pid status ready
+    declare -gA running=() good=()
+    trap 'for pid in "${!running[@]}"; do kill -INT -- "-$pid"; done; wait' EXIT
+    printf '%-16s %9s %9s %9s\n' suite elapsed processor kernel >"$logs/times"
+    while ((${#left[@]} + ${#running[@]})); do
+        while ((${#running[@]} < lanes)); do
+            next_suite
+            if [[ -z $ready ]]; then break; fi
+            start "$ready"
+        done
+        if ((!${#running[@]})); then continue; fi
+        status=0
+        wait -n -p pid "${!running[@]}" || status=$?
+        ended "$pid" "$status"
+    done
+    trap - EXIT
+}
+
+seed=$(tree_seed)
+size=usual
+case ${1:-usual} in
+list)
+    if (($# > 1)); then suites_of "$2" "$seed"; else printf '%s\n' "${suites[@]}"; fi
+    exit
+    ;;
 --postgresql) shift; other_postgresql "$@" ;;
-all) shift $(($# > 0)); mapfile -t names < <(all_suites); set -- "${names[@]}" "$@" ;;
+quick | usual | everything)
+    size=${1:-usual}
+    mapfile -t names < <(suites_of "$size" "$seed")
+    set -- "${names[@]}" "${@:2}"
+    ;;
+*) size=named ;;
 esac
 choose "$@"
 scripts/install-dependencies.sh "${ABACUS_PACKAGES:-test}" || fail "packages are missing"
 export ABACUS_BUILT=1 # tells the scripts below that all is built and installed
-export ABACUS_CORE_OBJECTS=$ABACUS_BUILD/extension # what is tested is what is installed
-for name in "${first_builds[@]}"; do suite "$name"; done
-unset ABACUS_CORE_OBJECTS
-export ABACUS_TEST_OBJECTS=$ABACUS_BUILD/release/test/CMakeFiles/abacus_unit_tests.dir # for the sanitized core
-if ((${#second_line[@]})); then second_begin; fi
-for name in "${first_line[@]}"; do suite "$name"; done
-if ((${#second_line[@]})); then second_end; fi
-if ((${#other_versions[@]})); then other_versions_run; fi
+export ABACUS_SEED=$seed
+if [[ $size == quick || $size == usual ]]; then export ABACUS_KILLS=${ABACUS_KILLS:-$(turns_of tap kills:)}; fi
+lanes=${ABACUS_LANES:-$ABACUS_JOBS}
+passed=0 failed=0 skipped=0
+echo "Size $size, ABACUS_SEED=$seed: ${suites[*]}"
+run_suites
+{
+    echo
+    cat "$logs/times"
+    awk 'NR > 1 { used += $3; kernel += $4 } END { printf "%-16s %9d %9.1f %9.1f\n", "all", elapsed, used, kernel }' elapsed=$SECONDS "$logs/times"
+    echo "(seconds)"
+}
 
 echo "$passed passed, $failed failed$( ((!skipped)) || echo ", $skipped skipped")"
 ((failed == 0))
