@@ -1,9 +1,9 @@
 // Numbers of two doubles, which have 106 bits: for what doubles do not tell and rational numbers
 // take long to tell.
 //
-// The algorithms and their bounds are those of Joldes, Muller and Popescu ("Tight and Rigorous Error
-// Bounds for Basic Building Blocks of Double-Word Arithmetic", 2017), where u = 2^-53: a sum is
-// right to 3u² of itself (and a sum or difference of two doubles is exact), a product to 5u², a
+// The algorithms and their bounds are those of Joldes, Muller and Popescu ("Tight and Rigorous
+// Error Bounds for Basic Building Blocks of Double-Word Arithmetic", 2017), where u = 2^-53: a sum
+// is right to 3u² of itself (and a sum or difference of two doubles is exact), a product to 5u², a
 // quotient to 15u². They hold while nothing underflows or overflows.
 #pragma once
 

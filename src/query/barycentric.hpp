@@ -46,8 +46,7 @@ void settle(CornerVolumes<D> &volumes, const abacus_simplex &simplex, const Poin
 } // namespace exact
 
 // The bounds are those of predicates.hpp, for these expressions.
-template <int D>
-inline bool CornerVolumes<D>::compute(const std::array<Point<D>, D + 1> &seen) {
+template <int D> inline bool CornerVolumes<D>::compute(const std::array<Point<D>, D + 1> &seen) {
     constexpr double factor = D == 2 ? 3.3307e-16 : 7.7716e-16;
     double sum = 0, permanents = 0;
     for (int i = 0; i <= D; ++i) {
@@ -85,9 +84,9 @@ inline bool CornerVolumes<D>::compute(const std::array<Point<D>, D + 1> &seen) {
 
 /// Weights of the corners at p, which lies in the closure of the simplex. Those that are not 0 are
 /// positive, and the corners that have them span the face in whose inside p lies. They sum to 1, up
-/// to rounding; at a corner they are exactly 1 and 0. Corners are taken as seen from p, so the error
-/// is one of p's neighbourhood, not of its coordinates. A place outside, to which rounding may have
-/// led, has no weight of a corner from whose facet it lies beyond.
+/// to rounding; at a corner they are exactly 1 and 0. Corners are taken as seen from p, so the
+/// error is one of p's neighbourhood, not of its coordinates. A place outside, to which rounding
+/// may have led, has no weight of a corner from whose facet it lies beyond.
 template <int D>
 inline std::array<double, D + 1> barycentric_weights(const abacus_simplex &simplex,
                                                      const Point<D> &p) {

@@ -11,7 +11,7 @@ namespace abacus {
 
 namespace {
 
-constexpr double unit = 0x1p-53; // u in double_double.hpp
+constexpr double roundoff = 0x1p-53; // u in double_double.hpp
 
 template <class T, int D>
 LinearSystem<T, D> gradient_system(const abacus_simplex &simplex, const double *values) {
@@ -48,7 +48,7 @@ Determinant determinant_of(const typename LinearSystem<DoubleDouble, D>::Matrix 
     const double permanent = LinearSystem<double, D>::permanent(rounded);
     const bool is_bounded = largest < 1e80 && permanent > 1e-200;
     return {LinearSystem<DoubleDouble, D>::determinant(matrix),
-            is_bounded ? 32 * unit * unit * permanent : INFINITY};
+            is_bounded ? 32 * roundoff * roundoff * permanent : INFINITY};
 }
 
 /// The quotient, rounded once; nothing if it may be another double.
@@ -60,7 +60,7 @@ std::optional<double> rounded_quotient(const Determinant &part, const Determinan
     // Twice what it may be.
     const double error = 4 * size *
                          (part.error / std::fabs(part.value.high) +
-                          whole.error / std::fabs(whole.value.high) + 16 * unit * unit);
+                          whole.error / std::fabs(whole.value.high) + 16 * roundoff * roundoff);
     const double least = quotient.high + (quotient.low - error),
                  greatest = quotient.high + (quotient.low + error);
     return least == greatest ? std::optional(least) : std::nullopt;
@@ -78,8 +78,7 @@ template <int D> bool is_level(const abacus_simplex &simplex, const double *valu
     return orientation<D>(corners) == 0;
 }
 
-template <int D>
-double exact_part(const abacus_simplex &simplex, const double *values, int axis) {
+template <int D> double exact_part(const abacus_simplex &simplex, const double *values, int axis) {
     using exact::Rational;
     const auto system = gradient_system<Rational, D>(simplex, values);
     const Rational whole = system.determinant(system.matrix);
