@@ -90,6 +90,7 @@ CORE.geometry += src/geometry/equidistant.cpp
 CORE.geometry += src/geometry/exact_sum.cpp
 CORE.geometry += src/geometry/line.cpp
 CORE.geometry += src/geometry/predicates.cpp
+CORE.geometry += src/geometry/rational.cpp
 
 CORE.goose += src/goose/circumbox.cpp
 CORE.goose += src/goose/goose.cpp
@@ -190,6 +191,7 @@ CORE.query_locate += src/query/places.cpp
 CORE.query_locate += src/query/places_threads.cpp
 CORE.query_locate += src/query/window.cpp
 
+CORE.query_values += src/query/barycentric.cpp
 CORE.query_values += src/query/interpolation.cpp
 CORE.query_values += src/query/gradient.cpp
 CORE.query_values += src/query/sibson.cpp

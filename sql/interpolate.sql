@@ -42,6 +42,24 @@ SELECT * FROM abacus_weights('cube', 0.5, 0.5, 0.5, 'natural') ORDER BY 1;
 SELECT * FROM abacus_weights('cube', 'SELECT 7, 0.5, 0, 0') ORDER BY 2;
 SELECT id, round(values[1]::numeric, 12) FROM abacus_interpolate('cube', 'SELECT 1, 0.7, 0.4, 1.2 UNION ALL SELECT 2, 9, 9, 9', outside => 'nearest') ORDER BY id;
 
+-- triangles so flat that their area is lost in rounding
+SELECT abacus_triangulate('flat', 'SELECT * FROM (VALUES (1, 0::float8, 0::float8, 0, 7), (2, 0.1, 0.3, 1, NULL), (3, 0.5, 1.5, 5, 3)) AS p (id, x, y, height, rock)', '{height,rock}');
+SELECT x, y, abacus_interpolate('flat', x, y, 'height') AS height, abacus_interpolate('flat', x, y, 'rock') AS rock, abacus_gradient('flat', x, y, 'height') AS gradient,
+       (SELECT array_agg(w::text ORDER BY vertex) FROM abacus_weights('flat', x, y) AS w) AS weights
+FROM (VALUES (0, 0), (0.1, 0.3), (0.5, 1.5), (0.25, 0.75), (0.05, 0.15), (0.3, 0.9)) AS t (x, y);
+SELECT * FROM abacus_profile('flat', '{0.1,0.3,0.5,1.5}', 'height');
+SELECT * FROM abacus_raster('flat', '{0,1}', '{1,2}', 1, 1, 'height');
+SELECT * FROM abacus_check('flat');
+CREATE TABLE turned AS SELECT 40 * i + j AS id, i * c - j * s AS x, i * s + j * c AS y, (40 * i + j)::float8 AS height FROM generate_series(0, 39) AS i, generate_series(0, 39) AS j, (VALUES (0.8775825618903728::float8, 0.479425538604203::float8)) AS turn (c, s);
+SELECT abacus_triangulate('turned_mesh', 'TABLE turned');
+SELECT id, height, abacus_interpolate('turned_mesh', x, y) AS value FROM turned WHERE abacus_interpolate('turned_mesh', x, y) IS DISTINCT FROM height;
+CREATE TABLE sheared AS SELECT 100 * i + 10 * j + k AS id, i + 0.1 * j + 0.3 * k AS x, j + 0.7 * k AS y, k * 0.9::float8 AS z, (100 * i + 10 * j + k)::float8 AS height
+FROM generate_series(0, 4) AS i, generate_series(0, 4) AS j, generate_series(0, 4) AS k;
+SELECT abacus_triangulate('sheared_mesh', 'TABLE sheared', dimension => 3);
+SELECT id, height, value.values[1] FROM sheared JOIN abacus_interpolate('sheared_mesh', 'SELECT id, x, y, z FROM sheared') AS value USING (id) WHERE value.values[1] IS DISTINCT FROM height;
+SELECT count(*) FROM abacus_check('turned_mesh');
+SELECT count(*) FROM abacus_check('sheared_mesh');
+
 -- NULL and infinite places
 SELECT abacus_interpolate(NULL, 1, 1) IS NULL, abacus_interpolate('hill', NULL, 1, 'height') IS NULL, abacus_interpolate('hill', 1, 1, NULL::float8, 'height') IS NULL,
        abacus_interpolate('hill', 1, 'Infinity', 'height', outside => 'nearest') IS NULL, abacus_gradient('hill', NULL, 1) IS NULL, abacus_slope('hill', 9, 9, 'height') IS NULL;

@@ -100,7 +100,7 @@ RETURNS double precision[]
 AS 'MODULE_PATHNAME', 'abacus_sql_gradient'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_gradient(regclass, double precision, double precision, text, double precision) IS
-    'the gradient of an attribute in the triangle around a place; NULL outside the mesh and where a value is missing';
+    'the gradient of an attribute in the triangle around a place, exact and rounded once; NULL outside the mesh and where a value is missing';
 
 CREATE FUNCTION abacus_gradient(
     mesh regclass,
@@ -113,7 +113,7 @@ RETURNS double precision[]
 AS 'MODULE_PATHNAME', 'abacus_sql_gradient'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_gradient(regclass, double precision, double precision, double precision, text, double precision) IS
-    'the gradient of an attribute in the tetrahedron around a place; NULL outside the mesh and where a value is missing';
+    'the gradient of an attribute in the tetrahedron around a place, exact and rounded once; NULL outside the mesh and where a value is missing';
 
 CREATE FUNCTION abacus_slope(
     mesh regclass,

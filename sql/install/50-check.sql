@@ -11,7 +11,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_check'
 LANGUAGE C STABLE PARALLEL SAFE ROWS 1;
 COMMENT ON FUNCTION abacus_check(regclass, integer) IS
-    'verifies the mesh exactly and returns its faults: no row if it is sound';
+    'verifies the mesh exactly and returns its faults: no row if it is sound; a notice tells how many simplices are flat in doubles';
 
 CREATE FUNCTION abacus_stats(
     mesh regclass,

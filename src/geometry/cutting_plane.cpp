@@ -46,8 +46,8 @@ double CuttingPlane::height(const Point<3> &p) const {
         size += std::fabs(term);
     }
     if (is_zero) return 0;
-    // Infinite sums are not below any bound.
-    if (std::fabs(sum) > 1e-9 * size && size > 1e-280 && size < 1e300 && !is_rounded_) [[likely]]
+    // Right to nine digits. Infinite sums are not below any bound.
+    if (std::fabs(sum) > 1e-6 * size && size > 1e-280 && size < 1e300 && !is_rounded_) [[likely]]
         return sum;
     return exact_height(p);
 }

@@ -7,8 +7,8 @@ namespace abacus {
 
 namespace {
 
-/// Weights have at least nine digits; else they are computed in rational numbers.
-constexpr double most_error = 1e-9;
+/// Weights have at least ten digits; else they are computed in rational numbers.
+constexpr double most_error = 1e-10;
 
 /// The values of line_side() of a few points: of each one in the plane, of each two in space.
 template <int D, int N> class Sides {
@@ -57,7 +57,7 @@ void set_weights(FacetPlace<D> &place, const Line<D> &line,
         exact::Rational whole = 0;
         for (const auto &weight : exact) whole += weight;
         for (int i = 0; i < D; ++i)
-            place.weight[i] = CGAL::to_double(exact::Rational(exact[i] / whole));
+            place.weight[i] = exact::nearest_double(exact::Rational(exact[i] / whole));
         place.error = 1e-15;
     }
     // Neither is a corner with a weight left out, nor one without a weight given one.
@@ -158,7 +158,7 @@ int line_side(const Line<3> &line, const Point<3> &a, const Point<3> &b) {
 }
 
 template <int D> double parameter(const Line<D> &line, const std::array<Point<D>, D> &facet) {
-    return CGAL::to_double(parameter_at<D>(line, facet));
+    return nearest_double(parameter_at<D>(line, facet));
 }
 
 template <int D>

@@ -2,12 +2,9 @@
 #pragma once
 
 #include "geometry/line.hpp"
-
-#include <CGAL/Exact_rational.h>
+#include "geometry/rational.hpp"
 
 namespace abacus::exact {
-
-using Rational = CGAL::Exact_rational;
 
 /// The direction of a line, exactly.
 template <int D> std::array<Rational, D> direction_of(const Line<D> &line) {

@@ -1,4 +1,4 @@
-// Small systems of linear equations, such as a gradient or a circumcentre solves.
+// Small systems of linear equations, such as a circumcentre solves.
 //
 // By Cramer's rule in doubles. Where little is left of the determinant, as in a flat simplex, it is
 // done in rational numbers, which are exact; so the solution always has some ten digits.

@@ -56,6 +56,8 @@ public:
 
     /// False after the last fault.
     bool next(abacus_fault &fault) { return faults_.next(fault); }
+    /// Simplices that are flat in doubles, which is no fault.
+    std::uint64_t flat() const { return counts_.flat; }
 
 private:
     class Together;

@@ -1,6 +1,7 @@
 #include "query/contour_cut.hpp"
 
 #include "query/barycentric.hpp"
+#include "query/weighted_mean.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -124,10 +125,8 @@ ContourCorner ContourCut::window_corner(int side, int other) const {
     for (int i = 0; i < 3; ++i)
         std::copy(corners_[i]->begin(), corners_[i]->end(), triangle.corner[i]);
     const auto weights = barycentric_weights<2>(triangle, corner.place);
-    corner.value = 0;
-    for (int i = 0; i < 3; ++i) corner.value += weights[i] * values_[i];
-    const auto [least, greatest] = std::minmax_element(values_.begin(), values_.end());
-    corner.value = std::clamp(corner.value, *least, *greatest);
+    corner.value = weighted_mean(
+        3, [&](std::size_t i) { return weights[i]; }, [&](std::size_t i) { return values_[i]; });
     corner.rank = levels_.rank(corner.value);
     corner.node = {ContourKind::corner + (side % 2 + 2 * (other % 2)), nullptr, nullptr};
     return corner;

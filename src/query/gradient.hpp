@@ -1,6 +1,8 @@
 // The gradient of what varies linearly in a simplex.
 //
-// It solves (corner i − corner 0) · g = value i − value 0.
+// It solves (corner i − corner 0) · g = value i − value 0, by Cramer's rule. Each number is the
+// exact one, rounded once: it is computed with 106 bits, and where these do not tell how it is
+// rounded, as in a flat simplex, in rational numbers.
 #pragma once
 
 #include "query/reader.hpp"

@@ -1,6 +1,6 @@
 #include "query/page_check.hpp"
 
-#include "geometry/predicates.hpp"
+#include "geometry/flatness.hpp"
 #include "query/page_simplex.hpp"
 
 #include <algorithm>
@@ -42,8 +42,11 @@ template <int D> void PageCheck<D>::check_simplices() {
         const Key lowest{code, 0}, highest{code, key_word_end - 1};
         if (highest < page_.lower() || page_.upper() <= lowest)
             faults_.add("key", "A simplex lies in a page that does not own its key.");
-        if (!ghost && orientation<D>(corners_of(page_, s)) <= 0)
+        if (ghost) continue;
+        const Corners<D> corners = corners_of(page_, s);
+        if (orientation<D>(corners) <= 0)
             faults_.add("orientation", "A simplex is flat or negatively oriented.");
+        counts_.flat += is_flat_in_doubles<D>(corners);
     }
 }
 

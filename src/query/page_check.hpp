@@ -19,11 +19,13 @@ public:
 
     struct Counts {
         std::uint64_t simplices = 0, ghosts = 0;
+        std::uint64_t flat = 0;     ///< of the simplices, in doubles (geometry/flatness.hpp)
         std::uint64_t vertices = 0; ///< of all pages: one that is on several counts for each
 
         Counts &operator+=(const Counts &more) {
             simplices += more.simplices;
             ghosts += more.ghosts;
+            flat += more.flat;
             vertices += more.vertices;
             return *this;
         }

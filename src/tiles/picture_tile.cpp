@@ -3,6 +3,7 @@
 #include "query/barycentric.hpp"
 #include "query/hull_box.hpp"
 #include "query/places.hpp"
+#include "query/weighted_mean.hpp"
 #include "tiles/tile_window.hpp"
 
 namespace abacus {
@@ -99,8 +100,9 @@ public:
             sample.spacing = spacing_of(simplex, plane_);
             if (has_attribute_) {
                 const auto weights = barycentric_weights<2>(simplex, place);
-                sample.value = 0;
-                for (int i = 0; i < 3; ++i) sample.value += weights[i] * values.value(i, 0);
+                sample.value = weighted_mean(
+                    3, [&](std::size_t i) { return weights[i]; },
+                    [&](std::size_t i) { return values.value(static_cast<int>(i), 0); });
             }
         }
         tape.put(sample);

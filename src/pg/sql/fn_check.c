@@ -112,6 +112,26 @@ look_for_first_fault(Checking *checking)
 		checking->code = row_code(&checking->fault);
 }
 
+/* Says how many simplices of a sound mesh are so flat that doubles do not tell their volume. */
+static void
+notice_flat(const Checking *checking, Relation table, const abacus_header *header)
+{
+	uint64		flat = abacus_check_flat(checking->host->handle);
+
+	if (flat == 0)
+		return;
+	ereport(NOTICE,
+			(header->dimension == 2
+			 ? errmsg_plural(UINT64_FORMAT " triangle of mesh \"%s\" is flat in doubles",
+							 UINT64_FORMAT " triangles of mesh \"%s\" are flat in doubles",
+							 (unsigned long) flat, flat, RelationGetRelationName(table))
+			 : errmsg_plural(UINT64_FORMAT " tetrahedron of mesh \"%s\" is flat in doubles",
+							 UINT64_FORMAT " tetrahedra of mesh \"%s\" are flat in doubles",
+							 (unsigned long) flat, flat, RelationGetRelationName(table)),
+			 errdetail("The mesh is sound, and values there are right. Only %s this small are lost in rounding.",
+					   header->dimension == 2 ? "areas" : "volumes")));
+}
+
 static Checking *
 begin_check(Oid mesh, int32 limit, MemoryContext memory)
 {
@@ -132,6 +152,8 @@ begin_check(Oid mesh, int32 limit, MemoryContext memory)
 		look_for_first_fault(checking);
 	if (checking->has_fault)
 		host_doubt_pages(checking->host);
+	else if (checking->host->handle != NULL)
+		notice_flat(checking, table, &header);
 	host_release(checking->host);
 	table_close(table, NoLock);
 	return checking;
