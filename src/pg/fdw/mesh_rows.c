@@ -62,7 +62,7 @@ check_attributes(const MeshRows *rows, Relation table, int at)
 				 errmsg("column \"%s\" of foreign table \"%s\" shows an attribute that mesh \"%s\" no longer has",
 						NameStr(TupleDescAttr(RelationGetDescr(table), at)->attname),
 						RelationGetRelationName(table), get_rel_name(rows->published->mesh)),
-				 errhint("Unpublish the mesh and publish it again: abacus_unpublish(), abacus_publish().")));
+				 errhint("Call abacus_unpublish() and then abacus_publish().")));
 }
 
 /* An error if the mesh lacks what a column holds. */
