@@ -151,6 +151,14 @@ SELECT abacus_delete_returning('field', 'SELECT id, x, y FROM wells WHERE id = 7
 SELECT abacus_insert_returning('field', 'SELECT 777 AS id, x, y FROM wells WHERE id = 7');
 SELECT abacus_stage('field', 'SELECT 777 AS id, x, y FROM wells WHERE id = 7');
 SELECT abacus_update('field', 'SELECT id, x, y, 0 AS height FROM wells WHERE id = 7');
+SELECT abacus_add_attribute('field', 'depth');
+-- what the table does not give is free
+BEGIN;
+SELECT abacus_set_srid('field', 4326), abacus_rename_attribute('field', 'height', 'level');
+SELECT abacus_label('field', 'SELECT code, v0, v1, v2, 1 AS soil FROM abacus_simplices(''field'')') > 0 AS labelled,
+       abacus_mark('field', 'SELECT code, v0, v1, v2, 0 AS facet, 7 AS marker FROM abacus_simplices(''field'') LIMIT 1') > 0 AS marked;
+ROLLBACK;
+CALL abacus_build('field');
 SELECT apart();
 -- a mesh that has missed a change
 ALTER TABLE wells DISABLE TRIGGER USER;
