@@ -143,5 +143,43 @@ SELECT abacus_publish('empty', geometry => false);
 SELECT abacus_publish('empty', geometry => false);
 SELECT (SELECT count(*) FROM empty_cells) AS cells, (SELECT count(*) FROM empty_points WHERE x > 0 AND a < 3) AS points;
 ANALYZE empty_points;
+-- attributes have numbers that never come again: also where one is dropped and another gets its name
+SELECT abacus_triangulate('plot', 'SELECT i, i % 7, i / 7, 4 AS g, 100 AS h FROM generate_series(0, 27) AS i');
+SELECT abacus_publish('plot', geometry => false);
+SELECT abacus_drop_attribute('plot', 'g');
+\echo :LAST_ERROR_SQLSTATE
+SELECT abacus_unpublish('plot'), abacus_drop_attribute('plot', 'g'), abacus_publish('plot', geometry => false);
+SELECT g FROM plot_points;
+\echo :LAST_ERROR_SQLSTATE
+SELECT attname, attfdwoptions FROM pg_attribute WHERE attrelid = 'plot_cells'::regclass AND attnum > 4 ORDER BY attnum;
+SELECT DISTINCT h, "values" FROM plot_cells;
+SELECT abacus_rename_attribute('plot', 'h', 'g'), abacus_add_attribute('plot', 'h');
+SELECT abacus_update('plot', 'SELECT id, x, y, id AS h FROM abacus_vertices(''plot'')');
+SELECT DISTINCT h FROM plot_points;
+EXPLAIN (COSTS OFF) SELECT id FROM plot_points WHERE h > 99;
+SELECT count(*), min(h) FROM plot_points WHERE h > 99;
+SELECT DISTINCT h FROM (SELECT h FROM plot_points ORDER BY point(x, y) <-> point '(2,2)' LIMIT 9) AS p;
+SELECT abacus_publish('plot', 'more_cells', 'more_points', geometry => false);
+SELECT DISTINCT g FROM more_points WHERE h < 3 AND g > 99;
+SELECT sum(h), count(DISTINCT id) FROM more_points WHERE h < 3;
+SELECT * FROM abacus_check('plot');
+-- a table that still names it, as one of somebody else does
+ALTER FOREIGN TABLE more_points ALTER COLUMN g OPTIONS (SET holds 'attribute 1');
+ALTER FOREIGN TABLE more_cells ALTER COLUMN "values" OPTIONS (SET dropped '0');
+SELECT g FROM more_points;
+\echo :LAST_ERROR_SQLSTATE
+SELECT id FROM more_points WHERE g = 4;
+SELECT count(*), sum(h) FROM more_points;
+SELECT "values" FROM more_cells;
+\echo :LAST_ERROR_SQLSTATE
+SELECT count(corners) FROM more_cells;
+ANALYZE more_points, more_cells;
+ALTER FOREIGN TABLE more_cells ALTER COLUMN "values" OPTIONS (SET dropped '-1');
+-- damaged numbers
+UPDATE plot SET page = (SELECT page FROM plot WHERE code = -1 AND part = 0) WHERE code = -1 AND part = 1000;
+SELECT h FROM plot_points;
+\echo :LAST_ERROR_SQLSTATE
+SELECT abacus_add_attribute('plot', 'k');
+SELECT fault, code, part, message FROM abacus_check('plot');
 DROP SCHEMA elsewhere;
-DROP TABLE wells, large, empty CASCADE;
+DROP TABLE wells, large, empty, plot CASCADE;

@@ -58,6 +58,31 @@ ANALYZE mine;
 ANALYZE field_points;
 SELECT relname, reltuples FROM pg_class WHERE relname IN ('mine', 'field_points') ORDER BY 1;
 SET ROLE regress_abacus_reader;
+-- who reads a mesh does not keep its owner from changing it, and is told
+RESET ROLE;
+CREATE SCHEMA regress_abacus_of_reader AUTHORIZATION regress_abacus_reader;
+SET ROLE regress_abacus_owner;
+SELECT abacus_triangulate('plot', 'SELECT i, i % 7, i / 7, 4 AS g, 100 AS h FROM generate_series(0, 27) AS i');
+SELECT abacus_publish('plot', geometry => false);
+GRANT SELECT ON plot, plot_vertices TO regress_abacus_reader;
+SET ROLE regress_abacus_reader;
+SELECT abacus_publish('plot', schema => 'regress_abacus_of_reader', geometry => false);
+SET ROLE regress_abacus_owner;
+SELECT abacus_drop_attribute('plot', 'g');
+\echo :LAST_ERROR_SQLSTATE
+SELECT abacus_unpublish('plot');
+SELECT abacus_drop_attribute('plot', 'g');
+SELECT abacus_publish('plot', geometry => false);
+SELECT DISTINCT h FROM plot_points;
+SET ROLE regress_abacus_reader;
+SELECT DISTINCT g FROM regress_abacus_of_reader.plot_points;
+\echo :LAST_ERROR_SQLSTATE
+SELECT "values" FROM regress_abacus_of_reader.plot_cells;
+SELECT DISTINCT h FROM regress_abacus_of_reader.plot_points;
+SELECT abacus_unpublish('plot');
+SELECT abacus_publish('plot', schema => 'regress_abacus_of_reader', geometry => false);
+SELECT DISTINCT h, "values" FROM regress_abacus_of_reader.plot_cells;
+SELECT abacus_unpublish('plot');
 -- everyone drops their own
 DROP VIEW of_reader;
 SELECT abacus_unpublish('field');
@@ -66,5 +91,5 @@ SET ROLE regress_abacus_owner;
 DROP VIEW of_owner;
 SELECT abacus_unpublish('field');
 RESET ROLE;
-DROP SCHEMA regress_abacus CASCADE;
+DROP SCHEMA regress_abacus, regress_abacus_of_reader CASCADE;
 DROP ROLE regress_abacus_owner, regress_abacus_reader;

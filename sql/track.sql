@@ -143,11 +143,31 @@ SELECT abacus_track('field', 'wells');
 \echo :LAST_ERROR_SQLSTATE
 SELECT count(*) FROM pg_trigger WHERE tgrelid = 'wells'::regclass AND NOT tgisinternal;
 SELECT abacus_track('field', 'wells', synchronize => true) > 0 AS tracked, apart();
--- a mesh that somebody else has changed
+-- its points are those of the table alone, until it follows no more
 SELECT abacus_delete('field', 'SELECT id, x, y FROM wells WHERE id = 7');
+\echo :LAST_ERROR_SQLSTATE
+SELECT abacus_insert('field', 'SELECT 777 AS id, x, y FROM wells WHERE id = 7');
+SELECT abacus_delete_returning('field', 'SELECT id, x, y FROM wells WHERE id = 7');
+SELECT abacus_insert_returning('field', 'SELECT 777 AS id, x, y FROM wells WHERE id = 7');
+SELECT abacus_stage('field', 'SELECT 777 AS id, x, y FROM wells WHERE id = 7');
+SELECT abacus_update('field', 'SELECT id, x, y, 0 AS height FROM wells WHERE id = 7');
+SELECT abacus_add_attribute('field', 'depth');
+-- what the table does not give is free
+BEGIN;
+SELECT abacus_set_srid('field', 4326), abacus_rename_attribute('field', 'height', 'level');
+SELECT abacus_label('field', 'SELECT code, v0, v1, v2, 1 AS soil FROM abacus_simplices(''field'')') > 0 AS labelled,
+       abacus_mark('field', 'SELECT code, v0, v1, v2, 0 AS facet, 7 AS marker FROM abacus_simplices(''field'') LIMIT 1') > 0 AS marked;
+ROLLBACK;
+CALL abacus_build('field');
+SELECT apart();
+-- a mesh that has missed a change
+ALTER TABLE wells DISABLE TRIGGER USER;
+UPDATE wells SET x = x + 1 WHERE id = 7;
+ALTER TABLE wells ENABLE TRIGGER USER;
 DELETE FROM wells WHERE id = 7;
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_track('field', 'wells', synchronize => true) > 0 AS tracked, apart();
+UPDATE wells SET x = x - 1 WHERE id = 7;
 
 -- one table, many meshes; one mesh, one table
 CREATE TABLE others (id int, x int, y int, z int);
@@ -196,7 +216,7 @@ SELECT count(*) FROM abacus_vertices('passing');
 -- temporary tables may be written in a transaction that only reads, and so may their mesh
 BEGIN READ ONLY;
 INSERT INTO moments VALUES (50, 7, 8);
-SELECT abacus_insert('passing', 'VALUES (51, 8, 7)');
+INSERT INTO moments VALUES (51, 8, 7);
 SELECT count(*) FROM abacus_vertices('passing') WHERE id >= 50;
 COMMIT;
 DROP TABLE moments, passing;

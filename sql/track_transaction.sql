@@ -58,7 +58,8 @@ BEGIN
 END $$;
 SELECT deeper(3, 5501, 5900);
 SELECT grown() < 15 AS small, apart();
--- of many changes in one statement, too
+-- of many changes in one statement, too, and by hand
+SELECT abacus_untrack('spotted', 'spots');
 SELECT sum(abacus_insert('spotted', format('SELECT * FROM spots(%s, %s)', i, i))) FROM generate_series(6001, 6300) AS i;
 SELECT grown() < 16 AS small;
 DO $$ BEGIN FOR i IN 6301 .. 6600 LOOP

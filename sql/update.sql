@@ -120,7 +120,9 @@ DROP TRIGGER aaa ON twins;
 SELECT * FROM twins_astray;
 SELECT * FROM abacus_check('twin_mesh');
 -- a mesh that is not in step says so
-SELECT abacus_delete('followed', 'SELECT id, x, y FROM wells WHERE id = 9');
+ALTER TABLE wells DISABLE TRIGGER USER;
+UPDATE wells SET c = c + 1 WHERE id = 9;
+ALTER TABLE wells ENABLE TRIGGER USER;
 UPDATE wells SET c = c + 1 WHERE id BETWEEN 8 AND 10;
 \echo :LAST_ERROR_SQLSTATE
 \set VERBOSITY terse

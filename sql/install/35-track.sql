@@ -17,11 +17,11 @@ RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_track'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_track(regclass, regclass, text[], boolean, boolean) IS
-    'keeps the mesh in step with the table from now on, by triggers; columns: names of id, x, y[, z][, attribute...]; an empty mesh gets the rows of the table, another must have them or, with synchronize, is made equal; deferred: the mesh is changed once, at commit; returns the number of points in the mesh';
+    'keeps the mesh in step with the table from now on, by triggers; columns: names of id, x, y[, z][, attribute...]; an empty mesh gets the rows of the table, another must have them or, with synchronize, is made equal; deferred: the mesh is changed once, at commit; its points and attributes cannot be changed by hand meanwhile; returns the number of points in the mesh';
 
 CREATE FUNCTION abacus_untrack(mesh regclass, "table" regclass)
 RETURNS void
 AS 'MODULE_PATHNAME', 'abacus_sql_untrack'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_untrack(regclass, regclass) IS
-    'ends abacus_track(): drops its triggers; the mesh stays as it is';
+    'ends abacus_track(): drops its triggers, for the owner of the table or of the mesh; the mesh stays as it is, and can be changed by hand again';

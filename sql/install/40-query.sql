@@ -98,7 +98,7 @@ RETURNS void
 AS 'MODULE_PATHNAME', 'abacus_sql_drop_attribute'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_drop_attribute(regclass, text) IS
-    'takes an attribute away from a mesh; those after it move up';
+    'takes an attribute away from a mesh, unless its owner or the caller has published it; those after it move up';
 
 CREATE FUNCTION abacus_rename_attribute(mesh regclass, attribute text, name text)
 RETURNS void

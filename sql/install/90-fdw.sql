@@ -38,7 +38,7 @@ RETURNS regclass[]
 AS 'MODULE_PATHNAME', 'abacus_sql_publish'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_publish(regclass, text, text, text, boolean, integer, text) IS
-    'makes foreign tables of the cells and of the points of a mesh, <mesh>_cells and <mesh>_points unless other names are given; where PostGIS is installed they have geometries, with an attribute as Z if z names one';
+    'makes foreign tables of the cells and of the points of a mesh, <mesh>_cells and <mesh>_points unless other names are given; where PostGIS is installed they have geometries, with an attribute as Z if z names one; columns of attributes that are dropped later cannot be read any more';
 
 CREATE FUNCTION abacus_unpublish(mesh regclass)
 RETURNS integer

@@ -129,6 +129,20 @@ SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', srid => 4326) $$,
 SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', srid => 0) $$, '22023', 'srid is 0, but the mesh has SRID 2154', 'none');
 SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', geometry => false, srid => 2154) $$, '22023', 'srid and z are of geometries, and none are published', 'no geometry to have it');
 SELECT lives_ok('ANALYZE slanted_cells, slanted_points, rock_cells', 'ANALYZE');
+-- Z is an attribute by a number that never comes again
+SELECT abacus_triangulate('heights', 'VALUES (1, 0, 0, 7, 8, 9), (2, 4, 0, 7, 8, 9), (3, 0, 4, 7, 8, 9)', '{a,b,c}');
+SELECT abacus_drop_attribute('heights', 'a');
+SELECT abacus_publish('heights', 'c_cells', 'c_points', z => 'c'), abacus_publish('heights', 'b_cells', 'b_points', z => 'b');
+CREATE ROLE pgtap_reader;
+ALTER TABLE heights OWNER TO pgtap_reader;
+ALTER TABLE heights_vertices OWNER TO pgtap_reader;
+SET ROLE pgtap_reader;
+SELECT abacus_drop_attribute('heights', 'b'), abacus_add_attribute('heights', 'd');
+RESET ROLE;
+SELECT is((SELECT array_agg(DISTINCT ST_Z(geom)) FROM c_points), '{9}', 'points have it where an attribute before it was dropped');
+SELECT is((SELECT array_agg(DISTINCT ST_ZMax(geom)) FROM c_cells), '{9}', 'so have cells');
+SELECT throws_ok('SELECT geom FROM ' || name, '42703', format('column "geom" of foreign table "%s" shows an attribute that mesh "heights" no longer has', name), 'one that was dropped is not another') FROM unnest('{b_points,b_cells}'::text[]) AS name;
+SELECT is((SELECT array_agg(DISTINCT c) FROM b_points), '{9}', 'the others are there');
 SELECT * FROM finish();
 \else
 SELECT plan(1);

@@ -1,7 +1,7 @@
 -- abacus_track: whose rights its triggers have, and which triggers are a mesh's, when they are
 -- bound to it (pg_depend) and when they only name it: made by hand, or restored from a dump.
 BEGIN;
-SELECT plan(46);
+SELECT plan(56);
 
 CREATE ROLE pgtap_owner;
 CREATE ROLE pgtap_guest;
@@ -95,20 +95,20 @@ ALTER TABLE own.meadow RENAME TO field;
 -- with the vertex table, by any change of the mesh
 SELECT forget('own.field', true);
 SELECT is(bound('own.field'), 0::bigint, 'restored again');
-SELECT abacus_insert('own.field', 'SELECT 1, 0, 0 WHERE false');
+SELECT abacus_set_srid('own.field', 0);
 SELECT is(bound('own.field'), 4::bigint, '... a change of the mesh binds them');
 SELECT is(count(*), 1::bigint, '... and the vertex table')
 FROM pg_depend WHERE objid = 'own.field_vertices'::regclass AND refobjid = 'own.field'::regclass AND deptype = 'a';
 SELECT forget('own.field', true);
 RESET ROLE;
-SELECT abacus_insert('own.field', 'SELECT 1, 0, 0 WHERE false');
+SELECT abacus_set_srid('own.field', 0);
 SELECT is(bound('own.field'), 4::bigint, '... also one by a superuser');
 SET ROLE pgtap_owner;
 SELECT forget('own.field', true);
 CREATE TABLE own.twin (id int, x float8, y float8);
 CREATE TRIGGER a AFTER INSERT ON own.twin REFERENCING NEW TABLE AS n FOR EACH STATEMENT
     EXECUTE FUNCTION abacus_tracked('field', '2', 'id', 'x', 'y');
-SELECT abacus_insert('own.field', 'SELECT 1, 0, 0 WHERE false');
+SELECT abacus_set_srid('own.field', 0);
 SELECT is(bound('own.field'), 0::bigint, '... not where two tables name it');
 DROP TABLE own.twin;
 -- all go: with the mesh, or with abacus_untrack
@@ -139,8 +139,34 @@ SELECT is(bound('own.field'), 0::bigint, '... which are not those of both owners
 RESET ROLE;
 DELETE FROM guests.wells WHERE id = 1;
 SELECT is(bound('own.field'), 4::bigint, '... those of a superuser are');
+SET ROLE pgtap_owner;
+SELECT throws_ok($$ SELECT abacus_insert('own.field', 'VALUES (9, 1, 1)') $$, '55000',
+    'points of mesh "field" are rows of table "wells", which it follows', 'the owner of the mesh does not change it by hand');
+SELECT lives_ok(format('SELECT abacus_untrack(%L, %s)', 'own.field', (SELECT oid FROM pg_class WHERE relname = 'wells' AND relnamespace = 'guests'::regnamespace)),
+    '... but may end that it follows the table of somebody else');
+SELECT is(bound('own.field'), 0::bigint, '... for all of its triggers');
+SELECT is(abacus_delete('own.field', 'VALUES (2, 1, 0)'), 1::bigint, '... and change it then');
 SET ROLE pgtap_guest;
-SELECT abacus_untrack('own.field', 'guests.wells');
+SELECT throws_ok($$ SELECT abacus_untrack('own.field', 'guests.wells') $$, '42704', NULL, '... it follows no more');
+-- ... whose attributes are not those any more that the columns were chosen for, though they are as many
+SET ROLE pgtap_owner;
+SELECT abacus_create('own.valued', 2, '{g,h}');
+GRANT ALL ON own.valued, own.valued_vertices TO pgtap_guest;
+SET ROLE pgtap_guest;
+CREATE TABLE guests.valued (id int, x float8, y float8, g float8, h float8);
+SELECT abacus_track('own.valued', 'guests.valued');
+SELECT forget('own.valued');
+SELECT lives_ok('INSERT INTO guests.valued VALUES (1, 0, 0, 4, 100), (2, 1, 0, 4, 100), (3, 0, 1, 4, 100)', 'attributes');
+SET ROLE pgtap_owner;
+SELECT lives_ok($$ SELECT abacus_drop_attribute('own.valued', 'g'), abacus_add_attribute('own.valued', 'k') $$, '... of which one goes and one comes');
+SET ROLE pgtap_guest;
+SELECT throws_ok('INSERT INTO guests.valued VALUES (4, 1, 1, 4, 100)', '55000', 'trigger "abacus_track_insert_valued" was made for other attributes', '... and no value comes under another name');
+SELECT is(abacus_track('own.valued', 'guests.valued', '{id,x,y,h,g}', synchronize => true, deferred => true), 3::bigint, '... tracked anew');
+SELECT forget('own.valued');
+INSERT INTO guests.valued VALUES (4, 1, 1, 5, 100);
+SET CONSTRAINTS ALL IMMEDIATE;
+SELECT is((SELECT attributes FROM abacus_vertices('own.valued') WHERE id = 4), '{100,5}', '... it follows, at commit');
+SET CONSTRAINTS ALL DEFERRED;
 SET ROLE pgtap_owner;
 REVOKE USAGE ON SCHEMA own FROM pgtap_guest;
 SET ROLE pgtap_guest;

@@ -49,6 +49,10 @@ SELECT abacus_publish('s."My Mesh"', geometry => false);
 SELECT abacus_set_srid('s."My Mesh"', 2154);
 SELECT abacus_label('s."My Mesh"', 'SELECT code, v0, v1, v2, v3, v0 % 5 AS material, v1 AS n FROM abacus_simplices(''s."My Mesh"'') WHERE v2 % 7 > 0');
 SELECT abacus_mark('s."My Mesh"', 'SELECT code, v0, v1, v2, v3, 1, v0 % 9 FROM abacus_simplices(''s."My Mesh"'') WHERE v2 % 3 = 0');
+SELECT abacus_triangulate('s.levels', 'SELECT i, i % 7, i / 7, 1 AS f, 4 AS g, 100 AS h FROM generate_series(0, 27) AS i');
+SELECT abacus_drop_attribute('s.levels', 'f');
+RESET ROLE;
+SELECT abacus_publish('s.levels', schema => 'public', geometry => false);
 SQL
 my (%content, %labels, %bytes, %grown);
 for my $mesh (@meshes)
@@ -119,6 +123,12 @@ sub examine
 	is($node->safe_psql($database, 'SELECT count(*) FROM after.named_points'), 3, "$what: points of a mesh that was renamed");
 	is($node->safe_psql($database, "SELECT abacus_srid('$meshes[0]'), abacus_srid('$meshes[1]')"), '0|2154',
 		"$what: the spatial reference systems");
+	is($node->safe_psql($database, 'SELECT DISTINCT g, h FROM levels_points'), '4|100', "$what: attributes as a table");
+	$node->safe_psql($database, q{SET client_min_messages = warning; SET ROLE owner; SELECT abacus_drop_attribute('s.levels', 'g')});
+	is($node->safe_psql($database, 'SELECT DISTINCT h FROM levels_points'), 100, "$what: one of them when another is dropped");
+	like(($node->psql($database, 'SELECT g FROM levels_points'))[2], qr/column "g" of foreign table "levels_points" shows an attribute/,
+		"$what: which the table of another user says");
+	is_sound($node, $database, 's.levels', "$what: a mesh that has lost attributes");
 	is(leaves($database), $leaves, "$what: an octree");
 	is($node->safe_psql($database, q{SELECT count(*) FROM abacus_check('soil')}), 0, "$what: which is sound");
 	$node->safe_psql($database, q{SELECT abacus_octree_balance('soil')});
@@ -216,8 +226,8 @@ sub attribute_works
 {
 	my ($database) = @_;
 	is($node->safe_psql($database, q{SELECT substr(abacus_draw('heights', attribute => U&'h\00f6he'), 2, 3) = 'PNG'}), 't', "an attribute is found by its name, $database");
-	my ($status, $out, $err) = $node->psql($database, q{SELECT abacus_stage('heights', 'SELECT 1')});
-	return like($err, qr/id, x, y, h\xc3\xb6he\./, '... and shown by it');
+	my ($status, $out, $err) = $node->psql($database, q{SELECT abacus_draw('heights', attribute => 'none')});
+	return like($err, qr/Its attributes are "h\xc3\xb6he"\./, '... and shown by it');
 }
 $ENV{PGCLIENTENCODING} = 'UTF8';
 $node->safe_psql('postgres', "CREATE DATABASE in_$_ TEMPLATE template0 ENCODING $_ LOCALE 'C'") for qw(utf8 latin1 sql_ascii);

@@ -77,17 +77,37 @@ acquire_sample(Relation table, int level, HeapTuple *sample, int target, double 
 	return count;
 }
 
+/* Whether the mesh still has all that the table shows. */
+static bool
+has_all(const Published *published, Oid user)
+{
+	Numbering  *numbering = palloc(sizeof(Numbering));
+	Reader	   *reader = published_open_mesh(published, user, CurrentMemoryContext, numbering);
+	bool		has = true;
+
+	for (int i = 0; i < published->count; i++)
+		has = has && published_has(&published->columns[i], numbering);
+	host_destroy(reader->host);
+	pfree(numbering);
+	return has;
+}
+
 static bool
 analyze_table(Relation table, AcquireSampleRowsFunc *acquire, BlockNumber *pages)
 {
+	Oid			owner = table->rd_rel->relowner;
+	Published  *published;
 	MeshSize	size;
-	Oid			mesh = published_mesh(table);
 
-	/* a table without its mesh, or whose owner may not read it, is passed over with a warning */
-	if (!OidIsValid(mesh))
+	/*
+	 * A table without its mesh, or whose owner may not read it, is passed over with a warning. So is one
+	 * that shows an attribute which has gone: an error would end the ANALYZE of a whole database.
+	 */
+	if (!OidIsValid(published_mesh(table)))
 		return false;
-	estimate_mesh(published_read(table), table->rd_rel->relowner, &size);
-	if (!size.is_known)
+	published = published_read(table);
+	estimate_mesh(published, owner, &size);
+	if (!size.is_known || !has_all(published, owner))
 		return false;
 	*acquire = acquire_sample;
 	*pages = (BlockNumber) size.pages;

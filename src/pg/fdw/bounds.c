@@ -22,6 +22,14 @@
 /* Relative error of a distance that PostGIS computes: much less than this. */
 #define DISTANCE_ERROR 1e-9
 
+/* What they leave of an attribute. */
+typedef struct Range
+{
+	int			number;
+	double		least;
+	double		greatest;
+} Range;
+
 /* What the conditions seen so far leave. */
 typedef struct Limits
 {
@@ -33,8 +41,8 @@ typedef struct Limits
 	bool		has_box;
 	ConditionKind kind;			/* of the condition from which the box of cells is */
 	int32		srid;			/* of the column, or SRID_UNKNOWN */
-	double		least[ABACUS_MAX_ATTRIBUTES];
-	double		greatest[ABACUS_MAX_ATTRIBUTES];
+	Range	   *ranges;			/* of each attribute that is compared */
+	int			range_count;
 	int64		least_code;
 	int64		greatest_code;
 } Limits;
@@ -56,6 +64,22 @@ limit(Limits *limits, double *least, double *greatest, ConditionKind kind, doubl
 		limits->bounds->nothing = true;
 }
 
+/* The range of an attribute. */
+static Range *
+range_of(Limits *limits, int number)
+{
+	Range	   *range = limits->ranges;
+
+	while (range < limits->ranges + limits->range_count && range->number != number)
+		range++;
+	if (range == limits->ranges + limits->range_count)
+	{
+		*range = (Range) {number, -INFINITY, INFINITY};
+		limits->range_count++;
+	}
+	return range;
+}
+
 /* A number that a column is compared with. */
 static void
 limit_number(Limits *limits, const Condition *condition, double value)
@@ -63,7 +87,11 @@ limit_number(Limits *limits, const Condition *condition, double value)
 	int			number = condition->column.number;
 
 	if (condition->column.holds == HOLDS_ATTRIBUTE)
-		limit(limits, &limits->least[number], &limits->greatest[number], condition->kind, value);
+	{
+		Range	   *range = range_of(limits, number);
+
+		limit(limits, &range->least, &range->greatest, condition->kind, value);
+	}
 	else if (number < limits->dimension)
 	{
 		limit(limits, &limits->lower[number], &limits->upper[number], condition->kind, value);
@@ -216,17 +244,18 @@ set_range(const Limits *limits, Bounds *bounds)
 {
 	int			most = 0;
 
-	for (uint32 i = 0; i < ABACUS_MAX_ATTRIBUTES; i++)
+	for (const Range *range = limits->ranges; range < limits->ranges + limits->range_count; range++)
 	{
-		int			ends = !isinf(limits->least[i]) + !isinf(limits->greatest[i]);
+		int			ends = !isinf(range->least) + !isinf(range->greatest);
 
-		if (ends <= most)
+		if (ends < most || ends == 0 ||
+			(ends == most && range->number > (int) bounds->range.attribute))
 			continue;
 		most = ends;
 		bounds->has_range = true;
-		bounds->range.attribute = i;
-		bounds->range.least = limits->least[i];
-		bounds->range.greatest = limits->greatest[i];
+		bounds->range.attribute = (uint32) range->number;
+		bounds->range.least = range->least;
+		bounds->range.greatest = range->greatest;
 	}
 }
 
@@ -263,11 +292,7 @@ conditions_bounds(List *conditions, Content content, uint32 dimension, int32 sri
 		limits.upper[i] = DBL_MAX;
 	}
 	limits.greatest_code = PG_INT64_MAX;
-	for (int i = 0; i < ABACUS_MAX_ATTRIBUTES; i++)
-	{
-		limits.least[i] = -INFINITY;
-		limits.greatest[i] = INFINITY;
-	}
+	limits.ranges = palloc(Max(1, list_length(conditions)) * sizeof(Range));
 	foreach(cell, conditions)
 	{
 		Condition  *condition = lfirst(cell);
@@ -292,4 +317,5 @@ conditions_bounds(List *conditions, Content content, uint32 dimension, int32 sri
 	set_window(&limits, &bounds->window);
 	set_range(&limits, bounds);
 	set_codes(&limits, bounds);
+	pfree(limits.ranges);
 }

@@ -45,7 +45,7 @@ typedef struct Bounds
 	bool		nothing;		/* no row can meet the conditions */
 	abacus_window window;
 	bool		has_range;		/* of an attribute; of points only */
-	abacus_range range;
+	abacus_range range;			/* the attribute by its number that never comes again */
 	bool		has_codes;		/* of cells: a stretch of the curve instead of the window */
 	uint64		least_code;
 	uint64		greatest_code;

@@ -61,7 +61,7 @@ estimate_mesh(const Published *published, Oid user, MeshSize *size)
 	size->pages = UNKNOWN_PAGES;
 	if (!may_read(published->mesh, user))
 		return;
-	reader = published_open_mesh(published, user, CurrentMemoryContext);
+	reader = published_open_mesh(published, user, CurrentMemoryContext, NULL);
 	size->is_known = true;
 	size->dimension = reader->header.dimension;
 	size->rows = (double) (published->content == CONTENT_CELLS ? reader->header.simplices

@@ -3,6 +3,7 @@
  */
 #include "postgres.h"
 
+#include "access/xact.h"
 #include "catalog/namespace.h"
 #include "catalog/pg_class.h"
 #include "catalog/pg_type.h"
@@ -12,6 +13,7 @@
 #include "utils/array.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
+#include "utils/snapmgr.h"
 
 #include "pg/base/sql_function.h"
 #include "pg/base/utility.h"
@@ -40,11 +42,12 @@ typedef struct Publishing
 {
 	Oid			mesh;
 	const abacus_header *header;
+	const Numbering *numbering;
 	const char *schema;			/* of the foreign tables */
 	const char *functions;		/* schema of ours */
 	const char *geometry;		/* type, with its schema; NULL: no such column */
 	int			srid;
-	int			z;				/* attribute, or -1 */
+	int			z;				/* position of an attribute, or -1 */
 } Publishing;
 
 /* The definition of a table while it is written. */
@@ -79,7 +82,7 @@ add_column(Definition *definition, const char *name, const char *type, const cha
 					 quote_identifier(unique), type, holds, more);
 }
 
-/* Columns of corners or of coordinates, which are named as what they hold. */
+/* Columns of ids or of coordinates, which are named as what they hold. */
 static void
 add_named_columns(Definition *definition, const char *const *names, int count, const char *type)
 {
@@ -87,12 +90,29 @@ add_named_columns(Definition *definition, const char *const *names, int count, c
 		add_column(definition, names[i], type, names[i], "");
 }
 
-static void
-add_attributes(Definition *definition, const abacus_header *header)
+/* The number of an attribute as an option has it. */
+static uint32
+attribute_number(const Publishing *publication, uint32 position)
 {
-	for (uint32 i = 0; i < header->attributes; i++)
-		add_column(definition, header->names[i], "pg_catalog.float8",
-				   psprintf("attribute %u", i + 1), "");
+	return numbering_number(publication->numbering, position) + 1;
+}
+
+static void
+add_attributes(Definition *definition, const Publishing *publication)
+{
+	for (uint32 i = 0; i < publication->header->attributes; i++)
+		add_column(definition, publication->header->names[i], "pg_catalog.float8",
+				   psprintf("attribute %u", attribute_number(publication, i)), "");
+}
+
+/* What corners have of all attributes. */
+static void
+add_values(Definition *definition, const Publishing *publication)
+{
+	uint32		dropped = publication->numbering->dropped;
+
+	add_column(definition, "values", "pg_catalog.float8[]", "values",
+			   dropped == 0 ? "" : psprintf(", " OPTION_DROPPED " '%u'", dropped));
 }
 
 static void
@@ -107,28 +127,29 @@ add_geometry(Definition *definition, const Publishing *publication, Content cont
 				   psprintf("%s(%s%s, %d)", publication->geometry, kind, has_z ? "Z" : "",
 							publication->srid),
 				   "geometry", publication->z < 0 ? ""
-				   : psprintf(", " OPTION_Z " '%d'", publication->z + 1));
+				   : psprintf(", " OPTION_Z " '%u'",
+							  attribute_number(publication, publication->z)));
 }
 
 static void
 add_columns(Definition *definition, const Publishing *publication, Content content)
 {
 	static const char *const ids[] = {"code", "v0", "v1", "v2", "v3"};
-	static const char *const arrays[] = {"corners", "values"};
 	static const char *const axes[] = {"x", "y", "z"};
 	int			dimension = (int) publication->header->dimension;
 
 	if (content == CONTENT_CELLS)
 	{
 		add_named_columns(definition, ids, dimension + 2, "pg_catalog.int8");
-		add_named_columns(definition, arrays, lengthof(arrays), "pg_catalog.float8[]");
+		add_column(definition, "corners", "pg_catalog.float8[]", "corners", "");
+		add_values(definition, publication);
 	}
 	else
 	{
 		add_column(definition, "id", "pg_catalog.int8", "id", "");
 		add_named_columns(definition, axes, dimension, "pg_catalog.float8");
 	}
-	add_attributes(definition, publication->header);
+	add_attributes(definition, publication);
 	add_geometry(definition, publication, content);
 }
 
@@ -150,7 +171,7 @@ make_table(const Publishing *publication, Content content, const char *name)
 					 publication->mesh, content == CONTENT_CELLS ? "cells" : "points");
 	utility_run(definition.text.data);
 	table = get_relname_relid(name, LookupExplicitNamespace(publication->schema, false));
-	mesh_bind_shown_table(publication->mesh, table);
+	shown_bind(publication->mesh, table);
 	return table;
 }
 
@@ -233,6 +254,27 @@ regclass_array(const Oid *tables, int count)
 }
 
 /*
+ * Reads the mesh as it is now: like all definitions that of a table goes by what is there, also by
+ * what other functions of the same statement have done.
+ */
+static Reader *
+read_mesh(Publishing *publication)
+{
+	Numbering  *numbering = palloc(sizeof(Numbering));
+	Reader	   *reader;
+
+	CommandCounterIncrement();
+	PushActiveSnapshot(GetLatestSnapshot());
+	reader = reader_open(publication->mesh, CurrentMemoryContext);
+	numbering_read(reader->host, &reader->header, numbering);
+	host_release(reader->host);
+	PopActiveSnapshot();
+	publication->header = &reader->header;
+	publication->numbering = numbering;
+	return reader;
+}
+
+/*
  * abacus_publish(mesh regclass, cells text, points text, schema text, geometry boolean,
  * srid integer, z text) -> regclass[]
  */
@@ -248,9 +290,7 @@ abacus_sql_publish(PG_FUNCTION_ARGS)
 	if (PG_ARGISNULL(PUBLISH_MESH))
 		PG_RETURN_NULL();
 	publication.mesh = PG_GETARG_OID(PUBLISH_MESH);
-	reader = reader_open(publication.mesh, CurrentMemoryContext);
-	host_release(reader->host);
-	publication.header = &reader->header;
+	reader = read_mesh(&publication);
 	publication.schema = PG_ARGISNULL(PUBLISH_SCHEMA)
 		? get_namespace_name(get_rel_namespace(publication.mesh))
 		: text_to_cstring(PG_GETARG_TEXT_PP(PUBLISH_SCHEMA));
@@ -284,7 +324,7 @@ abacus_sql_unpublish(PG_FUNCTION_ARGS)
 	if (mesh_of_table(mesh) != mesh)
 		table_close(mesh_table_open(mesh, MESH_READ), NoLock);
 	initStringInfo(&command);
-	foreach(cell, published_tables(mesh))
+	foreach(cell, shown_tables(mesh))
 		if (object_ownercheck(RelationRelationId, lfirst_oid(cell), GetUserId()))
 			appendStringInfo(&command, "%s%s", dropped++ == 0 ? "DROP FOREIGN TABLE " : ", ",
 							 qualified_name(lfirst_oid(cell)));

@@ -42,6 +42,8 @@ is_valid(Oid catalogue, const char *name, const char *value)
 		return published_holds(value, &column);
 	if (catalogue == AttributeRelationId && strcmp(name, OPTION_Z) == 0)
 		return published_number(value) >= 0;
+	if (catalogue == AttributeRelationId && strcmp(name, OPTION_DROPPED) == 0)
+		return published_dropped(value) >= 0;
 	return false;
 }
 

@@ -9,6 +9,7 @@
 
 #include <math.h>
 
+#include "utils/lsyscache.h"
 #include "utils/memutils.h"
 
 #include "abacus/ask.h"
@@ -31,6 +32,8 @@ struct MeshRows
 	abacus_faces *points;
 	Nearest    *nearest;		/* or instead of them */
 	uint64		pages;			/* of scans before */
+	Numbering  *numbering;		/* of attributes */
+	int		   *positions;		/* of the attribute in each wanted column, -1 if there is none */
 	GeometryMaker **makers;		/* of columns with geometries */
 	int32		srid;			/* of these, or SRID_UNKNOWN if they differ or there are none */
 };
@@ -49,6 +52,19 @@ static Datum geometry(const MeshRows *rows, MeshRow *row, GeometryMaker *maker, 
 
 /* ---- Opening ------------------------------------------------------------- */
 
+/* An error if attributes that a column holds have been dropped. */
+static void
+check_attributes(const MeshRows *rows, Relation table, int at)
+{
+	if (!published_has(&rows->published->columns[at], rows->numbering))
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_COLUMN),
+				 errmsg("column \"%s\" of foreign table \"%s\" shows an attribute that mesh \"%s\" no longer has",
+						NameStr(TupleDescAttr(RelationGetDescr(table), at)->attname),
+						RelationGetRelationName(table), get_rel_name(rows->published->mesh)),
+				 errhint("Call abacus_unpublish() and then abacus_publish().")));
+}
+
 /* An error if the mesh lacks what a column holds. */
 static void
 check_column(const MeshRows *rows, Relation table, int at)
@@ -61,8 +77,6 @@ check_column(const MeshRows *rows, Relation table, int at)
 		has = column->number <= header->dimension;
 	else if (column->holds == HOLDS_COORDINATE)
 		has = column->number < header->dimension;
-	else if (column->holds == HOLDS_ATTRIBUTE || column->holds == HOLDS_GEOMETRY)
-		has = column->number < (int) header->attributes;
 	if (!has)
 		ereport(ERROR,
 				(errcode(ERRCODE_FDW_COLUMN_NAME_NOT_FOUND),
@@ -70,6 +84,17 @@ check_column(const MeshRows *rows, Relation table, int at)
 						NameStr(TupleDescAttr(RelationGetDescr(table), at)->attname),
 						RelationGetRelationName(table)),
 				 errhint("Unpublish the mesh and publish it again.")));
+	check_attributes(rows, table, at);
+}
+
+/* Where the mesh has the attribute that a column holds; -1 if there is none. */
+static int
+position_of(const MeshRows *rows, const Column *column)
+{
+	bool		is_of_attribute = column->holds == HOLDS_ATTRIBUTE || column->holds == HOLDS_GEOMETRY;
+
+	return is_of_attribute && column->number >= 0
+		? numbering_position(rows->numbering, (uint32) column->number) : -1;
 }
 
 /* The SRID that a column's geometries get: that of one at 0. */
@@ -94,6 +119,7 @@ prepare_columns(MeshRows *rows, Relation table)
 	int32		srid;
 
 	rows->makers = palloc0(published->count * sizeof(GeometryMaker *));
+	rows->positions = palloc(published->count * sizeof(int));
 	rows->srid = SRID_UNKNOWN;
 	for (int i = 0; i < published->count; i++)
 	{
@@ -101,13 +127,14 @@ prepare_columns(MeshRows *rows, Relation table)
 
 		if (!bms_is_member(i, rows->wanted))
 			continue;
+		rows->positions[i] = position_of(rows, column);
 		check_column(rows, table, i);
 		if (column->holds == HOLDS_GEOMETRY)
 		{
 			Form_pg_attribute attribute = TupleDescAttr(RelationGetDescr(table), i);
 
 			rows->makers[i] = geometry_maker(attribute->atttypid, attribute->atttypmod);
-			srid = srid_of(rows, rows->makers[i], column->number);
+			srid = srid_of(rows, rows->makers[i], rows->positions[i]);
 			rows->srid = geometries++ == 0 || srid == rows->srid ? srid : SRID_UNKNOWN;
 		}
 		rows->wants_values |= column->holds == HOLDS_VALUES || column->holds == HOLDS_ATTRIBUTE ||
@@ -130,7 +157,8 @@ mesh_rows_open(Relation table, const Published *published, const Bitmapset *want
 	rows->published = published;
 	rows->wanted = wanted;
 	rows->memory = memory;
-	rows->reader = published_open_mesh(published, user, memory);
+	rows->numbering = palloc(sizeof(Numbering));
+	rows->reader = published_open_mesh(published, user, memory, rows->numbering);
 	prepare_columns(rows, table);
 	MemoryContextSwitchTo(old);
 	return rows;
@@ -161,34 +189,50 @@ end(MeshRows *rows)
 	rows->nearest = NULL;
 }
 
-/* Begins with the first row; may be called again. */
-void
-mesh_rows_begin(MeshRows *rows, const Bounds *bounds)
+static void
+begin_cells(MeshRows *rows, const Bounds *bounds)
 {
 	Reader	   *reader = rows->reader;
 	Host	   *host = reader->host;
 
-	end(rows);
-	if (bounds->nothing)
-		return;
-	if (rows->published->content == CONTENT_CELLS)
-	{
-		if (bounds->has_codes)
-			host_run(host, abacus_cells_open_stretch, &host->table, &reader->header,
-					 bounds->least_code, bounds->greatest_code, &rows->cells);
-		else
-			host_run(host, abacus_cells_open, &host->table, &reader->header, &bounds->window, 0.0, NULL,
-					 &rows->cells);
-		host_own(host, rows->cells, (void (*) (void *)) abacus_cells_close);
-		return;
-	}
-	if (bounds->has_range)
+	if (bounds->has_codes)
+		host_run(host, abacus_cells_open_stretch, &host->table, &reader->header,
+				 bounds->least_code, bounds->greatest_code, &rows->cells);
+	else
+		host_run(host, abacus_cells_open, &host->table, &reader->header, &bounds->window, 0.0, NULL,
+				 &rows->cells);
+	host_own(host, rows->cells, (void (*) (void *)) abacus_cells_close);
+}
+
+static void
+begin_points(MeshRows *rows, const Bounds *bounds)
+{
+	Reader	   *reader = rows->reader;
+	Host	   *host = reader->host;
+	abacus_range range = bounds->range;
+	int			position = bounds->has_range ? numbering_position(rows->numbering, range.attribute) : -1;
+
+	range.attribute = (uint32) position;
+	if (position >= 0)
 		host_run(host, abacus_faces_open_range, &host->table, &reader->header, &bounds->window,
-				 &bounds->range, setting_cache_bytes(), &rows->points);
+				 &range, setting_cache_bytes(), &rows->points);
 	else
 		host_run(host, abacus_faces_open, &host->table, &reader->header, &bounds->window, 0, 0.0,
 				 setting_cache_bytes(), &rows->points);
 	host_own(host, rows->points, (void (*) (void *)) abacus_faces_close);
+}
+
+/* Begins with the first row; may be called again. */
+void
+mesh_rows_begin(MeshRows *rows, const Bounds *bounds)
+{
+	end(rows);
+	if (bounds->nothing)
+		return;
+	if (rows->published->content == CONTENT_CELLS)
+		begin_cells(rows, bounds);
+	else
+		begin_points(rows, bounds);
 }
 
 /* ---- Rows ---------------------------------------------------------------- */
@@ -252,11 +296,11 @@ column_value(const MeshRows *rows, MeshRow *row, int at, bool *isnull)
 		case HOLDS_COORDINATE:
 			return Float8GetDatum(row->vertex.point[column->number]);
 		case HOLDS_ATTRIBUTE:
-			value = attribute(rows, row, column->number);
+			value = attribute(rows, row, rows->positions[at]);
 			*isnull = isnan(value) != 0;
 			return Float8GetDatum(value);
 		case HOLDS_GEOMETRY:
-			return geometry(rows, row, rows->makers[at], column->number);
+			return geometry(rows, row, rows->makers[at], rows->positions[at]);
 		case HOLDS_NOTHING:
 			break;
 	}

@@ -7,18 +7,13 @@
  * name that the mesh has then, and restores the mesh before the table.
  *
  * What a column holds is an option of the column. So columns may be renamed or dropped.
- * Attributes have their numbers there, since they can be renamed as well.
+ * Attributes have numbers there that never come again (numbering.c), since they can be renamed and
+ * dropped as well. A column with the values of all of them has how many had been dropped when it was
+ * made: as long as there are no more, each value is where it was.
  */
 #include "postgres.h"
 
-#include "access/genam.h"
-#include "access/htup_details.h"
-#include "access/table.h"
-#include "catalog/dependency.h"
-#include "catalog/indexing.h"
 #include "catalog/pg_class.h"
-#include "catalog/pg_constraint.h"
-#include "catalog/pg_depend.h"
 #include "catalog/pg_proc.h"
 #include "catalog/pg_type.h"
 #include "commands/defrem.h"
@@ -27,12 +22,11 @@
 #include "foreign/foreign.h"
 #include "miscadmin.h"
 #include "nodes/primnodes.h"
-#include "utils/fmgroids.h"
 #include "utils/lsyscache.h"
-#include "utils/syscache.h"
 
 #include "pg/fdw/published.h"
 #include "pg/mesh/mesh.h"
+#include "pg/mesh/shown.h"
 #include "pg/port/port.h"
 #include "pg/postgis/catalogue.h"
 
@@ -49,15 +43,28 @@ published_content(const char *word, Content *content)
 	return true;
 }
 
+/* The figure that a word is, if it is not less than `least`; else -1. */
+static int
+figure(const char *word, long least)
+{
+	char	   *end;
+	long		value = strtol(word, &end, 10);
+
+	return end != word && *end == '\0' && value >= least && value <= NUMBERING_LIMIT ? (int) value : -1;
+}
+
 /* The number of an attribute, from 0, that a word tells from 1; negative if it tells none. */
 int
 published_number(const char *word)
 {
-	char	   *end;
-	long		number = strtol(word, &end, 10);
+	return figure(word, 1) - 1;
+}
 
-	return end != word && *end == '\0' && number >= 1 && number <= ABACUS_MAX_ATTRIBUTES
-		? (int) number - 1 : -1;
+/* How many attributes have been dropped, as a word tells; negative if it tells nothing. */
+int
+published_dropped(const char *word)
+{
+	return figure(word, 0);
 }
 
 /* What a word says that a column holds. */
@@ -158,6 +165,7 @@ read_column(Relation table, Content content, Form_pg_attribute attribute, Column
 	List	   *options = GetForeignColumnOptions(RelationGetRelid(table), attribute->attnum);
 	const char *word = option(options, OPTION_HOLDS);
 	const char *z = option(options, OPTION_Z);
+	const char *dropped = option(options, OPTION_DROPPED);
 
 	if (word == NULL || !published_holds(word, column) || !belongs(column, content))
 		ereport(ERROR,
@@ -173,6 +181,25 @@ read_column(Relation table, Content content, Form_pg_attribute attribute, Column
 				 errhint("Unpublish the mesh and publish it again.")));
 	if (z != NULL && column->holds == HOLDS_GEOMETRY)
 		column->number = published_number(z);
+	if (dropped != NULL && column->holds == HOLDS_VALUES)
+		column->number = published_dropped(dropped);
+}
+
+/* Whether the attributes that a column shows are all there. */
+bool
+published_has(const Column *column, const Numbering *numbering)
+{
+	switch (column->holds)
+	{
+		case HOLDS_ATTRIBUTE:
+			return numbering_position(numbering, (uint32) column->number) >= 0;
+		case HOLDS_GEOMETRY:
+			return column->number < 0 || numbering_position(numbering, (uint32) column->number) >= 0;
+		case HOLDS_VALUES:
+			return column->number == (int) numbering->dropped;
+		default:
+			return true;
+	}
 }
 
 /* The mesh that a constraint names; InvalidOid if this is no such constraint. */
@@ -233,11 +260,12 @@ published_read(Relation table)
 }
 
 /*
- * Opens the mesh for reading under the active snapshot, with the rights of a user. Nothing of
- * PostgreSQL stays open.
+ * Opens the mesh for reading under the active snapshot, with the rights of a user; *numbering gets
+ * the numbers of its attributes, unless it is NULL. Nothing of PostgreSQL stays open.
  */
 Reader *
-published_open_mesh(const Published *published, Oid user, MemoryContext memory)
+published_open_mesh(const Published *published, Oid user, MemoryContext memory,
+					Numbering *numbering)
 {
 	Reader	   *reader;
 	Oid			caller;
@@ -247,59 +275,11 @@ published_open_mesh(const Published *published, Oid user, MemoryContext memory)
 	GetUserIdAndSecContext(&caller, &context);
 	SetUserIdAndSecContext(user, context | SECURITY_LOCAL_USERID_CHANGE);
 	reader = reader_open(published->mesh, memory);
+	if (numbering != NULL)
+		numbering_read(reader->host, &reader->header, numbering);
 	SetUserIdAndSecContext(caller, context);
 	host_release(reader->host);
 	return reader;
-}
-
-/* ---- The tables of a mesh ------------------------------------------------- */
-
-/* The foreign table of ours that has this constraint; InvalidOid if there is none. */
-static Oid
-table_of_constraint(Oid constraint)
-{
-	HeapTuple	tuple = SearchSysCache1(CONSTROID, ObjectIdGetDatum(constraint));
-	Oid			table = InvalidOid;
-
-	if (HeapTupleIsValid(tuple))
-	{
-		table = ((Form_pg_constraint) GETSTRUCT(tuple))->conrelid;
-		ReleaseSysCache(tuple);
-	}
-	if (!OidIsValid(table) || get_rel_relkind(table) != RELKIND_FOREIGN_TABLE ||
-		GetForeignServerIdByRelId(table) != get_foreign_server_oid(FDW_SERVER, true))
-		return InvalidOid;
-	return table;
-}
-
-/* The foreign tables that show a mesh: their constraints depend on it. */
-List *
-published_tables(Oid mesh)
-{
-	Relation	depend = table_open(DependRelationId, AccessShareLock);
-	List	   *tables = NIL;
-	ScanKeyData keys[2];
-	SysScanDesc scan;
-	HeapTuple	tuple;
-
-	ScanKeyInit(&keys[0], Anum_pg_depend_refclassid, BTEqualStrategyNumber, F_OIDEQ,
-				ObjectIdGetDatum(RelationRelationId));
-	ScanKeyInit(&keys[1], Anum_pg_depend_refobjid, BTEqualStrategyNumber, F_OIDEQ,
-				ObjectIdGetDatum(mesh));
-	scan = systable_beginscan(depend, DependReferenceIndexId, true, NULL, 2, keys);
-	while (HeapTupleIsValid(tuple = systable_getnext(scan)))
-	{
-		Form_pg_depend entry = (Form_pg_depend) GETSTRUCT(tuple);
-		Oid			table = entry->classid == ConstraintRelationId
-			? table_of_constraint(entry->objid) : InvalidOid;
-
-		if (OidIsValid(table))
-			tables = list_append_unique_oid(tables, table);
-	}
-	systable_endscan(scan);
-	table_close(depend, AccessShareLock);
-	list_sort(tables, list_oid_cmp);
-	return tables;
 }
 
 /* A dump does not carry what lets a table go with its mesh: see mesh.c. */
@@ -308,7 +288,7 @@ published_bind_restored(Relation mesh)
 {
 	ListCell   *cell;
 
-	foreach(cell, published_tables(RelationGetRelid(mesh)))
+	foreach(cell, shown_tables(RelationGetRelid(mesh)))
 		if (object_ownercheck(RelationRelationId, lfirst_oid(cell), mesh->rd_rel->relowner))
-			mesh_bind_shown_table(RelationGetRelid(mesh), lfirst_oid(cell));
+			shown_bind(RelationGetRelid(mesh), lfirst_oid(cell));
 }

@@ -8,10 +8,11 @@
 #include "access/tupdesc.h"
 #include "utils/rel.h"
 
+#include "pg/mesh/numbering.h"
 #include "pg/mesh/reader.h"
+#include "pg/mesh/shown.h"
 
 #define FDW_NAME "abacus"
-#define FDW_SERVER "abacus"
 /* The function by which a constraint of the table names the mesh. */
 #define FDW_MESH_FUNCTION "abacus_published"
 
@@ -19,6 +20,7 @@
 #define OPTION_CONTENT "content"
 #define OPTION_HOLDS "holds"
 #define OPTION_Z "z"
+#define OPTION_DROPPED "dropped"
 
 typedef enum Content
 {
@@ -32,10 +34,10 @@ typedef enum Holds
 	HOLDS_CODE,
 	HOLDS_CORNER,				/* of a cell: the id of corner `number` */
 	HOLDS_CORNERS,				/* their coordinates */
-	HOLDS_VALUES,				/* their attributes */
+	HOLDS_VALUES,				/* their attributes; `number`: how many had been dropped */
 	HOLDS_ID,
 	HOLDS_COORDINATE,			/* of a point: on axis `number` */
-	HOLDS_ATTRIBUTE,			/* `number`: of a point its value, of a cell the mean of its corners */
+	HOLDS_ATTRIBUTE,			/* by its `number` that never comes again: of a point its value, of a cell the mean of its corners */
 	HOLDS_GEOMETRY				/* with attribute `number` as Z, unless that is negative */
 } Holds;
 
@@ -57,10 +59,12 @@ typedef struct Published
 extern bool published_content(const char *word, Content *content);
 extern bool published_holds(const char *word, Column *column);
 extern int	published_number(const char *word);
+extern int	published_dropped(const char *word);
+extern bool published_has(const Column *column, const Numbering *numbering);
 extern Published *published_read(Relation table);
 extern Oid	published_mesh(Relation table);
-extern Reader *published_open_mesh(const Published *published, Oid user, MemoryContext memory);
-extern List *published_tables(Oid mesh);
+extern Reader *published_open_mesh(const Published *published, Oid user, MemoryContext memory,
+								   Numbering *numbering);
 extern void published_bind_restored(Relation mesh);
 
 #endif

@@ -57,6 +57,21 @@ is_row_type(Oid type, const char *name, Oid *known)
 	return true;
 }
 
+/* The owner of any table; InvalidOid if it has gone. */
+Oid
+mesh_table_owner(Oid relid)
+{
+	HeapTuple	tuple = SearchSysCache1(RELOID, ObjectIdGetDatum(relid));
+	Oid			owner = InvalidOid;
+
+	if (HeapTupleIsValid(tuple))
+	{
+		owner = ((Form_pg_class) GETSTRUCT(tuple))->relowner;
+		ReleaseSysCache(tuple);
+	}
+	return owner;
+}
+
 /* Called when the owner of a restored mesh writes to it for the first time. */
 static void (*on_restored) (Relation mesh) = NULL;
 
@@ -302,8 +317,8 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 }
 
 /* From now on the object goes where the mesh goes. */
-static void
-bind_object(Oid class, Oid object, Oid mesh)
+void
+mesh_bind_object(Oid class, Oid object, Oid mesh)
 {
 	ObjectAddress dependent;
 	ObjectAddress referenced;
@@ -316,27 +331,7 @@ bind_object(Oid class, Oid object, Oid mesh)
 void
 mesh_bind_vertex_table(Oid mesh, Oid vertices)
 {
-	bind_object(RelationRelationId, vertices, mesh);
-}
-
-/* A foreign table that shows a mesh. */
-void
-mesh_bind_shown_table(Oid mesh, Oid table)
-{
-	bind_object(RelationRelationId, table, mesh);
-}
-
-static bool
-is_foreign_table(Oid relid)
-{
-	return get_rel_relkind(relid) == RELKIND_FOREIGN_TABLE;
-}
-
-/* Whether foreign tables show the mesh. */
-bool
-mesh_is_shown(Oid mesh)
-{
-	return OidIsValid(find_bound_table(RelationRelationId, mesh, false, is_foreign_table));
+	mesh_bind_object(RelationRelationId, vertices, mesh);
 }
 
 /* The mesh that a trigger is bound to; InvalidOid if none. */
@@ -349,7 +344,7 @@ mesh_of_trigger(Oid trigger)
 void
 mesh_bind_trigger(Oid mesh, Oid trigger)
 {
-	bind_object(TriggerRelationId, trigger, mesh);
+	mesh_bind_object(TriggerRelationId, trigger, mesh);
 }
 
 /*

@@ -47,6 +47,12 @@
 #define pg_noreturn pg_attribute_noreturn()
 #endif
 
+/* ---- Columns that are computed when they are read (name of 18) ------------ */
+
+#if PG_VERSION_NUM < 180000
+#define ATTRIBUTE_GENERATED_VIRTUAL 'v'
+#endif
+
 /* ---- Files of a relation (names of 16) ------------------------------------ */
 
 #if PG_VERSION_NUM < 160000

@@ -2,11 +2,13 @@
  * fn_attribute_change.c: abacus_add_attribute and abacus_drop_attribute.
  *
  * What vertices have is written anew, the simplices stay as they are, with their labels. A table that a mesh follows
- * has a column for each attribute, and the columns of a published mesh have the numbers of
- * attributes. So a mesh that follows a table keeps its attributes, and a published one those it has.
+ * has a column for each attribute, so such a mesh keeps its attributes. One that its owner, or who
+ * calls, has published keeps those that it has. Foreign tables of others do not keep anybody from
+ * dropping one: they say that it has gone when they are read.
  */
 #include "postgres.h"
 
+#include "miscadmin.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
@@ -14,8 +16,10 @@
 #include "pg/mesh/change.h"
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/names.h"
+#include "pg/mesh/numbering.h"
 #include "pg/mesh/shape.h"
-#include "pg/track/tracking.h"
+#include "pg/mesh/shown.h"
+#include "pg/track/by_hand.h"
 
 SQL_FUNCTION(abacus_sql_add_attribute);
 SQL_FUNCTION(abacus_sql_drop_attribute);
@@ -24,23 +28,9 @@ SQL_FUNCTION(abacus_sql_drop_attribute);
 static Change *
 begin(FunctionCallInfo fcinfo, const char *command)
 {
-	Oid			mesh = PG_GETARG_OID(0);
-	Oid			function = tracking_function(get_func_namespace(fcinfo->flinfo->fn_oid));
-	Change	   *change = change_begin(mesh, command);
-	List	   *triggers = tracking_triggers(function, mesh, InvalidOid);
+	Change	   *change = change_begin(PG_GETARG_OID(0), command);
 
-	if (triggers != NIL)
-	{
-		const TrackingTrigger *trigger = linitial(triggers);
-		const char *table = get_rel_name(tracking_root(trigger->table));
-
-		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("attributes of mesh \"%s\" are columns of table \"%s\", which it follows",
-						get_rel_name(mesh), table),
-				 errhint("Call abacus_untrack() before, and afterwards abacus_track() with "
-						 "synchronize => true.")));
-	}
+	by_hand_refuse_attributes(change);
 	return change;
 }
 
@@ -51,6 +41,7 @@ end(Change *change, const uint32 *source, uint32 count, const char *added)
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
 
+	numbering_change(host, header, source, count);
 	change_attributes(change, source, count);
 	if (host->names != NULL)
 		names_move(header, host->names, source);
@@ -83,6 +74,61 @@ abacus_sql_add_attribute(PG_FUNCTION_ARGS)
 	PG_RETURN_VOID();
 }
 
+/* Those of some tables that belong to the owner of the mesh or to the user, or the others. */
+static List *
+tables_of(List *tables, Oid mesh, bool own)
+{
+	Oid			owner = mesh_table_owner(mesh);
+	List	   *found = NIL;
+	ListCell   *cell;
+
+	foreach(cell, tables)
+	{
+		Oid			other = mesh_table_owner(lfirst_oid(cell));
+
+		if ((other == owner || other == GetUserId()) == own)
+			found = lappend_oid(found, lfirst_oid(cell));
+	}
+	return found;
+}
+
+/*
+ * Foreign tables that show the mesh: an error if some are the owner's or the user's, who can unpublish
+ * them. For those of others it is said what becomes of them.
+ */
+static void
+check_shown(Oid mesh, const char *attribute)
+{
+	List	   *tables = shown_tables(mesh);
+	List	   *own = tables_of(tables, mesh, true);
+	List	   *of_others = tables_of(tables, mesh, false);
+
+	if (own != NIL)
+		ereport(ERROR,
+				(errcode(ERRCODE_DEPENDENT_OBJECTS_STILL_EXIST),
+				 errmsg("cannot drop attribute \"%s\" of mesh \"%s\" because foreign tables show the mesh",
+						attribute, get_rel_name(mesh)),
+				 errdetail("The foreign tables are %s.", shown_names(own)),
+				 errhint("Call abacus_unpublish() before, and abacus_publish() afterwards.")));
+	if (of_others != NIL)
+		ereport(NOTICE,
+				(errmsg("foreign tables of other users, which show mesh \"%s\", can no longer show attribute \"%s\"",
+						get_rel_name(mesh), attribute),
+				 errdetail("The foreign tables are %s.", shown_names(of_others)),
+				 errhint("Their owners can unpublish the mesh and publish it again.")));
+}
+
+/* What comes behind the attribute moves up, which nobody sees who takes it by its position. */
+static void
+tell_of_moved(const abacus_header *header, uint32 dropped)
+{
+	if (dropped + 1 < header->attributes)
+		ereport(NOTICE,
+				(errmsg("attributes behind \"%s\" move up by one position", header->names[dropped]),
+				 errdetail("Expressions that take values by position, as attributes[%u], get another "
+						   "attribute now.", dropped + 2)));
+}
+
 /* abacus_drop_attribute(mesh regclass, attribute text) */
 Datum
 abacus_sql_drop_attribute(PG_FUNCTION_ARGS)
@@ -95,12 +141,8 @@ abacus_sql_drop_attribute(PG_FUNCTION_ARGS)
 	uint32		count = 0;
 	uint32	   *source = palloc(header->attributes * sizeof(uint32));
 
-	if (mesh_is_shown(mesh))
-		ereport(ERROR,
-				(errcode(ERRCODE_DEPENDENT_OBJECTS_STILL_EXIST),
-				 errmsg("cannot drop attribute \"%s\" of mesh \"%s\" because foreign tables show the mesh",
-						name, get_rel_name(mesh)),
-				 errhint("Call abacus_unpublish() before, and abacus_publish() afterwards.")));
+	check_shown(mesh, name);
+	tell_of_moved(header, dropped);
 	for (uint32 i = 0; i < header->attributes; i++)
 		if (i != dropped)
 			source[count++] = i;

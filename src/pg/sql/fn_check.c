@@ -15,7 +15,7 @@
 #include "abacus/read.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
-#include "pg/mesh/header.h"
+#include "pg/mesh/numbering.h"
 #include "pg/sql/result.h"
 
 SQL_FUNCTION(abacus_sql_check);
@@ -53,6 +53,17 @@ read_header(Checking *checking, abacus_header *header)
 	return !checking->has_fault;
 }
 
+/* Notes a damaged row with the numbers of attributes. */
+static void
+check_numbers(Checking *checking, const abacus_header *header)
+{
+	Numbering  *numbering = palloc(sizeof(Numbering));
+
+	if (!numbering_try_read(checking->host, header, numbering))
+		note_fault(checking, "header", numbering_key, "The numbers of attributes are not valid.");
+	pfree(numbering);
+}
+
 /* Notes the first row besides those of the header where no page can be. */
 static void
 look_before_pages(Checking *checking, const abacus_header *header)
@@ -70,6 +81,8 @@ look_before_pages(Checking *checking, const abacus_header *header)
 		if (memcmp(row.key, key, sizeof(key)) == 0)
 			found = page_table_next(table, key, &row);
 	}
+	if (found && memcmp(row.key, numbering_key, sizeof(numbering_key)) == 0)
+		found = page_table_next(table, numbering_key, &row);
 	if (found && row.key[0] < 0)
 		note_fault(checking, "interval", row.key, "A row lies before the beginning of the curve.");
 }
@@ -144,6 +157,8 @@ begin_check(Oid mesh, int32 limit, MemoryContext memory)
 	if (read_header(checking, &header))
 	{
 		look_before_pages(checking, &header);
+		if (!checking->has_fault)
+			check_numbers(checking, &header);
 		limit -= checking->has_fault;
 		if (limit > 0)
 			check_pages(checking, mesh, &header, limit);

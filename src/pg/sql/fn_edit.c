@@ -17,6 +17,7 @@
 #include "pg/sql/answers.h"
 #include "pg/sql/result.h"
 #include "pg/sql/simplex_row.h"
+#include "pg/track/by_hand.h"
 
 SQL_FUNCTION(abacus_sql_insert);
 SQL_FUNCTION(abacus_sql_delete);
@@ -80,6 +81,7 @@ begin(Oid mesh, Answers *answers, const char *command)
 {
 	Change	   *change = change_begin(mesh, command);
 
+	by_hand_refuse_points(change);
 	change->returns = answers != NULL;
 	return change;
 }

@@ -8,6 +8,7 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/mesh/change.h"
+#include "pg/track/by_hand.h"
 
 SQL_FUNCTION(abacus_sql_stage);
 
@@ -22,6 +23,7 @@ abacus_sql_stage(PG_FUNCTION_ARGS)
 
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	change = change_begin(PG_GETARG_OID(0), "abacus_stage()");
+	by_hand_refuse_points(change);
 	host = change->writer.host;
 	change_read(change, &source);
 	host_run(host, abacus_stage_finish, change->stage, change->writer.header);

@@ -23,6 +23,7 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/mesh/change.h"
+#include "pg/mesh/numbering.h"
 #include "pg/port/port.h"
 #include "pg/track/pending.h"
 #include "pg/track/tracked_points.h"
@@ -268,6 +269,19 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 	return missing + surplus > 0 || srid != header->srid;
 }
 
+/* How many attributes the mesh has had and has no more. */
+static uint32
+dropped_attributes(const Change *change)
+{
+	Numbering  *numbering = palloc(sizeof(Numbering));
+	uint32		dropped;
+
+	numbering_read(change->writer.host, change->writer.header, numbering);
+	dropped = numbering->dropped;
+	pfree(numbering);
+	return dropped;
+}
+
 /*
  * abacus_track(mesh regclass, table regclass, columns text[], synchronize bool, deferred bool)
  * -> bigint
@@ -276,13 +290,11 @@ Datum
 abacus_sql_track(PG_FUNCTION_ARGS)
 {
 	Oid			extension_namespace = get_func_namespace(fcinfo->flinfo->fn_oid);
-	Oid			function = tracking_function(extension_namespace);
 	Oid			mesh;
 	Relation	simplices;
 	Relation	table;
 	List	   *family;
-	List	   *present;
-	List	   *columns;
+	TriggerCall call = {0};
 	ListCell   *cell;
 	Change	   *change;
 	abacus_header header;
@@ -309,16 +321,21 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 
 	pending_settle(mesh);
 	change = change_begin(mesh, "abacus_track()");
-	present = present_triggers(function, mesh, table);
 	header = *change->writer.header;
-	columns = tracked_columns(PG_ARGISNULL(2) ? NULL : PG_GETARG_ARRAYTYPE_P(2), &header, table);
+	call.function = tracking_function(extension_namespace);
+	call.mesh = mesh;
+	call.former = present_triggers(call.function, mesh, table);
+	call.dimension = header.dimension;
+	call.dropped = dropped_attributes(change);
+	call.deferred = PG_GETARG_BOOL(4);
+	call.columns = tracked_columns(PG_ARGISNULL(2) ? NULL : PG_GETARG_ARRAYTYPE_P(2), &header, table);
 	if (header.vertices == 0 && header.inserted == header.staged)
 	{
-		read_points(change, tracked_points_of_table(table, columns, header.dimension, false));
+		read_points(change, tracked_points_of_table(table, call.columns, header.dimension, false));
 		change_insert(change);
 	}
 	else
-		changed = make_equal(change, mesh, table, columns, PG_GETARG_BOOL(3), extension_namespace);
+		changed = make_equal(change, mesh, table, call.columns, PG_GETARG_BOOL(3), extension_namespace);
 	header = *change->writer.header;
 	points = header.vertices + header.duplicates + (header.staged - header.inserted);
 	if (changed)
@@ -328,14 +345,14 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 
 	/* it has been locked by the change, and must not be dropped before its triggers are bound */
 	simplices = table_open(mesh, NoLock);
-	if (present != NIL)
+	if (call.former != NIL)
 	{
 		table_close(table, NoLock); /* DROP TRIGGER refuses a table in use */
-		foreach(cell, present)
+		foreach(cell, call.former)
 			tracking_drop(lfirst(cell));
 		table = open_table(PG_GETARG_OID(1), NoLock);
 	}
-	tracking_create(function, mesh, header.dimension, PG_GETARG_BOOL(4), table, columns, present);
+	tracking_create(&call, table);
 	table_close(table, NoLock);
 	table_close(simplices, NoLock);
 	PG_RETURN_INT64((int64) points);

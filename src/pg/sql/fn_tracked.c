@@ -120,8 +120,7 @@ follow(const TriggerData *trigger, Transition *transition, Change *change)
 {
 	uint64		gone;
 
-	in_step_check_shape(change->writer.header, transition->dimension, transition->columns,
-						trigger->tg_trigger->tgname);
+	in_step_check_shape(change, transition_expected(transition), trigger->tg_trigger->tgname);
 	transition->srid = change->writer.header->srid;
 	if (can_be_revised(transition, change))
 	{

@@ -11,6 +11,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/mesh/change.h"
 #include "pg/mesh/shape.h"
+#include "pg/track/by_hand.h"
 
 SQL_FUNCTION(abacus_sql_update);
 
@@ -68,10 +69,12 @@ update_query(Oid mesh, Source *source)
 	Change	   *change = change_begin(mesh, "abacus_update()");
 	const abacus_header *header = change->writer.header;
 	uint32	   *attributes = palloc(Max(header->attributes, source_columns(source)) * sizeof(uint32));
-	abacus_header *shape = shape_of_rows(source, header, attributes);
+	abacus_header *shape;
 	abacus_named_place missing;
 	uint64		points;
 
+	by_hand_refuse_points(change);
+	shape = shape_of_rows(source, header, attributes);
 	change_read_gone(change, source, shape);
 	points = change->points;
 	if (change_update(change, attributes, shape->attributes, false, &missing) < points)

@@ -3,21 +3,33 @@
  */
 #include "postgres.h"
 
+#include "pg/mesh/numbering.h"
 #include "pg/postgis/geometry_errors.h"
 #include "pg/track/in_step.h"
 
-/* Whether points of the mesh have so many coordinates and, with id and attributes, columns. */
+/* Whether points of the mesh have what the trigger gives, each attribute that which it was made for. */
 void
-in_step_check_shape(const abacus_header *header, int dimension, int columns, const char *trigger)
+in_step_check_shape(const Change *change, ExpectedShape expected, const char *trigger)
 {
-	if ((int) header->dimension != dimension ||
-		(int) (1 + header->dimension + header->attributes) != columns)
+	const abacus_header *header = change->writer.header;
+	Numbering  *numbering = palloc(sizeof(Numbering));
+
+	if ((int) header->dimension != expected.dimension ||
+		(int) (1 + header->dimension + header->attributes) != expected.columns)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("trigger \"%s\" was made for another mesh", trigger),
 				 errdetail("The mesh has dimension %u and %u attributes.", header->dimension,
 						   header->attributes),
 				 errhint("Drop the trigger, and call abacus_track().")));
+	numbering_read(change->writer.host, header, numbering);
+	if (numbering->dropped != expected.dropped)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("trigger \"%s\" was made for other attributes", trigger),
+				 errdetail("An attribute of the mesh has been dropped since."),
+				 errhint("Drop the trigger, and call abacus_track().")));
+	pfree(numbering);
 }
 
 /*

@@ -6,8 +6,15 @@
 
 #include "pg/mesh/change.h"
 
-extern void in_step_check_shape(const abacus_header *header, int dimension, int columns,
-								const char *trigger);
+/* What triggers take a mesh for. */
+typedef struct ExpectedShape
+{
+	int			dimension;
+	int			columns;		/* of a point: id, coordinates, attributes */
+	uint32		dropped;		/* attributes that it has had and has no more */
+} ExpectedShape;
+
+extern void in_step_check_shape(const Change *change, ExpectedShape expected, const char *trigger);
 extern void in_step_check_srid(Change *change, int32 srid);
 extern void in_step_check_found(const Change *change, const char *table, const char *what,
 								uint64 wanted, uint64 found);

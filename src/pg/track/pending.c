@@ -55,8 +55,7 @@ struct Pending
 	Oid			user;			/* whose rights it is changed with */
 	char	   *table;			/* for messages, as is the trigger */
 	char	   *trigger;
-	int			dimension;
-	int			columns;		/* of a point */
+	ExpectedShape shape;		/* of the mesh */
 	uint32		srid;			/* of the mesh, or of geometries that have been noted; 0: none */
 	PointLog   *log;
 	Extent		extent;
@@ -119,8 +118,9 @@ pending_open(Oid mesh, Oid user, const TriggerData *trigger, const Transition *t
 	MemoryContext old;
 
 	while (pending != NULL && !(pending->mesh == mesh && pending->user == user &&
-								pending->dimension == transition->dimension &&
-								pending->columns == transition->columns))
+								pending->shape.dimension == transition->dimension &&
+								pending->shape.columns == transition->columns &&
+								pending->shape.dropped == transition->dropped))
 		pending = pending->next;
 	if (pending != NULL)
 	{
@@ -133,8 +133,7 @@ pending_open(Oid mesh, Oid user, const TriggerData *trigger, const Transition *t
 	pending->user = user;
 	pending->table = pstrdup(RelationGetRelationName(trigger->tg_relation));
 	pending->trigger = pstrdup(trigger->tg_trigger->tgname);
-	pending->dimension = transition->dimension;
-	pending->columns = transition->columns;
+	pending->shape = transition_expected(transition);
 	pending->srid = srid;
 	pending->log = point_log_create(TopTransactionContext);
 	pending->next = all;
@@ -181,7 +180,7 @@ save_extent(Pending *pending)
 void
 pending_add(Pending *pending, bool gone, const uint64 *points, size_t count)
 {
-	size_t		point_bytes = pending->columns * sizeof(uint64);
+	size_t		point_bytes = pending->shape.columns * sizeof(uint64);
 	uint64		sign = gone;
 
 	save_extent(pending);
@@ -189,7 +188,7 @@ pending_add(Pending *pending, bool gone, const uint64 *points, size_t count)
 	{
 		point_log_write(pending->log, pending->extent.end, &sign, sizeof(sign));
 		pending->extent.end += sizeof(sign);
-		point_log_write(pending->log, pending->extent.end, points + i * pending->columns, point_bytes);
+		point_log_write(pending->log, pending->extent.end, points + i * pending->shape.columns, point_bytes);
 		pending->extent.end += point_bytes;
 	}
 	*(gone ? &pending->extent.went : &pending->extent.came) += count;
@@ -218,9 +217,9 @@ pending_forget(Oid mesh)
 static void
 stage(Pending *pending, bool gone, Change *change)
 {
-	size_t		words = 1 + pending->columns;
+	size_t		words = 1 + pending->shape.columns;
 	uint64	   *records = palloc(POINTS_A_BATCH * words * sizeof(uint64));
-	uint64	   *points = palloc(POINTS_A_BATCH * pending->columns * sizeof(uint64));
+	uint64	   *points = palloc(POINTS_A_BATCH * pending->shape.columns * sizeof(uint64));
 	uint64		at = pending->extent.start;
 
 	change_open_stage(change, change->writer.header);
@@ -234,8 +233,8 @@ stage(Pending *pending, bool gone, Change *change)
 		at += size;
 		for (const uint64 *record = records; record < records + size / sizeof(uint64); record += words)
 			if (record[0] == (uint64) gone)
-				memcpy(points + count++ * pending->columns, record + 1,
-					   pending->columns * sizeof(uint64));
+				memcpy(points + count++ * pending->shape.columns, record + 1,
+					   pending->shape.columns * sizeof(uint64));
 		if (count > 0)
 			change_add(change, points, count);
 	}
@@ -248,8 +247,7 @@ change_mesh(Pending *pending)
 {
 	Change	   *change = change_begin(pending->mesh, "abacus_track()");
 
-	in_step_check_shape(change->writer.header, pending->dimension, pending->columns,
-						pending->trigger);
+	in_step_check_shape(change, pending->shape, pending->trigger);
 	in_step_check_srid(change, (int32) pending->srid);
 	change_hold(change);
 	if (pending->extent.came > 0)

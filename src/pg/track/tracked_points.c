@@ -11,6 +11,7 @@
 
 #include "pg/input/row_packer.h"
 #include "pg/mesh/shape.h"
+#include "pg/port/port.h"
 #include "pg/postgis/catalogue.h"
 #include "pg/track/tracked_points.h"
 
@@ -94,6 +95,25 @@ default_names(const abacus_header *header, Relation table)
 	return names;
 }
 
+/*
+ * A column that is computed when it is read has no value in the rows that triggers get. That would be
+ * taken for NULL, and the row for no point.
+ */
+void
+tracked_check_column(Relation table, AttrNumber number)
+{
+	Form_pg_attribute attribute = TupleDescAttr(RelationGetDescr(table), number - 1);
+
+	if (attribute->attgenerated == ATTRIBUTE_GENERATED_VIRTUAL)
+		ereport(ERROR,
+				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				 errmsg("a mesh cannot follow the virtual generated column \"%s\" of table \"%s\"",
+						NameStr(attribute->attname), RelationGetRelationName(table)),
+				 errdetail("Triggers are not given its values."),
+				 errhint("Make it GENERATED ALWAYS AS (...) STORED, or call abacus_untrack() if the mesh "
+						 "follows the table already.")));
+}
+
 /* Names of the columns of a point: as given, or as the mesh names its own. */
 static List *
 column_names(ArrayType *given, const abacus_header *header, Relation table)
@@ -102,13 +122,18 @@ column_names(ArrayType *given, const abacus_header *header, Relation table)
 	ListCell   *cell;
 
 	foreach(cell, names)
-		if (get_attnum(RelationGetRelid(table), lfirst(cell)) <= 0)
+	{
+		AttrNumber	number = get_attnum(RelationGetRelid(table), lfirst(cell));
+
+		if (number <= 0)
 			ereport(ERROR,
 					(errcode(ERRCODE_UNDEFINED_COLUMN),
 					 errmsg("column \"%s\" of table \"%s\" does not exist",
 							(char *) lfirst(cell), RelationGetRelationName(table)),
 					 errhint("Name the columns with the argument columns: id, coordinates, "
 							 "attributes.")));
+		tracked_check_column(table, number);
+	}
 	return names;
 }
 

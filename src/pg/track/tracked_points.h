@@ -10,6 +10,7 @@
 
 #include "abacus/header.h"
 
+extern void tracked_check_column(Relation table, AttrNumber number);
 extern List *tracked_columns(ArrayType *given, const abacus_header *header, Relation table);
 extern char *tracked_points_of_table(Relation table, List *columns, int dimension, bool packed);
 extern char *tracked_points_of_other_srid(Relation table, List *columns,

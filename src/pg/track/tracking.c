@@ -169,20 +169,6 @@ read_trigger(Oid oid)
 	return trigger;
 }
 
-static Oid
-owner_of_table(Oid relid)
-{
-	HeapTuple	tuple = SearchSysCache1(RELOID, ObjectIdGetDatum(relid));
-	Oid			owner = InvalidOid;
-
-	if (HeapTupleIsValid(tuple))
-	{
-		owner = ((Form_pg_class) GETSTRUCT(tuple))->relowner;
-		ReleaseSysCache(tuple);
-	}
-	return owner;
-}
-
 /* Whether the trigger counts as one of the mesh; `table` is that of tracking_triggers(). */
 static bool
 belongs(const TrackingTrigger *trigger, Oid mesh, Oid table)
@@ -192,7 +178,7 @@ belongs(const TrackingTrigger *trigger, Oid mesh, Oid table)
 	/* what others write into the triggers of their tables must not disturb anybody */
 	return trigger->bound || trigger->table == table ||
 		(OidIsValid(table) && tracking_root(trigger->table) == table) ||
-		owner_of_table(trigger->table) == owner_of_table(mesh);
+		mesh_table_owner(trigger->table) == mesh_table_owner(mesh);
 }
 
 /*
@@ -292,7 +278,7 @@ tracking_bind_restored(Relation mesh)
 
 	/* the lock keeps the triggers from being dropped meanwhile */
 	if (OidIsValid(table) && ConditionalLockRelationOid(table, AccessShareLock) &&
-		OidIsValid(owner_of_table(table)))
+		OidIsValid(mesh_table_owner(table)))
 		bind_triggers(function, relid, table);
 }
 
@@ -373,7 +359,7 @@ tracking_mesh(const TriggerData *data, Oid *user)
 	FiringTrigger original = original_trigger(trigger, RelationGetRelid(data->tg_relation));
 	Oid			mesh = bound_mesh(original.oid, original.table, original.from);
 
-	*user = owner_of_table(original.table);
+	*user = mesh_table_owner(original.table);
 	if (OidIsValid(mesh))
 		return mesh;
 	mesh = mesh_by_name(trigger->tgargs[0], get_rel_namespace(original.table));

@@ -23,14 +23,25 @@ typedef struct TrackingTrigger
 	char		fires;			/* as pg_trigger.tgenabled says */
 } TrackingTrigger;
 
+/* What all triggers of a mesh call. */
+typedef struct TriggerCall
+{
+	Oid			function;
+	Oid			mesh;
+	int			dimension;
+	uint32		dropped;		/* attributes that the mesh had and has no more */
+	bool		deferred;
+	List	   *columns;
+	List	   *former;			/* TrackingTriggers that these replace */
+} TriggerCall;
+
 extern Oid	tracking_function(Oid extension_namespace);
 extern Oid	tracking_mesh(const TriggerData *data, Oid *user);
 extern bool tracking_is_followed(const TriggerData *data);
 extern Oid	tracking_root(Oid table);
 extern void tracking_bind_restored(Relation mesh);
 extern List *tracking_triggers(Oid function, Oid mesh, Oid table);
-extern void tracking_create(Oid function, Oid mesh, int dimension, bool deferred, Relation table,
-							List *columns, List *former);
+extern void tracking_create(const TriggerCall *call, Relation table);
 extern void tracking_drop(const TrackingTrigger *trigger);
 
 #endif

@@ -12,6 +12,8 @@
 #include "catalog/pg_inherits.h"
 #include "catalog/pg_trigger.h"
 #include "commands/defrem.h"
+#include "miscadmin.h"
+#include "utils/acl.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
@@ -40,9 +42,9 @@ choose_name(Oid mesh, Oid table, const char *event)
 
 /* The arguments: 'mesh', '2', 'id', 'x', 'y', ... */
 static char *
-arguments(Oid mesh, int dimension, bool deferred, Relation table, List *columns)
+arguments(const TriggerCall *call, Relation table)
 {
-	Oid			namespace = get_rel_namespace(mesh);
+	Oid			namespace = get_rel_namespace(call->mesh);
 	const char *schema = namespace == RelationGetNamespace(table) ? NULL
 		: get_namespace_name(namespace);
 	StringInfoData list;
@@ -50,9 +52,10 @@ arguments(Oid mesh, int dimension, bool deferred, Relation table, List *columns)
 
 	initStringInfo(&list);
 	appendStringInfoString(&list, quote_literal_cstr(
-							   quote_qualified_identifier(schema, get_rel_name(mesh))));
-	appendStringInfo(&list, ", '%d%s'", dimension, deferred ? TRACKING_DEFERRED : "");
-	foreach(cell, columns)
+							   quote_qualified_identifier(schema, get_rel_name(call->mesh))));
+	appendStringInfo(&list, ", '%d%s%s'", call->dimension, call->deferred ? TRACKING_DEFERRED : "",
+					 call->dropped > 0 ? psprintf(TRACKING_DROPPED "%u", call->dropped) : "");
+	foreach(cell, call->columns)
 		appendStringInfo(&list, ", %s", quote_literal_cstr(lfirst(cell)));
 	return list.data;
 }
@@ -115,17 +118,6 @@ static const TriggerKind of_parent_or_child[] = {
 	{"part", TRIGGER_TYPE_TRUNCATE, "BEFORE TRUNCATE", EACH_STATEMENT}
 };
 
-/* What all triggers of a mesh call. */
-typedef struct TriggerCall
-{
-	Oid			function;
-	Oid			mesh;
-	int			dimension;
-	bool		deferred;
-	List	   *columns;
-	List	   *former;
-} TriggerCall;
-
 static void
 create_triggers(const TriggerCall *call, Relation table, const TriggerKind *kinds, int count)
 {
@@ -141,8 +133,7 @@ create_triggers(const TriggerCall *call, Relation table, const TriggerKind *kind
 
 		utility_run(psprintf("CREATE TRIGGER %s %s ON %s %s EXECUTE FUNCTION %s(%s)",
 							 quote_identifier(name), kinds[i].when, table_name, kinds[i].then,
-							 function_name, arguments(call->mesh, call->dimension, call->deferred,
-													  table, call->columns)));
+							 function_name, arguments(call, table)));
 		mesh_bind_trigger(call->mesh, get_trigger_oid(relid, name, false));
 		fire_as_before(table, name, kinds[i].type, call->former);
 	}
@@ -175,26 +166,35 @@ create_in_family(const TriggerCall *call, Relation root, List *family)
  * Partitions and children are locked as the table is.
  */
 void
-tracking_create(Oid function, Oid mesh, int dimension, bool deferred, Relation table, List *columns,
-				List *former)
+tracking_create(const TriggerCall *call, Relation table)
 {
 	List	   *family = find_all_inheritors(RelationGetRelid(table), NoLock, NULL);
-	TriggerCall call = {function, mesh, dimension, deferred, columns, former};
 
 	if (list_length(family) > 1 || table->rd_rel->relkind == RELKIND_PARTITIONED_TABLE)
-		create_in_family(&call, table, family);
+		create_in_family(call, table, family);
 	else
-		create_triggers(&call, table, of_plain_table, lengthof(of_plain_table));
+		create_triggers(call, table, of_plain_table, lengthof(of_plain_table));
 }
 
-/* A caller that has not locked the table may find it gone, and the trigger with it. */
+/*
+ * A caller that has not locked the table may find it gone, and the trigger with it. The owner of the
+ * mesh may drop a trigger of another one's table that is bound to it, as he does with the mesh itself.
+ */
 void
 tracking_drop(const TrackingTrigger *trigger)
 {
 	char	   *schema = get_namespace_name(get_rel_namespace(trigger->table));
 	char	   *table = get_rel_name(trigger->table);
+	Oid			user;
+	int			security;
 
-	if (schema != NULL && table != NULL)
-		utility_run(psprintf("DROP TRIGGER %s ON %s", quote_identifier(trigger->name),
-							 quote_qualified_identifier(schema, table)));
+	if (schema == NULL || table == NULL)
+		return;
+	GetUserIdAndSecContext(&user, &security);
+	if (trigger->bound && object_ownercheck(RelationRelationId, trigger->mesh, user) &&
+		!object_ownercheck(RelationRelationId, trigger->table, user))
+		SetUserIdAndSecContext(mesh_table_owner(trigger->table), security | SECURITY_LOCAL_USERID_CHANGE);
+	utility_run(psprintf("DROP TRIGGER %s ON %s", quote_identifier(trigger->name),
+						 quote_qualified_identifier(schema, table)));
+	SetUserIdAndSecContext(user, security);
 }

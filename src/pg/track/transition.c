@@ -23,26 +23,49 @@
 #include "utils/rel.h"
 #include "utils/tuplestore.h"
 
+#include "pg/mesh/numbering.h"
+#include "pg/track/tracked_points.h"
 #include "pg/track/transition.h"
 
 #define POINTS_A_BATCH 1024
 
-/* The dimension, and how the mesh follows; 0: arguments are what whoever made the trigger has written. */
-static int
-read_dimension(const char *argument, bool *deferred)
+/* Goes past a word if the text begins with it. */
+static bool
+skip(char **text, const char *word)
 {
-	for (int dimension = 2; dimension <= ABACUS_MAX_DIMENSION; dimension++)
-	{
-		char	   *plain = psprintf("%d", dimension);
-
-		*deferred = strcmp(argument, psprintf("%s" TRACKING_DEFERRED, plain)) == 0;
-		if (*deferred || strcmp(argument, plain) == 0)
-			return dimension;
-	}
-	return 0;
+	if (strncmp(*text, word, strlen(word)) != 0)
+		return false;
+	*text += strlen(word);
+	return true;
 }
 
-/* What the mesh should be like. */
+/*
+ * The dimension, how the mesh follows, and how many attributes it had lost; 0: arguments are what
+ * whoever made the trigger has written.
+ */
+static int
+read_dimension(char *argument, bool *deferred, uint32 *dropped)
+{
+	char	   *rest;
+	long		dimension = strtol(argument, &rest, 10);
+	long		count = 0;
+
+	*deferred = skip(&rest, TRACKING_DEFERRED);
+	if (skip(&rest, TRACKING_DROPPED))
+		count = strtol(rest, &rest, 10);
+	*dropped = (uint32) count;
+	return *rest == '\0' && count >= 0 && count <= NUMBERING_LIMIT && dimension >= 2 &&
+		dimension <= ABACUS_MAX_DIMENSION ? (int) dimension : 0;
+}
+
+/* What the trigger takes the mesh for. */
+ExpectedShape
+transition_expected(const Transition *transition)
+{
+	return (ExpectedShape) {transition->dimension, transition->columns, transition->dropped};
+}
+
+/* The same as points have it. */
 const abacus_header *
 transition_shape(const Transition *transition)
 {
@@ -107,7 +130,7 @@ transition_open(const TriggerData *trigger)
 
 	transition->inputs = trigger->tg_trigger->tgnargs - TRACKING_ARGUMENT_COLUMNS;
 	transition->dimension = read_dimension(trigger->tg_trigger->tgargs[TRACKING_ARGUMENT_DIMENSION],
-										   &transition->deferred);
+										   &transition->deferred, &transition->dropped);
 	if (transition->dimension == 0 || transition->inputs < 2 ||
 		transition->inputs > 1 + transition->dimension + ABACUS_MAX_ATTRIBUTES)
 		refuse_arguments(trigger);
@@ -124,6 +147,7 @@ transition_open(const TriggerData *trigger)
 							names[i], RelationGetRelationName(trigger->tg_relation)),
 					 errhint("Name the columns again with abacus_track(), or call "
 							 "abacus_untrack().")));
+		tracked_check_column(trigger->tg_relation, number);
 		transition->numbers[i] = number;
 		TupleDescCopyEntry(transition->points, i + 1, desc, number);
 	}

@@ -8,6 +8,7 @@
 #include "commands/trigger.h"
 
 #include "pg/mesh/change.h"
+#include "pg/track/in_step.h"
 
 /* A transition table while it is read, or a row. */
 typedef struct TransitionRows
@@ -27,6 +28,7 @@ typedef struct Transition
 	int			dimension;
 	uint32		srid;			/* of the mesh, for geometries; 0: it has none, or is not known yet */
 	bool		deferred;		/* the mesh follows at commit */
+	uint32		dropped;		/* attributes that the mesh had lost when the trigger was made */
 	char	  **names;			/* of the columns of points */
 	AttrNumber *numbers;		/* of these columns, in the table */
 	TupleDesc	points;			/* what a point's row looks like */
@@ -37,13 +39,18 @@ typedef struct Transition
 /* Takes points. */
 typedef void (*PointSink) (void *context, const uint64 *points, size_t count);
 
-/* Arguments of the trigger: name of the mesh, its dimension (and how it follows), columns of a point. */
+/*
+ * Arguments of the trigger: name of the mesh, its dimension (how it follows, and how many attributes had
+ * been dropped, if any: the columns are those of the others), columns of a point.
+ */
 #define TRACKING_ARGUMENT_DIMENSION 1
 #define TRACKING_DEFERRED " deferred"
+#define TRACKING_DROPPED " dropped "
 #define TRACKING_ARGUMENT_COLUMNS 2
 
 extern Transition *transition_open(const TriggerData *trigger);
 extern void transition_open_rows(Transition *transition, uint32 srid);
+extern ExpectedShape transition_expected(const Transition *transition);
 extern const abacus_header *transition_shape(const Transition *transition);
 extern int32 transition_srid(const Transition *transition);
 extern bool transition_changes(Transition *transition);

@@ -1,0 +1,29 @@
+/*
+ * numbering.h: numbers of attributes that never come again.
+ */
+#ifndef ABACUS_NUMBERING_H
+#define ABACUS_NUMBERING_H
+
+#include "pg/mesh/header.h"
+
+/* The greatest number that an attribute can have. */
+#define NUMBERING_LIMIT 0x3FFFFFFF
+
+typedef struct Numbering
+{
+	uint32		count;			/* of attributes */
+	uint32		dropped;		/* attributes that the mesh has had and has no more */
+	uint32		before[ABACUS_MAX_ATTRIBUTES];	/* how many of these came before each */
+} Numbering;
+
+/* The row that it is in, if an attribute has been dropped. */
+extern const int64 numbering_key[PAGE_TABLE_KEYS];
+
+extern bool numbering_try_read(Host *host, const abacus_header *header, Numbering *numbering);
+extern void numbering_read(Host *host, const abacus_header *header, Numbering *numbering);
+extern uint32 numbering_number(const Numbering *numbering, uint32 position);
+extern int	numbering_position(const Numbering *numbering, uint32 number);
+extern void numbering_change(Host *host, const abacus_header *header, const uint32 *source,
+							 uint32 count);
+
+#endif

@@ -1,0 +1,16 @@
+/*
+ * shown.h: the foreign tables that show a mesh.
+ */
+#ifndef ABACUS_SHOWN_H
+#define ABACUS_SHOWN_H
+
+#include "nodes/pg_list.h"
+
+/* The server of these tables. */
+#define FDW_SERVER "abacus"
+
+extern List *shown_tables(Oid mesh);
+extern void shown_bind(Oid mesh, Oid table);
+extern char *shown_names(List *tables);
+
+#endif

@@ -1,0 +1,71 @@
+/*
+ * by_hand.c: changes of a mesh that do not come from the table that it follows.
+ *
+ * A mesh that follows a table has the points of its rows. If it had others, a later change of the table
+ * would not find its own, and whoever writes the table would get the error. So points and attributes
+ * are changed through the table alone. What the table does not give, as labels and markers, is free.
+ *
+ * The change has locked the header by then, as abacus_track() does before it makes its triggers. So
+ * either its triggers are seen here, or it sees what has been changed.
+ */
+#include "postgres.h"
+
+#include "utils/lsyscache.h"
+
+#include "pg/track/by_hand.h"
+#include "pg/track/tracking.h"
+
+/* The name of the table that the mesh follows; NULL if there is none. */
+static const char *
+followed_table(Relation mesh)
+{
+	Oid			pages = get_typ_typrelid(mesh->rd_rel->reloftype);
+	List	   *triggers = tracking_triggers(tracking_function(get_rel_namespace(pages)),
+											 RelationGetRelid(mesh), InvalidOid);
+	ListCell   *cell;
+
+	foreach(cell, triggers)
+	{
+		const TrackingTrigger *trigger = lfirst(cell);
+
+		/* a partition that was detached keeps its auxiliary one */
+		if (!trigger->auxiliary)
+			return get_rel_name(tracking_root(trigger->table));
+	}
+	return NULL;
+}
+
+static Relation
+mesh_of(const Change *change)
+{
+	return mesh_pages(change->writer.host)->simplices.heap;
+}
+
+/* An error if the mesh follows a table: for functions that add, remove or change points. */
+void
+by_hand_refuse_points(const Change *change)
+{
+	const char *table = followed_table(mesh_of(change));
+
+	if (table != NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("points of mesh \"%s\" are rows of table \"%s\", which it follows",
+						RelationGetRelationName(mesh_of(change)), table),
+				 errhint("Change the table, and the mesh follows; or call abacus_untrack() before.")));
+}
+
+/* The same for functions that give points other attributes. */
+void
+by_hand_refuse_attributes(const Change *change)
+{
+	const char *table = followed_table(mesh_of(change));
+
+	if (table != NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("attributes of mesh \"%s\" are columns of table \"%s\", which it follows",
+						RelationGetRelationName(mesh_of(change)), table),
+				 errhint("Call abacus_untrack() before, and afterwards abacus_track() with "
+						 "synchronize => true.")));
+}
