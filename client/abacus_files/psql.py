@@ -60,8 +60,6 @@ def end(psql):
     finally:
         psql.kill()
         psql.wait()
-        if psql.stderr:
-            psql.stderr.close()
 
 
 def end_by_signals():

@@ -3,7 +3,8 @@
 Rows come in PostgreSQL's binary COPY format. Where no value is NULL or of variable length all rows have one length, so numpy reads
 thousands at once. psql keeps no row.
 """
-import subprocess
+import sys
+import tempfile
 
 import numpy
 
@@ -33,12 +34,16 @@ class Session:
         self.rest = b""
 
     def __enter__(self):
-        self.psql = psql.start(self.database, options="-c client_min_messages=warning", stderr=subprocess.PIPE)
+        self.messages = tempfile.TemporaryFile()  # a pipe that is full of warnings would stop psql
+        self.psql = psql.start(self.database, options="-c client_min_messages=warning", stderr=self.messages)
         self.send("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY")
         return self
 
     def __exit__(self, kind, value, trace):
         psql.end(self.psql)
+        if kind is None:
+            sys.stderr.write(self.said())
+        self.messages.close()
 
     def send(self, sql):
         try:
@@ -47,9 +52,13 @@ class Session:
         except BrokenPipeError:
             self.fail()
 
+    def said(self):
+        self.messages.seek(0)
+        return self.messages.read().decode(errors="replace")
+
     def fail(self):
-        said = self.psql.stderr.read().decode(errors="replace").strip()
-        raise Failed(said or "psql ended early")
+        self.psql.wait()
+        raise Failed(self.said().strip() or "psql ended early")
 
     def read(self):
         more = self.psql.stdout.read1(CHUNK)

@@ -3,6 +3,7 @@ import json
 import pathlib
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -16,6 +17,10 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 import abacus
 
 CLIENT = abacus.REPOSITORY / "client"
+sys.path.insert(0, str(CLIENT))
+from abacus_files.psql import Failed  # noqa: E402
+from abacus_files.series import Series  # noqa: E402
+from abacus_files.session import Session  # noqa: E402
 
 
 def run(command, *arguments):
@@ -70,11 +75,7 @@ class Files(unittest.TestCase):
             self.assertIsNotNone(data.GetArray('a "b'))
         for query, said in (
             ("SELECT 1 WHERE false", "no rows"), ("SELECT 1, 2", "columns"), ("SELECT id, 1, 2 FROM files_series", "more than once"), ("nonsense", "syntax error"),
-            ("SELECT id, NULL, 2 FROM files_series", "no steps"), ("SELECT 1, 'NaN'::float8, 2", "NaN or infinite"),
-            # psql would wait for what ends these
-            ("SELECT 1, 2, 'open", "unterminated quoted string"), ("SELECT 1, 2, $$open", "unterminated dollar-quoted"), ('SELECT 1, 2, "open', "unterminated quoted identifier"),
-            ("SELECT 1, 2, (3", "syntax error"), ("SELECT 1, 2, 3 /* open", "unterminated /* comment"), ("SELECT 1) TO STDOUT; SELECT (1", "syntax error"),
-            ("SELECT 1, 2, 3; SELECT 1, 2, 3", "syntax error"), ("", "syntax error"), ("\\!", "syntax error"),
+            ("SELECT 1, 2, 'open", "unterminated quoted string"),
         ):
             failed = run("abacus-export", "files_space", self.at / "unwritten.pvd", "--series", query)
             self.assertEqual(failed.returncode, 1)
@@ -82,8 +83,27 @@ class Files(unittest.TestCase):
         self.assertNotEqual(run("abacus-export", "files_space", self.at / "unwritten.pvd").returncode, 0)
         self.assertEqual([path.name for path in self.at.glob("unwritten*")], [])
 
+    def test_series_that_are_none(self):
+        """psql would wait for what ends most of these."""
+        for query, said in (
+            ("SELECT 1, NULL, 2", "no steps"), ("SELECT 1, 'NaN'::float8, 2", "NaN or infinite"), ("SELECT 1, 2, $$open", "unterminated dollar-quoted"),
+            ('SELECT 1, 2, "open', "unterminated quoted identifier"), ("SELECT 1, 2, (3", "syntax error"), ("SELECT 1, 2, 3 /* open", "unterminated /[*] comment"),
+            ("SELECT 1) TO STDOUT; SELECT (1", "syntax error"), ("SELECT 1, 2, 3; SELECT 1, 2, 3", "syntax error"), ("", "syntax error"), ("\\!", "syntax error"),
+        ):
+            with self.subTest(query=query), self.assertRaisesRegex(Failed, said), Session(None) as session:
+                Series(session, query)
+        with self.assertRaisesRegex(Failed, "rows of another form"), Session(None) as session:
+            session.all("SELECT NULL::int8, 1::int8", ["int8"] * 2)
+
     def test_comment_in_series(self):
         self.export("files_space", "comment.pvd", "--series", "SELECT 1, 2 AS at, 3.0 AS speed -- of one vertex")
+
+    def test_warnings_in_series(self):
+        """More of them than a pipe has room for; they are shown, and stop nothing."""
+        abacus.psql("CREATE FUNCTION files_warns(n int) RETURNS int LANGUAGE plpgsql AS $$ BEGIN RAISE WARNING '%', repeat('w', 1000); RETURN n; END $$")
+        done = run("abacus-export", "files_space", self.at / "warned.pvd", "--series", "SELECT files_warns(n), 2 AS at, 3.0 AS speed FROM generate_series(1, 50) AS n")
+        self.assertEqual(done.returncode, 0)
+        self.assertGreater(len(done.stderr), 100000)
 
     def test_octree(self):
         """An octree has no file yet. Nothing waits, and no session stays."""
@@ -145,7 +165,7 @@ class Files(unittest.TestCase):
         text = (self.at / "i.geojsonl").read_text()
         properties = json.loads(text, parse_constant=self.fail)["properties"]
         self.assertEqual((properties["a"], properties["b"]), (None, None))
-        for suffix in "geojsonl", "obj", "2dm", "ply":
+        for suffix in "geojsonl", "obj":
             self.assertIn("a is missing or infinite", run("abacus-export", "files_infinite", self.at / f"i.{suffix}", "--z", "a").stderr)
 
     def test_geojson_places(self):
