@@ -2,7 +2,7 @@
 import pathlib
 
 from . import write_2dm, write_geojson, write_npz, write_obj, write_ply, write_pvd, write_vtu
-from .session import Failed
+from .psql import Failed
 
 WRITERS = {suffix: module for module in (write_2dm, write_geojson, write_npz, write_obj, write_ply, write_pvd, write_vtu) for suffix in module.suffixes}
 

@@ -1,119 +1,104 @@
-"""Files by way of meshio, into a mesh; 2DM, which meshio does not know, by a few lines of our own."""
-import csv
-import io
+"""Files as meshes: which reader a file's name asks for, and what becomes of points, cells and data."""
 import os
-import subprocess
+import sys
 
-import meshio
 import numpy
 
-from .session import Failed
+from . import apart, read_2dm, read_msh, read_obj, read_off, read_other, read_ply, read_tetgen, read_vtu
+from .arrays import unlike
+from .grid import SIMPLICES, SMALL
+from .psql import Failed
+
+READERS = {suffix: module for module in (read_2dm, read_msh, read_obj, read_off, read_ply, read_tetgen, read_vtu) for suffix in module.suffixes}
 
 
-def simplices_of(file_mesh, path):
-    """The dimension, and rows of corner numbers; tetrahedra where there are any, else triangles."""
-    for kind, dimension in (("tetra", 3), ("triangle", 2)):
-        blocks = [block.data for block in file_mesh.cells if block.type == kind]
-        if blocks:
-            others = sorted({block.type for block in file_mesh.cells} - {"tetra", "triangle", "vertex", "line"})
-            if others:
-                raise Failed(f"{path}: has cells of other kinds ({', '.join(others)}); only triangles and tetrahedra make a mesh")
-            return dimension, numpy.concatenate(blocks)
-    raise Failed(f"{path}: has neither triangles nor tetrahedra")
+def read_here(path, keep_apart):
+    """The grid of a file, read in this process. `keep_apart`: vertices at one place."""
+    module = READERS.get(os.path.splitext(path)[1].lower(), read_other)
+    return module.read(path, keep_apart) if module is read_vtu else module.read(path)
 
 
-def columns_of(file_mesh, dimension, path):
-    """Coordinates, names of the attributes and their values. A plane mesh keeps z as an attribute unless it is 0 everywhere."""
-    points = numpy.asarray(file_mesh.points, dtype=float)
-    names, values = [], []
-    if dimension == 2 and points.shape[1] == 3 and numpy.any(points[:, 2] != 0):
-        names.append("z")
-        values.append(points[:, 2])
-    if points.shape[1] < dimension:
-        raise Failed(f"{path}: points have {points.shape[1]} coordinates, {dimension} are needed")
-    for name, data in file_mesh.point_data.items():
-        if name != "id" and numpy.size(data) == len(points): # vectors and tensors are left out
-            names.append(name)
-            values.append(numpy.asarray(data, dtype=float).reshape(-1))
-    ids = numpy.asarray(file_mesh.point_data.get("id", numpy.arange(len(points))), dtype=numpy.int64).reshape(-1)
-    if len(numpy.unique(ids)) != len(ids):
-        ids = numpy.arange(len(points))
-    return ids, points[:, :dimension], names, values
+class Input:
+    """What abacus_load is given."""
+
+    def __init__(self, grid):
+        kind = grid.kind()
+        self.notes = list(grid.notes)
+        self.dimension = SIMPLICES[kind]
+        self.simplices = grid.cells[kind]
+        self.points = grid.points[:, : self.dimension]
+        if grid.points.shape[1] < self.dimension:
+            raise Failed(f"points have {grid.points.shape[1]} coordinates, {self.dimension} are needed")
+        self.ids = self.ids_of(grid)
+        self.names, self.values = self.attributes_of(grid)
+        self.materials = grid.tags.get(kind)
+        if self.materials is not None and not self.materials.any():
+            self.materials = None
+        self.facets, self.markers = self.facets_of(grid, SMALL[self.dimension - 1])
+        self.say_what_is_left(grid, kind)
+
+    def ids_of(self, grid):
+        if grid.ids is not None:
+            return grid.ids
+        plain = numpy.arange(len(grid.points))
+        if "id" not in grid.data:
+            return plain
+        with numpy.errstate(invalid="ignore"):
+            ids = grid.data["id"].astype(numpy.int64)
+        if (ids != grid.data["id"]).any() or len(numpy.unique(ids)) != len(ids):
+            self.notes.append("the ids are no whole numbers, or not all different: points are numbered from 0")
+            return plain
+        return ids
+
+    def attributes_of(self, grid):
+        """A mesh in the plane keeps z as an attribute unless it is 0 everywhere."""
+        found = []
+        if self.dimension == 2 and grid.points.shape[1] == 3 and numpy.any(grid.points[:, 2] != 0):
+            found.append(("z", grid.points[:, 2]))
+        found += [(name, values.astype(float)) for name, values in grid.data.items() if name != "id" or grid.ids is not None]
+        return unlike([name or "_" for name, _ in found], ()), [values for _, values in found]
+
+    def facets_of(self, grid, kind):
+        """Marked facets of the simplices, each once, by places of their corners."""
+        empty = numpy.empty((0, self.dimension), numpy.int64), numpy.empty(0, numpy.int64)
+        if kind not in grid.tags:
+            return empty
+        marked = grid.tags[kind] != 0
+        facets, markers = numpy.sort(grid.cells[kind][marked], axis=1), grid.tags[kind][marked]
+        if not len(facets):
+            return empty
+        corners = numpy.sort(self.simplices, axis=1)
+        sides = numpy.concatenate([numpy.delete(corners, n, axis=1) for n in range(self.dimension + 1)])
+        sides, place = numpy.unique(numpy.concatenate([sides, facets]), axis=0, return_inverse=True)
+        place = place.reshape(-1)
+        is_side = numpy.zeros(len(sides), bool)
+        is_side[place[: -len(facets)]] = True
+        number = place[-len(facets):]
+        _, first = numpy.unique(number, return_index=True)
+        kept = first[is_side[number[first]]]
+        left = len(facets) - len(kept)
+        if left:
+            self.notes.append(f"{left} marked facets are left out: no simplex has them, or they are marked twice")
+        return facets[kept], markers[kept]
+
+    def say_what_is_left(self, grid, kind):
+        left = {name: len(corners) for name, corners in grid.cells.items() if name != kind and len(corners)}
+        if kind == "tetra" or "line" in left:
+            left[SMALL[self.dimension - 1]] = left.get(SMALL[self.dimension - 1], 0) - len(self.facets)
+        texts = [f"{count} of the kind {name}" for name, count in left.items() if count > 0]
+        if texts:
+            self.notes.append(f"cells that are no {'tetrahedra' if kind == 'tetra' else 'triangles'} are left out: {', '.join(texts)}")
+        unused = len(grid.points) - len(numpy.unique(self.simplices))
+        if unused:
+            self.notes.append(f"{unused} points that no {'tetrahedron' if kind == 'tetra' else 'triangle'} has are left out")
 
 
-def identifier(name):
-    return '"' + name.replace('"', '""') + '"'
-
-
-def literal(text):
-    return "'" + text.replace("'", "''") + "'"
-
-
-def script(mesh, dimension, ids, points, names, values, simplices, retriangulate):
-    """What psql is sent, line by line."""
-    axes = "xyz"[:dimension]
-    kinds = "".join(f", {axis} float8" for axis in axes) + "".join(f", {identifier('a_' + name)} float8" for name in names)
-    yield "BEGIN;\nSET LOCAL standard_conforming_strings = on;\n"
-    yield f"CREATE TEMP TABLE abacus_import_points (id bigint{kinds}) ON COMMIT DROP;\n"
-    yield f"CREATE TEMP TABLE abacus_import_simplices ({', '.join(f'v{i} bigint' for i in range(dimension + 1))}) ON COMMIT DROP;\n"
-    yield "COPY abacus_import_points FROM STDIN (FORMAT csv);\n"
-    for n in range(len(ids)):
-        row = io.StringIO()
-        rest = ["" if numpy.isnan(column[n]) else repr(float(column[n])) for column in values]
-        csv.writer(row, lineterminator="\n").writerow([int(ids[n]), *(repr(float(x)) for x in points[n]), *rest])
-        yield row.getvalue()
-    yield "\\.\nCOPY abacus_import_simplices FROM STDIN (FORMAT csv);\n"
-    for corners in simplices:
-        yield ",".join(str(int(ids[n])) for n in corners) + "\n"
-    columns = ", ".join(["id", *axes, *(f"{identifier('a_' + name)} AS {identifier(name)}" for name in names)])
-    attributes = "ARRAY[" + ", ".join(literal(name) for name in names) + "]::text[]"
-    yield "\\.\n"
-    yield (f"SELECT abacus_load(:'mesh', {literal(f'SELECT {columns} FROM abacus_import_points')}, 'TABLE abacus_import_simplices', "
-           f"attributes => {attributes}, retriangulate => {'true' if retriangulate else 'false'});\nCOMMIT;\n")
-
-
-def read_2dm(path):
-    """The nodes and triangles of a 2DM file."""
-    nodes, corners = {}, []
-    with open(path, encoding="utf-8", errors="replace") as file:
-        for line in file:
-            words = line.split()
-            if words and words[0] == "ND":
-                nodes[int(words[1])] = [float(word) for word in words[2:5]]
-            elif words and words[0] == "E3T":
-                corners.append([int(word) for word in words[2:5]])
-            elif words and words[0] in ("E4Q", "E6T", "E8Q", "E9Q"):
-                raise Failed(f"{path}: has {words[0]} cells; only triangles make a mesh")
-    place = {number: n for n, number in enumerate(nodes)}
-    triangles = numpy.array([[place[n] for n in corner] for corner in corners], dtype=int).reshape(-1, 3)
-    return meshio.Mesh(numpy.array(list(nodes.values())), [("triangle", triangles)], point_data={"id": numpy.array(list(nodes))})
-
-
-def read_file(path):
+def read_file(path, keep_apart):
+    """What a file has. It is read in a process of its own; errors name the file."""
     try:
-        return read_2dm(path) if path.lower().endswith(".2dm") else meshio.read(path)
-    except KeyError as error:
-        raise Failed(f"{path}: a cell names node {error}, which is not there") from error
-    except (meshio.ReadError, OSError, ValueError, IndexError) as error:
+        found = Input(apart.read(path, keep_apart=keep_apart))
+    except Failed as error:
         raise Failed(f"{path}: {error}") from error
-    except SystemExit as error:  # meshio's way where it cannot go on
-        raise Failed(f"{path}: no file that meshio reads") from error
-
-
-def load(path, mesh, database, retriangulate):
-    """Makes the mesh; returns the number of its simplices."""
-    file_mesh = read_file(path)
-    dimension, simplices = simplices_of(file_mesh, path)
-    ids, points, names, values = columns_of(file_mesh, dimension, path)
-    command = ["psql", "-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-v", f"mesh={mesh}", *(["-d", database] if database else [])]
-    psql = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=None, text=True, env=dict(os.environ, PGCLIENTENCODING="UTF8"))
-    try:
-        for line in script(mesh, dimension, ids, points, names, values, simplices, retriangulate):
-            psql.stdin.write(line)
-        said, _ = psql.communicate()
-    except BrokenPipeError:
-        said = ""
-        psql.wait()
-    if psql.returncode != 0:
-        raise Failed(f"{path}: not loaded")
-    return int(said.split()[-1])
+    for note in found.notes:
+        print(f"abacus-import: {path}: {note}", file=sys.stderr)
+    return found

@@ -1,6 +1,7 @@
 """A mesh at the steps of a time series: its values come from a query of (id, step, value, ...)."""
-from .arrays import MESH
-from .session import Failed
+import math
+
+from .psql import Failed
 
 
 class Series:
@@ -8,7 +9,8 @@ class Series:
 
     def __init__(self, session, query):
         query = query.strip().rstrip(";")
-        columns = session.texts(f"SELECT key FROM (SELECT * FROM ({query}) AS series LIMIT 1) AS one, "
+        session.send(f"PREPARE abacus_series AS {query}")  # by itself it must be one statement, with no parenthesis too many
+        columns = session.texts(f"SELECT key FROM (SELECT * FROM ({query}\n) AS series LIMIT 1) AS one, "
                                 "json_object_keys(row_to_json(one)) WITH ORDINALITY AS keys (key, n) ORDER BY n")
         if not columns:
             raise Failed("the series has no rows")
@@ -16,8 +18,12 @@ class Series:
             raise Failed(f"a series has an id, a step and values; this has the columns: {', '.join(columns)}")
         self.names = columns[2:]
         self.values = [f"s{n}" for n in range(len(self.names))]
-        self.rows = f"({query}) AS series ({', '.join(['id', 'step', *self.values])})"
+        self.rows = f"({query}\n) AS series ({', '.join(['id', 'step', *self.values])})"
         self.steps = [step for step, in session.all(f"SELECT DISTINCT step::float8 FROM {self.rows} WHERE step IS NOT NULL ORDER BY 1", ["float8"])]
+        if not self.steps:
+            raise Failed("the series has no steps, they are all NULL")
+        if not all(map(math.isfinite, self.steps)):
+            raise Failed("a step of the series is NaN or infinite")
 
 
 class Step:
@@ -31,7 +37,7 @@ class Step:
 
     def points(self):
         values = ", ".join(f"{value}::float8" for value in self.series.values)
-        source = (f"abacus_numbered_vertices({MESH}) LEFT JOIN (SELECT id::bigint AS step_id, {values} FROM {self.series.rows} "
+        source = (f"{self.mesh.numbered_vertices()} LEFT JOIN (SELECT id::bigint AS step_id, {values} FROM {self.series.rows} "
                   f"WHERE step::float8 = '{self.step!r}'::float8) AS step ON step_id = id")
         seen = 0
         for chunk in self.mesh.points(source, [f"coalesce({value}, 'NaN')" for value in self.series.values], "ORDER BY number"):

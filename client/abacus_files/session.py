@@ -1,58 +1,64 @@
 """One psql that answers a list of queries in one snapshot, as a stream.
 
 Rows come in PostgreSQL's binary COPY format. Where no value is NULL or of variable length all rows have one length, so numpy reads
-thousands at once. psql brings the connection options, the password file and the environment that users know; it keeps no row.
+thousands at once. psql keeps no row.
 """
-import os
-import subprocess
+import sys
+import tempfile
 
 import numpy
 
+from . import psql
+from .psql import Failed
+
 SIGNATURE = b"PGCOPY\n\xff\r\n\0"
+END = b"\xff\xff"  # in place of a row's number of columns
 TYPES = {"float8": (">f8", 8), "int8": (">i8", 8), "int4": (">i4", 4)}
 CHUNK = 1 << 20  # bytes read at once
 
 
-class Failed(Exception):
-    """What psql said, or a file that is not as it should be."""
+def check_form(rows, types, sent):
+    """Rows of another form would be waited for without end: one with NULL is shorter. `sent`: how many bytes of the last row are there."""
+    sizes = {"count": len(types), **{f"l{n}": TYPES[name][1] for n, name in enumerate(types)}}
+    for name, wanted in sizes.items():
+        field, at = rows.dtype.fields[name]
+        if at + field.itemsize <= sent and (rows[name] != wanted).any():
+            raise Failed("psql sent rows of another form")
 
 
 class Session:
     """Runs queries in turn; each is a pair of SQL and the types of its columns."""
 
-    def __init__(self, database, variables):
-        self.command = ["psql", "-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1"]
-        if database:
-            self.command += ["-d", database]
-        for name, value in variables.items():
-            self.command += ["-v", f"{name}={value}"]
+    def __init__(self, database):
+        self.database = database
         self.rest = b""
 
     def __enter__(self):
-        environment = dict(os.environ, PGOPTIONS=os.environ.get("PGOPTIONS", "") + " -c client_min_messages=warning")
-        self.psql = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment)
-        self.send("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY;\n")
+        self.messages = tempfile.TemporaryFile()  # a pipe that is full of warnings would stop psql
+        self.psql = psql.start(self.database, options="-c client_min_messages=warning", stderr=self.messages)
+        self.send("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY")
         return self
 
     def __exit__(self, kind, value, trace):
-        self.psql.kill()
-        self.psql.wait()
-        for pipe in (self.psql.stdin, self.psql.stdout, self.psql.stderr):
-            try:
-                pipe.close()
-            except BrokenPipeError:
-                pass
+        psql.end(self.psql)
+        if kind is None:
+            sys.stderr.write(self.said())
+        self.messages.close()
 
-    def send(self, text):
+    def send(self, sql):
         try:
-            self.psql.stdin.write(text.encode())
+            self.psql.stdin.write(psql.statement(sql).encode(errors="surrogateescape"))
             self.psql.stdin.flush()
         except BrokenPipeError:
             self.fail()
 
+    def said(self):
+        self.messages.seek(0)
+        return self.messages.read().decode(errors="replace")
+
     def fail(self):
-        said = self.psql.stderr.read().decode(errors="replace").strip()
-        raise Failed(said or "psql ended early")
+        self.psql.wait()
+        raise Failed(self.said().strip() or "psql ended early")
 
     def read(self):
         more = self.psql.stdout.read1(CHUNK)
@@ -66,30 +72,25 @@ class Session:
         for n, name in enumerate(types):
             fields += [(f"l{n}", ">i4"), (f"f{n}", TYPES[name][0])]
         row = numpy.dtype(fields)
-        self.send(f"COPY ({query}) TO STDOUT (FORMAT binary);\n")
+        self.send(f"COPY ({query}\n) TO STDOUT (FORMAT binary)")
         head = len(SIGNATURE) + 8
         while len(self.rest) < head:
             self.read()
         if not self.rest.startswith(SIGNATURE):
             raise Failed("psql sent no rows")
         self.rest = self.rest[head:]
-        while True:
-            if len(self.rest) >= 2 and self.rest[:2] == b"\xff\xff":
-                self.rest = self.rest[2:]
-                return
+        while not self.rest.startswith(END):
             whole = numpy.frombuffer(self.rest, row, len(self.rest) // row.itemsize)
-            rows = numpy.flatnonzero(whole["count"] != len(types))
-            whole = whole[: rows[0]] if len(rows) else whole
+            ends = numpy.flatnonzero(whole["count"] == -1)
+            whole = whole[: ends[0]] if len(ends) else whole
             if len(whole) == 0:
-                if len(self.rest) >= row.itemsize:
-                    raise Failed("psql sent rows of another form")
+                check_form(numpy.frombuffer(self.rest.ljust(row.itemsize, b"\xff")[: row.itemsize], row), types, len(self.rest))
                 self.read()
                 continue
-            for n, name in enumerate(types):
-                if (whole[f"l{n}"] != TYPES[name][1]).any():
-                    raise Failed("psql sent rows of another form")
+            check_form(whole, types, row.itemsize)
             self.rest = self.rest[len(whole) * row.itemsize:]
             yield whole
+        self.rest = self.rest[len(END):]
 
     def all(self, query, types):
         """All rows of a small query, as tuples."""
@@ -97,7 +98,8 @@ class Session:
 
     def texts(self, query):
         """All rows of a small query of one text column."""
-        self.send(f"COPY (SELECT encode(convert_to(line, 'UTF8'), 'hex') FROM ({query}) AS lines (line)) TO STDOUT;\nCOPY (SELECT '.') TO STDOUT;\n")
+        self.send(f"COPY (SELECT encode(convert_to(line, 'UTF8'), 'hex') FROM ({query}\n) AS lines (line)) TO STDOUT")
+        self.send("COPY (SELECT '.') TO STDOUT")
         while not (self.rest.startswith(b".\n") or b"\n.\n" in self.rest):
             self.read()
         lines, self.rest = (b"\n" + self.rest).split(b"\n.\n", 1)

@@ -1,5 +1,5 @@
 """2DM of SMS, the mesh format of hydraulic models, which QGIS reads as a mesh layer."""
-from .session import Failed
+from .psql import Failed
 
 suffixes = (".2dm",)
 

@@ -1,43 +1,89 @@
 """GeoJSON text sequence (RFC 8142, newline-delimited): a polygon for each triangle, with its ids and the values of its corners.
 
-GDAL and tippecanoe read it line by line. Coordinates are as they are in the mesh; RFC 7946 wants longitudes and latitudes.
+GDAL and tippecanoe read it line by line. RFC 7946 wants longitudes and latitudes: PostGIS makes them of a mesh that has an SRID.
 """
 import json
 import math
+import sys
 
-from .arrays import MESH, unlike
-from .session import Failed
+from .arrays import no_coordinate, unlike
+from .psql import Failed
 
 suffixes = (".geojsonl", ".geojsons", ".geojsonseq")
+LONGITUDE_LATITUDE = 4326
 
 
-def feature(mesh, names, row, z):
+class Places:
+    """Where the corners of triangles are asked for: SQL of their coordinates, and whether a reader would misplace them."""
+
+    def __init__(self, mesh):
+        (self.srid,), = mesh.session.all(f"SELECT abacus_srid({mesh.sql})::int8", ["int8"])
+        self.postgis = mesh.session.texts("SELECT quote_ident(nspname) FROM pg_extension JOIN pg_namespace n ON n.oid = extnamespace WHERE extname = 'postgis'")
+        self.projected = bool(self.postgis) and self.srid not in (0, LONGITUDE_LATITUDE)
+        self.outside = False
+
+    def columns(self):
+        plain = [f"corners[{i + 1}][{k + 1}]" for i in range(3) for k in range(2)]
+        return [f"{self.postgis[0]}.ST_{axis}(g{i})" for i in range(3) for axis in "XY"] if self.projected else plain
+
+    def source(self, cells):
+        if not self.projected:
+            return cells
+        of = self.postgis[0]
+        corners = ", ".join(f"{of}.ST_Transform({of}.ST_SetSRID({of}.ST_MakePoint(corners[{i + 1}][1], corners[{i + 1}][2]), {self.srid}), "
+                            f"{LONGITUDE_LATITUDE}) AS g{i}" for i in range(3))
+        return f"(SELECT code, v0, v1, v2, \"values\", {corners} FROM {cells} OFFSET 0) AS projected"
+
+    def seen(self, places):
+        self.outside = self.outside or any(abs(x) > 180 or abs(y) > 90 for x, y, *_ in places)
+
+    def say(self):
+        """What a user should know of the coordinates that were written."""
+        if self.projected:
+            said = f"the coordinates were projected from SRID {self.srid} to longitude and latitude"
+        elif self.srid not in (0, LONGITUDE_LATITUDE):
+            said = (f"the coordinates are those of SRID {self.srid}, but readers of GeoJSON take them as longitude and latitude; "
+                    "with the extension postgis in the database they are projected")
+        elif self.outside:
+            said = ("the coordinates are no longitudes and latitudes, but readers of GeoJSON take them as such; with the extension postgis and "
+                    "an SRID of the mesh (abacus_set_srid) they are projected")
+        else:
+            return
+        print(f"abacus-export: {said}", file=sys.stderr)
+
+
+def feature(mesh, names, row, z, projected):
     count = len(mesh.attributes)
     code, ids, rest = row[0], row[1:4], row[4:]
     places = [list(rest[2 * i: 2 * i + 2]) for i in range(3)]
-    values = [[None if math.isnan(v) else v for v in rest[6 + i * count: 6 + (i + 1) * count]] for i in range(3)]
+    if not all(map(math.isfinite, rest[:6])):
+        raise Failed(f"triangle {ids} cannot be projected to longitude and latitude")
+    projected.seen(places)
+    values = [[v if math.isfinite(v) else None for v in rest[6 + i * count: 6 + (i + 1) * count]] for i in range(3)]
     if z is not None:
         for place, value in zip(places, values):
             if value[z] is None:
-                raise Failed(f"{mesh.attributes[z]} is missing at some vertices, so it is no third coordinate")
+                raise Failed(no_coordinate(mesh.attributes[z]))
             place.append(value[z])
     properties = {"code": code, **{f"v{i}": v for i, v in enumerate(ids)}}
     for k, name in enumerate(names):
         corners = [value[k] for value in values]
-        properties[name] = None if None in corners else sum(corners) / 3
+        mean = None if None in corners else sum(corners) / 3
+        properties[name] = mean if mean is not None and math.isfinite(mean) else None  # JSON has no infinite numbers
     return {"type": "Feature", "properties": properties, "geometry": {"type": "Polygon", "coordinates": [[*places, places[0]]]}}
 
 
 def write(mesh, file, z):
     if mesh.dimension != 2:
         raise Failed("GeoJSON has polygons only, no tetrahedra: take .vtu or .npz")
+    places = Places(mesh)
     count = len(mesh.attributes)
-    columns = [f"corners[{i + 1}][{k + 1}]" for i in range(3) for k in range(2)]
-    columns += [f"coalesce(\"values\"[{i + 1}][{k + 1}], 'NaN')" for i in range(3) for k in range(count)]
-    query = f"SELECT code, v0, v1, v2, {', '.join(columns)} FROM abacus_cells({MESH})"
+    columns = places.columns() + [f"coalesce(\"values\"[{i + 1}][{k + 1}], 'NaN')" for i in range(3) for k in range(count)]
+    query = f"SELECT code, v0, v1, v2, {', '.join(columns)} FROM {places.source(f'abacus_cells({mesh.sql})')}"
     types = ["int8"] * 4 + ["float8"] * len(columns)
     fields = [f"f{n}" for n in range(len(types))]
     names = unlike(mesh.attributes, ("code", "v0", "v1", "v2"))
     for chunk in mesh.session.chunks(query, types):
         rows = zip(*(chunk[name].tolist() for name in fields))
-        file.write("".join(json.dumps(feature(mesh, names, row, z)) + "\n" for row in rows).encode())
+        file.write("".join(json.dumps(feature(mesh, names, row, z, places), allow_nan=False) + "\n" for row in rows).encode())
+    places.say()

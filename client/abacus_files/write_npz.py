@@ -11,7 +11,7 @@ import zipfile
 
 import numpy
 
-from .session import Failed
+from .psql import Failed
 
 suffixes = (".npz",)
 

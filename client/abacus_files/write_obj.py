@@ -1,5 +1,5 @@
 """Wavefront OBJ: triangles as text."""
-from .session import Failed
+from .psql import Failed
 
 suffixes = (".obj",)
 

@@ -2,7 +2,7 @@
 import numpy
 
 from .arrays import unlike
-from .session import Failed
+from .psql import Failed
 
 suffixes = (".ply",)
 

@@ -3,6 +3,7 @@ import json
 import pathlib
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -16,6 +17,10 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 import abacus
 
 CLIENT = abacus.REPOSITORY / "client"
+sys.path.insert(0, str(CLIENT))
+from abacus_files.psql import Failed  # noqa: E402
+from abacus_files.series import Series  # noqa: E402
+from abacus_files.session import Session  # noqa: E402
 
 
 def run(command, *arguments):
@@ -68,12 +73,44 @@ class Files(unittest.TestCase):
             numpy.testing.assert_array_equal(speed, numpy.where(ids % 5 > 0, ids * 10 + step, numpy.nan))
             numpy.testing.assert_array_equal(vtk_to_numpy(data.GetArray("speed")), self.space[ids - 1, 0])
             self.assertIsNotNone(data.GetArray('a "b'))
-        for query, said in (("SELECT 1 WHERE false", "no rows"), ("SELECT 1, 2", "columns"), ("SELECT id, 1, 2 FROM files_series", "more than once"), ("nonsense", "syntax error")):
+        for query, said in (
+            ("SELECT 1 WHERE false", "no rows"), ("SELECT 1, 2", "columns"), ("SELECT id, 1, 2 FROM files_series", "more than once"), ("nonsense", "syntax error"),
+            ("SELECT 1, 2, 'open", "unterminated quoted string"),
+        ):
             failed = run("abacus-export", "files_space", self.at / "unwritten.pvd", "--series", query)
             self.assertEqual(failed.returncode, 1)
             self.assertIn(said, failed.stderr)
         self.assertNotEqual(run("abacus-export", "files_space", self.at / "unwritten.pvd").returncode, 0)
         self.assertEqual([path.name for path in self.at.glob("unwritten*")], [])
+
+    def test_series_that_are_none(self):
+        """psql would wait for what ends most of these."""
+        for query, said in (
+            ("SELECT 1, NULL, 2", "no steps"), ("SELECT 1, 'NaN'::float8, 2", "NaN or infinite"), ("SELECT 1, 2, $$open", "unterminated dollar-quoted"),
+            ('SELECT 1, 2, "open', "unterminated quoted identifier"), ("SELECT 1, 2, (3", "syntax error"), ("SELECT 1, 2, 3 /* open", "unterminated /[*] comment"),
+            ("SELECT 1) TO STDOUT; SELECT (1", "syntax error"), ("SELECT 1, 2, 3; SELECT 1, 2, 3", "syntax error"), ("", "syntax error"), ("\\!", "syntax error"),
+        ):
+            with self.subTest(query=query), self.assertRaisesRegex(Failed, said), Session(None) as session:
+                Series(session, query)
+        with self.assertRaisesRegex(Failed, "rows of another form"), Session(None) as session:
+            session.all("SELECT NULL::int8, 1::int8", ["int8"] * 2)
+
+    def test_comment_in_series(self):
+        self.export("files_space", "comment.pvd", "--series", "SELECT 1, 2 AS at, 3.0 AS speed -- of one vertex")
+
+    def test_warnings_in_series(self):
+        """More of them than a pipe has room for; they are shown, and stop nothing."""
+        abacus.psql("CREATE FUNCTION files_warns(n int) RETURNS int LANGUAGE plpgsql AS $$ BEGIN RAISE WARNING '%', repeat('w', 1000); RETURN n; END $$")
+        done = run("abacus-export", "files_space", self.at / "warned.pvd", "--series", "SELECT files_warns(n), 2 AS at, 3.0 AS speed FROM generate_series(1, 50) AS n")
+        self.assertEqual(done.returncode, 0)
+        self.assertGreater(len(done.stderr), 100000)
+
+    def test_octree(self):
+        """An octree has no file yet. Nothing waits, and no session stays."""
+        abacus.psql("SELECT abacus_octree_create('files_octree', 3, '{0,0,0}', '{1,1,1}')")
+        done = run("abacus-export", "files_octree", self.at / "o.vtu")
+        self.assertEqual((done.returncode, list(self.at.glob("o.vtu*"))), (1, []))
+        self.assertIn("is an octree", done.stderr)
 
     def test_ply(self):
         mesh = meshio.read(self.export("files_plane", "m.ply", "--z", "height"))
@@ -121,6 +158,32 @@ class Files(unittest.TestCase):
                          sorted(self.plane[abacus.simplices("files_plane")].tolist()))
         self.assertEqual({f["properties"]["depth"] is None for f in features}, {True, False})
 
+    def test_geojson_has_no_infinite_numbers(self):
+        abacus.psql("SELECT abacus_triangulate('files_infinite', 'VALUES (1, 0, 0, ''Infinity''::float8, 1e308), (2, 4, 0, 1, 1e308), (3, 0, 3, 2, 1e308)', attributes => '{a,b}')")
+        done = run("abacus-export", "files_infinite", self.at / "i.geojsonl")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        text = (self.at / "i.geojsonl").read_text()
+        properties = json.loads(text, parse_constant=self.fail)["properties"]
+        self.assertEqual((properties["a"], properties["b"]), (None, None))
+        for suffix in "geojsonl", "obj":
+            self.assertIn("a is missing or infinite", run("abacus-export", "files_infinite", self.at / f"i.{suffix}", "--z", "a").stderr)
+
+    def test_geojson_places(self):
+        """Readers take coordinates as longitude and latitude: it is said where they are none, and PostGIS makes them of a mesh with an SRID."""
+        triangle = "VALUES (1, 500000, 5500000), (2, 500100, 5500000), (3, 500000, 5500100)"
+        abacus.psql(f"SELECT abacus_triangulate('files_places', '{triangle}')")
+        self.assertIn("no longitudes and latitudes", run("abacus-export", "files_places", self.at / "p.geojsonl").stderr)
+        abacus.psql("SELECT abacus_set_srid('files_places', 25832)")
+        self.assertIn("are those of SRID 25832", run("abacus-export", "files_places", self.at / "p.geojsonl").stderr)
+        abacus.psql('CREATE SCHEMA "files gis"; CREATE EXTENSION postgis SCHEMA "files gis"')
+        try:
+            self.assertIn("projected from SRID 25832", run("abacus-export", "files_places", self.at / "p.geojsonl").stderr)
+            ring = numpy.array(json.loads((self.at / "p.geojsonl").read_text())["geometry"]["coordinates"][0])
+        finally:
+            abacus.psql('DROP EXTENSION postgis; DROP SCHEMA "files gis"')
+        numpy.testing.assert_allclose(ring[:, 0], 9, atol=0.01)  # its central meridian
+        numpy.testing.assert_allclose(ring[:, 1], 49.65, atol=0.01)
+
     def test_names_that_a_file_would_have_twice(self):
         abacus.psql("SELECT abacus_triangulate('files_names', 'SELECT i, i % 3, i / 3, i, 10 + i, 20 + i, 30 + i FROM generate_series(0, 8) AS i', "
                     "attributes => '{v0_,v0,a b,a-b}')")
@@ -153,6 +216,41 @@ class Files(unittest.TestCase):
         self.assertEqual(abacus.rows("SELECT name, nulls FROM abacus_attributes('files_again')"), [["speed", "0"]])
         self.assertEqual(abacus.rows("SELECT count(*) FROM abacus_vertices('files_again') a JOIN abacus_vertices('files_space') b USING (id, x, y, z, attributes)"), [["1500"]])
 
+    def test_attributes_and_back(self):
+        """Every value comes back under its name: 200 points and 5 attributes, which meshio mixes up; names that SQL would fold or cut, and z beside z."""
+        names = ["z", "a b", 'say "it\'s"', "ä" * 31, "\\"]
+        listed = "ARRAY[" + ", ".join("$a$" + name + "$a$" for name in names) + "]"
+        abacus.psql("SELECT abacus_triangulate('files_many', 'SELECT i, (i * 0.7548776662466927) % 1, (i * 0.5698402909980532) % 1, i + 1000, i + 2000, i + 3000, i + 4000, i + 5000 "
+                    f"FROM generate_series(1, 200) AS i', attributes => {listed})")
+        for options, wanted in ((), names), (("--z", "z"), ["z", "z_", *names[1:]]):
+            abacus.psql("DROP TABLE IF EXISTS files_again, files_again_vertices")
+            done = run("abacus-import", self.export("files_many", "many.vtu", *options), "files_again")
+            self.assertEqual((done.returncode, done.stdout), (0, done.stdout), done.stderr)
+            self.assertEqual([name for name, in abacus.rows("SELECT name FROM abacus_attributes('files_again') ORDER BY position")], wanted)
+            first = len(wanted) - 4
+            self.assertEqual(abacus.rows("SELECT count(*) FROM abacus_vertices('files_many') AS a JOIN abacus_vertices('files_again') AS b USING (id, x, y) "
+                                         f"WHERE a.attributes[1] = b.attributes[1] AND a.attributes[1] = b.attributes[{first}] AND a.attributes[2:5] = b.attributes[{first + 1}:{first + 4}]"), [["200"]])
+
+    def test_gmsh(self):
+        """Ids, materials and markers as Gmsh has them; with --retriangulate there are none, which is said."""
+        (self.at / "g.msh").write_text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n10 0 0 0\n20 1 0 0\n30 0 1 0\n40 1 1 0\n50 2 0.5 0\n$EndNodes\n"
+                                       "$Elements\n5\n1 1 2 77 1 10 20\n2 1 2 77 1 20 50\n3 2 2 5 1 10 20 30\n4 2 2 5 1 20 40 30\n5 2 2 0 2 20 50 40\n$EndElements\n")
+        done = run("abacus-import", self.at / "g.msh", "files_gmsh")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(abacus.rows("SELECT marker, v0, v1 FROM abacus_facets('files_gmsh') ORDER BY v0"), [["77", "10", "20"], ["77", "20", "50"]])
+        self.assertEqual(abacus.rows("SELECT abacus_labels('files_gmsh'), labels, count(*) FROM abacus_cells('files_gmsh') GROUP BY labels ORDER BY labels"),
+                         [["{material}", "{5}", "2"], ["{material}", "{NULL}", "1"]])
+        self.assertEqual(run("abacus-import", "--retriangulate", self.at / "g.msh", "files_gmsh_anew").returncode, 0)
+
+    def test_split_nodes_and_back(self):
+        abacus.psql("SELECT abacus_load('files_fault', 'VALUES (1, 0, 0, 0), (2, 2, 0, 0), (4, 0, 2, 0), (5, 2, 2, 0), (12, 2, 0, 1), (3, 4, 0, 1), (6, 4, 2, 1), (15, 2, 2, 1)', "
+                    "'VALUES (1, 2, 5), (1, 5, 4), (12, 3, 6), (12, 6, 15)', '{slip}', split_nodes => true)")
+        file = self.export("files_fault", "fault.vtu")
+        self.assertIn("same coordinates", run("abacus-import", file, "files_fault_again").stderr)
+        done = run("abacus-import", "--split-nodes", file, "files_fault_again")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(abacus.rows("SELECT count(*) FROM abacus_cells('files_fault') AS a JOIN abacus_cells('files_fault_again') AS b USING (v0, v1, v2, corners, \"values\")"), [["4"]])
+
     def test_of_meshio(self):
         """Gmsh, TetGen, PLY and VTU as meshio writes them."""
         corners = abacus.simplices("files_space", 4)
@@ -165,20 +263,52 @@ class Files(unittest.TestCase):
             meshio.write(self.at / f"w{suffix}", meshio.Mesh(flat, [("triangle", corners)]))
             self.check_import(self.at / f"w{suffix}", "files_again", self.plane, 2)
 
+    def sessions(self, text):
+        return [state for state, in abacus.rows(f"SELECT state FROM pg_stat_activity WHERE query LIKE '%{text}%' AND pid <> pg_backend_pid() AND state <> 'idle'")]
+
+    def wait(self, condition):
+        until = time.monotonic() + 100  # on a busy machine
+        while not condition() and time.monotonic() < until:
+            time.sleep(0.05)
+        self.assertTrue(condition())
+
+    def end(self, number, text, *command):
+        """Ends a client while its session works; its session is gone soon, and works no longer."""
+        client = subprocess.Popen(["/usr/bin/python3", str(CLIENT / command[0]), *map(str, command[1:])], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                                  # the tests may run where a shell or nohup ignores it
+                                  preexec_fn=None if number == signal.SIGKILL else lambda: signal.signal(number, signal.SIG_DFL))
+        try:
+            self.wait(lambda: self.sessions(text))
+            client.send_signal(number)
+            _, said = client.communicate(timeout=100)
+            self.wait(lambda: not self.sessions(text))  # which would sleep or wait for longer
+        finally:
+            client.kill()
+        return client.returncode, said
+
     def test_ended(self):
-        """An export that is ended leaves no file."""
-        for number, status in (signal.SIGTERM, 143), (signal.SIGHUP, 129), (signal.SIGINT, 130):
-            export = subprocess.Popen(["/usr/bin/python3", str(CLIENT / "abacus-export"), "files_space", str(self.at / "ended.pvd"), "--series",
-                                       "SELECT id, 1 AS step, pg_sleep(5)::text FROM generate_series(1, 2) AS id"], stderr=subprocess.PIPE, text=True,
-                                      # the tests may run where a shell or nohup ignores it
-                                      preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))
-            until = time.monotonic() + 20
-            while not (self.at / "ended.pvd.part").exists() and time.monotonic() < until:
-                time.sleep(0.05)
-            export.send_signal(number)
-            _, said = export.communicate(timeout=20)
-            self.assertEqual((export.returncode, said), (status, ""))
-            self.assertEqual([path.name for path in self.at.glob("ended*")], [])
+        """An export that is ended leaves no file, and no session even if it is killed."""
+        for number, status in (signal.SIGTERM, 143), (signal.SIGHUP, 129), (signal.SIGINT, 130), (signal.SIGKILL, -9):
+            ended = self.end(number, "FROM generate_series(1, 2) AS slowly", "abacus-export", "files_space", self.at / "ended.pvd", "--series",
+                             "SELECT id, 1 AS step, pg_sleep(1000)::text FROM generate_series(1, 2) AS slowly (id)")
+            self.assertEqual(ended, (status, ""))
+            self.assertEqual([path.name for path in self.at.glob("ended*")], [] if number != signal.SIGKILL else ["ended.pvd.part"])
+
+    def test_import_ended(self):
+        """So it is with an import that waits for a lock, and there is no mesh."""
+        (self.at / "one.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        for number, status in (signal.SIGTERM, 143), (signal.SIGINT, 130), (signal.SIGKILL, -9):
+            holder = subprocess.Popen(["psql", "-X", "-q"], stdin=subprocess.PIPE, text=True)
+            holder.stdin.write("BEGIN; CREATE TABLE files_waits ();\n")
+            holder.stdin.flush()
+            try:
+                self.wait(lambda: self.sessions("CREATE TABLE files_waits") == ["idle in transaction"])
+                found, said = self.end(number, "abacus_load", "abacus-import", self.at / "one.off", "files_waits")
+            finally:
+                holder.communicate()
+            self.assertEqual(found, status, said)
+            self.assertNotIn("Traceback", said)
+            self.assertEqual(abacus.rows("SELECT to_regclass('files_waits')"), [["NULL"]])
 
     def test_refused(self):
         """A clear word, status 1, and no file left."""
@@ -190,7 +320,7 @@ class Files(unittest.TestCase):
             (("files_space", self.at / "n.ply"), "no tetrahedra"),
             (("files_plane", self.at / "n.npz", "--z", "height"), "--z is for other formats"),
             (("files_plane", self.at / "n.ply", "--z", "wind"), "no attribute wind"),
-            (("files_plane", self.at / "n.ply", "--z", "depth"), "missing at some vertices"),
+            (("files_plane", self.at / "n.ply", "--z", "depth"), "missing or infinite at some vertices"),
             (("files_plane", self.at / "no" / "n.ply"), "No such file or directory"),
         ):
             done = run("abacus-export", *arguments)

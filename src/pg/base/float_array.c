@@ -74,3 +74,12 @@ float_matrix(const double *values, int rows, int columns)
 {
 	return float_array(values, 2, (int[]) {rows, columns});
 }
+
+/* The same, but NaN stays NaN: for readers of tables that know no NULL within an array. */
+Datum
+float_matrix_of_nan(const double *values, int rows, int columns)
+{
+	if (rows * columns == 0)
+		return PointerGetDatum(construct_empty_array(FLOAT8OID));
+	return array_without_nulls(values, rows * columns, 2, (int[]) {rows, columns});
+}

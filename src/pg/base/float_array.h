@@ -6,5 +6,6 @@
 
 extern Datum attribute_array(const double *attributes, int count);
 extern Datum float_matrix(const double *values, int rows, int columns);
+extern Datum float_matrix_of_nan(const double *values, int rows, int columns);
 
 #endif

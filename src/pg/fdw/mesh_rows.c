@@ -290,7 +290,9 @@ column_value(const MeshRows *rows, MeshRow *row, int at, bool *isnull)
 		case HOLDS_CORNERS:
 			return corners(row);
 		case HOLDS_VALUES:
-			return float_matrix(row->values, (int) row->dimension + 1, (int) row->attributes);
+			/* GDAL reads NULL within an array as 0. */
+			return float_matrix_of_nan(row->values, (int) row->dimension + 1,
+									   (int) row->attributes);
 		case HOLDS_ID:
 			return Int64GetDatum(row->vertex.id);
 		case HOLDS_COORDINATE:

@@ -1,0 +1,115 @@
+"""A file is read in a process of its own, with an end to its time and memory: what is cut off or made to harm ends with an error.
+
+The process sends a line of JSON and the arrays that it names, as numpy writes them.
+"""
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+
+import numpy
+
+from .grid import Grid
+from .psql import Failed
+
+SECONDS, BYTES_A_SECOND = 20, 100_000  # of processor time
+MEMORY, TIMES = 2 << 30, 100  # so many bytes, and for each of the file's
+
+
+def limits(size):
+    physical = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    return SECONDS + size // BYTES_A_SECOND, min(MEMORY + TIMES * size, max(physical, MEMORY))
+
+
+class Pipe:
+    """A pipe as numpy takes it: it asks for the position of whatever is a file."""
+
+    def __init__(self, file):
+        self.read, self.write = file.read, file.write
+
+
+def send(grid, out):
+    named = {"points": grid.points, **({"ids": grid.ids} if grid.ids is not None else {})}
+    for group in "cells", "data", "tags":
+        for name, values in getattr(grid, group).items():
+            named[f"{group}:{name}"] = values
+    out.write(json.dumps({"arrays": list(named), "notes": grid.notes}).encode() + b"\n")
+    for values in named.values():
+        numpy.lib.format.write_array(Pipe(out), numpy.ascontiguousarray(values), allow_pickle=False)
+
+
+def receive(line, source):
+    head = json.loads(line)
+    if "failed" in head:
+        raise Failed(head["failed"])
+    grid = Grid(None, {}, notes=head["notes"])
+    for name in head["arrays"]:
+        values = numpy.lib.format.read_array(Pipe(source), allow_pickle=False)
+        group, _, part = name.partition(":")
+        if part or group in ("cells", "data", "tags"):
+            getattr(grid, group)[part] = values
+        else:
+            setattr(grid, group, values)
+    return grid
+
+
+def main(path, options):
+    """In the process apart: reads the file, and sends what it has found."""
+    out = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what a library prints is no answer
+    seconds, memory = limits(os.path.getsize(path))
+    for limit, value in (resource.RLIMIT_CPU, seconds), (resource.RLIMIT_AS, memory), (resource.RLIMIT_CORE, 0):
+        try:
+            resource.setrlimit(limit, (value, value))
+        except (ValueError, OSError):  # a lower one is set, or the system has none
+            pass
+    from . import read
+    try:
+        grid = read.read_here(path, **options)
+        grid.check()
+        send(grid, out)
+    except Failed as error:
+        said = str(error)
+    except MemoryError:
+        said = f"takes more memory than {memory >> 20} MB to read; it may be cut off or damaged"
+    except RecursionError:
+        said = "cannot be read: it is nested too deeply"
+    except Exception as error:  # of any library
+        said = f"cannot be read: {error or type(error).__name__}"
+    else:
+        said = None
+    if said:
+        out.write(json.dumps({"failed": said}).encode() + b"\n")
+    out.close()
+
+
+def died(status, size):
+    seconds, memory = limits(size)
+    if status in (-signal.SIGXCPU, -signal.SIGKILL):
+        return f"was not read within {seconds} s of processor time or {memory >> 20} MB; it may be cut off or damaged"
+    return f"cannot be read: its reader ended with status {status}"
+
+
+def read(path, **options):
+    """The grid of a file."""
+    if not os.path.isfile(path):
+        raise Failed("is no file" if os.path.exists(path) else "No such file")
+    size = os.path.getsize(path)
+    code = f"import sys; sys.path[:] = {sys.path!r}; from abacus_files import apart; apart.main(sys.argv[1], {options!r})"
+    reader = subprocess.Popen([sys.executable, "-c", code, path], stdout=subprocess.PIPE, env=dict(os.environ, OPENBLAS_NUM_THREADS="1"),
+                              preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))  # Ctrl-C ends it by way of this process
+    try:
+        line = reader.stdout.readline()
+        grid = receive(line, reader.stdout) if line.endswith(b"\n") else None
+    except ValueError:  # it died while it sent
+        grid = None
+    finally:
+        reader.stdout.close()
+        if sys.exc_info()[0]:
+            reader.kill()
+        reader.wait()
+    if grid is None or reader.returncode != 0:
+        raise Failed(died(reader.returncode, size))
+    return grid

@@ -1,0 +1,175 @@
+"""PLY, in text or binary: vertices, and faces as one of several lists that a face may have."""
+import numpy
+
+from .grid import Grid
+from .psql import Failed
+from .words import Words
+
+suffixes = (".ply",)
+TYPES = {"char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2", "uint16": "u2", "int": "i4",
+         "int32": "i4", "uint": "u4", "uint32": "u4", "int64": "i8", "uint64": "u8", "float": "f4", "float32": "f4", "double": "f8", "float64": "f8"}
+FORMATS = {"ascii": None, "binary_little_endian": "<", "binary_big_endian": ">"}
+FACES = ("vertex_indices", "vertex_index")
+
+
+class Property:
+    def __init__(self, words):
+        self.name, self.list = words[-1], words[1] == "list"
+        if len(words) != (5 if self.list else 3) or not all(word in TYPES for word in words[2 if self.list else 1: -1]):
+            raise Failed(f"has a property of an unknown type: {' '.join(words)}")
+        self.type = TYPES[words[-2]]
+        self.count = TYPES[words[2]] if self.list else None
+
+
+def head(file):
+    """The byte order, and the elements: (name, how many, properties)."""
+    if file.readline(16).strip() != b"ply":
+        raise Failed("does not begin with ply")
+    order, elements = "", []
+    while True:
+        line = file.readline(65536)
+        if not line.endswith(b"\n"):
+            raise Failed("ends within its header")
+        words = line.decode(errors="replace").split()
+        if not words or words[0] in ("comment", "obj_info"):
+            continue
+        if words[0] == "end_header":
+            break
+        if words[0] == "format" and len(words) > 1 and words[1] in FORMATS:
+            order = FORMATS[words[1]]
+        elif words[0] == "element" and len(words) == 3 and words[2].isdigit():
+            elements.append((words[1], int(words[2]), []))
+        elif words[0] == "property" and elements and len(words) > 2:
+            elements[-1][2].append(Property(words))
+        else:
+            raise Failed(f"has a header with the line: {' '.join(words)}")
+    if order == "":
+        raise Failed("does not say its format")
+    return order, elements
+
+
+class TextRows:
+    """The values of an element's rows, from words."""
+
+    def __init__(self, file):
+        self.words = Words(file.read().decode(errors="replace"), comments=False)
+
+    def values(self, type, count):
+        words = self.words.take(count, "its elements")
+        return numpy.array(list(map(float if type[0] == "f" else int, words)), dtype="f8" if type[0] == "f" else "i8")
+
+    def uniform(self, count, row):
+        """A table of `count` rows of (type, how many); None where a row cannot be told from the next."""
+        width = sum(many for _, many in row)
+        table = numpy.array(self.words.take(count * width, "its elements"), dtype=object).reshape(count, width)
+        columns, at = [], 0
+        for type, many in row:
+            part = table[:, at: at + many].reshape(-1)
+            columns.append(numpy.array(list(map(float if type[0] == "f" else int, part)), dtype="f8" if type[0] == "f" else "i8").reshape(count, many))
+            at += many
+        return columns
+
+    def place(self):
+        return self.words.at
+
+    def back(self, place):
+        self.words.at = place
+
+
+class BinaryRows:
+    """The same from bytes."""
+
+    def __init__(self, file, order):
+        self.bytes, self.order, self.at = file.read(), order, 0
+
+    def values(self, type, count):
+        dtype = numpy.dtype(self.order + type)
+        if count * dtype.itemsize > len(self.bytes) - self.at:
+            raise Failed("ends before all of its elements are there")
+        found = numpy.frombuffer(self.bytes, dtype, count, self.at)
+        self.at += count * dtype.itemsize
+        return found
+
+    def uniform(self, count, row):
+        dtype = numpy.dtype([(f"f{n}", self.order + type, (many,)) for n, (type, many) in enumerate(row)])
+        if count * dtype.itemsize > len(self.bytes) - self.at:
+            raise Failed("ends before all of its elements are there")
+        table = numpy.frombuffer(self.bytes, dtype, count, self.at)
+        self.at += count * dtype.itemsize
+        return [table[f"f{n}"] for n in range(len(row))]
+
+    def place(self):
+        return self.at
+
+    def back(self, place):
+        self.at = place
+
+
+def row_of(rows, properties):
+    """The values of one row: an array for each property."""
+    found = []
+    for part in properties:
+        count = 1
+        if part.list:
+            count = int(rows.values(part.count, 1)[0])
+            if count < 0:
+                raise Failed(f"has a list ({part.name}) of {count} numbers")
+        found.append(rows.values(part.type, count))
+    return found
+
+
+def element(rows, count, properties):
+    """{property: a table of `count` rows}; of a list of several lengths, a list of arrays."""
+    if count == 0 or not properties:
+        return {part.name: numpy.empty((0, 1)) for part in properties}
+    begin = rows.place()
+    first = row_of(rows, properties)
+    rows.back(begin)
+    shape = []
+    for part, values in zip(properties, first):
+        shape += [(part.count, 1)] if part.list else []
+        shape.append((part.type, len(values)))
+    try:
+        columns = iter(rows.uniform(count, shape))
+        found, same = {}, True
+        for part, values in zip(properties, first):
+            same = same and (not part.list or bool((next(columns) == len(values)).all()))
+            found[part.name] = next(columns)
+        if same:
+            return found
+    except (Failed, ValueError):  # shorter rows follow, so it only seems to end early; or words are taken for those of another column
+        pass
+    rows.back(begin)
+    several = [row_of(rows, properties) for _ in range(count)]
+    return {part.name: [row[n] for row in several] if part.list else numpy.array([row[n] for row in several]) for n, part in enumerate(properties)}
+
+
+def faces(lists):
+    """{kind: corners}"""
+    kinds = {1: "vertex", 2: "line", 3: "triangle", 4: "quad"}
+    if isinstance(lists, numpy.ndarray):
+        return {kinds.get(lists.shape[1], f"polygon of {lists.shape[1]}"): lists}
+    counts = numpy.array([len(corners) for corners in lists])
+    return {kinds.get(count, f"polygon of {count}"): numpy.array([corners for corners in lists if len(corners) == count])
+            for count in numpy.unique(counts).tolist()}
+
+
+def read(path):
+    with open(path, "rb") as file:
+        order, elements = head(file)
+        rows = TextRows(file) if order is None else BinaryRows(file, order)
+    found = {name: element(rows, count, properties) for name, count, properties in elements}
+    vertices = found.get("vertex", {})
+    if not all(axis in vertices for axis in "xy"):
+        raise Failed("has no vertices with x and y")
+    axes = [axis for axis in "xyz" if axis in vertices]
+    points = numpy.column_stack([vertices[axis] for axis in axes])
+    face = found.get("face", {})
+    corners = next((face[name] for name in FACES if name in face), None)
+    if corners is None:
+        raise Failed(f"has no faces with {' or '.join(FACES)}")
+    lists = {part.name for name, _, properties in elements if name == "vertex" for part in properties if part.list}
+    data = {name: values.reshape(-1) for name, values in vertices.items() if name not in (*axes, *lists)}
+    left = [*sorted(f"vertex {name}" for name in lists), *(f"face {name}" for name in face if name not in FACES),
+            *(name for name in found if name not in ("vertex", "face"))]
+    return Grid(points, faces(corners), data=data, notes=[f"left out: {', '.join(left)}"] if left else [])

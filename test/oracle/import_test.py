@@ -1,0 +1,291 @@
+"""What abacus-import reads, without a database: files that VTK and meshio write, files by hand, and files that are cut off or wrong."""
+import itertools
+import pathlib
+import struct
+import sys
+import tempfile
+import time
+import unittest
+
+import meshio
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+import abacus
+
+sys.path.insert(0, str(abacus.REPOSITORY / "client"))
+from abacus_files import apart, read  # noqa: E402
+from abacus_files.psql import Failed  # noqa: E402
+
+PLY = """ply
+format ascii 1.0
+comment made by hand
+element vertex 4
+property float quality
+property double y
+property double x
+element face 2
+property list uchar float texcoord
+property list uchar int vertex_index
+property uchar red
+element edge 1
+property int vertex1
+end_header
+0.5 0 0
+1.5 0 4
+2.5 3 0
+3.5 3 4
+6 0 0 0 0 0 0 3 0 1 2 255
+0 3 1 3 2 7
+0
+"""
+CELLS = [[0, 1, 2], [1, 3, 2]]
+
+
+def piece_of(piece, at, shift):
+    """A piece of a VTU with one triangle."""
+    points = " ".join(f"{x + shift} {y} 0" for x, y in at)
+    return ('<Piece NumberOfPoints="3" NumberOfCells="1"><PointData>'
+            f'<DataArray type="Float64" Name="h" format="ascii">{piece} {piece} {piece}</DataArray></PointData>'
+            f'<Points><DataArray type="Float64" Name="Points" NumberOfComponents="3" format="ascii">{points}</DataArray></Points><Cells>'
+            '<DataArray type="Int64" Name="connectivity" format="ascii">0 1 2</DataArray><DataArray type="Int64" Name="offsets" format="ascii">3</DataArray>'
+            '<DataArray type="UInt8" Name="types" format="ascii">5</DataArray></Cells></Piece>')
+
+
+def vtu_of(*pieces):
+    return ('<?xml version="1.0"?><VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"><UnstructuredGrid>'
+            + "".join(pieces) + "</UnstructuredGrid></VTKFile>")
+
+
+class Import(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.at = pathlib.Path(cls.folder.name)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def file(self, name, content):
+        path = self.at / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return str(path)
+
+    def read(self, path, **options):
+        grid = read.read_here(str(path), **{"keep_apart": False, **options})
+        grid.check()
+        return read.Input(grid)
+
+    def assert_mesh(self, found, points, simplices):
+        numpy.testing.assert_array_equal(found.points, points)
+        numpy.testing.assert_array_equal(found.simplices, simplices)
+
+    def refused(self, name, content, said):
+        with self.assertRaisesRegex((Failed, ValueError), said):
+            self.read(self.file(name, content))
+
+    def test_vtu_of_vtk(self):
+        """Every way in which VTK writes arrays; 5 attributes and 200 points, which meshio 5 mixes up."""
+        random = numpy.random.default_rng(3)
+        points = random.uniform(0, 1, (200, 3))
+        cells = [random.permutation(200)[:4].tolist() for _ in range(150)]
+        grid = vtkUnstructuredGrid()
+        at = vtkPoints()
+        at.SetData(numpy_to_vtk(points, deep=True))
+        grid.SetPoints(at)
+        for cell in cells:
+            grid.InsertNextCell(10, 4, cell)
+        values = {f"a {n}": random.uniform(0, 1, 200).astype(kind) for n, kind in enumerate(("f8", "f8", "f4", "f8", "f8"))}
+        for name, data in {**values, "id": numpy.arange(200) * 7 - 3, "wind": points}.items():
+            array = numpy_to_vtk(data, deep=True)
+            array.SetName(name)
+            grid.GetPointData().AddArray(array)
+        path = self.at / "vtk.vtu"
+        for mode, encode, compressor, header, order in itertools.product(
+                ("Ascii", "Binary", "Appended"), (True, False), ("None", "ZLib", "LZMA"), ("32", "64"), ("BigEndian", "LittleEndian")):
+            if mode != "Appended" and not encode or mode == "Ascii" and (compressor, header, order) != ("None", "32", "BigEndian"):
+                continue
+            with self.subTest(mode=mode, encode=encode, compressor=compressor, header=header, order=order):
+                writer = vtkXMLUnstructuredGridWriter()
+                writer.SetFileName(str(path))
+                writer.SetInputData(grid)
+                getattr(writer, f"SetDataModeTo{mode}")()
+                writer.SetEncodeAppendedData(encode)
+                getattr(writer, f"SetCompressorTypeTo{compressor}")()
+                getattr(writer, f"SetHeaderTypeToUInt{header}")()
+                getattr(writer, f"SetByteOrderTo{order}")()
+                writer.SetBlockSize(1024)
+                writer.Write()
+                found = self.read(path)
+                close = numpy.testing.assert_allclose if mode == "Ascii" else numpy.testing.assert_array_equal
+                close(found.points, points)
+                numpy.testing.assert_array_equal(found.simplices, cells)
+                numpy.testing.assert_array_equal(found.ids, numpy.arange(200) * 7 - 3)
+                self.assertEqual(found.names, list(values))
+                for have, wanted in zip(found.values, values.values()):
+                    close(have, wanted)
+                self.assertTrue(any("wind" in note for note in found.notes), found.notes)
+
+    def test_pieces(self):
+        """Pieces are joined, and points that they share are one; with split nodes they are two."""
+        first, second = piece_of(1, ((0, 0), (4, 0), (0, 3)), 0), piece_of(2, ((4, 0), (4, 3), (0, 3)), 0)
+        path = self.file("pieces.vtu", vtu_of(first, second))
+        found = self.read(path)
+        self.assert_mesh(found, [[0, 0], [4, 0], [0, 3], [4, 3]], [[0, 1, 2], [1, 3, 2]])
+        self.assertEqual(found.values[0].tolist(), [1, 1, 1, 2])
+        self.assertIn("2 points that several pieces have", found.notes[0])
+        self.assertEqual(len(self.read(path, keep_apart=True).points), 6)
+        self.assertEqual(len(self.read(self.file("apart.vtu", vtu_of(first, piece_of(2, ((4, 0), (4, 3), (0, 3)), 9)))).simplices), 2)
+
+    def test_vtu_refused(self):
+        piece = piece_of(1, ((0, 0), (4, 0), (0, 3)), 0)
+        for old, new, said in (("0 1 2<", "0 1 3<", "names a point that its piece does not have"), ("0 1 2<", "0 1<", "offsets of cells end at 3"),
+                               ("0 1 2<", "0 -1 2<", "names a point"), ('NumberOfPoints="3"', 'NumberOfPoints="4"', "has 9 numbers, but 4 times 3"),
+                               ('NumberOfCells="1"', 'NumberOfCells="2"', "has 1 numbers, but 2 times 1"), ("</Cells>", "", "no XML, or cut off"),
+                               (">5<", ">9<", "quad"), (">5<", ">22<", "triangle6"), (">5<", ">99<", "type 99"), (' format="ascii">1 1 1', ' format="odd">1', "format odd")):
+            self.refused("wrong.vtu", vtu_of(piece).replace(old, new, 1), said)
+        self.refused("wrong.vtu", vtu_of(), "has no piece")
+        self.refused("wrong.vtu", vtu_of(piece).replace("UnstructuredGrid", "PolyData"), "no unstructured grid")
+
+    def test_ply(self):
+        """Lists beside that of the corners, `vertex_index`, any order of properties; the same in binary."""
+        found = self.read(self.file("m.ply", PLY))
+        self.assert_mesh(found, [[0, 0], [4, 0], [0, 3], [4, 3]], CELLS)
+        self.assertEqual((found.names, found.values[0].tolist()), (["quality"], [0.5, 1.5, 2.5, 3.5]))
+        self.assertIn("face texcoord, face red, edge", found.notes[0])
+        for order, name in ("<", "little"), (">", "big"):
+            head = PLY.partition("end_header\n")[0].replace("ascii", f"binary_{name}_endian") + "end_header\n"
+            rows = b"".join(struct.pack(order + "fdd", *row) for row in ((0.5, 0, 0), (1.5, 0, 4), (2.5, 3, 0), (3.5, 3, 4)))
+            faces = struct.pack(order + "B6fB3iB", 6, *[0] * 6, 3, 0, 1, 2, 255) + struct.pack(order + "BB3iB", 0, 3, 1, 3, 2, 7)
+            whole = head.encode() + rows + faces + struct.pack(order + "i", 0)
+            self.assert_mesh(self.read(self.file("m.ply", whole)), [[0, 0], [4, 0], [0, 3], [4, 3]], CELLS)
+            self.refused("cut.ply", whole[:-7], "ends before")
+        self.refused("n.ply", PLY.replace("3 1 3 2 7", "3 1 -1 2 7"), "corner -1, but there are 4 points")
+        self.refused("n.ply", PLY.replace("3 1 3 2 7", "3 1 4 2 7"), "corner 4, but there are 4 points")
+        self.refused("n.ply", PLY.replace("3 1 3 2 7", "4 1 3 2 0 7"), "quad")
+        self.refused("n.ply", PLY.replace("vertex_index", "others"), "no faces with vertex_indices")
+
+    def test_obj(self):
+        """Relative corners, and texture places and normals in other numbers than vertices."""
+        head = "v 0 0 0\nv 4 0 0 # a comment\nv 0 3 0\nvt 0 0\nvn 0 0 1\n"
+        found = self.read(self.file("m.obj", head + "f -3/1/1 -2/1 -1//1\nv 4 3 0\nf 2 4 3\n"))
+        self.assert_mesh(found, [[0, 0], [4, 0], [0, 3], [4, 3]], CELLS)
+        for faces, said in (("f 1 2 0\n", "corner 0"), ("f 1 2 -4\n", "corner -4"), ("f 1 2 4\n", "corner 3, but there are 3 points"),
+                            ("f 1 2 3 1\n", "quad"), ("", "neither triangles"), ("f 1 2 x\n", "invalid literal")):
+            self.refused("m.obj", head + faces, said)
+
+    def test_off(self):
+        points = "0 0 0\n4 0 0 # a comment\n0 3 0\n\n4 3 0\n"
+        for head in "OFF\n4 2 0\n", "OFF 4 2 0\n", "# made by hand\nCOFF\n4 2\n":
+            colours = points.replace("0\n", "0 1 0 0 1\n") if head.startswith("#") else points
+            self.assert_mesh(self.read(self.file("m.off", head + colours + "3 0 1 2\n3 1 3 2 255 0 0\n")), [[0, 0], [4, 0], [0, 3], [4, 3]], CELLS)
+        for faces, said in (("3 0 1 2\n3 0 2 -1\n", "corner -1"), ("3 0 1 2\n3 0 2 4\n", "corner 4"), ("3 0 1 2\n", "ends after 5 lines"), ("3 0 1 2\n3 0 1\n", "fewer corners"),
+                            ("3 0 1 2\n4 0 1 3 2\n", "quad")):
+            self.refused("n.off", "OFF\n4 2 0\n" + points + faces, said)
+        self.refused("n.off", "", "does not begin with OFF")
+        self.refused("n.off", "OFF\n", "does not say how many")
+
+    def test_tetgen_and_triangle(self):
+        space = "5 3 1 1\n# a comment\n10 0 0 0 0.5 7\n11 1 0 0 1 0\n12 0 1 0 2 0\n13 0 0 1 3 0\n14 0 0 -1 4 0\n"
+        self.file("r.node", space)
+        found = self.read(self.file("r.ele", "2 4 1\n0 10 11 12 13 0.5\n1 10 12 11 14 1.5\n"))
+        self.assertEqual(found.ids.tolist(), [10, 11, 12, 13, 14])
+        self.assertEqual(found.simplices.tolist(), [[0, 1, 2, 3], [0, 2, 1, 4]])
+        self.assertEqual((found.names, found.values[0].tolist()), (["tetgen:attr1", "tetgen:ref"], [0.5, 1, 2, 3, 4]))
+        self.refused("r.ele", "2 4 0\n0 10 11 12 13\n", "ends before all cells")
+        self.refused("r.ele", "1 4 0\n0 10 11 12 15\n", "names point 15, which is not there")
+        self.refused("r.ele", "1 10 0\n0 10 11 12 13 10 11 12 13 10 11\n", "tetra10")
+        self.refused("r.ele", "", "fewer than 2 numbers")
+        self.file("p.ele", "2 3 0\n1 1 2 3\n2 2 4 3\n")
+        self.assert_mesh(self.read(self.file("p.node", "4 2 0 1\n1 0 0 1\n2 4 0 1\n3 0 3 1\n4 4 3 0\n")), [[0, 0], [4, 0], [0, 3], [4, 3]], CELLS)
+
+    def test_2dm(self):
+        for text, said in (("MESH2D\n", "no nodes"), ("MESH2D\nND 1 0 0 0\n", "no triangles"), ("ND 1 0 0 0\nE3T 1 1 2 3 1\n", "names point 2"),
+                           ("ND 1 0 0\nE3T 1 1 1 1 1\n", "cut off"), ("ND 1 0 0 0\nE3T 1 1 2\n", "cut off"), ("ND 1 0 0 0\nND 1 1 0 0\nE3T 1 1 1 1 1\n", "two points have the number 1"),
+                           ("ND 1 0 0 0\nE4Q 1 1 1 1 1 1\n", "E4Q")):
+            self.refused("m.2dm", text, said)
+
+    def test_msh(self):
+        """All versions, in text and binary: the ids, materials and markers of Gmsh."""
+        points = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [2, 0.5, 0]], float)
+        cells = [("line", numpy.array([[0, 1], [1, 4]])), ("triangle", numpy.array([[0, 1, 2], [1, 3, 2]])), ("triangle", numpy.array([[1, 4, 3]]))]
+        groups = [numpy.array([77, 77]), numpy.array([5, 5]), numpy.array([6])]
+        for version, binary in itertools.product(("2.2", "4.0", "4.1"), (False, True)):
+            with self.subTest(version=version, binary=binary):
+                # meshio writes groups and cells of several kinds in version 4 only with the entities of a file that it has read
+                several = version == "2.2"
+                mesh = meshio.Mesh(points, cells if several else [("triangle", numpy.concatenate([triangles for _, triangles in cells[1:]]))], point_data={"h": points[:, 0] + 0.5},
+                                   cell_data={"gmsh:physical": groups, "gmsh:geometrical": groups} if several else {})
+                meshio.gmsh.write(self.at / "m.msh", mesh, version, binary=binary)
+                found = self.read(self.at / "m.msh")
+                self.assert_mesh(found, points[:, :2], [[0, 1, 2], [1, 3, 2], [1, 4, 3]])
+                self.assertEqual(found.ids.tolist(), [1, 2, 3, 4, 5])
+                self.assertEqual((found.names, found.values[0].tolist()), (["h"], (points[:, 0] + 0.5).tolist()))
+                if several:
+                    self.assertEqual((found.materials.tolist(), found.facets.tolist(), found.markers.tolist()), ([5, 5, 6], [[0, 1], [1, 4]], [77, 77]))
+                whole = (self.at / "m.msh").read_bytes()
+                for size in range(0, len(whole) - 160, 97):
+                    self.refused("cut.msh", whole[:size], "")
+
+    def test_msh_of_gmsh(self):
+        """Groups by way of entities, sparse and unordered tags of nodes, places on a curve."""
+        text = ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 1 2 0\n1 0 0 0 1 0 0 1 77 0\n1 0 0 0 1 1 0 1 -5 1 1\n2 0 0 0 1 1 0 0 1 1\n$EndEntities\n"
+                "$Nodes\n2 4 10 40\n1 1 1 2\n20\n10\n1 0 0 0.5\n0 0 0 0.25\n2 1 0 2\n40\n30\n1 1 0\n0 1 0\n$EndNodes\n"
+                "$Elements\n3 3 1 3\n1 1 1 1\n1 10 20\n2 1 2 1\n2 10 20 30\n2 2 2 1\n3 20 40 30\n$EndElements\n")
+        found = self.read(self.file("g.msh", text))
+        self.assertEqual(found.ids.tolist(), [20, 10, 40, 30])
+        self.assert_mesh(found, [[1, 0], [0, 0], [1, 1], [0, 1]], [[1, 0, 3], [0, 2, 3]])
+        self.assertEqual((found.materials.tolist(), found.facets.tolist(), found.markers.tolist()), ([5, 0], [[0, 1]], [77]))
+        for old, new, said in (("2 10 20 30", "2 10 20 50", "names point 50"), ("3 3 1 3", "3 4 1 3", "says that it has 4 elements"), ("2 4 10 40", "2 5 10 40", "says that it has 5 nodes"),
+                               ("2 2 2 1\n3", "2 2 9 1\n3", "more numbers|ends before"), ("4.1 0", "3 0", "version 3"), ("20\n10\n", "20\n20\n", "two points have the number 20")):
+            self.refused("g.msh", text.replace(old, new, 1), said)
+        second = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n" + "".join(f"{n} {n % 3} {n // 3} 0\n" for n in range(6)) + "$EndNodes\n$Elements\n1\n1 9 2 1 1 0 1 2 3 4 5\n$EndElements\n"
+        self.refused("g.msh", second, "triangle6")
+
+    def test_of_meshio_counts(self):
+        """Formats that meshio reads are compared with their own counts."""
+        mesh = meshio.Mesh(numpy.eye(4, 3), [("tetra", numpy.array([[0, 1, 2, 3]]))])
+        for suffix in ".mesh", ".vtk":
+            meshio.write(self.at / f"c{suffix}", mesh)
+            self.assertEqual(self.read(self.at / f"c{suffix}").simplices.tolist(), [[0, 1, 2, 3]])
+        text = "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\nTetrahedra\n1\n1 2 3 4 0\nEnd\n"
+        self.assertEqual(len(self.read(self.file("t.mesh", text)).simplices), 1)
+        with self.assertRaises(Exception):
+            self.read(self.file("t.mesh", text.replace("Tetrahedra\n1", "Tetrahedra\n2")))
+
+    def test_names(self):
+        """An attribute z beside z gets a _; ids that are not all different are said to be."""
+        piece = piece_of(1, ((0, 0), (4, 0), (0, 3)), 0).replace("4 0 0", "4 0 2").replace('Name="h"', 'Name="z"')
+        self.assertEqual(self.read(self.file("z.vtu", vtu_of(piece))).names, ["z", "z_"])
+        found = self.read(self.file("z.vtu", vtu_of(piece.replace('Name="z"', 'Name="id"'))))
+        self.assertEqual(found.ids.tolist(), [0, 1, 2])
+        self.assertTrue(any("not all different" in note for note in found.notes))
+
+    def test_apart(self):
+        """What is read in a process of its own comes whole; a reader that never ends, takes all memory or crashes ends with an error."""
+        path = self.file("a.ply", PLY)
+        grid = apart.read(path, keep_apart=False)
+        self.assertEqual((grid.cells["triangle"].tolist(), grid.notes), (CELLS, ["left out: face texcoord, face red, edge"]))
+        with self.assertRaisesRegex(Failed, "No such file"):
+            apart.read(path + "x", keep_apart=False)
+        with self.assertRaisesRegex(Failed, "is no file"):
+            apart.read(str(self.at), keep_apart=False)
+        reader = self.at / "reader"
+        reader.mkdir()
+        self.addCleanup(sys.path.remove, str(reader))
+        sys.path.insert(0, str(reader))  # a library named meshio that harms
+        began = time.monotonic()
+        for does, said in (("while True: pass", "not read within"), ("bytearray(1 << 50)", "more memory"), ("import os; os.abort()", "status -6"),
+                           ("raise SystemExit(1)", "no file that meshio reads"), ("1 / 0", "cannot be read: division by zero")):
+            (reader / "meshio.py").write_text(f"import resource\nresource.setrlimit(resource.RLIMIT_CPU, (2, 2))\ndef read(path):\n    {does}\n")
+            with self.assertRaisesRegex(Failed, said):
+                apart.read(self.file("a.other", "nothing"), keep_apart=False)
+        self.assertLess(time.monotonic() - began, 60)
+
+
+if __name__ == "__main__":
+    unittest.main()
