@@ -167,7 +167,7 @@ class Session {
         const outcome = await this.outcome(edit.xid);
         if (outcome === "committed") return;
         if (outcome === "aborted") this.broken(error);
-        else this.over(`the database went away while it saved; whether ${counted(this.changes)} ${this.changes === 1 ? "is" : "are"} saved is not known`, false);
+        else this.over(`the database went away while it saved; whether ${counted(this.changes)} ${this.changes === 1 ? "is" : "are"} saved is not known`, { isOpen: false, lost: null });
         throw this.ended;
     }
 
@@ -203,11 +203,11 @@ class Session {
 
     broken({ cause }) {
         console.error(`viewer: a connection that edits is gone: ${cause.message}`);
-        return this.changes === 0 ? this.release(false) : this.over(`the connection to the database broke; ${unsaved(this.changes)} lost`, false);
+        return this.changes === 0 ? this.release(false) : this.over(`the connection to the database broke; ${unsaved(this.changes)} lost`, { isOpen: false });
     }
 
-    over(message, isOpen = true) {
-        this.ended = ended(message, this.changes);
+    over(message, { isOpen = true, lost = this.changes } = {}) {
+        this.ended = ended(message, lost);
         return this.release(isOpen);
     }
 

@@ -43,7 +43,7 @@ export async function serve(mesh, options = {}) {
 /** A way to the database that can break. break() ends all connections without a word, as a killed backend does, and
     `open = false` lets no other in. `onCommit` sees each COMMIT before the server does: it may send it on, and break. */
 export async function fragileWay() {
-    const folder = mkdtempSync(join(tmpdir(), "viewer-")), { PGHOST: host, PGPORT: port = "5432" } = process.env;
+    const folder = mkdtempSync(join(tmpdir(), "viewer-")), { PGHOST: host = "/var/run/postgresql", PGPORT: port = "5432" } = process.env;
     const way = { open: true, onCommit: null, sockets: new Set(), dbname: `host=${folder} port=5432` };
     const listener = net.createServer((client) => {
         if (!way.open) return client.destroy();
