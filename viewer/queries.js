@@ -2,6 +2,7 @@
 // Abacus takes a query as a text, PostgreSQL makes it, of parameters that have a type.
 
 const corners = `code, v0, v1, v2, v3, corners, "values"`;
+const vertices = (row) => `ARRAY[${row}.v0, ${row}.v1, ${row}.v2, ${row}.v3]`;
 const point = (from, dimension) =>
     Array.from({ length: dimension }, (_, i) => `$${from + i}::float8`);
 
@@ -15,19 +16,43 @@ function row(id, at, values) {
 const info = `
     SELECT $1::oid::regclass::text AS name, abacus_srid($1::oid::regclass) AS srid,
            (SELECT jsonb_object_agg(name, value) FROM abacus_stats($1::oid::regclass)
-            WHERE name IN ('dimension', 'vertices', 'simplices', 'changeable')) AS stats,
+            WHERE name IN ('dimension', 'vertices', 'simplices', 'delaunay', 'changeable')) AS stats,
            (SELECT coalesce(jsonb_agg(jsonb_build_object('name', name, 'least', least, 'greatest', greatest) ORDER BY position), '[]')
             FROM abacus_attributes($1::oid::regclass)) AS attributes,
            (SELECT jsonb_build_array(min(x), min(y), min(z), max(x), max(y), max(z)) FROM abacus_hull($1::oid::regclass)) AS extent`;
 
+/** The simplex at a place, with the facet -1, and those across its facets. Their vertices tell which these are, by
+    id and place: places alone are the same on both sides of a fault, and ids alone need not be unique. Each facet
+    has one of any two vertices, so all neighbours are around the first two. */
+const located = (dimension) => {
+    const at = point(2, dimension), count = dimension + 1;
+    return `
+    WITH found AS MATERIALIZED (SELECT (s).* FROM abacus_locate($1::oid::regclass, ${at}) AS s WHERE (s).code IS NOT NULL),
+         cell AS MATERIALIZED (
+            SELECT c.* FROM found AS f, abacus_cells($1::oid::regclass, ARRAY[${at}], ARRAY[${at}]) AS c
+            WHERE c.code = f.code AND ${vertices("c")} = ${vertices("f")} LIMIT 1)
+    SELECT -1 AS facet, ${corners} FROM cell
+    UNION ALL
+    (SELECT DISTINCT ON (facet) facet, o.code, o.v0, o.v1, o.v2, o.v3, o.corners, o."values"
+     FROM cell AS c, generate_series(1, 2) AS k, LATERAL (SELECT ARRAY(SELECT unnest(c.corners[k:k])) AS at) AS corner,
+          LATERAL abacus_cells($1::oid::regclass, corner.at, corner.at) AS o,
+          LATERAL (SELECT count(*) AS shared, (${count * (count + 1) / 2} - sum(i) - 1)::integer AS facet
+                   FROM generate_series(1, ${count}) AS i, generate_series(1, ${count}) AS j
+                   WHERE (${vertices("c")})[i] = (${vertices("o")})[j] AND c.corners[i:i] = o.corners[j:j]) AS common
+     WHERE shared = ${dimension} ORDER BY facet)`;
+};
+
+/** Values by all methods; natural neighbours where the mesh is Delaunay, as they are in no other. */
+const values = (dimension) => `
+    SELECT method, abacus_interpolate($1::oid::regclass, ${point(2, dimension)}, $${2 + dimension}::text, method) AS value
+    FROM unnest(ARRAY['linear', 'natural', 'nearest']) AS method WHERE method <> 'natural' OR $${3 + dimension}`;
+
 export const plane = {
     info,
     etag: "SELECT abacus_tile_etag($1::oid::regclass) AS etag",
-    locate: `SELECT (s).* FROM abacus_locate($1::oid::regclass, $2::float8, $3::float8) AS s WHERE (s).code IS NOT NULL`,
+    located: located(2),
     cells: `SELECT ${corners} FROM abacus_cells($1::oid::regclass, ARRAY[$2, $3]::float8[], ARRAY[$2, $3]::float8[])`,
-    values: `
-        SELECT method, abacus_interpolate($1::oid::regclass, $2::float8, $3::float8, $4::text, method) AS value
-        FROM unnest(ARRAY['linear', 'natural', 'nearest']) AS method`,
+    values: values(2),
     nearest: `SELECT vertex, x, y, attributes, distance FROM abacus_nearest($1::oid::regclass, $2::float8, $3::float8, 1)`,
     profile: `SELECT distance, x, y, value FROM abacus_profile($1::oid::regclass, $2::float8[], $3::text) LIMIT $4`,
     sight: `
@@ -42,11 +67,9 @@ export const plane = {
 export const space = {
     info,
     etag: plane.etag,
-    locate: `SELECT (s).* FROM abacus_locate($1::oid::regclass, $2::float8, $3::float8, $4::float8) AS s WHERE (s).code IS NOT NULL`,
+    located: located(3),
     cells: `SELECT ${corners} FROM abacus_cells($1::oid::regclass, ARRAY[$2, $3, $4]::float8[], ARRAY[$2, $3, $4]::float8[])`,
-    values: `
-        SELECT method, abacus_interpolate($1::oid::regclass, $2::float8, $3::float8, $4::float8, $5::text, method) AS value
-        FROM unnest(ARRAY['linear', 'natural', 'nearest']) AS method`,
+    values: values(3),
     nearest: `SELECT vertex, x, y, z, attributes, distance FROM abacus_nearest($1::oid::regclass, $2::float8, $3::float8, $4::float8, 1)`,
     section: `SELECT polygon, "values" FROM abacus_section($1::oid::regclass, $2::float8[], $3::float8[], $4::text) LIMIT $5`,
     isosurface: `SELECT corners FROM abacus_isosurface($1::oid::regclass, $2::float8, $3::text) LIMIT $4`,

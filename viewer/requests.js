@@ -1,7 +1,7 @@
 // What a browser may ask: each path with the parameters that it takes, checked before anything is
 // sent to the database.
 import { edits, plane, space } from "./queries.js";
-import { Refused } from "./database.js";
+import { Refused } from "./errors.js";
 
 const mostRows = 200_000, mostPathPlaces = 1000;
 const mostOfHull = 60_000;
@@ -35,27 +35,19 @@ async function bounded(query, values) {
     return rows;
 }
 
-/** Places, their simplex with corners and neighbours, and what the mesh says of values there. */
+/** A place, its simplex with corners and neighbours, and what the mesh says of values there. */
 async function locate(query, mesh, sql, at, attribute) {
-    const dimension = at.length, count = dimension + 1;
-    const [found] = await query(sql.locate, at);
+    const count = at.length + 1;
     const answer = { place: at, simplex: null, neighbours: [], values: {} };
     [answer.nearest] = await query(sql.nearest, at);
-    for (const { method, value } of mesh.attributes.length ? await query(sql.values, [...at, attribute]) : [])
+    for (const { method, value } of mesh.attributes.length ? await query(sql.values, [...at, attribute, mesh.delaunay === 1]) : [])
         answer.values[method] = value;
-    if (!found) return answer;
     const ids = (row) => [row.v0, row.v1, row.v2, row.v3].slice(0, count);
-    const cells = await query(sql.cells, at);
-    const cell = cells.find((row) => row.code === found.code && String(ids(row)) === String(ids(found)));
-    answer.simplex = { code: cell.code, ids: ids(cell), corners: cell.corners, values: cell.values };
-    const key = (corners) => corners.map(String).sort().join(";");
-    const around = new Map();
-    for (const corner of cell.corners) for (const row of await query(sql.cells, corner)) around.set(key(row.corners), row);
-    around.delete(key(cell.corners));
-    for (let facet = 0; facet < count; ++facet) {
-        const facets = cell.corners.filter((_, i) => i !== facet).map(String);
-        const row = [...around.values()].find((other) => facets.every((corner) => other.corners.map(String).includes(corner)));
-        answer.neighbours.push(row ? { ids: ids(row), corners: row.corners } : null);
+    const rows = await query(sql.located, at);
+    if (rows.length) answer.neighbours = Array(count).fill(null);
+    for (const row of rows) {
+        if (row.facet < 0) answer.simplex = { code: row.code, ids: ids(row), corners: row.corners, values: row.values };
+        else answer.neighbours[row.facet] = { ids: ids(row), corners: row.corners };
     }
     return answer;
 }
@@ -110,9 +102,10 @@ export function tile(kind, z, x, y, p, mesh) {
 
 // ---- Changes ------------------------------------------------------------------------------------
 
+/** An id, as text: numbers of JSON beyond 53 bits are others than were sent. */
 const id = (value) => {
-    const text = String(value);
-    if (!/^-?\d{1,19}$/.test(text) || BigInt.asIntN(64, BigInt(text)) !== BigInt(text)) throw wrong("id must be a whole number of 64 bits");
+    const text = typeof value === "string" || Number.isSafeInteger(value) ? String(value) : "";
+    if (!/^-?\d{1,19}$/.test(text) || BigInt.asIntN(64, BigInt(text)) !== BigInt(text)) throw wrong("id must be a whole number of 64 bits, as text if it has more than 53");
     return String(BigInt(text));
 };
 const place = (value, dimension) => {
@@ -132,7 +125,7 @@ export function change(name, body, mesh) {
     const sql = edits(dimension, attributes.length > 0);
     const at = place(body.at, dimension), number = id(body.id);
     const insert = async (query, where, given) => {
-        const values = !attributes.length ? [] : [given ? numbersOrNull(given, attributes.length)
+        const values = !attributes.length ? [] : [given != null ? numbersOrNull(given, attributes.length)
             : (await query(sql.interpolate, where))[0]?.values ?? attributes.map(() => null)];
         await query(sql.insert, [number, ...where, ...values]);
     };

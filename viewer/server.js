@@ -5,7 +5,8 @@ import { createServer } from "node:http";
 import { readFile } from "node:fs/promises";
 import { parseArgs } from "node:util";
 import { connection } from "./conninfo.js";
-import { Database, Refused } from "./database.js";
+import { Database } from "./database.js";
+import { explain, Refused } from "./errors.js";
 import { change, Parameters, planeReads, spaceReads, tile } from "./requests.js";
 import { plane, space } from "./queries.js";
 
@@ -17,6 +18,7 @@ const usage = `usage: viewer/serve --mesh NAME [-d CONNINFO] [options]
                      the mesh tells by its SRID, and one of another SRID is on a map of its own
   --edit             points may be added, moved and deleted
   --timeout SECONDS  of a statement (30)
+  --idle SECONDS     changes that are not saved are undone when nobody uses the page for so long (600)
   --port N           (8080; 0: any)
   --host NAME        address to listen at (127.0.0.1)
 `;
@@ -39,14 +41,21 @@ class Mesh {
     static async open(database, options) {
         const mesh = new Mesh(database, options);
         mesh.oid = await database.resolve(options.mesh);
-        await database.rows(null, plane.etag, [mesh.oid]); // says of what is no mesh what it is
-        const [{ value }] = await database.rows(null, "SELECT value FROM abacus_stats($1::oid::regclass) WHERE name = 'dimension'", [mesh.oid]);
-        mesh.dimension = value;
+        mesh.dimension = await mesh.read(null, async (query) => {
+            await query(plane.etag); // says of what is no mesh what it is
+            return (await query("SELECT value FROM abacus_stats($1::oid::regclass) WHERE name = 'dimension'"))[0].value;
+        });
         return mesh;
     }
 
-    query(token, signal) {
-        return (text, values = []) => this.database.rows(token, text, [this.oid, ...values], signal);
+    /** Runs task(query), all of it in one state of the mesh. */
+    read(token, task, signal) {
+        return this.database.read(token, (query) => task(this.about(query)), signal);
+    }
+
+    /** Queries of which the first parameter is the mesh. */
+    about(query) {
+        return (text, values = []) => query(text, [this.oid, ...values]);
     }
 
     async describe(query) {
@@ -71,56 +80,73 @@ class Mesh {
     }
 }
 
+/** The object that a request sends as JSON. */
 async function body(request) {
-    if (request.headers["content-type"] !== "application/json") throw new Refused(415, "send JSON");
-    let text = "";
-    for await (const part of request) if ((text += part).length > mostBody) throw new Refused(413, "that is too much");
+    if (!/^application\/json *(;|$)/i.test(request.headers["content-type"] ?? "")) throw new Refused(415, "send JSON");
+    let text = "", given;
+    request.setEncoding("utf8");
+    for await (const part of request) if (text.length <= mostBody) text += part; // all is read, or the client does not read the answer
+    if (text.length > mostBody) throw new Refused(413, "that is too much");
     try {
-        return JSON.parse(text || "{}");
+        given = JSON.parse(text || "{}");
     } catch {
         throw new Refused(400, "this is no JSON");
     }
+    if (typeof given !== "object" || given === null || Array.isArray(given)) throw new Refused(400, "send an object");
+    return given;
+}
+
+/** The path and the parameters that a request names. */
+function address(request) {
+    if (!request.url.startsWith("/")) throw new Refused(400, "the address must be a path");
+    return new URL(`http://viewer${request.url}`); // so that `//` is a path, no name of a host
 }
 
 function send(response, status, type, content, more = {}) {
     response.writeHead(status, { ...headers, "Content-Type": type, "Cache-Control": "no-cache", ...more });
     response.end(content);
 }
-const json = (response, value) => send(response, 200, types.js.replace("text/javascript", "application/json"), JSON.stringify(value));
+const json = (response, value, status = 200) => send(response, status, "application/json", JSON.stringify(value));
 
-async function sendTile(request, response, url, mesh, query) {
+async function sendTile(request, response, url, mesh, reading) {
     const [, kind, z, x, y] = url.pathname.match(/^\/tiles\/(picture|vector|terrain)\/(\d+)\/(\d+)\/(\d+)$/) ?? [];
     if (!kind || mesh.dimension !== 2) throw new Refused(404, "there is nothing here");
-    const known = await mesh.describe(query);
-    const drawn = JSON.stringify([known.srid, known.world, url.search]);
-    const etag = `"${known.etag}-${Buffer.from(drawn).toString("base64url")}"`;
-    if (request.headers["if-none-match"] === etag) return send(response, 304, "image/png", undefined, { ETag: etag });
-    const { text, values } = tile(kind, z, x, y, new Parameters(url.searchParams), known);
-    const [{ tile: bytes }] = await query(text, values);
+    const { etag, bytes } = await reading(async (query) => {
+        const known = await mesh.describe(query);
+        const drawn = JSON.stringify([known.srid, known.world, url.search]);
+        const etag = `"${known.etag}-${Buffer.from(drawn).toString("base64url")}"`;
+        if (request.headers["if-none-match"] === etag) return { etag };
+        const { text, values } = tile(kind, z, x, y, new Parameters(url.searchParams), known);
+        return { etag, bytes: (await query(text, values))[0].tile };
+    });
+    if (bytes === undefined) return send(response, 304, "image/png", undefined, { ETag: etag });
     send(response, 200, kind === "vector" ? "application/x-protobuf" : "image/png", bytes, { ETag: etag });
 }
 
-async function read(response, url, mesh, query) {
-    const known = await mesh.describe(query);
+async function read(response, url, mesh, reading) {
     const name = url.pathname.slice("/api/".length);
-    if (name === "info") return json(response, known);
-    const reads = mesh.dimension === 2 ? planeReads : spaceReads;
+    const reads = { info: (_, query, known) => known, ...(mesh.dimension === 2 ? planeReads : spaceReads) };
     if (!Object.hasOwn(reads, name)) throw new Refused(404, "there is nothing here");
-    json(response, await reads[name](new Parameters(url.searchParams), query, known));
+    json(response, await reading(async (query) => reads[name](new Parameters(url.searchParams), query, await mesh.describe(query))));
 }
 
+/** The session of a page that edits, and what it asks of it. */
 async function edit(request, response, url, mesh, token) {
     const { database } = mesh, name = url.pathname.slice("/edit/".length);
     const given = await body(request); // JSON, which no form of another site can send
     if (!database.edit) throw new Refused(403, "the viewer was started without --edit");
-    if (name === "begin") return json(response, { session: await database.open() });
-    const editor = database.editor(token);
-    if (name === "save" || name === "undo") return json(response, { changes: await editor[name]() });
-    if (name === "end") return json(response, (await editor.close(), {}));
-    const known = await mesh.describe(mesh.query(token));
-    const task = change(name, given, known);
-    await editor.change((query) => task((text, values) => query(text, [mesh.oid, ...values])));
-    json(response, { changes: editor.changes });
+    if (name === "begin") return json(response, { session: await database.open(request.socket.remoteAddress), beat: database.sessions.absent / 6 });
+    const session = database.sessions.get(token ?? given.session); // a page that closes cannot send headers
+    if (name === "alive") return json(response, { changes: session.changes });
+    session.used = Date.now();
+    try {
+        if (name === "save" || name === "undo") return json(response, { changes: await session[name]() });
+        if (name === "end") return json(response, (await session.close(), {}));
+        const task = change(name, given, await mesh.read(session.token, (query) => mesh.describe(query)));
+        json(response, { changes: await session.change((query) => task(mesh.about(query))) });
+    } catch (error) {
+        throw Object.assign(error, { changes: session.changes });
+    }
 }
 
 async function sendFile(response, url, mesh) {
@@ -131,17 +157,6 @@ async function sendFile(response, url, mesh) {
     send(response, 200, types[known[1]], name === "index.html" ? String(content).replaceAll("DIMENSION", mesh.dimension === 2 ? "plane" : "space") : content);
 }
 
-/** What a client is told of an error: what PostgreSQL says of its arguments, and nothing of the server. */
-function explain(error) {
-    if (error instanceof Refused) return error;
-    if (error.code === "42501") return new Refused(403, error.message);
-    if (error.code === "23505") return new Refused(409, error.message);
-    if (error.code === "57014") return new Refused(504, "that took too long");
-    if (/^(22|42|54|55|40|25)/.test(error.code ?? "")) return new Refused(400, error.message, error.hint);
-    console.error(error);
-    return /^(08|57P|53|E[A-Z]+$)/.test(error.code ?? "") || !error.code ? new Refused(503, "the database cannot be reached") : new Refused(500, "the database cannot answer");
-}
-
 function handler(mesh, hosts) {
     return async (request, response) => {
         const gone = new AbortController();
@@ -149,27 +164,28 @@ function handler(mesh, hosts) {
         try {
             // A name that leads here from elsewhere is none of ours.
             if (!hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""))) throw new Refused(421, "this server has another name");
-            const url = new URL(request.url, "http://viewer");
+            const url = address(request);
             const token = request.headers["x-session"] || null;
-            const query = mesh.query(token, gone.signal);
+            const reading = (task) => mesh.read(token, task, gone.signal);
             if (url.pathname.startsWith("/edit/")) {
                 if (request.method !== "POST") throw new Refused(405, "send it by POST");
                 return await edit(request, response, url, mesh, token);
             }
             if (request.method !== "GET") throw new Refused(405, "only reading is possible here");
-            if (url.pathname.startsWith("/tiles/")) return await sendTile(request, response, url, mesh, query);
-            if (url.pathname.startsWith("/api/")) return await read(response, url, mesh, query);
+            if (url.pathname.startsWith("/tiles/")) return await sendTile(request, response, url, mesh, reading);
+            if (url.pathname.startsWith("/api/")) return await read(response, url, mesh, reading);
             await sendFile(response, url, mesh);
         } catch (error) {
             if (response.writableEnded || gone.signal.aborted) return;
             const { status, message, hint } = explain(error);
-            send(response, status, "application/json", JSON.stringify({ error: message, hint }));
+            json(response, { error: message, hint, changes: error.changes, lost: error.lost }, status);
         }
     };
 }
 
 export async function start(options) {
-    const database = new Database(connection(options.dbname), { timeout: options.timeout * 1000, edit: options.edit });
+    const milliseconds = (name) => options[name] && options[name] * 1000;
+    const database = new Database(connection(options.dbname), { edit: options.edit, ...Object.fromEntries(["timeout", "idle", "absent"].map((name) => [name, milliseconds(name)])) });
     const mesh = await Mesh.open(database, options).catch(async (error) => {
         await database.end();
         throw error;
@@ -187,7 +203,7 @@ function commandLine() {
     const { values } = parseArgs({ options: {
         mesh: { type: "string" }, dbname: { type: "string", short: "d" }, srid: { type: "string", default: "0" },
         edit: { type: "boolean", default: false }, timeout: { type: "string", default: "30" },
-        port: { type: "string", default: "8080" }, host: { type: "string", default: "127.0.0.1" }, help: { type: "boolean" } } });
+        idle: { type: "string", default: "600" }, port: { type: "string", default: "8080" }, host: { type: "string", default: "127.0.0.1" }, help: { type: "boolean" } } });
     const number = (name, least, most) => {
         const value = Number(values[name]);
         if (!Number.isInteger(value) || value < least || value > most) throw new Error(`--${name} must be a whole number from ${least} to ${most}`);
@@ -197,7 +213,7 @@ function commandLine() {
     if (!values.mesh) throw new Error("--mesh is missing");
     const srid = number("srid", 0, 99999);
     if (srid && !mapped.includes(srid)) throw new Error("--srid must be 4326 or 3857; without it the mesh tells, or is shown on a map of its own");
-    return { ...values, srid, timeout: number("timeout", 1, 86400), port: number("port", 0, 65535) };
+    return { ...values, srid, timeout: number("timeout", 1, 86400), idle: number("idle", 10, 86400), port: number("port", 0, 65535) };
 }
 
 if (process.argv[1] === new URL(import.meta.url).pathname) {

@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import http from "node:http";
+import net from "node:net";
 import { after, before, test } from "node:test";
 import { connection } from "../../viewer/conninfo.js";
 import { Database } from "../../viewer/database.js";
@@ -87,6 +88,33 @@ test("bad input is an error that says what is wrong", async () => {
     assert.equal((await space.get("/tiles/picture/0/0/0")).status, 404);
     assert.equal((await plane.get("/api/info", { method: "POST" })).status, 405);
     assert.equal(count(), before);
+});
+
+/** What is answered to bytes that no client of HTTP would send. */
+const raw = (server, line) => new Promise((resolve, reject) => {
+    const socket = net.connect(new URL(server.origin).port, "127.0.0.1", () => socket.write(`${line} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n`));
+    let text = "";
+    socket.setEncoding("utf8").on("data", (part) => (text += part)).on("end", () => resolve({ status: Number(text.split(" ")[1]), text })).on("error", reject);
+});
+
+test("odd addresses and bodies are the client's fault", async (t) => {
+    const said = t.mock.method(console, "error", () => {});
+    for (const [line, status] of [["GET //", 404], ["GET ///api/info", 404], ["GET //evil.example/", 404], ["GET http://evil.example/", 400], ["GET *", 400], ["GET /%", 404], ["GET /%00", 404],
+        ["GET /\\", 404], ["GET /api/locate?x=1&y=2&attribute=%00", 400], ["GET /tiles/picture/3/4/3?ramp=%00", 400], ["POST //", 405], ["POST /edit//", 415]])
+        assert.equal((await raw(editing, line)).status, status, line);
+    const session = (await editing.post("begin")).body.session;
+    const send = (name, body, type = "application/json") => editing.get(`/edit/${name}`, { method: "POST", body, headers: { "Content-Type": type, "X-Session": session } });
+    for (const name of ["begin", "alive", "insert", "save", "end", "nothing"])
+        for (const body of ["null", "[]", "[1]", "7", '"x"', "true", "nul", "{}}"]) assert.equal((await send(name, body)).status, 400, `${name} ${body}`);
+    const at = [400817.5, 5200740.5];
+    for (const body of [{ id: { toString: 1, valueOf: 1 }, at }, { id: ["1"], at }, { id: null, at }, { id: true, at }, { id: 1.5, at }, { id: 2 ** 53, at }, { at }, { id: "1", at: null }, { id: "1", at: { length: 2 } },
+        { id: "1", at, values: false }, { id: "1", at, values: { length: 1 } }, { id: "1", at, values: "x" }])
+        assert.equal((await send("insert", JSON.stringify(body))).status, 400, JSON.stringify(body));
+    assert.equal((await send("alive", `"${"x".repeat(1_000_000)}"`)).status, 413);
+    assert.equal((await send("alive", "{}", "text/plain")).status, 415);
+    assert.equal((await send("alive", "{}", "application/json; charset=utf-8")).status, 200);
+    await editing.post("end", {}, session);
+    assert.equal(said.mock.callCount(), 0); // nothing of this is worth a line in the log
 });
 
 test("SQL in parameters is text", async () => {
@@ -323,6 +351,34 @@ test("ids of points are of 64 bits", async () => {
     await editing.post("end", {}, session);
 });
 
+test("ids beyond 53 bits stay what they are", async () => {
+    const of = (dimension) => Array.from({ length: dimension === 2 ? 4 : 5 }, (_, i) => String(2n ** 53n + BigInt(i)));
+    psql(`SELECT abacus_triangulate('great', 'SELECT 9007199254740992 + i, i % 2, i / 2, i FROM generate_series(0, 3) AS i');
+          SELECT abacus_triangulate('greater', 'SELECT 9007199254740992 + i, i % 2, i / 2 % 2, i / 4, i FROM generate_series(0, 4) AS i', dimension => 3)`);
+    for (const [name, dimension, places] of [["great", 2, ["x=0.1&y=0.2", "x=0.9&y=0.8"]], ["greater", 3, ["x=0.1&y=0.2&z=0.1", "x=0.3&y=0.6&z=0.05"]]]) {
+        const server = await serve(name, { edit: true });
+        try {
+            const found = new Set();
+            for (const place of places) {
+                const { body: { simplex, neighbours, nearest } } = await server.get(`/api/locate?${place}`);
+                for (const id of [...simplex.ids, ...neighbours.flatMap((one) => one?.ids ?? []), nearest.vertex]) found.add(id);
+                assert.equal(simplex.code, psql(`SELECT code FROM abacus_locate('${name}', ${place.replaceAll(/[xyz]=/g, "").replaceAll("&", ",")})`));
+            }
+            assert.deepEqual([...found].sort(), of(dimension));
+            const rows = (await server.get(dimension === 2 ? "/api/star?x=0&y=0" : "/api/ray?origin=-1,0.2,0.1&direction=1,0,0")).body;
+            for (const row of rows) for (const id of [row.v0, row.v1, row.v2]) assert.ok(of(dimension).includes(id), id);
+            const { body: { session } } = await server.post("begin");
+            const at = dimension === 2 ? [1, 0] : [1, 0, 0];
+            for (const [id, status] of [["9007199254740992", 409], [9007199254740992, 400], ["9007199254740993", 200]]) // the number is 9007199254740993 as well
+                assert.equal((await server.post("remove", { id, at }, session)).status, status, id);
+            await server.post("end", {}, session);
+        } finally {
+            await server.stop();
+            psql(`DROP TABLE ${name} CASCADE`);
+        }
+    }
+});
+
 test("connection strings are read as libpq does", () => {
     assert.deepEqual(connection("host=/tmp dbname='my db' user=o\\'neil password='it''s'".replace("''s", "\\'s")), { host: "/tmp", database: "my db", user: "o'neil", password: "it's" });
     assert.deepEqual(connection("gis"), { database: "gis" });
@@ -345,7 +401,7 @@ test("packages have fixed versions and a hash, and come from npm's registry", ()
 test("the command says what is wrong", () => {
     psql("SELECT abacus_octree_create('cells', 2, '{0,0}', '{1,1}')");
     const run = (...words) => spawnSync(process.execPath, [new URL("../../viewer/server.js", import.meta.url).pathname, ...words], { encoding: "utf8" });
-    for (const [words, message] of [[[], /--mesh is missing/], [["--mesh", "terrain", "--srid", "25832"], /--srid must be/], [["--mesh", "terrain", "--port", "x"], /--port must be/],
+    for (const [words, message] of [[[], /--mesh is missing/], [["--mesh", "terrain", "--srid", "25832"], /--srid must be/], [["--mesh", "terrain", "--port", "x"], /--port must be/], [["--mesh", "terrain", "--idle", "0"], /--idle must be/],
         [["--mesh", "cells", "--port", "0"], /"cells" is an octree, not a mesh/],
         [["--mesh", "nothing", "--port", "0"], /relation "nothing" does not exist/], [["--mesh", "terrain", "-d", "dbname=nothing"], /database "nothing" does not exist/], [["--wrong"], /Unknown option/]]) {
         const { status, stderr } = run(...words);

@@ -1,7 +1,11 @@
 // What the tests of the viewer share: meshes in the database that the environment names, and
 // servers that show them.
 import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
+import net from "node:net";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { start } from "../../viewer/server.js";
 
 export const packages = createRequire(new URL("../../viewer/package.json", import.meta.url));
@@ -36,6 +40,32 @@ export async function serve(mesh, options = {}) {
     return { origin, stop, get, post };
 }
 
+/** A way to the database that can break. break() ends all connections without a word, as a killed backend does, and
+    `open = false` lets no other in. `onCommit` sees each COMMIT before the server does: it may send it on, and break. */
+export async function fragileWay() {
+    const folder = mkdtempSync(join(tmpdir(), "viewer-")), { PGHOST: host = "/var/run/postgresql", PGPORT: port = "5432" } = process.env;
+    const way = { open: true, onCommit: null, sockets: new Set(), dbname: `host=${folder} port=5432` };
+    const listener = net.createServer((client) => {
+        if (!way.open) return client.destroy();
+        const server = host.startsWith("/") ? net.connect(join(host, `.s.PGSQL.${port}`)) : net.connect(Number(port), host);
+        for (const [from, to] of [[client, server], [server, client]]) {
+            way.sockets.add(from);
+            from.on("error", () => {});
+            from.on("close", () => { way.sockets.delete(from); to.destroy(); });
+        }
+        server.on("data", (data) => client.write(data));
+        client.on("data", (data) => (way.onCommit && data.includes("COMMIT\0") ? way.onCommit(() => server.write(data), server) : server.write(data)));
+    });
+    await new Promise((resolve) => listener.listen(join(folder, ".s.PGSQL.5432"), resolve));
+    way.break = () => { for (const socket of way.sockets) socket.destroy(); };
+    way.close = async () => {
+        way.break();
+        await new Promise((resolve) => listener.close(resolve));
+        rmSync(folder, { recursive: true, force: true });
+    };
+    return way;
+}
+
 /** A session of its own, for locks and looks at what others do. */
 export async function connect() {
     const client = new pg.Client({});
@@ -43,10 +73,11 @@ export async function connect() {
     return client;
 }
 
+/** Waits for a condition; long enough for a machine that has much else to do. */
 export async function eventually(condition, what) {
-    for (let i = 0; i < 100; ++i) {
+    for (const until = Date.now() + 30_000; Date.now() < until;) {
         if (await condition()) return;
         await new Promise((resolve) => setTimeout(resolve, 50));
     }
-    throw new Error(`not within five seconds: ${what}`);
+    throw new Error(`not within 30 seconds: ${what}`);
 }

@@ -1,22 +1,7 @@
-// What both pages have in common: requests, words, tables, changes.
+// What both pages have in common: words and tables.
 
 export const element = (id) => document.getElementById(id);
 export const tool = () => document.forms.tools.elements.tool.value;
-
-let session = null; // of a browser that edits
-export const sessionHeaders = () => (session ? { "X-Session": session } : {});
-
-async function request(path, options) {
-    const response = await fetch(path, { ...options, headers: { ...sessionHeaders(), ...options?.headers } });
-    const answer = await response.json();
-    if (response.ok) return answer;
-    if (response.status === 410) session = null;
-    throw new Error([answer.error, answer.hint].filter(Boolean).join(". "));
-}
-
-export const ask = (name, parameters = {}) => request(`/api/${name}?${new URLSearchParams(parameters)}`);
-const post = (name, body = {}) =>
-    request(`/edit/${name}`, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
 
 /** Runs what somebody has asked for, and says what went wrong. */
 export async function answering(task) {
@@ -79,7 +64,7 @@ export function describe(found, word) {
         const { center, radius } = circumsphere(found.simplex.corners);
         rows.push([`${word}, by ids`, found.simplex.ids.join(" ")], ["code", found.simplex.code],
             [found.place.length === 2 ? "circumcircle" : "circumsphere", `radius ${number(radius)} around ${center.map(number).join(", ")}`]);
-        found.neighbours.forEach((one, facet) => rows.push([`across facet ${facet}`, one ? one.ids.join(" ") : "none: the hull"]));
+        found.neighbours.forEach((one, facet) => rows.push([`across facet ${facet}`, one ? one.ids.join(" ") : "none: the mesh ends here"]));
     }
     for (const [method, value] of Object.entries(found.values)) rows.push([`value, ${method}`, number(value)]);
     if (found.nearest) rows.push(["nearest vertex", `${found.nearest.vertex}, ${number(found.nearest.distance)} away`]);
@@ -94,36 +79,4 @@ export function offerWalk(found, walk) {
         button.addEventListener("click", () => walk(facet));
         return button;
     }));
-}
-
-// ---- Changes ------------------------------------------------------------------------------------
-
-/** Sets the page up to edit; `changed` is called when the mesh may look different. */
-export function setUpEditing(changed) {
-    document.body.classList.add("edit");
-    element("id").value = String(Date.now());
-    const finish = (name, words) => answering(async () => {
-        const { changes } = await post(name);
-        show(0);
-        say(words(changes));
-        await changed();
-    });
-    element("save").addEventListener("click", () => finish("save", (n) => `Saved: ${n} changes.`));
-    element("undo").addEventListener("click", () => finish("undo", (n) => `Undone: ${n} changes.`));
-    addEventListener("beforeunload", (event) => { if (!element("save").disabled) event.preventDefault(); });
-    addEventListener("pagehide", () => {
-        if (session) fetch("/edit/end", { method: "POST", keepalive: true, body: "{}", headers: { "Content-Type": "application/json", ...sessionHeaders() } });
-    });
-}
-
-function show(changes) {
-    element("save").disabled = element("undo").disabled = changes === 0;
-    element("changes").textContent = changes === 0 ? "no changes" : `${changes} not saved`;
-}
-
-/** A change; how many there are. */
-export async function change(name, body) {
-    session ??= (await post("begin")).session;
-    show((await post(name, body)).changes);
-    if (name === "insert") element("id").value = String(BigInt(element("id").value) + 1n);
 }

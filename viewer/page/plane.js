@@ -1,8 +1,10 @@
 // A mesh in the plane, on a map. Coordinates that are not longitude and latitude are put on a part
 // of the map around 0, 0 by a shift and a scale: the square `world` is the map of the world.
 import * as maplibre from "maplibre-gl";
-import { answering, ask, centroid, change, circumsphere, describe, element, number, offerWalk, say, sessionHeaders, setUpEditing, table, tool } from "./common.js";
 import { chart } from "./chart.js";
+import { answering, centroid, circumsphere, describe, element, number, offerWalk, say, table, tool } from "./common.js";
+import { change, setUpEditing, stillThere } from "./editing.js";
+import { ask, sessionHeaders } from "./requests.js";
 
 maplibre.setWorkerUrl("/assets/maplibre-gl-worker.mjs");
 
@@ -82,7 +84,7 @@ const map = new maplibre.Map({
 });
 map.addControl(new maplibre.NavigationControl({ visualizePitch: true }));
 map.getCanvas().setAttribute("aria-label", "Map of the mesh. Enter asks at its middle; arrows walk to neighbours once a triangle is found, Escape ends that.");
-map.on("error", ({ error }) => say(error?.message ?? "a tile is missing", "error"));
+map.on("error", ({ error }) => (error?.status === 410 ? stillThere() : say(error?.message ?? "a tile is missing", "error")));
 
 const feature = (kind, type, coordinates) => ({ type: "Feature", properties: { kind }, geometry: { type, coordinates } });
 const ring = (kind, corners) => feature(kind, "Polygon", [[...corners, corners[0]].map(toMap)]);
@@ -127,7 +129,7 @@ async function locate([x, y]) {
 
 const walk = (facet) => answering(async () => {
     const next = found?.neighbours[facet];
-    if (!next) return say("There is no triangle beyond this edge: it is one of the hull.");
+    if (!next) return say("There is no triangle beyond this edge: the mesh ends there, or is torn by a fault.");
     await locate(centroid(next.corners));
     if (!map.getBounds().contains(toMap(found.place))) map.panTo(toMap(found.place));
 });

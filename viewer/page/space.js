@@ -2,7 +2,9 @@
 // what is at a place or along a ray.
 import * as three from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { answering, ask, centroid, change, describe, element, number, offerWalk, say, setUpEditing, table, tool } from "./common.js";
+import { answering, centroid, describe, element, number, offerWalk, say, table, tool } from "./common.js";
+import { change, setUpEditing } from "./editing.js";
+import { ask } from "./requests.js";
 
 let mesh = await ask("info");
 
@@ -164,7 +166,7 @@ async function locate(place) {
 }
 const walk = (facet) => answering(async () => {
     const next = found?.neighbours[facet];
-    if (!next) return say("There is no tetrahedron beyond this facet: it is one of the hull.");
+    if (!next) return say("There is no tetrahedron beyond this facet: the mesh ends there, or is torn by a fault.");
     await locate(centroid(next.corners));
 });
 

@@ -1,0 +1,81 @@
+// Changes of the mesh: what is not saved, and what becomes of it.
+import { answering, element, say } from "./common.js";
+import { editor, leave, post } from "./requests.js";
+
+let beat, timer; // of the page's reports that it is there; in milliseconds
+let redraw = async () => {};
+
+function show(changes) {
+    editor.unsaved = changes;
+    element("save").disabled = element("undo").disabled = changes === 0;
+    element("changes").textContent = changes === 0 ? "no changes" : `${changes} not saved`;
+    clearInterval(timer);
+    if (changes > 0) timer = setInterval(stillThere, beat); // the server undoes what a page leaves behind
+}
+
+/** Draws the mesh as it is, as soon as the database can be asked. */
+async function drawAgain() {
+    for (;;) {
+        try {
+            return await redraw();
+        } catch {
+            await new Promise((resolve) => setTimeout(resolve, 2000));
+        }
+    }
+}
+
+/** Tells the server that the page is there, and hears whether its changes are. */
+export async function stillThere() {
+    try {
+        if (editor.unsaved > 0) await post("alive");
+    } catch (error) {
+        if (error.hasEnded) say(error.message, "error");
+    }
+}
+
+/** Sets the page up to edit; `changed` is called when the mesh may look different. */
+export function setUpEditing(changed) {
+    redraw = changed;
+    document.body.classList.add("edit");
+    element("id").value = String(Date.now());
+    editor.heard = (changes, lost) => {
+        const had = editor.unsaved;
+        show(changes);
+        if (lost > 0 || had > changes) drawAgain();
+    };
+    const finish = (name, words) => answering(async () => {
+        const { changes } = await post(name);
+        show(0);
+        say(words(changes));
+        await changed();
+    });
+    element("save").addEventListener("click", () => finish("save", (n) => `Saved: ${n} changes.`));
+    element("undo").addEventListener("click", () => finish("undo", (n) => `Undone: ${n} changes.`));
+    addEventListener("beforeunload", (event) => { if (editor.unsaved > 0) event.preventDefault(); });
+    addEventListener("pagehide", leave);
+    addEventListener("pageshow", ({ persisted }) => { // the browser has kept the page, the server not what it had changed
+        if (!persisted || editor.unsaved === 0) return;
+        say(`You have left this page. Changes that are undone: ${editor.unsaved}.`, "error");
+        show(0);
+        drawAgain();
+    });
+}
+
+async function attempt(name, body) {
+    if (!editor.session) {
+        const { session, beat: interval } = await post("begin");
+        editor.session = session;
+        beat = interval;
+    }
+    return post(name, body);
+}
+
+/** A change of the mesh. */
+export async function change(name, body) {
+    const { changes } = await attempt(name, body).catch((error) => {
+        if (!error.hasEnded || error.had > 0) throw error;
+        return attempt(name, body); // the server forgets sessions that have changed nothing
+    });
+    show(changes);
+    if (name === "insert") element("id").value = String(BigInt(element("id").value) + 1n);
+}
