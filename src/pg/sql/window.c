@@ -97,11 +97,12 @@ window_max_edge(FunctionCallInfo fcinfo, int argument)
 }
 
 /*
- * The label that simplices must have, and its range: the first of two arguments. Without a range any
- * value will do. False if no label is wanted.
+ * The range of what is named: the first of two arguments is its name, `what` it is. Without a range any
+ * value will do. False if nothing is named.
  */
-bool
-window_label(FunctionCallInfo fcinfo, int first, const abacus_header *header, abacus_range *range)
+static bool
+has_range(FunctionCallInfo fcinfo, int first, const char *what, const char *example,
+		  abacus_range *range)
 {
 	double		ends[2] = {-INFINITY, INFINITY};
 
@@ -110,12 +111,10 @@ window_label(FunctionCallInfo fcinfo, int first, const abacus_header *header, ab
 		if (!PG_ARGISNULL(first + 1))
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-					 errmsg("range is that of a label, and none is given"),
-					 errhint("Name the label, as in label => 'material'.")));
+					 errmsg("range is that of %s, and none is given", what),
+					 errhint("Name it, as in %s.", example)));
 		return false;
 	}
-	range->attribute = (uint32) header_find_label(header,
-												  text_to_cstring(PG_GETARG_TEXT_PP(first)));
 	if (!PG_ARGISNULL(first + 1))
 		shape_pair(PG_GETARG_ARRAYTYPE_P(first + 1), "range", ends);
 	if (!(ends[0] <= ends[1]))
@@ -125,5 +124,28 @@ window_label(FunctionCallInfo fcinfo, int first, const abacus_header *header, ab
 				 errhint("Give -Infinity or Infinity for a range without an end.")));
 	range->least = ends[0];
 	range->greatest = ends[1];
+	return true;
+}
+
+/* The label that simplices must have, and its range; false if no label is wanted. */
+bool
+window_label(FunctionCallInfo fcinfo, int first, const abacus_header *header, abacus_range *range)
+{
+	if (!has_range(fcinfo, first, "a label", "label => 'material'", range))
+		return false;
+	range->attribute = (uint32) header_find_label(header,
+												  text_to_cstring(PG_GETARG_TEXT_PP(first)));
+	return true;
+}
+
+/* The attribute that vertices must have, and its range; false if no attribute is wanted. */
+bool
+window_attribute(FunctionCallInfo fcinfo, int first, const abacus_header *header,
+				 abacus_range *range)
+{
+	if (!has_range(fcinfo, first, "an attribute", "attribute => 'height'", range))
+		return false;
+	range->attribute = (uint32) header_find_attribute(header,
+													  text_to_cstring(PG_GETARG_TEXT_PP(first)));
 	return true;
 }
