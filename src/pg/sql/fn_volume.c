@@ -17,6 +17,7 @@
 #include "pg/mesh/reader.h"
 #include "pg/sql/interpolation.h"
 #include "pg/sql/result.h"
+#include "pg/sql/units.h"
 #include "pg/sql/window.h"
 
 SQL_FUNCTION(abacus_sql_volume);
@@ -95,6 +96,7 @@ volume_above(FunctionCallInfo fcinfo, double base)
 	reader = reader_open(PG_GETARG_OID(OF_MESH), CurrentMemoryContext);
 	host = reader->host;
 	surface_arguments(fcinfo, &reader->header, &surface);
+	units_tell_volumes(&reader->header);
 	progress_begin(&host->progress, PG_GETARG_OID(OF_MESH));
 	host_run(host, abacus_volume_above, &host->table, &reader->header, &surface, base, &volume);
 	progress_end(&host->progress);
@@ -161,6 +163,7 @@ volume_between(FunctionCallInfo fcinfo, Oid other)
 	require_plane(first);
 	require_plane(second);
 	surface_arguments(fcinfo, &first->header, &surface);
+	units_tell_volumes(&first->header);
 	other_attribute = attribute(fcinfo, other_name, &second->header);
 	progress_begin(&first->host->progress, PG_GETARG_OID(OF_MESH));
 	measure_between(first, second, &surface, other_attribute, &volume);

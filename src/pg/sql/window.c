@@ -11,6 +11,7 @@
 #include "pg/mesh/header.h"
 #include "pg/mesh/mesh_pages.h"
 #include "pg/mesh/shape.h"
+#include "pg/sql/units.h"
 #include "pg/sql/window.h"
 
 /* A closed box; all of the mesh if neither corner is given. */
@@ -37,6 +38,7 @@ window_of_box(const abacus_header *header, ArrayType *lower, ArrayType *upper,
 					 errmsg("lower must not be greater than upper, and both finite, on axis %c",
 							"xyz"[i]),
 					 errhint("lower is the corner of the window with the least coordinates.")));
+	units_tell_window(header, window->lower, window->upper);
 }
 
 /* A closed ball. */
@@ -44,6 +46,9 @@ static void
 window_of_ball(const abacus_header *header, ArrayType *center, double radius,
 			   abacus_window *window)
 {
+	double		lower[ABACUS_MAX_DIMENSION];
+	double		upper[ABACUS_MAX_DIMENSION];
+
 	window->kind = ABACUS_BALL_WINDOW;
 	shape_point(header, center, "center", window->center);
 	window->radius = radius;
@@ -58,6 +63,12 @@ window_of_ball(const abacus_header *header, ArrayType *center, double radius,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("radius must be a finite number, at least 0"),
 				 errhint("Of radius 0 is the center alone.")));
+	for (uint32 i = 0; i < header->dimension; i++)
+	{
+		lower[i] = window->center[i] - radius;
+		upper[i] = window->center[i] + radius;
+	}
+	units_tell_window(header, lower, upper);
 }
 
 static ArrayType *
