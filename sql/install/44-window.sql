@@ -20,13 +20,11 @@ COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], double precis
     'the simplices that come at most as near to a center as a radius';
 
 -- In '{0,0}', '{9,9}' the second could be a corner or a radius, and PostgreSQL would call that ambiguous. Where
--- there is a form with a text it takes that: here, and in those like it below, it is the corner.
+-- there is a form with a text it takes that: here, and in those like it below, the text is the corner.
 CREATE FUNCTION abacus_simplices(mesh regclass, lower double precision[], upper text)
 RETURNS SETOF abacus_simplex
-LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
-BEGIN ATOMIC
-    SELECT s.code, s.v0, s.v1, s.v2, s.v3 FROM abacus_simplices(mesh, lower, upper::double precision[]) AS s;
-END;
+AS 'MODULE_PATHNAME', 'abacus_sql_simplices_in_box'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], text) IS
     'the same for a window, with its upper corner as text';
 
@@ -88,11 +86,8 @@ CREATE FUNCTION abacus_cells(
     OUT "values" double precision[],
     OUT labels double precision[])
 RETURNS SETOF record
-LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
-BEGIN ATOMIC
-    SELECT c.code, c.v0, c.v1, c.v2, c.v3, c.corners, c."values", c.labels
-    FROM abacus_cells(mesh, lower, upper::double precision[], max_edge, label, range) AS c;
-END;
+AS 'MODULE_PATHNAME', 'abacus_sql_cells'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_cells(regclass, double precision[], text, double precision, text, double precision[]) IS
     'the same for a window, with its upper corner as text';
 
@@ -124,6 +119,8 @@ CREATE FUNCTION abacus_vertices(
     mesh regclass,
     lower double precision[],
     upper text,
+    attribute text DEFAULT NULL,
+    range double precision[] DEFAULT NULL,
     OUT sequence bigint,
     OUT id bigint,
     OUT x double precision,
@@ -132,12 +129,9 @@ CREATE FUNCTION abacus_vertices(
     OUT attributes double precision[],
     OUT vertex bigint)
 RETURNS SETOF record
-LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
-BEGIN ATOMIC
-    SELECT v.sequence, v.id, v.x, v.y, v.z, v.attributes, v.vertex
-    FROM abacus_vertices(mesh, lower, upper::double precision[]) AS v;
-END;
-COMMENT ON FUNCTION abacus_vertices(regclass, double precision[], text) IS
+AS 'MODULE_PATHNAME', 'abacus_sql_vertices'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_range_rows;
+COMMENT ON FUNCTION abacus_vertices(regclass, double precision[], text, text, double precision[]) IS
     'the same for a window, with its upper corner as text';
 
 CREATE FUNCTION abacus_vertices(
@@ -241,10 +235,8 @@ CREATE FUNCTION abacus_edges(
     OUT v1 bigint,
     OUT length double precision)
 RETURNS SETOF record
-LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
-BEGIN ATOMIC
-    SELECT e.v0, e.v1, e.length FROM abacus_edges(mesh, lower, upper::double precision[], max_edge) AS e;
-END;
+AS 'MODULE_PATHNAME', 'abacus_sql_edges'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_edges(regclass, double precision[], text, double precision) IS
     'the same for a window, with its upper corner as text';
 

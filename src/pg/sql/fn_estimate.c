@@ -47,6 +47,8 @@ SQL_FUNCTION(abacus_sql_contours_rows);
 #define SIMPLICES_PER_VERTEX 2.0
 /* Of one that waits to be inserted, without attributes. */
 #define BYTES_PER_WAITING_POINT 32.0
+/* Of a mesh that is not known. */
+#define POINTS_OF_A_MESH 100000
 /* abacus_contours: the argument fixed_levels, */
 #define CONTOURS_FIXED_LEVELS 3
 /* ... levels where it has none, and lines of a level, times the root of the number of triangles. */
@@ -210,14 +212,19 @@ abacus_sql_range_rows(PG_FUNCTION_ARGS)
 {
 	SupportRequestRows *request = (SupportRequestRows *) PG_GETARG_POINTER(0);
 	double		share = 1;
+	Datum		answer;
 
 	if (!IsA(request, SupportRequestRows) || !is_funcclause(request->node))
 		PG_RETURN_POINTER(NULL);
 	if (!is_null_argument(request, 1) || !is_null_argument(request, 2))
 		share = DEFAULT_RANGE_INEQ_SEL;
-	if (!is_null_argument(request, 3))
+	if (list_length(((FuncExpr *) request->node)->args) > 3 && !is_null_argument(request, 3))
 		share *= DEFAULT_RANGE_INEQ_SEL;
-	return estimate(fcinfo, share / SIMPLICES_PER_VERTEX, share == 1);
+	answer = estimate(fcinfo, share / SIMPLICES_PER_VERTEX, share == 1);
+	if (DatumGetPointer(answer) != NULL || share < 1)
+		return answer;
+	request->rows = POINTS_OF_A_MESH;
+	PG_RETURN_POINTER(request);
 }
 
 /*

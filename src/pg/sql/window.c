@@ -6,7 +6,9 @@
 
 #include <math.h>
 
+#include "catalog/pg_type.h"
 #include "utils/builtins.h"
+#include "utils/lsyscache.h"
 
 #include "pg/mesh/header.h"
 #include "pg/mesh/mesh_pages.h"
@@ -71,10 +73,29 @@ window_of_ball(const abacus_header *header, ArrayType *center, double radius,
 	units_tell_window(header, lower, upper);
 }
 
+/*
+ * A corner: an array, or one in a text. What is in quotes PostgreSQL takes for a text where there is a
+ * form with one, so that '{0,0}', '{9,9}' are corners.
+ */
 static ArrayType *
-array(FunctionCallInfo fcinfo, int argument)
+corner(FunctionCallInfo fcinfo, int argument)
 {
-	return PG_ARGISNULL(argument) ? NULL : PG_GETARG_ARRAYTYPE_P(argument);
+	char	   *given;
+	Oid			input;
+	Oid			parameter;
+
+	if (PG_ARGISNULL(argument))
+		return NULL;
+	if (get_fn_expr_argtype(fcinfo->flinfo, argument) != TEXTOID)
+		return PG_GETARG_ARRAYTYPE_P(argument);
+	given = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+	if (strchr("{[", given[strspn(given, " \t\n\r\f\v")]) == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_TEXT_REPRESENTATION),
+				 errmsg("upper must be an array, not \"%s\"", given),
+				 errhint("If a radius is meant, name it, or leave the quotes out: radius => %s.", given)));
+	getTypeInputInfo(FLOAT8ARRAYOID, &input, &parameter);
+	return DatumGetArrayTypeP(OidInputFunctionCall(input, given, parameter, -1));
 }
 
 /* The window of a call: the first of two arguments. */
@@ -83,14 +104,14 @@ window_arguments(FunctionCallInfo fcinfo, int first, WindowForm form,
 				 const abacus_header *header, abacus_window *window)
 {
 	if (form == WINDOW_BOX)
-		window_of_box(header, array(fcinfo, first), array(fcinfo, first + 1), window);
+		window_of_box(header, corner(fcinfo, first), corner(fcinfo, first + 1), window);
 	else if (PG_ARGISNULL(first) || PG_ARGISNULL(first + 1))
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
 				 errmsg("center and radius must not be NULL"),
 				 errhint("Leave both out for all of the %s.", type_name(header->type))));
 	else
-		window_of_ball(header, array(fcinfo, first), PG_GETARG_FLOAT8(first + 1), window);
+		window_of_ball(header, PG_GETARG_ARRAYTYPE_P(first), PG_GETARG_FLOAT8(first + 1), window);
 }
 
 /* The longest edge that is wanted, or that simplices may have; 0 if any may be. */
