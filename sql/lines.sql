@@ -118,4 +118,35 @@ SELECT * FROM abacus_raster('hill', '{0, 0}', '{4, 4}', 4, 4, method => 'cubic')
 \echo :LAST_ERROR_SQLSTATE
 SELECT * FROM abacus_raster('ring', '{0, 0}', '{4, 4}', 4, 4, method => 'natural');
 \echo :LAST_ERROR_SQLSTATE
+SELECT * FROM abacus_profile('hill', '{0, 0, 1, 1}', max_edge => -1);
+\echo :LAST_ERROR_SQLSTATE
+SELECT * FROM abacus_visible('hill', '{0, 0}', '{1, 1}', max_edge => 'Infinity');
+\echo :LAST_ERROR_SQLSTATE
+-- triangles with a longer edge count as outside: between two islands, and beside a rock there
+CREATE TABLE islands AS SELECT 100 * x + y AS id, x::float8 AS x, y::float8 AS y, x + y::float8 AS height FROM generate_series(0, 13) x, generate_series(0, 3) y WHERE x < 4 OR x > 9;
+INSERT INTO islands VALUES (7, 6.5, 1.5, 100);
+SELECT abacus_triangulate('sea', 'TABLE islands');
+SELECT abacus_load('sea_loaded', 'TABLE islands', 'SELECT v0, v1, v2 FROM abacus_cells(''sea'', max_edge => 1.5)');
+SELECT abacus_triangulate('deep_sea', 'SELECT 100 * x + 10 * y + z, x, y, z, x + y + z AS height FROM generate_series(0, 9) x, generate_series(0, 2) y, generate_series(0, 2) z WHERE x < 3 OR x > 6', dimension => 3);
+SELECT * FROM abacus_profile('sea', '{2.5, 1.25, 10.5, 1.25}', max_edge => 1.5);
+SELECT * FROM abacus_profile('sea', '{2, 1, 11, 1}', max_edge => 1.5);
+SELECT * FROM abacus_profile('sea', '{3, 1, 3, 2, 6, 2}', max_edge => 1.5);
+SELECT count(*) FROM abacus_profile('sea', '{4, 1, 9, 2}', max_edge => 1.5) WHERE value IS NOT NULL;
+CREATE TABLE paths AS SELECT i, ARRAY[-1 + i % 5, i % 4, 14 - i % 7, i % 3, i % 9 + 0.5, 3.5, 6.5, 1.5] AS path FROM generate_series(0, 59) i;
+SELECT count(*) AS loaded_alike FROM paths WHERE NOT EXISTS ((SELECT * FROM abacus_profile('sea', path, max_edge => 1.5)) EXCEPT ALL (SELECT * FROM abacus_profile('sea_loaded', path)));
+SELECT count(*) AS as_without FROM paths WHERE (SELECT array_agg(p ORDER BY n) FROM abacus_profile('sea', path, max_edge => 0) WITH ORDINALITY p (a, b, c, d, e, n)) = (SELECT array_agg(p ORDER BY n) FROM abacus_profile('sea', path) WITH ORDINALITY p (a, b, c, d, e, n));
+WITH pieces AS (SELECT i, p.x, p.y, p.value, lead(p.x) OVER w AS x1, lead(p.y) OVER w AS y1, lead(p.value) OVER w AS value1, lead(p.distance) OVER w - p.distance AS length
+                FROM paths, abacus_profile('sea', path, max_edge => 1.5) WITH ORDINALITY AS p (distance, x, y, z, value, n) WINDOW w AS (PARTITION BY i ORDER BY n))
+SELECT count(*) > 300 AS many, count(*) FILTER (WHERE ((value + value1) / 2 IS NULL) <> (v IS NULL) OR abs((value + value1) / 2 - v) > 1e-9) AS wrong
+FROM (SELECT *, abacus_interpolate('sea', (x + x1) / 2, (y + y1) / 2, max_edge => 1.5) AS v FROM pieces WHERE length > 1e-6) AS middles;
+WITH pieces AS (SELECT i, p.x, p.y, p.z, p.value, lead(p.x) OVER w AS x1, lead(p.y) OVER w AS y1, lead(p.z) OVER w AS z1, lead(p.value) OVER w AS value1, lead(p.distance) OVER w - p.distance AS length
+                FROM generate_series(0, 19) i, abacus_profile('deep_sea', ARRAY[-1, i % 3, 0.3, 10, 0.4, i % 5 / 2.0], max_edge => 1.8) WITH ORDINALITY AS p (distance, x, y, z, value, n) WINDOW w AS (PARTITION BY i ORDER BY n))
+SELECT count(*) > 100 AS many, count(v) > 50 AS inside, count(*) FILTER (WHERE ((value + value1) / 2 IS NULL) <> (v IS NULL) OR abs((value + value1) / 2 - v) > 1e-9) AS wrong
+FROM (SELECT *, abacus_interpolate('deep_sea', (x + x1) / 2, (y + y1) / 2, (z + z1) / 2, max_edge => 1.8) AS v FROM pieces WHERE length > 1e-6) AS middles;
+SELECT visible, x < 6.5 AS before FROM abacus_visible('sea', '{1, 1}', '{12, 2}', observer_height => 20, target_height => 20);
+SELECT visible FROM abacus_visible('sea', '{1, 1}', '{12, 2}', observer_height => 20, target_height => 20, max_edge => 1.5);
+SELECT visible FROM abacus_visible('sea_loaded', '{1, 1}', '{12, 2}', observer_height => 20, target_height => 20);
+SELECT visible FROM abacus_visible('sea', '{5, 1}', '{12, 2}', observer_height => 20, max_edge => 1.5);
+SELECT visible FROM abacus_visible('sea', '{1, 1, 0}', '{12, 2, 0}', max_edge => 1.5);
+DROP TABLE islands, sea, sea_vertices, sea_loaded, sea_loaded_vertices, deep_sea, deep_sea_vertices, paths;
 DROP TABLE hill, hill_vertices, solid, solid_vertices, empty, empty_vertices, ring, ring_vertices, wide, wide_vertices, corners, faces;

@@ -35,6 +35,8 @@ WHERE o.code = e.code AND p.point <> ARRAY[CASE WHEN (i - 1) & 1 = 0 THEN o.lowe
 SELECT axis, side, level, lower, attributes FROM abacus_octree_neighbours('cube', (abacus_octree_locate('cube', 2, 0, 0)).code) ORDER BY axis, side, code;
 SELECT code, level, lower, upper FROM abacus_octants('cube', ARRAY[0.5,1,2], ARRAY[0.5,1,2]);
 SELECT count(*) FROM abacus_octants('cube', ARRAY[0.5,1,2], ARRAY[1.5,1.5,2.5]);
+SELECT (SELECT count(*) FROM abacus_octants('cube', '{0.5,1,2}', '{1.5,1.5,2.5}')) AS texts, (SELECT count(*) FROM abacus_octants('cube', ARRAY[0.5,1,2], '{1.5,1.5,2.5}')) AS mixed,
+       (SELECT count(*) FROM abacus_octants('cube', '{0.5,1,2}', 0)) AS ball;
 
 -- merged again, with the mean of what its leaves had
 SELECT abacus_octree_coarsen('cube', 'SELECT 1, 0.1, 0.1, 0.1');

@@ -12,6 +12,13 @@ SELECT encode(substr(abacus_tile_picture('hills', 8, 133, 90, attribute => 'heig
        encode(substr(abacus_tile_picture('hills', 8, 133, 90), 1, 4), 'hex') AS mesh,
        encode(substr(abacus_tile_terrain('hills', 8, 133, 90), 1, 4), 'hex') AS terrain,
        encode(substr(abacus_tile_vector('hills', 8, 133, 90), 1, 1), 'hex') AS mvt;
+-- ids that browsers cannot tell apart come as text, too
+SELECT abacus_triangulate('far_ids', 'SELECT id + 9007199254740991 - 220, lon, lat, height FROM (SELECT 21 * i + j AS id, 7 + i / 20.0 AS lon, 46 + j / 20.0 AS lat, 500 + 40 * i AS height
+    FROM generate_series(0, 20) AS i, generate_series(0, 20) AS j) AS p');
+SELECT position('id_text'::bytea IN near) > 0 AS near_text, position('id_text'::bytea IN far) > 0 AS text, position('v2_text'::bytea IN far) > 0 AS of_corners,
+       position('9007199254740991'::bytea IN far) > 0 AS greatest, position('9007199254741003'::bytea IN far) > 0 AS beyond
+FROM (SELECT abacus_tile_vector('hills', 8, 133, 90) AS near, abacus_tile_vector('far_ids', 8, 133, 90, srid => 4326) AS far) AS tiles;
+DROP TABLE far_ids;
 SELECT zoom, length(tile) > 0 AS has_some, position('contours'::bytea IN tile) > 0 AS contours, position('triangles'::bytea IN tile) > 0 AS triangles
 FROM (VALUES (0, 0, 0), (8, 133, 90), (12, 2132, 1449)) AS t (zoom, x, y), abacus_tile_vector('hills', zoom, x, y, contours => 50) AS tile;
 -- Sizes: width of a PNG

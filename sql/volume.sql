@@ -79,6 +79,13 @@ SELECT abacus_volume('bare', 0);
 SELECT abacus_triangulate('vast', 'VALUES (1, 0, 0, 1), (2, 1e200, 0, 1), (3, 0, 1e200, 1)', '{height}');
 SELECT abacus_volume('vast', 0);
 \echo :LAST_ERROR_SQLSTATE
+-- what is in quotes is a base, if it is a number
+SELECT (SELECT v FROM abacus_volume('roof', '2', 'height') AS v) = (SELECT v FROM abacus_volume('roof', 2, 'height') AS v) AS same,
+       (SELECT v FROM abacus_volume('roof', ' -1.5e0 ', 'height') AS v) = (SELECT v FROM abacus_volume('roof', -1.5, 'height') AS v) AS negative;
+SELECT abacus_volume('roof', '2', 'height', other_attribute => 'height');
+\echo :LAST_ERROR_SQLSTATE
+SELECT abacus_volume('roof', '2 m', 'height');
+\echo :LAST_ERROR_SQLSTATE
 -- both meshes must be readable
 CREATE ROLE abacus_volume_reader;
 GRANT SELECT ON roof TO abacus_volume_reader;

@@ -31,6 +31,25 @@ SELECT id, attributes FROM abacus_vertices('field', 'depth', 3.5, 'Infinity') OR
 SELECT id FROM abacus_vertices('field', 'height', '-Infinity', 'Infinity') ORDER BY id;
 SELECT id FROM abacus_vertices('field', 'depth', 2, 5, ARRAY[0, 0], ARRAY[3, 9]) ORDER BY id;
 SELECT count(*) FROM abacus_vertices('field', 'height', 11, 19);
+SELECT id, attributes FROM abacus_vertices('field', attribute => 'height', range => '{20,30}') ORDER BY id;
+SELECT id, attributes FROM abacus_vertices('field', '{0,0}', '{3,9}', attribute => 'depth', range => '{2,Infinity}') ORDER BY id;
+SELECT id, attributes FROM abacus_vertices('field', attribute => 'height') ORDER BY id;
+-- two texts in quotes are the corners of a window, everywhere; a text and an array are, too
+SELECT (SELECT count(*) FROM abacus_cells('field', '{2,1}', '{2,1}')) AS cells, (SELECT count(*) FROM abacus_simplices('field', '{2,1}', '{2,1}')) AS simplices,
+       (SELECT count(*) FROM abacus_vertices('field', '{2,1}', '{2,1}')) AS vertices, (SELECT count(*) FROM abacus_edges('field', '{2,1}', '{2,1}')) AS edges,
+       (SELECT count(*) FROM abacus_voronoi('field', '{2,1}', '{2,1}')) AS voronoi, (SELECT count(*) FROM abacus_voronoi_facets('field', '{0,0}', '{4,4}')) AS voronoi_facets;
+SELECT (SELECT count(*) FROM abacus_cells('field', ARRAY[2, 1], '{2,1}')) AS cells, (SELECT count(*) FROM abacus_simplices('field', '{2,1}', ARRAY[2, 1])) AS simplices,
+       (SELECT count(*) FROM abacus_vertices('field', ARRAY[2, 1], '{2,1}')) AS vertices, (SELECT count(*) FROM abacus_edges('field', '{2,1}', ARRAY[2, 1])) AS edges;
+SELECT (SELECT count(*) FROM abacus_cells('field', '{2,1}', '{2,1}', 3)) AS cells, (SELECT count(*) FROM abacus_cells('field', '{2,1}', '{2,1}', max_edge => 4)) AS cells_4,
+       (SELECT count(*) FROM abacus_edges('field', '{2,1}', '{2,1}', 3)) AS edges, (SELECT count(*) FROM abacus_cells('field', NULL, NULL)) AS whole;
+SELECT (SELECT count(*) FROM abacus_cells('field', '{2,1}', 0)) AS cells, (SELECT count(*) FROM abacus_simplices('field', '{2,1}', 0.0)) AS simplices,
+       (SELECT count(*) FROM abacus_vertices('field', '{2,1}', 0)) AS vertices, (SELECT count(*) FROM abacus_edges('field', '{2,1}', radius => '0')) AS edges;
+PREPARE part AS SELECT count(*) FROM abacus_vertices($1, $2, $3);
+EXECUTE part('field', '{0,0}', '{4,4}');
+PREPARE ends AS SELECT count(*) FROM abacus_vertices($1, $2, $3, $4);
+EXECUTE ends('field', 'height', '20', '30');
+DEALLOCATE part;
+DEALLOCATE ends;
 -- edges, each once
 SELECT v0, v1, round(length::numeric, 3) AS length FROM abacus_edges('field') ORDER BY 1, 2;
 SELECT v0, v1 FROM abacus_edges('field', max_edge => 3) ORDER BY 1, 2;
@@ -91,6 +110,10 @@ SELECT abacus_vertices('field', 'height', 2, 1);
 SELECT abacus_vertices('field', 'height', 2, 'NaN');
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_vertices('field', 'height', 2, NULL);
+\echo :LAST_ERROR_SQLSTATE
+SELECT abacus_vertices('field', range => '{1,2}');
+\echo :LAST_ERROR_SQLSTATE
+SELECT abacus_vertices('field', '{0,0}', '9');
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_vertices('field', 'height', 2, 3, upper => ARRAY[1, 1]);
 \echo :LAST_ERROR_SQLSTATE

@@ -58,21 +58,6 @@ AS 'MODULE_PATHNAME', 'abacus_sql_vertices_rows'
 LANGUAGE C STRICT;
 COMMENT ON FUNCTION abacus_vertices_rows(internal) IS 'planner support of abacus_vertices';
 
-CREATE FUNCTION abacus_vertices(
-    mesh regclass,
-    OUT sequence bigint,
-    OUT id bigint,
-    OUT x double precision,
-    OUT y double precision,
-    OUT z double precision,
-    OUT attributes double precision[],
-    OUT vertex bigint)
-RETURNS SETOF record
-AS 'MODULE_PATHNAME', 'abacus_sql_vertices'
-LANGUAGE C STABLE STRICT PARALLEL SAFE ROWS 100000 SUPPORT abacus_vertices_rows;
-COMMENT ON FUNCTION abacus_vertices(regclass) IS
-    'all points; vertex is the id of the vertex that stands for the point, its own unless an equal point came first; of points that wait to be inserted it is NULL, and sequence says when they will be';
-
 CREATE FUNCTION abacus_attributes(
     mesh regclass,
     OUT "position" integer,

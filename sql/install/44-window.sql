@@ -19,6 +19,15 @@ LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_windo
 COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], double precision) IS
     'the simplices that come at most as near to a center as a radius';
 
+-- In '{0,0}', '{9,9}' the second could be a corner or a radius, and PostgreSQL would call that ambiguous. Where
+-- there is a form with a text it takes that: here, and in those like it below, the text is the corner.
+CREATE FUNCTION abacus_simplices(mesh regclass, lower double precision[], upper text)
+RETURNS SETOF abacus_simplex
+AS 'MODULE_PATHNAME', 'abacus_sql_simplices_in_box'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
+COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], text) IS
+    'the same for a window, with its upper corner as text';
+
 CREATE FUNCTION abacus_cells(
     mesh regclass,
     lower double precision[] DEFAULT NULL,
@@ -61,10 +70,38 @@ LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision, double precision, text, double precision[]) IS
     'the simplices that come at most as near to a center as a radius, or those of them of which a label is within a range, with the coordinates and attributes of their corners, and their labels';
 
-CREATE FUNCTION abacus_vertices(
+CREATE FUNCTION abacus_cells(
     mesh regclass,
     lower double precision[],
-    upper double precision[],
+    upper text,
+    max_edge double precision DEFAULT NULL,
+    label text DEFAULT NULL,
+    range double precision[] DEFAULT NULL,
+    OUT code bigint,
+    OUT v0 bigint,
+    OUT v1 bigint,
+    OUT v2 bigint,
+    OUT v3 bigint,
+    OUT corners double precision[],
+    OUT "values" double precision[],
+    OUT labels double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_cells'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
+COMMENT ON FUNCTION abacus_cells(regclass, double precision[], text, double precision, text, double precision[]) IS
+    'the same for a window, with its upper corner as text';
+
+CREATE FUNCTION abacus_range_rows(internal) RETURNS internal
+AS 'MODULE_PATHNAME', 'abacus_sql_range_rows'
+LANGUAGE C STRICT;
+COMMENT ON FUNCTION abacus_range_rows(internal) IS 'planner support of abacus_vertices with a window or a range';
+
+CREATE FUNCTION abacus_vertices(
+    mesh regclass,
+    lower double precision[] DEFAULT NULL,
+    upper double precision[] DEFAULT NULL,
+    attribute text DEFAULT NULL,
+    range double precision[] DEFAULT NULL,
     OUT sequence bigint,
     OUT id bigint,
     OUT x double precision,
@@ -73,10 +110,29 @@ CREATE FUNCTION abacus_vertices(
     OUT attributes double precision[],
     OUT vertex bigint)
 RETURNS SETOF record
-AS 'MODULE_PATHNAME', 'abacus_sql_vertices_in_box'
-LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_vertices(regclass, double precision[], double precision[]) IS
-    'the vertices of a mesh in a window, from its least to its greatest corner';
+AS 'MODULE_PATHNAME', 'abacus_sql_vertices'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_range_rows;
+COMMENT ON FUNCTION abacus_vertices(regclass, double precision[], double precision[], text, double precision[]) IS
+    'all points of a mesh; of a window, from its least to its greatest corner, or of a range of an attribute the vertices there; vertex is the id of the vertex that stands for the point, its own unless an equal point came first; of points that wait to be inserted it is NULL, and sequence says when they will be';
+
+CREATE FUNCTION abacus_vertices(
+    mesh regclass,
+    lower double precision[],
+    upper text,
+    attribute text DEFAULT NULL,
+    range double precision[] DEFAULT NULL,
+    OUT sequence bigint,
+    OUT id bigint,
+    OUT x double precision,
+    OUT y double precision,
+    OUT z double precision,
+    OUT attributes double precision[],
+    OUT vertex bigint)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_vertices'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_range_rows;
+COMMENT ON FUNCTION abacus_vertices(regclass, double precision[], text, text, double precision[]) IS
+    'the same for a window, with its upper corner as text';
 
 CREATE FUNCTION abacus_vertices(
     mesh regclass,
@@ -95,16 +151,12 @@ LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_windo
 COMMENT ON FUNCTION abacus_vertices(regclass, double precision[], double precision) IS
     'the vertices of a mesh that are at most as far from a center as a radius';
 
-CREATE FUNCTION abacus_range_rows(internal) RETURNS internal
-AS 'MODULE_PATHNAME', 'abacus_sql_range_rows'
-LANGUAGE C STRICT;
-COMMENT ON FUNCTION abacus_range_rows(internal) IS 'planner support of abacus_vertices with a range';
-
+-- With the ends of the range by position.
 CREATE FUNCTION abacus_vertices(
     mesh regclass,
     attribute text,
-    "least" double precision,
-    "greatest" double precision,
+    double precision,
+    double precision,
     lower double precision[] DEFAULT NULL,
     upper double precision[] DEFAULT NULL,
     OUT sequence bigint,
@@ -115,10 +167,36 @@ CREATE FUNCTION abacus_vertices(
     OUT attributes double precision[],
     OUT vertex bigint)
 RETURNS SETOF record
-AS 'MODULE_PATHNAME', 'abacus_sql_vertices_in_range'
-LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_range_rows;
+LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
+BEGIN ATOMIC
+    SELECT v.sequence, v.id, v.x, v.y, v.z, v.attributes, v.vertex
+    FROM abacus_vertices(mesh, lower, upper, attribute, ARRAY[$3, $4]) AS v;
+END;
 COMMENT ON FUNCTION abacus_vertices(regclass, text, double precision, double precision, double precision[], double precision[]) IS
     'the vertices of a mesh, or of a window, of which an attribute is within a range';
+
+CREATE FUNCTION abacus_vertices(
+    mesh regclass,
+    attribute text,
+    text,
+    text,
+    lower double precision[] DEFAULT NULL,
+    upper double precision[] DEFAULT NULL,
+    OUT sequence bigint,
+    OUT id bigint,
+    OUT x double precision,
+    OUT y double precision,
+    OUT z double precision,
+    OUT attributes double precision[],
+    OUT vertex bigint)
+RETURNS SETOF record
+LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
+BEGIN ATOMIC
+    SELECT v.sequence, v.id, v.x, v.y, v.z, v.attributes, v.vertex
+    FROM abacus_vertices(mesh, lower, upper, attribute, ARRAY[$3, $4]::double precision[]) AS v;
+END;
+COMMENT ON FUNCTION abacus_vertices(regclass, text, text, text, double precision[], double precision[]) IS
+    'the same, with the ends of the range as text';
 
 CREATE FUNCTION abacus_edges(
     mesh regclass,
@@ -147,6 +225,20 @@ AS 'MODULE_PATHNAME', 'abacus_sql_edges_in_ball'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision, double precision) IS
     'the edges that come at most as near to a center as a radius, each once';
+
+CREATE FUNCTION abacus_edges(
+    mesh regclass,
+    lower double precision[],
+    upper text,
+    max_edge double precision DEFAULT NULL,
+    OUT v0 bigint,
+    OUT v1 bigint,
+    OUT length double precision)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_edges'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
+COMMENT ON FUNCTION abacus_edges(regclass, double precision[], text, double precision) IS
+    'the same for a window, with its upper corner as text';
 
 CREATE FUNCTION abacus_star(mesh regclass, x double precision, y double precision)
 RETURNS SETOF abacus_simplex

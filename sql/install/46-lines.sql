@@ -14,6 +14,7 @@ CREATE FUNCTION abacus_profile(
     mesh regclass,
     path double precision[],
     attribute text DEFAULT NULL,
+    max_edge double precision DEFAULT NULL,
     OUT distance double precision,
     OUT x double precision,
     OUT y double precision,
@@ -22,7 +23,7 @@ CREATE FUNCTION abacus_profile(
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_profile'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_line_rows;
-COMMENT ON FUNCTION abacus_profile(regclass, double precision[], text) IS
+COMMENT ON FUNCTION abacus_profile(regclass, double precision[], text, double precision) IS
     'an attribute along a path of straight lines: at its corners and wherever it crosses an edge, in space a facet; with NULL where it leaves and enters the mesh';
 
 CREATE FUNCTION abacus_ray(
@@ -50,6 +51,7 @@ CREATE FUNCTION abacus_visible(
     attribute text DEFAULT NULL,
     observer_height double precision DEFAULT 0,
     target_height double precision DEFAULT 0,
+    max_edge double precision DEFAULT NULL,
     OUT visible boolean,
     OUT x double precision,
     OUT y double precision,
@@ -57,7 +59,7 @@ CREATE FUNCTION abacus_visible(
 RETURNS record
 AS 'MODULE_PATHNAME', 'abacus_sql_visible'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000;
-COMMENT ON FUNCTION abacus_visible(regclass, double precision[], double precision[], text, double precision, double precision) IS
+COMMENT ON FUNCTION abacus_visible(regclass, double precision[], double precision[], text, double precision, double precision, double precision) IS
     'whether a target is seen from an observer over a terrain, and where the line of sight is blocked first if not';
 
 CREATE FUNCTION abacus_raster(

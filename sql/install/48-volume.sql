@@ -37,7 +37,7 @@ LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_volume(regclass, regclass, text, double precision[], double precision[], double precision, text) IS
     'the area where two meshes have a surface each, that of the first surface there, and the volumes where the first is higher (cut) and where the other is (fill)';
 
--- A quoted name without a type would be taken for a base.
+-- A quoted name without a type would be taken for a base. A quoted number is one.
 CREATE FUNCTION abacus_volume(
     mesh regclass,
     other text,
@@ -55,4 +55,4 @@ RETURNS record
 AS 'MODULE_PATHNAME', 'abacus_sql_volume_between_named'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_volume(regclass, text, text, double precision[], double precision[], double precision, text) IS
-    'the same, with the name of the other mesh as text';
+    'the same, with the name of the other mesh, or a base, as text';

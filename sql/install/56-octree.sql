@@ -121,6 +121,14 @@ LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_octan
 COMMENT ON FUNCTION abacus_octants(regclass, double precision[], double precision) IS
     'the leaves of an octree that come at most as near to a center as a radius, along the curve';
 
+-- As for meshes, what is in quotes is a corner, not a radius.
+CREATE FUNCTION abacus_octants(octree regclass, lower double precision[], upper text)
+RETURNS SETOF abacus_octant
+AS 'MODULE_PATHNAME', 'abacus_sql_octants'
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 100000 SUPPORT abacus_octant_rows;
+COMMENT ON FUNCTION abacus_octants(regclass, double precision[], text) IS
+    'the same for a window, with its upper corner as text';
+
 CREATE FUNCTION abacus_octree_nearest(
     octree regclass,
     x double precision,

@@ -88,6 +88,7 @@ CREATE FUNCTION abacus_visible(
     attribute text DEFAULT NULL,
     observer_height double precision DEFAULT 0,
     target_height double precision DEFAULT 0,
+    max_edge double precision DEFAULT NULL,
     OUT visible boolean,
     OUT x double precision,
     OUT y double precision,
@@ -95,7 +96,7 @@ CREATE FUNCTION abacus_visible(
 RETURNS record
 AS 'MODULE_PATHNAME', 'abacus_sql_visible_geometry'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000;
-COMMENT ON FUNCTION abacus_visible(regclass, geometry, geometry, text, double precision, double precision) IS
+COMMENT ON FUNCTION abacus_visible(regclass, geometry, geometry, text, double precision, double precision, double precision) IS
     'whether a target is seen from an observer over a terrain, and where the line of sight is blocked first if not; both stand on the ground, or above it';
 
 -- Of two texts in quotes PostgreSQL could not tell whether they are arrays or geometries. They are arrays.
@@ -106,6 +107,7 @@ CREATE FUNCTION abacus_visible(
     attribute text DEFAULT NULL,
     observer_height double precision DEFAULT 0,
     target_height double precision DEFAULT 0,
+    max_edge double precision DEFAULT NULL,
     OUT visible boolean,
     OUT x double precision,
     OUT y double precision,
@@ -115,7 +117,7 @@ LANGUAGE sql STABLE PARALLEL SAFE COST 10000
 BEGIN ATOMIC
     SELECT s.visible, s.x, s.y, s.z
     FROM abacus_visible(mesh, observer::double precision[], target::double precision[], attribute, observer_height,
-                        target_height) AS s;
+                        target_height, max_edge) AS s;
 END;
-COMMENT ON FUNCTION abacus_visible(regclass, text, text, text, double precision, double precision) IS
+COMMENT ON FUNCTION abacus_visible(regclass, text, text, text, double precision, double precision, double precision) IS
     'the same, with arrays as text';

@@ -98,6 +98,7 @@ CREATE FUNCTION abacus_profile_geom(
     mesh regclass,
     line geometry,
     attribute text DEFAULT NULL,
+    max_edge double precision DEFAULT NULL,
     OUT distance double precision,
     OUT value double precision,
     OUT geom geometry)
@@ -105,9 +106,9 @@ RETURNS SETOF record
 LANGUAGE sql STABLE PARALLEL SAFE
 BEGIN ATOMIC
     SELECT p.distance, p.value, _abacus_point(p.x, p.y, p.z, f.srid)
-    FROM _abacus_facts(mesh, NULL) AS f, abacus_profile(mesh, _abacus_path(mesh, line), attribute) AS p;
+    FROM _abacus_facts(mesh, NULL) AS f, abacus_profile(mesh, _abacus_path(mesh, line), attribute, max_edge) AS p;
 END;
-COMMENT ON FUNCTION abacus_profile_geom(regclass, geometry, text) IS
+COMMENT ON FUNCTION abacus_profile_geom(regclass, geometry, text, double precision) IS
     'an attribute along a line: at its corners and wherever it crosses an edge, in space a facet; with NULL where it leaves and enters the mesh';
 
 CREATE FUNCTION abacus_voronoi_geom(

@@ -5,11 +5,12 @@ CREATE FUNCTION abacus_drape(
     geom geometry,
     attribute text DEFAULT NULL,
     densify boolean DEFAULT false,
-    outside text DEFAULT 'null')
+    outside text DEFAULT 'null',
+    max_edge double precision DEFAULT NULL)
 RETURNS geometry
 AS 'MODULE_PATHNAME', 'abacus_sql_drape'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000;
-COMMENT ON FUNCTION abacus_drape(regclass, geometry, text, boolean, text) IS
+COMMENT ON FUNCTION abacus_drape(regclass, geometry, text, boolean, text, double precision) IS
     'points, lines or polygons with an attribute of a mesh of dimension 2 as z; with densify they have a place wherever they cross an edge; z is NaN outside the mesh, unless outside is nearest, and where a value is missing';
 
 CREATE FUNCTION abacus_clip(

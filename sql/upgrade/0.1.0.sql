@@ -50,3 +50,5 @@ END $$;
 -- The drawing functions take the range of the colours, too.
 DROP FUNCTION abacus_draw(regclass, integer, integer, double precision[], double precision[], text, boolean, double precision, double precision);
 DROP FUNCTION abacus_draw_section(regclass, double precision[], double precision[], integer, integer, text, boolean, double precision[], double precision[], double precision, double precision);
+-- It takes a window and the range of an attribute, too.
+DROP FUNCTION abacus_vertices(regclass);

@@ -64,10 +64,12 @@ template <int D> struct LinePiece {
 
 template <int D> class LineScan {
 public:
-    /// `attribute`: the number of the one that crossings get values of; negative: none.
-    LineScan(Reader<D> &reader, const Line<D> &line, int attribute = -1)
+    /// `attribute`: the number of the one that crossings get values of; negative: none. Simplices
+    /// with an edge longer than max_edge count as outside.
+    LineScan(Reader<D> &reader, const Line<D> &line, int attribute = -1,
+             double max_edge = no_max_edge)
         : reader_(reader), cache_(reader.cache()), line_(line), attribute_(attribute),
-          memory_(cache_.host()) {}
+          max_edge_(max_edge), memory_(cache_.host()) {}
     LineScan(const LineScan &) = delete;
     LineScan &operator=(const LineScan &) = delete;
 
@@ -104,6 +106,7 @@ private:
     Cache<D> &cache_;
     const Line<D> line_;
     const int attribute_;
+    const double max_edge_;
     HostMemory memory_;
     const std::function<bool(const Piece &)> *visit_ = nullptr;
     std::optional<Crossing<D>> left_; // where the piece handed out last ends

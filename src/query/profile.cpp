@@ -5,10 +5,10 @@
 namespace abacus {
 
 template <int D>
-Profile<D>::Profile(Reader<D> &reader, std::uint32_t attribute, Report report)
+Profile<D>::Profile(Reader<D> &reader, std::uint32_t attribute, Report report, double max_edge)
     : reader_(reader), interpolation_(reader.cache().host()), report_(std::move(report)) {
     how_.method = ABACUS_LINEAR;
-    how_.max_edge = no_max_edge;
+    how_.max_edge = max_edge;
     how_.attributes = 1;
     how_.attribute[0] = attribute;
 }
@@ -49,7 +49,8 @@ template <int D> void Profile<D>::put_line(const Point<D> &from, const Point<D> 
         return std::max(distance_ + along, last_->distance);
     };
     std::optional<Crossing<D>> left; // where the last piece ends
-    LineScan<D> scan(reader_, Line<D>::between(from, to), static_cast<int>(how_.attribute[0]));
+    LineScan<D> scan(reader_, Line<D>::between(from, to), static_cast<int>(how_.attribute[0]),
+                     how_.max_edge);
     scan.each([&](const LinePiece<D> &piece) {
         const Crossing<D> &in = piece.enters, &out = piece.leaves;
         if (piece.jumps) {

@@ -16,7 +16,9 @@ public:
     /// report(distance, place, value): the value is NaN outside, and where it is missing.
     using Report = std::function<void(double, const Point<D> &, double)>;
 
-    Profile(Reader<D> &reader, std::uint32_t attribute, Report report);
+    /// Simplices with an edge longer than max_edge count as outside.
+    Profile(Reader<D> &reader, std::uint32_t attribute, Report report,
+            double max_edge = no_max_edge);
 
     /// Of a path with the corners corner(0) to corner(n - 1); one corner after another that is
     /// equal is passed over.

@@ -1,9 +1,9 @@
 #include "query/reader.hpp"
 
-#include "geometry/longer_edge.hpp"
 #include "host/memory.hpp"
 #include "keys/domain_of.hpp"
 #include "points/record.hpp"
+#include "query/too_long.hpp"
 #include "query/describe.hpp"
 
 #include <algorithm>
@@ -21,21 +21,6 @@ CacheOptions linked_as(const abacus_header &header, CacheOptions options) {
     options.split_nodes = header.split > 0;
     if (header.apart != 0) options.budget -= options.budget / attributes_share;
     return options;
-}
-
-template <int D> bool is_too_long(const abacus_simplex &simplex, double max_edge) {
-    return max_edge != no_max_edge && has_longer_edge<D>(D + 1, max_edge, [&](int i) {
-               Point<D> p;
-               std::copy_n(simplex.corner[i], D, p.begin());
-               return p;
-           });
-}
-
-/// Of two simplices that contain a place, whether `a` is the answer: one that is too long is not.
-template <int D>
-bool is_preferred(const abacus_simplex &a, const abacus_simplex &b, double max_edge) {
-    const bool a_long = is_too_long<D>(a, max_edge), b_long = is_too_long<D>(b, max_edge);
-    return a_long != b_long ? b_long : comes_before<D>(a, b);
 }
 
 template <int D> [[noreturn]] void throw_no_such_simplex() {

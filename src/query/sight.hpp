@@ -14,8 +14,9 @@
 
 namespace abacus {
 
-/// Where the ground has no height, or none that is finite, nothing blocks.
+/// Where the ground has no height, or none that is finite, nothing blocks; nor in triangles with an
+/// edge longer than max_edge.
 abacus_sight look(Reader<2> &reader, std::uint32_t attribute, const abacus_sight_end &observer,
-                  const abacus_sight_end &target);
+                  const abacus_sight_end &target, double max_edge = no_max_edge);
 
 } // namespace abacus

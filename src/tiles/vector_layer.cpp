@@ -1,5 +1,7 @@
 #include "tiles/vector_layer.hpp"
 
+#include <string>
+
 namespace abacus {
 
 namespace {
@@ -16,6 +18,7 @@ enum : protozero::pbf_tag_type {
     feature_tags = 2,
     feature_type = 3,
     feature_geometry = 4,
+    value_string = 1,
     value_double = 3,
     value_integer = 6 // sint64
 };
@@ -78,12 +81,22 @@ void VectorLayer::write(const Host &host, TileWriter &tile) {
         write_feature(layer, i, {values.data(), values.size()});
     }
     for (std::size_t i = 0; i < key_count_; ++i) layer.add_string(layer_key, keys_[i]);
+    for (std::size_t i = 0; has_texts_ && i < key_count_; ++i)
+        layer.add_string(layer_key, std::string(keys_[i]) + "_text");
     for (const Value &value : values) {
         TileWriter writer(layer, layer_value);
-        if (value.is_integer)
-            writer.add_sint64(value_integer, std::bit_cast<std::int64_t>(value.bits));
-        else
+        const auto integer = std::bit_cast<std::int64_t>(value.bits);
+        switch (value.kind) {
+        case ValueKind::number:
             writer.add_double(value_double, std::bit_cast<double>(value.bits));
+            break;
+        case ValueKind::integer:
+            writer.add_sint64(value_integer, integer);
+            break;
+        case ValueKind::text:
+            writer.add_string(value_string, std::to_string(integer));
+            break;
+        }
     }
     layer.add_uint32(layer_extent, tile_extent);
 }
@@ -94,7 +107,7 @@ void VectorLayer::write_feature(TileWriter &layer, std::size_t i,
     const std::size_t tags_end = is_last ? tags_.size() : features_[i + 1].tags;
     const std::size_t geometry_end = is_last ? geometry_.size() : features_[i + 1].geometry;
     TileWriter feature(layer, layer_feature);
-    std::array<std::uint32_t, 2 * most_keys> numbers;
+    std::array<std::uint32_t, 2 * 2 * most_keys> numbers;
     auto number = numbers.begin();
     for (std::size_t n = features_[i].tags; n < tags_end; ++n) {
         *number++ = tags_[n].key;

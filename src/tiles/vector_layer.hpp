@@ -40,12 +40,18 @@ public:
     void add_line(std::span<const TilePoint> points);
 
     // Tags of the feature begun last.
-    void tag(std::uint32_t key, std::int64_t value) {
-        tag(key, true, std::bit_cast<std::uint64_t>(value));
+    /// An id, which is also tagged as text, by the key with _text behind it, if browsers, whose
+    /// numbers are doubles, cannot tell it from others.
+    void tag_id(std::uint32_t key, std::int64_t id) {
+        tag(key, ValueKind::integer, std::bit_cast<std::uint64_t>(id));
+        if (id >= -greatest_id && id <= greatest_id) return;
+        tag(key + static_cast<std::uint32_t>(key_count_), ValueKind::text,
+            std::bit_cast<std::uint64_t>(id));
+        has_texts_ = true;
     }
     /// None if it is no number.
     void tag(std::uint32_t key, double value) {
-        if (value == value) tag(key, false, std::bit_cast<std::uint64_t>(value + 0.0));
+        if (value == value) tag(key, ValueKind::number, std::bit_cast<std::uint64_t>(value + 0.0));
     }
 
     bool empty() const { return features_.empty(); }
@@ -54,18 +60,20 @@ public:
 
 private:
     static constexpr std::size_t most_keys = 4;
+    static constexpr std::int64_t greatest_id = (std::int64_t{1} << 53) - 1;
 
     enum class Kind : std::uint32_t { point = 1, lines = 2, polygon = 3 };
     struct Feature {
         Kind kind;
         std::uint32_t geometry, tags; // where they begin
     };
+    enum class ValueKind : std::uint8_t { number, integer, text };
     struct Value {
-        bool is_integer;
-        std::uint64_t bits;
+        ValueKind kind;
+        std::uint64_t bits; // of a text, of the integer that it says
         bool operator==(const Value &) const = default;
         bool operator<(const Value &v) const {
-            return std::tie(is_integer, bits) < std::tie(v.is_integer, v.bits);
+            return std::tie(kind, bits) < std::tie(v.kind, v.bits);
         }
     };
     struct Tag {
@@ -74,8 +82,8 @@ private:
     };
 
     void begin(Kind kind);
-    void tag(std::uint32_t key, bool is_integer, std::uint64_t bits) {
-        tags_.push_back({key, {is_integer, bits}});
+    void tag(std::uint32_t key, ValueKind kind, std::uint64_t bits) {
+        tags_.push_back({key, {kind, bits}});
     }
     /// From where the pen is, there.
     void go(TilePoint p);
@@ -84,6 +92,7 @@ private:
     const char *const name_;
     std::array<const char *, most_keys> keys_{};
     std::size_t key_count_ = 0;
+    bool has_texts_ = false;
     Arena<Feature> features_;
     Arena<std::uint32_t> geometry_;
     Arena<Tag> tags_;

@@ -208,7 +208,7 @@ void Maker::add_triangles(VectorLayer &layer) const {
         layer.begin_polygon({ring.data(), corners});
         double sum = 0;
         for (std::uint32_t i = 0; i < 3; ++i) {
-            layer.tag(i, triangle[i].id);
+            layer.tag_id(i, triangle[i].id);
             sum += triangle[i].value / 3;
         }
         layer.tag(3, sum);
@@ -229,7 +229,7 @@ void Maker::add_vertices(VectorLayer &layer) const {
         if (last != nullptr && key(*last) == key(corner)) continue;
         last = &corner;
         layer.begin_point(rounded(corner.at));
-        layer.tag(0, corner.id);
+        layer.tag_id(0, corner.id);
         layer.tag(1, corner.value);
     }
 }

@@ -90,6 +90,26 @@ class Tiles(unittest.TestCase):
             self.assertLess(abs(x - expected[0]), 0.51 * self.unit)
             self.assertLess(abs(y - expected[1]), 0.51 * self.unit)
 
+    def test_ids_of_browsers(self):
+        # 2^53 - 1 is the last integer that a double tells from those beside it
+        first = 2**53 - 30
+        abacus.psql("DROP TABLE IF EXISTS far_ids; SELECT abacus_triangulate('far_ids', 'SELECT " + str(first) +
+                    " + row_number() OVER (ORDER BY x, y), x, y, attributes[1] FROM abacus_vertices(''hills'')');"
+                    "SELECT abacus_set_srid('far_ids', 4326)")
+        encoded = tile(f"abacus_tile_vector('far_ids', {ZOOM}, {X}, {Y})")
+        ids = {int(i) for (i,) in abacus.rows("SELECT id FROM abacus_vertices('far_ids')")}
+        found = [f["properties"] for f in features("vertices", encoded)]
+        self.assertGreater(len(found), 50)
+        for tags in found:
+            self.assertEqual(tags.get("id_text"), str(tags["id"]) if tags["id"] > 2**53 - 1 else None)
+            self.assertIn(tags["id"], ids)
+        for tags in (f["properties"] for f in features("triangles", encoded)):
+            for name in ("v0", "v1", "v2"):
+                self.assertEqual(tags.get(name + "_text"), str(tags[name]) if tags[name] > 2**53 - 1 else None)
+        for layer in ("vertices", "triangles"):
+            for feature in features(layer, tile(f"abacus_tile_vector('hills', {ZOOM}, {X}, {Y})")):
+                self.assertFalse([name for name in feature["properties"] if name.endswith("_text")])
+
     def test_contours(self):
         encoded = tile(f"abacus_tile_vector('hills', {ZOOM}, {X}, {Y}, contours => 50)")
         lines = features("contours", encoded)

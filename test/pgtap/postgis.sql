@@ -137,6 +137,10 @@ SELECT results_eq($$ SELECT vertex, neighbour, round(ST_Length(geom)::numeric, 9
                   $$ SELECT vertex, neighbour, round(size::numeric, 9) FROM abacus_voronoi_facets('terrain', '{40,40}', '{45,45}') ORDER BY 1, 2, 3 $$, 'and between them lines');
 SELECT results_eq($$ SELECT distance, value, ST_X(geom), ST_Y(geom) FROM abacus_profile_geom('terrain', 'SRID=2154;LINESTRING(-5 20, 60 70, 140 30)') $$,
                   $$ SELECT distance, value, x, y FROM abacus_profile('terrain', '{-5, 20, 60, 70, 140, 30}') $$, 'a profile');
+SELECT results_eq($$ SELECT distance, value, ST_X(geom), ST_Y(geom) FROM abacus_profile_geom('terrain', 'SRID=2154;LINESTRING(-5 20, 60 70, 140 30)', max_edge => 14) $$,
+                  $$ SELECT distance, value, x, y FROM abacus_profile('terrain', '{-5, 20, 60, 70, 140, 30}', max_edge => 14) $$, 'a profile without long triangles');
+SELECT is(ST_Z(ST_GeometryN(abacus_drape('terrain', 'SRID=2154;MULTIPOINT(50 50, 60 60)', max_edge => 1e-6), 1)), 'NaN'::float8, 'nothing is draped over long triangles');
+SELECT is((abacus_visible('terrain', 'SRID=2154;POINT(50 50)'::geometry, 'SRID=2154;POINT(60 60)', max_edge => 1e-6)).visible, NULL, 'nor does one stand on them');
 SELECT is((SELECT count(*) FROM abacus_profile_geom('terrain', 'SRID=2154;LINESTRING EMPTY')), 0::bigint, 'of no line');
 SELECT throws_ok($$ SELECT * FROM abacus_profile_geom('terrain', 'SRID=2154;MULTILINESTRING((0 0, 1 1))') $$, '22023', 'the geometry is a MultiLineString, not a LineString', 'of several');
 SELECT is(ST_Area(abacus_hull_geom('terrain', 4)), (SELECT sum(ST_Area(geom)) FROM abacus_cells_geom('terrain', max_edge => 4)), 'an outline has the area of the cells in it');

@@ -72,6 +72,80 @@ expected_columns(const RowPacker *packer)
 	return names.data;
 }
 
+/*
+ * The coordinate that a column is by its name, 0 for x, or -1; `sure`: names that people also give
+ * to other things do not count.
+ */
+static int
+coordinate_of_name(const char *name, bool sure)
+{
+	static const char *const others[][6] = {
+		{"lon", "lng", "long", "longitude", "easting", NULL},
+		{"lat", "latitude", "northing", NULL},
+	};
+
+	for (int axis = 0; axis < ABACUS_MAX_DIMENSION; axis++)
+		if (pg_strcasecmp(name, coordinate_names[axis]) == 0)
+			return axis;
+	for (int axis = 0; !sure && axis < (int) lengthof(others); axis++)
+		for (int i = 0; others[axis][i] != NULL; i++)
+			if (pg_strcasecmp(name, others[axis][i]) == 0)
+				return axis;
+	return -1;
+}
+
+/*
+ * Whether coordinates stand elsewhere than they are taken from: where one should be is a column of
+ * another name, and one of its name at another place.
+ */
+static bool
+are_misplaced(const RowPacker *packer, TupleDesc desc)
+{
+	if (packer->ids != 1 || packer->origin->level != NULL || row_has_geometry(packer))
+		return false;
+	for (int axis = 0; axis < packer->coordinates && axis + 1 < desc->natts; axis++)
+	{
+		if (coordinate_of_name(NameStr(TupleDescAttr(desc, 1 + axis)->attname), false) == axis)
+			continue;
+		for (int i = 0; i < desc->natts; i++)
+			if (coordinate_of_name(NameStr(TupleDescAttr(desc, i)->attname),
+								   i > packer->coordinates) == axis)
+				return true;
+	}
+	return false;
+}
+
+/* "x" is taken for id, "y" for x */
+static char *
+taken_columns(const RowPacker *packer, TupleDesc desc)
+{
+	StringInfoData text;
+
+	initStringInfo(&text);
+	for (int i = 0; i < Min(packer->inputs, desc->natts); i++)
+		appendStringInfo(&text, "%s\"%s\" %sfor %s", i > 0 ? ", " : "",
+						 NameStr(TupleDescAttr(desc, i)->attname), i > 0 ? "" : "is taken ",
+						 column_name(packer, i));
+	return text.data;
+}
+
+/* What is said behind a detail: which column was taken for what, if that looks wrong. */
+static char *
+taken_sentence(const RowPacker *packer, TupleDesc desc)
+{
+	return are_misplaced(packer, desc) ? psprintf(" Here %s.", taken_columns(packer, desc)) : "";
+}
+
+/* Columns that are in another order than their names say are obeyed, but not without a word. */
+void
+row_tell_order(const RowPacker *packer, TupleDesc desc)
+{
+	if (are_misplaced(packer, desc))
+		ereport(NOTICE,
+				(errmsg("columns go by position, not by name: %s", taken_columns(packer, desc)),
+				 errhint("The order is %s.", expected_columns(packer))));
+}
+
 /* What to do about a geometry where none can be read, or NULL. */
 static char *
 geometry_hint(const RowPacker *packer, const char *column, Oid type)
@@ -93,36 +167,66 @@ geometry_hint(const RowPacker *packer, const char *column, Oid type)
 					quoted, packer->origin->geometry_hint);
 }
 
-void
-row_refuse_type(const RowPacker *packer, int column, Form_pg_attribute attribute)
+/* Whether rows of points lack an id: they begin with something else. */
+static bool
+lacks_id(const RowPacker *packer, TupleDesc desc)
 {
-	bool		is_id = column < packer->ids;
-	char	   *hint = geometry_hint(packer, NameStr(attribute->attname), attribute->atttypid);
+	return packer->origin->makes_id &&
+		(desc->natts == 0 || pg_strcasecmp(NameStr(TupleDescAttr(desc, 0)->attname), "id") != 0);
+}
 
+void
+row_refuse_type(const RowPacker *packer, int column, TupleDesc desc)
+{
+	Form_pg_attribute attribute = TupleDescAttr(desc, column);
+	bool		is_id = column < packer->ids;
+	const char *hint = geometry_hint(packer, NameStr(attribute->attname), attribute->atttypid);
+	const char *kinds = is_id ? psprintf("%s is smallint, integer or bigint.", packer->origin->an_id)
+		: packer->ids > 1 ? "Labels are double precision, real, numeric or integers."
+		: "Coordinates and attributes are double precision, real, numeric or integers.";
+
+	if (hint == NULL && is_id && lacks_id(packer, desc))
+		hint = "The id comes first. If the rows have none, row_number() OVER () makes one; if this is it, "
+			"cast it.";
 	ereport(ERROR,
 			(errcode(ERRCODE_DATATYPE_MISMATCH),
 			 errmsg("column %d (%s) of %s has type %s", column + 1, column_name(packer, column),
 					packer->origin->columns_of, format_type_be(attribute->atttypid)),
-			 is_id ? errdetail("%s is smallint, integer or bigint.", packer->origin->an_id)
-			 : packer->ids > 1
-			 ? errdetail("Labels are double precision, real, numeric or integers.")
-			 : errdetail("Coordinates and attributes are double precision, real, numeric or integers."),
+			 errdetail("%s%s", kinds, taken_sentence(packer, desc)),
 			 errhint("%s", hint != NULL ? hint : packer->origin->type_hint)));
 }
 
-void
-row_refuse_count(const RowPacker *packer, TupleDesc desc)
+/* What may have been meant by rows of too few columns, or too many; or NULL. */
+static char *
+count_hint(const RowPacker *packer, TupleDesc desc)
 {
 	char	   *hint = NULL;
 
 	for (int i = 0; hint == NULL && i < desc->natts; i++)
 		hint = geometry_hint(packer, NameStr(TupleDescAttr(desc, i)->attname),
 							 TupleDescAttr(desc, i)->atttypid);
+	if (hint != NULL || packer->ids > 1 || packer->origin->level != NULL)
+		return hint;
+	if (desc->natts > packer->inputs && packer->header->dimension == 2 && desc->natts > 3 &&
+		pg_strcasecmp(NameStr(TupleDescAttr(desc, 3)->attname), "z") == 0)
+		return psprintf("The %s has dimension 2; one in space is made with dimension => 3.",
+						packer->origin->whole);
+	if (desc->natts < packer->inputs && lacks_id(packer, desc))
+		return "The id comes first. If the rows have none, row_number() OVER () makes one.";
+	return NULL;
+}
+
+void
+row_refuse_count(const RowPacker *packer, TupleDesc desc)
+{
+	char	   *hint = count_hint(packer, desc);
+
 	ereport(ERROR,
 			(errcode(ERRCODE_DATATYPE_MISMATCH),
 			 errmsg("source query returns %d columns, but the %s takes %d", desc->natts,
 					packer->origin->whole, packer->inputs),
-			 errdetail("Columns go by position: %s.", expected_columns(packer)),
+			 errdetail("Columns go by position: %s.%s", expected_columns(packer),
+					   taken_sentence(packer, desc)),
 			 hint != NULL ? errhint("%s", hint) : 0));
 }
 

@@ -18,7 +18,8 @@ row_has_geometry(const RowPacker *packer)
 }
 
 extern int	row_word(const RowPacker *packer, int column);
-extern void row_refuse_type(const RowPacker *packer, int column, Form_pg_attribute attribute);
+extern void row_refuse_type(const RowPacker *packer, int column, TupleDesc desc);
+extern void row_tell_order(const RowPacker *packer, TupleDesc desc);
 extern void row_refuse_count(const RowPacker *packer, TupleDesc desc);
 extern void row_refuse_value(const RowPacker *packer, const uint64 *point, int column, bool isnull);
 extern void row_refuse_srid(const RowPacker *packer, const char *what, int32 srid);

@@ -23,32 +23,32 @@
 static const RowOrigin query_of_points = {
 	"the source query", "the source query", "Cast the column in the query.",
 	"Give its coordinates", "Leave such points out with a WHERE clause.", true,
-	"mesh", "id", "An id", NULL, false, true
+	"mesh", "id", "An id", NULL, false, true, true
 };
 static const RowOrigin query_of_simplices = {
 	"the source query", "the source query", "Cast the column in the query.",
 	NULL, "Leave such simplices out with a WHERE clause.", true,
-	"mesh", "id", "An id", NULL, false, false
+	"mesh", "id", "An id", NULL, false, false, false
 };
 static const RowOrigin query_of_labels = {
 	"the source query", "the source query", "Cast the column in the query.",
 	NULL, "Leave such rows out with a WHERE clause.", true,
-	"mesh", "code", "A code or an id", NULL, true, false
+	"mesh", "code", "A code or an id", NULL, true, false, false
 };
 static const RowOrigin tracked_table = {
 	"the tracked table", "the statement", "Track other columns, generated ones for instance.",
 	"Track generated columns", "A row without a point has NULL for a coordinate.", false,
-	"mesh", "id", "An id", NULL, false, true
+	"mesh", "id", "An id", NULL, false, true, false
 };
 #define QUERY_OF_OCTANTS(geometry_hint) \
 	"the source query", "the source query", "Cast the column in the query.", \
 	geometry_hint, "Leave such rows out with a WHERE clause.", true, "octree"
 static const RowOrigin queries_of_octants[] = {
-	[OCTANT_LEAVES] = {QUERY_OF_OCTANTS(NULL), "code", "A code", "level", true, false},
-	[OCTANT_VALUES] = {QUERY_OF_OCTANTS(NULL), "code", "A code", NULL, true, false},
+	[OCTANT_LEAVES] = {QUERY_OF_OCTANTS(NULL), "code", "A code", "level", true, false, false},
+	[OCTANT_VALUES] = {QUERY_OF_OCTANTS(NULL), "code", "A code", NULL, true, false, false},
 	[OCTANT_PLACES] = {QUERY_OF_OCTANTS("Give its coordinates"), "level", "A level", NULL, true,
-	false},
-	[OCTANT_POINTS] = {QUERY_OF_OCTANTS("Give its coordinates"), "id", "An id", NULL, false, true}
+	false, false},
+	[OCTANT_POINTS] = {QUERY_OF_OCTANTS("Give its coordinates"), "id", "An id", NULL, false, true, true}
 };
 
 /* Whether rows have a geometry in place of coordinates. */
@@ -60,8 +60,9 @@ row_packer_takes_geometry(TupleDesc desc)
 }
 
 static PackKind
-pack_kind(const RowPacker *packer, int column, Form_pg_attribute attribute)
+pack_kind(const RowPacker *packer, int column, TupleDesc desc)
 {
+	Form_pg_attribute attribute = TupleDescAttr(desc, column);
 	bool		is_id = column < packer->ids;
 
 	if (row_has_geometry(packer) && column == GEOMETRY_COLUMN)
@@ -93,7 +94,7 @@ pack_kind(const RowPacker *packer, int column, Form_pg_attribute attribute)
 				return PACK_NULL;
 			break;
 	}
-	row_refuse_type(packer, column, attribute);
+	row_refuse_type(packer, column, desc);
 	return PACK_INT8;			/* not reached */
 }
 
@@ -143,7 +144,7 @@ check_nulls(const RowPacker *packer, const TupleTableSlot *slot)
 {
 	for (int i = 0; i < packer->inputs; i++)
 		if (packer->kinds[i] == PACK_NULL && !slot->tts_isnull[i])
-			row_refuse_type(packer, i, TupleDescAttr(slot->tts_tupleDescriptor, i));
+			row_refuse_type(packer, i, slot->tts_tupleDescriptor);
 }
 
 /* The coordinates of a row with a geometry. */
@@ -268,10 +269,12 @@ create(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int
 	packer->kinds = palloc(packer->inputs * sizeof(PackKind));
 	for (int i = 0; i < packer->inputs; i++)
 	{
-		packer->kinds[i] = pack_kind(packer, i, TupleDescAttr(desc, i));
+		packer->kinds[i] = pack_kind(packer, i, desc);
 		packer->converts |= packer->kinds[i] == PACK_NUMERIC;
 		packer->any_null |= packer->kinds[i] == PACK_NULL;
 	}
+	if (origin != &tracked_table)
+		row_tell_order(packer, desc);
 	packer->points = palloc(batch * columns * sizeof(uint64));
 	packer->scratch = AllocSetContextCreate(CurrentMemoryContext, "Abacus row conversion",
 											ALLOCSET_DEFAULT_SIZES);

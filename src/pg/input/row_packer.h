@@ -37,6 +37,7 @@ typedef struct RowOrigin
 	const char *level;			/* the second column, if it is no coordinate */
 	bool		by_number;		/* a row is told by its number, not by its id */
 	bool		takes_geometry; /* a geometry may stand behind the first column */
+	bool		makes_id;		/* rows without an id can be given one in the query */
 } RowOrigin;
 
 /* What rows of octants are. */

@@ -31,8 +31,9 @@
 
 /* ---- The extension ------------------------------------------------------- */
 
-static bool
-is_member(Oid catalogue, Oid object)
+/* Whether an object belongs to PostGIS. */
+bool
+postgis_owns(Oid catalogue, Oid object)
 {
 	Oid			extension = getExtensionOfObject(catalogue, object);
 
@@ -42,7 +43,7 @@ is_member(Oid catalogue, Oid object)
 bool
 postgis_owns_function(Oid function)
 {
-	return is_member(ProcedureRelationId, function);
+	return postgis_owns(ProcedureRelationId, function);
 }
 
 /* The type geometry; InvalidOid if there is none. */
@@ -75,7 +76,7 @@ geometry_is_type(Oid type)
 {
 	Oid			base = getBaseType(type);
 
-	return strcmp(geometry_type_name(base), GEOMETRY) == 0 && is_member(TypeRelationId, base);
+	return strcmp(geometry_type_name(base), GEOMETRY) == 0 && postgis_owns(TypeRelationId, base);
 }
 
 /* The name of a function of PostGIS in SQL, where the type geometry of these values is. */

@@ -15,6 +15,7 @@ typedef struct GeometryType
 } GeometryType;
 
 extern Oid	postgis_geometry(void);
+extern bool postgis_owns(Oid catalogue, Oid object);
 extern bool postgis_owns_function(Oid function);
 
 extern bool geometry_is_type(Oid type);

@@ -37,7 +37,8 @@ enum
 	DRAPE_GEOMETRY,
 	DRAPE_ATTRIBUTE,
 	DRAPE_DENSIFY,
-	DRAPE_OUTSIDE
+	DRAPE_OUTSIDE,
+	DRAPE_MAX_EDGE
 };
 
 /* A place: x, y, z, m */
@@ -194,7 +195,8 @@ put_crossings(Drape *drape)
 	if (same_place(path, path + 2))
 		return;
 	drape->has_last = false;
-	host_run(mesh->host, abacus_mesh_profile, mesh->mesh, drape->how.attribute[0], path, 2, cross, drape);
+	host_run(mesh->host, abacus_mesh_profile, mesh->mesh, drape->how.attribute[0],
+			 drape->how.max_edge, path, 2, cross, drape);
 	host_release(mesh->host);
 	put_last(drape);
 }
@@ -265,7 +267,8 @@ drape_geometry(Drape *drape, bool inside)
 }
 
 /*
- * abacus_drape(mesh regclass, geometry geometry, attribute text, densify boolean, outside text)
+ * abacus_drape(mesh regclass, geometry geometry, attribute text, densify boolean, outside text,
+ *              max_edge float8)
  *     -> geometry
  */
 Datum
@@ -273,7 +276,7 @@ abacus_sql_drape(PG_FUNCTION_ARGS)
 {
 	static const char *const outsides[] = {"null", "nearest", NULL};
 	const GeometryType *type = geometry_argument_type(fcinfo, DRAPE_GEOMETRY);
-	Drape		drape = {.how = {.method = ABACUS_LINEAR, .max_edge = INFINITY}};
+	Drape		drape = {.how = {.method = ABACUS_LINEAR}};
 
 	if (interpolation_of_null(fcinfo, DRAPE_GEOMETRY))
 		PG_RETURN_NULL();
@@ -283,6 +286,7 @@ abacus_sql_drape(PG_FUNCTION_ARGS)
 	interpolation_attribute(fcinfo, DRAPE_ATTRIBUTE, &drape.mesh->header, &drape.how);
 	drape.how.outside = word_argument(fcinfo, DRAPE_OUTSIDE, outsides, "outside",
 									  "Outside the mesh the value is null, or that of the nearest vertex.");
+	interpolation_max_edge(fcinfo, DRAPE_MAX_EDGE, &drape.how);
 	drape.densifies = !PG_ARGISNULL(DRAPE_DENSIFY) && PG_GETARG_BOOL(DRAPE_DENSIFY);
 	drape.in = geometry_bytes(type, PG_GETARG_DATUM(DRAPE_GEOMETRY));
 	initStringInfo(&drape.out);

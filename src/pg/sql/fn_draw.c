@@ -16,6 +16,7 @@
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/drawing.h"
+#include "pg/sql/units.h"
 #include "pg/sql/word.h"
 
 SQL_FUNCTION(abacus_sql_draw);
@@ -229,6 +230,8 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	light(fcinfo, DRAW_LIGHT, &drawing);
 	if (drawing.exaggeration > 0 && drawing.attribute < 0)
 		ereport(NOTICE, (errmsg("exaggeration has no effect without an attribute")));
+	else if (drawing.exaggeration > 0)
+		units_tell_shading(&reader->header, drawing.exaggeration);
 	window(&reader->header, array(fcinfo, DRAW_LOWER), array(fcinfo, DRAW_UPPER), &drawing);
 
 	host_run(host, abacus_draw, &host->table, &reader->header, &drawing, &picture);

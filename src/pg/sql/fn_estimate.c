@@ -47,6 +47,8 @@ SQL_FUNCTION(abacus_sql_contours_rows);
 #define SIMPLICES_PER_VERTEX 2.0
 /* Of one that waits to be inserted, without attributes. */
 #define BYTES_PER_WAITING_POINT 32.0
+/* Of a mesh that is not known. */
+#define POINTS_OF_A_MESH 100000
 /* abacus_contours: the argument fixed_levels, */
 #define CONTOURS_FIXED_LEVELS 3
 /* ... levels where it has none, and lines of a level, times the root of the number of triangles. */
@@ -145,7 +147,7 @@ abacus_sql_simplices_rows(PG_FUNCTION_ARGS)
 	return estimate(fcinfo, 1, false);
 }
 
-/* abacus_vertices_rows(internal) -> internal, for abacus_vertices */
+/* abacus_vertices_rows(internal) -> internal, for all vertices */
 Datum
 abacus_sql_vertices_rows(PG_FUNCTION_ARGS)
 {
@@ -202,20 +204,27 @@ abacus_sql_octant_rows(PG_FUNCTION_ARGS)
 }
 
 /*
- * abacus_range_rows(internal) -> internal, for vertices with an attribute in a range, of a window:
- * arguments 4 and 5.
+ * abacus_range_rows(internal) -> internal, for abacus_vertices: all points, or the vertices of a
+ * window, arguments 1 and 2, or with an attribute in a range, argument 3.
  */
 Datum
 abacus_sql_range_rows(PG_FUNCTION_ARGS)
 {
 	SupportRequestRows *request = (SupportRequestRows *) PG_GETARG_POINTER(0);
-	double		share = DEFAULT_RANGE_INEQ_SEL;
+	double		share = 1;
+	Datum		answer;
 
 	if (!IsA(request, SupportRequestRows) || !is_funcclause(request->node))
 		PG_RETURN_POINTER(NULL);
-	if (!is_null_argument(request, 4) || !is_null_argument(request, 5))
+	if (!is_null_argument(request, 1) || !is_null_argument(request, 2))
+		share = DEFAULT_RANGE_INEQ_SEL;
+	if (list_length(((FuncExpr *) request->node)->args) > 3 && !is_null_argument(request, 3))
 		share *= DEFAULT_RANGE_INEQ_SEL;
-	return estimate(fcinfo, share / SIMPLICES_PER_VERTEX, false);
+	answer = estimate(fcinfo, share / SIMPLICES_PER_VERTEX, share == 1);
+	if (DatumGetPointer(answer) != NULL || share < 1)
+		return answer;
+	request->rows = POINTS_OF_A_MESH;
+	PG_RETURN_POINTER(request);
 }
 
 /*

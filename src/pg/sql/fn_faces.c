@@ -6,19 +6,17 @@
 
 #include "access/htup_details.h"
 #include "funcapi.h"
-#include "utils/builtins.h"
 
 #include "abacus/ask.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/sql/faces.h"
 #include "pg/sql/result.h"
 #include "pg/sql/set.h"
 #include "pg/sql/vertex_row.h"
 #include "pg/sql/window.h"
 
-SQL_FUNCTION(abacus_sql_vertices_in_box);
 SQL_FUNCTION(abacus_sql_vertices_in_ball);
-SQL_FUNCTION(abacus_sql_vertices_in_range);
 SQL_FUNCTION(abacus_sql_edges);
 SQL_FUNCTION(abacus_sql_edges_in_ball);
 SQL_FUNCTION(abacus_sql_edge_lines);
@@ -35,8 +33,7 @@ enum
 
 typedef enum Wanted
 {
-	VERTICES,					/* mesh, and a window */
-	VERTICES_IN_RANGE,			/* mesh, attribute, least, greatest, and a window */
+	VERTICES,					/* mesh, a window, and of a box an attribute and its range */
 	EDGES,						/* mesh, a window, and max_edge */
 	EDGE_LINES					/* the same, with the coordinates of their ends */
 } Wanted;
@@ -45,21 +42,6 @@ static bool
 are_edges(Wanted wanted)
 {
 	return wanted == EDGES || wanted == EDGE_LINES;
-}
-
-/* The range of an attribute: arguments 1 to 3. */
-static void
-range_arguments(FunctionCallInfo fcinfo, const abacus_header *header, abacus_range *range)
-{
-	range->attribute = (uint32_t) header_find_attribute(header,
-														text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	range->least = PG_GETARG_FLOAT8(2);
-	range->greatest = PG_GETARG_FLOAT8(3);
-	if (!(range->least <= range->greatest))
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("least must not be greater than greatest, and both numbers"),
-				 errhint("Give '-Infinity' or 'Infinity' for a range without an end.")));
 }
 
 static void
@@ -71,11 +53,11 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, Wanted wan
 	abacus_range range;
 	abacus_faces *faces = NULL;
 	double		max_edge = are_edges(wanted) ? window_max_edge(fcinfo, 3) : 0;
+	bool		has_range = wanted == VERTICES && form == WINDOW_BOX &&
+		window_attribute(fcinfo, 3, &reader->header, &range);
 
-	if (wanted == VERTICES_IN_RANGE)
-		range_arguments(fcinfo, &reader->header, &range);
-	window_arguments(fcinfo, wanted == VERTICES_IN_RANGE ? 4 : 1, form, &reader->header, &window);
-	if (wanted == VERTICES_IN_RANGE)
+	window_arguments(fcinfo, 1, form, &reader->header, &window);
+	if (has_range)
 		host_run(host, abacus_faces_open_range, &host->table, &reader->header, &window, &range,
 				 setting_cache_bytes(), &faces);
 	else
@@ -139,37 +121,21 @@ next(FunctionCallInfo fcinfo, WindowForm form, Wanted wanted)
 	SRF_RETURN_NEXT(set, row);
 }
 
-/*
- * abacus_vertices(mesh regclass, lower float8[], upper float8[])
- *     -> sequence, id, x, y, z, attributes, vertex
- */
+/* abacus_vertices with a window, or the range of an attribute; none for a mesh that is NULL. */
 Datum
-abacus_sql_vertices_in_box(PG_FUNCTION_ARGS)
+faces_vertices(FunctionCallInfo fcinfo)
 {
 	return next(fcinfo, WINDOW_BOX, VERTICES);
 }
 
-/* abacus_vertices(mesh regclass, center float8[], radius float8) -> the same */
+/*
+ * abacus_vertices(mesh regclass, center float8[], radius float8)
+ *     -> sequence, id, x, y, z, attributes, vertex
+ */
 Datum
 abacus_sql_vertices_in_ball(PG_FUNCTION_ARGS)
 {
 	return next(fcinfo, WINDOW_BALL, VERTICES);
-}
-
-/*
- * abacus_vertices(mesh regclass, attribute text, least float8, greatest float8,
- * lower float8[], upper float8[])
- *     -> the same
- */
-Datum
-abacus_sql_vertices_in_range(PG_FUNCTION_ARGS)
-{
-	if (SRF_IS_FIRSTCALL() && (PG_ARGISNULL(1) || PG_ARGISNULL(2) || PG_ARGISNULL(3)))
-		ereport(ERROR,
-				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
-				 errmsg("attribute, least and greatest must not be NULL"),
-				 errhint("Give '-Infinity' or 'Infinity' for a range without an end.")));
-	return next(fcinfo, WINDOW_BOX, VERTICES_IN_RANGE);
 }
 
 /*

@@ -14,6 +14,7 @@
 #include "pg/sql/interpolation.h"
 #include "pg/sql/place.h"
 #include "pg/sql/result.h"
+#include "pg/sql/units.h"
 
 SQL_FUNCTION(abacus_sql_gradient);
 SQL_FUNCTION(abacus_sql_slope);
@@ -52,6 +53,7 @@ find_gradient(FunctionCallInfo fcinfo, double *gradient)
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	interpolation_attribute(fcinfo, first + HOW_ATTRIBUTE, &cached->header, &how);
 	interpolation_max_edge(fcinfo, first + HOW_MAX_EDGE, &how);
+	units_tell_slopes(&cached->header);
 	if (!place_arguments(fcinfo, first - 1, &cached->header, point))
 		return 0;
 	status = host_run(cached->host, abacus_mesh_gradient, cached->mesh, &how, point, gradient);

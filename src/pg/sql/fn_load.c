@@ -19,23 +19,56 @@
 
 SQL_FUNCTION(abacus_sql_load);
 
+/* Whether a column has a name of its own: PostgreSQL calls others column5 or ?column?. */
+static bool
+is_named(const char *name)
+{
+	return strncmp(name, "column", strlen("column")) != 0 && name[0] != '?';
+}
+
 /* A simplex has as many vertices as its mesh has dimensions, and one more; then come labels. */
 static int
 dimension_of(const Source *simplices, int labels)
 {
-	int			vertices = source_columns(simplices) - labels;
+	int			columns = source_columns(simplices);
+	int			vertices = columns - labels;
+	const char *last;
 
-	if (vertices < 3 || vertices > ABACUS_MAX_DIMENSION + 1)
-		ereport(ERROR,
-				(errcode(ERRCODE_DATATYPE_MISMATCH),
-				 errmsg("simplices query returns %d columns, not %d or %d",
-						source_columns(simplices), 3 + labels, 4 + labels),
-				 labels > 0
-				 ? errdetail("Columns go by position: v0, v1, v2 of triangles or v0, v1, v2, v3 of "
-							 "tetrahedra, then the labels.")
-				 : errdetail("Columns go by position: v0, v1, v2 of triangles; v0, v1, v2, v3 of "
-							 "tetrahedra.")));
-	return vertices - 1;
+	if (vertices >= 3 && vertices <= ABACUS_MAX_DIMENSION + 1)
+		return vertices - 1;
+	last = vertices > 3 ? source_column_name(simplices, columns - 1) : "";
+	ereport(ERROR,
+			(errcode(ERRCODE_DATATYPE_MISMATCH),
+			 errmsg("simplices query returns %d columns, not %d or %d", columns, 3 + labels, 4 + labels),
+			 labels > 0
+			 ? errdetail("Columns go by position: v0, v1, v2 of triangles or v0, v1, v2, v3 of "
+						 "tetrahedra, then the labels.")
+			 : errdetail("Columns go by position: v0, v1, v2 of triangles; v0, v1, v2, v3 of "
+						 "tetrahedra."),
+			 vertices > 3
+			 ? errhint("Labels behind the vertices are taken if all are named, as in labels => '{%s}'.",
+					   is_named(last) ? last : "material") : 0));
+}
+
+/*
+ * Four columns may also be a triangle and its label. They are taken for a tetrahedron, and the height of
+ * its vertices for z.
+ */
+static void
+tell_dimension(const abacus_header *header, const Source *vertices, const Source *simplices)
+{
+	const char *z;
+
+	if (header->dimension != 3 || source_first_attribute(vertices, 3) != 4 || source_columns(vertices) < 4)
+		return;
+	z = source_column_name(vertices, 3);
+	if (is_named(z) && strchr(z, 'z') == NULL)
+		ereport(NOTICE,
+				(errmsg("simplices of four columns are tetrahedra: \"%s\" of the vertices is taken for z, "
+						"\"%s\" for v3", z, source_column_name(simplices, 3)),
+				 errhint("If these are triangles with a label, name it, as in labels => '{%s}'.",
+						 is_named(source_column_name(simplices, 3))
+						 ? source_column_name(simplices, 3) : "material")));
 }
 
 /*
@@ -170,6 +203,8 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 	if (!PG_ARGISNULL(8))
 		labels = shape_names(PG_GETARG_ARRAYTYPE_P(8), "labels", &label_count);
 	shape_dimension(header, dimension_of(&simplices, label_count));
+	if (label_count == 0)
+		tell_dimension(header, &vertices, &simplices);
 	if (!PG_ARGISNULL(3))
 		shape_attributes(header, PG_GETARG_ARRAYTYPE_P(3));
 	else

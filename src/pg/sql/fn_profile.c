@@ -63,7 +63,7 @@ path_argument(FunctionCallInfo fcinfo, int argument, uint32 dimension, size_t *c
 }
 
 /*
- * abacus_profile(mesh regclass, path float8[], attribute text)
+ * abacus_profile(mesh regclass, path float8[], attribute text, max_edge float8)
  *     -> distance, x, y, z, value
  */
 Datum
@@ -82,9 +82,10 @@ abacus_sql_profile(PG_FUNCTION_ARGS)
 	answers.host = cached->host;
 	answers.dimension = cached->dimension;
 	interpolation_attribute(fcinfo, 2, &cached->header, &how);
+	interpolation_max_edge(fcinfo, 3, &how);
 	path = path_argument(fcinfo, 1, cached->dimension, &corners);
-	host_run(answers.host, abacus_mesh_profile, cached->mesh, how.attribute[0], path, corners,
-			 put_place, &answers);
+	host_run(answers.host, abacus_mesh_profile, cached->mesh, how.attribute[0], how.max_edge, path,
+			 corners, put_place, &answers);
 	host_release(answers.host);
 	PG_RETURN_NULL();
 }

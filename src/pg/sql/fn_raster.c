@@ -16,6 +16,7 @@
 #include "pg/sql/line.h"
 #include "pg/sql/result.h"
 #include "pg/sql/set.h"
+#include "pg/sql/units.h"
 
 SQL_FUNCTION(abacus_sql_raster);
 
@@ -110,6 +111,7 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set)
 	interpolation_attribute(fcinfo, RASTER_ATTRIBUTE, &reader->header, &how);
 	interpolation_how(fcinfo, RASTER_METHOD, &how);
 	raster_arguments(fcinfo, reader->header.dimension, &raster);
+	units_tell_window(&reader->header, raster.lower, raster.upper);
 	rows->reader = reader;
 	rows->width = (int) raster.width;
 	rows->next = 0;

@@ -9,6 +9,7 @@
 #include "abacus/read.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/sql/faces.h"
 #include "pg/sql/result.h"
 #include "pg/sql/set.h"
 #include "pg/sql/simplex_row.h"
@@ -47,9 +48,9 @@ abacus_sql_simplices(PG_FUNCTION_ARGS)
 	SRF_RETURN_NEXT(set, simplex_row(set->tuple_desc, &simplex, reader->header.dimension));
 }
 
-/* abacus_vertices(mesh regclass) -> sequence, id, x, y, z, attributes, vertex */
-Datum
-abacus_sql_vertices(PG_FUNCTION_ARGS)
+/* All points. */
+static Datum
+all_points(FunctionCallInfo fcinfo)
 {
 	FuncCallContext *set;
 	Reader	   *reader;
@@ -77,4 +78,24 @@ abacus_sql_vertices(PG_FUNCTION_ARGS)
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);
 	SRF_RETURN_NEXT(set, vertex_row(set->tuple_desc, &vertex, &reader->header));
+}
+
+/* Whether a call has a window, or the range of an attribute. In 0.1.0 the mesh was the only argument. */
+static bool
+is_about_part(FunctionCallInfo fcinfo)
+{
+	for (int i = 1; i < PG_NARGS(); i++)
+		if (!PG_ARGISNULL(i))
+			return true;
+	return false;
+}
+
+/*
+ * abacus_vertices(mesh regclass, lower float8[], upper float8[], attribute text, range float8[])
+ *     -> sequence, id, x, y, z, attributes, vertex
+ */
+Datum
+abacus_sql_vertices(PG_FUNCTION_ARGS)
+{
+	return PG_ARGISNULL(0) || is_about_part(fcinfo) ? faces_vertices(fcinfo) : all_points(fcinfo);
 }

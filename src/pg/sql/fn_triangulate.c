@@ -35,6 +35,25 @@ abacus_sql_triangulate(PG_FUNCTION_ARGS)
 	PG_RETURN_INT64((int64) simplices);
 }
 
+/* Attributes are named after the columns behind the coordinates. */
+static void
+name_attributes(abacus_header *header, const Source *source)
+{
+	int			first = source_first_attribute(source, header->dimension);
+
+	for (int i = first; i < source_columns(source); i++)
+	{
+		const char *name = source_column_name(source, i);
+
+		shape_attribute(header, name);
+		if (header->dimension == 2 && first == 3 && strcmp(name, "z") == 0) /* beside x and y */
+			ereport(NOTICE,
+					(errmsg("column \"z\" is an attribute of a mesh of dimension 2"),
+					 errhint("With dimension => 3 it is a coordinate. Where it is meant as an attribute, "
+							 "another name, or attributes => '{z}', says so.")));
+	}
+}
+
 /*
  * abacus_triangulate(mesh text, query text, attributes text[], dimension int,
  * lower float8[], upper float8[]) -> bigint
@@ -58,8 +77,7 @@ abacus_sql_triangulate_query(PG_FUNCTION_ARGS)
 
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	if (PG_ARGISNULL(2))
-		for (int i = source_first_attribute(&source, header->dimension); i < source_columns(&source); i++)
-			shape_attribute(header, source_column_name(&source, i));
+		name_attributes(header, &source);
 	mesh = new_mesh(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid), header,
 					"abacus_triangulate()");
 	change_insert_query(mesh, &source, "abacus_triangulate()", header);

@@ -26,7 +26,8 @@ enum
 	SIGHT_TARGET,
 	SIGHT_ATTRIBUTE,
 	SIGHT_OBSERVER_HEIGHT,
-	SIGHT_TARGET_HEIGHT
+	SIGHT_TARGET_HEIGHT,
+	SIGHT_MAX_EDGE
 };
 
 /* Columns */
@@ -68,7 +69,7 @@ end_argument(FunctionCallInfo fcinfo, int argument, int height_argument, const c
 
 /*
  * abacus_visible(mesh regclass, observer float8[], target float8[], attribute text,
- *                observer_height float8, target_height float8)
+ *                observer_height float8, target_height float8, max_edge float8)
  *     -> visible, x, y, z
  */
 Datum
@@ -91,10 +92,11 @@ abacus_sql_visible(PG_FUNCTION_ARGS)
 				 errmsg("abacus_visible() is for meshes of dimension 2"),
 				 errhint("A terrain is a mesh in the plane with the height as an attribute.")));
 	interpolation_attribute(fcinfo, SIGHT_ATTRIBUTE, &cached->header, &how);
+	interpolation_max_edge(fcinfo, SIGHT_MAX_EDGE, &how);
 	end_argument(fcinfo, SIGHT_OBSERVER, SIGHT_OBSERVER_HEIGHT, "observer", &observer);
 	end_argument(fcinfo, SIGHT_TARGET, SIGHT_TARGET_HEIGHT, "target", &target);
-	host_run(cached->host, abacus_mesh_look, cached->mesh, how.attribute[0], &observer, &target,
-			 &sight);
+	host_run(cached->host, abacus_mesh_look, cached->mesh, how.attribute[0], how.max_edge, &observer,
+			 &target, &sight);
 	host_release(cached->host);
 	values[SIGHT_VISIBLE] = BoolGetDatum(sight.kind == ABACUS_SIGHT_FREE);
 	isnull[SIGHT_VISIBLE] = sight.kind == ABACUS_SIGHT_UNKNOWN;

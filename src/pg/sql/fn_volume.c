@@ -17,6 +17,7 @@
 #include "pg/mesh/reader.h"
 #include "pg/sql/interpolation.h"
 #include "pg/sql/result.h"
+#include "pg/sql/units.h"
 #include "pg/sql/window.h"
 
 SQL_FUNCTION(abacus_sql_volume);
@@ -80,22 +81,14 @@ volume_row(FunctionCallInfo fcinfo, const abacus_volume *volume)
 	return HeapTupleGetDatum(heap_form_tuple(result_row_type(fcinfo), values, isnull));
 }
 
-/*
- * abacus_volume(mesh regclass, base float8, attribute text, lower float8[],
- *               upper float8[], max_edge float8) -> area, surface, cut, fill, net
- */
-Datum
-abacus_sql_volume(PG_FUNCTION_ARGS)
+static Datum
+volume_above(FunctionCallInfo fcinfo, double base)
 {
 	abacus_surface surface = {0};
 	abacus_volume volume;
 	Reader	   *reader;
 	Host	   *host;
-	double		base;
 
-	if (PG_ARGISNULL(OF_MESH) || PG_ARGISNULL(OF_OTHER))
-		PG_RETURN_NULL();
-	base = PG_GETARG_FLOAT8(OF_OTHER);
 	if (!isfinite(base))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE), errmsg("base must be finite"),
@@ -103,12 +96,25 @@ abacus_sql_volume(PG_FUNCTION_ARGS)
 	reader = reader_open(PG_GETARG_OID(OF_MESH), CurrentMemoryContext);
 	host = reader->host;
 	surface_arguments(fcinfo, &reader->header, &surface);
+	units_tell_volumes(&reader->header);
 	progress_begin(&host->progress, PG_GETARG_OID(OF_MESH));
 	host_run(host, abacus_volume_above, &host->table, &reader->header, &surface, base, &volume);
 	progress_end(&host->progress);
 	host_release(host);
 	host_destroy(host);
-	PG_RETURN_DATUM(volume_row(fcinfo, &volume));
+	return volume_row(fcinfo, &volume);
+}
+
+/*
+ * abacus_volume(mesh regclass, base float8, attribute text, lower float8[],
+ *               upper float8[], max_edge float8) -> area, surface, cut, fill, net
+ */
+Datum
+abacus_sql_volume(PG_FUNCTION_ARGS)
+{
+	if (PG_ARGISNULL(OF_MESH) || PG_ARGISNULL(OF_OTHER))
+		PG_RETURN_NULL();
+	PG_RETURN_DATUM(volume_above(fcinfo, PG_GETARG_FLOAT8(OF_OTHER)));
 }
 
 static void
@@ -157,6 +163,7 @@ volume_between(FunctionCallInfo fcinfo, Oid other)
 	require_plane(first);
 	require_plane(second);
 	surface_arguments(fcinfo, &first->header, &surface);
+	units_tell_volumes(&first->header);
 	other_attribute = attribute(fcinfo, other_name, &second->header);
 	progress_begin(&first->host->progress, PG_GETARG_OID(OF_MESH));
 	measure_between(first, second, &surface, other_attribute, &volume);
@@ -181,15 +188,43 @@ abacus_sql_volume_between(PG_FUNCTION_ARGS)
 	PG_RETURN_DATUM(volume_between(fcinfo, PG_GETARG_OID(OF_OTHER)));
 }
 
-/* The same with the other mesh's name as text: what PostgreSQL takes a quoted name for. */
+/* Whether a text is a number. No name begins like one, without double quotes. */
+static bool
+is_number(const char *text, double *number)
+{
+	char	   *end;
+
+	text += strspn(text, " \t\n\r\f\v");
+	if (*text == '\0' || strchr("0123456789+-.", *text) == NULL)
+		return false;
+	errno = 0;
+	*number = strtod(text, &end);
+	return errno == 0 && end != text && end[strspn(end, " \t\n\r\f\v")] == '\0';
+}
+
+/*
+ * The same with the other mesh's name as text: what PostgreSQL takes all that is quoted for, so it
+ * may be a base.
+ */
 Datum
 abacus_sql_volume_between_named(PG_FUNCTION_ARGS)
 {
-	char	   *name;
+	char	   *given;
+	double		base;
+	Datum		other;
 
 	if (PG_ARGISNULL(OF_MESH) || PG_ARGISNULL(OF_OTHER))
 		PG_RETURN_NULL();
-	name = text_to_cstring(PG_GETARG_TEXT_PP(OF_OTHER));
-	PG_RETURN_DATUM(volume_between(fcinfo, DatumGetObjectId(DirectFunctionCall1(regclassin,
-																				 CStringGetDatum(name)))));
+	given = text_to_cstring(PG_GETARG_TEXT_PP(OF_OTHER));
+	if (is_number(given, &base))
+	{
+		if (!PG_ARGISNULL(OF_OTHER_ATTRIBUTE))
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("other_attribute is that of another mesh, but %s is a base", given),
+					 errhint("Name another mesh, or leave other_attribute out.")));
+		PG_RETURN_DATUM(volume_above(fcinfo, base));
+	}
+	other = DirectFunctionCall1(regclassin, CStringGetDatum(given));
+	PG_RETURN_DATUM(volume_between(fcinfo, DatumGetObjectId(other)));
 }

@@ -23,7 +23,8 @@ place_arguments(FunctionCallInfo fcinfo, int given, const abacus_header *header,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("z is %s, but the %s has dimension %u",
 						dimension == 2 ? "given" : "missing", type_name(header->type), dimension),
-				 dimension == 2 ? errhint("Leave z out.")
+				 dimension == 2
+				 ? errhint("Leave z out, or make the %s with dimension => 3.", type_name(header->type))
 				 : errhint("Give all three coordinates of the point.")));
 	for (uint32 i = 0; i < dimension; i++)
 	{

@@ -6,11 +6,14 @@
 
 #include <math.h>
 
+#include "catalog/pg_type.h"
 #include "utils/builtins.h"
+#include "utils/lsyscache.h"
 
 #include "pg/mesh/header.h"
 #include "pg/mesh/mesh_pages.h"
 #include "pg/mesh/shape.h"
+#include "pg/sql/units.h"
 #include "pg/sql/window.h"
 
 /* A closed box; all of the mesh if neither corner is given. */
@@ -37,6 +40,7 @@ window_of_box(const abacus_header *header, ArrayType *lower, ArrayType *upper,
 					 errmsg("lower must not be greater than upper, and both finite, on axis %c",
 							"xyz"[i]),
 					 errhint("lower is the corner of the window with the least coordinates.")));
+	units_tell_window(header, window->lower, window->upper);
 }
 
 /* A closed ball. */
@@ -44,6 +48,9 @@ static void
 window_of_ball(const abacus_header *header, ArrayType *center, double radius,
 			   abacus_window *window)
 {
+	double		lower[ABACUS_MAX_DIMENSION];
+	double		upper[ABACUS_MAX_DIMENSION];
+
 	window->kind = ABACUS_BALL_WINDOW;
 	shape_point(header, center, "center", window->center);
 	window->radius = radius;
@@ -58,12 +65,37 @@ window_of_ball(const abacus_header *header, ArrayType *center, double radius,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("radius must be a finite number, at least 0"),
 				 errhint("Of radius 0 is the center alone.")));
+	for (uint32 i = 0; i < header->dimension; i++)
+	{
+		lower[i] = window->center[i] - radius;
+		upper[i] = window->center[i] + radius;
+	}
+	units_tell_window(header, lower, upper);
 }
 
+/*
+ * A corner: an array, or one in a text. What is in quotes PostgreSQL takes for a text where there is a
+ * form with one, so that '{0,0}', '{9,9}' are corners.
+ */
 static ArrayType *
-array(FunctionCallInfo fcinfo, int argument)
+corner(FunctionCallInfo fcinfo, int argument)
 {
-	return PG_ARGISNULL(argument) ? NULL : PG_GETARG_ARRAYTYPE_P(argument);
+	char	   *given;
+	Oid			input;
+	Oid			parameter;
+
+	if (PG_ARGISNULL(argument))
+		return NULL;
+	if (get_fn_expr_argtype(fcinfo->flinfo, argument) != TEXTOID)
+		return PG_GETARG_ARRAYTYPE_P(argument);
+	given = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+	if (strchr("{[", given[strspn(given, " \t\n\r\f\v")]) == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_TEXT_REPRESENTATION),
+				 errmsg("upper must be an array, not \"%s\"", given),
+				 errhint("If a radius is meant, name it, or leave the quotes out: radius => %s.", given)));
+	getTypeInputInfo(FLOAT8ARRAYOID, &input, &parameter);
+	return DatumGetArrayTypeP(OidInputFunctionCall(input, given, parameter, -1));
 }
 
 /* The window of a call: the first of two arguments. */
@@ -72,14 +104,14 @@ window_arguments(FunctionCallInfo fcinfo, int first, WindowForm form,
 				 const abacus_header *header, abacus_window *window)
 {
 	if (form == WINDOW_BOX)
-		window_of_box(header, array(fcinfo, first), array(fcinfo, first + 1), window);
+		window_of_box(header, corner(fcinfo, first), corner(fcinfo, first + 1), window);
 	else if (PG_ARGISNULL(first) || PG_ARGISNULL(first + 1))
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
 				 errmsg("center and radius must not be NULL"),
 				 errhint("Leave both out for all of the %s.", type_name(header->type))));
 	else
-		window_of_ball(header, array(fcinfo, first), PG_GETARG_FLOAT8(first + 1), window);
+		window_of_ball(header, PG_GETARG_ARRAYTYPE_P(first), PG_GETARG_FLOAT8(first + 1), window);
 }
 
 /* The longest edge that is wanted, or that simplices may have; 0 if any may be. */
@@ -97,11 +129,12 @@ window_max_edge(FunctionCallInfo fcinfo, int argument)
 }
 
 /*
- * The label that simplices must have, and its range: the first of two arguments. Without a range any
- * value will do. False if no label is wanted.
+ * The range of what is named: the first of two arguments is its name, `what` it is. Without a range any
+ * value will do. False if nothing is named.
  */
-bool
-window_label(FunctionCallInfo fcinfo, int first, const abacus_header *header, abacus_range *range)
+static bool
+has_range(FunctionCallInfo fcinfo, int first, const char *what, const char *example,
+		  abacus_range *range)
 {
 	double		ends[2] = {-INFINITY, INFINITY};
 
@@ -110,12 +143,10 @@ window_label(FunctionCallInfo fcinfo, int first, const abacus_header *header, ab
 		if (!PG_ARGISNULL(first + 1))
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-					 errmsg("range is that of a label, and none is given"),
-					 errhint("Name the label, as in label => 'material'.")));
+					 errmsg("range is that of %s, and none is given", what),
+					 errhint("Name it, as in %s.", example)));
 		return false;
 	}
-	range->attribute = (uint32) header_find_label(header,
-												  text_to_cstring(PG_GETARG_TEXT_PP(first)));
 	if (!PG_ARGISNULL(first + 1))
 		shape_pair(PG_GETARG_ARRAYTYPE_P(first + 1), "range", ends);
 	if (!(ends[0] <= ends[1]))
@@ -125,5 +156,28 @@ window_label(FunctionCallInfo fcinfo, int first, const abacus_header *header, ab
 				 errhint("Give -Infinity or Infinity for a range without an end.")));
 	range->least = ends[0];
 	range->greatest = ends[1];
+	return true;
+}
+
+/* The label that simplices must have, and its range; false if no label is wanted. */
+bool
+window_label(FunctionCallInfo fcinfo, int first, const abacus_header *header, abacus_range *range)
+{
+	if (!has_range(fcinfo, first, "a label", "label => 'material'", range))
+		return false;
+	range->attribute = (uint32) header_find_label(header,
+												  text_to_cstring(PG_GETARG_TEXT_PP(first)));
+	return true;
+}
+
+/* The attribute that vertices must have, and its range; false if no attribute is wanted. */
+bool
+window_attribute(FunctionCallInfo fcinfo, int first, const abacus_header *header,
+				 abacus_range *range)
+{
+	if (!has_range(fcinfo, first, "an attribute", "attribute => 'height'", range))
+		return false;
+	range->attribute = (uint32) header_find_attribute(header,
+													  text_to_cstring(PG_GETARG_TEXT_PP(first)));
 	return true;
 }

@@ -20,5 +20,7 @@ extern void window_arguments(FunctionCallInfo fcinfo, int first, WindowForm form
 extern double window_max_edge(FunctionCallInfo fcinfo, int argument);
 extern bool window_label(FunctionCallInfo fcinfo, int first, const abacus_header *header,
 						 abacus_range *range);
+extern bool window_attribute(FunctionCallInfo fcinfo, int first, const abacus_header *header,
+							 abacus_range *range);
 
 #endif
