@@ -75,7 +75,9 @@ void Contours::count() {
         });
         chains += static_cast<double>(most);
     }
-    pieces_.expect(chains, window_.region() == nullptr ? 2 * chains : 0);
+    if (window_.region() != nullptr) return pieces_.expect(chains, 0);
+    if (how_.bands != 0) chains *= 2; // no side of a window joins those along both levels of a band
+    pieces_.expect(chains, 2 * chains);
 }
 
 bool Contours::read_values(const Page &page) {

@@ -20,7 +20,7 @@ if ($is_available ne "t")
 }
 $node->safe_psql('postgres', <<'SQL');
 CREATE EXTENSION abacus_postgis_raster CASCADE;
-SELECT abacus_triangulate('field', 'SELECT 201 * i + j, i, j, (i * j) % 7 AS z FROM generate_series(0, 200) AS i, generate_series(0, 200) AS j');
+SELECT abacus_triangulate('field', 'SELECT 101 * i + j, i, j, (i * j) % 7 AS z FROM generate_series(0, 100) AS i, generate_series(0, 100) AS j');
 SELECT abacus_triangulate('rock', 'SELECT 100 * i + 10 * j + k, i, j, k, i + j * k AS v FROM generate_series(0, 9) AS i, generate_series(0, 9) AS j, generate_series(0, 9) AS k', dimension => 3);
 ANALYZE field, rock;
 SQL
