@@ -260,6 +260,7 @@ PG_SOURCES += src/pg/host/host_pages.c
 PG_SOURCES += src/pg/host/host_spools.c
 PG_SOURCES += src/pg/host/progress.c
 PG_SOURCES += src/pg/host/spool.c
+PG_SOURCES += src/pg/host/temp_room.c
 PG_SOURCES += src/pg/input/row_errors.c
 PG_SOURCES += src/pg/input/row_packer.c
 PG_SOURCES += src/pg/input/source.c

@@ -75,6 +75,14 @@ SELECT * FROM abacus_contours('ridge', 1e-9);
 SELECT * FROM abacus_contours('ridge', 1e-20);
 \echo :LAST_ERROR_SQLSTATE
 SELECT * FROM abacus_contours('ridge', 0.1, 1e17);
+-- more lines than temporary files may hold are counted, not written
+SET temp_file_limit = '16MB';
+SELECT * FROM abacus_contours('ridge', 5e-5);
+\echo :LAST_ERROR_SQLSTATE
+SELECT * FROM abacus_contours('ridge', 5e-7, polygonize => true);
+SELECT * FROM abacus_contours('ridge', 5e-7, lower => '{0.25,0.25}', upper => '{1,1}');
+SELECT * FROM abacus_contours('ridge', fixed_levels => (SELECT array_agg(i * 5e-5) FROM generate_series(0, 1000000) AS i));
+RESET temp_file_limit;
 -- a million are not too many
 SELECT count(*), min(value), max(value) FROM abacus_contours('ridge', 5e-5);
 SELECT abacus_triangulate('solid', 'VALUES (1, 0, 0, 0, 1), (2, 1, 0, 0, 2), (3, 0, 1, 0, 3), (4, 0, 0, 1, 4)', '{heat}', dimension => 3);

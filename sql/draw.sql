@@ -18,6 +18,11 @@ SELECT count(DISTINCT picture) FROM (VALUES
     (abacus_draw('hills', 200, attribute => 'height', lower => '{-1,-1}', upper => '{17,13}', transparent => true))) AS pictures (picture);
 SELECT abacus_draw('hills', 60, attribute => 'height', exaggeration => 0.1, light => '{315,45}') = abacus_draw('hills', 60, attribute => 'height', exaggeration => 0.1) AS same_light,
        abacus_draw('hills', 60, attribute => 'height', contours => 8) = abacus_draw('hills', 60, attribute => 'height', contours => 8) AS same_again;
+-- a range of the colours leaves the shading as it is: values beyond it get the colour at its end
+SELECT count(DISTINCT abacus_draw('hills', 60, attribute => 'height', edges => false, exaggeration => 0.1, range => range)) AS shaded,
+       bool_or(abacus_draw('hills', 60, attribute => 'height', edges => false, exaggeration => 0.1, range => range)
+             = abacus_draw('hills', 60, attribute => 'height', edges => false, range => range)) AS flat
+FROM (VALUES ('{100,200}'::float8[]), ('{1000,1001}'), ('{1e9,1e300}')) AS r (range);
 SELECT png(abacus_draw('hills', 300, ramp => 'viridis', attribute => 'height', contours => 4, legend => 'µg/m³', scale_bar => '', transparent => true)) AS map,
        png(abacus_draw_section('rock', '{3,2,-2}', '{0,1,0}', 300, attribute => 'vs', contours => 0.5, legend => '', scale_bar => 'm', ramp => 'magma', transparent => true)) AS section,
        png(abacus_draw('hills', 300, legend => NULL, contours => NULL, ramp => NULL, light => NULL, scale_bar => 'm', transparent => NULL)) AS mesh;

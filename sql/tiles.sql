@@ -40,6 +40,10 @@ SELECT abacus_tile_terrain('metres', 8, 133, 90, 4326);
 SELECT abacus_triangulate('sheet', 'SELECT 100 * i + j AS id, i AS x, j AS y, i + j AS height FROM generate_series(0, 8) AS i, generate_series(0, 8) AS j ORDER BY 1');
 SELECT abacus_tile_picture('sheet', 0, 0, 0, world => '{0,0,8}', size => 64, attribute => 'height', range => '{0,16}')
      = abacus_draw('sheet', 64, lower => '{0,0}', upper => '{8,8}', attribute => 'height', range => '{0,16}', transparent => true) AS same;
+SELECT count(DISTINCT abacus_tile_picture('sheet', 0, 0, 0, world => '{0,0,8}', size => 64, attribute => 'height', range => range, edges => false, exaggeration => 1)) AS shaded,
+       bool_or(abacus_tile_picture('sheet', 0, 0, 0, world => '{0,0,8}', size => 64, attribute => 'height', range => range, edges => false, exaggeration => 1)
+             = abacus_tile_picture('sheet', 0, 0, 0, world => '{0,0,8}', size => 64, attribute => 'height', range => range, edges => false)) AS flat
+FROM (VALUES ('{100,200}'::float8[]), ('{1e9,1e300}')) AS r (range);
 SELECT abacus_tile_vector('sheet', 0, 0, 0, world => '{0,0}');
 SELECT abacus_tile_vector('sheet', 0, 0, 0, world => '{0,0,-8}');
 SELECT abacus_tile_vector('sheet', 0, 0, 0, world => '{0,0,Infinity}');

@@ -185,6 +185,12 @@ typedef struct abacus_host
 	int tiny_intervals;
 	/* Bytes that threads may have in all; 0 = any number. For tests, as if memory ran out. */
 	size_t most_thread_bytes;
+
+	/*
+	 * At least `bytes` are about to be written to spools, and will be there at one time. Fails if
+	 * there is no room for them, so that nothing is written in vain.
+	 */
+	abacus_host_status (*spool_expect)(void *context, double bytes);
 } abacus_host;
 
 /*

@@ -13,7 +13,7 @@ CREATE FUNCTION abacus_cells_geom(
     OUT geom geometry,
     OUT "values" double precision[])
 RETURNS SETOF record
-LANGUAGE sql STABLE PARALLEL SAFE
+LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT c.code, c.v0, c.v1, c.v2, c.v3, _abacus_cell(c.corners, c."values", f.attribute_number, f.srid), c."values"
     FROM _abacus_facts(mesh, attribute) AS f,
@@ -31,7 +31,7 @@ CREATE FUNCTION abacus_vertices_geom(
     OUT attributes double precision[],
     OUT vertex bigint)
 RETURNS SETOF record
-LANGUAGE sql STABLE PARALLEL SAFE
+LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT v.id, _abacus_point(v.x, v.y, v.z, f.srid), v.attributes, v.vertex
     FROM _abacus_facts(mesh, NULL) AS f, abacus_vertices(mesh) AS v
@@ -53,7 +53,7 @@ CREATE FUNCTION abacus_edges_geom(
     OUT length double precision,
     OUT geom geometry)
 RETURNS SETOF record
-LANGUAGE sql STABLE PARALLEL SAFE
+LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT e.v0, e.v1, e.length, _abacus_line(e.path, f.dimension, f.srid)
     FROM _abacus_facts(mesh, NULL) AS f,
@@ -76,7 +76,7 @@ CREATE FUNCTION abacus_contours_geom(
     OUT value double precision,
     OUT geom geometry)
 RETURNS SETOF record
-LANGUAGE sql STABLE PARALLEL SAFE
+LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT c.id, c.value, _abacus_line(c.path, 2, f.srid)
     FROM _abacus_facts(mesh, NULL) AS f,
@@ -103,7 +103,7 @@ CREATE FUNCTION abacus_profile_geom(
     OUT value double precision,
     OUT geom geometry)
 RETURNS SETOF record
-LANGUAGE sql STABLE PARALLEL SAFE
+LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT p.distance, p.value, _abacus_point(p.x, p.y, p.z, f.srid)
     FROM _abacus_facts(mesh, NULL) AS f, abacus_profile(mesh, _abacus_path(mesh, line), attribute, max_edge) AS p;
@@ -120,7 +120,7 @@ CREATE FUNCTION abacus_voronoi_geom(
     OUT volume double precision,
     OUT geom geometry)
 RETURNS SETOF record
-LANGUAGE sql STABLE PARALLEL SAFE
+LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT v.vertex, v.bounded, v.area, v.volume, _abacus_polygon(v.ring, 2, f.srid)
     FROM _abacus_facts(mesh, NULL) AS f,
@@ -139,7 +139,7 @@ CREATE FUNCTION abacus_voronoi_facets_geom(
     OUT size double precision,
     OUT geom geometry)
 RETURNS SETOF record
-LANGUAGE sql STABLE PARALLEL SAFE
+LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT v.vertex, v.neighbour, v.bounded, v.size,
            CASE f.dimension WHEN 2 THEN _abacus_line(v.ring, 2, f.srid) ELSE _abacus_polygon(v.ring, 3, f.srid) END
@@ -192,7 +192,7 @@ CREATE FUNCTION abacus_isosurface_geom(
     OUT geom geometry,
     OUT "values" double precision[])
 RETURNS SETOF record
-LANGUAGE sql STABLE PARALLEL SAFE
+LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT s.v0, s.v1, s.v2, _abacus_triangles(s.corners, f.srid), s."values"
     FROM _abacus_facts(mesh, NULL) AS f,
@@ -212,7 +212,7 @@ CREATE FUNCTION abacus_section_geom(
     OUT geom geometry,
     OUT "values" double precision[])
 RETURNS SETOF record
-LANGUAGE sql STABLE PARALLEL SAFE
+LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT s.code, _abacus_polygon(s.polygon, 3, f.srid), s."values"
     FROM _abacus_facts(mesh, NULL) AS f,

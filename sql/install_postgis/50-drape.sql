@@ -25,7 +25,7 @@ CREATE FUNCTION abacus_clip(
     OUT whole boolean,
     OUT geom geometry)
 RETURNS SETOF record
-LANGUAGE sql STABLE PARALLEL SAFE
+LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT p.code, p.v0, p.v1, p.v2, p.whole,
            CASE WHEN p.whole THEN _abacus_cell(p.corners, p."values", p.attribute_number, p.srid)

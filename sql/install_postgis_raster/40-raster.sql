@@ -1,7 +1,8 @@
 -- A mesh as a raster of PostGIS.
 
 -- The values of a raster whose rows go down and whose columns go right, as abacus_raster has them, and of
--- any other one pixel by pixel: an array of rows.
+-- any other one pixel by pixel: an array of rows. The planner, which does not know the raster, takes it for a million
+-- pixels; compiling the expressions for these would take longer than most rasters do.
 CREATE FUNCTION _abacus_pixels(
     mesh regclass,
     template raster,
@@ -10,7 +11,7 @@ CREATE FUNCTION _abacus_pixels(
     outside text,
     max_edge double precision)
 RETURNS double precision[]
-LANGUAGE sql STABLE PARALLEL SAFE COST 1000000
+LANGUAGE sql STABLE PARALLEL SAFE COST 1000000 SET jit = off
 RETURN CASE
     WHEN ST_SkewX(template) = 0 AND ST_SkewY(template) = 0 AND ST_ScaleX(template) > 0 AND ST_ScaleY(template) < 0 THEN
         (SELECT array_agg(r."values" ORDER BY r."row")

@@ -1,6 +1,6 @@
 #include "draw/camera.hpp"
 
-#include "draw/products.hpp"
+#include "draw/arithmetic.hpp"
 
 #include <algorithm>
 #include <cmath>

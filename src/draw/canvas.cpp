@@ -46,10 +46,11 @@ double area_of(const Patch &p) {
     return 0.5 * twice;
 }
 
-/// The value of a patch as a function of the position.
+/// What a patch has at its corners as a function of the position.
 class Ramp {
 public:
-    explicit Ramp(const Patch &p) : start_{p.corner[0][0], p.corner[0][1]}, at_start_(p.value[0]) {
+    Ramp(const Patch &p, const double (&value)[Patch::most])
+        : start_{p.corner[0][0], p.corner[0][1]}, at_start_(value[0]) {
         // Three corners tell all of it; the largest triangle tells it best.
         int c = 2;
         for (int i = 3; i < p.corners; ++i)
@@ -58,11 +59,11 @@ public:
         const double scale = 1 / p.turn(0, b, c);
         const double ux = p.corner[b][0] - start_[0], uy = p.corner[b][1] - start_[1];
         const double wx = p.corner[c][0] - start_[0], wy = p.corner[c][1] - start_[1];
-        const double du = p.value[b] - at_start_, dw = p.value[c] - at_start_;
+        const double du = value[b] - at_start_, dw = value[c] - at_start_;
         slope_[0] = (du * wy - dw * uy) * scale;
         slope_[1] = (dw * ux - du * wx) * scale;
-        low_ = *std::min_element(p.value, p.value + p.corners);
-        high_ = *std::max_element(p.value, p.value + p.corners);
+        low_ = *std::min_element(value, value + p.corners);
+        high_ = *std::max_element(value, value + p.corners);
     }
     /// Pixels on the outline, whose centres may lie outside, stay within the values of
     /// the corners.
@@ -79,14 +80,16 @@ private:
 /// A value far beyond the range stays far, but differences and products stay finite.
 double bounded(double value) { return std::fmin(std::fmax(value, -1e30), 1e30); }
 
+/// The same of a height, which has no range.
+double bounded_height(double value) { return std::fmin(std::fmax(value, -1e270), 1e270); }
+
 // Shares below the resolution of the coverage must not be blown up to a patch.
 constexpr double most_density = 1e6;
 
 } // namespace
 
 std::int32_t Canvas::margin_of(const abacus_drawing &drawing) {
-    const bool is_shaded = drawing.attribute >= 0 && drawing.exaggeration != 0;
-    return is_shaded ? Relief::reach : 2; // half of a line, and what it is off by
+    return is_shaded(drawing) ? Relief::reach : 2; // half of a line, and what it is off by
 }
 
 Canvas::Canvas(const Host &host, const abacus_drawing &drawing, double low, double high,
@@ -94,7 +97,7 @@ Canvas::Canvas(const Host &host, const abacus_drawing &drawing, double low, doub
     : host_(&host), drawing_(Extent(drawing).drawing()), low_(low), high_(high), margin_(margin),
       width_(drawing_.width + 2 * margin), height_(drawing_.height + 2 * margin),
       frame_(drawing_, margin), range_(low, high), raster_(host, width_, height_), pixels_(host),
-      contours_(host) {
+      contours_(host), heights_(host) {
     const bool has_contours = drawing_.contour_interval > 0 && has_values();
     if (has_contours && !((high / 2 - low / 2) / drawing_.contour_interval < most_contours / 2))
         throw Error(ABACUS_ERROR_ARGUMENT, "contours are too close to one another",
@@ -104,22 +107,26 @@ Canvas::Canvas(const Host &host, const abacus_drawing &drawing, double low, doub
     const std::size_t all = static_cast<std::size_t>(width_) * height_;
     pixels_.reserve(all);
     if (has_contours) contours_.reserve(all);
+    if (is_shaded()) heights_.reserve(all);
     for (std::int32_t y = 0; y < height_; ++y) {
         host_->poll();
         std::fill_n(pixels_.extend(width_), width_, Pixel{});
         if (has_contours) std::fill_n(contours_.extend(width_), width_, 0.0f);
+        if (is_shaded()) std::fill_n(heights_.extend(width_), width_, 0.0);
     }
 }
 
 inline void Canvas::deposit(std::int32_t x, std::int32_t y, double covered, double count,
-                            double value, double ink) {
-    Pixel &pixel = pixels_[static_cast<std::size_t>(y) * width_ + x];
-    value = std::clamp(value, 0.0, 1.0); // NaN stays
+                            Shown shown, double ink) {
+    const std::size_t at = static_cast<std::size_t>(y) * width_ + x;
+    Pixel &pixel = pixels_[at];
+    const double value = std::clamp(shown.value, 0.0, 1.0); // NaN stays
     pixel.covered += static_cast<float>(covered);
     pixel.count += static_cast<float>(count);
     if (value == value) {
         pixel.valued += static_cast<float>(covered);
         pixel.value += static_cast<float>(covered * value);
+        if (!heights_.empty()) heights_[at] += covered * shown.height;
     }
     pixel.ink += static_cast<float>(ink);
 }
@@ -141,10 +148,13 @@ void Canvas::add(const Patch &patch) {
     if (!(right > 0 && left < width_ && bottom > 0 && top < height_)) return;
     if (!contours_.empty() && has_value) contour(p, patch.value);
 
-    double mean = 0;
+    Shown mean{0, 0};
+    double heights[Patch::most];
     for (int i = 0; i < p.corners; ++i) {
         p.value[i] = !has_value ? NAN : low_ < high_ ? bounded(range_(patch.value[i])) : 0.5;
-        mean += p.value[i] / p.corners;
+        heights[i] = has_value ? bounded_height(patch.value[i]) : 0;
+        mean.value += p.value[i] / p.corners;
+        mean.height += heights[i] / p.corners;
     }
     const double area = area_of(p);
     // In huge meshes, most patches lie within one pixel.
@@ -155,7 +165,7 @@ void Canvas::add(const Patch &patch) {
                 drawing_.edges ? area * edge_tone(0) : 0);
         return;
     }
-    fill(p, area, p.spacing > 0 ? density(p.spacing) : std::min(1 / area, most_density));
+    fill(p, heights, area, p.spacing > 0 ? density(p.spacing) : std::min(1 / area, most_density));
 }
 
 double Canvas::density(double spacing) const {
@@ -165,16 +175,18 @@ double Canvas::density(double spacing) const {
     return density < most_density ? density : most_density; // also where there is no number
 }
 
-void Canvas::fill(const Patch &patch, double area, double density) {
+void Canvas::fill(const Patch &patch, const double (&heights)[Patch::most], double area,
+                  double density) {
     const double radius = 2 * area / perimeter(patch);
     const bool is_outlined = drawing_.edges && radius > tone_radius;
     if (is_outlined) outline(patch, edge_width(radius));
     if (!(area > 0)) return;
 
     const double tone = drawing_.edges && !is_outlined ? edge_tone(radius) : 0;
-    const Ramp value(patch);
+    const Ramp value(patch, patch.value), height(patch, heights);
     raster_.fill(patch, [&](std::int32_t x, std::int32_t y, double covered) {
-        deposit(x, y, covered, covered * density, value(x + 0.5, y + 0.5), covered * tone);
+        const Shown shown{value(x + 0.5, y + 0.5), height(x + 0.5, y + 0.5)};
+        deposit(x, y, covered, covered * density, shown, covered * tone);
     });
 }
 
@@ -224,7 +236,7 @@ bool Canvas::is_blank() const {
     return true;
 }
 
-Png Canvas::png(const Palette &palette, double unit) const {
+Png Canvas::png(const Palette &palette, double unit) {
     Picture picture = drawing_.attribute >= 0 ? values(palette) : mesh();
     if (drawing_.attribute >= 0 && drawing_.legend != nullptr && has_values())
         add_legend(picture, palette, low_, high_, drawing_.legend);

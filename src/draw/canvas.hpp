@@ -50,7 +50,8 @@ public:
     bool is_blank() const;
     /// The picture of all patches so far; `palette` gives the colours of values. `unit` is the unit
     /// of coordinates in which a scale bar tells lengths.
-    Png png(const Palette &palette, double unit = 1) const;
+    /// Once: the heights are used up.
+    Png png(const Palette &palette, double unit = 1);
 
 private:
     /// Sums over the shares of a pixel that patches cover.
@@ -58,27 +59,39 @@ private:
         float covered; // the shares themselves
         float count;   // ... in patches: share of the patch in this pixel
         float valued;  // the shares of patches with values
-        float value;   // ... times value, as a fraction of the range
+        float value;   // ... times value, as a fraction of the range; beyond it that of its end
         float ink;     // share under edges
     };
 
-    /// Both take the patch in pixels, with values as fractions of the range.
-    void fill(const Patch &patch, double area, double density);
+    /// What a patch has at a place.
+    struct Shown {
+        double value;  // as a fraction of the range; NaN: none
+        double height; // the value itself
+    };
+
+    /// Both take the patch in pixels, with values as fractions of the range; `heights` are the
+    /// values themselves.
+    void fill(const Patch &patch, const double (&heights)[Patch::most], double area,
+              double density);
     void outline(const Patch &patch, double width);
     /// Draws the contours of a patch; its values are not fractions here.
     void contour(const Patch &pixels, const double (&values)[Patch::most]);
     /// Patches a pixel where vertices are this far apart.
     double density(double spacing) const;
-    void deposit(std::int32_t x, std::int32_t y, double covered, double count, double value,
+    void deposit(std::int32_t x, std::int32_t y, double covered, double count, Shown shown,
                  double ink);
 
     bool has_values() const { return low_ <= high_; }
+    bool is_shaded() const { return is_shaded(drawing_) && low_ < high_; }
+    static bool is_shaded(const abacus_drawing &drawing) {
+        return drawing.attribute >= 0 && drawing.exaggeration != 0;
+    }
     /// Place of a pixel of the picture among all.
     std::size_t index(std::int32_t x, std::int32_t y) const {
         return static_cast<std::size_t>(y + margin_) * width_ + (x + margin_);
     }
-    void raise(Relief &relief) const;
-    Picture values(const Palette &palette) const;
+    Relief relief();
+    Picture values(const Palette &palette);
     Picture mesh() const;
 
     const Host *host_;
@@ -91,6 +104,7 @@ private:
     Raster raster_;
     Arena<Pixel> pixels_;
     Arena<float> contours_; // shares of pixels under them; empty if there are none
+    Arena<double> heights_; // shares of patches with values, times the value; empty unless shaded
 };
 
 } // namespace abacus

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace abacus {
 
@@ -131,32 +132,30 @@ Picture Canvas::mesh() const {
     return picture;
 }
 
-void Canvas::raise(Relief &relief) const {
+/// Of the values themselves, whatever the range of the colours is.
+Relief Canvas::relief() {
+    Arena<float> spacings(*host_);
+    spacings.resize(heights_.size());
     const Pixel *pixel = pixels_.begin();
-    for (std::int32_t y = 0; y < height_; ++y) {
-        host_->poll();
-        for (std::int32_t x = 0; x < width_; ++x, ++pixel) {
-            const bool is_land = pixel->valued > least_covered;
-            relief.height(x, y) = is_land ? pixel->value / pixel->valued : NAN;
-            // Two triangles a vertex.
-            relief.spacing(x, y) = is_land ? std::sqrt(2 * pixel->covered / pixel->count) : 0;
-        }
+    for (std::size_t i = 0; i < heights_.size(); ++i, ++pixel) {
+        if (i % static_cast<std::size_t>(width_) == 0) host_->poll();
+        const bool is_land = pixel->valued > least_covered;
+        heights_[i] = is_land ? heights_[i] / pixel->valued : NAN;
+        // Two triangles a vertex.
+        spacings[i] = is_land ? std::sqrt(2 * pixel->covered / pixel->count) : 0;
     }
-    relief.smooth();
+    const double rise[2] = {drawing_.exaggeration * frame_.pixels_per_unit(0),
+                            drawing_.exaggeration * frame_.pixels_per_unit(1)};
+    return {*host_, width_, std::move(heights_), std::move(spacings), rise, drawing_.light};
 }
 
-Picture Canvas::values(const Palette &palette) const {
+Picture Canvas::values(const Palette &palette) {
     const Color unknown = color(0xcfccc6);
     const Color ink = color(0x1c2a2c);
     const Finish finish(color(0xf4f1ea), drawing_.transparent != 0);
     Picture picture(*host_, drawing_.width, drawing_.height, drawing_.transparent != 0);
-    std::optional<Relief> relief;
-    if (drawing_.exaggeration != 0 && low_ < high_) {
-        const double rise = (high_ - low_) * drawing_.exaggeration;
-        relief.emplace(*host_, width_, height_, rise * frame_.pixels_per_unit(0),
-                       rise * frame_.pixels_per_unit(1), drawing_.light);
-        raise(*relief);
-    }
+    std::optional<Relief> shading;
+    if (is_shaded()) shading.emplace(relief());
     for (std::int32_t y = 0; y < drawing_.height; ++y) {
         host_->poll();
         const Pixel *pixel = &pixels_[index(0, y)];
@@ -167,7 +166,7 @@ Picture Canvas::values(const Palette &palette) const {
                 if (pixel->valued > least_covered)
                     tint = mix(unknown, palette(pixel->value / pixel->valued),
                                std::min(pixel->valued / pixel->covered, 1.0f));
-                if (relief) tint = tint * relief->light(x + margin_, y + margin_);
+                if (shading) tint = tint * shading->light(x + margin_, y + margin_);
                 tint = mix(tint, ink, 0.5f * opacity(pixel->ink));
                 if (!contours_.empty())
                     tint = mix(tint, ink, 0.8f * opacity(contours_[index(x, y)]));

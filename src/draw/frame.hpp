@@ -34,7 +34,7 @@ struct Patch {
 };
 
 /// Largest width and height, and the most pixels of a picture: each pixel takes
-/// 24 bytes while it is drawn, 8 more with hill shading, 4 more with contours; a margin counts,
+/// 24 bytes while it is drawn, 12 more with hill shading, 4 more with contours; a margin counts,
 /// too.
 inline constexpr std::int32_t max_side = 16384;
 inline constexpr std::int64_t max_pixels = std::int64_t{1} << 25;

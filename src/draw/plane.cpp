@@ -1,6 +1,6 @@
 #include "draw/plane.hpp"
 
-#include "draw/products.hpp"
+#include "draw/arithmetic.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,12 +21,6 @@ Point<3> along(const Point<3> &direction, const Point<3> &normal) {
     const double off = dot(direction, normal);
     return of_length_1({direction[0] - off * normal[0], direction[1] - off * normal[1],
                         direction[2] - off * normal[2]});
-}
-
-/// An infinite or undefined length becomes a large one.
-double finite(double x) {
-    constexpr double most = std::numeric_limits<double>::max();
-    return std::fmin(std::fmax(x, -most), most);
 }
 
 } // namespace

@@ -1,7 +1,12 @@
 #include "draw/relief.hpp"
 
+#include "draw/arithmetic.hpp"
+
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 namespace abacus {
 
@@ -15,11 +20,11 @@ constexpr float sky_share = 0.34f;
 constexpr double most_smoothing = 16; // pixels
 constexpr int passes = 3;
 
-bool is_height(float h) { return h == h; }
+bool is_height(double h) { return h == h; }
 
 /// Steeper than any picture can tell; its square is still a float.
-float bounded_rise(double rise) {
-    return static_cast<float>(std::fmin(std::fmax(rise, -1e12), 1e12));
+float bounded_slope(double slope) {
+    return static_cast<float>(std::fmin(std::fmax(slope, -1e12), 1e12));
 }
 
 /// Share that a pixel takes over from its neighbour, by the spacing of the vertices: from a table,
@@ -48,19 +53,18 @@ private:
 
 } // namespace
 
-Relief::Relief(const Host &host, std::int32_t width, std::int32_t height_in_pixels, double rise_x,
-               double rise_y, const double (&light)[2])
-    : host_(&host), width_(width), height_(height_in_pixels), rise_x_(bounded_rise(rise_x)),
-      rise_y_(bounded_rise(rise_y)), heights_(host), spacings_(host) {
-    const auto pixels = static_cast<std::size_t>(width) * height_in_pixels;
-    heights_.resize(pixels);
-    spacings_.resize(pixels);
+Relief::Relief(const Host &host, std::int32_t width, Arena<double> heights, Arena<float> spacings,
+               const double (&rise)[2], const double (&light)[2])
+    : host_(&host), width_(width), height_(static_cast<std::int32_t>(heights.size() / width)),
+      rise_x_(finite(rise[0])), rise_y_(finite(rise[1])), heights_(std::move(heights)),
+      spacings_(std::move(spacings)) {
     const bool is_given = light[1] > 0;
     const double azimuth = (is_given ? light[0] : 315) * (std::numbers::pi / 180);
     const double altitude = (is_given ? light[1] : 45) * (std::numbers::pi / 180);
     sun_east_ = static_cast<float>(std::sin(azimuth) * std::cos(altitude));
     sun_north_ = static_cast<float>(std::cos(azimuth) * std::cos(altitude));
     sun_up_ = static_cast<float>(std::sin(altitude));
+    smooth();
 }
 
 void Relief::smooth() {
@@ -80,7 +84,7 @@ void Relief::smooth() {
     }
 }
 
-template <class Weight> void Relief::run(Arena<float> &field, Weight &&weight) {
+template <class Number, class Weight> void Relief::run(Arena<Number> &field, Weight &&weight) {
     const auto feed = [&](std::size_t p, std::size_t q) {
         if (!is_height(heights_[p]) || !is_height(heights_[q])) return;
         const float w = weight(p, q);
@@ -101,20 +105,21 @@ template <class Weight> void Relief::run(Arena<float> &field, Weight &&weight) {
     }
 }
 
-float Relief::slope(std::size_t at, std::ptrdiff_t step, bool before, bool after) const {
-    const float here = heights_[at];
+float Relief::slope(std::size_t at, std::ptrdiff_t step, bool before, bool after,
+                    double rise) const {
+    const double here = heights_[at];
     before = before && is_height(heights_[at - step]);
     after = after && is_height(heights_[at + step]);
-    const float from = before ? heights_[at - step] : here;
-    const float to = after ? heights_[at + step] : here;
-    return before && after ? (to - from) * 0.5f : to - from;
+    const double from = before ? heights_[at - step] : here;
+    const double to = after ? heights_[at + step] : here;
+    return bounded_slope((before && after ? (to - from) * 0.5 : to - from) * rise);
 }
 
 Color Relief::light(std::int32_t x, std::int32_t y) const {
     const std::size_t at = index(x, y);
     if (!is_height(heights_[at])) return {1, 1, 1};
-    const float east = rise_x_ * slope(at, 1, x > 0, x + 1 < width_);
-    const float south = rise_y_ * slope(at, width_, y > 0, y + 1 < height_);
+    const float east = slope(at, 1, x > 0, x + 1 < width_, rise_x_);
+    const float south = slope(at, width_, y > 0, y + 1 < height_, rise_y_);
     const float up = 1 / std::sqrt(1 + east * east + south * south);
     const float sun =
         std::max(0.0f, (sun_up_ - sun_east_ * east + sun_north_ * south) * up) / sun_up_;

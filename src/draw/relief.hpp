@@ -18,20 +18,14 @@ namespace abacus {
 
 class Relief {
 public:
-    /// `height` is NaN where there is none; `spacing` is the distance between
-    /// vertices, in pixels. One row after the other, top row first. `rise_x` and
-    /// `rise_y` turn a difference of neighbouring pixels' heights into a slope.
-    /// `light`: as that of a drawing.
-    Relief(const Host &host, std::int32_t width, std::int32_t height_in_pixels, double rise_x,
-           double rise_y, const double (&light)[2]);
+    /// `heights` are NaN where there is none; `spacings` are the distances between vertices, in
+    /// pixels. One row of `width` after the other, top row first. `rise` turns a difference of
+    /// neighbouring pixels' heights into a slope, along x and y. `light`: as that of a drawing.
+    Relief(const Host &host, std::int32_t width, Arena<double> heights, Arena<float> spacings,
+           const double (&rise)[2], const double (&light)[2]);
 
     /// Pixels from which on others do not change the light of one, as far as can be seen.
     static constexpr std::int32_t reach = 96;
-
-    float &height(std::int32_t x, std::int32_t y) { return heights_[index(x, y)]; }
-    float &spacing(std::int32_t x, std::int32_t y) { return spacings_[index(x, y)]; }
-
-    void smooth();
 
     /// Light that falls on a pixel; flat ground gives white.
     Color light(std::int32_t x, std::int32_t y) const;
@@ -40,14 +34,17 @@ private:
     std::size_t index(std::int32_t x, std::int32_t y) const {
         return static_cast<std::size_t>(y) * width_ + x;
     }
-    template <class Weight> void run(Arena<float> &field, Weight &&weight);
-    float slope(std::size_t at, std::ptrdiff_t step, bool before, bool after) const;
+    void smooth();
+    template <class Number, class Weight> void run(Arena<Number> &field, Weight &&weight);
+    /// Between the pixels before and after one, which are `step` away.
+    float slope(std::size_t at, std::ptrdiff_t step, bool before, bool after, double rise) const;
 
     const Host *host_;
     std::int32_t width_, height_;
-    float rise_x_, rise_y_;
+    double rise_x_, rise_y_;
     float sun_east_, sun_north_, sun_up_;
-    Arena<float> heights_, spacings_;
+    Arena<double> heights_;
+    Arena<float> spacings_;
 };
 
 } // namespace abacus

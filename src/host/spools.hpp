@@ -30,6 +30,11 @@ public:
     void spool_close(void *spool) const {
         host::require(table_->spool_close(table_->context, spool));
     }
+    /// At least so many bytes are about to be written, and will be there at one time; throws if
+    /// there is no room for them.
+    void spool_expect(double bytes) const {
+        if (bytes > 0) host::require(table_->spool_expect(table_->context, bytes));
+    }
 
 private:
     const abacus_host *table_;

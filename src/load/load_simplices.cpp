@@ -20,6 +20,7 @@ template <int D> Key Load<D>::key_of(const std::array<const Word *, D + 1> &vert
 
 template <int D> void Load<D>::assemble() {
     begin(flanks_, LoadLayout<D>::flank(D), D + 1);
+    flanks_->expect(static_cast<double>(simplex_count_) * (D + 1));
     begin_labels();
     Arena<Word> corners(host_);
     corners.resize((D + 1) * layout_.vertex);
@@ -100,6 +101,7 @@ template <int D> void Load<D>::link() {
 
 template <int D> void Load<D>::find_boundary() {
     begin(elements_, layout_.element, split_count_ > 0 ? 2 + 2 * (D + 1) : 2);
+    elements_->expect(static_cast<double>(simplex_count_));
     begin(boundary_, layout_.boundary, 2);
     LinkReader<D> links(*links_);
     Word simplex = 0;

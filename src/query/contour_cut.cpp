@@ -42,7 +42,7 @@ Point<2> ContourEdge::crossing(double level) const {
 }
 
 ContourCorner meet(const ContourEdge &edge, int side, const ContourWindow &window,
-                   ContourLevels &levels) {
+                   const ContourLevels &levels) {
     const int axis = ContourWindow::axis(side), other = 1 - axis;
     const double bound = window.bound(side);
     const double t = share((*edge.a)[axis], (*edge.b)[axis], bound);
@@ -57,7 +57,7 @@ ContourCorner meet(const ContourEdge &edge, int side, const ContourWindow &windo
     return corner;
 }
 
-bool clip(const ContourEdge &edge, const ContourWindow &window, ContourLevels &levels,
+bool clip(const ContourEdge &edge, const ContourWindow &window, const ContourLevels &levels,
           ContourCorner &from, ContourCorner &to) {
     for (int side = 0; side < 4 && window.is_bounded(); ++side) {
         const bool has_from = window.is_inside(from.place, side),

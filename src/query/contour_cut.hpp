@@ -111,10 +111,10 @@ struct ContourCorner {
 
 /// Where an edge meets a side: one of its ends must be inside, the other not.
 ContourCorner meet(const ContourEdge &edge, int side, const ContourWindow &window,
-                   ContourLevels &levels);
+                   const ContourLevels &levels);
 
 /// The part in the window of an edge, in the direction of these corners; false if there is none.
-bool clip(const ContourEdge &edge, const ContourWindow &window, ContourLevels &levels,
+bool clip(const ContourEdge &edge, const ContourWindow &window, const ContourLevels &levels,
           ContourCorner &from, ContourCorner &to);
 
 /// Calls put(piece) for each piece of a straight line from one corner to another along which bands
@@ -136,19 +136,24 @@ void cut_into_bands(const ContourCorner &from, const ContourCorner &to, Crossing
 
 class ContourCut {
 public:
-    ContourCut(const ContourWindow &window, ContourLevels &levels, bool bands)
+    ContourCut(const ContourWindow &window, const ContourLevels &levels, bool bands)
         : window_(window), levels_(levels), bands_(bands) {}
 
     /// Takes a triangle in positive orientation; false if it has no inside in the window.
     bool take(const ContourCorners &corners, const std::array<double, 3> &values,
               const std::array<std::int64_t, 3> &ranks);
-    /// Calls put(piece) for each of its pieces.
-    template <class Put> void each(Put put) const {
+    /// The least and the greatest rank in the window.
+    ContourRanks ranks() const {
         std::int64_t least = polygon_[0].rank, greatest = least;
         for (int i = 1; i < size_; ++i) {
             least = std::min(least, polygon_[i].rank);
             greatest = std::max(greatest, polygon_[i].rank);
         }
+        return {least, greatest};
+    }
+    /// Calls put(piece) for each of its pieces.
+    template <class Put> void each(Put put) const {
+        const auto [least, greatest] = ranks();
         for (std::int64_t level = least + 1; level <= greatest; ++level) cross(level, put);
         if (!bands_ || !is_cut_) return;
         for (int i = 0; i < size_; ++i)
@@ -193,7 +198,7 @@ private:
     Point<2> crossing_at_side(int i, std::int64_t level) const;
 
     const ContourWindow &window_;
-    ContourLevels &levels_;
+    const ContourLevels &levels_;
     const bool bands_;
     ContourCorners corners_{};
     std::array<double, 3> values_{};

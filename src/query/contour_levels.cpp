@@ -8,20 +8,18 @@
 
 namespace abacus {
 
-std::int64_t ContourLevels::rank(double value) {
-    const std::int64_t rank =
-        how_.fixed_count > 0
-            ? std::upper_bound(how_.fixed, how_.fixed + how_.fixed_count, value) - how_.fixed - 1
-            : multiple_below(value);
-    if (!has_rank_) least_ = greatest_ = rank;
-    has_rank_ = true;
-    least_ = std::min(least_, rank);
-    greatest_ = std::max(greatest_, rank);
-    if (greatest_ - least_ > most)
+std::int64_t ContourLevels::rank(double value) const {
+    if (how_.fixed_count == 0) return multiple_below(value);
+    return std::upper_bound(how_.fixed, how_.fixed + how_.fixed_count, value) - how_.fixed - 1;
+}
+
+void ContourLevels::include(const ContourRanks &ranks) {
+    all_.least = std::min(all_.least, ranks.least);
+    all_.greatest = std::max(all_.greatest, ranks.greatest);
+    if (all_.greatest - all_.least > most)
         throw Error(ABACUS_ERROR_ARGUMENT, "more than a thousand million levels are asked for",
                     "The values of the mesh are that many times level_interval apart.",
                     "Give a greater level_interval, or fixed_levels.");
-    return rank;
 }
 
 std::int64_t ContourLevels::multiple_below(double value) const {

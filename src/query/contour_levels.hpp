@@ -7,14 +7,20 @@
 
 namespace abacus {
 
+struct ContourRanks {
+    std::int64_t least, greatest;
+};
+
 class ContourLevels {
 public:
     explicit ContourLevels(const abacus_contouring &contouring) : how_(contouring) {}
 
     /// The number of the greatest level that is not above a finite value: one less than the first
-    /// if there is none. Throws if levels cannot be told apart there, and if there are more of them
-    /// between the values so far than anybody waits for.
-    std::int64_t rank(double value);
+    /// if there is none. Throws if levels cannot be told apart there.
+    std::int64_t rank(double value) const;
+    /// Contours are asked for between these. Throws if there are more levels between all of
+    /// them so far than anybody waits for.
+    void include(const ContourRanks &ranks);
     /// Of a number that is a rank; -infinity below all levels.
     double level(std::int64_t number) const;
 
@@ -24,8 +30,7 @@ private:
     std::int64_t multiple_below(double value) const;
 
     const abacus_contouring how_;
-    bool has_rank_ = false;
-    std::int64_t least_ = 0, greatest_ = 0; // ranks so far
+    ContourRanks all_{INT64_MAX, INT64_MIN}; // included so far
 };
 
 } // namespace abacus

@@ -75,6 +75,11 @@ bool ContourPieces::less(const ContourEnd &a, const ContourEnd &b) {
     return words(a) < words(b);
 }
 
+void ContourPieces::expect(double chains, double ends) const {
+    host_.spool_expect(chain_spool_.spool_bytes(chains) + point_spool_.spool_bytes(chains) +
+                       ends_.spool_bytes(ends));
+}
+
 // ---- Of a page --------------------------------------------------------------------------
 
 /// Where a piece that begins at a node is, or would be put.

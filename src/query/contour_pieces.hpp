@@ -23,6 +23,9 @@ class ContourPieces {
 public:
     ContourPieces(const Host &host, std::size_t memory);
 
+    /// At least so many chains will be joined from now on, each of them within a page, and so many
+    /// ends of them are in the window: throws if spools have no room for that.
+    void expect(double chains, double ends) const;
     /// Nodes may name points that are there until the next flush().
     void add(const ContourPiece &piece) {
         pieces_.push_back(piece);

@@ -25,7 +25,7 @@ int part_of_turn(const Point<2> &center, const Point<2> &a, const Point<2> &b) {
 
 } // namespace
 
-ContourRims::ContourRims(const Host &host, const ContourWindow &window, ContourLevels &levels,
+ContourRims::ContourRims(const Host &host, const ContourWindow &window, const ContourLevels &levels,
                          std::size_t memory)
     : window_(window), levels_(levels), edges_(host, edge_words, 2 * end_words, memory / 2),
       spokes_(host, edge_words, 2 * end_words + 1, memory / 2), arrive_(host), leave_(host) {}

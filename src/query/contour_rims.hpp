@@ -19,7 +19,7 @@ namespace abacus {
 
 class ContourRims {
 public:
-    ContourRims(const Host &host, const ContourWindow &window, ContourLevels &levels,
+    ContourRims(const Host &host, const ContourWindow &window, const ContourLevels &levels,
                 std::size_t memory);
 
     /// An edge, with the triangle to its left.
@@ -41,7 +41,7 @@ private:
                     ContourPieces &pieces) const;
 
     const ContourWindow &window_;
-    ContourLevels &levels_;
+    const ContourLevels &levels_;
     // Ends of edges: place, id.
     static constexpr std::size_t end_words = 3, edge_words = 2 * end_words + 3;
     RecordSort edges_;  // the lesser end, the greater, whether it leads there, values

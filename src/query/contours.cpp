@@ -26,7 +26,7 @@ void report_path(abacus_contour_report report, void *context, std::int64_t id, d
 // Two thirds of the memory for what is joined, the rest for the rim.
 Contours::Contours(const Host &host, const abacus_header &header, const abacus_window &window,
                    const abacus_contouring &contouring, std::size_t memory)
-    : host_(host), simplices_(header.simplices + header.ghosts), pacer_(host),
+    : host_(host), header_(header), simplices_(header.simplices + header.ghosts), pacer_(host),
       how_(checked(header, contouring)), window_(window), bounds_(window), levels_(how_),
       attribute_(&how_.attribute, 1), vertex_values_(host, header),
       pages_(host, header, window_.region()), cut_(bounds_, levels_, how_.bands != 0),
@@ -39,27 +39,49 @@ void Contours::each(abacus_contour_report report, void *context) {
 
 void Contours::read() {
     std::uint64_t seen = 0; // simplices
-    pacer_.begin(ABACUS_PHASE_SCANNING, window_.region() == nullptr ? simplices_ : 0);
+    double pieces = 0;      // so far, at most; negative: they have been counted
+    const std::uint64_t total = window_.region() == nullptr ? simplices_ : 0;
+    pacer_.begin(ABACUS_PHASE_SCANNING, total);
     while (pages_.advance()) {
-        pacer_.reached(seen += static_cast<std::uint64_t>(pages_.page().simplices()));
-        if (!read_values()) continue;
-        if (how_.bands != 0) {
-            edges_.resize(edge_slots);
-            std::fill(edges_.begin(), edges_.end(), PageEdge{});
-        }
         const Page &page = pages_.page();
-        for (int triangle = 0; triangle < page.simplices(); ++triangle)
-            if (!page.is_ghost(triangle)) read_triangle(triangle);
-        note_rims();
+        pacer_.reached(seen += static_cast<std::uint64_t>(page.simplices()));
+        if (!read_values(page)) continue;
+        if (pieces >= 0 && (pieces += most_pieces(page)) > few_pieces) {
+            count();
+            pieces = -1;
+            pacer_.begin(ABACUS_PHASE_SCANNING, total);
+            read_values(page);
+        }
+        read_page(page);
         pieces_.flush();
     }
     if (how_.bands != 0) rims_.finish(pieces_);
 }
 
-bool Contours::read_values() {
-    const Page &page = pages_.page();
-    bool differ = false;
-    int before = -1; // a vertex with a value
+void Contours::count() {
+    RangeScan<2> pages(host_, header_, window_.region());
+    double chains =
+        0; // at least: of each level in a triangle one, which others of its page may join
+    std::uint64_t seen = 0;
+    pacer_.begin(ABACUS_PHASE_SCANNING, window_.region() == nullptr ? simplices_ : 0);
+    while (pages.advance()) {
+        const Page &page = pages.page();
+        pacer_.reached(seen += static_cast<std::uint64_t>(page.simplices()));
+        if (!read_values(page)) continue;
+        std::int64_t most = 0;
+        each_triangle(page, [&](const std::array<int, 3> &) {
+            const auto [least, greatest] = include_levels();
+            most = std::max(most, greatest - least);
+        });
+        chains += static_cast<double>(most);
+    }
+    if (window_.region() != nullptr) return pieces_.expect(chains, 0);
+    if (how_.bands != 0) chains *= 2; // no side of a window joins those along both levels of a band
+    pieces_.expect(chains, 2 * chains);
+}
+
+bool Contours::read_values(const Page &page) {
+    all_ranks_ = {INT64_MAX, INT64_MIN};
     for (int v = 0; v < page.vertices(); ++v) {
         attribute_.set(0, [&](int attribute) { return vertex_values_.value(page, v, attribute); });
         values_[v] = attribute_.value(0, 0);
@@ -69,31 +91,54 @@ bool Contours::read_values() {
         }
         points_[v] = {page.point(v), page.id(v)};
         ranks_[v] = levels_.rank(values_[v]);
-        differ = differ || (before >= 0 && ranks_[v] != ranks_[before]);
-        before = v;
+        all_ranks_ = {std::min(all_ranks_.least, ranks_[v]),
+                      std::max(all_ranks_.greatest, ranks_[v])};
     }
-    return differ || how_.bands != 0;
+    return all_ranks_.least < all_ranks_.greatest || how_.bands != 0;
 }
 
-void Contours::read_triangle(int triangle) {
-    const Page &page = pages_.page();
+double Contours::most_pieces(const Page &page) const {
+    const double levels =
+        static_cast<double>(all_ranks_.greatest) - static_cast<double>(all_ranks_.least);
+    return levels > 0 ? static_cast<double>(page.simplices()) * levels : 0;
+}
+
+template <class Take> void Contours::each_triangle(const Page &page, Take take) {
     std::array<int, 3> vertices;
     std::array<double, 3> values;
     std::array<std::int64_t, 3> ranks;
-    for (int i = 0; i < 3; ++i) {
-        vertices[i] = page.corner(triangle, i);
-        values[i] = values_[vertices[i]];
-        ranks[i] = ranks_[vertices[i]];
-        if (std::isnan(values[i])) return;
+    for (int triangle = 0; triangle < page.simplices(); ++triangle) {
+        if (page.is_ghost(triangle)) continue;
+        bool has_values = true;
+        for (int i = 0; i < 3; ++i) {
+            vertices[i] = page.corner(triangle, i);
+            values[i] = values_[vertices[i]];
+            ranks[i] = ranks_[vertices[i]];
+            has_values = has_values && !std::isnan(values[i]);
+        }
+        if (!has_values) continue;
+        if (how_.bands == 0 && ranks[0] == ranks[1] && ranks[0] == ranks[2]) continue;
+        const ContourCorners corners{&points_[vertices[0]], &points_[vertices[1]],
+                                     &points_[vertices[2]]};
+        bool is_short = true;
+        for (int i = 0; how_.max_edge > 0 && i < 3; ++i)
+            is_short = is_short && is_within<2>(how_.max_edge, *corners[i], *corners[(i + 1) % 3]);
+        if (is_short && cut_.take(corners, values, ranks)) take(vertices);
     }
-    if (how_.bands == 0 && ranks[0] == ranks[1] && ranks[0] == ranks[2]) return;
-    const ContourCorners corners{&points_[vertices[0]], &points_[vertices[1]],
-                                 &points_[vertices[2]]};
-    for (int i = 0; how_.max_edge > 0 && i < 3; ++i)
-        if (!is_within<2>(how_.max_edge, *corners[i], *corners[(i + 1) % 3])) return;
-    if (!cut_.take(corners, values, ranks)) return;
-    cut_.each([this](const ContourPiece &piece) { pieces_.add(piece); });
-    for (int i = 0; how_.bands != 0 && i < 3; ++i) note_edge(vertices[i], vertices[(i + 1) % 3]);
+}
+
+void Contours::read_page(const Page &page) {
+    if (how_.bands != 0) {
+        edges_.resize(edge_slots);
+        std::fill(edges_.begin(), edges_.end(), PageEdge{});
+    }
+    each_triangle(page, [&](const std::array<int, 3> &vertices) {
+        include_levels();
+        cut_.each([this](const ContourPiece &piece) { pieces_.add(piece); });
+        for (int i = 0; how_.bands != 0 && i < 3; ++i)
+            note_edge(vertices[i], vertices[(i + 1) % 3]);
+    });
+    note_rims();
 }
 
 void Contours::note_edge(int from, int to) {

@@ -1,8 +1,9 @@
 // Lines of equal value in a mesh of the plane, and the bands between them.
 //
-// The pages of the window are read once. Each triangle is cut into pieces (contour_cut.hpp), and
-// these are joined (contour_pieces.hpp). A triangle counts that has a finite value at each corner
-// and no edge too long.
+// The pages of the window are read. Each triangle is cut into pieces (contour_cut.hpp), and
+// these are joined (contour_pieces.hpp). A small interval makes any number of them, so unless they
+// are few they are counted first, in a reading of their own. A triangle counts that has a finite
+// value at each corner and no edge too long.
 #pragma once
 
 #include "query/contour_pieces.hpp"
@@ -33,15 +34,32 @@ private:
     static constexpr std::size_t edge_slots = 4 * page_vertices<2>;
 
     void read();
+    /// Throws if there are too many levels, or too many lines for spools.
+    void count();
     /// Reads the values of a page's vertices; false if no line can be there.
-    bool read_values();
-    void read_triangle(int triangle);
+    bool read_values(const Page &page);
+    /// At least as many pieces as the page has whose values have been read.
+    double most_pieces(const Page &page) const;
+    /// Cuts triangles of the page whose values have been read, and calls take(corners) for each of
+    /// which something is left.
+    template <class Take> void each_triangle(const Page &page, Take take);
+    void read_page(const Page &page);
+    /// Those of the triangle that has been cut.
+    ContourRanks include_levels() {
+        const ContourRanks ranks = cut_.ranks();
+        levels_.include(ranks);
+        return ranks;
+    }
     void note_edge(int from, int to);
     void note_rims();
     void report_lines(abacus_contour_report report, void *context);
     void report_bands(abacus_contour_report report, void *context);
 
+    // Up to here they are not counted first.
+    static constexpr double few_pieces = 512;
+
     const Host &host_;
+    const abacus_header &header_;   // as long as all is read
     const std::uint64_t simplices_; // of the mesh, ghosts included
     Pacer pacer_;
     const abacus_contouring how_;
@@ -57,7 +75,8 @@ private:
     std::array<ContourPoint, page_vertices<2>> points_; // of the page's vertices
     std::array<double, page_vertices<2>> values_;       // of the page's vertices; NaN: not finite
     std::array<std::int64_t, page_vertices<2>> ranks_;
-    Arena<PageEdge> edges_; // of the page, hashed
+    ContourRanks all_ranks_{0, 0}; // of them
+    Arena<PageEdge> edges_;        // of the page, hashed
 };
 
 } // namespace abacus

@@ -48,6 +48,7 @@ NumberedVertices<D>::NumberedVertices(const Host &host, const abacus_header &hea
     : vertex_values_(host, header), key_(key_words<D>(header)),
       named_(host, 1 + D + 1 + static_cast<unsigned>(page_attributes(header)), key_, memory),
       left_(header.vertices), current_(host), apart_(host) {
+    named_.expect(static_cast<double>(header.vertices)); // most are named by several pages
     name_vertices<D>(host, header, [&](const PageView<D> &page, int v) {
         std::uint64_t *const name = named_.add(), *rest = name + 1 + D;
         *rest++ = static_cast<std::uint64_t>(page.id(v)) ^ sign;
@@ -91,6 +92,7 @@ NumberedSimplices<D>::NumberedSimplices(const Host &host, const abacus_header &h
                                         std::size_t memory)
     : domain_(domain_of<D>(header)), ranks_(host, key_words<D>(header), memory),
       pages_(host, header), numbers_(host) {
+    ranks_.expect(static_cast<double>(header.vertices));
     name_vertices<D>(host, header, [&](const PageView<D> &, int) { return ranks_.add(); });
     if (ranks_.finish() != header.vertices) throw_corrupted(other_vertex_count);
 }

@@ -78,6 +78,7 @@ void Outline<3>::add(std::array<Corner, 3> corners, std::uint32_t part) {
 }
 
 void Outline<3>::find_hull(const Host &host, const abacus_header &header, Reader<3> &reader) {
+    triangles_.expect(static_cast<double>(header.ghosts));
     PageFlood<3> flood(host, header);
     flood.reach(reader.cache().lower(hull_ghost<3>(reader)));
     while (flood.advance()) {

@@ -110,6 +110,27 @@ template <int D> template <class Visit> void Reader<D>::search(const Point<D> &p
     });
 }
 
+template <int D> PageSearch<D> &Reader<D>::page_search() {
+    if (!search_) {
+        search_.emplace(cache_.host(), cache_.vertices().attribute_count(), budget_ / 4);
+        cache_.set_budget(budget_ - std::min(budget_, search_->bytes()));
+    }
+    return *search_;
+}
+
+template <int D>
+template <class Visit>
+void Reader<D>::search_near(const Point<D> &p, Visit visit) {
+    bool go_on = true;
+    search_pages(p, [&](const Key &page) -> std::optional<Key> {
+        const Key next =
+            page_search().near(page, {p, p}, [&](const PageView<D> &view, int simplex) {
+                go_on = go_on && visit(view, simplex);
+            });
+        return go_on ? std::optional(next) : std::nullopt;
+    });
+}
+
 template <int D> std::uint64_t Reader<D>::pages_with(const std::uint64_t *vertex) {
     const Point<D> p = record_point<D>(vertex);
     const VertexHeap<D> &heap = cache_.vertices();
@@ -139,14 +160,10 @@ template <int D> std::uint64_t Reader<D>::pages_with(const std::uint64_t *vertex
 template <int D>
 bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values,
                              double max_edge) {
-    if (!search_) {
-        search_.emplace(cache_.host(), cache_.vertices().attribute_count(), budget_ / 4);
-        cache_.set_budget(budget_ - std::min(budget_, search_->bytes()));
-    }
     bool found = false;
     is_search_ = true;
     search_pages(p, [&](const Key &page) -> std::optional<Key> {
-        return search_->around(page, p, [&](const PageView<D> &view, int number, int position) {
+        return page_search().around(page, p, [&](const PageView<D> &view, int number, int position) {
             abacus_simplex other;
             abacus::describe(view, number, cache_.domain(), other);
             if (!found || is_preferred<D>(other, simplex, max_edge))
@@ -327,15 +344,34 @@ bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
     return true;
 }
 
-template <int D> std::optional<std::int64_t> Reader<D>::vertex_at(const Point<D> &p) {
-    Handle h = no_handle;
+template <int D>
+void Reader<D>::star(const Point<D> &p, const std::function<void(const abacus_simplex &)> &visit) {
     if (delaunay_)
-        h = find(p, cache_.domain().code(p));
-    else
-        search(p, [&](Handle found) {
-            h = found;
-            return false;
+        return containing(p, [&](Handle h) {
+            abacus_simplex simplex;
+            describe(h, simplex);
+            visit(simplex);
         });
+    search_near(p, [&](const PageView<D> &view, int number) {
+        if (in_simplex<D>(corners_of(view, number), p) < 0) return true;
+        abacus_simplex simplex;
+        abacus::describe(view, number, cache_.domain(), simplex);
+        visit(simplex);
+        return true;
+    });
+}
+
+template <int D> std::optional<std::int64_t> Reader<D>::vertex_at(const Point<D> &p) {
+    if (!delaunay_) {
+        std::optional<std::int64_t> id;
+        search_near(p, [&](const PageView<D> &view, int simplex) {
+            for (int i = 0; i <= D && !id; ++i)
+                if (const int v = view.corner(simplex, i); view.point(v) == p) id = view.id(v);
+            return !id;
+        });
+        return id;
+    }
+    const Handle h = find(p, cache_.domain().code(p));
     if (h == no_handle) return std::nullopt;
     const Simplex<D> &s = cache_.simplex(h);
     for (int i = 0; i < s.finite_vertices(); ++i) {

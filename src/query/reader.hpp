@@ -119,6 +119,11 @@ private:
     template <class Visit> void search(const Point<D> &p, Visit visit);
     /// As in_simplex(); every point is outside of a ghost.
     int position(Handle h, const Point<D> &p) const;
+    /// The same in the pages themselves: visit(page, simplex, position) for every simplex near p,
+    /// all that contain it among them, until one returns false.
+    template <class Visit> void search_near(const Point<D> &p, Visit visit);
+    /// What is held of pages, once needed; the cache gets less then.
+    PageSearch<D> &page_search();
     /// The first of all simplices that contain p, of those in the pages themselves.
     bool search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values,
                       double max_edge);

@@ -9,15 +9,6 @@ void Reader<D>::describe(std::uint64_t code, const std::int64_t *ids, abacus_sim
 }
 
 template <int D>
-void Reader<D>::star(const Point<D> &p, const std::function<void(const abacus_simplex &)> &visit) {
-    containing(p, [&](Handle h) {
-        abacus_simplex simplex;
-        describe(h, simplex);
-        visit(simplex);
-    });
-}
-
-template <int D>
 void Reader<D>::neighbours(std::uint64_t code, const std::int64_t *ids, std::uint32_t steps,
                            const std::function<void(const abacus_simplex &)> &visit) {
     Arena<std::uint32_t> steps_to(cache_.host()); // those that the flood has met, in its order
@@ -38,10 +29,6 @@ void Reader<D>::neighbours(std::uint64_t code, const std::int64_t *ids, std::uin
 
 template void Reader<2>::describe(std::uint64_t, const std::int64_t *, abacus_simplex &);
 template void Reader<3>::describe(std::uint64_t, const std::int64_t *, abacus_simplex &);
-template void Reader<2>::star(const Point<2> &,
-                              const std::function<void(const abacus_simplex &)> &);
-template void Reader<3>::star(const Point<3> &,
-                              const std::function<void(const abacus_simplex &)> &);
 template void Reader<2>::neighbours(std::uint64_t, const std::int64_t *, std::uint32_t,
                                     const std::function<void(const abacus_simplex &)> &);
 template void Reader<3>::neighbours(std::uint64_t, const std::int64_t *, std::uint32_t,

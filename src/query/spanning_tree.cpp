@@ -38,7 +38,9 @@ SpanningTree<D>::SpanningTree(const Host &host, const abacus_header &header, std
     {
         LightEdges<D> light(host, header, cache_bytes);
         RecordSort ends(host_, end_words, D + 2, share_);
-        rank(light, ends);
+        // As many as join all places of vertices.
+        rank(light, ends,
+             static_cast<double>(header.vertices) - static_cast<double>(header.split) - 1);
         number(ends);
         ends.close();
     }
@@ -47,9 +49,12 @@ SpanningTree<D>::SpanningTree(const Host &host, const abacus_header &header, std
     this->report(report);
 }
 
-template <int D> void SpanningTree<D>::rank(LightEdges<D> &edges, RecordSort &ends) {
+template <int D>
+void SpanningTree<D>::rank(LightEdges<D> &edges, RecordSort &ends, double least) {
     // Of vertices at one place, which count as one, the ids tell which edge comes first.
     RecordSort by_length(host_, length_words, length_words, share_);
+    host_.spool_expect(by_length.spool_bytes(least) + ends.spool_bytes(2 * least) +
+                       details_.spool_bytes(least));
     edges.each([&](const typename LightEdges<D>::Edge &edge) {
         std::uint64_t *const record = by_length.add();
         const LengthKey key = length_key<D>(edge.point[0], edge.point[1]);

@@ -54,8 +54,8 @@ private:
     // Of an edge reported: ids, length.
     static constexpr std::size_t detail_words = 3;
 
-    /// Ranks edges: fills details_ by rank, and `ends`.
-    void rank(LightEdges<D> &edges, RecordSort &ends);
+    /// Ranks edges: fills details_ by rank, and `ends`. There are at least `least` of them.
+    void rank(LightEdges<D> &edges, RecordSort &ends, double least);
     /// Numbers the vertices along the curve, and lists the edges by rank.
     void number(RecordSort &ends);
     /// Makes vertices, and edges, fewer.

@@ -15,6 +15,8 @@ public:
     /// Keys of so many words, compared one after the other as unsigned numbers.
     DenseRanks(const Host &host, std::size_t key, std::size_t memory);
 
+    /// At least so many names will be added: throws if spools have no room for them.
+    void expect(double names) const { names_.expect(names); }
     /// Room for the key of one more name, to be filled before the next call.
     std::uint64_t *add();
     /// Ends adding; returns how many different keys there are.

@@ -156,6 +156,10 @@ void RecordSort::merge_level(unsigned level) {
     std::size_t first = runs_.size();
     while (first > 0 && runs_[first - 1].level == level) --first;
     if (runs_.size() - first < fan_in_) return;
+    double merging = 0; // records, which are there twice until all are merged
+    for (std::size_t i = first; i < runs_.size(); ++i)
+        merging += static_cast<double>(runs_[i].spool.size());
+    host_.spool_expect(merging * record_bytes());
     open(first);
     Run merged{Spool(), level + 1, 0, 0};
     Arena<std::uint64_t> output(host_);

@@ -34,6 +34,14 @@ public:
         return grow() + count_++ * stride_;
     }
     std::uint64_t size() const { return size_; }
+    /// That so many records take in spools: none if memory has room for them.
+    double spool_bytes(double records) const {
+        return records > static_cast<double>(room_) ? records * record_bytes() : 0;
+    }
+    /// At least so many records will be added in all: throws if spools have no room for them.
+    void expect(double records) const {
+        if (in_memory()) host_.spool_expect(spool_bytes(records));
+    }
 
     /// Ends adding; next() then gives the records in order.
     void finish();
@@ -52,6 +60,7 @@ private:
     };
 
     bool in_memory() const { return runs_.empty(); }
+    double record_bytes() const { return static_cast<double>(stride_ * sizeof(std::uint64_t)); }
     std::uint64_t *grow() {
         if ((count_ + 1) * stride_ > records_.size()) [[unlikely]]
             records_.resize(std::min(room_, std::max<std::size_t>(2 * count_, 64)) * stride_);

@@ -21,6 +21,11 @@ public:
         if (count_ == piece_) flush();
         return words_.data() + count_++ * stride_;
     }
+    /// That so many records take in the file: none if memory has room for them.
+    double spool_bytes(double records) const {
+        return records > static_cast<double>(piece_) ? records * 8 * static_cast<double>(stride_)
+                                                     : 0;
+    }
     /// Ends adding, or goes back to the first record.
     void rewind() {
         if (writing_ && spool_.size() > 0 && count_ > 0) flush();

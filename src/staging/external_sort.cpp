@@ -188,6 +188,8 @@ Arena<Part<D>> ExternalSort<D>::cut(Spool *spools, std::size_t n, const Slice<D>
                                     bool report) {
     std::uint64_t records = 0;
     for (std::size_t i = 0; i < n; ++i) records += spools[i].size();
+    // Of a spool that is read the room is given back at its end.
+    if (n == 1) host_.spool_expect(static_cast<double>(records * stride_ * sizeof(std::uint64_t)));
     Distributor<D> distributor(host_, stride_, budget_.piece, slice, sample_,
                                parts_for(records, slice));
     records_.reset();

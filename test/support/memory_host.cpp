@@ -15,7 +15,7 @@ void MemoryHost::Page::assign(const unsigned char *bytes, std::size_t new_size) 
 
 std::uint64_t MemoryHost::Calls::fallible() const {
     return poll + progress + find + fetch + next + put + erase + spool_create + spool_write +
-           spool_rewind + spool_read + spool_close;
+           spool_rewind + spool_read + spool_close + spool_expect;
 }
 
 void MemoryHost::restore(const MemoryHost &other) {
@@ -270,6 +270,14 @@ struct MemoryHost::Functions {
         return ABACUS_HOST_OK;
     }
 
+    static abacus_host_status spool_expect(void *context, double bytes) {
+        MemoryHost &host = self(context);
+        if (!host.enter(host.calls.spool_expect)) return ABACUS_HOST_FAILED;
+        host.expected_bytes = std::max(host.expected_bytes, bytes);
+        host.failed = bytes > host.spool_room;
+        return host.failed ? ABACUS_HOST_FAILED : ABACUS_HOST_OK;
+    }
+
     static abacus_host_status spool_close(void *context, void *spool) {
         MemoryHost &host = self(context);
         if (!host.enter(host.calls.spool_close)) return ABACUS_HOST_FAILED;
@@ -297,6 +305,7 @@ MemoryHost::MemoryHost() {
     table_.spool_rewind = Functions::spool_rewind;
     table_.spool_read = Functions::spool_read;
     table_.spool_close = Functions::spool_close;
+    table_.spool_expect = Functions::spool_expect;
 }
 
 MemoryHost::~MemoryHost() { recover(); }

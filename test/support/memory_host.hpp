@@ -51,7 +51,7 @@ public:
         std::uint64_t resize = 0, poll = 0, progress = 0;
         std::uint64_t find = 0, fetch = 0, next = 0, put = 0, erase = 0;
         std::uint64_t spool_create = 0, spool_write = 0, spool_rewind = 0, spool_read = 0,
-                      spool_close = 0;
+                      spool_close = 0, spool_expect = 0;
 
         /// All but resize(): those that fail_at() counts.
         std::uint64_t fallible() const;
@@ -100,6 +100,7 @@ public:
     std::size_t bytes = 0; ///< handed out by resize() and not yet given back
     std::size_t peak_bytes = 0;
     std::size_t spooled_bytes = 0;
+    double spool_room = 1e300, expected_bytes = 0; // at most, by one call of spool_expect
     std::size_t peak_spools = 0;
     abacus_progress last_progress{};
     bool failed = false; ///< a fallible call has failed; only resize() may follow

@@ -1,6 +1,7 @@
 # abacus_build on a full disk: what is committed stays, and with room again
 # the next call goes on. ABACUS_SMALL_DISK names an empty folder on a file
 # system of about 14 MB (scripts/test.sh mounts one).
+# Then temporary files for which there is no room.
 use strict;
 use warnings;
 
@@ -25,9 +26,9 @@ sub inserted
 sql("CREATE EXTENSION abacus; CREATE EXTENSION amcheck;
 	CREATE TABLESPACE small LOCATION '$disk';
 	CREATE TABLE points AS
-	SELECT i AS id, random() AS x, random() AS y FROM generate_series(1, 800000) AS i");
+	SELECT i AS id, random() AS x, random() AS y, (i * 7 % 1000) / 1000.0 AS h FROM generate_series(1, 800000) AS i");
 sql("SELECT abacus_triangulate('once', 'TABLE points')");
-sql("SELECT abacus_create('field', 2)");
+sql("SELECT abacus_create('field', 2, attributes => '{h}')");
 sql("SELECT abacus_stage('field', 'TABLE points')");
 sql("ALTER TABLE field SET TABLESPACE small; ALTER INDEX field_pkey SET TABLESPACE small");
 
@@ -49,6 +50,23 @@ is(inserted(), 800_000, 'with room it ends');
 is( sql("SELECT count(*) FROM (SELECT v0, v1, v2 FROM abacus_simplices('field') EXCEPT
 			SELECT v0, v1, v2 FROM abacus_simplices('once')) AS other"),
 	0, 'with the same simplices as built at once');
+
+# What temporary files will take is counted where that can be, and refused before any is written.
+sub refused
+{
+	my ($query) = @_;
+	my ($status, $out, $err) = $node->psql('postgres', "SET temp_tablespaces = small; $query",
+		extra_params => [ '-v', 'VERBOSITY=verbose' ]);
+	like($err, qr/ERROR:  53400: temporary files would take more than the \d+ MB free on the disk/, $query);
+}
+refused("SELECT count(*) FROM abacus_contours('once', 1e-6, attribute => 'h')");
+refused("SELECT count(*) FROM abacus_contours('once', 1e-6, attribute => 'h', polygonize => true)");
+refused("SELECT count(*) FROM abacus_spanning_tree('once')");
+refused("SELECT count(*) FROM abacus_numbered_vertices('once')");
+refused("SELECT count(*) FROM abacus_numbered_simplices('once')");
+is(sql("SELECT count(*) FROM pg_ls_tmpdir((SELECT oid FROM pg_tablespace WHERE spcname = 'small'))"), 0, 'no file is left');
+cmp_ok(sql("SET temp_tablespaces = small; SELECT count(*) FROM abacus_contours('once', 0.1, attribute => 'h', lower => '{0.5,0.5}', upper => '{0.52,0.52}')"),
+	'>', 0, 'what has room is done');
 
 sql('DROP TABLE field; DROP TABLESPACE small');
 $node->stop;

@@ -100,6 +100,30 @@ TEST(Light, ComesFromWhereItIsSaid) {
     EXPECT_EQ(usual, lit(315, 45, east));
 }
 
+TEST(Light, DoesNotDependOnTheRangeOfTheColours) {
+    abacus_drawing drawing = square(64);
+    const auto with = [&](double low, double high, double exaggeration) {
+        drawing.range[0] = low;
+        drawing.range[1] = high;
+        drawing.exaggeration = exaggeration;
+        return draw(drawing, east);
+    };
+    // All values are beyond the range, and get the colour of its end.
+    const Image flat = with(2, 3, 0), hills = with(2, 3, 1);
+    EXPECT_GT(difference(flat(32, 32), hills(32, 32)), 20);
+    for (const double low : {5.0, 1e9, 1e250}) {
+        const Image other = with(low, low * 2, 1);
+        for (int x = 0; x < 64; ++x) EXPECT_EQ(other(x, 32), hills(x, 32)) << low << " " << x;
+    }
+    // ... in a range so wide that they have one colour, and beyond it at both ends.
+    EXPECT_GT(difference(with(-1e12, 1e12, 0)(32, 32), with(-1e12, 1e12, 1)(32, 32)), 20);
+    for (const double half : {1e-3, 1e-300}) {
+        const Image ends = with(0.5 - half, 0.5 + half, 1), bare = with(0.5 - half, 0.5 + half, 0);
+        EXPECT_GT(difference(ends(10, 32), bare(10, 32)), 20) << half;
+        EXPECT_GT(difference(ends(54, 32), bare(54, 32)), 20) << half;
+    }
+}
+
 TEST(Contours, AreWhereTheValueIs) {
     abacus_drawing drawing = square(100);
     drawing.range[1] = 2; // none of the mesh has the values above 1

@@ -490,7 +490,7 @@ TEST_F(Draw, MemoryDependsOnThePictureAlone) {
     for (const Patch &t : grid(200, [](double x, double) { return x; })) canvas.add(t);
     EXPECT_EQ(memory.bytes, bytes);
     canvas.png(Palette::terrain());
-    EXPECT_LE(memory.peak_bytes, 100u * 100 * 32 + 100000);
+    EXPECT_LE(memory.peak_bytes, 100u * 100 * 36 + 100000);
 }
 
 TEST_F(Draw, EveryWayOutReleasesItsMemory) {

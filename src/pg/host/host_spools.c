@@ -6,6 +6,7 @@
 #include "pg/host/guard.h"
 #include "pg/host/host_parts.h"
 #include "pg/host/spool.h"
+#include "pg/host/temp_room.h"
 
 static abacus_host_status
 host_spool_create(void *context, void **spool)
@@ -63,6 +64,17 @@ host_spool_close(void *context, void *spool)
 	return ABACUS_HOST_OK;
 }
 
+static abacus_host_status
+host_spool_expect(void *context, double bytes)
+{
+	Host	   *host = context;
+
+	GUARD_BEGIN();
+	temp_room_require(bytes);
+	GUARD_END(host);
+	return ABACUS_HOST_OK;
+}
+
 void
 host_spools_init(Host *host)
 {
@@ -71,4 +83,5 @@ host_spools_init(Host *host)
 	host->table.spool_rewind = host_spool_rewind;
 	host->table.spool_read = host_spool_read;
 	host->table.spool_close = host_spool_close;
+	host->table.spool_expect = host_spool_expect;
 }

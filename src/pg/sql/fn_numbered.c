@@ -9,6 +9,7 @@
 #include "abacus/arrays.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/host/temp_room.h"
 #include "pg/mesh/reader.h"
 #include "pg/sql/result.h"
 
@@ -46,6 +47,10 @@ begin(FunctionCallInfo fcinfo, bool of_simplices)
 
 	InitMaterializedSRF(fcinfo, 0);
 	reader = reader_open(mesh, CurrentMemoryContext);
+	/* number, id and coordinates; or code and numbers */
+	temp_room_require_rows(of_simplices ? (double) reader->header.simplices
+						   : (double) reader->header.vertices,
+						   (2 + (int) reader->header.dimension) * (int) sizeof(Datum));
 	progress_begin(&reader->host->progress, mesh);
 	host_run(reader->host, abacus_numbered_open, &reader->host->table, &reader->header,
 			 of_simplices, setting_query_sort_bytes(), &numbered);

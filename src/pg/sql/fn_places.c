@@ -8,6 +8,7 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
+#include "pg/host/temp_room.h"
 #include "pg/sql/answers.h"
 #include "pg/sql/places.h"
 #include "pg/sql/result.h"
@@ -62,6 +63,7 @@ abacus_sql_locate_places(PG_FUNCTION_ARGS)
 	answers.host = read.host;
 	answers.dimension = read.dimension;
 	answers_have_arrays(&answers, read.header->labels);
+	temp_room_require_rows((double) read.count, (int) sizeof(Datum));
 	host_run(read.host, abacus_places_locate, read.places, put_answer, &answers);
 	places_done(&read);
 	PG_RETURN_NULL();

@@ -9,6 +9,7 @@
 #include "abacus/shape.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/host/temp_room.h"
 #include "pg/mesh/reader.h"
 #include "pg/sql/answers.h"
 
@@ -48,6 +49,8 @@ abacus_sql_spanning_tree(PG_FUNCTION_ARGS)
 	InitMaterializedSRF(fcinfo, 0);
 	reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
 	host = answers.host = reader->host;
+	temp_room_require_rows((double) reader->header.vertices - (double) reader->header.split - 1,
+						   EDGE_COLUMNS * (int) sizeof(Datum));
 	progress_begin(&host->progress, PG_GETARG_OID(0));
 	host_run(host, abacus_spanning_tree, &host->table, &reader->header, setting_query_sort_bytes(),
 			 setting_cache_bytes(), put_edge, &answers);

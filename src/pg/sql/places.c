@@ -25,6 +25,7 @@ places_open(PlacesRead *read, Oid mesh, uint32 type, const char *query)
 	read->header = &reader->header;
 	read->places = NULL;
 	read->octants = NULL;
+	read->count = 0;
 	progress_begin(&read->host->progress, mesh);
 }
 
@@ -63,6 +64,7 @@ places_fetch(PlacesRead *read)
 		begin_places(read);
 	while ((count = source_fetch(&read->source, &records)) > 0)
 	{
+		read->count += count;
 		if (read->octants != NULL)
 			host_run(read->host, abacus_octree_places_add, read->octants, records, count);
 		else

@@ -22,6 +22,7 @@ typedef struct PlacesRead
 	const abacus_header *header;
 	abacus_places *places;		/* of a mesh */
 	abacus_octree_places *octants;	/* of an octree */
+	uint64		count;			/* places */
 } PlacesRead;
 
 extern void places_open(PlacesRead *read, Oid mesh, uint32 type, const char *query);
