@@ -43,5 +43,4 @@ bool Cache<D>::append(const Key &lower, const Key &upper, const LooseSimplex<D> 
     return this->end_appended(b);
 }
 
-
 } // namespace abacus

@@ -66,5 +66,4 @@ template <int D> const char *Cache<D>::check_invariants(bool forged) const {
     return check_vertices();
 }
 
-
 } // namespace abacus

@@ -189,5 +189,4 @@ template <int D> bool Cache<D>::leads_to(const Key &link, Handle h) const {
     return link.part == unknown_part || link.part == 0 || link.part == part(slots_[h]);
 }
 
-
 } // namespace abacus

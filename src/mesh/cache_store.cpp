@@ -146,5 +146,4 @@ template <int D> EncodedPage Cache<D>::encode_page(BlockIndex b) {
     return {writer_.bytes(), writer_.size(), fits};
 }
 
-
 } // namespace abacus

@@ -190,5 +190,4 @@ template <int D> bool Cache<D>::probe_every_page(Handle h, int facet) {
     return false;
 }
 
-
 } // namespace abacus

@@ -168,5 +168,4 @@ template <int D> bool Check<D>::Together::check_topology() {
     return true;
 }
 
-
 } // namespace abacus

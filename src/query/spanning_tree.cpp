@@ -49,8 +49,7 @@ SpanningTree<D>::SpanningTree(const Host &host, const abacus_header &header, std
     this->report(report);
 }
 
-template <int D>
-void SpanningTree<D>::rank(LightEdges<D> &edges, RecordSort &ends, double least) {
+template <int D> void SpanningTree<D>::rank(LightEdges<D> &edges, RecordSort &ends, double least) {
     // Of vertices at one place, which count as one, the ids tell which edge comes first.
     RecordSort by_length(host_, length_words, length_words, share_);
     host_.spool_expect(by_length.spool_bytes(least) + ends.spool_bytes(2 * least) +
