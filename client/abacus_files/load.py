@@ -5,6 +5,7 @@ import io
 import numpy
 
 from . import psql
+from .arrays import unlike
 from .psql import Failed, literal, statement
 
 MATERIAL = "material"
@@ -19,7 +20,7 @@ def script(mesh, found, retriangulate, split_nodes):
     axes = "xyz"[: found.dimension]
     attributes = [f"a{n}" for n in range(len(found.names))]
     corners = [f"v{n}" for n in range(found.dimension + 1)]
-    labels = [MATERIAL] if found.materials is not None else []
+    labels = unlike([MATERIAL], found.names) if found.materials is not None else []
     yield "BEGIN;\n"
     yield table("abacus_import_points", ["id bigint", *(f"{name} float8" for name in (*axes, *attributes))])
     for n, id_ in enumerate(found.ids.tolist()):

@@ -9,6 +9,7 @@ from .arrays import unlike
 from .grid import SIMPLICES, SMALL
 from .psql import Failed
 
+NAME_BYTES = 63
 READERS = {suffix: module for module in (read_2dm, read_msh, read_obj, read_off, read_ply, read_tetgen, read_vtu) for suffix in module.suffixes}
 
 
@@ -56,7 +57,15 @@ class Input:
         if self.dimension == 2 and grid.points.shape[1] == 3 and numpy.any(grid.points[:, 2] != 0):
             found.append(("z", grid.points[:, 2]))
         found += [(name, values.astype(float)) for name, values in grid.data.items() if name != "id" or grid.ids is not None]
-        return unlike([name or "_" for name, _ in found], ()), [values for _, values in found]
+        return unlike([self.short(name) for name, _ in found], ()), [values for _, values in found]
+
+    def short(self, name):
+        """A name that an attribute may have: 1 to 63 bytes."""
+        if len(name.encode()) <= NAME_BYTES:
+            return name or "_"
+        cut = name.encode()[: NAME_BYTES - 3].decode(errors="ignore")  # leaves room for a _ or three
+        self.notes.append(f"the name {name} is too long, and cut to {cut}")
+        return cut
 
     def facets_of(self, grid, kind):
         """Marked facets of the simplices, each once, by places of their corners."""

@@ -113,6 +113,23 @@ class Piece:
                 raise Failed(f"a {kind} names a point that its piece does not have")
 
 
+def merged(points, data, cells, piece):
+    """Points of several pieces at one place become that of the first; what one piece has twice is left to abacus_load. `piece`: whose they are."""
+    _, first, place = numpy.unique(points + 0.0, axis=0, return_index=True, return_inverse=True)  # -0 is 0
+    first = first[place.reshape(-1)]
+    shared = piece[first] != piece
+    if not shared.any():
+        return points, data, cells, []
+    notes = [f"{shared.sum()} points that several pieces have were taken once"]
+    differ = [name for name, values in data.items() if not numpy.array_equal(values[shared].astype(float), values[first[shared]].astype(float), equal_nan=True)]
+    if differ:
+        notes.append(f"these points differ from piece to piece in {', '.join(differ)}; those of the first piece were taken")
+    target = numpy.where(shared, first, numpy.arange(len(points)))
+    kept = numpy.flatnonzero(~shared)
+    return points[kept], {name: values[kept] for name, values in data.items()}, {
+        kind: numpy.searchsorted(kept, target[corners]) for kind, corners in cells.items()}, notes
+
+
 def joined(pieces, keep_apart):
     """One grid of them. A point that several pieces have is one, unless vertices at one place are to be kept apart."""
     names = [name for name in pieces[0].data if all(name in piece.data for piece in pieces)]
@@ -123,16 +140,7 @@ def joined(pieces, keep_apart):
              for kind in dict.fromkeys(kind for piece in pieces for kind in piece.cells)}
     notes = []
     if len(pieces) > 1 and not keep_apart:
-        _, first, place = numpy.unique(points + 0.0, axis=0, return_index=True, return_inverse=True)  # -0 is 0
-        place = place.reshape(-1)
-        of = numpy.repeat(numpy.arange(len(pieces)), numpy.diff(begins))
-        shared = of[first[place]] != of  # what one piece has twice is left to abacus_load
-        target = numpy.where(shared, first[place], numpy.arange(len(points)))
-        kept = numpy.flatnonzero(~shared)
-        cells = {kind: numpy.searchsorted(kept, target[corners]) for kind, corners in cells.items()}
-        points, data = points[kept], {name: values[kept] for name, values in data.items()}
-        if shared.any():
-            notes.append(f"{shared.sum()} points that several pieces have were taken once")
+        points, data, cells, notes = merged(points, data, cells, numpy.repeat(numpy.arange(len(pieces)), numpy.diff(begins)))
     ghosts = sum(piece.ghosts for piece in pieces)
     if ghosts:
         notes.append(f"{ghosts} ghost cells, which other pieces have, are left out")

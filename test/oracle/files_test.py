@@ -159,7 +159,8 @@ class Files(unittest.TestCase):
         self.assertEqual({f["properties"]["depth"] is None for f in features}, {True, False})
 
     def test_geojson_has_no_infinite_numbers(self):
-        abacus.psql("SELECT abacus_triangulate('files_infinite', 'VALUES (1, 0, 0, ''Infinity''::float8, 1e308), (2, 4, 0, 1, 1e308), (3, 0, 3, 2, 1e308)', attributes => '{a,b}')")
+        abacus.psql("SELECT abacus_triangulate('files_infinite', "
+                    "'VALUES (1, 0, 0, ''Infinity''::float8, 1e308), (2, 4, 0, 1, 1e308), (3, 0, 3, 2, 1e308)', attributes => '{a,b}')")
         done = run("abacus-export", "files_infinite", self.at / "i.geojsonl")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         text = (self.at / "i.geojsonl").read_text()
@@ -220,7 +221,8 @@ class Files(unittest.TestCase):
         """Every value comes back under its name: 200 points and 5 attributes, which meshio mixes up; names that SQL would fold or cut, and z beside z."""
         names = ["z", "a b", 'say "it\'s"', "ä" * 31, "\\"]
         listed = "ARRAY[" + ", ".join("$a$" + name + "$a$" for name in names) + "]"
-        abacus.psql("SELECT abacus_triangulate('files_many', 'SELECT i, (i * 0.7548776662466927) % 1, (i * 0.5698402909980532) % 1, i + 1000, i + 2000, i + 3000, i + 4000, i + 5000 "
+        abacus.psql("SELECT abacus_triangulate('files_many', 'SELECT i, (i * 0.7548776662466927) % 1, (i * 0.5698402909980532) % 1, "
+                    "i + 1000, i + 2000, i + 3000, i + 4000, i + 5000 "
                     f"FROM generate_series(1, 200) AS i', attributes => {listed})")
         for options, wanted in ((), names), (("--z", "z"), ["z", "z_", *names[1:]]):
             abacus.psql("DROP TABLE IF EXISTS files_again, files_again_vertices")
@@ -229,7 +231,8 @@ class Files(unittest.TestCase):
             self.assertEqual([name for name, in abacus.rows("SELECT name FROM abacus_attributes('files_again') ORDER BY position")], wanted)
             first = len(wanted) - 4
             self.assertEqual(abacus.rows("SELECT count(*) FROM abacus_vertices('files_many') AS a JOIN abacus_vertices('files_again') AS b USING (id, x, y) "
-                                         f"WHERE a.attributes[1] = b.attributes[1] AND a.attributes[1] = b.attributes[{first}] AND a.attributes[2:5] = b.attributes[{first + 1}:{first + 4}]"), [["200"]])
+                                         f"WHERE a.attributes[1] = b.attributes[1] AND a.attributes[1] = b.attributes[{first}] "
+                                         f"AND a.attributes[2:5] = b.attributes[{first + 1}:{first + 4}]"), [["200"]])
 
     def test_gmsh(self):
         """Ids, materials and markers as Gmsh has them; with --retriangulate there are none, which is said."""
@@ -249,7 +252,8 @@ class Files(unittest.TestCase):
         self.assertIn("same coordinates", run("abacus-import", file, "files_fault_again").stderr)
         done = run("abacus-import", "--split-nodes", file, "files_fault_again")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(abacus.rows("SELECT count(*) FROM abacus_cells('files_fault') AS a JOIN abacus_cells('files_fault_again') AS b USING (v0, v1, v2, corners, \"values\")"), [["4"]])
+        self.assertEqual(abacus.rows("SELECT count(*) FROM abacus_cells('files_fault') AS a JOIN abacus_cells('files_fault_again') AS b "
+                                     "USING (v0, v1, v2, corners, \"values\")"), [["4"]])
 
     def test_of_meshio(self):
         """Gmsh, TetGen, PLY and VTU as meshio writes them."""
@@ -264,7 +268,8 @@ class Files(unittest.TestCase):
             self.check_import(self.at / f"w{suffix}", "files_again", self.plane, 2)
 
     def sessions(self, text):
-        return [state for state, in abacus.rows(f"SELECT state FROM pg_stat_activity WHERE query LIKE '%{text}%' AND pid <> pg_backend_pid() AND state <> 'idle'")]
+        return [state for state, in abacus.rows("SELECT state FROM pg_stat_activity "
+                                                f"WHERE query LIKE '%{text}%' AND pid <> pg_backend_pid() AND state <> 'idle'")]
 
     def wait(self, condition):
         until = time.monotonic() + 100  # on a busy machine

@@ -138,6 +138,7 @@ class Import(unittest.TestCase):
         self.assert_mesh(found, [[0, 0], [4, 0], [0, 3], [4, 3]], [[0, 1, 2], [1, 3, 2]])
         self.assertEqual(found.values[0].tolist(), [1, 1, 1, 2])
         self.assertIn("2 points that several pieces have", found.notes[0])
+        self.assertIn("differ from piece to piece in h", found.notes[1])
         self.assertEqual(len(self.read(path, keep_apart=True).points), 6)
         self.assertEqual(len(self.read(self.file("apart.vtu", vtu_of(first, piece_of(2, ((4, 0), (4, 3), (0, 3)), 9)))).simplices), 2)
 
@@ -146,7 +147,8 @@ class Import(unittest.TestCase):
         for old, new, said in (("0 1 2<", "0 1 3<", "names a point that its piece does not have"), ("0 1 2<", "0 1<", "offsets of cells end at 3"),
                                ("0 1 2<", "0 -1 2<", "names a point"), ('NumberOfPoints="3"', 'NumberOfPoints="4"', "has 9 numbers, but 4 times 3"),
                                ('NumberOfCells="1"', 'NumberOfCells="2"', "has 1 numbers, but 2 times 1"), ("</Cells>", "", "no XML, or cut off"),
-                               (">5<", ">9<", "quad"), (">5<", ">22<", "triangle6"), (">5<", ">99<", "type 99"), (' format="ascii">1 1 1', ' format="odd">1', "format odd")):
+                               (">5<", ">9<", "quad"), (">5<", ">22<", "triangle6"), (">5<", ">99<", "type 99"),
+                               (' format="ascii">1 1 1', ' format="odd">1', "format odd")):
             self.refused("wrong.vtu", vtu_of(piece).replace(old, new, 1), said)
         self.refused("wrong.vtu", vtu_of(), "has no piece")
         self.refused("wrong.vtu", vtu_of(piece).replace("UnstructuredGrid", "PolyData"), "no unstructured grid")
@@ -183,8 +185,8 @@ class Import(unittest.TestCase):
         for head in "OFF\n4 2 0\n", "OFF 4 2 0\n", "# made by hand\nCOFF\n4 2\n":
             colours = points.replace("0\n", "0 1 0 0 1\n") if head.startswith("#") else points
             self.assert_mesh(self.read(self.file("m.off", head + colours + "3 0 1 2\n3 1 3 2 255 0 0\n")), [[0, 0], [4, 0], [0, 3], [4, 3]], CELLS)
-        for faces, said in (("3 0 1 2\n3 0 2 -1\n", "corner -1"), ("3 0 1 2\n3 0 2 4\n", "corner 4"), ("3 0 1 2\n", "ends after 5 lines"), ("3 0 1 2\n3 0 1\n", "fewer corners"),
-                            ("3 0 1 2\n4 0 1 3 2\n", "quad")):
+        for faces, said in (("3 0 1 2\n3 0 2 -1\n", "corner -1"), ("3 0 1 2\n3 0 2 4\n", "corner 4"), ("3 0 1 2\n", "ends after 5 lines"),
+                            ("3 0 1 2\n3 0 1\n", "fewer corners"), ("3 0 1 2\n4 0 1 3 2\n", "quad")):
             self.refused("n.off", "OFF\n4 2 0\n" + points + faces, said)
         self.refused("n.off", "", "does not begin with OFF")
         self.refused("n.off", "OFF\n", "does not say how many")
@@ -205,7 +207,8 @@ class Import(unittest.TestCase):
 
     def test_2dm(self):
         for text, said in (("MESH2D\n", "no nodes"), ("MESH2D\nND 1 0 0 0\n", "no triangles"), ("ND 1 0 0 0\nE3T 1 1 2 3 1\n", "names point 2"),
-                           ("ND 1 0 0\nE3T 1 1 1 1 1\n", "cut off"), ("ND 1 0 0 0\nE3T 1 1 2\n", "cut off"), ("ND 1 0 0 0\nND 1 1 0 0\nE3T 1 1 1 1 1\n", "two points have the number 1"),
+                           ("ND 1 0 0\nE3T 1 1 1 1 1\n", "cut off"), ("ND 1 0 0 0\nE3T 1 1 2\n", "cut off"),
+                           ("ND 1 0 0 0\nND 1 1 0 0\nE3T 1 1 1 1 1\n", "two points have the number 1"),
                            ("ND 1 0 0 0\nE4Q 1 1 1 1 1 1\n", "E4Q")):
             self.refused("m.2dm", text, said)
 
@@ -240,10 +243,13 @@ class Import(unittest.TestCase):
         self.assertEqual(found.ids.tolist(), [20, 10, 40, 30])
         self.assert_mesh(found, [[1, 0], [0, 0], [1, 1], [0, 1]], [[1, 0, 3], [0, 2, 3]])
         self.assertEqual((found.materials.tolist(), found.facets.tolist(), found.markers.tolist()), ([5, 0], [[0, 1]], [77]))
-        for old, new, said in (("2 10 20 30", "2 10 20 50", "names point 50"), ("3 3 1 3", "3 4 1 3", "says that it has 4 elements"), ("2 4 10 40", "2 5 10 40", "says that it has 5 nodes"),
-                               ("2 2 2 1\n3", "2 2 9 1\n3", "more numbers|ends before"), ("4.1 0", "3 0", "version 3"), ("20\n10\n", "20\n20\n", "two points have the number 20")):
+        for old, new, said in (("2 10 20 30", "2 10 20 50", "names point 50"), ("3 3 1 3", "3 4 1 3", "says that it has 4 elements"),
+                               ("2 4 10 40", "2 5 10 40", "says that it has 5 nodes"),
+                               ("2 2 2 1\n3", "2 2 9 1\n3", "more numbers|ends before"),
+                               ("4.1 0", "3 0", "version 3"), ("20\n10\n", "20\n20\n", "two points have the number 20")):
             self.refused("g.msh", text.replace(old, new, 1), said)
-        second = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n" + "".join(f"{n} {n % 3} {n // 3} 0\n" for n in range(6)) + "$EndNodes\n$Elements\n1\n1 9 2 1 1 0 1 2 3 4 5\n$EndElements\n"
+        nodes = "".join(f"{n} {n % 3} {n // 3} 0\n" for n in range(6))
+        second = f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n{nodes}$EndNodes\n$Elements\n1\n1 9 2 1 1 0 1 2 3 4 5\n$EndElements\n"
         self.refused("g.msh", second, "triangle6")
 
     def test_of_meshio_counts(self):
@@ -258,9 +264,11 @@ class Import(unittest.TestCase):
             self.read(self.file("t.mesh", text.replace("Tetrahedra\n1", "Tetrahedra\n2")))
 
     def test_names(self):
-        """An attribute z beside z gets a _; ids that are not all different are said to be."""
+        """An attribute z beside z gets a _; a name that is too long is cut; ids that are not all different are said to be."""
         piece = piece_of(1, ((0, 0), (4, 0), (0, 3)), 0).replace("4 0 0", "4 0 2").replace('Name="h"', 'Name="z"')
         self.assertEqual(self.read(self.file("z.vtu", vtu_of(piece))).names, ["z", "z_"])
+        found = self.read(self.file("z.vtu", vtu_of(piece.replace('Name="z"', f'Name="{"ä" * 40}"'))))
+        self.assertEqual((found.names, len(found.notes)), (["z", "ä" * 30], 1))
         found = self.read(self.file("z.vtu", vtu_of(piece.replace('Name="z"', 'Name="id"'))))
         self.assertEqual(found.ids.tolist(), [0, 1, 2])
         self.assertTrue(any("not all different" in note for note in found.notes))
