@@ -24,6 +24,9 @@ struct Bounds {
     double least = -INFINITY, greatest = INFINITY;
 };
 
+/// More than a product may lose where it underflows.
+constexpr double underflow = 1e-300;
+
 /// The normal of a facet, towards the simplex, and bounds on the errors of its coordinates.
 template <int D> struct Normal { Point<D> n, error; };
 
@@ -38,7 +41,7 @@ Normal<3> normal_of(const Point<3> &a, const Point<3> &b, const Point<3> &c) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         const double left = (b[j] - a[j]) * (c[k] - a[k]), right = (b[k] - a[k]) * (c[j] - a[j]);
         normal.n[i] = left - right;
-        normal.error[i] = 1e-15 * (std::fabs(left) + std::fabs(right));
+        normal.error[i] = 1e-15 * (std::fabs(left) + std::fabs(right)) + underflow;
     }
     return normal;
 }
@@ -56,7 +59,7 @@ void restrict_by_facet(const Corners<D> &corners, int facet, const Point<D> &in_
     }();
     const double slope = std::fabs(n[0]);
     if (!(slope > 100 * error[0])) return;
-    double beside = 0, beside_error = 0;
+    double beside = 0, beside_error = underflow;
     for (int axis = 1; axis < D; ++axis) {
         const double distance = in_row[axis] - a[axis];
         beside += n[axis] * distance;

@@ -72,11 +72,14 @@ def needles(random, dimension):
     return points + along[:, None] * numpy.arange(1, dimension + 1)
 
 
+# Of the coordinates, in the value that is linear.
+FACTORS = numpy.array([3.0, -2.0, 0.5])
+
+
 class FlatValues(unittest.TestCase):
     def mesh_of(self, name, points):
         """With a value that is linear, and one that is not."""
-        factors = numpy.array([3.0, -2.0, 0.5])[:points.shape[1]]
-        linear = points @ factors
+        linear = points @ FACTORS[:points.shape[1]]
         other = (numpy.arange(len(points)) * 7919 % 1000).astype(float)
         abacus.triangulate(name, points, linear=linear, other=other)
         return linear, other
@@ -159,6 +162,37 @@ class FlatValues(unittest.TestCase):
         for first, last, *expected in ends:
             self.assertEqual([first, last], expected)
 
+    def check_places(self, name, points, linear):
+        """Profiles, a raster and contours, in space a surface: what is linear has the value there that its place tells."""
+        dimension = points.shape[1]
+        least, most = points.min(axis=0), points.max(axis=0)
+        extent = linear.max() - linear.min()
+        level = numpy.quantile(linear, 0.4)
+
+        def array(*places):
+            return "{" + ",".join(repr(float(x)) for place in places for x in place) + "}"
+
+        def compare(places, values):
+            self.assertGreater(len(places), 5)
+            self.assertLessEqual(abs(places @ FACTORS[:dimension] - values).max(), 1e-9 * extent)
+
+        paths = [array(points[i], points[-1 - i], (least + most) / 2) for i in range(0, len(points) // 2, 9)]
+        rows = abacus.numbers(" UNION ALL ".join(f"SELECT {', '.join('xyz'[:dimension])}, value FROM abacus_profile('{name}', '{path}', 'linear')"
+                                                 for path in paths))
+        rows = rows[numpy.isfinite(rows[:, -1])]
+        compare(rows[:, :-1], rows[:, -1])
+        if dimension == 2:
+            text = abacus.rows(f"SELECT \"values\" FROM abacus_raster('{name}', '{array(least)}', '{array(most)}', 30, 30, 'linear') ORDER BY \"row\"")
+            values = numpy.array([abacus.vector(row[0]) for row in text])
+            steps = (numpy.arange(30) + 0.5) / 30
+            x, y = numpy.meshgrid(least[0] + steps * (most[0] - least[0]), most[1] - steps * (most[1] - least[1]))
+            inside = numpy.isfinite(values)
+            compare(numpy.column_stack([x[inside], y[inside]]), values[inside])
+            lines = abacus.rows(f"SELECT path FROM abacus_contours('{name}', fixed_levels => '{array([level])}', attribute => 'linear')")
+        else:
+            lines = abacus.rows(f"SELECT corners FROM abacus_isosurface('{name}', {float(level)!r}, 'linear')")
+        compare(numpy.concatenate([abacus.vector(row[0], dimension) for row in lines]), level)
+
     def check(self, name, points):
         linear, other = self.mesh_of(name, points)
         places, found = self.places_of(name, points)
@@ -171,6 +205,7 @@ class FlatValues(unittest.TestCase):
         self.check_weights(name, places, found, points)
         self.check_gradients(name, found, points, other)
         self.check_profiles(name, places)
+        self.check_places(name, points, linear)
 
     def test_turned_grids(self):
         for angle in (0.1, 0.5):
@@ -184,6 +219,13 @@ class FlatValues(unittest.TestCase):
         for turn in (None, 0.5):
             with self.subTest(turn=turn):
                 self.check("lattice", lattice(4, turn))
+
+    def test_small_and_large(self):
+        """Products underflow and overflow."""
+        for exponent in (-600, 900):
+            with self.subTest(exponent=exponent):
+                self.check("scaled", turned_grid(6, 0.5) * 2.0 ** exponent)
+                self.check("scaled_space", lattice(3, 0.5) * 2.0 ** exponent)
 
     def test_needles(self):
         for dimension in (2, 3):
