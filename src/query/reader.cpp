@@ -178,14 +178,16 @@ bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex, CornerV
     bool found = false;
     is_search_ = true;
     search_pages(p, [&](const Key &page) -> std::optional<Key> {
-        return page_search().around(page, p, [&](const PageView<D> &view, int number, int position) {
-            abacus_simplex other;
-            abacus::describe(view, number, cache_.domain(), other);
-            if (!found || is_preferred<D>(other, simplex, max_edge))
-                abacus::describe(view, number, cache_.domain(), simplex, values, vertex_values_);
-            found = true;
-            if (position > 0) is_search_ = false;
-        });
+        return page_search().around(page, p,
+                                    [&](const PageView<D> &view, int number, int position) {
+                                        abacus_simplex other;
+                                        abacus::describe(view, number, cache_.domain(), other);
+                                        if (!found || is_preferred<D>(other, simplex, max_edge))
+                                            abacus::describe(view, number, cache_.domain(), simplex,
+                                                             values, vertex_values_);
+                                        found = true;
+                                        if (position > 0) is_search_ = false;
+                                    });
     });
     return found && !is_too_long<D>(simplex, max_edge);
 }
