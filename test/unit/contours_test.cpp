@@ -123,6 +123,9 @@ TEST(ContourLevels, RanksAreThoseOfTheLevels) {
     EXPECT_TRUE(std::isinf(levels.level(-1)));
     const abacus_contouring fine = levels_of(1e-9);
     EXPECT_THROW((ContourLevels(fine).rank(0), ContourLevels(fine).rank(1e9)), Error);
+    levels.include({0, 1'000'000});
+    levels.include({-999'000'000, -5});
+    EXPECT_THROW(levels.include({0, 1'000'001}), Error);
 }
 
 // ---- Rings ------------------------------------------------------------------------------
@@ -332,6 +335,29 @@ TEST(Contours, FailuresOfTheHostLeaveNothing) {
         }
         mesh.host.fail_resize_at(0);
         EXPECT_EQ(mesh.host.bytes, 0u);
+    }
+}
+
+TEST(Contours, WithoutRoomAreCountedAndNotWritten) {
+    MeshOf<2> mesh(1);
+    ASSERT_EQ(mesh.insert({{1, {0, 0}, {0}}, {2, {1, 0}, {1}}, {3, {0, 1}, {2}}, {4, {2, 2}, {3}}}),
+              ABACUS_OK);
+    for (const int bands : {0, 1}) {
+        mesh.host.spool_room = 1e300;
+        mesh.host.expected_bytes = 0;
+        const std::uint64_t before = mesh.host.spooled_bytes;
+        contours(mesh, levels_of(1e-4, 0, bands), {}, 0);
+        // What is expected is less than what is written.
+        const double expected = mesh.host.expected_bytes;
+        EXPECT_GT(expected, 1e6);
+        EXPECT_LT(expected, static_cast<double>(mesh.host.spooled_bytes - before));
+
+        mesh.host.spool_room = expected / 4;
+        const std::uint64_t writes = mesh.host.calls.spool_write;
+        EXPECT_THROW(contours(mesh, levels_of(1e-4, 0, bands), {}, 0), HostFailure);
+        EXPECT_EQ(mesh.host.calls.spool_write, writes);
+        mesh.host.recover();
+        EXPECT_EQ(contours(mesh, levels_of(1, 0, bands), {}, 0).size(), bands == 0 ? 2u : 3u);
     }
 }
 
