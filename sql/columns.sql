@@ -15,6 +15,8 @@ SELECT abacus_triangulate('globe', 'SELECT id, y AS lat, x AS "Lon" FROM measure
 SELECT abacus_triangulate('behind', 'SELECT id, height, zone, x, y FROM measured');
 SELECT abacus_triangulate('high', 'SELECT id, x, height AS z, y FROM measured', dimension => 3);
 SELECT count(*) FROM abacus_locate('swapped', 'SELECT id, y, x FROM measured');
+SELECT abacus_octree_create('tree', 2, '{0,0}', '{8,8}');
+SELECT abacus_octree_refine('tree', 'SELECT 1 AS level, y, x FROM measured LIMIT 1');
 -- as it should be, or by names that say nothing
 SELECT abacus_triangulate('right', 'SELECT id, x AS "X", y AS "Y", height AS lon FROM measured');
 SELECT abacus_triangulate('plain', 'SELECT id, x, y FROM measured');
@@ -30,4 +32,4 @@ SELECT abacus_load('rock', 'SELECT id, x, y, height FROM measured', 'VALUES (0, 
 SELECT abacus_load('rock', 'SELECT id, x, y, height FROM measured', 'VALUES (0, 1)');
 SELECT abacus_load('rock', 'SELECT id, x, y, height FROM measured', 'SELECT 0, 1, 5, 7 AS material');
 SELECT abacus_load('layer', 'SELECT id, x, y, height FROM measured', 'SELECT 0, 1, 5, 7 AS material', labels => '{material}');
-DROP TABLE measured, numbered, early, swapped, globe, behind, high, plain, "right", other, level, meant, rock, layer;
+DROP TABLE measured, numbered, early, swapped, globe, behind, high, plain, "right", other, level, meant, rock, layer, tree;

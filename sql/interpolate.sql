@@ -17,6 +17,11 @@ SELECT * FROM abacus_interpolate('hill', 'SELECT id, x, y FROM places') ORDER BY
 SELECT * FROM abacus_interpolate('hill', 'SELECT id, x, y FROM places', attributes => '{rock,height,rock}', method => 'nearest', outside => 'nearest') ORDER BY id;
 SELECT * FROM abacus_interpolate('hill', 'SELECT id, x, y FROM places', attributes => '{height}', max_edge => 4) ORDER BY id;
 SELECT * FROM abacus_interpolate('hill', 'SELECT id, x, y FROM places', attributes => '{}', max_edge => 0) ORDER BY id;
+SELECT * FROM abacus_interpolate('hill', 'SELECT id, x, y FROM places WHERE id < 3', '{rock,height}') ORDER BY id;
+SELECT * FROM abacus_interpolate('hill', 'SELECT id, x, y FROM places WHERE id < 3', 'height', 'nearest') ORDER BY id;
+SELECT * FROM abacus_interpolate('hill', 'SELECT id, x, y FROM places WHERE id < 3', ARRAY['height']) ORDER BY id;
+SELECT count("values") FROM abacus_interpolate('hill', 'SELECT id, x, y FROM places', NULL, 'nearest');
+SELECT * FROM abacus_interpolate('hill', 'SELECT id, x, y FROM places', 'depth');
 
 -- what the values are made of
 SELECT place, w.* FROM places, abacus_weights('hill', x, y) AS w ORDER BY id, vertex;

@@ -40,6 +40,7 @@ SELECT bool_and(abs(abacus_octree_interpolate('quad', x, y, 'v') - abacus_octree
 SELECT abacus_octree_interpolate('quad', 1, 1, 'w') AS known, abacus_octree_interpolate('quad', 4, 1, 'w') IS NULL AS unknown, abacus_octree_interpolate('quad', 9, 1, 'w') IS NULL AS outside, abacus_octree_interpolate('quad', 'Infinity', 1, 'w') IS NULL AS far, abacus_octree_interpolate('quad', NULL, 1, 'w') IS NULL AS none;
 SELECT * FROM abacus_octree_interpolate('quad', 'VALUES (1, 1, 1), (2, 4, 1), (3, 9, 1)');
 SELECT * FROM abacus_octree_interpolate('quad', 'VALUES (1, 1, 1), (2, 4, 1), (3, 9, 1)', attributes => '{w,v,w}');
+SELECT * FROM abacus_octree_interpolate('quad', 'SELECT 1, 4, 4', '{v}') EXCEPT SELECT * FROM abacus_octree_interpolate('quad', 'SELECT 1, 4, 4', ARRAY['v']);
 SELECT count(*) FROM (SELECT id, ARRAY[abacus_octree_interpolate('quad', x, y, 'v')] FROM (SELECT i AS id, (i * 0.618) % 8 AS x, (i * 0.414) % 8 AS y FROM generate_series(1, 500) i) p
     EXCEPT SELECT id, "values" FROM abacus_octree_interpolate('quad', 'SELECT i, (i * 0.618) % 8, (i * 0.414) % 8 FROM generate_series(1, 500) i', attributes => '{v}')) d;
 SELECT abacus_octree_interpolate('quad', 1, 1);

@@ -44,6 +44,23 @@ LANGUAGE C VOLATILE PARALLEL UNSAFE COST 1000 ROWS 100000;
 COMMENT ON FUNCTION abacus_interpolate(regclass, text, text[], text, text, double precision) IS
     'the values of attributes at the places of a query (id, x, y[, z]), as abacus_interpolate of each place finds them';
 
+-- In quotes the attributes could be a coordinate, and PostgreSQL would call that ambiguous. Where there is a form
+-- with a text it takes that.
+CREATE FUNCTION abacus_interpolate(
+    mesh regclass,
+    query text,
+    attributes text,
+    method text DEFAULT 'linear',
+    outside text DEFAULT 'null',
+    max_edge double precision DEFAULT NULL,
+    OUT id bigint,
+    OUT "values" double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_interpolate_places'
+LANGUAGE C VOLATILE PARALLEL UNSAFE COST 1000 ROWS 100000;
+COMMENT ON FUNCTION abacus_interpolate(regclass, text, text, text, text, double precision) IS
+    'the same with the attributes as text, or the name of one';
+
 CREATE FUNCTION abacus_weights(
     mesh regclass,
     x double precision,

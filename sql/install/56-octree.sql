@@ -213,6 +213,19 @@ LANGUAGE C VOLATILE PARALLEL UNSAFE COST 1000 ROWS 100000;
 COMMENT ON FUNCTION abacus_octree_interpolate(regclass, text, text[]) IS
     'the values of attributes at the places of a query (id, x, y[, z]), as abacus_octree_interpolate of each place finds them';
 
+-- As of meshes, in quotes.
+CREATE FUNCTION abacus_octree_interpolate(
+    octree regclass,
+    query text,
+    attributes text,
+    OUT id bigint,
+    OUT "values" double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_octree_interpolate_places'
+LANGUAGE C VOLATILE PARALLEL UNSAFE COST 1000 ROWS 100000;
+COMMENT ON FUNCTION abacus_octree_interpolate(regclass, text, text) IS
+    'the same with the attributes as text, or the name of one';
+
 CREATE FUNCTION abacus_octree_neighbours(
     octree regclass,
     octant bigint,

@@ -115,17 +115,21 @@ are_misplaced(const RowPacker *packer, TupleDesc desc)
 	return false;
 }
 
-/* "x" is taken for id, "y" for x */
+/* "x" is taken for id, "y" for x; of many attributes the first ones are enough */
 static char *
 taken_columns(const RowPacker *packer, TupleDesc desc)
 {
+	const int	most = 1 + packer->coordinates + 4;
+	int			columns = Min(packer->inputs, desc->natts);
 	StringInfoData text;
 
 	initStringInfo(&text);
-	for (int i = 0; i < Min(packer->inputs, desc->natts); i++)
+	for (int i = 0; i < Min(columns, most); i++)
 		appendStringInfo(&text, "%s\"%s\" %sfor %s", i > 0 ? ", " : "",
 						 NameStr(TupleDescAttr(desc, i)->attname), i > 0 ? "" : "is taken ",
 						 column_name(packer, i));
+	if (columns > most)
+		appendStringInfoString(&text, ", ...");
 	return text.data;
 }
 
@@ -143,7 +147,9 @@ row_tell_order(const RowPacker *packer, TupleDesc desc)
 	if (are_misplaced(packer, desc))
 		ereport(NOTICE,
 				(errmsg("columns go by position, not by name: %s", taken_columns(packer, desc)),
-				 errhint("The order is %s.", expected_columns(packer))));
+				 errhint("The order is %s, %s%s.", packer->origin->id,
+						 packer->header->dimension == 2 ? "x, y" : "x, y, z",
+						 packer->inputs > 1 + packer->coordinates ? ", then attributes" : "")));
 }
 
 /* What to do about a geometry where none can be read, or NULL. */

@@ -262,7 +262,8 @@ header_require_dimension(const abacus_header *header, uint32 dimension, const ch
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("%s has dimension %u, not %u", type_name(header->type), header->dimension,
 						dimension),
-				 errhint("%s", hint)));
+				 errhint("%s%s", hint,
+						 dimension == 3 ? " One in space is made with dimension => 3." : "")));
 }
 
 /* An SRID that is given for a mesh: an error if the mesh has another one. */

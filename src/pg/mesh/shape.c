@@ -135,7 +135,8 @@ shape_point(const abacus_header *header, ArrayType *point, const char *what, dou
 		ereport(ERROR,
 				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
 				 errmsg("%s has %d elements, but the %s has dimension %u", what, count,
-						type_name(header->type), header->dimension)));
+						type_name(header->type), header->dimension),
+				 count == 3 ? errhint("One in space is made with dimension => 3.") : 0));
 	for (int i = 0; i < count; i++)
 		values[i] = DatumGetFloat8(elements[i]);
 }

@@ -7,7 +7,10 @@
 
 #include <math.h>
 
+#include "catalog/pg_type.h"
+#include "utils/array.h"
 #include "utils/builtins.h"
+#include "utils/lsyscache.h"
 
 #include "pg/mesh/header.h"
 #include "pg/mesh/shape.h"
@@ -67,6 +70,28 @@ interpolation_attribute(FunctionCallInfo fcinfo, int argument, const abacus_head
 	}
 }
 
+/*
+ * Names of attributes: an array, or one in a text, or a text that is a name. What is in quotes
+ * PostgreSQL takes for a text where there is a form with one.
+ */
+static ArrayType *
+names_argument(FunctionCallInfo fcinfo, int argument)
+{
+	char	   *given;
+	Oid			input;
+	Oid			parameter;
+	Datum		name;
+
+	if (get_fn_expr_argtype(fcinfo->flinfo, argument) != TEXTOID)
+		return PG_GETARG_ARRAYTYPE_P(argument);
+	given = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+	name = CStringGetTextDatum(given);
+	if (given[0] != '{')
+		return construct_array(&name, 1, TEXTOID, -1, false, TYPALIGN_INT);
+	getTypeInputInfo(TEXTARRAYOID, &input, &parameter);
+	return DatumGetArrayTypeP(OidInputFunctionCall(input, given, parameter, -1));
+}
+
 /* Any number of attributes, in the order of their names; all of them if none are given. */
 void
 interpolation_attributes(FunctionCallInfo fcinfo, int argument, const abacus_header *header,
@@ -83,7 +108,7 @@ interpolation_attributes(FunctionCallInfo fcinfo, int argument, const abacus_hea
 			how->attribute[i] = i;
 		return;
 	}
-	names = shape_names(PG_GETARG_ARRAYTYPE_P(argument), "attributes", &count);
+	names = shape_names(names_argument(fcinfo, argument), "attributes", &count);
 	if (count > ABACUS_MAX_ATTRIBUTES)
 		ereport(ERROR,
 				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
