@@ -46,7 +46,7 @@ begin_server() {
 
 sql() {
     begin_server
-    if (($#)); then regression_tests "$*"; else regression_tests; fi
+    regression_tests "$@"
 }
 
 format() {
@@ -96,7 +96,7 @@ run_file() {
     heading "$1"
     case $1 in
     sql/*.sql) regression_tests "${name%.*}" ;;
-    test/isolation/*.spec) regression_tests "" "${name%.*}" ;;
+    test/isolation/*.spec) isolation_tests "${name%.*}" ;;
     test/pgtap/*.sql) pgtap_tests "$1" ;;
     test/tap/*.pl) tap_tests "$name" ;;
     *.md) documentation_examples "$1" ;;

@@ -16,10 +16,10 @@ other_postgresql() {
     bring_server "$ABACUS_BUILD/chroot-$version/root" opt/old
     if [[ ${1:-} == short ]]; then
         bring_core "$build"
-        set -- env ABACUS_SHORT=1 ABACUS_PACKAGES=$packages scripts/test.sh build-extension regress pgtap tap acceptance
+        set -- env ABACUS_SHORT=1 ABACUS_PACKAGES=$packages scripts/test.sh build-extension regress isolation pgtap tap acceptance
     else
         if [[ -e $build/brought ]]; then rm -r "$build"/{brought,extension,release}; fi
-        if ((!$#)); then set -- build-extension build unit regress pgtap tap acceptance; fi
+        if ((!$#)); then set -- build-extension build unit regress isolation pgtap tap acceptance; fi
         set -- scripts/test.sh "$@"
     fi
     exec scripts/chroot.sh "$version" "$@"

@@ -39,24 +39,31 @@ unit_tests() {
             "$1/Testing/Temporary/LastTest.log"
 }
 
-# Regression and isolation tests: regression_tests ["SQL TEST..." ["ISOLATION TEST..."]]; all without
-# arguments.
+# Regression tests, and isolation tests: regression_tests [TEST...], isolation_tests [TEST...]; all without
+# arguments. The former in two parts side by side, in databases of their own. Roles are the server's, so
+# tests that make some are in one part.
 regression_tests() {
-    local status=0 runs=() run
+    local status=0 part
     if (($#)); then
-        regression_part chosen "$1" "${2:-}" || status=1
-    else
-        # Two parts and the isolation tests side by side, in databases of their own. Roles are the
-        # server's, so tests that make some are in one part.
-        local with_roles others
-        with_roles=$(grep -l 'CREATE ROLE' sql/*.sql | xargs -n 1 basename -s .sql | paste -sd ' ')
-        others=$(grep -L 'CREATE ROLE' sql/*.sql | xargs -n 1 basename -s .sql | paste -sd ' ')
-        regression_part roles "$with_roles" "" & runs+=($!)
-        regression_part others "$others" "" & runs+=($!)
-        regression_part isolation "" "$(basename -s .spec test/isolation/specs/*.spec | paste -sd ' ')" & runs+=($!)
-        for run in "${runs[@]}"; do wait "$run" || status=1; done
+        regression_part chosen "$*" ""
+        return
     fi
+    regression_part roles "$(grep -l 'CREATE ROLE' sql/*.sql | names_of .sql)" "" >build/regress-roles.log 2>&1 &
+    part=$!
+    regression_part others "$(grep -L 'CREATE ROLE' sql/*.sql | names_of .sql)" "" || status=1
+    wait "$part" || status=1
+    cat build/regress-roles.log
     return "$status"
+}
+
+isolation_tests() {
+    if ((!$#)); then set -- "$(names_of .spec < <(ls test/isolation/specs/*.spec))"; fi
+    regression_part isolation "" "$*"
+}
+
+# Names of tests from those of files, in a line: names_of ENDING.
+names_of() {
+    xargs -n 1 basename -s "$1" | paste -sd ' '
 }
 
 # regression_part NAME "SQL TEST..." "ISOLATION TEST...": in a database and a folder of that name.

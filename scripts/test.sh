@@ -36,7 +36,7 @@ short_sets="wheel octree duplicates"
 # Each suite, and what runs it, in the order in which they begin: each as soon as what it needs is there.
 suites=(format layout build-extension build tap build-benchmarks build-sanitized build-threads
     postgresql-17 postgresql-18 viewer unit-sanitized unit-threads unit acceptance unit-apart oracles pgtap
-    regress docs model fuzz reports acceptance-goose tidy bench evaluation)
+    regress isolation docs model fuzz reports acceptance-goose tidy bench evaluation)
 declare -A command=(
     [format]=format_check
     [layout]=layout_check
@@ -52,6 +52,7 @@ declare -A command=(
     [unit-threads]="unit_tests build/threads"
     [fuzz]=fuzz
     [regress]="with_server regression_tests"
+    [isolation]="with_server isolation_tests"
     [pgtap]="with_server pgtap_tests"
     [docs]="with_server documentation_examples"
     [oracles]="with_server oracle_tests"
@@ -70,7 +71,7 @@ declare -A command=(
 declare -A needs=([unit]=build [unit-apart]=build [build-sanitized]=build [build-benchmarks]=build
     [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-sanitized
     [build-threads]=build-extension [bench]=build-benchmarks [evaluation]=build-benchmarks)
-for name in build regress pgtap docs oracles viewer tap; do needs[$name]=build-extension; done
+for name in build regress isolation pgtap docs oracles viewer tap; do needs[$name]=build-extension; done
 for name in acceptance acceptance-goose model postgresql-17 postgresql-18; do needs[$name]=build; done
 if [[ -n ${ABACUS_SHORT:-} ]]; then needs[acceptance]=build-extension; fi # the oracle was brought
 

@@ -36,8 +36,9 @@ SELECT isnt(abacus_delete('after', 'SELECT id, x, y FROM others WHERE x > 500'),
 SELECT ok((SELECT area FROM abacus_volume('after', 'before')) < (SELECT area * 0.7 FROM known), 'which the next call sees');
 ROLLBACK TO changed;
 SELECT results_eq($$ SELECT * FROM abacus_volume('after', 'before') $$, 'TABLE known', 'until it is rolled back');
--- a literal without a type is a name
-SELECT throws_matching($$ SELECT abacus_volume('after', '12.5') $$, 'does not exist', 'a quoted number is no base');
+-- a literal without a type is a base if it is a number, else a name
+SELECT results_eq($$ SELECT * FROM abacus_volume('after', '12.5') $$, $$ SELECT * FROM abacus_volume('after', 12.5) $$, 'a quoted number is a base');
+SELECT throws_matching($$ SELECT abacus_volume('after', 'elsewhere') $$, 'does not exist', '... and another text a mesh');
 SELECT lives_ok($$ SELECT abacus_volume('after', 12), abacus_volume('after', 12.5), abacus_volume('after', base => '12.5') $$, 'numbers are');
 SELECT * FROM finish();
 ROLLBACK;
