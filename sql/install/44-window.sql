@@ -151,12 +151,12 @@ LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_windo
 COMMENT ON FUNCTION abacus_vertices(regclass, double precision[], double precision) IS
     'the vertices of a mesh that are at most as far from a center as a radius';
 
--- With the ends of the range by position.
+-- With the ends of the range by position. They have names, since pg_dump writes the body anew, by names.
 CREATE FUNCTION abacus_vertices(
     mesh regclass,
     attribute text,
-    double precision,
-    double precision,
+    range_lower double precision,
+    range_upper double precision,
     lower double precision[] DEFAULT NULL,
     upper double precision[] DEFAULT NULL,
     OUT sequence bigint,
@@ -170,7 +170,7 @@ RETURNS SETOF record
 LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT v.sequence, v.id, v.x, v.y, v.z, v.attributes, v.vertex
-    FROM abacus_vertices(mesh, lower, upper, attribute, ARRAY[$3, $4]) AS v;
+    FROM abacus_vertices(mesh, lower, upper, attribute, ARRAY[range_lower, range_upper]) AS v;
 END;
 COMMENT ON FUNCTION abacus_vertices(regclass, text, double precision, double precision, double precision[], double precision[]) IS
     'the vertices of a mesh, or of a window, of which an attribute is within a range';
@@ -178,8 +178,8 @@ COMMENT ON FUNCTION abacus_vertices(regclass, text, double precision, double pre
 CREATE FUNCTION abacus_vertices(
     mesh regclass,
     attribute text,
-    text,
-    text,
+    range_lower text,
+    range_upper text,
     lower double precision[] DEFAULT NULL,
     upper double precision[] DEFAULT NULL,
     OUT sequence bigint,
@@ -193,7 +193,7 @@ RETURNS SETOF record
 LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT v.sequence, v.id, v.x, v.y, v.z, v.attributes, v.vertex
-    FROM abacus_vertices(mesh, lower, upper, attribute, ARRAY[$3, $4]::double precision[]) AS v;
+    FROM abacus_vertices(mesh, lower, upper, attribute, ARRAY[range_lower, range_upper]::double precision[]) AS v;
 END;
 COMMENT ON FUNCTION abacus_vertices(regclass, text, text, text, double precision[], double precision[]) IS
     'the same, with the ends of the range as text';
