@@ -48,17 +48,17 @@ CORE.draw += src/draw/raster.cpp
 CORE.draw += src/draw/ray_canvas.cpp
 CORE.draw += src/draw/relief.cpp
 
+CORE.mesh += src/mesh/inner_links.cpp
+CORE.mesh += src/mesh/page_format.cpp
+CORE.mesh += src/mesh/page_order.cpp
+CORE.mesh += src/mesh/page_writer.cpp
+CORE.mesh += src/mesh/stored_pages.cpp
 CORE.mesh += src/mesh/cache_append.cpp
 CORE.mesh += src/mesh/cache_check.cpp
 CORE.mesh += src/mesh/cache_load.cpp
 CORE.mesh += src/mesh/cache_store.cpp
 CORE.mesh += src/mesh/probing.cpp
 CORE.mesh += src/mesh/cache.cpp
-CORE.mesh += src/mesh/inner_links.cpp
-CORE.mesh += src/mesh/page_format.cpp
-CORE.mesh += src/mesh/page_order.cpp
-CORE.mesh += src/mesh/page_writer.cpp
-CORE.mesh += src/mesh/stored_pages.cpp
 
 CORE.attributes += src/attributes/attribute_page.cpp
 CORE.attributes += src/attributes/attribute_pages.cpp
