@@ -1,27 +1,195 @@
 # The one list of sources, one file a line: read by Makefile.pgxs (make) and CMakeLists.txt (line
 # by line). The files of a unit, `CORE.<unit>`, are compiled as one, in the order of their lines, which
 # takes half of the time. So two files of a unit must not define one name differently, and a class whose
-# members are in several files is instantiated in the last of them.
+# members are in several files is instantiated in the last of them. All that needs the numbers of CGAL is
+# in unit `exact`, since their headers take six seconds to read.
+CORE.exact += src/geometry/ball.cpp
+CORE.exact += src/geometry/circumradius.cpp
+CORE.exact += src/geometry/contact.cpp
+CORE.exact += src/geometry/cutting_plane.cpp
+CORE.exact += src/geometry/distance.cpp
+CORE.exact += src/geometry/equidistant.cpp
+CORE.exact += src/geometry/line.cpp
+CORE.exact += src/geometry/predicates.cpp
+CORE.exact += src/geometry/rational.cpp
+CORE.exact += src/goose/circumbox.cpp
+CORE.exact += src/query/barycentric.cpp
+CORE.exact += src/query/gradient.cpp
+CORE.exact += src/query/sibson.cpp
+CORE.exact += src/query/sight.cpp
+
+CORE.base += src/blocks/key_cut.cpp
+CORE.base += src/blocks/page_seal.cpp
+CORE.base += src/blocks/replacement.cpp
+CORE.base += src/host/crew.cpp
+CORE.base += src/host/desk.cpp
+CORE.base += src/host/thread_memory.cpp
+CORE.base += src/keys/locational_code.cpp
+CORE.base += src/sort/chain_rank.cpp
+CORE.base += src/sort/dense_ranks.cpp
+CORE.base += src/sort/radix_sort.cpp
+CORE.base += src/sort/record_sort.cpp
+CORE.base += src/sort/shared_sort.cpp
+
+CORE.geometry += src/geometry/cell_shape.cpp
+CORE.geometry += src/geometry/exact_sum.cpp
+
+CORE.draw += src/draw/camera.cpp
+CORE.draw += src/draw/canvas.cpp
+CORE.draw += src/draw/captions.cpp
+CORE.draw += src/draw/develop.cpp
+CORE.draw += src/draw/frame.cpp
+CORE.draw += src/draw/letters.cpp
+CORE.draw += src/draw/palette.cpp
+CORE.draw += src/draw/picture.cpp
+CORE.draw += src/draw/plane.cpp
+CORE.draw += src/draw/portrait.cpp
+CORE.draw += src/draw/raster.cpp
+CORE.draw += src/draw/ray_canvas.cpp
+CORE.draw += src/draw/relief.cpp
+
+CORE.mesh += src/mesh/inner_links.cpp
+CORE.mesh += src/mesh/page_format.cpp
+CORE.mesh += src/mesh/page_order.cpp
+CORE.mesh += src/mesh/page_writer.cpp
+CORE.mesh += src/mesh/stored_pages.cpp
+CORE.mesh += src/mesh/cache_append.cpp
+CORE.mesh += src/mesh/cache_check.cpp
+CORE.mesh += src/mesh/cache_load.cpp
+CORE.mesh += src/mesh/cache_store.cpp
+CORE.mesh += src/mesh/probing.cpp
+CORE.mesh += src/mesh/cache.cpp
+
 CORE.attributes += src/attributes/attribute_page.cpp
 CORE.attributes += src/attributes/attribute_pages.cpp
 CORE.attributes += src/attributes/attribute_reader.cpp
 CORE.attributes += src/attributes/rewriting.cpp
 
-CORE.blocks += src/blocks/key_cut.cpp
-CORE.blocks += src/blocks/page_seal.cpp
-CORE.blocks += src/blocks/replacement.cpp
+CORE.staging += src/points/leaving.cpp
+CORE.staging += src/points/repeated_points.cpp
+CORE.staging += src/points/spread.cpp
+CORE.staging += src/points/vertex_page.cpp
+CORE.staging += src/points/waiting_changes.cpp
+CORE.staging += src/points/waiting_points.cpp
+CORE.staging += src/staging/curve_sort.cpp
+CORE.staging += src/staging/density.cpp
+CORE.staging += src/staging/distributor.cpp
+CORE.staging += src/staging/external_sort.cpp
+CORE.staging += src/staging/splitters.cpp
+CORE.staging += src/staging/stage.cpp
 
-CORE.capi_change += src/capi/build.cpp
-CORE.capi_change += src/capi/delaunay_words.cpp
-CORE.capi_change += src/capi/domain.cpp
-CORE.capi_change += src/capi/goose.cpp
-CORE.capi_change += src/capi/header.cpp
-CORE.capi_change += src/capi/labelling.cpp
-CORE.capi_change += src/capi/load.cpp
-CORE.capi_change += src/capi/markers.cpp
-CORE.capi_change += src/capi/quake.cpp
-CORE.capi_change += src/capi/stage.cpp
-CORE.capi_change += src/capi/threads.cpp
+CORE.delaunay_change += src/delaunay/cavity_2d.cpp
+CORE.delaunay_change += src/delaunay/cavity_3d.cpp
+CORE.delaunay_change += src/delaunay/crowding.cpp
+CORE.delaunay_change += src/delaunay/hole.cpp
+CORE.delaunay_change += src/delaunay/insertion.cpp
+CORE.delaunay_change += src/delaunay/interval.cpp
+CORE.delaunay_change += src/delaunay/link_mesh.cpp
+CORE.delaunay_change += src/delaunay/removal.cpp
+CORE.delaunay_change += src/delaunay/star.cpp
+
+CORE.delaunay_build += src/delaunay/build.cpp
+CORE.delaunay_build += src/delaunay/build_delete.cpp
+CORE.delaunay_build += src/delaunay/build_labels.cpp
+CORE.delaunay_build += src/delaunay/build_rekey.cpp
+CORE.delaunay_build += src/delaunay/build_threads.cpp
+CORE.delaunay_build += src/delaunay/label_heirs.cpp
+CORE.delaunay_build += src/delaunay/label_sweep.cpp
+CORE.delaunay_build += src/delaunay/marker_sweep.cpp
+CORE.delaunay_build += src/delaunay/simplex_changes.cpp
+
+CORE.query_pages += src/query/page_boxes.cpp
+CORE.query_pages += src/query/page_feed.cpp
+CORE.query_pages += src/query/page_flood.cpp
+CORE.query_pages += src/query/page_search.cpp
+CORE.query_pages += src/query/range_scan.cpp
+CORE.query_pages += src/query/label_range.cpp
+CORE.query_pages += src/query/numbering.cpp
+CORE.query_pages += src/query/cell_scan.cpp
+CORE.query_pages += src/query/simplex_scan.cpp
+CORE.query_pages += src/query/vertex_scan.cpp
+CORE.query_pages += src/query/face_scan.cpp
+CORE.query_pages += src/query/labelling.cpp
+CORE.query_pages += src/query/marking.cpp
+CORE.query_pages += src/query/marked_facets.cpp
+
+CORE.query_locate += src/query/glance.cpp
+CORE.query_locate += src/query/reader.cpp
+CORE.query_locate += src/query/reader_around.cpp
+CORE.query_locate += src/query/nearest.cpp
+CORE.query_locate += src/query/places.cpp
+CORE.query_locate += src/query/places_threads.cpp
+CORE.query_locate += src/query/window.cpp
+
+CORE.query_values += src/query/interpolation.cpp
+CORE.query_values += src/query/value_raster.cpp
+
+CORE.query_lines += src/query/line_scan.cpp
+CORE.query_lines += src/query/profile.cpp
+CORE.query_lines += src/query/plane_section.cpp
+
+CORE.query_levels += src/query/contour_cut.cpp
+CORE.query_levels += src/query/contour_levels.cpp
+CORE.query_levels += src/query/contour_pieces.cpp
+CORE.query_levels += src/query/contour_rims.cpp
+CORE.query_levels += src/query/contour_rings.cpp
+CORE.query_levels += src/query/contours.cpp
+CORE.query_levels += src/query/rings.cpp
+CORE.query_levels += src/query/ring_nesting.cpp
+CORE.query_levels += src/query/isosurface.cpp
+
+CORE.query_shapes += src/query/border.cpp
+CORE.query_shapes += src/query/cavities.cpp
+CORE.query_shapes += src/query/outline.cpp
+CORE.query_shapes += src/query/light_edges.cpp
+CORE.query_shapes += src/query/spanning_tree.cpp
+CORE.query_shapes += src/query/voronoi.cpp
+
+CORE.query_whole += src/query/page_check.cpp
+CORE.query_whole += src/query/topology_check.cpp
+CORE.query_whole += src/query/check_threads.cpp
+CORE.query_whole += src/query/check.cpp
+CORE.query_whole += src/query/overlaps.cpp
+CORE.query_whole += src/query/volume.cpp
+CORE.query_whole += src/query/portrait.cpp
+CORE.query_whole += src/query/ray_portrait.cpp
+
+CORE.tiles += src/tiles/picture_tile.cpp
+CORE.tiles += src/tiles/terrain_tile.cpp
+CORE.tiles += src/tiles/tile_lines.cpp
+CORE.tiles += src/tiles/tile_window.cpp
+CORE.tiles += src/tiles/vector_layer.cpp
+CORE.tiles += src/tiles/vector_tile.cpp
+
+CORE.load += src/load/load_boundary.cpp
+CORE.load += src/load/load_labels.cpp
+CORE.load += src/load/load_markers.cpp
+CORE.load += src/load/load_simplices.cpp
+CORE.load += src/load/load_split.cpp
+CORE.load += src/load/load_vertices.cpp
+CORE.load += src/load/load.cpp
+CORE.load += src/load/element_writer.cpp
+CORE.load += src/load/faults.cpp
+CORE.load += src/load/overlap.cpp
+
+CORE.octree_cache += src/octree/balance.cpp
+CORE.octree_cache += src/octree/grow.cpp
+CORE.octree_cache += src/octree/leaf_split.cpp
+CORE.octree_cache += src/octree/octant_page.cpp
+CORE.octree_cache += src/octree/octree_cache.cpp
+CORE.octree_cache += src/octree/octree_edit.cpp
+CORE.octree_cache += src/octree/octree_load.cpp
+
+CORE.octree_ask += src/octree/octree_interpolation.cpp
+CORE.octree_ask += src/octree/octree_nearest.cpp
+CORE.octree_ask += src/octree/octree_nodes.cpp
+CORE.octree_ask += src/octree/octree_portrait.cpp
+CORE.octree_ask += src/octree/octree_simplices.cpp
+
+CORE.lab += src/goose/goose.cpp
+CORE.lab += src/quake/balanced_octree.cpp
+CORE.lab += src/quake/basin.cpp
+CORE.lab += src/quake/quake_points.cpp
 
 CORE.capi_ask += src/capi/cells.cpp
 CORE.capi_ask += src/capi/check.cpp
@@ -41,196 +209,21 @@ CORE.capi_ask += src/capi/tile.cpp
 CORE.capi_ask += src/capi/volume.cpp
 CORE.capi_ask += src/capi/voronoi.cpp
 
-CORE.capi_octree += src/capi/octree.cpp
-CORE.capi_octree += src/capi/octree_ask.cpp
-CORE.capi_octree += src/capi/octree_read.cpp
-CORE.capi_octree += src/capi/octree_simplices.cpp
-
-CORE.delaunay_build += src/delaunay/build.cpp
-CORE.delaunay_build += src/delaunay/build_delete.cpp
-CORE.delaunay_build += src/delaunay/build_labels.cpp
-CORE.delaunay_build += src/delaunay/build_rekey.cpp
-CORE.delaunay_build += src/delaunay/build_threads.cpp
-CORE.delaunay_build += src/delaunay/label_heirs.cpp
-CORE.delaunay_build += src/delaunay/label_sweep.cpp
-CORE.delaunay_build += src/delaunay/marker_sweep.cpp
-CORE.delaunay_build += src/delaunay/simplex_changes.cpp
-
-CORE.delaunay_change += src/delaunay/cavity_2d.cpp
-CORE.delaunay_change += src/delaunay/cavity_3d.cpp
-CORE.delaunay_change += src/delaunay/crowding.cpp
-CORE.delaunay_change += src/delaunay/hole.cpp
-CORE.delaunay_change += src/delaunay/insertion.cpp
-CORE.delaunay_change += src/delaunay/interval.cpp
-CORE.delaunay_change += src/delaunay/link_mesh.cpp
-CORE.delaunay_change += src/delaunay/removal.cpp
-CORE.delaunay_change += src/delaunay/star.cpp
-
-CORE.draw += src/draw/camera.cpp
-CORE.draw += src/draw/canvas.cpp
-CORE.draw += src/draw/captions.cpp
-CORE.draw += src/draw/develop.cpp
-CORE.draw += src/draw/frame.cpp
-CORE.draw += src/draw/letters.cpp
-CORE.draw += src/draw/palette.cpp
-CORE.draw += src/draw/picture.cpp
-CORE.draw += src/draw/plane.cpp
-CORE.draw += src/draw/portrait.cpp
-CORE.draw += src/draw/raster.cpp
-CORE.draw += src/draw/ray_canvas.cpp
-CORE.draw += src/draw/relief.cpp
-
-CORE.geometry += src/geometry/ball.cpp
-CORE.geometry += src/geometry/cell_shape.cpp
-CORE.geometry += src/geometry/circumradius.cpp
-CORE.geometry += src/geometry/contact.cpp
-CORE.geometry += src/geometry/cutting_plane.cpp
-CORE.geometry += src/geometry/distance.cpp
-CORE.geometry += src/geometry/equidistant.cpp
-CORE.geometry += src/geometry/exact_sum.cpp
-CORE.geometry += src/geometry/line.cpp
-CORE.geometry += src/geometry/predicates.cpp
-CORE.geometry += src/geometry/rational.cpp
-
-CORE.goose += src/goose/circumbox.cpp
-CORE.goose += src/goose/goose.cpp
-
-CORE.host += src/host/crew.cpp
-CORE.host += src/host/desk.cpp
-CORE.host += src/host/thread_memory.cpp
-
-CORE.keys += src/keys/locational_code.cpp
-
-CORE.load += src/load/load_boundary.cpp
-CORE.load += src/load/load_labels.cpp
-CORE.load += src/load/load_markers.cpp
-CORE.load += src/load/load_simplices.cpp
-CORE.load += src/load/load_split.cpp
-CORE.load += src/load/load_vertices.cpp
-CORE.load += src/load/load.cpp
-CORE.load += src/load/element_writer.cpp
-CORE.load += src/load/faults.cpp
-CORE.load += src/load/overlap.cpp
-
-CORE.mesh += src/mesh/cache_append.cpp
-CORE.mesh += src/mesh/cache_check.cpp
-CORE.mesh += src/mesh/cache_load.cpp
-CORE.mesh += src/mesh/cache_store.cpp
-CORE.mesh += src/mesh/probing.cpp
-CORE.mesh += src/mesh/cache.cpp
-CORE.mesh += src/mesh/inner_links.cpp
-CORE.mesh += src/mesh/page_format.cpp
-CORE.mesh += src/mesh/page_order.cpp
-CORE.mesh += src/mesh/page_writer.cpp
-CORE.mesh += src/mesh/stored_pages.cpp
-
-CORE.octree_cache += src/octree/balance.cpp
-CORE.octree_cache += src/octree/grow.cpp
-CORE.octree_cache += src/octree/leaf_split.cpp
-CORE.octree_cache += src/octree/octant_page.cpp
-CORE.octree_cache += src/octree/octree_cache.cpp
-CORE.octree_cache += src/octree/octree_edit.cpp
-CORE.octree_cache += src/octree/octree_load.cpp
-
-CORE.octree_ask += src/octree/octree_interpolation.cpp
-CORE.octree_ask += src/octree/octree_nearest.cpp
-CORE.octree_ask += src/octree/octree_nodes.cpp
-CORE.octree_ask += src/octree/octree_portrait.cpp
-CORE.octree_ask += src/octree/octree_simplices.cpp
-
-CORE.points += src/points/leaving.cpp
-CORE.points += src/points/repeated_points.cpp
-CORE.points += src/points/spread.cpp
-CORE.points += src/points/vertex_page.cpp
-CORE.points += src/points/waiting_changes.cpp
-CORE.points += src/points/waiting_points.cpp
-
-CORE.quake += src/quake/balanced_octree.cpp
-CORE.quake += src/quake/basin.cpp
-CORE.quake += src/quake/quake_points.cpp
-
-CORE.query_shapes += src/query/border.cpp
-CORE.query_shapes += src/query/cavities.cpp
-CORE.query_shapes += src/query/outline.cpp
-CORE.query_shapes += src/query/light_edges.cpp
-CORE.query_shapes += src/query/spanning_tree.cpp
-CORE.query_shapes += src/query/voronoi.cpp
-
-CORE.query_pages += src/query/page_boxes.cpp
-CORE.query_pages += src/query/page_feed.cpp
-CORE.query_pages += src/query/page_flood.cpp
-CORE.query_pages += src/query/page_search.cpp
-CORE.query_pages += src/query/range_scan.cpp
-CORE.query_pages += src/query/label_range.cpp
-CORE.query_pages += src/query/numbering.cpp
-CORE.query_pages += src/query/cell_scan.cpp
-CORE.query_pages += src/query/simplex_scan.cpp
-CORE.query_pages += src/query/vertex_scan.cpp
-CORE.query_pages += src/query/face_scan.cpp
-
-CORE.query_check += src/query/page_check.cpp
-CORE.query_check += src/query/topology_check.cpp
-CORE.query_check += src/query/check_threads.cpp
-CORE.query_check += src/query/check.cpp
-
-CORE.query_levels += src/query/contour_cut.cpp
-CORE.query_levels += src/query/contour_levels.cpp
-CORE.query_levels += src/query/contour_pieces.cpp
-CORE.query_levels += src/query/contour_rims.cpp
-CORE.query_levels += src/query/contour_rings.cpp
-CORE.query_levels += src/query/contours.cpp
-CORE.query_levels += src/query/rings.cpp
-CORE.query_levels += src/query/ring_nesting.cpp
-CORE.query_levels += src/query/isosurface.cpp
-
-CORE.query_locate += src/query/glance.cpp
-CORE.query_locate += src/query/reader.cpp
-CORE.query_locate += src/query/reader_around.cpp
-CORE.query_locate += src/query/nearest.cpp
-CORE.query_locate += src/query/places.cpp
-CORE.query_locate += src/query/places_threads.cpp
-CORE.query_locate += src/query/window.cpp
-
-CORE.query_values += src/query/barycentric.cpp
-CORE.query_values += src/query/interpolation.cpp
-CORE.query_values += src/query/gradient.cpp
-CORE.query_values += src/query/sibson.cpp
-CORE.query_values += src/query/value_raster.cpp
-
-CORE.query_labels += src/query/labelling.cpp
-CORE.query_labels += src/query/marking.cpp
-CORE.query_labels += src/query/marked_facets.cpp
-
-CORE.query_lines += src/query/line_scan.cpp
-CORE.query_lines += src/query/profile.cpp
-CORE.query_lines += src/query/sight.cpp
-CORE.query_lines += src/query/plane_section.cpp
-
-CORE.query_volume += src/query/overlaps.cpp
-CORE.query_volume += src/query/volume.cpp
-
-CORE.query_draw += src/query/portrait.cpp
-CORE.query_draw += src/query/ray_portrait.cpp
-
-CORE.sort += src/sort/chain_rank.cpp
-CORE.sort += src/sort/dense_ranks.cpp
-CORE.sort += src/sort/radix_sort.cpp
-CORE.sort += src/sort/record_sort.cpp
-CORE.sort += src/sort/shared_sort.cpp
-
-CORE.staging += src/staging/curve_sort.cpp
-CORE.staging += src/staging/density.cpp
-CORE.staging += src/staging/distributor.cpp
-CORE.staging += src/staging/external_sort.cpp
-CORE.staging += src/staging/splitters.cpp
-CORE.staging += src/staging/stage.cpp
-
-CORE.tiles += src/tiles/picture_tile.cpp
-CORE.tiles += src/tiles/terrain_tile.cpp
-CORE.tiles += src/tiles/tile_lines.cpp
-CORE.tiles += src/tiles/tile_window.cpp
-CORE.tiles += src/tiles/vector_layer.cpp
-CORE.tiles += src/tiles/vector_tile.cpp
+CORE.capi_change += src/capi/build.cpp
+CORE.capi_change += src/capi/delaunay_words.cpp
+CORE.capi_change += src/capi/domain.cpp
+CORE.capi_change += src/capi/goose.cpp
+CORE.capi_change += src/capi/header.cpp
+CORE.capi_change += src/capi/labelling.cpp
+CORE.capi_change += src/capi/load.cpp
+CORE.capi_change += src/capi/markers.cpp
+CORE.capi_change += src/capi/quake.cpp
+CORE.capi_change += src/capi/stage.cpp
+CORE.capi_change += src/capi/threads.cpp
+CORE.capi_change += src/capi/octree.cpp
+CORE.capi_change += src/capi/octree_ask.cpp
+CORE.capi_change += src/capi/octree_read.cpp
+CORE.capi_change += src/capi/octree_simplices.cpp
 
 PG_SOURCES += src/pg/abacus.c
 PG_SOURCES += src/pg/base/extension_type.c

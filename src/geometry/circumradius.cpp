@@ -2,6 +2,8 @@
 
 #include "geometry/linear_system.hpp"
 
+#include <CGAL/Exact_rational.h>
+
 namespace abacus {
 
 namespace {

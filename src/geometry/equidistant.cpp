@@ -1,6 +1,6 @@
 #include "geometry/equidistant.hpp"
 
-#include "geometry/linear_system.hpp"
+#include "geometry/linear_solution.hpp"
 
 namespace abacus {
 

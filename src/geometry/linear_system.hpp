@@ -1,13 +1,10 @@
 // Small systems of linear equations, such as a circumcentre solves.
 //
-// By Cramer's rule in doubles. Where little is left of the determinant, as in a flat simplex, it is
-// done in rational numbers, which are exact; so the solution always has some ten digits.
+// By Cramer's rule in doubles, where enough is left of the determinant; linear_solution.hpp always
+// has a solution.
 #pragma once
 
 #include "geometry/point.hpp"
-#include "host/error.hpp"
-
-#include <CGAL/Exact_rational.h>
 
 #include <cmath>
 #include <optional>
@@ -67,28 +64,6 @@ template <int D> std::optional<Point<D>> solve_in_doubles(const LinearSystem<dou
         is_finite = is_finite && std::isfinite(x[axis]);
     }
     return is_finite ? std::optional(x) : std::nullopt;
-}
-
-/// The solution, rounded at the end; nothing if there is none, or several.
-template <int D>
-std::optional<Point<D>> solve_exactly(const LinearSystem<CGAL::Exact_rational, D> &system) {
-    using Rational = CGAL::Exact_rational;
-    const Rational whole = system.determinant(system.matrix);
-    if (whole == 0) return std::nullopt;
-    Point<D> x;
-    for (int axis = 0; axis < D; ++axis)
-        x[axis] = CGAL::to_double(Rational(system.with_right_side(axis) / whole));
-    return x;
-}
-
-/// Solves system.operator()<T>(), which is asked for in doubles and, if need be, in rational
-/// numbers. Throws if it has no solution, or several: then a simplex is flat.
-template <int D, class System> Point<D> solve(const System &system) {
-    if (const auto x = solve_in_doubles<D>(system.template operator()<double>())) [[likely]]
-        return *x;
-    const auto x = solve_exactly<D>(system.template operator()<CGAL::Exact_rational>());
-    if (!x) throw_corrupted("A simplex is flat.");
-    return *x;
 }
 
 } // namespace abacus

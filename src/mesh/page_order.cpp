@@ -199,9 +199,4 @@ void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle fir
     links_.resize(border.size());
 }
 
-template void PageWriter<2>::order(const Simplex<2> *, std::uint32_t, Handle, Vertices &,
-                                   Numbering &, Arena<Link> &);
-template void PageWriter<3>::order(const Simplex<3> *, std::uint32_t, Handle, Vertices &,
-                                   Numbering &, Arena<Link> &);
-
 } // namespace abacus

@@ -1,7 +1,7 @@
 #include "query/sibson.hpp"
 
 #include "geometry/conflict.hpp"
-#include "geometry/linear_system.hpp"
+#include "geometry/linear_solution.hpp"
 
 #include <algorithm>
 #include <cmath>
