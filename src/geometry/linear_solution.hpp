@@ -1,5 +1,6 @@
 // Solutions of small systems of linear equations that always have some ten digits: where little is
-// left of the determinant, as in a flat simplex, they are found in rational numbers, which are exact.
+// left of the determinant, as in a flat simplex, they are found in rational numbers, which are
+// exact.
 #pragma once
 
 #include "geometry/linear_system.hpp"
