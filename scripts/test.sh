@@ -67,8 +67,8 @@ declare -A command=(
     [postgresql-17]="scripts/test.sh --postgresql 17 short"
     [postgresql-18]="scripts/test.sh --postgresql 18 short"
 )
-# What must have passed before a suite.
-declare -A needs=([unit]=build [unit-apart]=build [build-sanitized]=build [build-benchmarks]=build
+# What must have passed before a suite. (Two runs of ctest in one folder would share a log.)
+declare -A needs=([unit]=build [unit-apart]=unit [build-sanitized]=build [build-benchmarks]=build
     [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-sanitized
     [build-threads]=build-extension [bench]=build-benchmarks [evaluation]=build-benchmarks)
 for name in build regress isolation pgtap docs oracles viewer tap; do needs[$name]=build-extension; done

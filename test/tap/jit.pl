@@ -34,7 +34,7 @@ my %calls = (
 	abacus_raster => "SELECT abacus_raster('field', ST_MakeEmptyRaster(6, 5, ST_X(p), 20, 1, -1, 0, 0, 0))",
 	abacus_visible => "SELECT abacus_visible('field', '{50,50}'::text, '{53,53}'::text)",
 	abacus_cells_geom => "SELECT abacus_cells_geom('field', $window)",
-	abacus_vertices => "SELECT abacus_vertices('field', 'z', ST_X(p), 3)",
+	abacus_vertices => "SELECT abacus_vertices('field', 'z', ST_X(p) - 50, 6)",
 	abacus_vertices_geom => "SELECT abacus_vertices_geom('field', $window)",
 	abacus_edges_geom => "SELECT abacus_edges_geom('field', $window)",
 	abacus_contours_geom => "SELECT abacus_contours_geom('field', 1, bounds => $window, polygonize => true)",
