@@ -40,42 +40,25 @@ unit_tests() {
 }
 
 # Regression tests, and isolation tests: regression_tests [TEST...], isolation_tests [TEST...]; all without
-# arguments. The former in two parts side by side, in databases of their own. Roles are the server's, so
-# tests that make some are in one part.
+# arguments. One after the other: what they show depends on all that the server does (progress, room that
+# is given back), so suites run beside each other, in servers of their own, but not these tests.
 regression_tests() {
-    local status=0 part
-    if (($#)); then
-        regression_part chosen "$*" ""
-        return
-    fi
-    regression_part roles "$(grep -l 'CREATE ROLE' sql/*.sql | names_of .sql)" "" >build/regress-roles.log 2>&1 &
-    part=$!
-    regression_part others "$(grep -L 'CREATE ROLE' sql/*.sql | names_of .sql)" "" || status=1
-    wait "$part" || status=1
-    cat build/regress-roles.log
-    return "$status"
+    if ((!$#)); then set -- "$(names_of .sql < <(ls sql/*.sql))"; fi
+    "${extension_make[@]}" installcheck REGRESS="$*" ISOLATION= && return
+    cat build/extension/regression.diffs
+    return 1
 }
 
 isolation_tests() {
     if ((!$#)); then set -- "$(names_of .spec < <(ls test/isolation/specs/*.spec))"; fi
-    regression_part isolation "" "$*"
+    "${extension_make[@]}" installcheck REGRESS= ISOLATION="$*" && return
+    cat build/extension/output_iso/regression.diffs
+    return 1
 }
 
 # Names of tests from those of files, in a line: names_of ENDING.
 names_of() {
     xargs -n 1 basename -s "$1" | paste -sd ' '
-}
-
-# regression_part NAME "SQL TEST..." "ISOLATION TEST...": in a database and a folder of that name.
-regression_part() {
-    local folder=build/regress/$1
-    rm -rf "$folder"
-    mkdir -p "$folder/isolation"
-    local options="--load-extension=abacus --dbname=regress_$1 --outputdir=$ABACUS_ROOT/$folder"
-    "${extension_make[@]}" installcheck REGRESS="$2" REGRESS_OPTS="$options" \
-        ISOLATION="$3" ISOLATION_OPTS="--inputdir=$ABACUS_ROOT/test/isolation $options/isolation" && return
-    cat "$folder"/regression.diffs "$folder"/isolation/regression.diffs 2>/dev/null
-    return 1
 }
 
 # pgTAP files; all without arguments. Each has a database of its own, so several run side by side.
