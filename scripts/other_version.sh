@@ -35,7 +35,7 @@ bring_core() {
     fi
     mkdir -p "$1/extension" "$1/$oracle"
     touch "$1/brought"
-    (cd "$ABACUS_BUILD/extension" && find units -name '*.o' -print0 |
+    (cd "$ABACUS_BUILD/extension" && find units \( -name '*.o' -o -name '*.cpp' \) -print0 |
         xargs -0 cp -p --parents -t "$1/extension")
     cp -p "$ABACUS_BUILD/$oracle"/oracle_{points,compare} "$1/$oracle"
 }

@@ -14,6 +14,7 @@
 #include "storage/fd.h"
 #include "utils/guc.h"
 
+#include "pg/port/port.h"
 #include "pg/host/temp_room.h"
 
 #define MOST_TABLESPACES 64
@@ -72,7 +73,7 @@ all_free_bytes(void)
 	return sum;
 }
 
-static pg_attribute_noreturn() void
+pg_noreturn static void
 refuse(double bytes, const char *limit, const char *hint)
 {
 	ereport(ERROR,
