@@ -1,7 +1,7 @@
 // Sessions of pages that edit. A session is a token, and as such costs nothing. From its first change
 // until it saves or undoes it has a connection with one transaction, which holds the lock on the mesh:
 // so there is one such session at most, and the others are refused meanwhile. What is not saved ends
-// with its page, or with its connection; then each request of that page is told so.
+// with its page, or with its connection; then each request of that page gets an error that says so.
 import { randomBytes } from "node:crypto";
 import { ask, Away, Refused } from "./errors.js";
 

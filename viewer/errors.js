@@ -1,5 +1,5 @@
-// What goes wrong, and what a client is told of it: what PostgreSQL says of its arguments, and nothing
-// of the server.
+// Errors as a client sees them: it gets PostgreSQL's message about its arguments, and nothing about the
+// server.
 import pg from "pg";
 
 export class Refused extends Error {

@@ -9,8 +9,8 @@
  * As long as none has been dropped the numbers are the positions. After that a row of the simplex
  * table, (-1, 1000), behind all rows of names, has how many attributes have been dropped, and how
  * many of these came before each that is left. New attributes come last, so these figures never
- * decrease. The row changes only with the header, which is locked then: whoever sees the header sees
- * the row that belongs to it.
+ * decrease. The row changes only with the header, which is locked then: a snapshot that has the
+ * header has the row that belongs to it.
  */
 #include "postgres.h"
 

@@ -2,7 +2,7 @@
  * by_hand.c: changes of a mesh that do not come from the table that it follows.
  *
  * A mesh that follows a table has the points of its rows. If it had others, a later change of the table
- * would not find its own, and whoever writes the table would get the error. So points and attributes
+ * would not find its own, and the writer of the table would get the error. So points and attributes
  * are changed through the table alone. What the table does not give, as labels and markers, is free.
  *
  * The change has locked the header by then, as abacus_track() does before it makes its triggers. So

@@ -40,8 +40,8 @@ skip(char **text, const char *word)
 }
 
 /*
- * The dimension, how the mesh follows, and how many attributes it had lost; 0: arguments are what
- * whoever made the trigger has written.
+ * The dimension, how the mesh follows, and how many attributes it had lost; 0: arguments are whatever
+ * the creator of the trigger wrote.
  */
 static int
 read_dimension(char *argument, bool *deferred, uint32 *dropped)
