@@ -196,6 +196,25 @@ test("whether changes are saved is found out when the connection breaks in betwe
     }
 });
 
+test("changes of a mesh that follows a table are refused, with the reason and the way", async () => {
+    psql(`CREATE TABLE followed_points AS SELECT i AS id, i % 5 * 1.0 AS x, i / 5 * 1.0 AS y FROM generate_series(0, 24) AS i;
+          SELECT abacus_create('followed', 2); SELECT abacus_track('followed', 'followed_points')`);
+    const server = await serve("followed", { edit: true });
+    try {
+        const session = await begin(server);
+        const { status, body } = await insert(server, session, "77", [1.5, 1.5]);
+        assert.equal(status, 400); // as for all that PostgreSQL refuses
+        assert.match(body.error, /points of mesh "followed" are rows of table "followed_points"/);
+        assert.match(body.hint, /Change the table/);
+        assert.equal((await server.get("/api/locate?x=1.2&y=1.1", { headers: { "X-Session": session } })).status, 200);
+        assert.equal(psql("SELECT count(*) FROM abacus_vertices('followed')"), "25");
+        psql("INSERT INTO followed_points VALUES (77, 1.5, 1.5)"); // nothing keeps the writers of the table waiting
+    } finally {
+        await server.stop();
+        psql("DROP TABLE followed_points, followed, followed_vertices");
+    }
+});
+
 test("a save that PostgreSQL refuses says why, and what is undone", async () => {
     psql(`CREATE TABLE guarded (id int);
           CREATE FUNCTION refuse() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN RAISE 'the mesh follows a table' USING ERRCODE = '55000', HINT = 'Change the table.'; END $$;
