@@ -74,7 +74,7 @@ choose_sets() {
 }
 choose_sets "$@"
 
-folder=$ABACUS_BUILD/acceptance
+folder=$ABACUS_BUILD/acceptance-$mode
 oracle=$ABACUS_BUILD/release/test/oracle
 compared=0 differing=0
 
@@ -142,7 +142,7 @@ if [[ ! -x $oracle/oracle_compare ]] || [[ -z ${ABACUS_BUILT:-} ]]; then
     build_release oracle_points oracle_compare
     install_extension
 fi
-cluster_start acceptance
+cluster_start "acceptance-$mode"
 run_psql -c "CREATE EXTENSION abacus" -c "CREATE EXTENSION abacus_lab" -c "CREATE EXTENSION cube"
 mkdir -p "$folder"
 
@@ -167,4 +167,4 @@ for set in "${sets[@]}"; do
 done
 rm -rf "$folder"
 printf '%d meshes compared with CGAL, %d differ\n' "$compared" "$differing"
-((differing == 0))
+((compared && differing == 0))

@@ -83,6 +83,7 @@ run() {
         /usr/bin/env -i HOME=/root LANG=C.UTF-8 TERM="${TERM:-dumb}" PYTHONDONTWRITEBYTECODE=1 \
         PATH=/usr/lib/ccache:/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
         ABACUS_CHROOT="$name" "${server[@]}" ABACUS_SHORTCUTS="${ABACUS_SHORTCUTS:-1}" \
+        ${ABACUS_SEED:+ABACUS_SEED="$ABACUS_SEED"} ${ABACUS_KILLS:+ABACUS_KILLS="$ABACUS_KILLS"} \
         ABACUS_JOBS="$ABACUS_JOBS" ABACUS_WERROR="${ABACUS_WERROR-}" \
         bash -c 'cd /abacus && exec "$@"' bash "$@"
 }

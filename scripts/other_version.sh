@@ -19,7 +19,7 @@ other_postgresql() {
         set -- env ABACUS_SHORT=1 ABACUS_PACKAGES=$packages scripts/test.sh build-extension regress isolation pgtap tap acceptance
     else
         if [[ -e $build/brought ]]; then rm -r "$build"/{brought,extension,release}; fi
-        if ((!$#)); then set -- build-extension build unit regress isolation pgtap tap acceptance; fi
+        if ((!$#)); then set -- build-extension build unit unit-apart regress isolation pgtap tap acceptance; fi
         set -- scripts/test.sh "$@"
     fi
     exec scripts/chroot.sh "$version" "$@"

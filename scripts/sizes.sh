@@ -1,5 +1,14 @@
 # Sourced by test.sh: what of the suites runs in a size, by the table test/sizes and a seed.
 
+# The table: the suites in its order, the size of each, and its turns.
+size_suites=()
+declare -A size_of=() turns_of=()
+while read -r suite_name suite_size suite_turns; do
+    if [[ -z $suite_name || $suite_name == \#* ]]; then continue; fi
+    size_suites+=("$suite_name")
+    size_of[$suite_name]=$suite_size turns_of[$suite_name]=$suite_turns
+done <test/sizes
+
 # The seed of all that takes turns: a number made of the tree as it is, unless ABACUS_SEED is one.
 tree_seed() {
     local tree=${ABACUS_SEED:-}
@@ -7,45 +16,51 @@ tree_seed() {
         tree=$({ git rev-parse 'HEAD^{tree}' && git diff HEAD; } 2>/dev/null | sha1sum | cut -c 1-7)
         tree=$((16#$tree))
     fi
+    [[ $tree =~ ^(0|[1-9][0-9]{0,17})$ ]] || fail "ABACUS_SEED must be a whole number, not $tree."
     echo "$tree"
 }
 
-# Rows of the table: sizes_rows SIZE, a suite and its turns a line.
-sizes_rows() {
-    local known=quick size=$1
-    case $size in usual) known="quick usual" ;; everything) known="quick usual everything" ;; esac
-    awk -v known=" $known " '!/^#/ && NF && index(known, " " $2 " ") {
-        printf "%s", $1; for (i = 3; i <= NF; ++i) printf " %s", $i; print "" }' test/sizes
+# Sets `turn` to what the table has behind a prefix: turn_of SUITE PREFIX, `4` for 1/ and 1/4; empty if
+# nothing.
+turn_of() {
+    local word
+    turn=
+    for word in ${turns_of[$1]}; do
+        if [[ $word == "$2"* ]]; then turn=${word#"$2"}; fi
+    done
 }
 
-# turns_of SUITE PREFIX: what the table has behind it, `4` for 1/ and 1/4; nothing if nothing.
-turns_of() {
-    awk -v suite="$1" -v prefix="$2" '$1 == suite { for (i = 3; i <= NF; ++i)
-        if (index($i, prefix) == 1) print substr($i, length(prefix) + 1) }' test/sizes
-}
-
-# The suites of a size, those that take turns chosen by the seed.
+# The suites of a size, those that take turns chosen by the seed: suites_of SIZE SEED.
 suites_of() {
-    local size=$1 seed=$2 name turns group with members chosen=()
-    while read -r name turns; do
-        group=$(grep -oP '\bone:\K\w+' <<<"$turns")
-        with=$(grep -oP '\bwith:\K\S+' <<<"$turns")
-        if [[ $size == everything || -z $group$with ]]; then
-            echo "$name"
-        elif [[ -n $with ]]; then
-            if [[ " ${chosen[*]} " == *" $with "* ]]; then echo "$name"; fi
-        elif [[ " ${chosen[*]} " != *" $group "* ]]; then
-            mapfile -t members < <(sizes_rows "$size" | awk -v group="one:$group" '{
-                for (i = 2; i <= NF; ++i) if ($i == group) print $1 }')
-            chosen+=("$group" "${members[seed % ${#members[@]}]}")
-            echo "${chosen[-1]}"
+    local size=$1 seed=$2 name other turn group members chosen=" "
+    [[ $size == @(quick|usual|everything) ]] || fail "There is no size $size: quick, usual or everything."
+    for name in "${size_suites[@]}"; do
+        if [[ $size == quick && ${size_of[$name]} != quick ]]; then continue; fi
+        if [[ $size == usual && ${size_of[$name]} == everything ]]; then continue; fi
+        if [[ $size != everything ]]; then
+            turn_of "$name" with:
+            if [[ -n $turn && $chosen != *" $turn "* ]]; then continue; fi
+            turn_of "$name" one:
+            if [[ -n $turn ]]; then
+                group=$turn members=()
+                for other in "${size_suites[@]}"; do
+                    turn_of "$other" one:
+                    if [[ $turn == "$group" ]]; then members+=("$other"); fi
+                done
+                if [[ ${members[seed % ${#members[@]}]} != "$name" ]]; then continue; fi
+            fi
         fi
-    done < <(sizes_rows "$size")
+        chosen+="$name "
+        echo "$name"
+    done
 }
 
-# share_of SUITE SEED: `K/N`, the part of it that has its turn; nothing if all of it has.
+# share_of SUITE SEED: `K/N`, the part of it that has its turn; nothing if all of it has. Each suite has
+# a hash of its own, or the choice in a group would always go with the same part.
 share_of() {
-    local parts
-    parts=$(turns_of "$1" 1/)
-    if [[ -n $parts ]]; then echo "$(($2 % parts))/$parts"; fi
+    local turn hash
+    turn_of "$1" 1/
+    if [[ -z $turn ]]; then return; fi
+    hash=$(sha1sum <<<"$1 $2")
+    echo "$((16#${hash:0:7} % turn))/$turn"
 }

@@ -34,7 +34,9 @@ build_unit_tests() {
 unit_tests() {
     local share=()
     if [[ -n ${ABACUS_SHARE:-} ]]; then share=(-I "$((${ABACUS_SHARE%/*} + 1)),,${ABACUS_SHARE#*/}"); fi
-    ctest --test-dir "$1" "${@:2}" "${share[@]}" -j "$ABACUS_JOBS" --output-on-failure --no-tests=error &&
+    exec 8>"$1/ctest.lock"
+    flock 8 # two runs in one folder would share a log
+    ctest --test-dir "$1" "${@:2}" "${share[@]}" -j "$ABACUS_JOBS" --output-on-failure --no-tests=error 8>&- &&
         awk '/PASSED/ { n += $4 } END { print "All " n " tests passed" }' \
             "$1/Testing/Temporary/LastTest.log"
 }

@@ -10,7 +10,8 @@
 #   test.sh everything  all, whole
 #   test.sh NAME...     these suites, whole, after the builds that they need
 #   test.sh list [quick|usual|everything]
-#                       the names: all, or those of a size; test/sizes says which is in which
+#                       the names: all, or those of a size, with the part that has its turn;
+#                       test/sizes says which is in which
 #   test.sh --postgresql N [short|NAME...]
 #                       with PostgreSQL 17 or 18, in a Debian that has it (chroot.sh): all that a
 #                       server and the core concerns, compiled there; these suites; or, in some
@@ -67,10 +68,10 @@ declare -A command=(
     [postgresql-17]="scripts/test.sh --postgresql 17 short"
     [postgresql-18]="scripts/test.sh --postgresql 18 short"
 )
-# What must have passed before a suite. (Two runs of ctest in one folder would share a log.)
-declare -A needs=([unit]=build [unit-apart]=unit [build-sanitized]=build [build-benchmarks]=build
+# What must have passed before a suite.
+declare -A needs=([unit]=build [unit-apart]=build [build-sanitized]=build [build-benchmarks]=build
     [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-sanitized
-    [build-threads]=build-extension [bench]=build-benchmarks [evaluation]=build-benchmarks)
+    [bench]=build-benchmarks [evaluation]=build-benchmarks)
 for name in build regress isolation pgtap docs oracles viewer tap; do needs[$name]=build-extension; done
 for name in acceptance acceptance-goose model postgresql-17 postgresql-18; do needs[$name]=build; done
 if [[ -n ${ABACUS_SHORT:-} ]]; then needs[acceptance]=build-extension; fi # the oracle was brought
@@ -105,6 +106,7 @@ tidy_core() {
 fuzz() {
     local targets=(test/fuzz/*.cpp) target runs=() run status=0
     local seconds=$((FUZZ_SECONDS / ABACUS_JOBS))
+    ((seconds)) || seconds=1 # 0 is without a limit
     for target in "${targets[@]}"; do
         fuzz_target "$(basename "$target" .cpp)" "$seconds" &
         runs+=($!)
@@ -160,10 +162,10 @@ choose() {
 # start NAME: the suite in the background, as a process group, its output into a log.
 start() {
     local share=
-    if [[ $size != everything && $size != named ]]; then share=$(share_of "$1" "$seed"); fi
+    if [[ -n ${by_turns[$1]:-} ]]; then share=$(share_of "$1" "$seed"); fi
     rm -f "$logs/$1.times"
     set -m
-    ABACUS_SHARE=$share scripts/timed.py "$logs/$1.times" scripts/test.sh --suite "$1" >"$logs/$1.log" 2>&1 9>&- &
+    ABACUS_SHARE=$share scripts/timed.py "$logs/$1.times" scripts/test.sh --suite "$1" </dev/null >"$logs/$1.log" 2>&1 &
     running[$!]=$1
     set +m
 }
@@ -208,7 +210,7 @@ next_suite() {
 run_suites() {
     local left=("${suites[@]}") pid status ready
     declare -gA running=() good=()
-    trap 'for pid in "${!running[@]}"; do kill -INT -- "-$pid"; done; wait' EXIT
+    trap 'for pid in "${!running[@]}"; do kill -TERM -- "-$pid"; done; wait' EXIT
     printf '%-16s %9s %9s %9s\n' suite elapsed processor kernel >"$logs/times"
     while ((${#left[@]} + ${#running[@]})); do
         while ((${#running[@]} < lanes)); do
@@ -224,26 +226,38 @@ run_suites() {
     trap - EXIT
 }
 
-seed=$(tree_seed)
+seed=$(tree_seed) || exit
 size=usual
+declare -A by_turns=()
 case ${1:-usual} in
 list)
-    if (($# > 1)); then suites_of "$2" "$seed"; else printf '%s\n' "${suites[@]}"; fi
+    if (($# < 2)); then printf '%s\n' "${suites[@]}"; exit; fi
+    names=$(suites_of "$2" "$seed") || exit
+    for name in $names; do
+        echo "$name$([[ $2 == everything ]] || share_of "$name" "$seed" | sed 's/^/ /')"
+    done
     exit
     ;;
 --postgresql) shift; other_postgresql "$@" ;;
 quick | usual | everything)
     size=${1:-usual}
-    mapfile -t names < <(suites_of "$size" "$seed")
+    names=$(suites_of "$size" "$seed") || exit
+    mapfile -t names <<<"$names"
+    if [[ $size != everything ]]; then for name in "${names[@]}"; do by_turns[$name]=1; done; fi
+    for name in "${@:2}"; do unset "by_turns[$name]"; done # these are whole
     set -- "${names[@]}" "${@:2}"
     ;;
 *) size=named ;;
 esac
 choose "$@"
 scripts/install-dependencies.sh "${ABACUS_PACKAGES:-test}" || fail "packages are missing"
+if ((EUID != 0)); then sudo -v || fail "sudo is needed: suites install the extension, and cannot ask for a password"; fi
 export ABACUS_BUILT=1 # tells the scripts below that all is built and installed
 export ABACUS_SEED=$seed
-if [[ $size == quick || $size == usual ]]; then export ABACUS_KILLS=${ABACUS_KILLS:-$(turns_of tap kills:)}; fi
+if [[ -n ${by_turns[tap]:-} ]]; then
+    turn_of tap kills:
+    export ABACUS_KILLS=${ABACUS_KILLS:-$turn}
+fi
 lanes=${ABACUS_LANES:-$ABACUS_JOBS}
 passed=0 failed=0 skipped=0
 echo "Size $size, ABACUS_SEED=$seed: ${suites[*]}"

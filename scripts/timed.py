@@ -25,6 +25,28 @@ def children(pid):
         return []
 
 
+def end_children():
+    """Ends what is left, and what comes to this process while it ends: for a minute as a server ends
+    at once (SIGINT, a fast stop), then by force."""
+    began = time.monotonic()
+    asked = set()
+    while True:
+        try:
+            while os.waitpid(-1, os.WNOHANG)[0]:
+                pass
+        except ChildProcessError:
+            return
+        number = signal.SIGINT if time.monotonic() - began < 60 else signal.SIGKILL
+        for child in children(os.getpid()):
+            if (child, number) not in asked:
+                asked.add((child, number))
+                try:
+                    os.kill(child, number)
+                except OSError:  # it has ended, or is another user's
+                    pass
+        time.sleep(0.1)
+
+
 def main(report, command):
     ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
     began = time.monotonic()
@@ -39,16 +61,7 @@ def main(report, command):
         if done == pid:
             status = os.waitstatus_to_exitcode(ended)
     elapsed = time.monotonic() - began
-    for left in children(os.getpid()):
-        try:
-            os.kill(left, signal.SIGTERM)
-        except ProcessLookupError:
-            pass
-    try:
-        while True:
-            os.wait()
-    except ChildProcessError:
-        pass
+    end_children()
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     with open(report, "a") as out:
         print(f"{elapsed:.1f} {used.ru_utime + used.ru_stime:.1f} {used.ru_stime:.1f}", file=out)

@@ -14,8 +14,9 @@ KINDS = {"test/unit": "unit", "test/pgtap": "pgtap", "test/tap": "tap", "test/is
 
 
 def listed(*size, seed=0):
-    return subprocess.run([ROOT / "scripts/test.sh", "list", *size], env={"PATH": "/usr/bin:/bin", "ABACUS_SEED": str(seed)},
-                          stdout=subprocess.PIPE, text=True, check=True).stdout.split()
+    rows = subprocess.run([ROOT / "scripts/test.sh", "list", *size], env={"PATH": "/usr/bin:/bin", "ABACUS_SEED": str(seed)},
+                          stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()
+    return [row.split()[0] for row in rows]
 
 
 class Sizes(unittest.TestCase):
@@ -37,6 +38,22 @@ class Sizes(unittest.TestCase):
     def test_everything_has_its_turn(self):
         usual = {name for name, size, *_ in TABLE if size != "everything"}
         self.assertEqual(set().union(*(listed("usual", seed=seed) for seed in range(4))), usual)
+
+    def test_every_part_has_its_turn(self):
+        turns = subprocess.run(["bash", "-c", """. scripts/common.sh; . scripts/sizes.sh
+            for seed in {100..180}; do
+                for name in $(suites_of usual "$seed"); do echo "$name $(share_of "$name" "$seed")"; done
+            done"""], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()
+        known = {(name, f"{part}/{turn[2:]}") for name, _, *turns in TABLE for turn in turns if turn.startswith("1/")
+                 for part in range(int(turn[2:]))}
+        self.assertEqual({tuple(row.split()) for row in turns if "/" in row}, known)
+
+    def test_seeds_that_are_none(self):
+        for seed in ["abc", "-1", "08", "1.5"]:
+            ran = subprocess.run([ROOT / "scripts/test.sh", "list", "usual"], env={"PATH": "/usr/bin:/bin", "ABACUS_SEED": seed},
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.assertEqual((ran.returncode, ran.stdout), (1, ""), seed)
+            self.assertIn("whole number", ran.stderr)
 
     def test_kinds_of_tests_have_suites(self):
         folders = {path.relative_to(ROOT).as_posix() for path in (ROOT / "test").iterdir()
