@@ -33,6 +33,8 @@ SELECT id FROM abacus_vertices('field', 'depth', 2, 5, ARRAY[0, 0], ARRAY[3, 9])
 SELECT count(*) FROM abacus_vertices('field', 'height', 11, 19);
 SELECT id, attributes FROM abacus_vertices('field', attribute => 'height', range => '{20,30}') ORDER BY id;
 SELECT id, attributes FROM abacus_vertices('field', '{0,0}', '{3,9}', attribute => 'depth', range => '{2,Infinity}') ORDER BY id;
+SELECT id, attributes FROM abacus_vertices('field', '{0,0}', '{3,9}', 'depth', '{2,Infinity}') ORDER BY id;
+SELECT (SELECT count(*) FROM abacus_vertices('field', '{0,0}', '{3,9}', 'height')) AS quoted, (SELECT count(*) FROM abacus_vertices('field', ARRAY[0, 0], ARRAY[3, 9], 'height')) AS plain;
 SELECT id, attributes FROM abacus_vertices('field', attribute => 'height') ORDER BY id;
 -- two texts in quotes are the corners of a window, everywhere; a text and an array are, too
 SELECT (SELECT count(*) FROM abacus_cells('field', '{2,1}', '{2,1}')) AS cells, (SELECT count(*) FROM abacus_simplices('field', '{2,1}', '{2,1}')) AS simplices,

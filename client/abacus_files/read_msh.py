@@ -74,18 +74,19 @@ def elements_2(file, section, elements):
 
 
 def entities_4(file, section):
-    """{(dimension, entity): its first physical group}"""
-    groups = {}
+    """{(dimension, entity): its first physical group}, and how many entities have others, too."""
+    groups, more = {}, 0
     for dimension, count in enumerate(section.numbers(file.size, 4).tolist()):
         for _ in range(count):
             entity, = section.numbers("i4", 1).tolist()
             section.numbers("f8", 3 if dimension == 0 and file.version == "4.1" else 6)
             several, = section.numbers(file.size, 1).tolist()
             groups[dimension, entity] = ([abs(group) for group in section.numbers("i4", several).tolist()] + [0])[0]
+            more += several > 1
             if dimension:
                 bounds, = section.numbers(file.size, 1).tolist()
                 section.numbers("i4", bounds)
-    return groups
+    return groups, more
 
 
 def blocks_4(file, section):
@@ -158,10 +159,10 @@ def read(path):
     if not is_of_gmsh(path):
         return read_other.read(path)
     file = File(path)
-    ids, points, groups, views, elements = None, None, {}, [], Elements()
+    ids, points, groups, more, views, elements = None, None, {}, 0, [], Elements()
     for name, section in file.sections(SECTIONS):
         if name == "Entities":
-            groups = entities_4(file, section)
+            groups, more = entities_4(file, section)
         elif name == "NodeData":
             views.append(node_data(section))
         elif file.version[0] == "2":
@@ -176,4 +177,6 @@ def read(path):
     if ids is None or not len(ids):
         raise Failed("has no nodes")
     data, notes = values_of(views, ids)
+    if more:
+        notes.append(f"physical groups but the first of {more} entities are left out")
     return Grid(points, elements.cells(ids), ids=ids, data=data, tags=elements.tags(), notes=notes)

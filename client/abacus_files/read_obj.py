@@ -4,6 +4,7 @@ from .psql import Failed
 from .words import floats, integers, read_text
 
 suffixes = (".obj",)
+UNREAD = {"vn": "normals", "vt": "places in textures"}
 SHAPES = {"curv", "curv2", "surf"}
 
 
@@ -31,6 +32,8 @@ def read(path):
         elif words[0] == "f":
             count = len(words) - 1
             corners.setdefault(count, []).extend(place(word, len(vertices)) for word in words[1:])
+        elif words[0] in UNREAD:
+            left[UNREAD[words[0]]] = None
         elif words[0] in ("l", "p"):
             left["lines and points"] = None
         elif words[0] in SHAPES:

@@ -25,11 +25,17 @@ def read(path):
     if short:
         raise Failed(f"a vertex has fewer than three coordinates: {' '.join(short)}")
     points = floats(word for row in rows[:vertices] for word in row[:3]).reshape(-1, 3)
+    left = {}
+    if any(len(row) > 3 for row in rows[:vertices]):
+        left["colours, normals and the like of vertices"] = None
     corners = {}
     for row in rows[vertices: vertices + faces]:
         count = int(row[0])
         if not 1 <= count < len(row):
             raise Failed(f"a face has fewer corners than it says: {' '.join(row)}")
         corners.setdefault(count, []).extend(row[1: count + 1])
+        if len(row) > count + 1:
+            left["colours of faces"] = None
     kinds = {1: "vertex", 2: "line", 3: "triangle", 4: "quad"}
-    return Grid(points, {kinds.get(count, f"polygon of {count}"): integers(words).reshape(-1, count) for count, words in corners.items()})
+    return Grid(points, {kinds.get(count, f"polygon of {count}"): integers(words).reshape(-1, count) for count, words in corners.items()},
+                notes=[f"left out: {', '.join(left)}"] if left else [])

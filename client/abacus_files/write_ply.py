@@ -9,12 +9,12 @@ suffixes = (".ply",)
 
 def write(mesh, file, z):
     if mesh.dimension != 2:
-        raise Failed("PLY has faces only, no tetrahedra: take .vtu, .npz or .msh")
+        raise Failed("PLY has faces only, no tetrahedra: take .vtu or .npz")
     number = "int" if mesh.vertices < 1 << 31 else "uint"
     if mesh.vertices >= 1 << 32:
         raise Failed("PLY numbers at most 4,294,967,295 vertices: take .vtu or .npz")
     axes = ("x", "y", "z")
-    names = unlike(("".join(c if c.isalnum() and c.isascii() else "_" for c in name) for name in mesh.attributes), axes)
+    names = unlike(("".join(c if c.isalnum() and c.isascii() else "_" for c in name) for name in mesh.attributes), (*axes, "id"))
     properties = "".join(f"property double {name}\n" for name in (*axes, *names))
     file.write((f"ply\nformat binary_little_endian 1.0\nelement vertex {mesh.vertices}\n{properties}"
                 f"element face {mesh.simplices}\nproperty list uchar {number} vertex_indices\nend_header\n").encode())

@@ -193,10 +193,14 @@ RETURNS SETOF record
 LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT v.sequence, v.id, v.x, v.y, v.z, v.attributes, v.vertex
-    FROM abacus_vertices(mesh, lower, upper, attribute, ARRAY[range_lower, range_upper]::double precision[]) AS v;
+    FROM abacus_vertices(mesh,
+        CASE WHEN range_lower LIKE '{%' THEN attribute::double precision[] ELSE lower END,
+        CASE WHEN range_lower LIKE '{%' THEN range_lower::double precision[] ELSE upper END,
+        CASE WHEN range_lower LIKE '{%' THEN range_upper ELSE attribute END,
+        CASE WHEN range_lower LIKE '{%' THEN lower ELSE ARRAY[range_lower, range_upper]::double precision[] END) AS v;
 END;
 COMMENT ON FUNCTION abacus_vertices(regclass, text, text, text, double precision[], double precision[]) IS
-    'the same, with the ends of the range as text';
+    'the same, with the ends of the range as text; if the third argument is an array in quotes, as the second is then, they are a window, an attribute and its range';
 
 CREATE FUNCTION abacus_edges(
     mesh regclass,

@@ -64,17 +64,27 @@ template <int D> void Sibson<D>::see(Cache<D> &cache, const Point<D> &p) {
     for (const Handle h : zone_)
         for (const VertexIndex v : cache.simplex(h).vertex) cache.number(numbers_, v);
     cache.sort_by_place(numbers_);
-    double extent = 0;
-    for (std::size_t i = 0; i < numbers_.size(); ++i)
-        for (int axis = 0; axis < D; ++axis)
-            extent = std::max(extent, std::abs(cache.point(numbers_[i])[axis] / 4 - p[axis] / 4));
-    // A power of two, so that nothing is rounded, and within the range of doubles.
-    const int exponent = extent == 0 ? 0 : -std::ilogb(extent);
-    scale_ = std::ldexp(1.0, std::clamp(exponent, -1000, 1000));
+    const auto extent = [&](double part) {
+        double most = 0;
+        for (std::size_t i = 0; i < numbers_.size(); ++i)
+            for (int axis = 0; axis < D; ++axis)
+                most = std::max(most,
+                                std::abs(cache.point(numbers_[i])[axis] * part - p[axis] * part));
+        return most;
+    };
+    // Powers of two, so that nothing is rounded: a part, if differences overflow, and two factors,
+    // since one may be beyond the range of doubles.
+    double most = extent(1);
+    scale_[0] = std::isfinite(most) ? 1 : 0.25;
+    if (scale_[0] != 1) most = extent(scale_[0]);
+    const int exponent = most == 0 ? 0 : -std::ilogb(most);
+    scale_[1] = std::ldexp(1.0, exponent / 2);
+    scale_[2] = std::ldexp(1.0, exponent - exponent / 2);
     seen_.resize(numbers_.size());
     for (std::size_t i = 0; i < numbers_.size(); ++i)
         for (int axis = 0; axis < D; ++axis)
-            seen_[i][axis] = (cache.point(numbers_[i])[axis] / 4 - p[axis] / 4) * scale_;
+            seen_[i][axis] = (cache.point(numbers_[i])[axis] * scale_[0] - p[axis] * scale_[0]) *
+                             scale_[1] * scale_[2];
     shares_.resize(numbers_.size());
     std::fill(shares_.begin(), shares_.end(), 0.0);
     cache_ = &cache;
@@ -116,7 +126,7 @@ template <int D> Point<D> Sibson<D>::centre(const std::uint32_t *numbers, int n)
                     seen[axis] = seen_[numbers[i]][axis];
                 else
                     seen[axis] = (T(cache_->point(numbers_[numbers[i]])[axis]) - T(p_[axis])) *
-                                 T(scale_) / T(4);
+                                 T(scale_[0]) * T(scale_[1]) * T(scale_[2]);
             return seen;
         };
         std::array<T, D> from; // the first of them, or p

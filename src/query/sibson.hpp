@@ -97,7 +97,7 @@ private:
     Ridges ridges_;
     const Cache<D> *cache_ = nullptr; // of the neighbours
     Point<D> p_{};
-    double scale_ = 1;
+    std::array<double, 3> scale_{1, 1, 1};
 };
 
 template <> void Sibson<2>::add_ridges();

@@ -192,6 +192,9 @@ class Files(unittest.TestCase):
             data = meshio.read(self.export("files_names", "names" + suffix)).point_data
             for name, more in zip(names, (0, 10, 20, 30)):
                 self.assertEqual(sorted(data[name]), [i + more for i in range(9)], name)
+        abacus.psql("SELECT abacus_triangulate('files_id', 'VALUES (101, 0, 0, 3), (102, 1, 0, 2), (103, 0, 1, 1)', attributes => '{id}')")
+        data = meshio.read(self.export("files_id", "id.ply")).point_data  # not taken for ids when it is read again
+        self.assertEqual((list(data), sorted(data["id_"])), (["id_"], [1, 2, 3]))
         feature = json.loads(self.export("files_names", "names.geojsonl").read_text().splitlines()[0])["properties"]
         self.assertAlmostEqual(feature["v0__"], feature["v0_"] + 10)
         self.assertAlmostEqual(feature["a-b"], feature["v0_"] + 30)

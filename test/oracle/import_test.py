@@ -176,6 +176,7 @@ class Import(unittest.TestCase):
         head = "v 0 0 0\nv 4 0 0 # a comment\nv 0 3 0\nvt 0 0\nvn 0 0 1\n"
         found = self.read(self.file("m.obj", head + "f -3/1/1 -2/1 -1//1\nv 4 3 0\nf 2 4 3\n"))
         self.assert_mesh(found, [[0, 0], [4, 0], [0, 3], [4, 3]], CELLS)
+        self.assertEqual(found.notes, ["left out: places in textures, normals"])
         for faces, said in (("f 1 2 0\n", "corner 0"), ("f 1 2 -4\n", "corner -4"), ("f 1 2 4\n", "corner 3, but there are 3 points"),
                             ("f 1 2 3 1\n", "quad"), ("", "neither triangles"), ("f 1 2 x\n", "invalid literal")):
             self.refused("m.obj", head + faces, said)
@@ -184,7 +185,10 @@ class Import(unittest.TestCase):
         points = "0 0 0\n4 0 0 # a comment\n0 3 0\n\n4 3 0\n"
         for head in "OFF\n4 2 0\n", "OFF 4 2 0\n", "# made by hand\nCOFF\n4 2\n":
             colours = points.replace("0\n", "0 1 0 0 1\n") if head.startswith("#") else points
-            self.assert_mesh(self.read(self.file("m.off", head + colours + "3 0 1 2\n3 1 3 2 255 0 0\n")), [[0, 0], [4, 0], [0, 3], [4, 3]], CELLS)
+            found = self.read(self.file("m.off", head + colours + "3 0 1 2\n3 1 3 2 255 0 0\n"))
+            self.assert_mesh(found, [[0, 0], [4, 0], [0, 3], [4, 3]], CELLS)
+            more = "colours, normals and the like of vertices, " if head.startswith("#") else ""
+            self.assertEqual(found.notes, [f"left out: {more}colours of faces"])
         for faces, said in (("3 0 1 2\n3 0 2 -1\n", "corner -1"), ("3 0 1 2\n3 0 2 4\n", "corner 4"), ("3 0 1 2\n", "ends after 5 lines"),
                             ("3 0 1 2\n3 0 1\n", "fewer corners"), ("3 0 1 2\n4 0 1 3 2\n", "quad")):
             self.refused("n.off", "OFF\n4 2 0\n" + points + faces, said)
@@ -243,6 +247,9 @@ class Import(unittest.TestCase):
         self.assertEqual(found.ids.tolist(), [20, 10, 40, 30])
         self.assert_mesh(found, [[1, 0], [0, 0], [1, 1], [0, 1]], [[1, 0, 3], [0, 2, 3]])
         self.assertEqual((found.materials.tolist(), found.facets.tolist(), found.markers.tolist()), ([5, 0], [[0, 1]], [77]))
+        self.assertEqual(found.notes, [])
+        found = self.read(self.file("g.msh", text.replace("1 -5 1 1", "2 -5 9 1 1")))
+        self.assertEqual((found.materials.tolist(), found.notes), ([5, 0], ["physical groups but the first of 1 entities are left out"]))
         for old, new, said in (("2 10 20 30", "2 10 20 50", "names point 50"), ("3 3 1 3", "3 4 1 3", "says that it has 4 elements"),
                                ("2 4 10 40", "2 5 10 40", "says that it has 5 nodes"),
                                ("2 2 2 1\n3", "2 2 9 1\n3", "more numbers|ends before"),

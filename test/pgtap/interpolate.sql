@@ -53,6 +53,19 @@ SELECT is((SELECT count(*) FROM abacus_weights('field', 'SELECT id, x, y FROM pl
 SELECT is((SELECT count(*) FROM places, abacus_weights('field', x, y) WHERE vertex % 2 = 0), 0::bigint, 'of one place, too');
 ROLLBACK TO changed;
 SELECT cmp_ok((SELECT count(*) FROM places, abacus_weights('field', x, y) WHERE vertex % 2 = 0), '>', 1000::bigint, 'unless it is rolled back');
+-- the least and nearly the greatest doubles: linear data comes back by natural neighbours as it does beside 1
+CREATE FUNCTION pg_temp.natural_of(scale float8) RETURNS float8[] LANGUAGE plpgsql AS $$
+DECLARE found float8[];
+BEGIN
+    EXECUTE format('SELECT abacus_triangulate(''scaled'', $q$ SELECT i, (ARRAY[0,8,1,9,4,5])[i] * %1$s::float8, (ARRAY[0,1,8,9,3,7])[i] * %1$s::float8, (ARRAY[0,8,1,9,4,5])[i]::float8 FROM generate_series(1, 6) i $q$)', scale);
+    EXECUTE format('SELECT abacus_triangulate(''scaled_solid'', $q$ SELECT i, (ARRAY[0,8,0,0,7,3,5])[i] * %1$s::float8, (ARRAY[0,0,8,0,7,4,1])[i] * %1$s::float8, (ARRAY[0,0,0,8,6,3,2])[i] * %1$s::float8, (ARRAY[0,8,0,0,7,3,5])[i]::float8 FROM generate_series(1, 7) i $q$, dimension => 3)', scale);
+    found := ARRAY[abacus_interpolate('scaled', 3 * scale, 4 * scale, method => 'natural'), abacus_interpolate('scaled_solid', 2 * scale, 3 * scale, 2 * scale, method => 'natural')];
+    DROP TABLE scaled, scaled_vertices, scaled_solid, scaled_solid_vertices;
+    RETURN found;
+END $$;
+SELECT ok(abs(found[1] - 3) < 1e-9 AND abs(found[2] - 2) < 1e-9, 'natural neighbours where all is a multiple of ' || scale || ': ' || found::text)
+FROM (SELECT scale, pg_temp.natural_of(scale) AS found FROM unnest('{1,5e-324,1e-320,1e-310,1e-300,1e300,1e307}'::float8[]) AS scale OFFSET 0) AS scales;
+
 -- privileges
 CREATE ROLE abacus_reader;
 SET LOCAL ROLE abacus_reader;
