@@ -191,6 +191,8 @@ typedef struct abacus_host
 	 * there is no room for them, so that nothing is written in vain.
 	 */
 	abacus_host_status (*spool_expect)(void *context, double bytes);
+	/* Whether there is room for so many bytes: NONE if not. For what would have to be counted. */
+	abacus_host_status (*spool_fits)(void *context, double bytes);
 } abacus_host;
 
 /*

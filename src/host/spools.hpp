@@ -35,6 +35,10 @@ public:
     void spool_expect(double bytes) const {
         if (bytes > 0) host::require(table_->spool_expect(table_->context, bytes));
     }
+    /// Whether there is room for so many bytes. If not, the caller counts what it really needs.
+    bool spool_fits(double bytes) const {
+        return host::found(table_->spool_fits(table_->context, bytes));
+    }
 
 private:
     const abacus_host *table_;

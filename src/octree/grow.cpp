@@ -44,6 +44,32 @@ void Growth<D>::read(SplitOctants<D> &octants, abacus_header &header, Visit visi
     header.counters.bytes_read += leaves.bytes();
 }
 
+template <int D> void Growth<D>::expect(double wanted_bytes) const {
+    // Memory has room for some of each level.
+    constexpr double in_memory = static_cast<double>(finest_level<D> * RecordSpool::piece_bytes);
+    const double split = static_cast<double>(header_.leaves - 1) / (Octant<D>::children - 1);
+    host_.spool_expect(std::max(0.0, 8 * split - in_memory) + wanted_bytes);
+}
+
+template <int D> template <class Each> void Growth<D>::expect_places(Each each) {
+    const double most = 8.0 * static_cast<double>(places_.size()) * levels_;
+    if (host_.spool_fits(most)) return expect(0);
+    LastSplit<D> last;
+    std::array<double, finest_level<D>> wanted{};
+    each([&](std::uint64_t cell, int level) {
+        last.split_to(cell, level, [&](int at, std::uint64_t) { ++wanted[at]; });
+    });
+    double bytes = 0;
+    for (const double octants : wanted) bytes += SplitOctants<D>::spool_bytes(octants);
+    expect(bytes);
+}
+
+template <int D> template <class SplitTo> void Growth<D>::each_place(SplitTo split_to) {
+    places_.rewind();
+    while (const std::uint64_t *place = places_.next())
+        split_to(place[0], static_cast<int>(place[1]));
+}
+
 template <int D> void Growth<D>::to_levels(abacus_header &header) {
     places_.finish();
     if (places_.size() < header_.leaves / leaves_a_place) {
@@ -51,8 +77,8 @@ template <int D> void Growth<D>::to_levels(abacus_header &header) {
         return;
     }
     SplitOctants<D> octants(host_), wanted(host_);
-    while (const std::uint64_t *place = places_.next())
-        wanted.split_to(place[0], static_cast<int>(place[1]));
+    expect_places([this](auto split_to) { each_place(split_to); });
+    each_place([&](std::uint64_t cell, int level) { wanted.split_to(cell, level); });
     places_.close();
     read(octants, header);
     grow(octants, wanted, header);
@@ -76,12 +102,10 @@ template <int D> void Growth<D>::split_in_place(abacus_header &header) {
     header.counters += cache.counters;
 }
 
-template <int D> void Growth<D>::to_points(std::uint64_t most, abacus_header &header) {
+template <int D>
+template <class SplitTo>
+void Growth<D>::each_crowded(RecordSpool &ahead, std::uint64_t most, SplitTo split_to) {
     // An octant has too many points if it has one and the one that comes `most` later.
-    SplitOctants<D> octants(host_), wanted(host_);
-    RecordSpool ahead(host_, 1);
-    places_.finish();
-    while (const std::uint64_t *place = places_.next()) *ahead.add() = place[0];
     ahead.rewind();
     places_.rewind();
     bool is_there = true;
@@ -91,8 +115,18 @@ template <int D> void Growth<D>::to_points(std::uint64_t most, abacus_header &he
         if (last == nullptr) break;
         const std::uint64_t cell = places_.next()[0];
         const int crowded = nearest_common<D>(cell, *last).level;
-        wanted.split_to(cell, std::min(crowded + 1, levels_));
+        split_to(cell, std::min(crowded + 1, levels_));
     }
+}
+
+template <int D> void Growth<D>::to_points(std::uint64_t most, abacus_header &header) {
+    SplitOctants<D> octants(host_), wanted(host_);
+    RecordSpool ahead(host_, 1);
+    places_.finish();
+    host_.spool_expect(ahead.spool_bytes(static_cast<double>(places_.size())));
+    while (const std::uint64_t *place = places_.next()) *ahead.add() = place[0];
+    expect_places([&](auto split_to) { each_crowded(ahead, most, split_to); });
+    each_crowded(ahead, most, [&](std::uint64_t cell, int level) { wanted.split_to(cell, level); });
     ahead.close();
     places_.close();
     read(octants, header);
@@ -102,6 +136,7 @@ template <int D> void Growth<D>::to_points(std::uint64_t most, abacus_header &he
 template <int D> void Growth<D>::to_balance(int across, abacus_header &header) {
     places_.close();
     SplitOctants<D> octants(host_), balanced(host_);
+    expect(0);
     read(octants, header);
     octants.rewind();
     balance<D>(host_, octants, std::min(across, D), memory_, balanced);

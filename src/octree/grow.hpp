@@ -46,6 +46,16 @@ private:
 
     /// Splits the leaves at the places through a cache.
     void split_in_place(abacus_header &header);
+    /// Throws if spools have no room for what is split in the octree as it is, and so many bytes.
+    void expect(double wanted_bytes) const;
+    /// The same for what each(split_to) splits by split_to(cell, level) at the places, which are
+    /// counted where there may be no room for them.
+    template <class Each> void expect_places(Each each);
+    /// Calls split_to(cell, level) for a cell of each place; or of places that are too many in a
+    /// leaf.
+    template <class SplitTo> void each_place(SplitTo split_to);
+    template <class SplitTo>
+    void each_crowded(RecordSpool &ahead, std::uint64_t most, SplitTo split_to);
     /// What is split in the octree as it is; `visit` gets its leaves.
     template <class Visit> void read(SplitOctants<D> &octants, abacus_header &header, Visit visit);
     void read(SplitOctants<D> &octants, abacus_header &header) {

@@ -20,6 +20,7 @@ OctreeNodes<D>::OctreeNodes(const Host &host, const abacus_header &header, std::
 
 template <int D> void OctreeNodes<D>::find_nodes(std::size_t memory, const abacus_header &header) {
     RecordSort corners(host_, 3, 2, memory); // key, level
+    corners.expect(corners_in_all<D>(header));
     each_corner<D>(host_, header, [&](const NodeKey &key, const Octant<D> &leaf, int) {
         std::uint64_t *const record = corners.add();
         record[0] = key.code;
@@ -103,6 +104,7 @@ template <int D> bool OctreeNodes<D>::next(Node &node) {
 template <int D>
 OctreeElements<D>::OctreeElements(const Host &host, const abacus_header &header, std::size_t memory)
     : scan_(host, header), corners_(host, 2, memory) {
+    corners_.expect(corners_in_all<D>(header));
     each_corner<D>(host, header, [&](const NodeKey &key, const Octant<D> &, int) {
         std::uint64_t *const record = corners_.add();
         record[0] = key.code;

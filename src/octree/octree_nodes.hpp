@@ -73,6 +73,10 @@ template <int D> std::optional<std::uint64_t> cell_around(const GridPoint<D> &po
     }
     return morton<D>(cell);
 }
+/// Of all leaves, those that they share counted for each.
+template <int D> double corners_in_all(const abacus_header &header) {
+    return static_cast<double>(header.leaves) * Octant<D>::children;
+}
 /// Calls visit(key, leaf, number) for all corners of all leaves, by their numbers.
 template <int D, class Visit>
 void each_corner(const Host &host, const abacus_header &header, Visit visit) {

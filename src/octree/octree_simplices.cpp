@@ -38,6 +38,7 @@ OctreeSimplices<D>::OctreeSimplices(const Host &host, const abacus_header &heade
 template <int D>
 void OctreeSimplices<D>::find_nodes(const abacus_header &header, std::size_t memory) {
     RecordSort corners(host_, 5, 2, memory); // key, code and level of the leaf, which corner
+    corners.expect(corners_in_all<D>(header));
     each_corner<D>(host_, header, [&](const NodeKey &key, const Octant<D> &leaf, int i) {
         std::uint64_t *const record = corners.add();
         record[0] = key.code;

@@ -17,6 +17,28 @@
 
 namespace abacus {
 
+/// The octant of each level that was split last, where octants are split along the curve.
+template <int D> class LastSplit {
+public:
+    LastSplit() { codes_.fill(~std::uint64_t{0}); }
+
+    void set(int level, std::uint64_t code) { codes_[level] = code; }
+    /// Calls add(level, code) for each octant that has to be split so that the cell is in one of
+    /// this level. Cells come in order.
+    template <class Add> void split_to(std::uint64_t cell, int level, Add add) {
+        // Whose ancestor is split already, its own ancestors are.
+        while (--level >= 0) {
+            const std::uint64_t code = Octant<D>{cell, finest_level<D>}.ancestor(level).code;
+            if (codes_[level] == code) return;
+            codes_[level] = code;
+            add(level, code);
+        }
+    }
+
+private:
+    std::array<std::uint64_t, finest_level<D>> codes_;
+};
+
 template <int D> class SplitOctants {
 public:
     static constexpr std::uint64_t none = ~std::uint64_t{0};
@@ -25,18 +47,12 @@ public:
 
     /// Splits whatever has the cell, until it is in an octant of this level. Cells come in order.
     void split_to(std::uint64_t cell, int level) {
-        // Whose ancestor is split already, its own ancestors are.
-        while (--level >= 0) {
-            const std::uint64_t code = Octant<D>{cell, finest_level<D>}.ancestor(level).code;
-            if (levels_[level] && last_[level] == code) return;
-            add(level, code);
-        }
+        last_.split_to(cell, level, [this](int at, std::uint64_t code) { put(at, code); });
     }
     /// Of a level, in the order of the curve.
     void add(int level, std::uint64_t code) {
-        if (!levels_[level]) levels_[level].emplace(host_, 1);
-        *levels_[level]->add() = last_[level] = code;
-        ++size_;
+        last_.set(level, code);
+        put(level, code);
     }
 
     /// Ends adding, or goes back to the beginning.
@@ -69,6 +85,10 @@ public:
         return depth;
     }
     std::uint64_t size() const { return size_; }
+    /// That so many octants of a level take in its spool: none if memory has room for them.
+    static double spool_bytes(double octants) {
+        return octants > RecordSpool::piece_bytes / 8 ? 8 * octants : 0;
+    }
     /// Gives the spool of a level back.
     void close(int level) {
         if (levels_[level]) levels_[level]->close();
@@ -80,9 +100,16 @@ public:
     }
 
 private:
+    void put(int level, std::uint64_t code) {
+        if (!levels_[level]) levels_[level].emplace(host_, 1);
+        *levels_[level]->add() = code;
+        ++size_;
+    }
+
     const Host &host_;
     std::array<std::optional<RecordSpool>, finest_level<D>> levels_;
-    std::array<std::uint64_t, finest_level<D>> last_{}, heads_{};
+    LastSplit<D> last_;
+    std::array<std::uint64_t, finest_level<D>> heads_{};
     std::uint64_t size_ = 0;
     std::uint64_t cell_ = 0; // where the next leaf begins
 };

@@ -11,24 +11,19 @@ namespace abacus {
 namespace {
 
 constexpr unsigned number_bits = 16; // of a corner in its page
+// Two triangles, and four corners: their names, coordinates and a value.
+constexpr double most_bytes_a_simplex = 8.0 * (2 + 4 * (9 + 4));
 constexpr std::uint64_t number_mask = (std::uint64_t{1} << number_bits) - 1;
 
 } // namespace
 
 Isosurface::Isosurface(const Host &host, const abacus_header &header,
                        const abacus_isosurface_query &query, std::size_t memory)
-    : query_(query), is_split_(header.split > 0), filter_(query.window, query.max_edge),
-      vertex_values_(host, header), pacer_(host),
-      pages_(host, header, filter_.region(),
-             [this](const PageView<3> &page) {
-                 pacer_.reached(seen_ += static_cast<std::uint64_t>(page.simplices()));
-                 return vertex_values_.may_have(page, static_cast<int>(query_.attribute),
-                                                query_.value, query_.value);
-             }),
+    : query_(query), is_split_(header.split > 0), host_(host), header_(header),
+      filter_(query.window, query.max_edge), vertex_values_(host, header), pacer_(host),
       edges_(host), numbers_(host, header.split > 0 ? 8 : 6, memory), pages_made_(host, 1),
       corners_(host, query.carried >= 0 ? 4 : 3), triangles_(host, 1), corners_here_(host) {
-    pacer_.begin(ABACUS_PHASE_SCANNING,
-                 filter_.region() == nullptr ? header.simplices + header.ghosts : 0);
+    if (!host.spool_fits(most_bytes_a_simplex * static_cast<double>(header.simplices))) count();
     scan();
     numbers_.finish();
     pages_made_.rewind();
@@ -38,13 +33,39 @@ Isosurface::Isosurface(const Host &host, const abacus_header &header,
 
 // ---- From pages to spools -----------------------------------------------------------------
 
-void Isosurface::scan() {
-    while (pages_.advance()) {
+template <class End> void Isosurface::each_page(End end_page) {
+    std::uint64_t seen = 0; // simplices
+    pacer_.begin(ABACUS_PHASE_SCANNING,
+                 filter_.region() == nullptr ? header_.simplices + header_.ghosts : 0);
+    RangeScan<3> pages(host_, header_, filter_.region(), [&](const PageView<3> &page) {
+        pacer_.reached(seen += static_cast<std::uint64_t>(page.simplices()));
+        return vertex_values_.may_have(page, static_cast<int>(query_.attribute), query_.value,
+                                       query_.value);
+    });
+    while (pages.advance()) {
         triangles_here_ = 0;
         edges_.clear();
-        take(pages_.page());
-        if (triangles_here_ > 0) *pages_made_.add() = edges_.size() << 32 | triangles_here_;
+        take(pages.page());
+        end_page();
     }
+}
+
+void Isosurface::scan() {
+    each_page([this] {
+        if (triangles_here_ > 0) *pages_made_.add() = edges_.size() << 32 | triangles_here_;
+    });
+}
+
+void Isosurface::count() {
+    double corners = 0, triangles = 0;
+    only_counts_ = true;
+    each_page([&] {
+        corners += static_cast<double>(edges_.size());
+        triangles += static_cast<double>(triangles_here_);
+    });
+    only_counts_ = false;
+    host_.spool_expect(numbers_.spool_bytes(corners) + corners_.spool_bytes(corners) +
+                       triangles_.spool_bytes(triangles));
 }
 
 void Isosurface::take(const PageView<3> &page) {
@@ -91,7 +112,7 @@ void Isosurface::cut(const PageView<3> &page, int simplex) {
 std::size_t Isosurface::corner(const PageView<3> &page, int below, int above) {
     const std::size_t known = edges_.size();
     const std::size_t number = edges_.number(below, above);
-    if (number < known) return number;
+    if (number < known || only_counts_) return number;
     const bool is_turned = page.point(above) < page.point(below);
     const int from = is_turned ? above : below, to = is_turned ? below : above;
     const auto attribute = static_cast<int>(query_.attribute);
@@ -113,8 +134,8 @@ std::size_t Isosurface::corner(const PageView<3> &page, int below, int above) {
 }
 
 void Isosurface::add_triangle(std::size_t a, std::size_t b, std::size_t c) {
-    *triangles_.add() = a << 2 * number_bits | b << number_bits | c;
     ++triangles_here_;
+    if (!only_counts_) *triangles_.add() = a << 2 * number_bits | b << number_bits | c;
 }
 
 // ---- From spools to triangles -------------------------------------------------------------

@@ -3,7 +3,8 @@
 // It is found in one scan of the pages, past those that have no such value. Each page gives its
 // triangles and their corners; of tetrahedra that share an edge the corner there is one. Between
 // pages the numbers of corners tell which are one (sort/dense_ranks.hpp). These are known when all
-// pages have been read, so triangles and corners wait in spools.
+// pages have been read, so triangles and corners wait in spools. Where these may have no room,
+// pages are first read once more, to count.
 //
 // A corner is computed from the two vertices of its edge, the lexicographically lesser one first.
 // So whoever computes it gets the same to the last bit, and the surface has no cracks.
@@ -47,6 +48,10 @@ private:
 
     /// First: pages to spools.
     void scan();
+    /// Only counts corners and triangles; throws if spools have no room for them.
+    void count();
+    /// Calls end_page() after each page.
+    template <class End> void each_page(End end_page);
     void take(const PageView<3> &page);
     void cut(const PageView<3> &page, int simplex);
     std::size_t corner(const PageView<3> &page, int below, int above);
@@ -59,11 +64,12 @@ private:
 
     const abacus_isosurface_query query_;
     const bool is_split_; // vertices at one place are told apart by their ids
+    const Host &host_;
+    const abacus_header header_;
     const CellFilter<3> filter_;
     const VertexValues<3> vertex_values_;
     Pacer pacer_;
-    std::uint64_t seen_ = 0; // simplices
-    RangeScan<3> pages_;
+    bool only_counts_ = false;
 
     std::array<Side, page_vertices<3>> sides_;
     PageEdges edges_;

@@ -14,6 +14,7 @@ MarkedFacets<D>::MarkedFacets(const Host &host, const abacus_header &header,
                               std::size_t cache_bytes)
     : is_split_(header.split > 0), mesh_(host, header, cache_bytes),
       sort_(host, key_words, key_words, memory) {
+    if (!marker) sort_.expect(static_cast<double>(header.marked)); // at least a facet of each
     if (header.marked > 0) read(host, header, marker);
     sort_.finish();
 }

@@ -58,6 +58,7 @@ template <int D> void Marking<D>::add(const std::uint64_t *rows, std::size_t cou
 
 template <int D> void Marking<D>::set(abacus_header &header) {
     sort_.finish();
+    sides_.expect(static_cast<double>(sort_.size()));
     Reader<D> mesh(host_, header_, cache_bytes_);
     while (const std::uint64_t *record = sort_.next()) add_sides(mesh, record);
     sort_.close();

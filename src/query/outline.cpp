@@ -95,7 +95,7 @@ void Outline<3>::find_hull(const Host &host, const abacus_header &header, Reader
     }
 }
 
-void Outline<3>::find_border(Reader<3> &reader, const Kept &kept) {
+template <class End> void Outline<3>::each_page(Reader<3> &reader, const Kept &kept, End end_page) {
     Cache<3> &cache = reader.cache();
     Arena<Handle> handles(cache.host());
     Pacer pacer(cache.host());
@@ -122,9 +122,23 @@ void Outline<3>::find_border(Reader<3> &reader, const Kept &kept) {
                     cavities_->meet(h, facet, beyond);
             }
         }
-        add_borders(cache);
+        end_page();
     }
+}
+
+void Outline<3>::find_border(Reader<3> &reader, const Kept &kept) {
+    // Borders of cavities are left out in the end, and how many these are is not known before.
+    const double most = 4.0 * static_cast<double>(reader.size());
+    if (!cavities_ && !reader.cache().host().spool_fits(triangles_.spool_bytes(most)))
+        count(reader, kept);
+    each_page(reader, kept, [&] { add_borders(reader.cache()); });
     if (cavities_) cavities_->finish();
+}
+
+void Outline<3>::count(Reader<3> &reader, const Kept &kept) {
+    double triangles = 0;
+    each_page(reader, kept, [&] { triangles += static_cast<double>(borders_.size()); });
+    triangles_.expect(triangles);
 }
 
 /// Triangles that are counterclockwise seen from the side that is not kept. A ghost is positively

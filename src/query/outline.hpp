@@ -47,6 +47,11 @@ private:
     /// The hull alone: no other page is read.
     void find_hull(const Host &host, const abacus_header &header, Reader<3> &reader);
     void find_border(Reader<3> &reader, const Kept &kept);
+    /// Collects what the border has in one page after another in borders_; calls end_page() after
+    /// each.
+    template <class End> void each_page(Reader<3> &reader, const Kept &kept, End end_page);
+    /// Only counts triangles; throws if spools have no room for them.
+    void count(Reader<3> &reader, const Kept &kept);
     void add_borders(Cache<3> &cache);
 
     Arena<Link> borders_; // of a page: facets of what is not kept, beyond which something is

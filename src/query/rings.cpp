@@ -70,6 +70,7 @@ void Rings::find_hull(RecordSort &starts) {
     const Border::Edge edge = border_.edge(link_simplex(inside), link_facet(inside));
     Border::Edge at = edge, first = edge;
     do {
+        ++edges_;
         at = border_.next(at);
         if (at.comes_before(first)) first = at;
         border_.make_room<1>({&at});
@@ -101,6 +102,7 @@ void Rings::find_starts(RecordSort &starts) {
             edges.clear();
             pacer.reached(seen += find_starts_of_page(page, edges));
             page = cache_.visit(page, [](Handle) {});
+            edges_ += edges.size();
             for (Border::Edge edge : edges) {
                 border_.find(edge);
                 if (border_.is_first_of_ring(edge)) add_start(starts, edge);
@@ -112,6 +114,8 @@ void Rings::find_starts(RecordSort &starts) {
 }
 
 void Rings::walk(RecordSort &starts, RecordSpool &visits, RecordSort &by_place) {
+    const auto edges = static_cast<double>(edges_);
+    host_.spool_expect(visits.spool_bytes(edges) + by_place.spool_bytes(edges));
     for (std::uint64_t ring = 0; const std::uint64_t *start = starts.next(); ++ring) {
         Border::Edge first{
             point_at(start), point_at(start + 2), {start[4], start[5]}, no_handle, 0};

@@ -42,6 +42,8 @@ public:
     /// To the first again.
     void rewind() { rows_.rewind(); }
     std::uint64_t count() const { return count_; }
+    /// Edges of the border; vertices of all rings are no more.
+    std::uint64_t edges() const { return edges_; }
     void close() { rows_.close(); }
 
 private:
@@ -75,7 +77,7 @@ private:
     Border border_;
     const std::size_t share_; // of the memory
     RecordSort rows_;
-    std::uint64_t count_ = 0;
+    std::uint64_t count_ = 0, edges_ = 0;
 };
 
 } // namespace abacus

@@ -18,6 +18,7 @@ std::uint64_t *DenseRanks::add() {
 std::uint64_t DenseRanks::finish() {
     pacer_.begin(ABACUS_PHASE_SORTING, names_.size());
     names_.finish();
+    ranks_.expect(static_cast<double>(names_.size()));
     last_.resize(key_);
     std::uint64_t count = 0, done = 0;
     while (const std::uint64_t *name = names_.next()) {

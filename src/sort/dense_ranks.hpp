@@ -17,6 +17,8 @@ public:
 
     /// At least so many names will be added: throws if spools have no room for them.
     void expect(double names) const { names_.expect(names); }
+    /// That so many names take in spools at least.
+    double spool_bytes(double names) const { return names_.spool_bytes(names); }
     /// Room for the key of one more name, to be filled before the next call.
     std::uint64_t *add();
     /// Ends adding; returns how many different keys there are.

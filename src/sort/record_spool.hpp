@@ -10,9 +10,12 @@ namespace abacus {
 /// more than a piece needs no file.
 class RecordSpool {
 public:
+    /// Bytes in memory.
+    static constexpr std::size_t piece_bytes = std::size_t{64} << 10;
+
     RecordSpool(const Host &host, std::size_t stride)
         : host_(host), stride_(stride),
-          piece_(std::max<std::size_t>(1, (std::size_t{64} << 10) / (8 * stride))), words_(host) {
+          piece_(std::max<std::size_t>(1, piece_bytes / (8 * stride))), words_(host) {
         words_.reserve(piece_ * stride_);
     }
 

@@ -15,7 +15,7 @@ void MemoryHost::Page::assign(const unsigned char *bytes, std::size_t new_size) 
 
 std::uint64_t MemoryHost::Calls::fallible() const {
     return poll + progress + find + fetch + next + put + erase + spool_create + spool_write +
-           spool_rewind + spool_read + spool_close + spool_expect;
+           spool_rewind + spool_read + spool_close + spool_expect + spool_fits;
 }
 
 void MemoryHost::restore(const MemoryHost &other) {
@@ -278,6 +278,12 @@ struct MemoryHost::Functions {
         return host.failed ? ABACUS_HOST_FAILED : ABACUS_HOST_OK;
     }
 
+    static abacus_host_status spool_fits(void *context, double bytes) {
+        MemoryHost &host = self(context);
+        if (!host.enter(host.calls.spool_fits)) return ABACUS_HOST_FAILED;
+        return bytes > host.spool_room ? ABACUS_HOST_NONE : ABACUS_HOST_OK;
+    }
+
     static abacus_host_status spool_close(void *context, void *spool) {
         MemoryHost &host = self(context);
         if (!host.enter(host.calls.spool_close)) return ABACUS_HOST_FAILED;
@@ -306,6 +312,7 @@ MemoryHost::MemoryHost() {
     table_.spool_read = Functions::spool_read;
     table_.spool_close = Functions::spool_close;
     table_.spool_expect = Functions::spool_expect;
+    table_.spool_fits = Functions::spool_fits;
 }
 
 MemoryHost::~MemoryHost() { recover(); }

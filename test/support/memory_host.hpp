@@ -51,7 +51,7 @@ public:
         std::uint64_t resize = 0, poll = 0, progress = 0;
         std::uint64_t find = 0, fetch = 0, next = 0, put = 0, erase = 0;
         std::uint64_t spool_create = 0, spool_write = 0, spool_rewind = 0, spool_read = 0,
-                      spool_close = 0, spool_expect = 0;
+                      spool_close = 0, spool_expect = 0, spool_fits = 0;
 
         /// All but resize(): those that fail_at() counts.
         std::uint64_t fallible() const;

@@ -75,6 +75,18 @@ host_spool_expect(void *context, double bytes)
 	return ABACUS_HOST_OK;
 }
 
+static abacus_host_status
+host_spool_fits(void *context, double bytes)
+{
+	Host	   *host = context;
+	bool		fits;
+
+	GUARD_BEGIN();
+	fits = temp_room_has(bytes);
+	GUARD_END(host);
+	return fits ? ABACUS_HOST_OK : ABACUS_HOST_NONE;
+}
+
 void
 host_spools_init(Host *host)
 {
@@ -84,4 +96,5 @@ host_spools_init(Host *host)
 	host->table.spool_read = host_spool_read;
 	host->table.spool_close = host_spool_close;
 	host->table.spool_expect = host_spool_expect;
+	host->table.spool_fits = host_spool_fits;
 }

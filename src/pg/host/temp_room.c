@@ -83,6 +83,17 @@ refuse(double bytes, const char *limit, const char *hint)
 			 errhint("%s", hint)));
 }
 
+bool
+temp_room_has(double bytes)
+{
+	double		room;
+
+	if (temp_file_limit >= 0 && bytes > (double) temp_file_limit * 1024)
+		return false;
+	room = all_free_bytes();
+	return room < 0 || bytes <= room;
+}
+
 /* An error unless temporary files may grow by so many bytes. */
 void
 temp_room_require(double bytes)
