@@ -1,4 +1,4 @@
-"""The part that carries a mesh to others: windows of its foreign table, tiles of web maps, files."""
+"""The part that carries a mesh to others: windows of its foreign table, tiles of web maps, facets with markers, files."""
 import json
 import math
 import pathlib
@@ -40,6 +40,7 @@ class Carried:
         self.points = terrain
         self.windows()
         self.tiles()
+        self.facets()
         self.file("PLY of {count} triangles", "mesh.ply", "--z", "height")
         server.drop("mesh", "mesh_vertices", "points")
         server.query(f"SELECT setseed(0.5); SELECT abacus_triangulate('mesh', 'SELECT id, random(), random(), random(), random() AS speed"
@@ -100,6 +101,24 @@ class Carried:
         sample = session.timed(f"SELECT length({call.format(z=zoom, x=x, y=y)})")
         sample["bytes"] = int(sample.pop("printed"))
         return sample
+
+    def facets(self):
+        """Those with a marker, of the mesh and of one with the same triangles that is not Delaunay, in turns."""
+        meshes = {"mesh": "facets with a marker", "loaded": "facets with a marker, of a mesh that is not Delaunay"}
+        server.drop("loaded", "loaded_vertices")
+        server.query("SELECT abacus_load('loaded', 'SELECT id, 5 * x, y FROM abacus_vertices(''mesh'')', 'SELECT v0, v1, v2 FROM abacus_simplices(''mesh'')')")
+        samples = {mesh: [] for mesh in meshes}
+        for mesh in meshes:
+            server.query(f"SELECT abacus_mark('{mesh}', 'SELECT code, v0, v1, v2, 0, 1 FROM abacus_simplices(''{mesh}'') WHERE v0 % 10 = 0')")
+        with server.Session() as session:
+            for _ in range(self.runs[self.suite.mode]):
+                for mesh in meshes:
+                    sample = session.timed(f"SELECT count(*), sum(v0) FROM abacus_facets('{mesh}')")
+                    sample["answers"] = int(sample.pop("printed").split("|")[0])
+                    samples[mesh].append(sample)
+        for mesh, question in meshes.items():
+            self.record(question, samples[mesh])
+        server.drop("loaded", "loaded_vertices")
 
     def file(self, question, name, *options):
         count = int(server.query("SELECT value::bigint FROM abacus_stats('mesh') WHERE name = 'simplices'"))

@@ -76,7 +76,7 @@ PARTS = [
         {"full": (1000000, 1000000, 10000000), "quick": (100000, 100000, 1000000), "smoke": (5000, 2000, 20000)}).measure),
     Part("raster", "a raster of 4096² pixels, beside gdal_grid's", 12, Raster(
         {"full": (1000000, 4096), "quick": (100000, 512), "smoke": (5000, 64)}).measure),
-    Part("carried", "windows of a foreign table, tiles of web maps, files", 5, Carried(
+    Part("carried", "windows of a foreign table, tiles of web maps, facets with markers, files", 5, Carried(
         {"full": (1000000, 800000), "quick": (100000, 50000), "smoke": (5000, 500)}, FEWER).measure),
     Part("octree", "octrees of points: made, balanced, extracted, asked, beside p4est", 8, Octrees(
         {"full": 5000000, "quick": 200000, "smoke": 3000}).measure),
