@@ -2,8 +2,8 @@
 // several sizes, locating. scripts/bench.sh measures what PostgreSQL adds.
 #include "support/memory_host.hpp"
 
-#include <abacus/change.h>
-#include <abacus/read.h>
+#include <abacus/build.h>
+#include <abacus/locate.h>
 #include <benchmark/benchmark.h>
 
 #include <array>

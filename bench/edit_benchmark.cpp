@@ -2,7 +2,7 @@
 // one change, beside the build of the first; and changes all over it, one after the other.
 #include "support/memory_host.hpp"
 
-#include <abacus/change.h>
+#include <abacus/build.h>
 #include <benchmark/benchmark.h>
 
 #include <bit>

@@ -17,7 +17,7 @@
 #include "staged_file.hpp"
 #include "support/memory_host.hpp"
 
-#include <abacus/change.h>
+#include <abacus/build.h>
 #include <ctime>
 #include <unordered_map>
 

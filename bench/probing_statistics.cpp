@@ -18,7 +18,7 @@
 #include "staged_file.hpp"
 #include "support/memory_host.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>

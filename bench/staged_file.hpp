@@ -2,7 +2,7 @@
 // server begin.
 #pragma once
 
-#include <abacus/change.h>
+#include <abacus/build.h>
 
 #include <cstdint>
 #include <cstdio>

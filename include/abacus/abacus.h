@@ -1,20 +1,22 @@
 /*
- * abacus.h: the one bridge between PostgreSQL (C) and the Abacus core (C++).
+ * abacus.h: the bridge between PostgreSQL (C) and the Abacus core (C++), all of its headers.
  *
- * The core knows nothing of PostgreSQL. An abacus_host (host.h) gives it what it needs
+ * The core knows nothing of PostgreSQL. An abacus_host (host_functions.h) gives it what it needs
  * from a database: memory, pages found and stored by key, spool files, and a word about
  * interrupts. The core offers a handful of plain handles:
  *
- *   abacus_stage   points in, vertex pages in insertion order out   (dissertation §4.12.2)
- *   abacus_build   staged points in, simplex pages out              (§4.12.3-5)
- *   abacus_load    vertices and simplices made elsewhere in, simplex pages out
- *   abacus_mesh    locate and walk over stored pages                (§4.11.3)
- *                  also rays, profiles, lines of sight (lines.h)
- *   abacus_places  locate many places at once; both also interpolate (interpolate.h)
- *   abacus_isosurface, abacus_sections   surfaces through a mesh
- *   abacus_scan, abacus_vertex_scan, abacus_check, abacus_draw      whole-mesh readers
- *   abacus_raster_scan  an attribute as a raster (raster.h)
- *   abacus_contours  lines of equal value and the bands between them, in one call
+ *   build.h      points in (abacus_stage) and simplex pages out (abacus_build)  (dissertation §4.12)
+ *   load.h       vertices and simplices made elsewhere in, simplex pages out
+ *   labels.h     labels of simplices, markers of facets
+ *   locate.h     places, neighbours, nearest vertices, of one place or of many  (§4.11.3)
+ *   values.h     values at places: interpolation, weights, gradients; raster.h: many in rows
+ *   lines.h      rays, profiles, lines of sight
+ *   windows.h    simplices, vertices and edges of a window; scan.h: all, in order
+ *   contours.h, surface.h, shapes.h, volume.h   lines, surfaces, outlines, volumes
+ *   draw.h, raycast.h, tile.h                   pictures
+ *   octree.h, octree_ask.h                      octrees
+ *   check.h                                     verification
+ *   mesh_header.h, simplex.h                    what is known of a mesh, and what readers give out
  *
  * Errors travel by return value only. A host function that fails returns
  * ABACUS_HOST_FAILED and keeps its own error; the core unwinds and returns
@@ -30,21 +32,30 @@
 #define ABACUS_ABACUS_H
 
 #include "abacus/arrays.h"
-#include "abacus/ask.h"
-#include "abacus/change.h"
+#include "abacus/build.h"
+#include "abacus/check.h"
 #include "abacus/contours.h"
 #include "abacus/draw.h"
 #include "abacus/goose.h"
-#include "abacus/header.h"
-#include "abacus/host.h"
-#include "abacus/interpolate.h"
+#include "abacus/host_functions.h"
+#include "abacus/labels.h"
 #include "abacus/lines.h"
+#include "abacus/load.h"
+#include "abacus/locate.h"
+#include "abacus/mesh_header.h"
 #include "abacus/octree.h"
+#include "abacus/octree_ask.h"
+#include "abacus/populate.h"
 #include "abacus/quake.h"
-#include "abacus/raycast.h"
 #include "abacus/raster.h"
-#include "abacus/read.h"
+#include "abacus/raycast.h"
+#include "abacus/scan.h"
+#include "abacus/shapes.h"
+#include "abacus/simplex.h"
 #include "abacus/surface.h"
+#include "abacus/tile.h"
+#include "abacus/values.h"
 #include "abacus/volume.h"
+#include "abacus/windows.h"
 
 #endif

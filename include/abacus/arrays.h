@@ -5,7 +5,7 @@
 #ifndef ABACUS_ABACUS_ARRAYS_H
 #define ABACUS_ABACUS_ARRAYS_H
 
-#include "abacus/read.h"
+#include "abacus/simplex.h"
 
 #ifdef __cplusplus
 extern "C" {

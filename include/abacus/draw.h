@@ -4,7 +4,7 @@
 #ifndef ABACUS_ABACUS_DRAW_H
 #define ABACUS_ABACUS_DRAW_H
 
-#include "abacus/header.h"
+#include "abacus/mesh_header.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -4,8 +4,7 @@
 #ifndef ABACUS_ABACUS_GOOSE_H
 #define ABACUS_ABACUS_GOOSE_H
 
-#include "abacus/change.h"
-#include "abacus/read.h"
+#include "abacus/build.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -5,7 +5,7 @@
 #ifndef ABACUS_ABACUS_LINES_H
 #define ABACUS_ABACUS_LINES_H
 
-#include "abacus/read.h"
+#include "abacus/locate.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -8,8 +8,8 @@
 #ifndef ABACUS_ABACUS_OCTREE_H
 #define ABACUS_ABACUS_OCTREE_H
 
-#include "abacus/ask.h"
-#include "abacus/header.h"
+#include "abacus/windows.h"
+#include "abacus/mesh_header.h"
 
 #ifdef __cplusplus
 extern "C" {

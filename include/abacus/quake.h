@@ -4,7 +4,7 @@
 #ifndef ABACUS_ABACUS_QUAKE_H
 #define ABACUS_ABACUS_QUAKE_H
 
-#include "abacus/host.h"
+#include "abacus/host_functions.h"
 
 #ifdef __cplusplus
 extern "C" {

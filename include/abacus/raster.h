@@ -4,7 +4,7 @@
 #ifndef ABACUS_ABACUS_RASTER_H
 #define ABACUS_ABACUS_RASTER_H
 
-#include "abacus/interpolate.h"
+#include "abacus/values.h"
 
 #ifdef __cplusplus
 extern "C" {

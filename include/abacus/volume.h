@@ -5,7 +5,7 @@
 #ifndef ABACUS_ABACUS_VOLUME_H
 #define ABACUS_ABACUS_VOLUME_H
 
-#include "abacus/ask.h"
+#include "abacus/windows.h"
 
 #ifdef __cplusplus
 extern "C" {

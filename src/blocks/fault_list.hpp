@@ -4,7 +4,7 @@
 #include "host/arena.hpp"
 #include "keys/key.hpp"
 
-#include <abacus/read.h>
+#include <abacus/check.h>
 #include <cstdio>
 
 namespace abacus {

@@ -6,9 +6,9 @@
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
 #include "capi/stage.hpp"
-#include "query/describe.hpp"
+#include "query/pages/describe.hpp"
 
-#include <abacus/change.h>
+#include <abacus/build.h>
 #include <cstring>
 
 struct abacus_build {

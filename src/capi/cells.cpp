@@ -1,12 +1,12 @@
 // The simplices of a window behind the C interface.
-#include "query/cell_scan.hpp"
-#include "query/simplex_labels.hpp"
+#include "query/scan/cell_scan.hpp"
+#include "query/scan/simplex_labels.hpp"
 
 #include "capi/dimension.hpp"
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
 
-#include <abacus/ask.h>
+#include <abacus/windows.h>
 #include <numeric>
 
 struct abacus_cells {

@@ -1,12 +1,12 @@
 // Verification behind the C interface.
-#include "query/check.hpp"
+#include "query/check/check.hpp"
 #include "octree/octree_check.hpp"
 
 #include "capi/dimension.hpp"
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
 
-#include <abacus/read.h>
+#include <abacus/check.h>
 
 struct abacus_check {
     abacus_check(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes,

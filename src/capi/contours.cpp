@@ -1,5 +1,5 @@
 // Contours behind the C interface.
-#include "query/contours.hpp"
+#include "query/levels/contours.hpp"
 
 #include "capi/guard.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "host/host.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 #include <utility>
 #include <variant>
 

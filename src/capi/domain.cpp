@@ -4,7 +4,7 @@
 
 #include "capi/guard.hpp"
 
-#include <abacus/read.h>
+#include <abacus/check.h>
 
 abacus_status abacus_domain_fits(const abacus_host *host, const abacus_header *header, int *fits,
                                  abacus_error *error) {

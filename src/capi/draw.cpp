@@ -1,7 +1,7 @@
 // Drawing behind the C interface.
 #include "octree/octree_portrait.hpp"
-#include "query/portrait.hpp"
-#include "query/ray_portrait.hpp"
+#include "query/pictures/portrait.hpp"
+#include "query/pictures/ray_portrait.hpp"
 
 #include "capi/guard.hpp"
 

@@ -1,11 +1,11 @@
 // Vertices and edges of a window behind the C interface.
-#include "query/face_scan.hpp"
+#include "query/scan/face_scan.hpp"
 
 #include "capi/dimension.hpp"
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
 
-#include <abacus/ask.h>
+#include <abacus/windows.h>
 #include <algorithm>
 #include <utility>
 

@@ -1,18 +1,20 @@
 // Labels of simplices behind the C interface.
-#include "query/labelling.hpp"
+#include "labels/labelling.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
+#include "capi/named_by_reader.hpp"
 
-#include <abacus/change.h>
+#include <abacus/labels.h>
 
 struct abacus_labelling {
     abacus_labelling(const abacus_host *table, const abacus_header &header, std::uint32_t known,
                      std::span<const std::uint32_t> labels, std::size_t memory,
                      std::size_t cache_bytes)
-        : host(*table), labelling(host, header, known, labels, memory, cache_bytes) {}
+        : host(*table), cache_bytes(cache_bytes), labelling(host, header, known, labels, memory) {}
 
     const abacus::Host host;
+    const std::size_t cache_bytes;
     abacus::ByDimension<abacus::Labelling> labelling;
 };
 
@@ -35,11 +37,8 @@ abacus_status abacus_labelling_add(abacus_labelling *labelling, const uint64_t *
 
 abacus_status abacus_labelling_end(abacus_labelling *labelling, abacus_header *header,
                                    abacus_error *error) {
-    return abacus::dispatch(labelling->labelling, error, [&](auto &opened) {
-        abacus_header changed = *header; // the caller's stays as it is if this fails
-        opened.set(changed);
-        *header = changed;
-    });
+    return abacus::set_by_reader(labelling->host, labelling->labelling, labelling->cache_bytes,
+                                 *header, error);
 }
 
 void abacus_labelling_close(abacus_labelling *labelling) { abacus::destroy_handle(labelling); }

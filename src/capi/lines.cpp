@@ -1,6 +1,6 @@
 // Rays, profiles and lines of sight behind the C interface.
-#include "query/profile.hpp"
-#include "query/sight.hpp"
+#include "query/lines/profile.hpp"
+#include "query/lines/sight.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/mesh.hpp"

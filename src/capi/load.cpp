@@ -5,7 +5,8 @@
 #include "capi/handle.hpp"
 #include "capi/stage.hpp"
 
-#include <abacus/change.h>
+#include <abacus/build.h>
+#include <abacus/load.h>
 
 struct abacus_load {
     abacus_load(const abacus_host *table, const abacus_header &header, std::size_t memory,

@@ -1,19 +1,21 @@
 // Markers of facets behind the C interface.
-#include "query/marked_facets.hpp"
-#include "query/marking.hpp"
+#include "labels/marking.hpp"
+#include "query/scan/marked_facets.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
+#include "capi/named_by_reader.hpp"
 
-#include <abacus/change.h>
+#include <abacus/labels.h>
 #include <cmath>
 
 struct abacus_marking {
     abacus_marking(const abacus_host *table, const abacus_header &header, std::size_t memory,
                    std::size_t cache_bytes)
-        : host(*table), marking(host, header, memory, cache_bytes) {}
+        : host(*table), cache_bytes(cache_bytes), marking(host, header, memory) {}
 
     const abacus::Host host;
+    const std::size_t cache_bytes;
     abacus::ByDimension<abacus::Marking> marking;
 };
 
@@ -43,11 +45,8 @@ abacus_status abacus_marking_add(abacus_marking *marking, const uint64_t *rows, 
 
 abacus_status abacus_marking_end(abacus_marking *marking, abacus_header *header,
                                  abacus_error *error) {
-    return abacus::dispatch(marking->marking, error, [&](auto &opened) {
-        abacus_header changed = *header; // the caller's stays as it is if this fails
-        opened.set(changed);
-        *header = changed;
-    });
+    return abacus::set_by_reader(marking->host, marking->marking, marking->cache_bytes, *header,
+                                 error);
 }
 
 void abacus_marking_close(abacus_marking *marking) { abacus::destroy_handle(marking); }

@@ -1,13 +1,13 @@
 // Locating, walking and interpolating behind the C interface.
-#include "query/gradient.hpp"
+#include "query/values/gradient.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
 #include "capi/mesh.hpp"
 #include "capi/nearest.hpp"
 
-#include <abacus/ask.h>
-#include <abacus/interpolate.h>
+#include <abacus/locate.h>
+#include <abacus/values.h>
 
 namespace {
 

@@ -1,8 +1,8 @@
 // What is behind an abacus_mesh.
 #pragma once
 
-#include "query/interpolation.hpp"
-#include "query/simplex_labels.hpp"
+#include "query/scan/simplex_labels.hpp"
+#include "query/values/interpolation.hpp"
 
 #include "capi/dimension.hpp"
 

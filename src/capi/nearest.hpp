@@ -1,9 +1,9 @@
 // The nearest vertices as the C interface reports them.
 #pragma once
 
-#include "query/nearest.hpp"
+#include "query/locate/nearest.hpp"
 
-#include <abacus/read.h>
+#include <abacus/locate.h>
 
 namespace abacus {
 

@@ -1,5 +1,5 @@
 // A mesh as arrays behind the C interface.
-#include "query/numbering.hpp"
+#include "query/scan/numbering.hpp"
 
 #include "capi/dimension.hpp"
 #include "capi/guard.hpp"

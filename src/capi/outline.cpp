@@ -1,5 +1,5 @@
 // Hulls and closer outlines behind the C interface.
-#include "query/outline.hpp"
+#include "query/shapes/outline.hpp"
 
 #include "geometry/predicates.hpp"
 

@@ -1,12 +1,12 @@
 // Many places behind the C interface.
-#include "query/places.hpp"
-#include "query/simplex_labels.hpp"
+#include "query/places/places.hpp"
+#include "query/scan/simplex_labels.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
 #include "capi/nearest.hpp"
 
-#include <abacus/interpolate.h>
+#include <abacus/values.h>
 
 struct abacus_places {
     abacus_places(const abacus_host *table, const abacus_header &header, std::size_t memory,

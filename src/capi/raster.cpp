@@ -1,5 +1,5 @@
 // An attribute as a raster behind the C interface.
-#include "query/value_raster.hpp"
+#include "query/places/value_raster.hpp"
 
 #include "capi/dimension.hpp"
 #include "capi/guard.hpp"

@@ -1,12 +1,12 @@
 // Whole-mesh sequences behind the C interface.
-#include "query/simplex_scan.hpp"
-#include "query/vertex_scan.hpp"
+#include "query/pages/simplex_scan.hpp"
+#include "query/scan/vertex_scan.hpp"
 
 #include "capi/dimension.hpp"
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
 
-#include <abacus/read.h>
+#include <abacus/scan.h>
 
 struct abacus_scan {
     abacus_scan(const abacus_host *table, const abacus_header &header, bool ghosts)

@@ -1,9 +1,9 @@
 // The minimum spanning tree behind the C interface.
-#include "query/spanning_tree.hpp"
+#include "query/shapes/spanning_tree.hpp"
 
 #include "capi/guard.hpp"
 
-#include <abacus/shape.h>
+#include <abacus/shapes.h>
 
 abacus_status abacus_spanning_tree(const abacus_host *table, const abacus_header *header,
                                    std::size_t memory, std::size_t cache_bytes,

@@ -4,7 +4,7 @@
 #include "capi/dimension.hpp"
 #include "staging/stage.hpp"
 
-#include <abacus/change.h>
+#include <abacus/build.h>
 
 struct abacus_stage {
     abacus_stage(const abacus_host *table, const abacus_header &header, std::size_t memory)

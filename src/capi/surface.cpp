@@ -1,7 +1,7 @@
 // Surfaces through a mesh behind the C interface.
-#include "query/isosurface.hpp"
-#include "query/plane_section.hpp"
-#include "query/simplex_labels.hpp"
+#include "query/levels/isosurface.hpp"
+#include "query/lines/plane_section.hpp"
+#include "query/scan/simplex_labels.hpp"
 
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"

@@ -1,5 +1,5 @@
 // Areas and volumes behind the C interface.
-#include "query/volume.hpp"
+#include "query/volume/volume.hpp"
 
 #include "capi/guard.hpp"
 

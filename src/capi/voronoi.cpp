@@ -1,11 +1,11 @@
 // Voronoi cells behind the C interface.
-#include "query/voronoi.hpp"
+#include "query/shapes/voronoi.hpp"
 
 #include "capi/dimension.hpp"
 #include "capi/guard.hpp"
 #include "capi/handle.hpp"
 
-#include <abacus/shape.h>
+#include <abacus/shapes.h>
 
 struct abacus_voronoi {
     abacus_voronoi(const abacus_host *table, const abacus_header &header,

@@ -29,7 +29,7 @@
 #include "points/vertex_reader.hpp"
 #include "staging/stage.hpp"
 
-#include <abacus/change.h>
+#include <abacus/build.h>
 #include <chrono>
 #include <optional>
 #include <span>

@@ -4,8 +4,8 @@
 #include "attributes/rewriting.hpp"
 #include "blocks/counters.hpp"
 #include "delaunay/build.hpp"
-#include "delaunay/label_heirs.hpp"
-#include "delaunay/marker_sweep.hpp"
+#include "labels/label_heirs.hpp"
+#include "labels/marker_sweep.hpp"
 
 namespace abacus {
 

@@ -10,7 +10,7 @@
 
 #include "host/host.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 namespace abacus {
 

@@ -42,7 +42,7 @@
 #include "delaunay/removal.hpp"
 #include "delaunay/simplex_changes.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 #include <atomic>
 

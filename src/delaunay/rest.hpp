@@ -8,7 +8,7 @@
 #include "points/record_sink.hpp"
 #include "staging/stage.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 #include <algorithm>
 #include <array>

@@ -14,7 +14,7 @@
 #include "host/crew.hpp"
 #include "sort/record_sort.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 #include <condition_variable>
 #include <mutex>

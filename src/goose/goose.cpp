@@ -2,7 +2,7 @@
 
 #include "geometry/conflict.hpp"
 #include "host/stopwatch.hpp"
-#include "query/describe.hpp"
+#include "query/pages/describe.hpp"
 
 namespace abacus {
 

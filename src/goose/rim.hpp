@@ -10,7 +10,7 @@
 #include "host/arena.hpp"
 #include "mesh/simplex.hpp"
 
-#include <abacus/read.h>
+#include <abacus/simplex.h>
 #include <algorithm>
 #include <span>
 

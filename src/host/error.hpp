@@ -1,7 +1,7 @@
 // How the core fails.
 #pragma once
 
-#include <abacus/host.h>
+#include <abacus/host_functions.h>
 
 #include <stdexcept>
 #include <string>

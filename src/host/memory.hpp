@@ -3,7 +3,7 @@
 // no other.
 #pragma once
 
-#include <abacus/host.h>
+#include <abacus/host_functions.h>
 
 #include <cstddef>
 #include <new>

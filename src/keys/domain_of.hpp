@@ -3,7 +3,7 @@
 #include "geometry/box.hpp"
 #include "keys/locational_code.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Keys: order, and the ends of the curve.
 #pragma once
 
-#include <abacus/host.h>
+#include <abacus/host_functions.h>
 
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 // How many attributes are in simplex pages.
 #pragma once
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 namespace abacus {
 

@@ -7,7 +7,7 @@
 #include "mesh/page_format.hpp"
 #include "mesh/simplex.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 namespace abacus {
 

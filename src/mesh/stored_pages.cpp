@@ -2,7 +2,7 @@
 
 #include "mesh/page_format.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 namespace abacus {
 

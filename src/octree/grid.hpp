@@ -8,7 +8,7 @@
 #include "keys/domain_of.hpp"
 #include "octree/octant.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 #include <algorithm>
 #include <cmath>

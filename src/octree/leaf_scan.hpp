@@ -5,7 +5,7 @@
 #include "host/arena.hpp"
 #include "octree/octant_page.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 namespace abacus {
 

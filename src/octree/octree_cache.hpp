@@ -11,7 +11,7 @@
 #include "host/free_numbers.hpp"
 #include "octree/octant_page.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 namespace abacus {
 

@@ -5,7 +5,7 @@
 #include "octree/leaf_writer.hpp"
 #include "sort/record_sort.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 namespace abacus {
 

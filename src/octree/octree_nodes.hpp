@@ -16,7 +16,7 @@
 #include "sort/record_sort.hpp"
 #include "sort/record_spool.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 #include <optional>
 

@@ -5,7 +5,7 @@
 
 #include "geometry/point.hpp"
 
-#include <abacus/host.h>
+#include <abacus/host_functions.h>
 
 #include <bit>
 #include <cstddef>

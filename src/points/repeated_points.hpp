@@ -20,7 +20,7 @@
 #include "points/leaving.hpp"
 #include "points/record.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 namespace abacus {
 

@@ -12,7 +12,7 @@
 #include "points/record.hpp"
 #include "points/record_sink.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 #include <cstdint>
 #include <cstring>

@@ -16,7 +16,7 @@
 #include "points/spread.hpp"
 #include "staging/external_sort.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 #include <optional>
 
 namespace abacus {

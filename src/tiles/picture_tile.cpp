@@ -1,9 +1,9 @@
 #include "tiles/picture_tile.hpp"
 
-#include "query/barycentric.hpp"
-#include "query/hull_box.hpp"
-#include "query/places.hpp"
-#include "query/weighted_mean.hpp"
+#include "query/locate/hull_box.hpp"
+#include "query/places/places.hpp"
+#include "query/values/barycentric.hpp"
+#include "query/values/weighted_mean.hpp"
 #include "tiles/tile_window.hpp"
 
 namespace abacus {

@@ -6,7 +6,7 @@
 // depends on the mesh and the zoom. So tiles side by side fit.
 #pragma once
 
-#include "query/portrait.hpp"
+#include "query/pictures/portrait.hpp"
 
 #include <abacus/tile.h>
 

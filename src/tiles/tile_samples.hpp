@@ -1,7 +1,7 @@
 // An attribute at points of a tile, evenly spaced on the map.
 #pragma once
 
-#include "query/value_raster.hpp"
+#include "query/places/value_raster.hpp"
 #include "tiles/tile_window.hpp"
 
 namespace abacus {

@@ -1,9 +1,9 @@
 #include "tiles/vector_tile.hpp"
 
 #include "geometry/longer_edge.hpp"
-#include "query/outline.hpp"
-#include "query/page_simplex.hpp"
-#include "query/page_values.hpp"
+#include "query/pages/page_simplex.hpp"
+#include "query/pages/page_values.hpp"
+#include "query/shapes/outline.hpp"
 #include "tiles/tile_lines.hpp"
 #include "tiles/tile_samples.hpp"
 

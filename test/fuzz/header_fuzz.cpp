@@ -2,7 +2,7 @@
 // need not fit.
 #include "fuzz/fuzz_mesh.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 using namespace abacus::fuzz;
 

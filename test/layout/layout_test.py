@@ -4,6 +4,7 @@ The table of rooms in that page is the only list of what a room may use. Here it
 the includes of every file below src, and the names of files in the documents with the files that
 there are.
 """
+import collections
 import pathlib
 import re
 import subprocess
@@ -13,6 +14,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MAP = ROOT / "docs/architecture.md"
 ROW = re.compile(r"^\| `(src[\w/]*)` \|[^|]*\|([^|]*)\|$", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+# Rooms of small files that are alike.
+MANY = {"src/geometry", "src/capi"}
 SOURCES = {".c", ".h", ".cpp", ".hpp"}
 SERVER = re.compile(r"^(postgres|fmgr|miscadmin|pgstat|port|access/|catalog/|commands/|executor/|"
                     r"lib/|libpq/|nodes/|optimizer/|parser/|storage/|tcop/|utils/)")
@@ -86,6 +89,18 @@ class Layout(unittest.TestCase):
                  for _, name in includes(path)
                  if (ROOT / "src" / name).exists() and not name.startswith("pg/")]
         self.assertEqual(wrong, [])
+
+    def test_the_bridge_is_complete_and_its_names_are_its_own(self):
+        bridge = {path.name for path in tracked("include/abacus")}
+        named = {name for _, name in includes("include/abacus/abacus.h")}
+        self.assertEqual(named, {f"abacus/{name}" for name in bridge - {"abacus.h"}})
+        self.assertEqual([str(path) for path in sources()
+                          if path.parts[0] == "src" and path.name in bridge - {"abacus.h"}], [])
+
+    def test_no_room_is_too_big(self):
+        count = collections.Counter(path.parent.as_posix() for path in sources())
+        self.assertEqual({room: files for room, files in count.items()
+                          if files > 40 and room not in MANY}, {})
 
     def test_only_the_port_asks_for_the_version(self):
         wrong = [str(path) for path in sources() if "PG_VERSION_NUM" in (ROOT / path).read_text()

@@ -2,7 +2,7 @@
 // have them in pages of their own. Answers are the same.
 #pragma once
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 #include <cstdlib>
 

@@ -3,7 +3,7 @@
 
 #include "support/oracle.hpp"
 
-#include <abacus/read.h>
+#include <abacus/locate.h>
 #include <cstring>
 #include <optional>
 

@@ -1,13 +1,13 @@
 // A database for tests and benchmarks: an abacus_host that keeps everything in
 // the memory of the process. Its content is public, so that tests can look at
 // pages and damage them. It also watches that the core keeps the contract of
-// abacus/host.h and lists every breach in `violations`.
+// abacus/host_functions.h and lists every breach in `violations`.
 #pragma once
 
 #include "host/host.hpp"
 #include "keys/key.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 #include <cstdint>
 #include <functional>

@@ -7,7 +7,7 @@
 #include "keys/domain_of.hpp"
 #include "support/oracle.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

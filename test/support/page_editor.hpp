@@ -7,7 +7,7 @@
 #include "mesh/simplex.hpp"
 #include "support/memory_host.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 #include <array>
 #include <vector>
 

@@ -4,7 +4,7 @@
 #include "support/checked_by_threads.hpp"
 #include "support/page_editor.hpp"
 
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -6,7 +6,8 @@
 #include "support/image.hpp"
 #include "support/staged_points.hpp"
 
-#include <abacus/read.h>
+#include <abacus/build.h>
+#include <abacus/scan.h>
 
 #include <functional>
 

@@ -6,7 +6,7 @@
 #include "support/apart.hpp"
 #include "support/memory_host.hpp"
 
-#include <abacus/change.h>
+#include <abacus/build.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Contours: pieces of one triangle, lines of meshes whatever the memory is, rings, damaged pages.
-#include "query/contour_rings.hpp"
-#include "query/contours.hpp"
+#include "query/levels/contour_rings.hpp"
+#include "query/levels/contours.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulations.hpp"
 

@@ -1,5 +1,5 @@
 // Vertices and edges of windows, each once: against brute force over all simplices.
-#include "query/face_scan.hpp"
+#include "query/scan/face_scan.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
 #include "support/triangulations.hpp"

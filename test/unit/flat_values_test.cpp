@@ -1,8 +1,8 @@
 // Weights and gradients in simplices that are flat, or nearly so, against rational numbers.
 #include "geometry/flatness.hpp"
 #include "geometry/rational.hpp"
-#include "query/barycentric.hpp"
-#include "query/gradient.hpp"
+#include "query/values/barycentric.hpp"
+#include "query/values/gradient.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The header row of a mesh, as bytes.
-#include <abacus/header.h>
+#include <abacus/mesh_header.h>
 
 #include <gtest/gtest.h>
 

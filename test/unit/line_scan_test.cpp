@@ -1,6 +1,6 @@
 // The simplices along a line: against brute force in rational numbers over all simplices, in every
 // kind of mesh, for lines through vertices, along edges and in facets, from inside and outside.
-#include "query/line_scan.hpp"
+#include "query/lines/line_scan.hpp"
 #include "support/containment.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"

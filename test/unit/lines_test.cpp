@@ -1,7 +1,7 @@
 // Profiles and lines of sight: against brute force in rational numbers, and identities.
 #include "geometry/distance.hpp"
-#include "query/profile.hpp"
-#include "query/sight.hpp"
+#include "query/lines/profile.hpp"
+#include "query/lines/sight.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulations.hpp"
 

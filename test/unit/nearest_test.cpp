@@ -1,5 +1,5 @@
 // The nearest vertices: against brute force in exact arithmetic over all points.
-#include "query/nearest.hpp"
+#include "query/locate/nearest.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
 #include "support/triangulations.hpp"

@@ -16,7 +16,7 @@
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
-#include <abacus/shape.h>
+#include <abacus/shapes.h>
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,7 +1,7 @@
 // Sections of a mesh by a plane: sides against rational numbers, polygons against their convex
 // hull.
 #include "geometry/cutting_plane.hpp"
-#include "query/plane_section.hpp"
+#include "query/lines/plane_section.hpp"
 #include "support/large_mesh.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulations.hpp"

@@ -1,7 +1,7 @@
 // The pages of a region: all of its simplices are there, each page is read once, and few others.
 #include "keys/domain_of.hpp"
-#include "query/page_simplex.hpp"
-#include "query/range_scan.hpp"
+#include "query/pages/page_simplex.hpp"
+#include "query/scan/range_scan.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
 #include "support/triangulations.hpp"

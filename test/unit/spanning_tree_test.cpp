@@ -1,13 +1,13 @@
 // Minimum spanning trees against Kruskal's over all pairs of points, and the order of lengths
 // against rational numbers.
 #include "geometry/distance.hpp"
-#include "query/length_key.hpp"
+#include "query/shapes/length_key.hpp"
 #include "support/oracle.hpp"
 #include "support/point_sets.hpp"
 
 #include <CGAL/Exact_rational.h>
 
-#include <abacus/shape.h>
+#include <abacus/shapes.h>
 #include <gtest/gtest.h>
 
 #include <numeric>

@@ -7,7 +7,7 @@
 #include "support/running_threads.hpp"
 #include "support/triangulations.hpp"
 
-#include <abacus/interpolate.h>
+#include <abacus/values.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // Tiles: where they are, what is in them against all triangles one by one, and that tiles side by
 // side fit. Vector tiles are read by protozero's reader, field by field.
-#include "query/barycentric.hpp"
-#include "query/cell_scan.hpp"
-#include "query/reader.hpp"
+#include "query/locate/reader.hpp"
+#include "query/scan/cell_scan.hpp"
+#include "query/values/barycentric.hpp"
 #include "support/image.hpp"
 #include "support/large_mesh.hpp"
 #include "tiles/picture_tile.hpp"

@@ -1,6 +1,6 @@
 // Rasters: every value is that of Interpolation at the pixel's centre, to the last bit; but by
 // natural neighbours, which are summed in no defined order.
-#include "query/value_raster.hpp"
+#include "query/places/value_raster.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulations.hpp"
 

@@ -1,6 +1,6 @@
 // Areas and volumes: against rational arithmetic over all triangles and pairs of them; identities;
 // the same to the last bit however the mesh came about.
-#include "query/volume.hpp"
+#include "query/volume/volume.hpp"
 #include "support/large_mesh.hpp"
 #include "support/mesh_in_change.hpp"
 #include "support/triangulations.hpp"

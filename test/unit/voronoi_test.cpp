@@ -3,7 +3,7 @@
 #include "support/oracle.hpp"
 #include "support/point_sets.hpp"
 
-#include <abacus/shape.h>
+#include <abacus/shapes.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // Windows of a mesh: balls against rational arithmetic, and simplices of boxes and balls against
 // brute force over all.
 #include "geometry/ball.hpp"
-#include "query/cell_scan.hpp"
-#include "query/reader.hpp"
+#include "query/locate/reader.hpp"
+#include "query/scan/cell_scan.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulations.hpp"
 

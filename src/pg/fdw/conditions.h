@@ -6,7 +6,7 @@
 
 #include "nodes/pathnodes.h"
 
-#include "abacus/ask.h"
+#include "abacus/windows.h"
 #include "pg/fdw/published.h"
 
 typedef enum ConditionKind

@@ -12,7 +12,7 @@
 #include "utils/lsyscache.h"
 #include "utils/memutils.h"
 
-#include "abacus/ask.h"
+#include "abacus/windows.h"
 #include "pg/base/float_array.h"
 #include "pg/base/settings.h"
 #include "pg/fdw/geometry_column.h"

@@ -13,7 +13,7 @@
 #include "utils/memutils.h"
 #include "utils/tuplestore.h"
 
-#include "abacus/read.h"
+#include "abacus/locate.h"
 #include "pg/fdw/nearest.h"
 #include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"

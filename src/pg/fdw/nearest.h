@@ -6,7 +6,7 @@
 
 #include "utils/rel.h"
 
-#include "abacus/read.h"
+#include "abacus/simplex.h"
 
 /* Makes the row of a vertex. */
 typedef void (*NearestRow) (void *context, const abacus_vertex *vertex, Datum *values,

@@ -20,7 +20,7 @@
 #ifndef ABACUS_HOST_H
 #define ABACUS_HOST_H
 
-#include "abacus/host.h"
+#include "abacus/host_functions.h"
 
 #include "pg/host/progress.h"
 

@@ -4,7 +4,7 @@
 #ifndef ABACUS_PROGRESS_H
 #define ABACUS_PROGRESS_H
 
-#include "abacus/host.h"
+#include "abacus/host_functions.h"
 
 typedef struct Progress
 {

@@ -5,7 +5,7 @@
 #ifndef ABACUS_ROW_PACKER_H
 #define ABACUS_ROW_PACKER_H
 
-#include "abacus/header.h"
+#include "abacus/mesh_header.h"
 #include "pg/postgis/catalogue.h"
 #include "tcop/dest.h"
 

@@ -4,7 +4,9 @@
 #ifndef ABACUS_CHANGE_OF_MESH_H
 #define ABACUS_CHANGE_OF_MESH_H
 
-#include "abacus/change.h"
+#include "abacus/labels.h"
+#include "abacus/build.h"
+#include "abacus/load.h"
 #include "pg/input/source.h"
 #include "pg/mesh/writer.h"
 

@@ -16,6 +16,8 @@
 
 #include "pg/mesh/header.h"
 #include "pg/mesh/names.h"
+#include "pg/store/page_search.h"
+#include "pg/store/page_write.h"
 
 const int64 header_key[PAGE_TABLE_KEYS] = {-1, 0};
 

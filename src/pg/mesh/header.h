@@ -4,7 +4,7 @@
 #ifndef ABACUS_HEADER_H
 #define ABACUS_HEADER_H
 
-#include "abacus/header.h"
+#include "abacus/mesh_header.h"
 #include "pg/mesh/mesh_pages.h"
 
 /* Of its row. */

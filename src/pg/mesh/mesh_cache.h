@@ -5,7 +5,7 @@
 #define ABACUS_MESH_CACHE_H
 
 #include "abacus/octree.h"
-#include "abacus/read.h"
+#include "abacus/locate.h"
 #include "pg/mesh/header.h"
 
 typedef struct CachedMesh

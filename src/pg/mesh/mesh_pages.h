@@ -4,7 +4,7 @@
 #ifndef ABACUS_PAGE_STORE_H
 #define ABACUS_PAGE_STORE_H
 
-#include "abacus/header.h"
+#include "abacus/mesh_header.h"
 
 #include "pg/host/host.h"
 #include "pg/mesh/mesh.h"

@@ -17,7 +17,7 @@
 #include "lib/stringinfo.h"
 #include "mb/pg_wchar.h"
 
-#include "abacus/change.h"
+#include "abacus/build.h"
 #include "pg/mesh/names.h"
 
 /* The first name whose bytes are no text; -1 if all are. */

@@ -4,7 +4,7 @@
 #ifndef ABACUS_NAMES_H
 #define ABACUS_NAMES_H
 
-#include "abacus/header.h"
+#include "abacus/mesh_header.h"
 
 /* Names as the header of a mesh has them. */
 typedef struct StoredNames

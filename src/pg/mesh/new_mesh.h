@@ -4,7 +4,7 @@
 #ifndef ABACUS_NEW_MESH_H
 #define ABACUS_NEW_MESH_H
 
-#include "abacus/header.h"
+#include "abacus/mesh_header.h"
 
 extern Oid	new_mesh(text *name, Oid extension_namespace, abacus_header *header,
 					 const char *command);

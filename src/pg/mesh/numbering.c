@@ -14,8 +14,10 @@
  */
 #include "postgres.h"
 
-#include "abacus/change.h"
+#include "abacus/build.h"
 #include "pg/mesh/numbering.h"
+#include "pg/store/page_search.h"
+#include "pg/store/page_write.h"
 
 const int64 numbering_key[PAGE_TABLE_KEYS] = {-1, 1000};
 

@@ -6,7 +6,7 @@
 
 #include "utils/array.h"
 
-#include "abacus/header.h"
+#include "abacus/mesh_header.h"
 
 extern void shape_dimension(abacus_header *header, int32 dimension);
 extern void shape_check_name(const char *name);

@@ -33,6 +33,8 @@
 #include "utils/memutils.h"
 
 #include "pg/space/compact.h"
+#include "pg/store/page_search.h"
+#include "pg/store/page_write.h"
 
 /* Heap pages by which a larger table is judged. */
 #define SAMPLE 1024

@@ -21,7 +21,7 @@
 
 #include "pg/port/port.h"
 #include "pg/port/shortcuts.h"
-#include "pg/store/page_table.h"
+#include "pg/store/page_fetch.h"
 
 /* Others may have moved rows. */
 void

@@ -1,10 +1,10 @@
 /*
- * page_table.h: pages of bytes in one heap table, found by key through its
- * primary key's B-tree.
+ * page_table.h: pages of bytes in one heap table, under its primary key's B-tree.
  *
  * Both tables of a mesh have this shape: two bigint key columns, then the
  * page. Direct heap and nbtree calls; no SPI, no executor. A table is
- * opened when first needed and closed before the SQL call returns.
+ * opened when first needed and closed before the SQL call returns. Its rows are found
+ * by key (page_search.h), fetched by place (page_fetch.h), and written (page_write.h).
  */
 #ifndef ABACUS_PAGE_TABLE_H
 #define ABACUS_PAGE_TABLE_H
@@ -61,24 +61,8 @@ extern void page_table_init(PageTable *table, Oid relid, bool writable, MemoryCo
 extern void page_table_open(PageTable *table);
 extern void page_table_close(PageTable *table);
 extern void page_table_see_own_changes(PageTable *table);
-extern void page_table_refuse_newer_index(PageTable *table);
-extern void page_table_refuse_newer(PageTable *table);
-
-extern bool page_table_get(PageTable *table, const int64 *key, StoredPage *page);
-extern bool page_table_floor(PageTable *table, const int64 *key, StoredPage *page);
-extern void page_table_expect_moves(PageTable *table);
-extern bool page_table_fetch(PageTable *table, ItemPointer tid, const unsigned char *bytes,
-							 size_t size, StoredPage *page);
-extern bool page_table_next(PageTable *table, const int64 *key, StoredPage *page);
-
-extern void page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes,
-							  size_t size, ItemPointer tid);
-extern void page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes,
-							  size_t size, ItemPointer tid);
-extern void page_table_delete(PageTable *table, ItemPointer tid);
-
 extern void page_table_leave_target(PageTable *table);
-extern TableScanDesc page_table_scan_heap_page(PageTable *table, BlockNumber block);
-extern bool page_table_move(PageTable *table, TupleTableSlot *slot);
+extern void page_scan_close(PageScan *scan);
+extern LOCKMODE page_table_lock_mode(const PageTable *table);
 
 #endif

@@ -8,7 +8,7 @@
 #ifndef ABACUS_PAGE_TYPE_H
 #define ABACUS_PAGE_TYPE_H
 
-#include "abacus/host.h"
+#include "abacus/host_functions.h"
 
 #include "pg/port/port.h"
 

@@ -19,7 +19,7 @@
 #include "pg/store/buffer_map.h"
 #include "pg/store/heap_room.h"
 #include "pg/store/own_versions.h"
-#include "pg/store/page_table.h"
+#include "pg/store/page_write.h"
 #include "pg/store/page_type.h"
 
 /* From so many rows on, a writer counts as one of very many. */
@@ -65,18 +65,6 @@ choose_heap_page(PageTable *table, HeapTuple tuple, bool may_grow)
 	if (table->target != InvalidBlockNumber)
 		RelationSetTargetBlock(table->heap, table->target);
 	return table->target;
-}
-
-/* Leaves the heap page that is being filled, if there is one; others may use the rest of it. */
-void
-page_table_leave_target(PageTable *table)
-{
-	if (table->target == InvalidBlockNumber)
-		return;
-	RecordPageWithFreeSpace(table->heap, table->target, table->room);
-	if (table->superseded != NULL)
-		superseded_give_back(table->superseded, table->target, table->room);
-	table->target = InvalidBlockNumber;
 }
 
 /* Before the row at *tid is replaced, or removed. */

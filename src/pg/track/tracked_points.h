@@ -8,7 +8,7 @@
 #include "utils/array.h"
 #include "utils/rel.h"
 
-#include "abacus/header.h"
+#include "abacus/mesh_header.h"
 
 extern void tracked_check_column(Relation table, AttrNumber number);
 extern List *tracked_columns(ArrayType *given, const abacus_header *header, Relation table);

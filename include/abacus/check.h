@@ -1,0 +1,44 @@
+/*
+ * check.h: a mesh verified, and whether its domain fits it.
+ */
+#ifndef ABACUS_ABACUS_CHECK_H
+#define ABACUS_ABACUS_CHECK_H
+
+#include "abacus/mesh_header.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*
+ * Whether the mesh's domain fits its points, by what the header counts and a look into a few pages;
+ * if not, abacus_build_rekey() helps.
+ */
+ABACUS_API abacus_status abacus_domain_fits(const abacus_host *host, const abacus_header *header,
+											int *fits, abacus_error *error);
+
+typedef struct abacus_fault
+{
+	abacus_key key;       /* page where the fault was seen; vertex page: code = first sequence number */
+	const char *kind;     /* a short fixed word, e.g. "orientation" */
+	char message[256];
+} abacus_fault;
+
+/*
+ * Verifies the mesh exactly, once, when opened; then hands out the faults (at most `limit`). The
+ * header is one that abacus_header_decode() has read: what that refuses is not looked for again.
+ */
+typedef struct abacus_check abacus_check;
+ABACUS_API abacus_status abacus_check_open(const abacus_host *host, const abacus_header *header,
+										   size_t cache_bytes, size_t limit, abacus_check **check,
+										   abacus_error *error);
+ABACUS_API abacus_status abacus_check_next(abacus_check *check, abacus_fault *fault);
+/* Simplices whose volume, computed in doubles, is lost in rounding; that is no fault. */
+ABACUS_API uint64_t abacus_check_flat(const abacus_check *check);
+ABACUS_API void abacus_check_close(abacus_check *check);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

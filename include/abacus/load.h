@@ -1,0 +1,61 @@
+/*
+ * load.h: a triangulation made elsewhere into a mesh.
+ */
+#ifndef ABACUS_ABACUS_LOAD_H
+#define ABACUS_ABACUS_LOAD_H
+
+#include "abacus/build.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct abacus_load abacus_load;
+
+/*
+ * Opens the loading of a triangulation made elsewhere into a mesh without points.
+ * `memory` bounds what it uses, in bytes (maintenance_work_mem); beyond it everything
+ * goes to spools. With `reorient` simplices of negative orientation are turned; without,
+ * they are refused. With `split_nodes` vertices at one place are told apart by their ids; without,
+ * they are refused. No attributes are apart then.
+ */
+ABACUS_API abacus_status abacus_load_open(const abacus_host *host, const abacus_header *header,
+										  size_t memory, int reorient, int split_nodes,
+										  abacus_load **load, abacus_error *error);
+/* Adds vertices, as abacus_stage_add does points; each id once. */
+ABACUS_API abacus_status abacus_load_vertices(abacus_load *load, const uint64_t *points,
+											  size_t count, abacus_error *error);
+/*
+ * After all vertices: adds simplices. Each is dimension + 1 ids of vertices, followed by its labels,
+ * which are doubles: as many as the header names, NaN where there is none.
+ */
+ABACUS_API abacus_status abacus_load_simplices(abacus_load *load, const uint64_t *simplices,
+											   size_t count, abacus_error *error);
+/*
+ * After all simplices, if at all: adds markers of facets. Each is `dimension` ids of vertices, and a
+ * double that is a 32-bit integer; NaN is none.
+ */
+ABACUS_API abacus_status abacus_load_facets(abacus_load *load, const uint64_t *facets, size_t count,
+											abacus_error *error);
+/*
+ * No more simplices come. Checks exactly that they form a complex, and how this is related to
+ * the Delaunay triangulation of its vertices. ABACUS_ERROR (argument) names what is wrong: an
+ * unknown or repeated vertex, a flat simplex, a facet used too often, an overlap.
+ */
+ABACUS_API abacus_status abacus_load_check(abacus_load *load, abacus_delaunay *outcome,
+										   abacus_error *error);
+/* The error's detail in full: it lists up to a hundred faults. Valid as long as the load. */
+ABACUS_API const char *abacus_load_detail(const abacus_load *load);
+/* After the check: writes the pages and brings the header up to date. */
+ABACUS_API abacus_status abacus_load_write(abacus_load *load, abacus_header *header,
+										   abacus_error *error);
+/* Or instead: adds the vertices of the simplices to a stage, to be triangulated anew. */
+ABACUS_API abacus_status abacus_load_stage(abacus_load *load, abacus_stage *stage,
+										   abacus_error *error);
+ABACUS_API void abacus_load_close(abacus_load *load);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

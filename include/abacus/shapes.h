@@ -1,0 +1,107 @@
+/*
+ * shapes.h: what the points of a mesh look like: Voronoi cells, the hull and
+ * closer outlines, the spanning tree.
+ */
+#ifndef ABACUS_ABACUS_SHAPES_H
+#define ABACUS_ABACUS_SHAPES_H
+
+#include "abacus/windows.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*
+ * The Voronoi cells of all vertices, or, with a box, the parts of all cells within it: cells of
+ * vertices outside of it, too, so that they fill it. ABACUS_ERROR (state) if the mesh is not
+ * Delaunay.
+ */
+typedef struct abacus_voronoi abacus_voronoi;
+ABACUS_API abacus_status abacus_voronoi_open(const abacus_host *host, const abacus_header *header,
+											 const abacus_window *window, size_t cache_bytes,
+											 abacus_voronoi **voronoi, abacus_error *error);
+typedef struct abacus_voronoi_cell
+{
+	int64_t vertex;
+	int32_t bounded;    /* whether the cell, not its part, has an end */
+	double area;        /* infinite without one; in space that of the surface */
+	double volume;      /* in space */
+	const double *ring; /* in the plane, `corners` points counterclockwise; valid until the next call */
+	size_t corners;     /* 0 if there is no ring */
+} abacus_voronoi_cell;
+ABACUS_API abacus_status abacus_voronoi_next(abacus_voronoi *voronoi, abacus_voronoi_cell *cell,
+											 abacus_error *error);
+/*
+ * What a cell has in common with a neighbour's, or with a side of the box: an edge in the plane, a
+ * polygon in space.
+ */
+typedef struct abacus_voronoi_facet
+{
+	int64_t vertex;
+	int64_t neighbour;
+	int32_t has_neighbour; /* 0: a side of the box */
+	int32_t bounded;
+	double size;           /* a length or an area; infinite without an end */
+	const double *ring;    /* `corners` points, valid until the next call */
+	size_t corners;        /* 0 without an end */
+} abacus_voronoi_facet;
+/* The next facet of any cell: instead of abacus_voronoi_next(). */
+ABACUS_API abacus_status abacus_voronoi_next_facet(abacus_voronoi *voronoi,
+												   abacus_voronoi_facet *facet,
+												   abacus_error *error);
+ABACUS_API void abacus_voronoi_close(abacus_voronoi *voronoi);
+
+/* What of a mesh an outline goes around: all, so that it is the hull, or some of its simplices. */
+typedef struct abacus_outline_kind
+{
+	double max_edge;     /* those without a longer edge, unless it is 0 */
+	int32_t has_alpha;   /* 1: those whose circumradius has a square of at most `alpha` */
+	double alpha;
+	int32_t fills_holes; /* 1: without holes, in space cavities, and what lies in them */
+} abacus_outline_kind;
+/* A vertex of a ring, in the plane a polygon, in space a triangle. */
+typedef struct abacus_outline_row
+{
+	uint64_t ring;     /* from 1 on */
+	uint64_t position; /* from 1 on */
+	int64_t vertex;
+	double point[ABACUS_MAX_DIMENSION];
+} abacus_outline_row;
+/* Gets one of them, valid during the call. May fail as a host function may. */
+typedef abacus_host_status (*abacus_outline_report)(void *context, const abacus_outline_row *row);
+/*
+ * Reports the border of that, ring by ring: counterclockwise, and clockwise around holes; in space
+ * counterclockwise seen from outside. Rings come in the order of their least vertices, with which
+ * they begin. What is found is sorted in `memory` bytes. ABACUS_ERROR (limit) if these have no room
+ * for the parts, page by page, of what may be cavities to be filled.
+ */
+ABACUS_API abacus_status abacus_outline(const abacus_host *host, const abacus_header *header,
+										const abacus_outline_kind *kind, size_t memory,
+										size_t cache_bytes, abacus_outline_report report,
+										void *context, abacus_error *error);
+
+/*
+ * On which side of the line from a to b the point c lies in the plane, exactly: 1 left, -1 right, 0 on
+ * it. Finite doubles.
+ */
+ABACUS_API abacus_status abacus_orientation(const double *a, const double *b, const double *c,
+											int *side, abacus_error *error);
+
+/* Gets an edge of a tree, valid during the call. May fail as a host function may. */
+typedef abacus_host_status (*abacus_edge_report)(void *context, const abacus_edge *edge);
+/*
+ * Reports the edges of the minimum spanning tree of the mesh's vertices, the shortest first; in
+ * meshes that are not Delaunay that of their edges, piece by piece. Of edges of one length those
+ * with the lesser ends are taken. What is sorted, and known of vertices, takes `memory` bytes.
+ * ABACUS_ERROR (limit) if that is too little.
+ */
+ABACUS_API abacus_status abacus_spanning_tree(const abacus_host *host, const abacus_header *header,
+											  size_t memory, size_t cache_bytes,
+											  abacus_edge_report report, void *context,
+											  abacus_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,33 @@
+/*
+ * attribute.c: an attribute that a function takes by its name.
+ */
+#include "postgres.h"
+
+#include "utils/builtins.h"
+
+#include "pg/mesh/header.h"
+#include "pg/sql/arguments/attribute.h"
+
+/* The number of the attribute, or -1 if none is given. */
+int
+attribute_or_none(FunctionCallInfo fcinfo, int argument, const abacus_header *header)
+{
+	char	   *name;
+	int			number;
+
+	if (PG_ARGISNULL(argument))
+		return -1;
+	name = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+	number = header_find_attribute(header, name);
+	pfree(name);
+	return number;
+}
+
+/* Of a mesh that has one attribute this, if none is given. */
+uint32
+attribute_argument(FunctionCallInfo fcinfo, int argument, const abacus_header *header)
+{
+	int			number = attribute_or_none(fcinfo, argument, header);
+
+	return (uint32) (number < 0 ? header_only_attribute(header) : number);
+}

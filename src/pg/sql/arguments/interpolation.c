@@ -1,0 +1,112 @@
+/*
+ * interpolation.c: the optional arguments of functions that interpolate.
+ *
+ * NULL is as good as an argument left out.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "catalog/pg_type.h"
+#include "utils/array.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+
+#include "pg/mesh/header.h"
+#include "pg/mesh/shape.h"
+#include "pg/sql/arguments/attribute.h"
+#include "pg/sql/arguments/interpolation.h"
+#include "pg/sql/arguments/word.h"
+
+/* By the numbers of the core */
+static const char *const methods[] = {"linear", "natural", "nearest", NULL};
+static const char *const outsides[] = {"null", "nearest", NULL};
+
+/* Whether the mesh, or one of so many arguments that say where, is NULL: then there is no answer. */
+bool
+interpolation_of_null(FunctionCallInfo fcinfo, int given)
+{
+	for (int i = 0; i <= given; i++)
+		if (PG_ARGISNULL(i))
+			return true;
+	return false;
+}
+
+void
+interpolation_max_edge(FunctionCallInfo fcinfo, int argument, abacus_interpolation *how)
+{
+	double		value = PG_ARGISNULL(argument) ? 0 : PG_GETARG_FLOAT8(argument);
+
+	if (!isfinite(value) || value < 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("max_edge must be a finite number, at least 0")));
+	how->max_edge = value > 0 ? value : INFINITY;
+}
+
+/* Reads the arguments method, outside and max_edge, which follow one another. */
+void
+interpolation_how(FunctionCallInfo fcinfo, int method, abacus_interpolation *how)
+{
+	how->method = word_argument(fcinfo, method, methods, "method", "Methods are linear, natural and nearest.");
+	how->outside = word_argument(fcinfo, method + 1, outsides, "outside",
+						"Outside the mesh the value is null, or that of the nearest vertex.");
+	interpolation_max_edge(fcinfo, method + 2, how);
+}
+
+/* One attribute, by its name; the only one if no name is given. */
+void
+interpolation_attribute(FunctionCallInfo fcinfo, int argument, const abacus_header *header,
+						abacus_interpolation *how)
+{
+	how->attributes = 1;
+	how->attribute[0] = attribute_argument(fcinfo, argument, header);
+}
+
+/*
+ * Names of attributes: an array, or one in a text, or a text that is a name. What is in quotes
+ * PostgreSQL takes for a text where there is a form with one.
+ */
+static ArrayType *
+names_argument(FunctionCallInfo fcinfo, int argument)
+{
+	char	   *given;
+	Oid			input;
+	Oid			parameter;
+	Datum		name;
+
+	if (get_fn_expr_argtype(fcinfo->flinfo, argument) != TEXTOID)
+		return PG_GETARG_ARRAYTYPE_P(argument);
+	given = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+	name = CStringGetTextDatum(given);
+	if (given[0] != '{')
+		return construct_array(&name, 1, TEXTOID, -1, false, TYPALIGN_INT);
+	getTypeInputInfo(TEXTARRAYOID, &input, &parameter);
+	return DatumGetArrayTypeP(OidInputFunctionCall(input, given, parameter, -1));
+}
+
+/* Any number of attributes, in the order of their names; all of them if none are given. */
+void
+interpolation_attributes(FunctionCallInfo fcinfo, int argument, const abacus_header *header,
+						 abacus_interpolation *how)
+{
+	Datum	   *names;
+	int			count;
+
+	if (PG_ARGISNULL(argument))
+	{
+		header_require_attributes(header);
+		how->attributes = header->attributes;
+		for (uint32 i = 0; i < header->attributes; i++)
+			how->attribute[i] = i;
+		return;
+	}
+	names = shape_names(names_argument(fcinfo, argument), "attributes", &count);
+	if (count > ABACUS_MAX_ATTRIBUTES)
+		ereport(ERROR,
+				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
+				 errmsg("at most %d attributes can be asked for", ABACUS_MAX_ATTRIBUTES)));
+	how->attributes = (uint32) count;
+	for (int i = 0; i < count; i++)
+		how->attribute[i] = (uint32) header_find_attribute(header, TextDatumGetCString(names[i]));
+}

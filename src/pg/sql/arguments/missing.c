@@ -1,0 +1,36 @@
+/*
+ * missing.c: why an answer about values is empty.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "abacus/windows.h"
+#include "pg/base/settings.h"
+#include "pg/sql/arguments/missing.h"
+
+/*
+ * For an answer without a row: a NOTICE if no vertex of the mesh has a value. The heads of the
+ * columns tell, so no page without a value is decoded for it.
+ */
+void
+notice_missing_values(Reader *reader, uint32 attribute)
+{
+	Host	   *host = reader->host;
+	const abacus_window whole = {.kind = ABACUS_NO_WINDOW};
+	const abacus_range any = {.attribute = attribute, .least = -INFINITY, .greatest = INFINITY};
+	abacus_faces *vertices = NULL;
+	abacus_vertex vertex;
+	abacus_status status;
+
+	if (reader->header.vertices == 0)
+		return;
+	host_run(host, abacus_faces_open_range, &host->table, &reader->header, &whole, &any,
+			 setting_cache_bytes(), &vertices);
+	host_own(host, vertices, (void (*) (void *)) abacus_faces_close);
+	status = host_run(host, abacus_faces_next_vertex, vertices, &vertex);
+	if (status == ABACUS_END)
+		ereport(NOTICE,
+				(errmsg("attribute \"%s\" has no value", reader->header.names[attribute]),
+				 errhint("abacus_attributes() tells which attributes have values.")));
+}

@@ -1,0 +1,78 @@
+/*
+ * place.c: a place given as x, y and, in space, z behind the mesh, and k behind it.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "pg/mesh/header.h"
+#include "pg/sql/arguments/place.h"
+
+/*
+ * Reads the `given` coordinates behind the first argument. False if one is
+ * infinite; NaN is an error.
+ */
+bool
+place_arguments(FunctionCallInfo fcinfo, int given, const abacus_header *header, double *point)
+{
+	uint32		dimension = header->dimension;
+	bool		finite = true;
+
+	if (given != (int) dimension)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("z is %s, but the %s has dimension %u",
+						dimension == 2 ? "given" : "missing", type_name(header->type), dimension),
+				 dimension == 2
+				 ? errhint("Leave z out, or make the %s with dimension => 3.", type_name(header->type))
+				 : errhint("Give all three coordinates of the point.")));
+	for (uint32 i = 0; i < dimension; i++)
+	{
+		point[i] = PG_GETARG_FLOAT8(1 + i);
+		if (isnan(point[i]))
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("%c is not a number", "xyz"[i])));
+		finite &= isfinite(point[i]) != 0;
+	}
+	return finite;
+}
+
+/* Where k follows: a z that is missing may have been taken for it. */
+void
+place_require_z(int given, const abacus_header *header)
+{
+	if (given < (int) header->dimension)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("z is missing, but the %s has dimension %u", type_name(header->type),
+						header->dimension),
+				 errhint("Give z with a decimal point or as z => 1: a whole number behind y is "
+						 "taken for k.")));
+}
+
+/* The argument k of a function that returns the k nearest rows. */
+uint64
+place_count_argument(FunctionCallInfo fcinfo, int argument, const char *rows)
+{
+	int32		k = PG_GETARG_INT32(argument);
+
+	if (k < 1)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("k must be at least 1, not %d", k),
+				 errhint("k is the number of %s that are wanted.", rows)));
+	return (uint64) k;
+}
+
+/* Reads coordinates where an infinite coordinate is an error, too. */
+void
+place_arguments_finite(FunctionCallInfo fcinfo, int given, const abacus_header *header,
+					   double *point)
+{
+	if (!place_arguments(fcinfo, given, header, point))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("a coordinate of the place is infinite"),
+				 errhint("Give finite coordinates.")));
+}

@@ -1,0 +1,33 @@
+/*
+ * places.h: the places of a query, read for a function that answers all of
+ * them.
+ */
+#ifndef ABACUS_PLACES_H
+#define ABACUS_PLACES_H
+
+#include "abacus/octree_ask.h"
+#include "abacus/locate.h"
+#include "pg/input/source.h"
+#include "pg/mesh/reader.h"
+
+/*
+ * Made by places_read(), or by places_open() and places_fetch() where arguments depend on the
+ * mesh; what is asked at each place the caller asks the core.
+ */
+typedef struct PlacesRead
+{
+	Source		source;
+	Host	   *host;
+	uint32		dimension;
+	const abacus_header *header;
+	abacus_places *places;		/* of a mesh */
+	abacus_octree_places *octants;	/* of an octree */
+	uint64		count;			/* places */
+} PlacesRead;
+
+extern void places_open(PlacesRead *read, Oid mesh, uint32 type, const char *query);
+extern void places_fetch(PlacesRead *read);
+extern void places_read(PlacesRead *read, Oid mesh, uint32 type, const char *query);
+extern void places_done(PlacesRead *read);
+
+#endif

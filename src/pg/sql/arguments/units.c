@@ -1,0 +1,149 @@
+/*
+ * units.c: coordinates in degrees, and what does not go with them.
+ *
+ * Abacus computes with plain coordinates. Where the SRID of a mesh, or a window, shows that a result
+ * cannot be what is wanted, a NOTICE says so: once a statement, for a function may be called for
+ * every row.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "access/xact.h"
+#include "pg/postgis/reference_system.h"
+#include "pg/sql/arguments/units.h"
+
+typedef enum UnitsNote
+{
+	NOTE_SLOPES = 1,
+	NOTE_VOLUMES = 2,
+	NOTE_SHADING = 4,
+	NOTE_WINDOW = 8
+} UnitsNote;
+
+/* Of longitude and latitude; longitudes may go from 0 to 360. */
+#define MOST_LONGITUDE 360.0
+#define MOST_LATITUDE 90.0
+
+/* What this statement has found out, and said. */
+static struct
+{
+	TimestampTz statement;
+	int			said;
+	int32		srid;			/* 0: none has been looked up */
+	bool		is_geographic;
+} current;
+
+static void
+look_at_statement(void)
+{
+	if (current.statement == GetCurrentStatementStartTimestamp())
+		return;
+	current.statement = GetCurrentStatementStartTimestamp();
+	current.said = 0;
+	current.srid = 0;
+	current.is_geographic = false;
+}
+
+static bool
+is_geographic(const abacus_header *header)
+{
+	int32		srid = (int32) header->srid;
+
+	if (srid != current.srid)
+	{
+		current.is_geographic = srid != 0 && reference_system_is_geographic(srid);
+		current.srid = srid;
+	}
+	return current.is_geographic;
+}
+
+/* Whether a note is to be made: not if it has been. */
+static bool
+begins(UnitsNote note)
+{
+	if ((current.said & note) != 0)
+		return false;
+	current.said |= note;
+	return true;
+}
+
+/* Of a mesh in degrees gradients and slopes are of no use. */
+void
+units_tell_slopes(const abacus_header *header)
+{
+	look_at_statement();
+	if (is_geographic(header) && begins(NOTE_SLOPES))
+		ereport(NOTICE,
+				(errmsg("slopes and gradients are per degree: the coordinates are longitude and latitude"),
+				 errdetail("The mesh has SRID %u.", header->srid),
+				 errhint("Transform the points to a system in metres before they are triangulated, for "
+						 "instance by ST_Transform of PostGIS.")));
+}
+
+/* Nor are areas and volumes. */
+void
+units_tell_volumes(const abacus_header *header)
+{
+	look_at_statement();
+	if (is_geographic(header) && begins(NOTE_VOLUMES))
+		ereport(NOTICE,
+				(errmsg("areas and volumes are over square degrees: the coordinates are longitude and latitude"),
+				 errdetail("The mesh has SRID %u.", header->srid),
+				 errhint("Transform the points to a system in metres before they are triangulated, for "
+						 "instance by ST_Transform of PostGIS.")));
+}
+
+/* Hill shading of heights in metres over degrees sees cliffs only. */
+void
+units_tell_shading(const abacus_header *header, double exaggeration)
+{
+	look_at_statement();
+	if (exaggeration > 1e-3 && is_geographic(header) && begins(NOTE_SHADING))
+		ereport(NOTICE,
+				(errmsg("hills are shaded as if degrees were metres: the coordinates are longitude and latitude"),
+				 errdetail("The mesh has SRID %u.", header->srid),
+				 errhint("A degree of latitude has 111,320 m: of heights in metres exaggeration => 9e-6 shows "
+						 "slopes as they are.")));
+}
+
+static bool
+may_be_degrees(const double *lower, const double *upper)
+{
+	return lower[0] >= -MOST_LONGITUDE && upper[0] <= MOST_LONGITUDE && lower[1] >= -MOST_LATITUDE &&
+		upper[1] <= MOST_LATITUDE;
+}
+
+/*
+ * A window beside the mesh where either is in degrees and the other cannot be. Elsewhere an empty
+ * answer is as good as any.
+ */
+void
+units_tell_window(const abacus_header *header, const double *lower, const double *upper)
+{
+	bool		meets = true;
+	bool		window_may;
+	bool		mesh_may;
+
+	if (header->has_domain == 0)
+		return;
+	for (uint32 i = 0; i < header->dimension; i++)
+		meets &= lower[i] <= header->upper[i] && upper[i] >= header->lower[i];
+	window_may = may_be_degrees(lower, upper);
+	mesh_may = may_be_degrees(header->lower, header->upper);
+	if (meets || window_may == mesh_may)
+		return;
+	look_at_statement();
+	if (mesh_may && !is_geographic(header))
+		return;
+	if (!begins(NOTE_WINDOW))
+		return;
+	ereport(NOTICE,
+			(errmsg("the window does not meet the mesh"),
+			 errdetail("The window reaches from (%.9g, %.9g) to (%.9g, %.9g), the domain of the mesh from (%.9g, %.9g) to (%.9g, %.9g).",
+					   lower[0], lower[1], upper[0], upper[1], header->lower[0], header->lower[1],
+					   header->upper[0], header->upper[1]),
+			 window_may ? errhint("The window looks like longitude and latitude, the mesh does not. Transform the "
+								  "window to the system of the mesh.")
+			 : errhint("The mesh is in longitude and latitude, the window is not. Transform the window.")));
+}

@@ -1,0 +1,26 @@
+/*
+ * window.h: the part of a mesh that a call is about: where it is, and which simplices.
+ */
+#ifndef ABACUS_WINDOW_H
+#define ABACUS_WINDOW_H
+
+#include "abacus/windows.h"
+#include "fmgr.h"
+#include "utils/array.h"
+
+/* Two arguments of a call. */
+typedef enum WindowForm
+{
+	WINDOW_BOX,					/* lower, upper: all of the mesh if both are NULL */
+	WINDOW_BALL					/* center, radius */
+} WindowForm;
+
+extern void window_arguments(FunctionCallInfo fcinfo, int first, WindowForm form,
+							 const abacus_header *header, abacus_window *window);
+extern double window_max_edge(FunctionCallInfo fcinfo, int argument);
+extern bool window_label(FunctionCallInfo fcinfo, int first, const abacus_header *header,
+						 abacus_range *range);
+extern bool window_attribute(FunctionCallInfo fcinfo, int first, const abacus_header *header,
+							 abacus_range *range);
+
+#endif

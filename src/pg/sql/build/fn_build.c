@@ -1,0 +1,202 @@
+/*
+ * fn_build.c: abacus_build, staged points into the mesh in batches, each
+ * committed.
+ *
+ * A batch is a change like that of abacus_triangulate: all its pages and the new header
+ * under one transaction. So whatever stops the build, the mesh has the points up to the
+ * last batch, and the header says where to go on.
+ *
+ * At the end rows are moved to the beginning of their tables, if more than a
+ * little of these is empty (compact.c), so that VACUUM can cut them. The vertex
+ * table has only dead rows, as a rule, and is truncated.
+ *
+ * From one batch to the next the core keeps its cache. What it holds of the mesh, the
+ * places of stored pages included, stays true: a lock of the session keeps other
+ * writers, VACUUM FULL and the like away until the end. That lock is not on the vertex
+ * table, so nothing of that is kept.
+ */
+#include "postgres.h"
+
+#include "access/xact.h"
+#include "executor/spi.h"
+#include "miscadmin.h"
+#include "nodes/parsenodes.h"
+#include "storage/lmgr.h"
+#include "utils/lsyscache.h"
+
+#include "abacus/build.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
+#include "pg/mesh/notices.h"
+#include "pg/mesh/writer.h"
+#include "pg/space/compact.h"
+#include "pg/space/truncate.h"
+#include "pg/track/pending.h"
+
+SQL_FUNCTION(abacus_sql_build);
+
+/* Whether the call may commit; as SPI_commit() would find later. */
+static void
+check_commits(FunctionCallInfo fcinfo)
+{
+	bool		atomic = fcinfo->context == NULL || !IsA(fcinfo->context, CallContext) ||
+		castNode(CallContext, fcinfo->context)->atomic || IsSubTransaction();
+
+	if (atomic)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_TRANSACTION_TERMINATION),
+				 errmsg("abacus_build() cannot commit here"),
+				 errdetail("It ends a transaction after each batch."),
+				 errhint("CALL it outside transaction blocks, functions and exception blocks, or "
+						 "use abacus_triangulate().")));
+}
+
+/* One batch, from where the header stands; false if nothing could be inserted. */
+static bool
+insert_batch(Writer *writer, abacus_build *build, uint64 limit)
+{
+	Host	   *host = writer->host;
+	abacus_header *header = writer->header;
+	uint64		inserted = header->inserted;
+	abacus_counters before = header->counters;
+
+	host_run(host, abacus_build_run, build, limit, header);
+	if (header->inserted == inserted)
+		return false;			/* the points span no simplex yet */
+	progress_batch_done(&host->progress, header->inserted - inserted,
+						header->counters.loads - before.loads,
+						header->counters.stores - before.stores);
+	return true;
+}
+
+/*
+ * A change of its own, where it is due: a mesh whose domain does not fit its points gets other
+ * keys. Returns whether there is something to commit.
+ */
+static bool
+rekey(Writer *writer, abacus_build *build)
+{
+	Host	   *host = writer->host;
+	abacus_header *header = writer->header;
+	uint64		outside = header->outside;
+	int			done;
+
+	host_run(host, abacus_build_rekey, build, setting_sort_bytes(), header, &done);
+	if (done)
+		ereport(NOTICE,
+				(errmsg("mesh \"%s\" has another domain", get_rel_name(mesh_pages(host)->mesh)),
+				 errdetail("The one before did not fit its points; the simplices are the same.")));
+	return done || header->outside != outside;
+}
+
+/*
+ * A change of its own, too: a mesh with many attributes that was made when they went into the
+ * simplex pages gets them apart.
+ */
+static void
+move_attributes_apart(Writer *writer)
+{
+	Host	   *host = writer->host;
+	abacus_header *header = writer->header;
+	uint32	   *same = palloc(header->attributes * sizeof(uint32));
+	abacus_build *build = NULL;
+
+	for (uint32 i = 0; i < header->attributes; i++)
+		same[i] = i;
+	host_run(host, abacus_build_open, &host->table, header, setting_cache_bytes(), &build);
+	host_own(host, build, (void (*) (void *)) abacus_build_close);
+	host_run(host, abacus_build_change_attributes, build, same, header->attributes,
+			 setting_sort_bytes(), header);
+	host_own(host, NULL, NULL);
+	pfree(same);
+	ereport(NOTICE,
+			(errmsg("mesh \"%s\" has its attributes in pages of their own",
+					get_rel_name(mesh_pages(host)->mesh)),
+			 header->labels > 0 || header->marked > 0 ? 0 :
+			 errdetail("It has format 4 now; versions of Abacus that read format 3 only do not read it.")));
+}
+
+/* Ends a change and goes on with the next one. */
+static void
+commit(Writer *writer)
+{
+	PageTable  *simplices = &mesh_pages(writer->host)->simplices;
+
+	writer_store(writer);
+	SPI_commit();
+	writer_continue(writer);
+	superseded_reclaim(simplices->superseded, simplices->heap);
+}
+
+/* Inserts all points that wait. */
+static void
+insert_all(Writer *writer, uint64 batch)
+{
+	Host	   *host = writer->host;
+	abacus_header *header = writer->header;
+	uint64		duplicates = header->duplicates;
+	abacus_build *build = NULL;
+
+	if (!header->apart && abacus_are_apart(header->dimension, header->attributes))
+	{
+		move_attributes_apart(writer);
+		commit(writer);
+	}
+	host_run(host, abacus_build_open, &host->table, header, setting_cache_bytes(), &build);
+	host_own(host, build, (void (*) (void *)) abacus_build_close);
+	if (rekey(writer, build))
+		commit(writer);
+	while (header->inserted < header->staged && insert_batch(writer, build, batch))
+		commit(writer);
+	notice_duplicates(writer, duplicates, false);
+	notice_waiting(writer);
+	host_own(host, NULL, NULL);	/* the core would look for pages where they were */
+}
+
+/* abacus_build(mesh regclass, batch bigint), a procedure */
+Datum
+abacus_sql_build(PG_FUNCTION_ARGS)
+{
+	Oid			mesh;
+	Oid			vertices;
+	int64		batch;
+	LockRelId	lock;
+	Writer		writer;
+	abacus_header *header;
+	Host	   *host;
+	PageTable  *simplices;
+
+	check_commits(fcinfo);
+	if (PG_ARGISNULL(0) || PG_ARGISNULL(1))
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("mesh and batch must not be NULL")));
+	mesh = PG_GETARG_OID(0);
+	batch = PG_GETARG_INT64(1);
+	if (batch < 1)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("batch must be at least 1")));
+	writer_prevent_read_only(mesh, "abacus_build()");	/* before the lock, which a standby has not */
+
+	SPI_connect_ext(SPI_OPT_NONATOMIC); /* its memory outlives transactions */
+	pending_settle(mesh);		/* not in the middle of it, by a commit */
+	lock = mesh_lock_for_session(mesh);
+	writer_begin(&writer, mesh, MESH_WRITE, "abacus_build()");
+	host = writer.host;
+	header = writer.header;
+	simplices = &mesh_pages(host)->simplices;
+	simplices->superseded = superseded_create(host->home);
+	progress_in_batches(&host->progress, header->staged - header->inserted);
+	/* what is no Delaunay triangulation has no points that wait, and may yet have to be bound */
+	if (!header->not_delaunay)
+		insert_all(&writer, (uint64) batch);
+	compact(&writer, true, true);
+	vertices = mesh_pages_vertex_table(mesh_pages(host));
+	writer_close(&writer);
+	if (truncate_if_empty(vertices))
+		SPI_commit();			/* lets readers at it */
+	SPI_finish();
+	UnlockRelationIdForSession(&lock, ShareRowExclusiveLock);
+	PG_RETURN_VOID();
+}

@@ -1,0 +1,193 @@
+/*
+ * fn_edit.c: abacus_insert and abacus_delete, points into a mesh and out of it,
+ * without vertex pages between; and the same with the simplices that they create and
+ * remove as rows.
+ *
+ * All pages are written before the function returns, once each. A point costs the pages
+ * that its cavity or star touches; many points in one call share them.
+ */
+#include "postgres.h"
+
+#include "funcapi.h"
+#include "utils/builtins.h"
+
+#include "pg/base/sql_function.h"
+#include "pg/host/guard.h"
+#include "pg/mesh/change.h"
+#include "pg/sql/rows/answers.h"
+#include "pg/sql/rows/result.h"
+#include "pg/sql/rows/simplex_row.h"
+#include "pg/track/by_hand.h"
+
+SQL_FUNCTION(abacus_sql_insert);
+SQL_FUNCTION(abacus_sql_delete);
+SQL_FUNCTION(abacus_sql_insert_returning);
+SQL_FUNCTION(abacus_sql_delete_returning);
+
+/* Columns of the simplices returned: those of abacus_simplex between two */
+enum
+{
+	CHANGED_CREATED,
+	CHANGED_SIMPLEX,
+	CHANGED_CORNERS = CHANGED_SIMPLEX + SIMPLEX_COLUMNS,
+	CHANGED_COLUMNS
+};
+
+/* What becomes of a point at the place of another, as an argument says. */
+static abacus_on_duplicate
+on_duplicate(text *given)
+{
+	static const char *const names[] = {
+		[ABACUS_KEEP] = "keep", [ABACUS_REPLACE] = "replace", [ABACUS_REFUSE] = "error"
+	};
+	char	   *name = text_to_cstring(given);
+
+	for (int i = 0; i < lengthof(names); i++)
+		if (strcmp(name, names[i]) == 0)
+			return (abacus_on_duplicate) i;
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("on_duplicate must not be \"%s\"", name),
+			 errhint("It is 'keep', 'replace' or 'error'.")));
+	return ABACUS_KEEP;			/* not reached */
+}
+
+/* Adds the row of a simplex; called by the core. */
+static abacus_host_status
+put_simplex(void *context, int created, const abacus_simplex *simplex)
+{
+	Answers    *answers = context;
+	int			dimension = (int) answers->dimension;
+	double		corners[(ABACUS_MAX_DIMENSION + 1) * ABACUS_MAX_DIMENSION];
+	Datum		values[CHANGED_COLUMNS];
+	bool		isnull[CHANGED_COLUMNS] = {false};
+
+	for (int i = 0; i <= dimension; i++)
+		memcpy(corners + i * dimension, simplex->corner[i], dimension * sizeof(double));
+	values[CHANGED_CREATED] = BoolGetDatum(created != 0);
+	simplex_columns(simplex, answers->dimension, values + CHANGED_SIMPLEX,
+					isnull + CHANGED_SIMPLEX);
+	GUARD_BEGIN();
+	values[CHANGED_CORNERS] = float_matrix(corners, dimension + 1, dimension);
+	answers_add(answers, values, isnull);
+	pfree(DatumGetPointer(values[CHANGED_CORNERS]));
+	GUARD_END(answers->host);
+	return ABACUS_HOST_OK;
+}
+
+/* Opens a mesh for a change; `answers` gets the simplices that it creates and removes, if any. */
+static Change *
+begin(Oid mesh, Answers *answers, const char *command)
+{
+	Change	   *change = change_begin(mesh, command);
+
+	by_hand_refuse_points(change);
+	change->returns = answers != NULL;
+	return change;
+}
+
+static void
+end(Change *change, Answers *answers)
+{
+	if (answers != NULL)
+	{
+		answers->host = change->writer.host;
+		answers->dimension = change->writer.header->dimension;
+		change_report(change, put_simplex, answers);
+	}
+	change_end(change);
+}
+
+/* Inserts the points of a prepared query; returns how many there were. */
+static uint64
+insert_query(Oid mesh, Source *source, abacus_on_duplicate how, Answers *answers,
+			 const char *command)
+{
+	Change	   *change = begin(mesh, answers, command);
+	uint64		points;
+
+	change->on_duplicate = how;
+	change->may_replace = true;
+	change_read(change, source);
+	change_insert(change);
+	points = change->points;
+	end(change, answers);
+	return points;
+}
+
+/* abacus_insert(mesh regclass, query text, on_duplicate text) -> bigint */
+Datum
+abacus_sql_insert(PG_FUNCTION_ARGS)
+{
+	abacus_on_duplicate how = on_duplicate(PG_GETARG_TEXT_PP(2));
+	Source		source;
+	uint64		points;
+
+	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	points = insert_query(PG_GETARG_OID(0), &source, how, NULL, "abacus_insert()");
+	source_finish(&source);
+	PG_RETURN_INT64((int64) points);
+}
+
+/*
+ * abacus_insert_returning(mesh regclass, query text, on_duplicate text)
+ *     -> created, code, v0, v1, v2, v3, corners
+ */
+Datum
+abacus_sql_insert_returning(PG_FUNCTION_ARGS)
+{
+	abacus_on_duplicate how = on_duplicate(PG_GETARG_TEXT_PP(2));
+	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+	Source		source;
+
+	InitMaterializedSRF(fcinfo, 0);
+	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	insert_query(PG_GETARG_OID(0), &source, how, &answers, "abacus_insert_returning()");
+	source_finish(&source);
+	PG_RETURN_NULL();
+}
+
+/* Takes the points of a prepared query away; returns how many there were. */
+static uint64
+delete_query(Oid mesh, Source *source, Answers *answers, const char *command)
+{
+	Change	   *change = begin(mesh, answers, command);
+	abacus_header *shape = palloc(sizeof(abacus_header));
+	uint64		deleted;
+
+	/* id and coordinates say which points; attributes may follow, as in abacus_insert() */
+	abacus_header_copy(shape, change->writer.header);
+	if (source_columns(source) == source_first_attribute(source, shape->dimension))
+		shape->attributes = 0;
+	change_read_gone(change, source, shape);
+	deleted = change_delete(change, false);
+	end(change, answers);
+	return deleted;
+}
+
+/* abacus_delete(mesh regclass, query text) -> bigint */
+Datum
+abacus_sql_delete(PG_FUNCTION_ARGS)
+{
+	Source		source;
+	uint64		deleted;
+
+	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	deleted = delete_query(PG_GETARG_OID(0), &source, NULL, "abacus_delete()");
+	source_finish(&source);
+	PG_RETURN_INT64((int64) deleted);
+}
+
+/* abacus_delete_returning(mesh regclass, query text) -> as abacus_insert_returning() */
+Datum
+abacus_sql_delete_returning(PG_FUNCTION_ARGS)
+{
+	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+	Source		source;
+
+	InitMaterializedSRF(fcinfo, 0);
+	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	delete_query(PG_GETARG_OID(0), &source, &answers, "abacus_delete_returning()");
+	source_finish(&source);
+	PG_RETURN_NULL();
+}

@@ -1,0 +1,235 @@
+/*
+ * fn_check.c: abacus_check, the exact verification of a mesh.
+ *
+ * The core verifies everything in the first call and keeps the faults. Without a
+ * readable header the core cannot be asked. That is also a fault and not an error, and
+ * so is a row under a key that the core does not have.
+ */
+#include "postgres.h"
+
+#include "access/htup_details.h"
+#include "access/table.h"
+#include "funcapi.h"
+#include "utils/builtins.h"
+
+#include "abacus/check.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
+#include "pg/mesh/numbering.h"
+#include "pg/sql/rows/result.h"
+#include "pg/store/page_search.h"
+
+SQL_FUNCTION(abacus_sql_check);
+
+typedef struct Checking
+{
+	Host	   *host;
+	bool		has_fault;		/* `fault`, before those that the core still has */
+	abacus_fault fault;
+	int64		code;			/* of its row */
+} Checking;
+
+static void
+note_fault(Checking *checking, const char *kind, const int64 *key, const char *message)
+{
+	checking->has_fault = true;
+	checking->code = key[0];
+	checking->fault.kind = kind;
+	checking->fault.key.part = (uint64) key[1];
+	strlcpy(checking->fault.message, message, sizeof(checking->fault.message));
+}
+
+/* Notes a header that is missing or damaged; true if it is sound. */
+static bool
+read_header(Checking *checking, abacus_header *header)
+{
+	Host	   *host = checking->host;
+	StoredPage	row;
+
+	if (!header_find(host, &row))
+		note_fault(checking, "header", header_key, "the header row (-1, 0) is missing");
+	else if (header_try_decode(host, &row, header) != ABACUS_OK)
+		note_fault(checking, "header", header_key,
+				   host->failure.detail[0] != '\0' ? host->failure.detail : host->failure.message);
+	return !checking->has_fault;
+}
+
+/* Notes a damaged row with the numbers of attributes. */
+static void
+check_numbers(Checking *checking, const abacus_header *header)
+{
+	Numbering  *numbering = palloc(sizeof(Numbering));
+
+	if (!numbering_try_read(checking->host, header, numbering))
+		note_fault(checking, "header", numbering_key, "The numbers of attributes are not valid.");
+	pfree(numbering);
+}
+
+/* Notes the first row besides those of the header where no page can be. */
+static void
+look_before_pages(Checking *checking, const abacus_header *header)
+{
+	static const int64 attributes_end[PAGE_TABLE_KEYS] = {-2, PG_INT64_MAX};
+	PageTable  *table = &mesh_pages(checking->host)->simplices;
+	StoredPage	row;
+	bool		has_attributes = header->apart || header->labels > 0 || header->marked > 0;
+	bool		found = page_table_next(table, has_attributes ? attributes_end : NULL, &row);
+
+	for (uint32 i = 0; i <= abacus_header_name_rows(header) && found; i++)
+	{
+		int64		key[PAGE_TABLE_KEYS] = {header_key[0], header_key[1] + i};
+
+		if (memcmp(row.key, key, sizeof(key)) == 0)
+			found = page_table_next(table, key, &row);
+	}
+	if (found && memcmp(row.key, numbering_key, sizeof(numbering_key)) == 0)
+		found = page_table_next(table, numbering_key, &row);
+	if (found && row.key[0] < 0)
+		note_fault(checking, "interval", row.key, "A row lies before the beginning of the curve.");
+}
+
+/* Lets the core verify everything; it keeps at most so many faults. */
+static void
+check_pages(Checking *checking, Oid mesh, const abacus_header *header, int32 limit)
+{
+	Host	   *host = checking->host;
+	abacus_check *check = NULL;
+
+	header_open_vertices(host, header);
+	progress_begin(&host->progress, mesh);
+	host_run(host, abacus_check_open, &host->table, header, setting_cache_bytes(), limit, &check);
+	progress_end(&host->progress);
+	host_own(host, check, (void (*) (void *)) abacus_check_close);
+}
+
+/* The code of the row that the core has found a fault in. */
+static int64
+row_code(const abacus_fault *fault)
+{
+	static const char *const kinds[] = {"attributes", "labels", "markers"};
+
+	for (int i = 0; i < lengthof(kinds); i++)
+		if (strcmp(fault->kind, kinds[i]) == 0)
+			return (int64) (fault->key.code + (uint64) PG_INT64_MIN);
+	return (int64) fault->key.code;
+}
+
+/* What the core has found first, if anything. */
+static void
+look_for_first_fault(Checking *checking)
+{
+	Host	   *host = checking->host;
+
+	checking->has_fault = host->handle != NULL &&
+		host_check(host, abacus_check_next(host->handle, &checking->fault)) == ABACUS_OK;
+	if (checking->has_fault)
+		checking->code = row_code(&checking->fault);
+}
+
+/* Says how many simplices of a sound mesh are so flat that doubles do not tell their volume. */
+static void
+notice_flat(const Checking *checking, Relation table, const abacus_header *header)
+{
+	uint64		flat = abacus_check_flat(checking->host->handle);
+
+	if (flat == 0)
+		return;
+	ereport(NOTICE,
+			(header->dimension == 2
+			 ? errmsg_plural(UINT64_FORMAT " triangle of mesh \"%s\" is flat in doubles",
+							 UINT64_FORMAT " triangles of mesh \"%s\" are flat in doubles",
+							 (unsigned long) flat, flat, RelationGetRelationName(table))
+			 : errmsg_plural(UINT64_FORMAT " tetrahedron of mesh \"%s\" is flat in doubles",
+							 UINT64_FORMAT " tetrahedra of mesh \"%s\" are flat in doubles",
+							 (unsigned long) flat, flat, RelationGetRelationName(table)),
+			 errdetail("The mesh is sound, and values there are right. Only %s this small are lost in rounding.",
+					   header->dimension == 2 ? "areas" : "volumes")));
+}
+
+static Checking *
+begin_check(Oid mesh, int32 limit, MemoryContext memory)
+{
+	Relation	table = mesh_table_open(mesh, MESH_READ);
+	Checking   *checking = MemoryContextAllocZero(memory, sizeof(Checking));
+	abacus_header header;
+
+	checking->host = mesh_host_create(memory, mesh, MESH_READ);
+	mesh_pages(checking->host)->type = ANY_TYPE;
+	if (read_header(checking, &header))
+	{
+		look_before_pages(checking, &header);
+		if (!checking->has_fault)
+			check_numbers(checking, &header);
+		limit -= checking->has_fault;
+		if (limit > 0)
+			check_pages(checking, mesh, &header, limit);
+	}
+	if (!checking->has_fault)
+		look_for_first_fault(checking);
+	if (checking->has_fault)
+		host_doubt_pages(checking->host);
+	else if (checking->host->handle != NULL)
+		notice_flat(checking, table, &header);
+	host_release(checking->host);
+	table_close(table, NoLock);
+	return checking;
+}
+
+/* The next fault, if any. */
+static bool
+next_fault(Checking *checking, abacus_fault *fault, int64 *code)
+{
+	if (checking->has_fault)
+	{
+		*fault = checking->fault;
+		*code = checking->code;
+		checking->has_fault = false;
+		return true;
+	}
+	if (checking->host->handle == NULL ||
+		host_check(checking->host, abacus_check_next(checking->host->handle, fault)) == ABACUS_END)
+		return false;
+	*code = row_code(fault);
+	return true;
+}
+
+/* abacus_check(mesh regclass, max_faults int) -> fault, code, part, message */
+Datum
+abacus_sql_check(PG_FUNCTION_ARGS)
+{
+	FuncCallContext *set;
+	abacus_fault fault;
+	int64		code;
+	Datum		values[4];
+	bool		isnull[4] = {false};
+
+	if (SRF_IS_FIRSTCALL())
+	{
+		int32		limit;
+		MemoryContext old;
+
+		/* no row would say that all is well */
+		if (PG_ARGISNULL(0) || PG_ARGISNULL(1))
+			ereport(ERROR,
+					(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+					 errmsg("mesh and max_faults must not be NULL")));
+		limit = PG_GETARG_INT32(1);
+		if (limit < 1)
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("max_faults must be at least 1")));
+		set = SRF_FIRSTCALL_INIT();
+		old = MemoryContextSwitchTo(set->multi_call_memory_ctx);
+		set->tuple_desc = result_row_type(fcinfo);
+		set->user_fctx = begin_check(PG_GETARG_OID(0), limit, set->multi_call_memory_ctx);
+		MemoryContextSwitchTo(old);
+	}
+	set = SRF_PERCALL_SETUP();
+	if (!next_fault(set->user_fctx, &fault, &code))
+		SRF_RETURN_DONE(set);
+	values[0] = CStringGetTextDatum(fault.kind);
+	values[1] = Int64GetDatum(code);
+	values[2] = Int64GetDatum((int64) fault.key.part);
+	values[3] = CStringGetTextDatum(fault.message);
+	SRF_RETURN_NEXT(set, HeapTupleGetDatum(heap_form_tuple(set->tuple_desc, values, isnull)));
+}

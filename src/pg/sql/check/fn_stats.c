@@ -1,0 +1,252 @@
+/*
+ * fn_stats.c: abacus_stats, the figures of a mesh.
+ *
+ * Counts and counters come from the header, sizes from the files, and, if the
+ * session has the mesh in its cache, the counters of its own reading.
+ */
+#include "postgres.h"
+
+#include "access/table.h"
+#include "funcapi.h"
+#include "utils/fmgrprotos.h"
+#include "utils/lsyscache.h"
+
+#include "abacus/octree.h"
+#include "abacus/locate.h"
+#include "abacus/check.h"
+#include "abacus/build.h"
+#include "abacus/load.h"
+#include "pg/base/sql_function.h"
+#include "pg/mesh/mesh_cache.h"
+#include "pg/mesh/reader.h"
+#include "pg/sql/rows/result.h"
+
+SQL_FUNCTION(abacus_sql_stats);
+
+/* One row for each counter of chapter 5; for a session's reading only those that move. */
+static void
+put_counters(Figures *figures, const abacus_counters *counters, uint32 type, bool reading)
+{
+	const char *records = type == ABACUS_OCTREE ? "leaves" : "simplices";
+	const char *a_record = type == ABACUS_OCTREE ? "leaf" : "simplex";
+	const struct
+	{
+		const char *name;
+		uint64		value;
+		bool		moves_when_reading;
+		const char *description;
+	}			rows[] = {
+		{"insertions", counters->insertions, false, "vertices added"},
+		{"removals", counters->removals, false, "vertices removed"},
+		{"steps", counters->steps, true, "links followed between simplices"},
+		{"misses", counters->misses, true, "links that led out of the cache"},
+		{"link_probes", counters->link_probes, true, "page searches by a stored neighbour key"},
+		{"quick_probes", counters->quick_probes, true, "quick probes for an unknown neighbour"},
+		{"ray_probes", counters->ray_probes, true, "ray-casting probes for an unknown neighbour"},
+		{"concentric_probes", counters->concentric_probes, true,
+		"concentric probes for an unknown neighbour"},
+		{"incircle_tests", counters->incircle_tests, false,
+		"insertions that asked the last created simplices where to start"},
+		{"incircle_hits", counters->incircle_hits, false, "insertions that those answered"},
+		{"walks", counters->walks, true, "point locations by walking"},
+		{"created", counters->created, false, psprintf("%s created", records)},
+		{"deleted", counters->deleted, false, psprintf("%s deleted", records)},
+		{"loads", counters->loads, true, "pages read into the cache"},
+		{"stores", counters->stores, false, "pages written from the cache"},
+		{"rewrites", counters->rewrites, false, "pages written in place of an older version"},
+		{"splits", counters->splits, false, psprintf("%s blocks split", a_record)},
+		{"merges", counters->merges, false, psprintf("%s blocks merged into their neighbours", a_record)},
+		{"evictions", counters->evictions, true, psprintf("%s blocks dropped from the cache", a_record)},
+		{"eviction_batches", counters->eviction_batches, true, "batches of evictions"},
+		{"bytes_read", counters->bytes_read, true, "bytes of the pages read"},
+		{"bytes_written", counters->bytes_written, false, "bytes of the pages written"},
+		{"translation_ns", counters->translation_ns, true,
+		"nanoseconds spent between pages and memory, reading and writing included"},
+		{"total_ns", counters->total_ns, true, "nanoseconds spent in the core"},
+		{"peak_bytes", counters->peak_bytes, true, "largest amount of memory the cache held"},
+		{"passes", counters->passes, false, "passes of several threads over points"},
+		{"put_off", counters->put_off, false, "points that such a pass left to the next one"},
+		{"waited_ns", counters->waited_ns, false,
+		"nanoseconds that threads waited for the session's, of all together"},
+	};
+
+	for (int i = 0; i < lengthof(rows); i++)
+		if (!reading || rows[i].moves_when_reading)
+			put_figure(figures, rows[i].name, (double) rows[i].value, rows[i].description);
+	if (counters->steps > 0)
+		put_figure(figures, "hit_ratio", 1.0 - (double) counters->misses / counters->steps,
+				   "share of the followed links that stayed in the cache");
+}
+
+static void
+put_sizes(Figures *figures, const Reader *reader, Oid vertices)
+{
+	Oid			mesh = mesh_pages(reader->host)->mesh;
+	double		table = bytes_of(pg_table_size, mesh);
+	double		index = bytes_of(pg_indexes_size, mesh);
+
+	put_figure(figures, "simplex_table_bytes", table, "size of the simplex table");
+	put_figure(figures, "simplex_index_bytes", index, "size of its page index");
+	put_figure(figures, "vertex_table_bytes", bytes_of(pg_table_size, vertices),
+			   "size of the table of points that wait or are repeated");
+	put_figure(figures, "vertex_index_bytes", bytes_of(pg_indexes_size, vertices),
+			   "size of its index");
+	if (reader->header.simplices > 0)
+		put_figure(figures, "bytes_per_simplex", (table + index) / reader->header.simplices,
+				   "simplex table and index, per simplex");
+}
+
+/* For a mesh that is not Abacus' own, abacus_load() has found out what it is. */
+static void
+put_delaunay(Figures *figures, abacus_delaunay delaunay)
+{
+	bool		is_own = delaunay == ABACUS_DELAUNAY;
+
+	put_figure(figures, "delaunay", is_own || delaunay == ABACUS_WEAKLY_DELAUNAY ? 1 : 0,
+			   is_own ? "1: a Delaunay triangulation; 0: none" :
+			   psprintf("1: a Delaunay triangulation; 0: none. %s",
+						abacus_delaunay_reason(delaunay)));
+	put_figure(figures, "changeable", is_own ? 1 : 0,
+			   "1: the Delaunay triangulation that Abacus makes, which can be changed; 0: loaded, "
+			   "and another one");
+}
+
+static void
+put_srid(Figures *figures, const abacus_header *header)
+{
+	if (header->srid != 0)
+		put_figure(figures, "srid", header->srid,
+				   "spatial reference system of the coordinates, as PostGIS numbers it");
+}
+
+/* Of what only some meshes have. */
+static void
+put_labels(Figures *figures, const abacus_header *header)
+{
+	if (header->labels > 0)
+	{
+		put_figure(figures, "labels", header->labels, "labels that a simplex may have");
+		put_figure(figures, "labelled", (double) header->labelled, "simplices that have labels");
+		put_figure(figures, "labels_inherited", header->inherits,
+				   "1: new simplices get the labels of the one that their centroid lay in; 0: none");
+	}
+	if (header->marked > 0)
+		put_figure(figures, "marked", (double) header->marked,
+				   "simplices beside a facet with a marker");
+}
+
+static void
+put_octree_counts(Figures *figures, const abacus_header *header)
+{
+	put_figure(figures, "dimension", header->dimension, "2 for a quadtree, 3 for an octree");
+	put_figure(figures, "attributes", header->attributes, "attributes of a leaf");
+	put_figure(figures, "levels", header->levels, "the finest level that a leaf may have");
+	put_figure(figures, "leaves", (double) header->leaves, "leaves of the octree");
+	put_srid(figures, header);
+}
+
+/* Its table has octants where that of a mesh has simplices. */
+static void
+put_octree_sizes(Figures *figures, const Reader *reader)
+{
+	Oid			octree = mesh_pages(reader->host)->mesh;
+	double		table = bytes_of(pg_table_size, octree);
+	double		index = bytes_of(pg_indexes_size, octree);
+
+	put_figure(figures, "octant_table_bytes", table, "size of the table of octants");
+	put_figure(figures, "octant_index_bytes", index, "size of its page index");
+	put_figure(figures, "bytes_per_leaf", (table + index) / reader->header.leaves,
+			   "table of octants and index, per leaf");
+}
+
+static void
+put_counts(Figures *figures, const abacus_header *header)
+{
+	double		inserted = (double) header->vertices + (double) header->duplicates;
+	double		waiting = (double) (header->staged - header->inserted);
+
+	put_figure(figures, "dimension", header->dimension, "2 for triangles, 3 for tetrahedra");
+	put_figure(figures, "attributes", header->attributes, "attributes of a vertex");
+	put_figure(figures, "points", inserted + waiting, "all points");
+	put_figure(figures, "inserted", inserted, "points in the triangulation");
+	put_figure(figures, "waiting", waiting, "points that wait to be inserted");
+	put_figure(figures, "vertices", (double) header->vertices,
+			   "distinct points in the triangulation; 0 while they span no simplex");
+	put_figure(figures, "duplicates", (double) header->duplicates,
+			   "points in the triangulation that equal an earlier one");
+	put_figure(figures, "simplices", (double) header->simplices, "simplices of the mesh");
+	put_figure(figures, "hull_facets", (double) header->ghosts,
+			   header->not_delaunay ? "facets of its boundary" : "facets of its convex hull");
+	put_figure(figures, "outside", (double) header->outside,
+			   "points that the domain does not fit, since it was last chosen");
+	put_delaunay(figures, header->not_delaunay);
+	if (header->split > 0)
+		put_figure(figures, "split_nodes", (double) header->split,
+				   "vertices that share their place with another one");
+	put_labels(figures, header);
+	put_srid(figures, header);
+}
+
+/*
+ * A notice where the domain of a mesh does not fit its points and abacus_build() would choose
+ * another one. There is none for a mesh that cannot be changed.
+ */
+static void
+report_domain(Reader *reader)
+{
+	Host	   *host = reader->host;
+	const abacus_header *header = &reader->header;
+	int			fits;
+
+	if (header->not_delaunay)
+		return;
+	host_run(host, abacus_domain_fits, &host->table, header, &fits);
+	if (!fits)
+		ereport(NOTICE,
+				(errmsg("the domain of mesh \"%s\" does not fit its points",
+						get_rel_name(mesh_pages(host)->mesh)),
+				 errdetail("Pages are found more slowly than need be."),
+				 errhint("CALL abacus_build for the mesh: it gets another domain, and its pages other "
+						 "keys. That takes as long as building it did.")));
+}
+
+/* abacus_stats(mesh regclass) -> name, value, description */
+Datum
+abacus_sql_stats(PG_FUNCTION_ARGS)
+{
+	Oid			mesh = PG_GETARG_OID(0);
+	Figures		figures = {(ReturnSetInfo *) fcinfo->resultinfo, ""};
+	Reader	   *reader = reader_open_of(mesh, ANY_TYPE, CurrentMemoryContext);
+	bool		is_octree = reader->header.type == ABACUS_OCTREE;
+	Oid			vertices = mesh_pages_vertex_table(mesh_pages(reader->host));
+	const CachedMesh *cached = mesh_cache_peek(mesh);
+
+	if (!is_octree)
+		report_domain(reader);
+	host_release(reader->host);
+	InitMaterializedSRF(fcinfo, 0);
+	if (is_octree)
+	{
+		put_octree_counts(&figures, &reader->header);
+		put_octree_sizes(&figures, reader);
+	}
+	else
+	{
+		put_counts(&figures, &reader->header);
+		put_sizes(&figures, reader, vertices);
+	}
+	put_counters(&figures, &reader->header.counters, reader->header.type, false);
+	if (cached != NULL)
+	{
+		abacus_counters counters;
+
+		if (cached->octree != NULL)
+			abacus_octree_counters(cached->octree, &counters);
+		else
+			abacus_mesh_counters(cached->mesh, &counters);
+		figures.prefix = "session_";
+		put_counters(&figures, &counters, reader->header.type, true);
+	}
+	host_destroy(reader->host);
+	PG_RETURN_NULL();
+}

@@ -1,0 +1,374 @@
+/*
+ * fn_draw.c: abacus_draw, abacus_draw_section and abacus_draw_volume, pictures
+ * of a mesh as PNG. The first two take an octree as well.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "mb/pg_wchar.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+#include "utils/memutils.h"
+
+#include "abacus/raycast.h"
+#include "pg/base/sql_function.h"
+#include "pg/mesh/reader.h"
+#include "pg/mesh/shape.h"
+#include "pg/sql/arguments/attribute.h"
+#include "pg/sql/draw/drawing.h"
+#include "pg/sql/arguments/units.h"
+#include "pg/sql/arguments/word.h"
+
+SQL_FUNCTION(abacus_sql_draw);
+SQL_FUNCTION(abacus_sql_draw_section);
+SQL_FUNCTION(abacus_sql_draw_volume);
+
+/* Arguments of both, in a row */
+enum
+{
+	STYLE_RAMP,
+	STYLE_CONTOURS,
+	STYLE_LEGEND,
+	STYLE_SCALE_BAR,
+	STYLE_TRANSPARENT,
+	STYLE_ARGUMENTS
+};
+
+/* Arguments of abacus_draw */
+enum
+{
+	DRAW_MESH,
+	DRAW_WIDTH,
+	DRAW_HEIGHT,
+	DRAW_LOWER,
+	DRAW_UPPER,
+	DRAW_ATTRIBUTE,
+	DRAW_EDGES,
+	DRAW_EXAGGERATION,
+	DRAW_MAX_EDGE,
+	DRAW_RANGE,
+	DRAW_STYLE,
+	DRAW_LIGHT = DRAW_STYLE + STYLE_ARGUMENTS
+};
+
+/* Arguments of abacus_draw_section */
+enum
+{
+	SECTION_MESH,
+	SECTION_THROUGH,
+	SECTION_NORMAL,
+	SECTION_WIDTH,
+	SECTION_HEIGHT,
+	SECTION_ATTRIBUTE,
+	SECTION_EDGES,
+	SECTION_LOWER,
+	SECTION_UPPER,
+	SECTION_EXAGGERATION,
+	SECTION_MAX_EDGE,
+	SECTION_RANGE,
+	SECTION_STYLE
+};
+
+static ArrayType *
+array(FunctionCallInfo fcinfo, int argument)
+{
+	return PG_ARGISNULL(argument) ? NULL : PG_GETARG_ARRAYTYPE_P(argument);
+}
+
+/* The window, by the same rules as the domain of a new mesh; empty if not given. */
+static void
+window(const abacus_header *mesh, ArrayType *lower, ArrayType *upper, abacus_drawing *drawing)
+{
+	abacus_header *shape = palloc0(sizeof(abacus_header));
+
+	shape->dimension = mesh->dimension;
+	shape_domain(shape, lower, upper);
+	memcpy(drawing->lower, shape->lower, sizeof(drawing->lower));
+	memcpy(drawing->upper, shape->upper, sizeof(drawing->upper));
+	pfree(shape);
+}
+
+/* A text in the core's encoding; NULL if it is not given. */
+static const char *
+caption(FunctionCallInfo fcinfo, int argument)
+{
+	char	   *given;
+
+	if (PG_ARGISNULL(argument))
+		return NULL;
+	given = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+	return pg_server_to_any(given, (int) strlen(given), PG_UTF8);
+}
+
+static bool
+is_true(FunctionCallInfo fcinfo, int argument)
+{
+	return !PG_ARGISNULL(argument) && PG_GETARG_BOOL(argument);
+}
+
+/* Colours, lines and captions: the arguments from `first` on. */
+static void
+style(FunctionCallInfo fcinfo, int first, abacus_drawing *drawing)
+{
+	drawing_ramp(fcinfo, first + STYLE_RAMP, drawing);
+	drawing_contours(fcinfo, first + STYLE_CONTOURS, drawing);
+	if (drawing_is_given(fcinfo, first + STYLE_LEGEND, "legend", drawing))
+		drawing->legend = caption(fcinfo, first + STYLE_LEGEND);
+	drawing->scale_bar = caption(fcinfo, first + STYLE_SCALE_BAR);
+	drawing->transparent = is_true(fcinfo, first + STYLE_TRANSPARENT);
+}
+
+/* The direction of the light, if given. */
+static void
+light(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing)
+{
+	if (PG_ARGISNULL(argument))
+		return;
+	shape_pair(PG_GETARG_ARRAYTYPE_P(argument), "light", drawing->light);
+	if (!isfinite(drawing->light[0]) || !(drawing->light[1] > 0 && drawing->light[1] <= 90))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("light must be a direction in degrees, and an altitude above 0 and at most 90"),
+				 errhint("The direction counts clockwise from north: {315,45} is in the north-west, halfway up.")));
+	if (drawing->attribute < 0 || drawing->exaggeration == 0)
+		ereport(NOTICE, (errmsg("light has no effect without exaggeration")));
+}
+
+/* Opens a mesh or an octree to be drawn. */
+static Reader *
+open_drawn(Oid drawn)
+{
+	return reader_open_of(drawn, ANY_TYPE, CurrentMemoryContext);
+}
+
+/* The number of an attribute, or, behind these, of a label, by its name; -1 if it is not given. */
+static int
+attribute_or_label(FunctionCallInfo fcinfo, int argument, const abacus_header *header)
+{
+	if (!PG_ARGISNULL(argument))
+	{
+		const char *name = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+		int			label = header_label(header, name);
+
+		if (label >= 0)
+			return (int) header->attributes + label;
+		if (header->labels > 0 && header_attribute(header, name) < 0)
+			ereport(ERROR,
+					(errcode(ERRCODE_UNDEFINED_COLUMN),
+					 errmsg("mesh has no attribute or label \"%s\"", name)));
+	}
+	return attribute_or_none(fcinfo, argument, header);
+}
+
+/*
+ * Contours are lines through values that change; in a leaf of an octree there is but one, and a
+ * simplex has one label of a name.
+ */
+static void
+leave_contours_out(const abacus_header *header, abacus_drawing *drawing)
+{
+	bool		is_octree = header->type == ABACUS_OCTREE;
+
+	if (drawing->contour_interval == 0 ||
+		!(is_octree || drawing->attribute >= (int) header->attributes))
+		return;
+	drawing->contour_interval = 0;
+	ereport(NOTICE, (errmsg("contours has no effect on %s", is_octree ? "an octree" : "a label")));
+}
+
+/* Tells why a picture shows nothing; `place` is where nothing is. */
+static void
+tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cells,
+		   const char *place)
+{
+	const abacus_header *header = &reader->header;
+	uint64		waiting = header->staged - header->inserted;
+	bool		is_octree = header->type == ABACUS_OCTREE;
+	bool		has_cells = is_octree || header->simplices > 0;
+
+	if (is_octree)
+		cells = "leaves";
+	ereport(NOTICE,
+			(errmsg("the picture of %s \"%s\" is blank", is_octree ? "octree" : "mesh",
+					get_rel_name(mesh_pages(reader->host)->mesh)),
+			 has_cells ? errdetail("None of its %s is %s.", cells, place) :
+			 waiting == 0 ? errdetail("It has no %s.", cells) :
+			 errdetail("It has no %s. %llu points wait: they are staged only, or span none.", cells,
+					   (unsigned long long) waiting),
+			 has_cells && drawing->max_edge > 0 ?
+			 errhint("Those with an edge longer than max_edge are left out.") : 0));
+}
+
+/*
+ * abacus_draw(mesh regclass, width int, height int, lower float8[],
+ * upper float8[], attribute text, edges boolean, exaggeration float8,
+ * max_edge float8, range float8[], ramp text, contours float8, legend text,
+ * scale_bar text, transparent boolean, light float8[]) -> bytea
+ */
+Datum
+abacus_sql_draw(PG_FUNCTION_ARGS)
+{
+	Reader	   *reader;
+	Host	   *host;
+	abacus_drawing drawing = {0};
+	abacus_picture picture = {0};
+
+	if (PG_ARGISNULL(DRAW_MESH))
+		PG_RETURN_NULL();
+	reader = open_drawn(PG_GETARG_OID(DRAW_MESH));
+	host = reader->host;
+	header_require_dimension(&reader->header, 2, "Use abacus_draw_section for a cut through it.");
+	drawing.width = drawing_pixels(fcinfo, DRAW_WIDTH, 1024, "width");
+	drawing.height = drawing_pixels(fcinfo, DRAW_HEIGHT, 0, "height");
+	drawing.attribute = attribute_or_label(fcinfo, DRAW_ATTRIBUTE, &reader->header);
+	drawing.edges = PG_ARGISNULL(DRAW_EDGES) || PG_GETARG_BOOL(DRAW_EDGES);
+	drawing.exaggeration = drawing_factor(fcinfo, DRAW_EXAGGERATION, "exaggeration");
+	drawing.max_edge = drawing_factor(fcinfo, DRAW_MAX_EDGE, "max_edge");
+	drawing_range(fcinfo, DRAW_RANGE, &drawing);
+	style(fcinfo, DRAW_STYLE, &drawing);
+	leave_contours_out(&reader->header, &drawing);
+	light(fcinfo, DRAW_LIGHT, &drawing);
+	if (drawing.exaggeration > 0 && drawing.attribute < 0)
+		ereport(NOTICE, (errmsg("exaggeration has no effect without an attribute")));
+	else if (drawing.exaggeration > 0)
+		units_tell_shading(&reader->header, drawing.exaggeration);
+	window(&reader->header, array(fcinfo, DRAW_LOWER), array(fcinfo, DRAW_UPPER), &drawing);
+
+	host_run(host, abacus_draw, &host->table, &reader->header, &drawing, &picture);
+	if (picture.is_blank)
+		tell_blank(reader, &drawing, "triangles", "in the window");
+	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
+}
+
+/*
+ * abacus_draw_section(mesh regclass, through float8[], normal float8[],
+ * width int, height int, attribute text, edges boolean, lower float8[],
+ * upper float8[], exaggeration float8, max_edge float8, range float8[], ramp text,
+ * contours float8, legend text, scale_bar text, transparent boolean) -> bytea
+ */
+Datum
+abacus_sql_draw_section(PG_FUNCTION_ARGS)
+{
+	Reader	   *reader;
+	Host	   *host;
+	abacus_section section;
+	abacus_drawing drawing = {0};
+	abacus_picture picture = {0};
+
+	if (PG_ARGISNULL(SECTION_MESH) || PG_ARGISNULL(SECTION_THROUGH) ||
+		PG_ARGISNULL(SECTION_NORMAL))
+		PG_RETURN_NULL();
+	reader = open_drawn(PG_GETARG_OID(SECTION_MESH));
+	host = reader->host;
+	header_require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
+	shape_point(&reader->header, array(fcinfo, SECTION_THROUGH), "through", section.through);
+	shape_point(&reader->header, array(fcinfo, SECTION_NORMAL), "normal", section.normal);
+	section.exaggeration = PG_ARGISNULL(SECTION_EXAGGERATION) ? 1 :
+		PG_GETARG_FLOAT8(SECTION_EXAGGERATION);
+	drawing.width = drawing_pixels(fcinfo, SECTION_WIDTH, 1024, "width");
+	drawing.height = drawing_pixels(fcinfo, SECTION_HEIGHT, 0, "height");
+	drawing.attribute = attribute_or_label(fcinfo, SECTION_ATTRIBUTE, &reader->header);
+	drawing.edges = PG_ARGISNULL(SECTION_EDGES) || PG_GETARG_BOOL(SECTION_EDGES);
+	drawing.max_edge = drawing_factor(fcinfo, SECTION_MAX_EDGE, "max_edge");
+	drawing_range(fcinfo, SECTION_RANGE, &drawing);
+	style(fcinfo, SECTION_STYLE, &drawing);
+	leave_contours_out(&reader->header, &drawing);
+	window(&reader->header, array(fcinfo, SECTION_LOWER), array(fcinfo, SECTION_UPPER), &drawing);
+
+	host_run(host, abacus_draw_section, &host->table, &reader->header, &section, &drawing,
+			 &picture);
+	if (picture.is_blank)
+		tell_blank(reader, &drawing, "tetrahedra",
+				   PG_ARGISNULL(SECTION_LOWER) ? "cut by the plane" :
+				   "cut by the plane in the window");
+	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
+}
+
+/* Arguments of abacus_draw_volume */
+enum
+{
+	VOLUME_MESH,
+	VOLUME_EYE,
+	VOLUME_TOWARD,
+	VOLUME_UP,
+	VOLUME_FIELD_OF_VIEW,
+	VOLUME_WIDTH,
+	VOLUME_HEIGHT,
+	VOLUME_ATTRIBUTE,
+	VOLUME_MODE,
+	VOLUME_LOWER,
+	VOLUME_UPPER,
+	VOLUME_MAX_EDGE,
+	VOLUME_RANGE,
+	VOLUME_RAMP,
+	VOLUME_LEGEND,
+	VOLUME_TRANSPARENT
+};
+
+/* By the numbers of the core */
+static const char *const ray_modes[] = {"mean", "max", "min", "sum", NULL};
+
+/* A point or direction of the camera; false if it is not given. */
+static bool
+camera_vector(FunctionCallInfo fcinfo, int argument, const abacus_header *header, const char *name,
+			  double *vector)
+{
+	if (PG_ARGISNULL(argument))
+		return false;
+	shape_point(header, PG_GETARG_ARRAYTYPE_P(argument), name, vector);
+	return true;
+}
+
+static void
+camera_arguments(FunctionCallInfo fcinfo, const abacus_header *header, abacus_camera *camera)
+{
+	camera->has_eye = camera_vector(fcinfo, VOLUME_EYE, header, "eye", camera->eye);
+	camera->has_toward = camera_vector(fcinfo, VOLUME_TOWARD, header, "toward", camera->toward);
+	camera->has_up = camera_vector(fcinfo, VOLUME_UP, header, "up", camera->up);
+	camera->field_of_view = PG_ARGISNULL(VOLUME_FIELD_OF_VIEW) ? 0
+		: PG_GETARG_FLOAT8(VOLUME_FIELD_OF_VIEW);
+	camera->mode = word_argument(fcinfo, VOLUME_MODE, ray_modes, "mode",
+								 "Modes are mean, max, min and sum.");
+}
+
+/*
+ * abacus_draw_volume(mesh regclass, eye float8[], toward float8[], up float8[],
+ * field_of_view float8, width int, height int, attribute text, mode text,
+ * lower float8[], upper float8[], max_edge float8, range float8[], ramp text,
+ * legend text, transparent boolean) -> bytea
+ */
+Datum
+abacus_sql_draw_volume(PG_FUNCTION_ARGS)
+{
+	Reader	   *reader;
+	Host	   *host;
+	abacus_camera camera = {0};
+	abacus_drawing drawing = {0};
+	abacus_picture picture = {0};
+
+	if (PG_ARGISNULL(VOLUME_MESH))
+		PG_RETURN_NULL();
+	reader = reader_open(PG_GETARG_OID(VOLUME_MESH), CurrentMemoryContext);
+	host = reader->host;
+	header_require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
+	camera_arguments(fcinfo, &reader->header, &camera);
+	drawing.width = drawing_pixels(fcinfo, VOLUME_WIDTH, 1024, "width");
+	drawing.height = drawing_pixels(fcinfo, VOLUME_HEIGHT, 0, "height");
+	drawing.attribute = attribute_or_none(fcinfo, VOLUME_ATTRIBUTE, &reader->header);
+	drawing.max_edge = drawing_factor(fcinfo, VOLUME_MAX_EDGE, "max_edge");
+	if (!PG_ARGISNULL(VOLUME_RANGE))
+		shape_range(PG_GETARG_ARRAYTYPE_P(VOLUME_RANGE), "range", drawing.range);
+	if (!PG_ARGISNULL(VOLUME_RAMP))
+		drawing.ramp = drawing_ramp_argument(fcinfo, VOLUME_RAMP);
+	drawing.legend = caption(fcinfo, VOLUME_LEGEND);
+	drawing.transparent = is_true(fcinfo, VOLUME_TRANSPARENT);
+	window(&reader->header, array(fcinfo, VOLUME_LOWER), array(fcinfo, VOLUME_UPPER), &drawing);
+
+	progress_begin(&host->progress, PG_GETARG_OID(VOLUME_MESH));
+	host_run(host, abacus_draw_volume, &host->table, &reader->header, &camera, &drawing, &picture);
+	progress_end(&host->progress);
+	if (picture.is_blank)
+		tell_blank(reader, &drawing, "tetrahedra", "met by a ray");
+	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
+}

@@ -1,0 +1,271 @@
+/*
+ * fn_tile.c: abacus_tile_picture, abacus_tile_vector and abacus_tile_terrain, a
+ * tile of a web map, and abacus_tile_etag, what tells whether it may have changed.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "utils/builtins.h"
+
+#include "abacus/tile.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
+#include "pg/mesh/reader.h"
+#include "pg/mesh/shape.h"
+#include "pg/sql/arguments/attribute.h"
+#include "pg/sql/draw/drawing.h"
+
+SQL_FUNCTION(abacus_sql_tile_picture);
+SQL_FUNCTION(abacus_sql_tile_vector);
+SQL_FUNCTION(abacus_sql_tile_terrain);
+SQL_FUNCTION(abacus_sql_tile_etag);
+
+/* Arguments of all three */
+enum
+{
+	TILE_MESH,
+	TILE_ZOOM,
+	TILE_X,
+	TILE_Y,
+	TILE_SRID,
+	TILE_WORLD,
+	TILE_ARGUMENTS
+};
+
+/* Further arguments of abacus_tile_picture */
+enum
+{
+	PICTURE_SIZE = TILE_ARGUMENTS,
+	PICTURE_ATTRIBUTE,
+	PICTURE_RANGE,
+	PICTURE_EDGES,
+	PICTURE_EXAGGERATION,
+	PICTURE_MAX_EDGE,
+	PICTURE_RAMP,
+	PICTURE_CONTOURS
+};
+
+/* ... of abacus_tile_vector */
+enum
+{
+	VECTOR_ATTRIBUTE = TILE_ARGUMENTS,
+	VECTOR_CONTOURS,
+	VECTOR_MAX_EDGE
+};
+
+/* ... of abacus_tile_terrain */
+enum
+{
+	TERRAIN_SIZE = TILE_ARGUMENTS,
+	TERRAIN_ATTRIBUTE,
+	TERRAIN_MAX_EDGE,
+	TERRAIN_FILL
+};
+
+/* More pixels are no tile. */
+#define MAX_TILE_SIZE 1024
+
+/* Half of the side of the map of Web Mercator, in metres */
+#define HALF_WORLD 20037508.342789244
+
+/* A map of its own: a square in the mesh's coordinates. */
+static void
+own_world(ArrayType *array, abacus_tile *tile)
+{
+	int			count;
+	Datum	   *world = shape_numbers(array, "world", &count);
+
+	if (count != 3)
+		ereport(ERROR,
+				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
+				 errmsg("world must have 3 elements, not %d", count),
+				 errhint("They are x and y of its lower left corner, and its side.")));
+	for (int i = 0; i < 2; i++)
+		tile->lower[i] = DatumGetFloat8(world[i]);
+	tile->side = DatumGetFloat8(world[2]);
+	if (!(tile->side > 0))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("the side of world must be above 0")));
+}
+
+/* What the coordinates of the mesh are: as its header says, unless it is silent. */
+static int32
+tile_srid(FunctionCallInfo fcinfo, const abacus_header *header)
+{
+	int32		srid = PG_ARGISNULL(TILE_SRID) ? (int32) header->srid : PG_GETARG_INT32(TILE_SRID);
+
+	header_require_srid(header, srid);
+	if (srid == 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("the mesh has no SRID, so its place on the map is not known"),
+				 errhint("Say by abacus_set_srid(mesh, 4326) that its coordinates are longitude and latitude, or by abacus_set_srid(mesh, 3857) that they are of Web Mercator; or give srid, or world for a map of their own.")));
+	if (srid != 4326 && srid != 3857)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("srid must be 4326 or 3857, not %d", srid),
+				 errhint("Tiles are of meshes in longitude and latitude (4326) or in Web Mercator (3857). Transform other points before they are triangulated, for instance by ST_Transform of PostGIS, or give world for a map of their own.")));
+	return srid;
+}
+
+/* The map that tiles are of: Web Mercator, or one of its own. */
+static void
+tile_world(FunctionCallInfo fcinfo, const abacus_header *header, abacus_tile *tile)
+{
+	if (!PG_ARGISNULL(TILE_WORLD))
+	{
+		own_world(PG_GETARG_ARRAYTYPE_P(TILE_WORLD), tile);
+		return;
+	}
+	tile->is_geographic = tile_srid(fcinfo, header) == 4326;
+	tile->lower[0] = tile->lower[1] = -HALF_WORLD;
+	tile->side = 2 * HALF_WORLD;
+}
+
+/* Opens the mesh of a tile; NULL if it, or the tile, is NULL. */
+static Reader *
+tile_begin(FunctionCallInfo fcinfo, abacus_tile *tile, abacus_tile_memory *memory)
+{
+	Reader	   *reader;
+
+	for (int i = 0; i < TILE_SRID; i++)
+		if (PG_ARGISNULL(i))
+			return NULL;
+	memset(tile, 0, sizeof(*tile));
+	reader = reader_open(PG_GETARG_OID(TILE_MESH), CurrentMemoryContext);
+	header_require_dimension(&reader->header, 2, "Tiles are of meshes in the plane.");
+	tile_world(fcinfo, &reader->header, tile);
+	tile->zoom = PG_GETARG_INT32(TILE_ZOOM);
+	tile->x = PG_GETARG_INT32(TILE_X);
+	tile->y = PG_GETARG_INT32(TILE_Y);
+	memory->sort = setting_query_sort_bytes();
+	memory->cache = setting_cache_bytes();
+	return reader;
+}
+
+static int32
+tile_size(FunctionCallInfo fcinfo, int argument)
+{
+	int32		size = PG_ARGISNULL(argument) ? 256 : PG_GETARG_INT32(argument);
+
+	if (size < 1 || size > MAX_TILE_SIZE)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("size must be between 1 and %d pixels, not %d", MAX_TILE_SIZE, size)));
+	return size;
+}
+
+/* An attribute by its name, or the only one; -1 if the mesh has none. */
+static int
+tile_attribute(FunctionCallInfo fcinfo, int argument, const abacus_header *header)
+{
+	if (PG_ARGISNULL(argument))
+		return header->attributes == 0 ? -1 : header_only_attribute(header);
+	return attribute_or_none(fcinfo, argument, header);
+}
+
+/*
+ * abacus_tile_picture(mesh regclass, z int, x int, y int, srid int,
+ * world float8[], size int,
+ * attribute text, range float8[], edges boolean, exaggeration float8,
+ * max_edge float8, ramp text, contours float8) -> bytea
+ */
+Datum
+abacus_sql_tile_picture(PG_FUNCTION_ARGS)
+{
+	abacus_tile tile;
+	abacus_tile_memory memory;
+	abacus_drawing drawing = {0};
+	abacus_picture picture = {0};
+	Reader	   *reader = tile_begin(fcinfo, &tile, &memory);
+	Host	   *host;
+
+	if (reader == NULL)
+		PG_RETURN_NULL();
+	host = reader->host;
+	drawing.width = tile_size(fcinfo, PICTURE_SIZE);
+	drawing.attribute = attribute_or_none(fcinfo, PICTURE_ATTRIBUTE, &reader->header);
+	drawing_range(fcinfo, PICTURE_RANGE, &drawing);
+	drawing.edges = PG_ARGISNULL(PICTURE_EDGES) || PG_GETARG_BOOL(PICTURE_EDGES);
+	drawing.exaggeration = drawing_factor(fcinfo, PICTURE_EXAGGERATION, "exaggeration");
+	drawing.max_edge = drawing_factor(fcinfo, PICTURE_MAX_EDGE, "max_edge");
+	drawing_ramp(fcinfo, PICTURE_RAMP, &drawing);
+	drawing_contours(fcinfo, PICTURE_CONTOURS, &drawing);
+	drawing.transparent = true;
+	host_run(host, abacus_tile_picture, &host->table, &reader->header, &tile, &drawing, &memory,
+			 &picture);
+	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
+}
+
+/*
+ * abacus_tile_vector(mesh regclass, z int, x int, y int, srid int,
+ * world float8[], attribute text,
+ * contours float8, max_edge float8) -> bytea
+ */
+Datum
+abacus_sql_tile_vector(PG_FUNCTION_ARGS)
+{
+	abacus_tile tile;
+	abacus_tile_memory memory;
+	abacus_tile_vector_kind kind = {0};
+	abacus_picture bytes = {0};
+	Reader	   *reader = tile_begin(fcinfo, &tile, &memory);
+	Host	   *host;
+
+	if (reader == NULL)
+		PG_RETURN_NULL();
+	host = reader->host;
+	kind.attribute = tile_attribute(fcinfo, VECTOR_ATTRIBUTE, &reader->header);
+	kind.contour_interval = drawing_interval(fcinfo, VECTOR_CONTOURS);
+	kind.max_edge = drawing_factor(fcinfo, VECTOR_MAX_EDGE, "max_edge");
+	host_run(host, abacus_tile_vector, &host->table, &reader->header, &tile, &kind, &memory,
+			 &bytes);
+	PG_RETURN_BYTEA_P(drawing_finish(host, &bytes));
+}
+
+/*
+ * abacus_tile_terrain(mesh regclass, z int, x int, y int, srid int,
+ * world float8[], size int,
+ * attribute text, max_edge float8, fill float8) -> bytea
+ */
+Datum
+abacus_sql_tile_terrain(PG_FUNCTION_ARGS)
+{
+	abacus_tile tile;
+	abacus_tile_memory memory;
+	abacus_tile_terrain_kind kind = {0};
+	abacus_picture picture = {0};
+	Reader	   *reader = tile_begin(fcinfo, &tile, &memory);
+	Host	   *host;
+
+	if (reader == NULL)
+		PG_RETURN_NULL();
+	host = reader->host;
+	header_require_attributes(&reader->header);
+	kind.width = tile_size(fcinfo, TERRAIN_SIZE);
+	kind.attribute = (uint32) tile_attribute(fcinfo, TERRAIN_ATTRIBUTE, &reader->header);
+	kind.max_edge = drawing_factor(fcinfo, TERRAIN_MAX_EDGE, "max_edge");
+	kind.fill = PG_ARGISNULL(TERRAIN_FILL) ? 0 : PG_GETARG_FLOAT8(TERRAIN_FILL);
+	if (!isfinite(kind.fill))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("fill must be a finite number"),
+				 errhint("It is the height where there is no mesh.")));
+	host_run(host, abacus_tile_terrain, &host->table, &reader->header, &tile, &kind, &memory,
+			 &picture);
+	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
+}
+
+/* abacus_tile_etag(mesh regclass) -> text */
+Datum
+abacus_sql_tile_etag(PG_FUNCTION_ARGS)
+{
+	Reader	   *reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
+	char	   *stamp = psprintf("%016llx", (unsigned long long) reader->header.stamp);
+
+	host_release(reader->host);
+	host_destroy(reader->host);
+	PG_RETURN_TEXT_P(cstring_to_text(stamp));
+}

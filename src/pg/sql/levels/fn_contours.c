@@ -1,0 +1,187 @@
+/*
+ * fn_contours.c: abacus_contours, lines of equal value of an attribute, and the
+ * bands between them.
+ *
+ * All pages are read before the first line is known to be whole; so the rows go
+ * into a tuplestore.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "catalog/pg_type.h"
+#include "funcapi.h"
+#include "utils/builtins.h"
+#include "utils/memutils.h"
+
+#include "abacus/contours.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
+#include "pg/host/guard.h"
+#include "pg/mesh/reader.h"
+#include "pg/mesh/shape.h"
+#include "pg/sql/rows/answers.h"
+#include "pg/sql/arguments/attribute.h"
+#include "pg/sql/arguments/missing.h"
+#include "pg/sql/arguments/window.h"
+
+SQL_FUNCTION(abacus_sql_contours);
+
+/* Arguments */
+enum
+{
+	ARGUMENT_MESH,
+	ARGUMENT_INTERVAL,
+	ARGUMENT_BASE,
+	ARGUMENT_FIXED,
+	ARGUMENT_POLYGONIZE,
+	ARGUMENT_ATTRIBUTE,
+	ARGUMENT_LOWER,
+	ARGUMENT_UPPER,
+	ARGUMENT_MAX_EDGE
+};
+
+/* Columns */
+enum
+{
+	CONTOUR_ID,
+	CONTOUR_VALUE,
+	CONTOUR_CLOSED,
+	CONTOUR_PATH,
+	CONTOUR_COLUMNS
+};
+
+/* An array of so many points is as large as a value may be. */
+#define MOST_POINTS ((MaxAllocSize - ARR_OVERHEAD_NONULLS(1) - 1024) / (2 * sizeof(float8)))
+
+/* Points as a float8[], which is made in one piece: it may be large. */
+static ArrayType *
+path_array(const double *path, size_t points)
+{
+	size_t		bytes = ARR_OVERHEAD_NONULLS(1) + points * 2 * sizeof(float8);
+	ArrayType  *array;
+
+	if (points > MOST_POINTS)
+		ereport(ERROR,
+				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
+				 errmsg("a contour has %zu points, more than an array can hold", points),
+				 errhint("Ask for the contours of parts of the mesh, by lower and upper.")));
+	array = palloc0(bytes);
+	SET_VARSIZE(array, bytes);
+	array->ndim = 1;
+	array->elemtype = FLOAT8OID;
+	ARR_DIMS(array)[0] = (int) (points * 2);
+	ARR_LBOUND(array)[0] = 1;
+	memcpy(ARR_DATA_PTR(array), path, points * 2 * sizeof(float8));
+	return array;
+}
+
+/* Adds the row of a line or ring; called by the core. */
+static abacus_host_status
+put_contour(void *context, int64_t id, double value, int32_t closed, const double *path,
+			size_t count)
+{
+	Answers    *answers = context;
+	Datum		values[CONTOUR_COLUMNS];
+	bool		isnull[CONTOUR_COLUMNS] = {false};
+
+	GUARD_BEGIN();
+	values[CONTOUR_ID] = Int64GetDatum(id);
+	values[CONTOUR_VALUE] = Float8GetDatum(value);
+	values[CONTOUR_CLOSED] = BoolGetDatum(closed != 0);
+	values[CONTOUR_PATH] = PointerGetDatum(path_array(path, count));
+	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
+	pfree(DatumGetPointer(values[CONTOUR_PATH]));
+	GUARD_END(answers->host);
+	return ABACUS_HOST_OK;
+}
+
+static int
+compare_doubles(const void *a, const void *b)
+{
+	double		x = *(const double *) a,
+				y = *(const double *) b;
+
+	return (x > y) - (x < y);
+}
+
+/* Levels in ascending order, each once. */
+static void
+fixed_levels(ArrayType *array, abacus_contouring *how)
+{
+	int			count;
+	Datum	   *elements = shape_numbers(array, "fixed_levels", &count);
+	double	   *levels = palloc((count + 1) * sizeof(double));
+	size_t		kept = 0;
+
+	for (int i = 0; i < count; i++)
+	{
+		levels[i] = DatumGetFloat8(elements[i]) + 0.0;
+		if (!isfinite(levels[i]))
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("fixed_levels must be finite")));
+	}
+	qsort(levels, count, sizeof(double), compare_doubles);
+	for (int i = 0; i < count; i++)
+		if (kept == 0 || levels[i] != levels[kept - 1])
+			levels[kept++] = levels[i];
+	how->fixed = levels;
+	how->fixed_count = kept;
+}
+
+/* The levels; NULL is as good as an argument left out. */
+static void
+level_arguments(FunctionCallInfo fcinfo, abacus_contouring *how)
+{
+	how->interval = PG_ARGISNULL(ARGUMENT_INTERVAL) ? 100 : PG_GETARG_FLOAT8(ARGUMENT_INTERVAL);
+	how->base = PG_ARGISNULL(ARGUMENT_BASE) ? 0 : PG_GETARG_FLOAT8(ARGUMENT_BASE);
+	if (!PG_ARGISNULL(ARGUMENT_FIXED))
+		fixed_levels(PG_GETARG_ARRAYTYPE_P(ARGUMENT_FIXED), how);
+	if (!isfinite(how->interval) || how->interval <= 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("level_interval must be a finite number greater than 0"),
+				 errhint("It is the difference between a level and the next one.")));
+	if (!isfinite(how->base))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("level_base must be finite"),
+				 errhint("It is one of the levels; the others are multiples of level_interval "
+						 "away from it.")));
+}
+
+/*
+ * abacus_contours(mesh regclass, level_interval float8, level_base float8, fixed_levels float8[],
+ * polygonize bool, attribute text, lower float8[], upper float8[], max_edge float8)
+ *     -> id, value, closed, path
+ */
+Datum
+abacus_sql_contours(PG_FUNCTION_ARGS)
+{
+	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+	abacus_contouring how = {0};
+	abacus_window window = {0};
+	Reader	   *reader;
+
+	InitMaterializedSRF(fcinfo, 0);
+	if (PG_ARGISNULL(ARGUMENT_MESH))
+		PG_RETURN_NULL();
+	reader = reader_open(PG_GETARG_OID(ARGUMENT_MESH), CurrentMemoryContext);
+	header_require_dimension(&reader->header, 2, "Use abacus_isosurface for a mesh of dimension 3.");
+	level_arguments(fcinfo, &how);
+	how.bands = !PG_ARGISNULL(ARGUMENT_POLYGONIZE) && PG_GETARG_BOOL(ARGUMENT_POLYGONIZE);
+	how.attribute = attribute_argument(fcinfo, ARGUMENT_ATTRIBUTE, &reader->header);
+	how.max_edge = window_max_edge(fcinfo, ARGUMENT_MAX_EDGE);
+	window_arguments(fcinfo, ARGUMENT_LOWER, WINDOW_BOX, &reader->header, &window);
+	answers.host = reader->host;
+	progress_begin(&reader->host->progress, PG_GETARG_OID(ARGUMENT_MESH));
+	host_run(reader->host, abacus_contours, &reader->host->table, &reader->header, &window, &how,
+			 setting_query_sort_bytes() + setting_cache_bytes(), put_contour, &answers);
+	progress_end(&reader->host->progress);
+	if (tuplestore_tuple_count(answers.set->setResult) == 0)
+		notice_missing_values(reader, how.attribute);
+	host_release(reader->host);
+	host_destroy(reader->host);
+	PG_RETURN_NULL();
+}

@@ -1,0 +1,312 @@
+/*
+ * fn_drape.c: abacus_drape of the extension abacus_postgis, lines and polygons laid over a
+ * terrain; and parts of a triangle of abacus_clip, laid over this one.
+ *
+ * The bytes of a geometry are read and written again, with a z behind the coordinates of each place:
+ * the attribute, linear in each triangle. Between two places of a line the surface bends where the
+ * line crosses an edge, so with `densify` there is a place at each: those of a profile. Where there
+ * is no value z is NaN, which is how PostGIS keeps a z that is not known.
+ *
+ * Where a triangle is cut PostGIS rounds, so a place of a part may lie beside the triangle, even beside
+ * the mesh. Its z is that of the triangle's plane, and within the values of the corners.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "miscadmin.h"
+
+#include "abacus/values.h"
+#include "abacus/lines.h"
+#include "pg/base/sql_function.h"
+#include "pg/host/guard.h"
+#include "pg/mesh/mesh_cache.h"
+#include "pg/postgis/geometry_errors.h"
+#include "pg/postgis/geometry_write.h"
+#include "pg/sql/postgis/geometry_place.h"
+#include "pg/sql/arguments/interpolation.h"
+#include "pg/sql/arguments/word.h"
+
+SQL_FUNCTION(abacus_sql_drape);
+SQL_FUNCTION(abacus_sql_cell_part);
+
+/* Arguments */
+enum
+{
+	DRAPE_MESH,
+	DRAPE_GEOMETRY,
+	DRAPE_ATTRIBUTE,
+	DRAPE_DENSIFY,
+	DRAPE_OUTSIDE,
+	DRAPE_MAX_EDGE
+};
+
+/* A place: x, y, z, m */
+typedef struct Place
+{
+	double		at[GEOMETRY_COORDINATES];
+} Place;
+
+typedef struct Drape
+{
+	CachedMesh *mesh;			/* the surface: either this, or, if it is NULL, one triangle */
+	const double *corners;
+	double		values[3];
+	abacus_interpolation how;
+	bool		densifies;
+	GeometryBytes in;
+	StringInfoData out;
+	bool		has_m;			/* of the geometry that is being read */
+	size_t		places;			/* written of a line so far */
+	Place		from;			/* the ends of a piece of it */
+	Place		to;
+	bool		has_last;		/* a place between them has come, and waits */
+	Place		last;
+} Drape;
+
+static Place
+read_place(Drape *drape, const GeometryHead *head)
+{
+	Place		place;
+
+	geometry_coordinates(&drape->in, head, place.at);
+	place.at[2] = NAN;
+	return place;
+}
+
+/* Over a mesh. */
+static void
+lift_over_mesh(const Drape *drape, Place *place)
+{
+	CachedMesh *mesh = drape->mesh;
+	double		value = NAN;
+
+	if (!isfinite(place->at[0]) || !isfinite(place->at[1]))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("a coordinate of the geometry is not finite")));
+	if (host_run(mesh->host, abacus_mesh_interpolate, mesh->mesh, &drape->how, place->at, &value) == ABACUS_END)
+		value = NAN;
+	host_release(mesh->host);
+	place->at[2] = value;
+}
+
+/* Over a triangle. */
+static void
+lift_over_triangle(const Drape *drape, Place *place)
+{
+	const double *a = drape->corners;
+	const double *values = drape->values;
+	double		b[2] = {a[2] - a[0], a[3] - a[1]};
+	double		c[2] = {a[4] - a[0], a[5] - a[1]};
+	double		p[2] = {place->at[0] - a[0], place->at[1] - a[1]};
+	double		area = b[0] * c[1] - c[0] * b[1];
+	double		least = fmin(values[0], fmin(values[1], values[2]));
+	double		greatest = fmax(values[0], fmax(values[1], values[2]));
+	double		value;
+
+	for (int i = 0; i < 3; i++)
+		if (place->at[0] == a[2 * i] && place->at[1] == a[2 * i + 1])
+		{
+			place->at[2] = values[i];
+			return;
+		}
+	value = values[0] + (p[0] * c[1] - c[0] * p[1]) / area * (values[1] - values[0]) +
+		(b[0] * p[1] - p[0] * b[1]) / area * (values[2] - values[0]);
+	place->at[2] = fmin(fmax(value, least), greatest);	/* a number, however flat the triangle is */
+}
+
+/* Sets z. */
+static void
+lift(const Drape *drape, Place *place)
+{
+	CHECK_FOR_INTERRUPTS();
+	if (drape->mesh != NULL)
+		lift_over_mesh(drape, place);
+	else
+		lift_over_triangle(drape, place);
+}
+
+static void
+put_place(Drape *drape, const Place *place)
+{
+	geometry_put_numbers(&drape->out, place->at, 3 + drape->has_m);
+	drape->places++;
+}
+
+static bool
+same_place(const double *a, const double *b)
+{
+	return a[0] == b[0] && a[1] == b[1];
+}
+
+static void
+put_last(Drape *drape)
+{
+	if (drape->has_last)
+		put_place(drape, &drape->last);
+	drape->has_last = false;
+}
+
+/* Which part of the way from one end of the piece to the other a distance is. */
+static double
+share_of(const Drape *drape, double distance)
+{
+	double		length = hypot(drape->to.at[0] - drape->from.at[0], drape->to.at[1] - drape->from.at[1]);
+
+	return length > 0 ? Min(distance / length, 1) : 0;
+}
+
+/*
+ * A place where a piece of a line crosses an edge; called by the core. Where the line leaves the
+ * mesh or comes back there are two, one of them without a value.
+ */
+static abacus_host_status
+cross(void *context, double distance, const double *at, double value)
+{
+	Drape	   *drape = context;
+
+	if (same_place(at, drape->from.at) || same_place(at, drape->to.at))
+		return ABACUS_HOST_OK;
+	GUARD_BEGIN();
+	if (drape->has_last && same_place(at, drape->last.at))
+	{
+		if (isnan(drape->last.at[2]))
+			drape->last.at[2] = value;
+	}
+	else
+	{
+		put_last(drape);
+		drape->has_last = true;
+		drape->last = (Place) {{at[0], at[1], value,
+			drape->from.at[3] + (drape->to.at[3] - drape->from.at[3]) * share_of(drape, distance)}};
+	}
+	GUARD_END(drape->mesh->host);
+	return ABACUS_HOST_OK;
+}
+
+/* The places between two ends. */
+static void
+put_crossings(Drape *drape)
+{
+	CachedMesh *mesh = drape->mesh;
+	double		path[] = {drape->from.at[0], drape->from.at[1], drape->to.at[0], drape->to.at[1]};
+
+	if (same_place(path, path + 2))
+		return;
+	drape->has_last = false;
+	host_run(mesh->host, abacus_mesh_profile, mesh->mesh, drape->how.attribute[0],
+			 drape->how.max_edge, path, 2, cross, drape);
+	host_release(mesh->host);
+	put_last(drape);
+}
+
+/* A line, or a ring: the number of places, and these. */
+static void
+drape_line(Drape *drape, const GeometryHead *head)
+{
+	uint32		count = geometry_count(&drape->in);
+	int			at = drape->out.len;
+	uint32		written;
+
+	geometry_put_count(&drape->out, 0);
+	drape->places = 0;
+	for (uint32 i = 0; i < count; i++)
+	{
+		drape->to = read_place(drape, head);
+		lift(drape, &drape->to);
+		if (drape->densifies && i > 0)
+			put_crossings(drape);
+		put_place(drape, &drape->to);
+		drape->from = drape->to;
+	}
+	written = (uint32) drape->places;
+	memcpy(drape->out.data + at, &written, sizeof(written));
+}
+
+static void
+drape_point(Drape *drape, const GeometryHead *head)
+{
+	Place		place = read_place(drape, head);
+
+	if (!geometry_is_nowhere(place.at))
+		lift(drape, &place);
+	put_place(drape, &place);
+}
+
+/* A geometry and what is in it. */
+static void
+drape_geometry(Drape *drape, bool inside)
+{
+	GeometryHead head = geometry_head(&drape->in);
+	GeometryHead lifted = head;
+	uint32		count;
+
+	check_stack_depth();
+	if (head.kind < GEOMETRY_POINT || head.kind > GEOMETRY_COLLECTION)
+		geometry_refuse_kind("the geometry", head.kind, "made of points, lines or polygons");
+	if (!inside && drape->mesh != NULL)
+		geometry_check_srid(&drape->mesh->header, head.srid);
+	lifted.has_z = true;
+	drape->has_m = head.has_m;
+	geometry_put_head(&drape->out, &lifted);
+	if (head.kind == GEOMETRY_POINT)
+		drape_point(drape, &head);
+	else if (head.kind == GEOMETRY_LINE)
+		drape_line(drape, &head);
+	else
+	{
+		count = geometry_count(&drape->in);
+		geometry_put_count(&drape->out, count);
+		for (uint32 i = 0; i < count; i++)
+			if (head.kind == GEOMETRY_POLYGON)
+				drape_line(drape, &head);
+			else
+				drape_geometry(drape, true);
+	}
+}
+
+/*
+ * abacus_drape(mesh regclass, geometry geometry, attribute text, densify boolean, outside text,
+ *              max_edge float8)
+ *     -> geometry
+ */
+Datum
+abacus_sql_drape(PG_FUNCTION_ARGS)
+{
+	static const char *const outsides[] = {"null", "nearest", NULL};
+	const GeometryType *type = geometry_argument_type(fcinfo, DRAPE_GEOMETRY);
+	Drape		drape = {.how = {.method = ABACUS_LINEAR}};
+
+	if (interpolation_of_null(fcinfo, DRAPE_GEOMETRY))
+		PG_RETURN_NULL();
+	drape.mesh = mesh_cache_get(PG_GETARG_OID(DRAPE_MESH));
+	header_require_dimension(&drape.mesh->header, 2,
+							 "A terrain is a mesh in the plane with the height as an attribute.");
+	interpolation_attribute(fcinfo, DRAPE_ATTRIBUTE, &drape.mesh->header, &drape.how);
+	drape.how.outside = word_argument(fcinfo, DRAPE_OUTSIDE, outsides, "outside",
+									  "Outside the mesh the value is null, or that of the nearest vertex.");
+	interpolation_max_edge(fcinfo, DRAPE_MAX_EDGE, &drape.how);
+	drape.densifies = !PG_ARGISNULL(DRAPE_DENSIFY) && PG_GETARG_BOOL(DRAPE_DENSIFY);
+	drape.in = geometry_bytes(type, PG_GETARG_DATUM(DRAPE_GEOMETRY));
+	initStringInfo(&drape.out);
+	drape_geometry(&drape, false);
+	PG_RETURN_DATUM(geometry_made(type, &drape.out));
+}
+
+/* _abacus_part(part geometry, corners float8[], values float8[], attribute int) -> geometry */
+Datum
+abacus_sql_cell_part(PG_FUNCTION_ARGS)
+{
+	const GeometryType *type = geometry_argument_type(fcinfo, 0);
+	Drape		drape = {.mesh = NULL};
+	size_t		count;
+
+	drape.corners = geometry_numbers(PG_GETARG_ARRAYTYPE_P(1), 6, &count);
+	if (!geometry_corner_values(PG_GETARG_ARRAYTYPE_P(2), PG_GETARG_INT32(3), drape.values))
+		PG_RETURN_NULL();
+	drape.in = geometry_bytes(type, PG_GETARG_DATUM(0));
+	initStringInfo(&drape.out);
+	drape_geometry(&drape, false);
+	PG_RETURN_DATUM(geometry_made(type, &drape.out));
+}

@@ -1,0 +1,133 @@
+/*
+ * fn_cells.c: the simplices of a window: abacus_simplices with one, and
+ * abacus_cells, which gives their corners, attributes and labels as well.
+ */
+#include "postgres.h"
+
+#include "access/htup_details.h"
+#include "funcapi.h"
+
+#include "abacus/windows.h"
+#include "pg/base/sql_function.h"
+#include "pg/sql/rows/result.h"
+#include "pg/sql/rows/set.h"
+#include "pg/sql/rows/simplex_row.h"
+#include "pg/sql/arguments/window.h"
+
+SQL_FUNCTION(abacus_sql_simplices_in_box);
+SQL_FUNCTION(abacus_sql_simplices_in_ball);
+SQL_FUNCTION(abacus_sql_cells);
+SQL_FUNCTION(abacus_sql_cells_in_ball);
+
+/* Columns of abacus_cells: those of abacus_simplex, what its corners are, and its labels */
+enum
+{
+	CELL_CORNERS = SIMPLEX_COLUMNS,
+	CELL_VALUES,
+	CELL_LABELS,
+	CELL_COLUMNS
+};
+
+static void
+begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, bool is_cells)
+{
+	Reader	   *reader = set_begin(fcinfo, set, is_cells ? result_row_type : simplex_row_type);
+	Host	   *host = reader->host;
+	abacus_window window = {0};
+	abacus_cells *cells = NULL;
+	abacus_range label;
+	double		max_edge = is_cells ? window_max_edge(fcinfo, 3) : 0;
+	bool		has_label = is_cells && window_label(fcinfo, 4, &reader->header, &label);
+
+	window_arguments(fcinfo, 1, form, &reader->header, &window);
+	host_run(host, abacus_cells_open, &host->table, &reader->header, &window, max_edge,
+			 has_label ? &label : NULL, &cells);
+	host_own(host, cells, (void (*) (void *)) abacus_cells_close);
+}
+
+static Datum
+cell_row(TupleDesc row_type, const abacus_simplex *simplex, const double *attributes,
+		 const double *labels, const abacus_header *header)
+{
+	int			dimension = (int) header->dimension;
+	double		corners[(ABACUS_MAX_DIMENSION + 1) * ABACUS_MAX_DIMENSION];
+	Datum		values[CELL_COLUMNS];
+	bool		isnull[CELL_COLUMNS] = {false};
+
+	for (int i = 0; i <= dimension; i++)
+		memcpy(corners + i * dimension, simplex->corner[i], dimension * sizeof(double));
+	simplex_columns(simplex, header->dimension, values, isnull);
+	values[CELL_CORNERS] = float_matrix(corners, dimension + 1, dimension);
+	values[CELL_VALUES] = float_matrix(attributes, dimension + 1, (int) header->attributes);
+	isnull[CELL_LABELS] = header->labels == 0;
+	values[CELL_LABELS] = header->labels == 0 ? (Datum) 0
+		: attribute_array(labels, (int) header->labels);
+	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
+}
+
+static Datum
+next(FunctionCallInfo fcinfo, WindowForm form, bool is_cells)
+{
+	FuncCallContext *set;
+	Reader	   *reader;
+	Host	   *host;
+	abacus_simplex simplex;
+	double		values[(ABACUS_MAX_DIMENSION + 1) * ABACUS_MAX_ATTRIBUTES];
+	const double *labels = NULL;
+	abacus_status status;
+
+	if (SRF_IS_FIRSTCALL())
+	{
+		set = SRF_FIRSTCALL_INIT();
+		if (PG_ARGISNULL(0))
+			SRF_RETURN_DONE(set);
+		begin(fcinfo, set, form, is_cells);
+	}
+	set = SRF_PERCALL_SETUP();
+	reader = set->user_fctx;
+	host = reader->host;
+	status = host_run(host, abacus_cells_next, host->handle, &simplex, is_cells ? values : NULL);
+	if (is_cells && status != ABACUS_END && reader->header.labels > 0)
+		host_run(host, abacus_cells_labels, host->handle, &simplex, &labels);
+	host_release(host);
+	if (status == ABACUS_END)
+		SRF_RETURN_DONE(set);
+	SRF_RETURN_NEXT(set, is_cells ? cell_row(set->tuple_desc, &simplex, values, labels, &reader->header)
+					: simplex_row(set->tuple_desc, &simplex, reader->header.dimension));
+}
+
+/* abacus_simplices(mesh regclass, lower float8[], upper float8[]) -> SETOF abacus_simplex */
+Datum
+abacus_sql_simplices_in_box(PG_FUNCTION_ARGS)
+{
+	return next(fcinfo, WINDOW_BOX, false);
+}
+
+/* abacus_simplices(mesh regclass, center float8[], radius float8) -> SETOF abacus_simplex */
+Datum
+abacus_sql_simplices_in_ball(PG_FUNCTION_ARGS)
+{
+	return next(fcinfo, WINDOW_BALL, false);
+}
+
+/*
+ * abacus_cells(mesh regclass, lower float8[], upper float8[], max_edge float8, label text,
+ * range float8[])
+ *     -> code, v0, v1, v2, v3, corners, values, labels
+ */
+Datum
+abacus_sql_cells(PG_FUNCTION_ARGS)
+{
+	return next(fcinfo, WINDOW_BOX, true);
+}
+
+/*
+ * abacus_cells(mesh regclass, center float8[], radius float8, max_edge float8, label text,
+ * range float8[])
+ *     -> the same
+ */
+Datum
+abacus_sql_cells_in_ball(PG_FUNCTION_ARGS)
+{
+	return next(fcinfo, WINDOW_BALL, true);
+}

@@ -1,0 +1,166 @@
+/*
+ * fn_faces.c: the vertices and edges of a window: abacus_vertices with one, or
+ * with the range of an attribute, and abacus_edges.
+ */
+#include "postgres.h"
+
+#include "access/htup_details.h"
+#include "funcapi.h"
+
+#include "abacus/windows.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
+#include "pg/sql/rows/faces.h"
+#include "pg/sql/rows/result.h"
+#include "pg/sql/rows/set.h"
+#include "pg/sql/rows/vertex_row.h"
+#include "pg/sql/arguments/window.h"
+
+SQL_FUNCTION(abacus_sql_vertices_in_ball);
+SQL_FUNCTION(abacus_sql_edges);
+SQL_FUNCTION(abacus_sql_edges_in_ball);
+SQL_FUNCTION(abacus_sql_edge_lines);
+
+/* Columns of abacus_edges */
+enum
+{
+	EDGE_V0,
+	EDGE_V1,
+	EDGE_LENGTH,
+	EDGE_PATH,					/* where lines are wanted */
+	EDGE_COLUMNS
+};
+
+typedef enum Wanted
+{
+	VERTICES,					/* mesh, a window, and of a box an attribute and its range */
+	EDGES,						/* mesh, a window, and max_edge */
+	EDGE_LINES					/* the same, with the coordinates of their ends */
+} Wanted;
+
+static bool
+are_edges(Wanted wanted)
+{
+	return wanted == EDGES || wanted == EDGE_LINES;
+}
+
+static void
+begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, Wanted wanted)
+{
+	Reader	   *reader = set_begin(fcinfo, set, result_row_type);
+	Host	   *host = reader->host;
+	abacus_window window = {0};
+	abacus_range range;
+	abacus_faces *faces = NULL;
+	double		max_edge = are_edges(wanted) ? window_max_edge(fcinfo, 3) : 0;
+	bool		has_range = wanted == VERTICES && form == WINDOW_BOX &&
+		window_attribute(fcinfo, 3, &reader->header, &range);
+
+	window_arguments(fcinfo, 1, form, &reader->header, &window);
+	if (has_range)
+		host_run(host, abacus_faces_open_range, &host->table, &reader->header, &window, &range,
+				 setting_cache_bytes(), &faces);
+	else
+		host_run(host, abacus_faces_open, &host->table, &reader->header, &window, are_edges(wanted),
+				 max_edge, setting_cache_bytes(), &faces);
+	host_own(host, faces, (void (*) (void *)) abacus_faces_close);
+}
+
+static Datum
+edge_row(TupleDesc row_type, const abacus_edge *edge, const double *ends, uint32 dimension)
+{
+	Datum		values[EDGE_COLUMNS];
+	bool		isnull[EDGE_COLUMNS] = {false};
+
+	values[EDGE_V0] = Int64GetDatum(edge->id[0]);
+	values[EDGE_V1] = Int64GetDatum(edge->id[1]);
+	values[EDGE_LENGTH] = Float8GetDatum(edge->length);
+	if (row_type->natts > EDGE_PATH)
+		values[EDGE_PATH] = attribute_array(ends, (int) (2 * dimension));
+	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
+}
+
+/* The next row; false after the last. */
+static bool
+next_row(FuncCallContext *set, Wanted wanted, Datum *row)
+{
+	Reader	   *reader = set->user_fctx;
+	Host	   *host = reader->host;
+	abacus_vertex vertex;
+	abacus_edge edge;
+	double		ends[2 * ABACUS_MAX_DIMENSION];
+	abacus_status status = are_edges(wanted)
+		? host_run(host, abacus_faces_next_edge, host->handle, &edge, wanted == EDGES ? NULL : ends)
+		: host_run(host, abacus_faces_next_vertex, host->handle, &vertex);
+
+	host_release(host);
+	if (status == ABACUS_END)
+		return false;
+	*row = are_edges(wanted)
+		? edge_row(set->tuple_desc, &edge, ends, reader->header.dimension)
+		: vertex_row(set->tuple_desc, &vertex, &reader->header);
+	return true;
+}
+
+static Datum
+next(FunctionCallInfo fcinfo, WindowForm form, Wanted wanted)
+{
+	FuncCallContext *set;
+	Datum		row;
+
+	if (SRF_IS_FIRSTCALL())
+	{
+		set = SRF_FIRSTCALL_INIT();
+		if (PG_ARGISNULL(0))
+			SRF_RETURN_DONE(set);
+		begin(fcinfo, set, form, wanted);
+	}
+	set = SRF_PERCALL_SETUP();
+	if (!next_row(set, wanted, &row))
+		SRF_RETURN_DONE(set);
+	SRF_RETURN_NEXT(set, row);
+}
+
+/* abacus_vertices with a window, or the range of an attribute; none for a mesh that is NULL. */
+Datum
+faces_vertices(FunctionCallInfo fcinfo)
+{
+	return next(fcinfo, WINDOW_BOX, VERTICES);
+}
+
+/*
+ * abacus_vertices(mesh regclass, center float8[], radius float8)
+ *     -> sequence, id, x, y, z, attributes, vertex
+ */
+Datum
+abacus_sql_vertices_in_ball(PG_FUNCTION_ARGS)
+{
+	return next(fcinfo, WINDOW_BALL, VERTICES);
+}
+
+/*
+ * abacus_edges(mesh regclass, lower float8[], upper float8[], max_edge float8)
+ *     -> v0, v1, length
+ */
+Datum
+abacus_sql_edges(PG_FUNCTION_ARGS)
+{
+	return next(fcinfo, WINDOW_BOX, EDGES);
+}
+
+/* abacus_edges(mesh regclass, center float8[], radius float8, max_edge float8) -> the same */
+Datum
+abacus_sql_edges_in_ball(PG_FUNCTION_ARGS)
+{
+	return next(fcinfo, WINDOW_BALL, EDGES);
+}
+
+/*
+ * _abacus_edges(mesh regclass, lower float8[], upper float8[], max_edge float8)
+ *     -> v0, v1, length, path
+ */
+Datum
+abacus_sql_edge_lines(PG_FUNCTION_ARGS)
+{
+	return next(fcinfo, WINDOW_BOX, EDGE_LINES);
+}

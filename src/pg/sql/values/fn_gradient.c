@@ -1,0 +1,108 @@
+/*
+ * fn_gradient.c: abacus_gradient and abacus_slope, how an attribute changes where
+ * it varies linearly.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "access/htup_details.h"
+#include "funcapi.h"
+
+#include "pg/base/sql_function.h"
+#include "pg/mesh/mesh_cache.h"
+#include "pg/sql/arguments/interpolation.h"
+#include "pg/sql/arguments/place.h"
+#include "pg/sql/rows/result.h"
+#include "pg/sql/arguments/units.h"
+
+SQL_FUNCTION(abacus_sql_gradient);
+SQL_FUNCTION(abacus_sql_slope);
+
+/* Arguments: the mesh and the coordinates, then these */
+enum
+{
+	HOW_ATTRIBUTE,
+	HOW_MAX_EDGE,
+	HOW_ARGUMENTS
+};
+
+/* Slopes are of what stands over the plane. */
+static void
+require_plane(FunctionCallInfo fcinfo)
+{
+	if (!PG_ARGISNULL(0))
+		header_require_dimension(&mesh_cache_get(PG_GETARG_OID(0))->header, 2,
+								 "In space take abacus_gradient().");
+}
+
+/* Sets the gradient, of as many numbers as it returns; 0 where there is none. */
+static int
+find_gradient(FunctionCallInfo fcinfo, double *gradient)
+{
+	int			first = PG_NARGS() - HOW_ARGUMENTS;
+	double		point[ABACUS_MAX_DIMENSION];
+	abacus_interpolation how = {.method = ABACUS_LINEAR};
+	CachedMesh *cached;
+	abacus_status status;
+
+	if (interpolation_of_null(fcinfo, first - 1))
+		return 0;
+	cached = mesh_cache_get(PG_GETARG_OID(0));
+	interpolation_attribute(fcinfo, first + HOW_ATTRIBUTE, &cached->header, &how);
+	interpolation_max_edge(fcinfo, first + HOW_MAX_EDGE, &how);
+	units_tell_slopes(&cached->header);
+	if (!place_arguments(fcinfo, first - 1, &cached->header, point))
+		return 0;
+	status = host_run(cached->host, abacus_mesh_gradient, cached->mesh, &how, point, gradient);
+	host_release(cached->host);
+	return status == ABACUS_END || isnan(gradient[0]) ? 0 : (int) cached->dimension;
+}
+
+/*
+ * abacus_gradient(mesh regclass, x float8, y float8[, z float8], attribute text,
+ *                 max_edge float8) -> float8[]
+ */
+Datum
+abacus_sql_gradient(PG_FUNCTION_ARGS)
+{
+	double		gradient[ABACUS_MAX_DIMENSION];
+	int			count = find_gradient(fcinfo, gradient);
+
+	if (count == 0)
+		PG_RETURN_NULL();
+	PG_RETURN_DATUM(attribute_array(gradient, count));
+}
+
+/* Where a gradient leads downhill: degrees from north, clockwise, 0 to less than 360. */
+static double
+downhill(const double *gradient)
+{
+	double		degrees = atan2(-gradient[0], -gradient[1]) * (180 / M_PI);
+
+	/* not -0, and not 360, which the sum may round to */
+	degrees = degrees < 0 ? degrees + 360 : degrees + 0.0;
+	return degrees < 360 ? degrees : 0;
+}
+
+/*
+ * abacus_slope(mesh regclass, x float8, y float8, attribute text, max_edge float8)
+ *     -> slope, aspect
+ */
+Datum
+abacus_sql_slope(PG_FUNCTION_ARGS)
+{
+	double		gradient[ABACUS_MAX_DIMENSION];
+	double		steepness;
+	Datum		values[2];
+	bool		isnull[2] = {false, false};
+
+	require_plane(fcinfo);
+	if (find_gradient(fcinfo, gradient) == 0)
+		PG_RETURN_NULL();
+	steepness = hypot(gradient[0], gradient[1]);
+	isnull[1] = steepness == 0; /* level ground faces nowhere */
+	values[0] = Float8GetDatum(atan(steepness) * (180 / M_PI));
+	values[1] = Float8GetDatum(downhill(gradient));
+	PG_RETURN_DATUM(HeapTupleGetDatum(heap_form_tuple(result_row_type(fcinfo), values, isnull)));
+}

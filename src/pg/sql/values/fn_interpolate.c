@@ -1,0 +1,86 @@
+/*
+ * fn_interpolate.c: abacus_interpolate, values of attributes between the vertices.
+ *
+ * That of one place is called for every row of a query, and works as
+ * abacus_locate does; that of a query asks for all places together.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "funcapi.h"
+#include "utils/builtins.h"
+
+#include "pg/base/sql_function.h"
+#include "pg/mesh/mesh_cache.h"
+#include "pg/sql/rows/answers.h"
+#include "pg/sql/arguments/interpolation.h"
+#include "pg/sql/arguments/place.h"
+#include "pg/sql/arguments/places.h"
+
+SQL_FUNCTION(abacus_sql_interpolate);
+SQL_FUNCTION(abacus_sql_interpolate_places);
+
+/* Arguments: the mesh and the coordinates, then these */
+enum
+{
+	HOW_ATTRIBUTE,
+	HOW_METHOD,
+	HOW_OUTSIDE,
+	HOW_MAX_EDGE,
+	HOW_ARGUMENTS
+};
+
+/*
+ * abacus_interpolate(mesh regclass, x float8, y float8[, z float8], attribute text,
+ *                    method text, outside text, max_edge float8) -> float8
+ */
+Datum
+abacus_sql_interpolate(PG_FUNCTION_ARGS)
+{
+	int			first = PG_NARGS() - HOW_ARGUMENTS;
+	double		point[ABACUS_MAX_DIMENSION];
+	abacus_interpolation how;
+	CachedMesh *cached;
+	double		value;
+	abacus_status status;
+
+	if (interpolation_of_null(fcinfo, first - 1))
+		PG_RETURN_NULL();
+	cached = mesh_cache_get(PG_GETARG_OID(0));
+	interpolation_attribute(fcinfo, first + HOW_ATTRIBUTE, &cached->header, &how);
+	interpolation_how(fcinfo, first + HOW_METHOD, &how);
+	if (!place_arguments(fcinfo, first - 1, &cached->header, point))
+		PG_RETURN_NULL();
+	status = host_run(cached->host, abacus_mesh_interpolate, cached->mesh, &how, point, &value);
+	host_release(cached->host);
+	if (status == ABACUS_END || isnan(value))
+		PG_RETURN_NULL();
+	PG_RETURN_FLOAT8(value);
+}
+
+/*
+ * abacus_interpolate(mesh regclass, query text, attributes text[],
+ *                    method text, outside text, max_edge float8)
+ *     -> id, values
+ */
+Datum
+abacus_sql_interpolate_places(PG_FUNCTION_ARGS)
+{
+	PlacesRead	read;
+	abacus_interpolation how;
+	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
+
+	InitMaterializedSRF(fcinfo, 0);
+	if (interpolation_of_null(fcinfo, 1))
+		PG_RETURN_NULL();
+	places_open(&read, PG_GETARG_OID(0), ABACUS_MESH, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	interpolation_attributes(fcinfo, 2 + HOW_ATTRIBUTE, read.header, &how);
+	interpolation_how(fcinfo, 2 + HOW_METHOD, &how);
+	places_fetch(&read);
+	answers.host = read.host;
+	answers_have_arrays(&answers, how.attributes);
+	host_run(read.host, abacus_places_interpolate, read.places, &how, answers_put_values, &answers);
+	places_done(&read);
+	PG_RETURN_NULL();
+}

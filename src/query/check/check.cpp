@@ -1,0 +1,328 @@
+#include "query/check/check.hpp"
+
+#include "keys/domain_of.hpp"
+#include "labels/marker_sweep.hpp"
+#include "query/check/check_threads.hpp"
+#include "sort/record_sort.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace abacus {
+
+template <int D>
+Check<D>::Check(const Host &host, const abacus_header &header, std::size_t cache_bytes,
+                std::size_t limit)
+    : host_(host), header_(header), cache_bytes_(cache_bytes), domain_(domain_of<D>(header)),
+      faults_(host, limit) {
+    check_header();
+    std::optional<Together> together;
+    if (Together::is_worth_while(host, header)) together.emplace(*this);
+    if (!together || !together->check_pages()) check_pages();
+    is_counted_ = true;
+    if (counts_.simplices != header_.simplices || counts_.ghosts != header_.ghosts)
+        faults_.add("count", first_key, "The header counts other simplices than the pages hold.");
+    const std::size_t before = faults_.size();
+    check_links_and_points(together ? &*together : nullptr);
+    // Two pages that differ about a vertex are found where the cache has both. In a Delaunay mesh
+    // it has them at some time: all pages around a vertex are loaded together. In another one it
+    // may not, and what is found otherwise is reported as if it had been looked for alone.
+    if (together && header.not_delaunay != 0 && faults_.size() > before) {
+        faults_.shorten(before);
+        check_links_and_points(nullptr);
+    }
+    const auto is_sound = [&] { return faults_.is_sound(); };
+    const bool is_apart = header_.apart != 0;
+    if (is_apart || header_.labels > 0 || header_.marked > 0)
+        faults_.run("attributes", [&] {
+            check_attribute_pages<1>("attributes", is_apart ? header_.attributes : 0,
+                                     header_.vertices);
+        });
+    if (is_apart && is_sound()) faults_.run("vertex", [&] { check_attributes(); });
+    check_labels("labels", header_.labels, header_.labelled, first_group<D + 1>);
+    check_labels("markers", D + 1, header_.marked, marker_group);
+    if (is_sound() && header_.marked > 0) faults_.run("markers", [&] { check_markers(); });
+}
+
+template <int D> void Check<D>::check_links_and_points(Together *together) {
+    // A mesh with broken pages has no topology to speak of. Where only checksums and boxes are
+    // wrong, the other passes may tell what has been changed.
+    const auto is_sound = [&] { return faults_.is_sound(); };
+    if (is_sound() && pages_ > 0 && (together == nullptr || !together->check_topology()))
+        faults_.run("link", [&] { check_topology(); });
+    if (is_sound()) faults_.run("point", [&] { check_repeated_points(); });
+    if (is_sound())
+        faults_.run("point", [&] {
+            header_.not_delaunay != 0 ? check_listed_vertices() : check_waiting_points();
+        });
+}
+
+template <int D> void Check<D>::report(std::uint64_t pages, unsigned threads) {
+    // Every page is read twice, once more to look for attributes that are apart and for labels,
+    // twice for markers; how many there are is known after the first time.
+    const std::uint64_t passes = 2 + (header_.apart != 0 ? 1 : 0) + (header_.labelled > 0 ? 1 : 0) +
+                                 (header_.marked > 0 ? 2 : 0);
+    const std::uint64_t total = is_counted_ ? passes * pages_ : 0;
+    host_.progress({ABACUS_PHASE_CHECKING, pages, total, pages, 0, threads});
+}
+
+/// What need not hold of a header that can be read; the rest capi/header.cpp has seen to.
+template <int D> void Check<D>::check_header() {
+    const abacus_header &h = header_;
+    if (D == 2 && h.simplices > 0 && h.not_delaunay == 0 &&
+        h.simplices + h.ghosts + 2 != 2 * h.vertices)
+        faults_.add("euler", first_key, "Vertices, triangles and hull edges do not add up.");
+}
+
+template <int D> void Check<D>::check_pages() {
+    Key expected = first_key;
+    bool is_expecting = true; // not after a page that tells nothing
+    PageCheck<D> check(domain_, faults_);
+    PageScan<D> scan(host_, header_);
+    pages_ = 0;
+    while (scan.fetch()) {
+        faults_.at = scan.key();
+        report_some(++pages_);
+        const bool is_read = check.read(scan.bytes(), scan.size(), page_attributes(header_));
+        if (is_read) {
+            if (is_expecting && !(check.page().lower() == expected))
+                faults_.add("interval", "The pages leave out or share a part of the curve.");
+            expected = check.page().upper();
+            check.check();
+        }
+        is_expecting = is_read;
+    }
+    if (pages_ > 0 && is_expecting && !(expected == end_key))
+        faults_.add("interval", "The last page does not reach the end of the curve.");
+    counts_ = check.counts();
+}
+
+template <int D> void Check<D>::check_topology() {
+    TopologyCheck<D> check(host_, header_, cache_bytes_, faults_);
+    std::uint64_t pages = pages_;
+    check.check(first_key, end_key, [&] {
+        report_some(++pages);
+        return true;
+    });
+    if (header_.not_delaunay == 0) check_stars(check.stars().counts());
+}
+
+template <int D> void Check<D>::check_stars(const StarCounts &stars) {
+    if (stars.count != header_.vertices) faults_.add("count", first_key, other_vertex_count);
+    if (stars.corners != (D + 1) * counts_.simplices + D * counts_.ghosts)
+        faults_.add("overlap", first_key, "A vertex has two separate stars.");
+    else if (stars.are_wound_once && stars.least != 1)
+        faults_.add("overlap", first_key, "The mesh is in more than one piece.");
+}
+
+template <int D> void Check<D>::check_repeated_points() {
+    Reader<D> mesh(host_, header_, {.budget = cache_bytes_, .verify_checksums = false});
+    RepeatedReader<D> points(host_, domain_, header_.attributes);
+    std::uint64_t count = 0;
+    for (; points.advance(); ++count) {
+        faults_.at = points.key();
+        if (!mesh.vertex_at(record_point<D>(points.record())))
+            faults_.add("point", "A repeated point equals no vertex of the mesh.");
+        if (points.serial() >= header_.serials)
+            faults_.add("count", "A repeated point has a serial number yet to be given.");
+    }
+    if (count != header_.duplicates)
+        faults_.add("count", first_key, "The header counts other repeated points than there are.");
+}
+
+/// A reader goes from a page to the one with the next point; who begins with a point further on
+/// might come to another one that lies between them.
+template <int D> void Check<D>::check_follows(const Key &last, const Key &at) {
+    abacus_page page;
+    if (at == last || !host_.next(ABACUS_STAGED_PAGES, &last, page) || page.key == at) return;
+    faults_.add("point", page.key, "A page of points lies where another one has its points.");
+}
+
+template <int D> void Check<D>::check_waiting_points() {
+    faults_.at = {header_.inserted, 0};
+    VertexReader<D> points(host_, header_.attributes, header_.inserted, header_.staged);
+    Key last = faults_.at;
+    while (points.advance()) {
+        faults_.at = {points.sequence(), 0};
+        if (points.sequence() > header_.inserted) check_follows(last, points.page_key());
+        last = points.page_key();
+    }
+    const Key begin{header_.inserted, 0};
+    abacus_page first, page;
+    if (!host_.next(ABACUS_STAGED_PAGES, nullptr, first)) return;
+    if (header_.inserted == header_.staged)
+        faults_.add("count", first.key, "There are points that wait, and the header counts none.");
+    else if (!host_.find(ABACUS_STAGED_PAGES, begin, page) || !(page.key == first.key))
+        faults_.add("count", first.key, "There are points before the first that waits.");
+    else if (host_.next(ABACUS_STAGED_PAGES, &last, page))
+        faults_.add("count", page.key, "There are points behind the last that waits.");
+}
+
+template <int D> void Check<D>::check_listed_vertices() {
+    Reader<D> mesh(host_, header_, {.budget = cache_bytes_, .verify_checksums = false});
+    VertexReader<D> list(host_, static_cast<unsigned>(page_attributes(header_)), 0, header_.staged);
+    std::uint64_t in_pages = 0;
+    // Along the curve, those of one code by their coordinates as words, those at one place by their
+    // ids: so abacus_load sorts.
+    std::array<std::uint64_t, 1 + D> place{}, previous{};
+    std::int64_t previous_id = 0;
+    std::uint64_t split = 0, at_place = 0;
+    Key last = first_key;
+    while (list.advance()) {
+        faults_.at = {list.sequence(), 0};
+        check_follows(last, list.page_key());
+        last = list.page_key();
+        place[0] = domain_.code(list.point());
+        std::copy_n(list.record() + 1, D, place.begin() + 1);
+        const std::int64_t id = record_id(list.record());
+        const bool shares = list.sequence() > 0 && place == previous;
+        if (list.sequence() > 0 &&
+            (shares ? header_.split == 0 || id <= previous_id : place < previous))
+            faults_.add("vertex", "The list of vertices is not in order.");
+        at_place = shares ? at_place + 1 : 1;
+        if (at_place > 1) split += at_place == 2 ? 2 : 1;
+        previous = place;
+        previous_id = id;
+        const std::uint64_t pages = mesh.pages_with(list.record());
+        if (pages == 0)
+            faults_.add("vertex", "A vertex of the list is none of the mesh, or another one.");
+        in_pages += pages;
+    }
+    if (in_pages != counts_.vertices)
+        faults_.add("vertex", first_key, "The mesh has vertices that are not in the list.");
+    if (split != header_.split)
+        faults_.add("count", first_key,
+                    "The header counts other vertices that share their places than there are.");
+    abacus_page page;
+    if (host_.next(ABACUS_STAGED_PAGES, &last, page))
+        faults_.add("count", page.key, "There are pages behind the list of vertices.");
+}
+
+template <int D>
+template <int K>
+void Check<D>::check_attribute_pages(const char *kind, unsigned attributes, std::uint64_t owners,
+                                     unsigned first) {
+    const AttributeGroups groups(attributes);
+    AttributeScan<D, K> scan(host_, domain_, attributes, first);
+    std::array<std::uint64_t, AttributeGroups(ABACUS_MAX_NAMES).count()> rows{};
+    while (scan.fetch()) {
+        faults_.at = scan.key();
+        scan.read();
+        rows[scan.group()] += scan.page().rows();
+    }
+    for (unsigned group = 0; group < groups.count(); ++group)
+        if (rows[group] != owners)
+            faults_.add(kind, group_begin(first + group),
+                        K == 1
+                            ? "The attribute pages have another number of vertices than the mesh."
+                            : "The pages have another number of simplices than the header counts.");
+}
+
+/// There are as many vertices with attributes as vertices; so it is enough that each of these has
+/// some.
+template <int D> void Check<D>::check_attributes() {
+    AttributeReader<D> attributes(host_, domain_, header_.attributes, cache_bytes_ / 2);
+    PageScan<D> scan(host_, header_);
+    PageView<D> page;
+    std::uint64_t pages = passes_++ * pages_;
+    while (scan.fetch()) {
+        faults_.at = scan.key();
+        report_some(++pages);
+        page.read(scan.bytes(), scan.size(), page_attributes(header_),
+                  PageView<D>::Checksum::ignore);
+        for (int v = 0; v < page.vertices(); ++v)
+            if (!attributes.contains(page.point(v))) {
+                faults_.add("vertex", "A vertex has no attributes.");
+                break;
+            }
+    }
+}
+
+/// There are as many simplices as rows; so none is of another simplex if the mesh has all of those.
+template <int D>
+void Check<D>::check_labels(const char *kind, unsigned columns, std::uint64_t owners,
+                            unsigned first) {
+    faults_.run(kind, [&] { check_attribute_pages<D + 1>(kind, columns, owners, first); });
+    if (!faults_.is_sound() || owners == 0) return;
+    faults_.run(kind, [&] {
+        faults_.at = group_begin(first);
+        AttributeReader<D, D + 1> labels(host_, domain_, columns, cache_bytes_ / 2, first);
+        std::uint64_t found = 0;
+        each_simplex([&](const PageView<D> &page, int s) {
+            if (page.is_ghost(s)) return;
+            std::array<Point<D>, D + 1> points;
+            for (int i = 0; i <= D; ++i) points[i] = page.point(page.corner(s, i));
+            found += labels.contains(owner_of<D, D + 1>(points));
+        });
+        if (found != owners)
+            faults_.add(kind, group_begin(first),
+                        "Some are of simplices that the mesh does not have.");
+    });
+}
+
+/// A facet has the same marker on both sides, or is one of the boundary: a ghost is beyond it. The
+/// two sides of a fault are both of the boundary, and have markers of their own.
+template <int D> void Check<D>::check_markers() {
+    constexpr std::size_t key_words = 2 + D * D; // key, coordinates; then the marker
+    RecordSort sides(host_, key_words + 1, key_words, cache_bytes_ / 4);
+    const auto add = [&](const Owner<D, D> &facet, double marker) {
+        const Key key = attribute_key<D, D>(facet, code_of<D, D>(domain_, facet));
+        std::uint64_t *const record = sides.add();
+        record[0] = key.code;
+        record[1] = key.part;
+        std::memcpy(record + 2, facet.data(), sizeof facet);
+        record[key_words] = std::bit_cast<std::uint64_t>(marker);
+    };
+    AttributeScan<D, D + 1> scan(host_, domain_, D + 1, marker_group);
+    while (scan.fetch()) {
+        scan.read();
+        for (std::size_t row = 0; row < scan.page().rows(); ++row)
+            for (int i = 0; i <= D; ++i)
+                if (const double marker = scan.page().value(row, static_cast<unsigned>(i));
+                    has_marker(marker))
+                    add(facet_of<D>(scan.page().owner(row), i), marker);
+    }
+    each_simplex([&](const PageView<D> &page, int s) {
+        if (!page.is_ghost(s)) return;
+        std::array<Point<D>, D> points;
+        for (int i = 0; i < D; ++i) points[i] = page.point(page.corner(s, i));
+        add(owner_of<D, D>(points), null_value);
+    });
+    sides.finish();
+    std::array<std::uint64_t, key_words + 1> first{};
+    std::uint64_t ghosts = 0, marked = 0; // with the facet of the first
+    bool agree = true;
+    const auto end_facet = [&] {
+        const std::uint64_t sides_of_boundary = header_.split > 0 && ghosts == 2 ? 2 : 1;
+        const bool is_sound = ghosts == 0 ? marked == 0 || (marked == 2 && agree)
+                                          : ghosts <= sides_of_boundary && marked <= ghosts;
+        if (!is_sound)
+            faults_.add("markers", in_group({first[0], first[1]}, marker_group),
+                        "The two sides of a facet have different markers.");
+    };
+    while (const std::uint64_t *record = sides.next()) {
+        const auto marker = std::bit_cast<double>(record[key_words]);
+        if (ghosts + marked == 0 || !std::equal(record, record + key_words, first.begin())) {
+            end_facet();
+            std::copy_n(record, key_words, first.begin());
+            first[key_words] = std::bit_cast<std::uint64_t>(null_value);
+            ghosts = marked = 0;
+            agree = true;
+        }
+        if (std::isnan(marker)) {
+            ++ghosts;
+            continue;
+        }
+        const auto before = std::bit_cast<double>(first[key_words]);
+        agree = agree && (std::isnan(before) || before == marker);
+        first[key_words] = record[key_words];
+        ++marked;
+    }
+    end_facet();
+    sides.close();
+}
+
+template class Check<2>;
+template class Check<3>;
+
+} // namespace abacus

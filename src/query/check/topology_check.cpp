@@ -1,0 +1,60 @@
+#include "query/check/topology_check.hpp"
+
+#include "delaunay/cached_conflict.hpp"
+
+namespace abacus {
+
+template <int D>
+TopologyCheck<D>::TopologyCheck(const Host &host, const abacus_header &header,
+                                std::size_t cache_bytes, FaultList &faults)
+    : is_delaunay_(header.not_delaunay == 0), faults_(faults),
+      reader_(host, header,
+              {.budget = cache_bytes, .verify_links = true, .verify_checksums = false}),
+      cache_(reader_.cache()), own_(cache_), stars_(cache_) {}
+
+template <int D> Key TopologyCheck<D>::check_page(const Key &key) {
+    const Key next = cache_.visit(key, [&](Handle h) {
+        if (!cache_.is_home(h))
+            faults_.add("key", "A simplex lies in a page that does not own its key.");
+        check_simplex(h);
+    });
+    if (is_delaunay_)
+        own_.collect(key, [&](VertexIndex v, const Arena<Handle> &star) {
+            if (!stars_.add(v, star))
+                faults_.add("overlap", "Simplices wind around a vertex or an edge twice.");
+        });
+    cache_.trim();
+    cache_.poll();
+    return next;
+}
+
+template <int D> void TopologyCheck<D>::check_simplex(Handle h) {
+    for (int i = 0; i <= D; ++i) {
+        const Link link = cache_.cross(h, i); // throws unless it leads to a true neighbour
+        const Simplex<D> &neighbour = cache_.simplex(link_simplex(link));
+        const VertexIndex opposite = neighbour.vertex[link_facet(link)];
+        if (opposite == infinite_vertex || !is_delaunay_) continue;
+        check_empty_sphere(cache_.simplex(h), cache_.point(opposite));
+    }
+}
+
+template <int D>
+void TopologyCheck<D>::check_empty_sphere(const Simplex<D> &s, const Point<D> &opposite) {
+    switch (side_of<D>(cache_, s, opposite)) {
+    case Side::outside:
+        break;
+    case Side::vertex:
+        faults_.add("vertex", "Two vertices have the same coordinates.");
+        break;
+    case Side::inside:
+        if (s.is_ghost())
+            faults_.add("hull", "The convex hull is not convex.");
+        else
+            faults_.add("delaunay", "A vertex lies inside a circumsphere.");
+    }
+}
+
+template class TopologyCheck<2>;
+template class TopologyCheck<3>;
+
+} // namespace abacus

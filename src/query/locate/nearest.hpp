@@ -1,0 +1,103 @@
+// The vertices nearest to a place, nearest first, exactly; of those equally far the
+// lexicographically least comes first, of those at one place the one with the least id.
+//
+// In a Delaunay mesh they are found along edges. Let q be a vertex at the distance d from the place
+// p, and let some vertex be nearer. Blow up a ball that touches q from inside the ball of radius d
+// around p, from a point on. When it first meets other vertices they are within that ball, so
+// nearer than q. It is empty: so those on it are joined among one another, however the cells of
+// cospherical ones are cut, and q has a neighbour that is nearer. Therefore
+//
+//   descent   from any vertex a way along nearer and nearer neighbours leads to one at the
+//             least distance;
+//   plateau   all at the least distance are on one empty sphere around p, and hang together;
+//   the next  is, after these, a neighbour of one found before: those found are gone through in
+//             order, and their neighbours compete for the places behind.
+//
+// A candidate that k others come before is dropped. So memory grows with k, and with the simplices
+// around what is found, which are in the cache.
+//
+// In other meshes pages are read in the order of how far away their boxes are, until the next one
+// is farther away than the k-th vertex.
+#pragma once
+
+#include "geometry/distance.hpp"
+#include "host/memory_resource.hpp"
+#include "points/record.hpp"
+#include "query/locate/reader.hpp"
+
+#include <set>
+
+namespace abacus {
+
+template <int D> class Nearest {
+public:
+    /// It can be made for each place: what takes long to make is the reader's.
+    explicit Nearest(Reader<D> &reader)
+        : reader_(reader), cache_(reader.cache()), memory_(cache_.host()),
+          words_(record_words(D, reader.vertex_values().count())), records_(cache_.host()),
+          candidates_(Order{p_}, &memory_) {}
+    Nearest(const Nearest &) = delete;
+    Nearest &operator=(const Nearest &) = delete;
+
+    /// Calls visit(record) for the k vertices nearest to p, all if there are fewer; a record is
+    /// valid during the call, in which the reader must not be used.
+    template <class Visit> void find(const Point<D> &p, std::uint64_t k, Visit visit) {
+        search(p, k);
+        for (const Candidate &candidate : candidates_) {
+            std::uint64_t *const words = records_.data() + candidate.slot * words_;
+            if (reader_.vertex_values().are_apart())
+                reader_.vertex_values().all_at(candidate.point,
+                                               reinterpret_cast<double *>(words + 1 + D));
+            visit(static_cast<const std::uint64_t *>(words));
+        }
+    }
+
+private:
+    struct Candidate {
+        Point<D> point;
+        std::int64_t id;
+        mutable std::size_t slot; // of its record; no part of the order
+        Handle simplex;           // that has it as a corner, ...
+        VertexIndex vertex;
+    };
+    struct Order {
+        const Point<D> &p;
+        bool operator()(const Candidate &a, const Candidate &b) const {
+            return a.point == b.point ? a.id < b.id : comes_nearer<D>(p, a.point, b.point);
+        }
+    };
+    using Candidates = std::pmr::set<Candidate, Order>;
+
+    void search(const Point<D> &p, std::uint64_t k);
+    void search_edges();
+    void search_pages();
+    /// Goes through the simplices around all vertices as far away as nearest_, and competes with
+    /// their corners; false, and nearest_ is a nearer one, if there is one.
+    bool look_around_plateau();
+    void look_around(const Candidate &candidate);
+    /// A vertex competes.
+    void offer(Handle simplex, VertexIndex vertex);
+    void offer_corners(Handle simplex) {
+        const Simplex<D> &s = cache_.simplex(simplex);
+        for (int i = 0; i < s.finite_vertices(); ++i) offer(simplex, s.vertex[i]);
+    }
+    void forget() {
+        candidates_.clear();
+        records_.clear();
+    }
+
+    Reader<D> &reader_;
+    Cache<D> &cache_;
+    HostMemory memory_;
+    const std::size_t words_; // of a record
+    Point<D> p_{};
+    std::uint64_t k_ = 0;
+    Candidate nearest_{}; // of those met in the descent; without a record
+    Arena<std::uint64_t> records_;
+    Candidates candidates_; // the first k of all that have been met
+};
+
+extern template class Nearest<2>;
+extern template class Nearest<3>;
+
+} // namespace abacus

@@ -1,0 +1,50 @@
+// Where the pages of a mesh are: their boxes, in memory, to find those around a point.
+//
+// Needed where walking does not lead to a point, in a mesh with holes or several pieces, and
+// made when that happens first: one run over all pages. It takes a box a page, 0.2 bytes a
+// simplex or so; if that is more than its bound, a box for every two, four, ... pages.
+#pragma once
+
+#include "geometry/box_tree.hpp"
+#include "query/pages/page_scan.hpp"
+
+namespace abacus {
+
+template <int D> class PageBoxes {
+public:
+    PageBoxes(const Host &host, const abacus_header &header, std::size_t bytes);
+
+    /// Calls visit(from, to) for intervals of keys, which end at pages, outside of which no
+    /// page has p in its box, until it returns false.
+    template <class Visit> void around(const Point<D> &p, Visit visit) const {
+        meeting({p, p}, visit);
+    }
+    /// The same of pages whose boxes meet a box.
+    template <class Visit> void meeting(const Box<D> &box, Visit visit) const {
+        tree_.visit(box, [&](std::size_t i) {
+            return visit(keys_[i], i + 1 < keys_.size() ? keys_[i + 1] : end_key);
+        });
+    }
+    /// The box around all of them.
+    Box<D> around_all() const { return tree_.around_all(); }
+    /// Calls visit(from, to, rank) for all such intervals in the order of rank(box), until it
+    /// returns false, as in BoxTree::visit_by_rank().
+    template <class Rank, class Visit>
+    void by_rank(std::pmr::memory_resource &memory, Rank rank, Visit visit) const {
+        tree_.visit_by_rank(memory, rank, [&](std::size_t i, double rank_of_box) {
+            return visit(keys_[i], i + 1 < keys_.size() ? keys_[i + 1] : end_key, rank_of_box);
+        });
+    }
+
+private:
+    void halve();
+
+    Arena<Key> keys_; // of the first page of each box
+    Arena<Box<D>> boxes_;
+    BoxTree<D> tree_;
+};
+
+extern template class PageBoxes<2>;
+extern template class PageBoxes<3>;
+
+} // namespace abacus

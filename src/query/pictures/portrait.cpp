@@ -1,0 +1,225 @@
+#include "query/pictures/portrait.hpp"
+
+#include "draw/section.hpp"
+#include "geometry/longer_edge.hpp"
+#include "geometry/map_plane.hpp"
+#include "query/pages/page_values.hpp"
+#include "query/scan/range_scan.hpp"
+#include "query/scan/simplex_labels.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace abacus {
+
+namespace {
+
+/// What both views know of a simplex.
+template <int D> class MeshView {
+public:
+    static constexpr int dimension = D;
+
+    void enter(const PageView<D> &page) { values_.enter(page); }
+
+protected:
+    MeshView(const Host &host, const abacus_header &header, const abacus_drawing &drawing)
+        : label_(drawing.attribute - static_cast<int>(header.attributes)), labels_(host, header),
+          values_(host, header, label_ < 0 ? drawing.attribute : -1), max_edge_(drawing.max_edge) {}
+
+    double value(int vertex) const { return values_.value(vertex); }
+    /// What the simplex shows is of its label, if the drawing is of one.
+    void set_label(const PageView<D> &page, int simplex, Patch &patch) {
+        if (label_ >= 0)
+            std::fill_n(patch.value, patch.corners, labels_.of_page(page, simplex)[label_]);
+    }
+    /// Whether the drawing leaves out the simplex with these first `n` corners.
+    bool is_too_long(const PageView<D> &page, int simplex, int n) const {
+        return max_edge_ > 0 && has_longer_edge<D>(n, max_edge_, [&](int i) -> const Point<D> & {
+                   return page.point(page.corner(simplex, i));
+               });
+    }
+
+private:
+    const int label_; // its number; negative: there is an attribute, or nothing
+    SimplexLabels<D> labels_;
+    PageValues<D> values_;
+    double max_edge_;
+};
+
+/// The triangles of a mesh.
+class FlatView : public MeshView<2> {
+public:
+    static constexpr double unit = 1; // of coordinates, in the picture
+
+    FlatView(const Host &host, const abacus_header &header, const abacus_drawing &drawing)
+        : MeshView(host, header, drawing), plane_(drawing.is_geographic != 0) {}
+
+    bool show(const PageView<2> &page, int simplex, Patch &patch) {
+        if (page.is_ghost(simplex) || is_too_long(page, simplex, 3)) return false;
+        for (int i = 0; i < 3; ++i) {
+            const int v = page.corner(simplex, i);
+            const Point<2> p = plane_.project(page.point(v));
+            patch.corner[i][0] = p[0];
+            patch.corner[i][1] = p[1];
+            patch.value[i] = value(v);
+        }
+        set_label(page, simplex, patch);
+        return true;
+    }
+
+private:
+    // Only of a tile a plane of its own; else what is drawn are coordinates.
+    const MapPlane plane_;
+};
+
+/// The sections of the tetrahedra of a mesh by a plane.
+class SectionView : public MeshView<3> {
+public:
+    static constexpr double unit = Plane::scale;
+
+    SectionView(const Host &host, const abacus_header &header, const Plane &plane,
+                const abacus_drawing &drawing)
+        : MeshView(host, header, drawing), plane_(plane) {}
+
+    void enter(const PageView<3> &page) {
+        MeshView::enter(page);
+        for (int v = 0; v < page.vertices(); ++v) places_[v] = plane_.place(page.point(v));
+    }
+    bool show(const PageView<3> &page, int simplex, Patch &patch) {
+        const int finite = page.is_ghost(simplex) ? 3 : 4;
+        return (finite == 3 ? cut<cut_ghost, 3>(page, simplex, patch)
+                            : cut<cut_tetrahedron, 4>(page, simplex, patch)) &&
+               !is_too_long(page, simplex, finite);
+    }
+
+private:
+    template <auto section, int n> bool cut(const PageView<3> &page, int simplex, Patch &patch) {
+        int sides = 0;
+        for (int i = 0; i < n; ++i) sides += places_[page.corner(simplex, i)].side;
+        if (std::abs(sides) == n) return false;
+        Cut corner[n];
+        for (int i = 0; i < n; ++i) {
+            const int v = page.corner(simplex, i);
+            corner[i] = {places_[v], value(v)};
+        }
+        if (!section(corner, patch)) return false;
+        set_label(page, simplex, patch);
+        patch.spacing = spacing(page, simplex, n);
+        return true;
+    }
+    /// Root of the mean square of the edges of a simplex with n finite corners: as far
+    /// as its vertices lie apart, however flat it is.
+    static double spacing(const PageView<3> &page, int simplex, int n) {
+        double sum = 0;
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < i; ++j) {
+                const Point<3> p = page.point(page.corner(simplex, i));
+                const Point<3> q = page.point(page.corner(simplex, j));
+                for (int axis = 0; axis < 3; ++axis) {
+                    const double side = (p[axis] - q[axis]) * Plane::scale;
+                    sum += side * side;
+                }
+            }
+        return std::sqrt(sum / (n * (n - 1) / 2));
+    }
+
+    Plane plane_;
+    std::array<Place, page_vertices<3>> places_;
+};
+
+/// What of space a section shows: the plane, or what of it lies in a window of its sheet. Decided
+/// by the places of vertices, as what is drawn is.
+class SectionRegion : public Region<3> {
+public:
+    SectionRegion(const Plane &plane, const abacus_section &section, const abacus_drawing &sheet)
+        : plane_(plane), sheet_(sheet), has_window_(!shows_whole<2>(sheet)) {
+        std::copy_n(section.through, 3, through_.begin());
+    }
+
+    Point<3> inside(const Domain<3> &) const override {
+        if (!has_window_) return through_;
+        return plane_.point({sheet_.lower[0] * 0.5 + sheet_.upper[0] * 0.5,
+                             sheet_.lower[1] * 0.5 + sheet_.upper[1] * 0.5});
+    }
+    bool may_meet(const Point<3> *const *points, int n) const override {
+        int sides = 0;
+        double lower[2] = {INFINITY, INFINITY}, upper[2] = {-INFINITY, -INFINITY};
+        for (int i = 0; i < n; ++i) {
+            const Place place = plane_.place(*points[i]);
+            sides += place.side;
+            for (int axis = 0; axis < 2; ++axis) {
+                lower[axis] = std::min(lower[axis], place.at[axis]);
+                upper[axis] = std::max(upper[axis], place.at[axis]);
+            }
+        }
+        if (std::abs(sides) == n) return false;
+        for (int axis = 0; has_window_ && axis < 2; ++axis)
+            if (upper[axis] < sheet_.lower[axis] || sheet_.upper[axis] < lower[axis]) return false;
+        return true;
+    }
+    bool may_meet(const Box<3> &box) const override { return !plane_.misses(box.lower, box.upper); }
+
+private:
+    const Plane plane_;
+    const abacus_drawing sheet_;
+    const bool has_window_;
+    Point<3> through_;
+};
+
+/// Shows everything on the pages to `picture`, an Extent or a Canvas.
+template <int D, class View, class Picture>
+void stream(RangeScan<D> &pages, View &view, Picture &picture) {
+    Patch patch;
+    while (pages.advance()) {
+        const PageView<D> &page = pages.page();
+        view.enter(page);
+        for (int s = 0; s < page.simplices(); ++s)
+            if (view.show(page, s, patch)) picture.add(patch);
+    }
+}
+
+/// `region` is what the drawing shows with its margin; null: all of the mesh.
+template <int D, class View>
+Portrait draw(const Host &host, const abacus_header &header, const abacus_drawing &drawing,
+              std::int32_t margin, const Region<D> *region, View &&view, abacus_ramp usual) {
+    RangeScan<D> pages(host, header, region);
+    bool again = false;
+    const auto show = [&](auto &picture) {
+        if (std::exchange(again, true)) pages.rewind();
+        stream(pages, view, picture);
+    };
+    return draw_patches(host, header, drawing, margin, usual, View::unit, show);
+}
+
+} // namespace
+
+Portrait draw_mesh(const Host &host, const abacus_header &header, const abacus_drawing &drawing) {
+    if (shows_whole<2>(drawing))
+        return draw<2>(host, header, drawing, 0, nullptr, FlatView(host, header, drawing),
+                       ABACUS_RAMP_TERRAIN);
+    const std::int32_t margin = Canvas::margin_of(drawing);
+    const abacus_drawing wider = widened(drawing, margin);
+    const MapPlane plane(drawing.is_geographic != 0);
+    const BoxRegion<2> region(plane.unproject(
+        Box<2>({wider.lower[0], wider.lower[1]}, {wider.upper[0], wider.upper[1]})));
+    return draw<2>(host, header, drawing, margin, &region, FlatView(host, header, drawing),
+                   ABACUS_RAMP_TERRAIN);
+}
+
+Portrait draw_section(const Host &host, const abacus_header &header, const abacus_section &section,
+                      const abacus_drawing &drawing) {
+    const Plane plane(section);
+    abacus_drawing sheet = drawing;
+    const bool has_window = !shows_whole<3>(drawing);
+    const SheetWindow window =
+        has_window ? plane.window(std::to_array(drawing.lower), std::to_array(drawing.upper))
+                   : SheetWindow{};
+    std::copy_n(window.lower, 2, sheet.lower);
+    std::copy_n(window.upper, 2, sheet.upper);
+    const std::int32_t margin = has_window ? Canvas::margin_of(drawing) : 0;
+    const SectionRegion region(plane, section, has_window ? widened(sheet, margin) : sheet);
+    return draw<3>(host, header, sheet, margin, &region, SectionView(host, header, plane, drawing),
+                   ABACUS_RAMP_STRATA);
+}
+
+} // namespace abacus

@@ -1,0 +1,170 @@
+#include "query/places/places_threads.hpp"
+
+#include "points/record.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace abacus {
+
+namespace {
+
+/// Places that are worth the threads, and what is read and decoded more than once.
+constexpr std::size_t places_worth_sharing = 1 << 13;
+/// Of a quick question: if there are fewer places, pages that come by the session's thread take
+/// longer than what is done with them.
+constexpr std::uint64_t simplices_a_place = 32;
+/// More at once gain nothing.
+constexpr std::size_t most_at_once = 1 << 18;
+/// For tests.
+constexpr std::size_t tiny_gathered = 61, tiny_piece = 4;
+/// Share of the cache's memory that gathered places and answers may take.
+constexpr std::size_t gathered_share = 3;
+/// Pieces for each thread, so that none waits long for the last one.
+constexpr std::size_t pieces_a_thread = 8;
+/// Answers that are told until threads are served again.
+constexpr std::size_t told_at_once = 64;
+/// Places until a thread looks whether it has to end.
+constexpr std::size_t poll_every = 64;
+
+/// Places that may be gathered.
+std::size_t room(const Host &host, std::size_t words, std::size_t cache_bytes) {
+    if (host.has_tiny_intervals()) return tiny_gathered;
+    return std::min(most_at_once, cache_bytes / gathered_share / (words * sizeof(std::uint64_t)));
+}
+
+} // namespace
+
+template <int D>
+bool PlacesTogether<D>::is_worth_while(const Host &host, const abacus_header &header,
+                                       std::size_t cache_bytes, const Question<D> &question,
+                                       std::uint64_t total) {
+    if (host.threads() == 1 || host.has_tiny_intervals()) return host.threads() > 1;
+    const std::uint64_t least =
+        question.is_quick() ? (header.simplices + header.ghosts) / simplices_a_place : 0;
+    return total >= std::max<std::uint64_t>(least, places_worth_sharing) &&
+           room(host, stride + question.words(), cache_bytes) >= places_worth_sharing;
+}
+
+template <int D>
+PlacesTogether<D>::PlacesTogether(const Host &host, const abacus_header &header,
+                                  std::size_t cache_bytes, const Question<D> &question,
+                                  std::uint64_t total)
+    : host_(host), header_(header), question_(question), total_(total),
+      most_gathered_(room(host, stride + question.words(), cache_bytes)),
+      thread_bytes_((cache_bytes - cache_bytes / gathered_share) / host.threads()), places_(host),
+      crew_(host), memory_(host), pieces_(&memory_), answerers_(host, host.threads()) {}
+
+template <int D> void PlacesTogether<D>::cut() {
+    const std::size_t n = held_back();
+    std::size_t most =
+        (n + host_.threads() * pieces_a_thread - 1) / (host_.threads() * pieces_a_thread);
+    cut_ = first_ = 0;
+    std::uint64_t state = n;
+    for (std::size_t begin = 0, end; begin < n; begin = end, ++cut_) {
+        state = (state ^ state >> 29) * 0xd6e8feb86659fd93 + 1;
+        if (host_.has_tiny_intervals()) most = 1 + (state >> 40) % (2 * tiny_piece);
+        end = std::min(begin + most, n);
+        if (pieces_.size() == cut_) pieces_.emplace_back(crew_.memory().memory());
+        Piece &piece = pieces_[cut_];
+        piece.told = piece.answered = begin;
+        piece.end = end;
+        piece.tape.clear();
+        piece.is_ready.store(false, std::memory_order_relaxed);
+    }
+    most_words_ = std::max<std::size_t>(most, 1) * question_.words();
+    first_failed_.store(n, std::memory_order_relaxed);
+}
+
+/// What all threads do; or one, with the first piece that has not been answered to its end.
+template <int D> class PlacesTogether<D>::Round final : public Crew::Work {
+public:
+    explicit Round(PlacesTogether &all) : all_(all), first_(all.first_) {}
+
+    void piece(std::size_t number, const Host &host) override {
+        all_.answer(all_.pieces_[first_ + number], host);
+    }
+    void meanwhile() override {
+        all_.tell_some();
+        all_.report_progress();
+    }
+    bool is_busy() const override { return all_.has_to_tell(); }
+
+private:
+    PlacesTogether &all_;
+    const std::size_t first_;
+};
+
+template <int D> bool PlacesTogether<D>::answer() {
+    cut();
+    const auto run = [&](unsigned threads, std::size_t pieces) {
+        Round round(*this);
+        const bool has_run = crew_.run(threads, pieces, round);
+        pages_read_ += crew_.desk().pages_read();
+        return has_run;
+    };
+    if (!run(host_.threads(), cut_)) return false;
+    while (first_ < cut_) {
+        host_.poll();
+        if (has_to_tell())
+            tell_some();
+        else if (!run(1, 1)) // its tape was full
+            throw Error(ABACUS_ERROR_MEMORY, "the system grants no thread");
+    }
+    forget_gathered();
+    return true;
+}
+
+template <int D> void PlacesTogether<D>::answer(Piece &piece, const Host &host) {
+    try {
+        Answerer<D> &by = answerers_.get(host, header_, thread_bytes_);
+        piece.tape.reserve(most_words_);
+        for (std::size_t i = piece.answered; i < piece.end; ++i) {
+            if (i % poll_every == 0) host.poll();
+            // None of those behind the first failure will be told.
+            if (piece.tape.size() > most_words_ ||
+                i > first_failed_.load(std::memory_order_relaxed))
+                break;
+            question_.answer(by, record_point<D>(place(i)), piece.tape);
+            piece.answered = i + 1;
+        }
+    } catch (const Error &) {
+        piece.failure = std::current_exception();
+        std::size_t first = first_failed_.load(std::memory_order_relaxed);
+        while (piece.answered < first &&
+               !first_failed_.compare_exchange_weak(first, piece.answered)) {
+        }
+    }
+    piece.is_ready.store(true, std::memory_order_release);
+}
+
+template <int D> void PlacesTogether<D>::tell_some() {
+    if (!has_to_tell()) return;
+    Piece &piece = pieces_[first_];
+    if (!player_) player_.emplace(piece.tape);
+    for (std::size_t n = 0; n < told_at_once && piece.told < piece.answered; ++n, ++piece.told)
+        question_.tell(record_id(place(piece.told)), *player_);
+    if (piece.told < piece.answered) return;
+    player_.reset();
+    if (piece.failure) std::rethrow_exception(piece.failure);
+    if (piece.answered == piece.end) {
+        ++first_;
+    } else {
+        piece.tape.clear();
+        piece.is_ready.store(false, std::memory_order_relaxed);
+    }
+}
+
+template <int D> void PlacesTogether<D>::report_progress() {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - reported_ < std::chrono::milliseconds(10)) return;
+    reported_ = now;
+    const std::size_t told = first_ < cut_ ? pieces_[first_].told : held_back();
+    host_.progress({ABACUS_PHASE_LOCATING, done_ + told, total_,
+                    pages_read_ + crew_.desk().pages_read(), 0, crew_.desk().at_work()});
+}
+
+template class PlacesTogether<2>;
+template class PlacesTogether<3>;
+
+} // namespace abacus

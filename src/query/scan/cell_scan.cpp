@@ -1,0 +1,56 @@
+#include "query/scan/cell_scan.hpp"
+
+#include "keys/domain_of.hpp"
+#include "query/pages/page_simplex.hpp"
+
+namespace abacus {
+
+template <int D>
+CellScan<D>::CellScan(const Host &host, const abacus_header &header, const abacus_window &window,
+                      double max_edge, const abacus_range *label)
+    : domain_(domain_of<D>(header)), filter_(window, max_edge), vertex_values_(host, header) {
+    typename RangeScan<D>::Wants wants;
+    if (label != nullptr) {
+        label_.emplace(host, header, *label);
+        wants = [this](const PageView<D> &page) { return label_->may_be_in(page); };
+    }
+    pages_.emplace(host, header, filter_.region(), wants);
+}
+
+template <int D>
+CellScan<D>::CellScan(const Host &host, const abacus_header &header, std::uint64_t least,
+                      std::uint64_t greatest)
+    : domain_(domain_of<D>(header)), filter_({}, 0), vertex_values_(host, header), least_(least),
+      greatest_(greatest) {
+    stretch_.emplace(host, header, least, greatest);
+}
+
+template <int D> bool CellScan<D>::wants(int simplex) {
+    if (page().is_ghost(simplex)) return false;
+    if (!stretch_)
+        return filter_.wants(page(), simplex) && (!label_ || label_->wants(page(), simplex));
+    const std::uint64_t code = code_of(page(), simplex, domain_);
+    return least_ <= code && code <= greatest_;
+}
+
+template <int D> bool CellScan<D>::next(abacus_simplex &simplex, CornerValues *values) {
+    for (;;) {
+        if (!in_page_) {
+            if (!advance()) return false;
+            in_page_ = true;
+            at_ = 0;
+        }
+        while (at_ < page().simplices()) {
+            const int s = at_++;
+            if (!wants(s)) continue;
+            describe(page(), s, domain_, simplex, values, vertex_values_);
+            return true;
+        }
+        in_page_ = false;
+    }
+}
+
+template class CellScan<2>;
+template class CellScan<3>;
+
+} // namespace abacus

@@ -1,0 +1,138 @@
+#include "query/scan/face_scan.hpp"
+
+#include "blocks/bit_column.hpp"
+#include "geometry/direction.hpp"
+#include "query/pages/page_simplex.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+
+namespace abacus {
+
+namespace {
+
+template <int D>
+typename RangeScan<D>::Wants pages_with(const std::optional<abacus_range> &range,
+                                        const VertexValues<D> &values) {
+    if (!range || values.are_apart()) return {}; // as pages without attributes cannot tell
+    return [range = *range](const PageView<D> &page) {
+        return page.may_have_attribute(static_cast<int>(range.attribute), range.least,
+                                       range.greatest);
+    };
+}
+
+} // namespace
+
+template <int D>
+FaceScan<D>::FaceScan(const Host &host, const abacus_header &header, const abacus_window &window,
+                      int corners, double max_edge, std::size_t cache_bytes,
+                      std::optional<abacus_range> range)
+    : host_(host), header_(header), corners_(corners), max_edge_(max_edge),
+      cache_bytes_(cache_bytes), range_(range), window_(window), vertex_values_(host, header),
+      pages_(host, header, window_.region(), pages_with<D>(range, vertex_values_)), memory_(host),
+      known_(&memory_) {}
+
+template <int D> bool FaceScan<D>::advance() {
+    for (;;) {
+        if (!in_page_) {
+            if (!pages_.advance()) return false;
+            in_page_ = true;
+            if (range_) compare_values();
+            simplex_ = 0;
+            face_ = 0;
+        }
+        for (; simplex_ < page().simplices(); ++simplex_, face_ = 0)
+            while (face_ < 1u << (D + 1))
+                if (const unsigned face = face_++; take(simplex_, face)) return true;
+        in_page_ = false;
+    }
+}
+
+template <int D> bool FaceScan<D>::take(int simplex, unsigned face) {
+    const bool is_ghost = page().is_ghost(simplex);
+    if (std::popcount(face) != corners_ || (is_ghost && (face >> D & 1) != 0)) return false;
+    int n = 0;
+    for (int i = 0; i <= D; ++i)
+        if ((face >> i & 1) != 0) vertices_[n++] = page().corner(simplex, i);
+    if (!is_wanted()) return false;
+    if (!is_ghost) return leads_into<D>(corners_of(page(), simplex), face);
+    return is_of_ghost(simplex);
+}
+
+/// Of all vertices of the page with the range; a missing value is in none.
+template <int D> void FaceScan<D>::compare_values() {
+    const auto attribute = static_cast<int>(range_->attribute);
+    for (int v = 0; v < page().vertices(); ++v) {
+        const double value = vertex_values_.value(page(), v, attribute);
+        is_in_range_[v] = range_->least <= value && value <= range_->greatest;
+    }
+}
+
+template <int D> bool FaceScan<D>::is_wanted() const {
+    if (range_ && !is_in_range_[vertices_[0]]) return false;
+    if (corners_ == 1) return window_.contains(point(0));
+    if (max_edge_ > 0 && !is_within<D>(max_edge_, point(0), point(1))) return false;
+    return window_.meets(point(0), point(1));
+}
+
+template <int D> std::size_t FaceScan<D>::place(const FaceCorners &face) {
+    std::uint64_t hash = 0;
+    for (const Corner &corner : face)
+        for (const double x : corner.point) hash = (hash ^ ordered(x)) * 0x9e3779b97f4a7c15;
+    return hash >> 32 & (most_known - 1);
+}
+
+template <int D> bool FaceScan<D>::is_of_ghost(int ghost) {
+    FacetCorners facet;
+    Corners<D> corners{}; // the last one stays unread
+    for (int i = 0; i < D; ++i) {
+        facet[i] = corner(page().corner(ghost, i));
+        corners[i] = &facet[i].point;
+    }
+    if (corners_ == D) return leads_inside(corners, D); // outside of the facet
+    const FaceCorners face{corner(vertices_[0]), corner(vertices_[corners_ - 1])};
+    known_.resize(most_known);
+    std::optional<Known> &known = known_[place(face)];
+    if (!known || known->face != face) known = Known{face, find_owner()};
+    std::sort(facet.begin(), facet.end());
+    return known->owner == facet;
+}
+
+template <int D> auto FaceScan<D>::find_owner() -> std::optional<FacetCorners> {
+    if (!reader_) reader_.emplace(host_, header_, cache_bytes_);
+    const Cache<D> &cache = reader_->cache();
+    std::pmr::map<FacetCorners, int> facets(&memory_); // around the face: of how many simplices
+    const auto add = [&](const Simplex<D> &s, int left_out) {
+        FacetCorners facet;
+        for (int i = 0, n = 0; i <= D; ++i)
+            if (i != left_out)
+                facet[n++] = {cache.point(s.vertex[i]), cache.vertices().id(s.vertex[i])};
+        std::sort(facet.begin(), facet.end());
+        ++facets[facet];
+    };
+    bool leads_outside = true;
+    reader_->containing(point(0), [&](Handle h) {
+        const Simplex<D> &s = cache.simplex(h);
+        const Corners<D> corners = cache.corners(s);
+        unsigned here = 0; // the face as the simplex has it
+        for (int i = 0; i <= D; ++i)
+            for (int k = 0; k < corners_; ++k)
+                if (*corners[i] == point(k) &&
+                    cache.vertices().id(s.vertex[i]) == page().id(vertices_[k]))
+                    here |= 1u << i;
+        if (std::popcount(here) != corners_) return;
+        leads_outside = leads_outside && !leads_into<D>(corners, here);
+        for (int i = 0; i <= D; ++i)
+            if ((here >> i & 1) == 0) add(s, i);
+    });
+    if (!leads_outside) return std::nullopt;
+    for (const auto &[facet, simplices] : facets)
+        if (simplices == 1) return facet;
+    throw_corrupted("A facet of the boundary has no simplex.");
+}
+
+template class FaceScan<2>;
+template class FaceScan<3>;
+
+} // namespace abacus

@@ -1,0 +1,102 @@
+// The vertices of a window, or its edges, each once, without a list of those that have been.
+//
+// A face of the mesh, a vertex or an edge, is in all simplices around it, and these in several
+// pages. It is handed out by one of them, which tells so by itself: by the simplex into which a
+// fixed direction leads from the face (geometry/direction.hpp). At the boundary that may lead
+// outside. Then it is handed out by one of the ghosts around it: but whether it does, and which
+// ghost comes first, only all simplices around the face tell. They are looked for in a cache. The
+// facets of the boundary are those that one of them has alone; the one with the lexicographically
+// least corners comes first. What has been found is kept of some faces: a vertex may have any
+// number of ghosts. Of an edge in the plane its ghost alone tells.
+//
+// All these simplices and ghosts are in pages of the window, if the face meets it.
+#pragma once
+
+#include "host/memory_resource.hpp"
+#include "query/locate/reader.hpp"
+#include "query/pages/vertex_values.hpp"
+#include "query/scan/window.hpp"
+
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+namespace abacus {
+
+template <int D> class FaceScan {
+public:
+    /// Faces of one corner, or of two, which are then at most max_edge apart, unless that is 0.
+    FaceScan(const Host &host, const abacus_header &header, const abacus_window &window,
+             int corners, double max_edge, std::size_t cache_bytes)
+        : FaceScan(host, header, window, corners, max_edge, cache_bytes, std::nullopt) {}
+    /// Vertices of which an attribute is within a range.
+    FaceScan(const Host &host, const abacus_header &header, const abacus_window &window,
+             const abacus_range &range, std::size_t cache_bytes)
+        : FaceScan(host, header, window, 1, 0, cache_bytes, range) {}
+
+    /// Goes to the next face; false after the last.
+    bool advance();
+    /// The page with the face at hand, and the number of a corner there.
+    const PageView<D> &page() const { return pages_.page(); }
+    int vertex(int corner) const { return vertices_[corner]; }
+    /// Those of the window, without what the search for owners of faces reads.
+    std::uint64_t pages_read() const { return pages_.pages_read(); }
+    const VertexValues<D> &vertex_values() const { return vertex_values_; }
+
+private:
+    FaceScan(const Host &host, const abacus_header &header, const abacus_window &window,
+             int corners, double max_edge, std::size_t cache_bytes,
+             std::optional<abacus_range> range);
+
+    /// Vertices of different ids may be at one place.
+    struct Corner {
+        Point<D> point;
+        std::int64_t id;
+
+        auto operator<=>(const Corner &) const = default;
+    };
+    using FacetCorners = std::array<Corner, D>;
+
+    bool take(int simplex, unsigned face);
+    void compare_values();
+    bool is_wanted() const;
+    /// Whether the face at hand belongs to a ghost of the page.
+    bool is_of_ghost(int ghost);
+    /// The ghost to which it belongs, by its corners in order; nothing if the direction leads into
+    /// a simplex.
+    std::optional<FacetCorners> find_owner();
+
+    /// What has been found of a face.
+    using FaceCorners = std::array<Corner, 2>; // both the same of a vertex
+    struct Known {
+        FaceCorners face;
+        std::optional<FacetCorners> owner;
+    };
+    static constexpr std::size_t most_known = 1024;
+    static std::size_t place(const FaceCorners &face);
+    const Point<D> &point(int corner) const { return page().point(vertices_[corner]); }
+    Corner corner(int vertex) const { return {page().point(vertex), page().id(vertex)}; }
+
+    const Host &host_;
+    const abacus_header header_;
+    const int corners_;
+    const double max_edge_;
+    const std::size_t cache_bytes_;
+    const std::optional<abacus_range> range_;
+    const Window<D> window_;
+    const VertexValues<D> vertex_values_;
+    std::array<bool, page_vertices<D>> is_in_range_; // of a page's vertices
+    RangeScan<D> pages_;
+    std::optional<Reader<D>> reader_; // once needed
+    HostMemory memory_;
+    std::pmr::vector<std::optional<Known>> known_; // by place(); empty until needed
+    std::array<int, 2> vertices_{};
+    bool in_page_ = false;
+    int simplex_ = 0;
+    unsigned face_ = 0; // next one of the simplex
+};
+
+extern template class FaceScan<2>;
+extern template class FaceScan<3>;
+
+} // namespace abacus

@@ -1,0 +1,130 @@
+#include "query/scan/numbering.hpp"
+
+#include "blocks/bit_column.hpp"
+#include "keys/domain_of.hpp"
+#include "query/pages/page_simplex.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace abacus {
+
+namespace {
+
+/// Words that tell a vertex from others, in its order among them: its code, its coordinates; if
+/// vertices share their places its id, with its sign turned.
+template <int D> std::size_t key_words(const abacus_header &header) {
+    return 1 + D + (header.split > 0 ? 1 : 0);
+}
+constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+
+/// Calls add(page, vertex) for all vertices of all pages; it returns room for the key.
+template <int D, class Add>
+void name_vertices(const Host &host, const abacus_header &header, Add add) {
+    const Domain<D> domain = domain_of<D>(header);
+    PageScan<D> pages(host, header);
+    Pacer pacer(host);
+    std::uint64_t seen = 0; // simplices
+    pacer.begin(ABACUS_PHASE_SCANNING, header.simplices + header.ghosts);
+    while (pages.advance()) {
+        const PageView<D> &page = pages.page();
+        pacer.reached(seen += static_cast<std::uint64_t>(page.simplices()));
+        for (int v = 0; v < page.vertices(); ++v) {
+            const Point<D> &p = page.point(v);
+            std::uint64_t *key = add(page, v);
+            *key++ = domain.code(p);
+            for (const double x : p) *key++ = ordered(x);
+            if (header.split > 0) *key = static_cast<std::uint64_t>(page.id(v)) ^ sign;
+        }
+    }
+}
+
+} // namespace
+
+// Pages agree in what they say of a vertex, so any of its names will do.
+template <int D>
+NumberedVertices<D>::NumberedVertices(const Host &host, const abacus_header &header,
+                                      std::size_t memory)
+    : vertex_values_(host, header), key_(key_words<D>(header)),
+      named_(host, 1 + D + 1 + static_cast<unsigned>(page_attributes(header)), key_, memory),
+      left_(header.vertices), current_(host), apart_(host) {
+    named_.expect(static_cast<double>(header.vertices)); // most are named by several pages
+    name_vertices<D>(host, header, [&](const PageView<D> &page, int v) {
+        std::uint64_t *const name = named_.add(), *rest = name + 1 + D;
+        *rest++ = static_cast<std::uint64_t>(page.id(v)) ^ sign;
+        if (!vertex_values_.are_apart())
+            vertex_values_.all(page, v, reinterpret_cast<double *>(rest));
+        return name;
+    });
+    named_.finish();
+    current_.resize(1 + D + 1 + static_cast<unsigned>(page_attributes(header)));
+    if (vertex_values_.are_apart()) apart_.resize(header.attributes);
+    ahead_ = named_.next();
+}
+
+template <int D> bool NumberedVertices<D>::next(abacus_vertex &vertex) {
+    if ((ahead_ == nullptr) != (left_ == 0)) throw_corrupted(other_vertex_count);
+    if (ahead_ == nullptr) {
+        named_.close();
+        return false;
+    }
+    --left_;
+    std::copy_n(ahead_, current_.size(), current_.data());
+    do ahead_ = named_.next();
+    while (ahead_ != nullptr && std::equal(ahead_, ahead_ + key_, current_.data()));
+
+    vertex = {};
+    for (int axis = 0; axis < D; ++axis) vertex.point[axis] = from_ordered(current_[1 + axis]);
+    const std::uint64_t *const rest = current_.data() + 1 + D;
+    vertex.id = vertex.vertex = static_cast<std::int64_t>(rest[0] ^ sign);
+    vertex.attributes = reinterpret_cast<const double *>(rest + 1);
+    if (vertex_values_.are_apart()) {
+        Point<D> p;
+        std::copy_n(vertex.point, D, p.begin());
+        vertex_values_.all_at(p, apart_.data());
+        vertex.attributes = apart_.data();
+    }
+    return true;
+}
+
+template <int D>
+NumberedSimplices<D>::NumberedSimplices(const Host &host, const abacus_header &header,
+                                        std::size_t memory)
+    : domain_(domain_of<D>(header)), ranks_(host, key_words<D>(header), memory),
+      pages_(host, header), numbers_(host) {
+    ranks_.expect(static_cast<double>(header.vertices));
+    name_vertices<D>(host, header, [&](const PageView<D> &, int) { return ranks_.add(); });
+    if (ranks_.finish() != header.vertices) throw_corrupted(other_vertex_count);
+}
+
+template <int D> void NumberedSimplices<D>::enter_page() {
+    in_page_ = true;
+    at_ = 0;
+    numbers_.resize(static_cast<std::size_t>(pages_.page().vertices()));
+    for (std::uint64_t &number : numbers_) number = ranks_.next();
+}
+
+template <int D> bool NumberedSimplices<D>::next(abacus_simplex &simplex, std::uint64_t *numbers) {
+    for (;;) {
+        const PageView<D> &page = pages_.page();
+        while (in_page_ && at_ < page.simplices()) {
+            const int s = at_++;
+            if (page.is_ghost(s)) continue;
+            const auto &order = describe(page, s, domain_, simplex);
+            for (int i = 0; i <= D; ++i) numbers[i] = numbers_[page.corner(s, order[i])];
+            return true;
+        }
+        if (!pages_.advance()) {
+            ranks_.close();
+            return false;
+        }
+        enter_page();
+    }
+}
+
+template class NumberedVertices<2>;
+template class NumberedVertices<3>;
+template class NumberedSimplices<2>;
+template class NumberedSimplices<3>;
+
+} // namespace abacus

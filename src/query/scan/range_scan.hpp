@@ -1,0 +1,122 @@
+// The pages of a mesh with simplices that meet a convex region, such as a window: found through
+// the page index, each read once, and none far away.
+//
+// A simplex is stored under the greatest code of its vertices. So a simplex that reaches into a
+// window may lie in a page whose stretch of the curve is far away, and no list of stretches of the
+// curve is exact. But the simplices of a Delaunay mesh fill their convex hull, and neighbours know
+// one another's keys. So the pages are flooded (page_flood.hpp), from one simplex that meets the
+// region, across all facets that meet it.
+//
+// That finds all of them. Let R be the region and C the hull, both closed and convex; so R and C
+// have a connected part in common, and the simplices that meet it cover it, finitely many closed
+// sets. So from any of them to any other leads a chain in which each has a point x of R in common
+// with the next. The simplices around x fill all of C near x, where C is convex, so they hang
+// together across facets that contain x, and x is in R. Whether a facet meets R need not be decided
+// exactly: crossing too many facets costs pages and loses nothing. The facet's box is compared with
+// the window, coordinate by coordinate and so without rounding.
+//
+// Where to begin: a walk leads to a point p of R, chosen near the middle of the domain. If p lies
+// in C, the simplex around it meets R. Else the walk ends at a ghost whose facet p sees, strictly
+// from beyond. From p to any point q of both R and C leads a straight line, inside R, that enters C
+// at a facet which p sees; so some facet that p sees meets R. The facets that p sees hang together
+// across ridges. So they are flooded first, and those that may meet R begin the other flood. If R
+// lies wholly beyond one of them, it does not meet C, and there is nothing to read. As a rule that
+// is the first one. At the worst p sees many facets, half of the hull at most.
+//
+// A mesh that is not Delaunay may have holes and pieces. The simplices in a window need not be
+// connected there, and only the pages tell where they are. So all pages are read once, and those
+// whose boxes do not meet the region are skipped. The same is done where the region covers much of
+// the domain, since a run over all pages takes less time than a flood.
+//
+// A flood meets pages in the order of the curve as far as it knows them; rewind() gives them again
+// in that order strictly.
+#pragma once
+
+#include "geometry/simplex_box.hpp"
+#include "query/pages/page_flood.hpp"
+#include "query/pages/page_scan.hpp"
+
+#include <abacus/mesh_header.h>
+
+#include <functional>
+#include <optional>
+
+namespace abacus {
+
+/// A closed convex part of the plane or of space.
+template <int D> class Region {
+public:
+    virtual ~Region() = default;
+
+    /// A point in it, at the middle of the domain or near to that.
+    virtual Point<D> inside(const Domain<D> &domain) const = 0;
+    /// Whether the hull of n points may meet it, n from 2 to 4. True where it does.
+    virtual bool may_meet(const Point<D> *const *points, int n) const = 0;
+    /// The same of a box.
+    virtual bool may_meet(const Box<D> &box) const = 0;
+    /// Whether all of it lies strictly beyond a ghost's facet; the last corner is not read. False
+    /// where it does not.
+    virtual bool lies_beyond(const Corners<D> &) const { return false; }
+    /// Whether so much of the domain lies in it that all pages should be read.
+    virtual bool has_much_of(const Domain<D> &) const { return false; }
+};
+
+template <int D> class BoxRegion final : public Region<D> {
+public:
+    explicit BoxRegion(const Box<D> &box) : box_(box) {}
+
+    Point<D> inside(const Domain<D> &domain) const override;
+    bool may_meet(const Point<D> *const *points, int n) const override;
+    bool may_meet(const Box<D> &box) const override { return box_.meets(box); }
+    bool lies_beyond(const Corners<D> &facet) const override;
+    bool has_much_of(const Domain<D> &domain) const override;
+
+private:
+    const Box<D> box_;
+};
+
+template <int D> class RangeScan {
+public:
+    /// Whether a page is wanted, by its heads: see PageView::open().
+    using Wants = std::function<bool(const PageView<D> &)>;
+
+    /// Of all pages if `region` is null. It is read as long as the scan. Pages that `wants` refuses
+    /// are passed over; many of them are not decoded.
+    RangeScan(const Host &host, const abacus_header &header, const Region<D> *region,
+              Wants wants = {});
+
+    /// Goes to the next page whose box may meet the region; false after the last. Which of its
+    /// simplices do the caller asks, of a window by meets(). Throws if a page is damaged or
+    /// missing.
+    bool advance();
+    /// After the last page: begins again, in the order of the curve.
+    void rewind();
+
+    const PageView<D> &page() const { return whole_ ? whole_->page() : flood_->page(); }
+    /// So far, those that were of no use and those read again included.
+    std::uint64_t pages_read() const {
+        return whole_ ? whole_->pages_read() : flood_->pages_read();
+    }
+
+private:
+    bool advance_any();
+    /// Reaches the first pages of the flood.
+    void begin();
+    void begin_outside(const Point<D> &p, const Key &page);
+    bool may_cross(int simplex, int facet) const;
+
+    const Host &host_;
+    const abacus_header header_;
+    const Region<D> *const region_;
+    const Wants wants_;
+    // One of the two.
+    std::optional<PageScan<D>> whole_;
+    std::optional<PageFlood<D>> flood_;
+};
+
+extern template class BoxRegion<2>;
+extern template class BoxRegion<3>;
+extern template class RangeScan<2>;
+extern template class RangeScan<3>;
+
+} // namespace abacus

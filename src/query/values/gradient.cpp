@@ -1,0 +1,133 @@
+#include "query/values/gradient.hpp"
+
+#include "geometry/double_double.hpp"
+#include "geometry/linear_system.hpp"
+#include "geometry/predicates.hpp"
+#include "geometry/rational.hpp"
+
+#include <algorithm>
+
+namespace abacus {
+
+namespace {
+
+constexpr double roundoff = 0x1p-53; // u in double_double.hpp
+
+template <class T, int D>
+LinearSystem<T, D> gradient_system(const abacus_simplex &simplex, const double *values) {
+    LinearSystem<T, D> system;
+    for (int i = 0; i < D; ++i) {
+        for (int axis = 0; axis < D; ++axis)
+            system.matrix[i][axis] = T(simplex.corner[i + 1][axis]) - T(simplex.corner[0][axis]);
+        system.right[i] = T(values[i + 1]) - T(values[0]);
+    }
+    return system;
+}
+
+/// A determinant of numbers of two doubles, and a bound on its error.
+struct Determinant {
+    DoubleDouble value;
+    double error;
+
+    bool is_sure() const { return std::fabs(value.high) > error; }
+};
+
+/// The entries are exact. A product of two is right to 5u², their difference to 3u² more, the
+/// product with a third to 5u² more, and the sum of three such to twice 3u²: to 19u² of the
+/// permanent altogether, to 32u² as it is computed here. Nothing overflows, and what underflows is
+/// less than a part of 2^-110, as long as all entries and the permanent are within bounds.
+template <int D>
+Determinant determinant_of(const typename LinearSystem<DoubleDouble, D>::Matrix &matrix) {
+    typename LinearSystem<double, D>::Matrix rounded;
+    double largest = 0;
+    for (int i = 0; i < D; ++i)
+        for (int axis = 0; axis < D; ++axis) {
+            rounded[i][axis] = matrix[i][axis].high;
+            largest = std::max(largest, std::fabs(rounded[i][axis]));
+        }
+    const double permanent = LinearSystem<double, D>::permanent(rounded);
+    const bool is_bounded = largest < 1e80 && permanent > 1e-200;
+    return {LinearSystem<DoubleDouble, D>::determinant(matrix),
+            is_bounded ? 32 * roundoff * roundoff * permanent : INFINITY};
+}
+
+/// The quotient, rounded once; nothing if it may be another double.
+std::optional<double> rounded_quotient(const Determinant &part, const Determinant &whole) {
+    if (!part.is_sure() || !whole.is_sure()) return std::nullopt;
+    const DoubleDouble quotient = part.value / whole.value;
+    const double size = std::fabs(quotient.high);
+    if (!(size > 1e-200 && size < 1e200)) return std::nullopt;
+    // Twice what it may be.
+    const double error = 4 * size *
+                         (part.error / std::fabs(part.value.high) +
+                          whole.error / std::fabs(whole.value.high) + 16 * roundoff * roundoff);
+    const double least = quotient.high + (quotient.low - error),
+                 greatest = quotient.high + (quotient.low + error);
+    return least == greatest ? std::optional(least) : std::nullopt;
+}
+
+/// Whether the values at the corners do not change along an axis.
+template <int D> bool is_level(const abacus_simplex &simplex, const double *values, int axis) {
+    std::array<Point<D>, D + 1> points;
+    Corners<D> corners;
+    for (int i = 0; i <= D; ++i) {
+        std::copy_n(simplex.corner[i], D, points[i].begin());
+        points[i][axis] = values[i];
+        corners[i] = &points[i];
+    }
+    return orientation<D>(corners) == 0;
+}
+
+template <int D> double exact_part(const abacus_simplex &simplex, const double *values, int axis) {
+    using exact::Rational;
+    const auto system = gradient_system<Rational, D>(simplex, values);
+    const Rational whole = system.determinant(system.matrix);
+    if (whole == 0) throw_corrupted("A simplex is flat.");
+    return exact::nearest_double(Rational(system.with_right_side(axis) / whole));
+}
+
+} // namespace
+
+template <int D> Point<D> gradient_in(const abacus_simplex &simplex, const double *values) {
+    const auto system = gradient_system<DoubleDouble, D>(simplex, values);
+    const Determinant whole = determinant_of<D>(system.matrix);
+    Point<D> gradient;
+    for (int axis = 0; axis < D; ++axis) {
+        auto matrix = system.matrix;
+        for (int i = 0; i < D; ++i) matrix[i][axis] = system.right[i];
+        const Determinant part = determinant_of<D>(matrix);
+        if (const auto quotient = rounded_quotient(part, whole))
+            gradient[axis] = *quotient;
+        else if (!part.is_sure() && is_level<D>(simplex, values, axis))
+            gradient[axis] = 0;
+        else
+            gradient[axis] = exact_part<D>(simplex, values, axis);
+    }
+    return gradient;
+}
+
+template <int D>
+bool gradient_at(Reader<D> &reader, const abacus_interpolation &what, const Point<D> &p,
+                 double *gradient) {
+    abacus_simplex simplex;
+    CornerValues carried(what.attribute, 1);
+    if (!reader.locate(p, simplex, &carried, what.max_edge)) return false;
+    std::array<double, D + 1> values;
+    bool is_finite = true;
+    for (int i = 0; i <= D; ++i) {
+        values[i] = carried.value(i, 0);
+        is_finite = is_finite && std::isfinite(values[i]);
+    }
+    Point<D> result;
+    result.fill(NAN);
+    if (is_finite) result = gradient_in<D>(simplex, values.data());
+    std::copy(result.begin(), result.end(), gradient);
+    return true;
+}
+
+template Point<2> gradient_in<2>(const abacus_simplex &, const double *);
+template Point<3> gradient_in<3>(const abacus_simplex &, const double *);
+template bool gradient_at<2>(Reader<2> &, const abacus_interpolation &, const Point<2> &, double *);
+template bool gradient_at<3>(Reader<3> &, const abacus_interpolation &, const Point<3> &, double *);
+
+} // namespace abacus

@@ -1,0 +1,22 @@
+// The gradient of what varies linearly in a simplex.
+//
+// It solves (corner i − corner 0) · g = value i − value 0, by Cramer's rule. Each number is the
+// exact one, rounded once: it is computed with 106 bits, and where these do not tell how it is
+// rounded, as in a flat simplex, in rational numbers.
+#pragma once
+
+#include "query/locate/reader.hpp"
+
+#include <abacus/values.h>
+
+namespace abacus {
+
+/// The gradient in a simplex that is not flat, of finite values at its corners.
+template <int D> Point<D> gradient_in(const abacus_simplex &simplex, const double *values);
+/// Sets the gradient of the first attribute at p, D numbers, each NaN if a corner has no finite
+/// value; false outside.
+template <int D>
+bool gradient_at(Reader<D> &reader, const abacus_interpolation &what, const Point<D> &p,
+                 double *gradient);
+
+} // namespace abacus

@@ -1,0 +1,101 @@
+#include "query/values/interpolation.hpp"
+
+#include "query/locate/nearest.hpp"
+#include "query/values/barycentric.hpp"
+#include "query/values/weighted_mean.hpp"
+
+namespace abacus {
+
+template <int D>
+bool Interpolation<D>::weigh_corners(Reader<D> &reader, const abacus_interpolation &what,
+                                     const Point<D> &p) {
+    abacus_simplex simplex;
+    CornerValues carried(what.attribute, what.attributes);
+    if (!reader.locate(p, simplex, &carried, what.max_edge)) return false;
+    const std::array<double, D + 1> weights = barycentric_weights<D>(simplex, p);
+    for (int i = 0; i <= D; ++i)
+        add(what, simplex.id[i], weights[i], [&](std::uint32_t n) { return carried.value(i, n); });
+    return true;
+}
+
+template <int D>
+bool Interpolation<D>::weigh_natural(Reader<D> &reader, const abacus_interpolation &what,
+                                     const Point<D> &p) {
+    if (!reader.is_delaunay())
+        throw Error(ABACUS_ERROR_STATE, "natural neighbours need a Delaunay mesh", "",
+                    "Use the method linear, or load the mesh with retriangulate => true.");
+    abacus_simplex simplex;
+    if (what.max_edge != no_max_edge && !reader.locate(p, simplex, nullptr, what.max_edge))
+        return false;
+    const Handle h = reader.simplex_around(p);
+    Cache<D> &cache = reader.cache();
+    if (h == no_handle || cache.simplex(h).is_ghost()) return false;
+    const VertexHeap<D> &vertices = cache.vertices();
+    const auto add_vertex = [&](VertexIndex v, double weight) {
+        add(what, vertices.id(v), weight, [&](std::uint32_t n) {
+            const auto attribute = static_cast<int>(what.attribute[n]);
+            return reader.vertex_values().value(vertices, v, attribute);
+        });
+    };
+    for (const VertexIndex v : cache.simplex(h).vertex)
+        if (cache.point(v) == p) {
+            add_vertex(v, 1);
+            return true;
+        }
+    if (!sibson_.find(cache, h, p)) return weigh_corners(reader, what, p);
+    for (std::size_t i = 0; i < sibson_.count(); ++i)
+        add_vertex(sibson_.vertex(i), sibson_.weight(i));
+    return true;
+}
+
+template <int D>
+bool Interpolation<D>::weigh_nearest(Reader<D> &reader, const abacus_interpolation &what,
+                                     const Point<D> &p) {
+    bool is_found = false;
+    Nearest<D>(reader).find(p, 1, [&](const std::uint64_t *record) {
+        const double *attributes = record_attributes<D>(record);
+        add(what, record_id(record), 1,
+            [&](std::uint32_t n) { return attributes[what.attribute[n]]; });
+        is_found = true;
+    });
+    return is_found;
+}
+
+template <int D>
+bool Interpolation<D>::weigh(Reader<D> &reader, const abacus_interpolation &what,
+                             const Point<D> &p) {
+    weights_.clear();
+    values_.clear();
+    abacus_simplex simplex;
+    bool is_inside = false;
+    switch (what.method) {
+    case ABACUS_LINEAR:
+        is_inside = weigh_corners(reader, what, p);
+        break;
+    case ABACUS_NATURAL:
+        is_inside = weigh_natural(reader, what, p);
+        break;
+    case ABACUS_NEAREST:
+        is_inside = what.outside == ABACUS_OUTSIDE_NOTHING &&
+                    reader.locate(p, simplex, nullptr, what.max_edge) &&
+                    weigh_nearest(reader, what, p);
+        break;
+    }
+    return is_inside || (what.outside == ABACUS_OUTSIDE_NEAREST && weigh_nearest(reader, what, p));
+}
+
+template <int D>
+bool Interpolation<D>::values(Reader<D> &reader, const abacus_interpolation &what,
+                              const Point<D> &p, double *values) {
+    if (!weigh(reader, what, p)) return false;
+    for (std::uint32_t n = 0; n < what.attributes; ++n)
+        values[n] = weighted_mean(
+            weights_.size(), [&](std::size_t i) { return weights_[i].weight; },
+            [&](std::size_t i) { return values_[i * what.attributes + n]; });
+    return true;
+}
+
+template class Interpolation<2>;
+template class Interpolation<3>;
+
+} // namespace abacus

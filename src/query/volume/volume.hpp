@@ -1,0 +1,56 @@
+// Areas and volumes of what a mesh stands for.
+//
+// In the plane an attribute is a surface over the mesh. Asked for is what lies between it and a
+// base, or between the surfaces of two meshes. In space the part is asked for where the attribute
+// is at least the base.
+//
+// Simplices are cut into pieces on which all is linear (geometry/piece.hpp): at the border of a
+// window, at the edges of the other mesh, and where the surface crosses the base. What a simplex
+// adds is computed from its corners in a fixed order, as seen from the first of them; and the sums
+// are exact (geometry/exact_sum.hpp). So the result does not depend on the order in which
+// simplices come, nor on where pages end, nor on how the mesh came about.
+#pragma once
+
+#include "geometry/exact_sum.hpp"
+#include "geometry/piece.hpp"
+#include "query/volume/overlaps.hpp"
+
+#include <abacus/volume.h>
+
+namespace abacus {
+
+/// The sums of pieces so far.
+template <int D> class Volume {
+public:
+    /// In the plane a piece of the surface: its values are heights above the base. In space the
+    /// base is 0 of its values.
+    void add(const Piece<D> &piece);
+    /// The same of a piece of what lies between two surfaces, the first of which is so many times
+    /// as large as what is below it.
+    void add(const Piece<D> &piece, double steepness);
+
+    abacus_volume sums() const {
+        return {area_.value(), surface_.value(), cut_.value(), fill_.value()};
+    }
+
+private:
+    void add_sides(const Piece<D> &piece);
+
+    ExactSum area_, surface_, cut_, fill_;
+};
+
+/// Of a mesh over a base. Simplices with a corner that has no finite value are left out.
+template <int D>
+abacus_volume volume_above(const Host &host, const abacus_header &header,
+                           const abacus_surface &surface, double base);
+
+/// Between a mesh and another one, both of dimension 2; `cache_bytes` for the other's simplices.
+abacus_volume volume_between(const Host &host, const abacus_header &header,
+                             const abacus_surface &surface, const Host &other_host,
+                             const abacus_header &other, std::uint32_t other_attribute,
+                             std::size_t cache_bytes);
+
+extern template class Volume<2>;
+extern template class Volume<3>;
+
+} // namespace abacus
