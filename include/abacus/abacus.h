@@ -52,6 +52,7 @@
 #include "abacus/scan.h"
 #include "abacus/shapes.h"
 #include "abacus/simplex.h"
+#include "abacus/standing.h"
 #include "abacus/surface.h"
 #include "abacus/tile.h"
 #include "abacus/values.h"

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "abacus/host_functions.h"
+#include "abacus/standing.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -69,28 +70,6 @@ typedef struct abacus_counters
 
 /* ---- Header of a mesh ----------------------------------------------------- */
 
-/*
- * How a mesh is related to the Delaunay triangulation of its vertices. Under the symbolic
- * perturbation there is only one, which the core makes. Any other mesh was loaded
- * (abacus_load_open).
- */
-typedef enum abacus_delaunay
-{
-	ABACUS_DELAUNAY = 0,    /* is that one, and can be changed */
-	ABACUS_NOT_DELAUNAY,    /* a vertex lies inside the circumsphere of a simplex */
-	ABACUS_WEAKLY_DELAUNAY, /* all circumspheres are empty, but of cospherical vertices others
-							   were joined */
-	ABACUS_NOT_CONVEX       /* its boundary is not the convex hull of the vertices: there are
-							   holes, notches or pieces */
-} abacus_delaunay;
-
-/*
- * The same in words: a clause about the mesh, and a sentence that says why. Not for
- * ABACUS_DELAUNAY.
- */
-ABACUS_API const char *abacus_delaunay_clause(abacus_delaunay delaunay);
-ABACUS_API const char *abacus_delaunay_reason(abacus_delaunay delaunay);
-
 /* The greatest number of a spatial reference system, as in PostGIS. */
 #define ABACUS_MAX_SRID 999999
 
@@ -126,9 +105,8 @@ typedef struct abacus_header
 	uint64_t duplicates;   /* further points of the mesh, each equal to a vertex */
 	uint64_t serials;      /* serial number of the next such point */
 	uint64_t simplices;
-	uint64_t ghosts;       /* hull facets; facets of the boundary if not_delaunay */
-	uint32_t not_delaunay; /* an abacus_delaunay. Unless 0 the mesh is read, never changed; its
-							  vertices are listed in staged pages; staged = inserted = vertices */
+	uint64_t ghosts;       /* facets of the boundary, which is the convex hull of a Delaunay mesh */
+	uint32_t standing;     /* an abacus_delaunay; what follows from it is in standing.h */
 	uint32_t srid;         /* spatial reference system of the coordinates, to ABACUS_MAX_SRID; 0: unknown */
 	uint32_t levels;       /* of an octree: the finest that a leaf may have; */
 	uint64_t leaves;       /* ... of the above it has a domain, attributes, a stamp and an SRID */

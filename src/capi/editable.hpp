@@ -10,8 +10,8 @@ namespace abacus {
 /// Throws an Error (state) for a mesh that is not Delaunay: insertion and deletion rely on
 /// empty circumspheres and a convex hull.
 inline void require_editable(const abacus_header &header) {
-    if (header.not_delaunay == 0) return;
-    const auto delaunay = static_cast<abacus_delaunay>(header.not_delaunay);
+    if (abacus_is_editable(header.standing)) return;
+    const auto delaunay = static_cast<abacus_delaunay>(header.standing);
     throw Error(ABACUS_ERROR_STATE, abacus_delaunay_clause(delaunay),
                 std::string(abacus_delaunay_reason(delaunay)) +
                     " The mesh was loaded by abacus_load() and can be read, not changed.",

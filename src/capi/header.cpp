@@ -106,7 +106,7 @@ template <class Header, class Visit> void visit_fields(Header &header, Visit &vi
     visit(header.serials);
     visit(header.simplices);
     visit(header.ghosts);
-    visit(header.not_delaunay);
+    visit(header.standing);
 }
 template <class Header, class Visit> void visit_octree_fields(Header &header, Visit &visit) {
     visit(header.dimension);
@@ -134,8 +134,8 @@ void check_counts(const abacus_header &header) {
         header.serials >= count_limit || header.duplicates > header.serials ||
         (header.vertices == 0 && header.duplicates > 0))
         throw_corrupted("The header's counts of points contradict each other.");
-    if (header.not_delaunay > ABACUS_NOT_CONVEX ||
-        (header.not_delaunay != ABACUS_DELAUNAY &&
+    if (header.standing > ABACUS_NOT_CONVEX ||
+        (header.standing != ABACUS_DELAUNAY &&
          (header.simplices == 0 || header.staged != header.vertices ||
           header.inserted != header.vertices || header.serials > 0)))
         throw_corrupted("The header's mark of a mesh that is not Delaunay is not valid.");
@@ -207,7 +207,7 @@ void check_labels(const abacus_header &header) {
 
 void check_split(const abacus_header &header) {
     if (header.split > 0 && (header.split < 2 || header.split > header.vertices ||
-                             header.not_delaunay == 0 || header.apart != 0))
+                             header.standing == ABACUS_DELAUNAY || header.apart != 0))
         throw_corrupted("The header's count of vertices that share their places is not valid.");
 }
 

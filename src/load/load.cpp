@@ -136,7 +136,7 @@ template <int D> void Load<D>::write(abacus_header &header) {
         set_domain(header, box_);
     header.vertices = vertex_count_;
     header.simplices = simplex_count_;
-    header.not_delaunay = outcome();
+    header.standing = outcome();
     header.split = split_count_;
     if (!is_delaunay) header.staged = header.inserted = vertex_count_;
 }

@@ -77,7 +77,7 @@ template <int D> void Growth<D>::to_levels(abacus_header &header) {
         return;
     }
     SplitOctants<D> octants(host_), wanted(host_);
-    expect_places([this](auto split_to) { each_place(split_to); });
+    expect_places([this](auto split_to) { this->each_place(split_to); });
     each_place([&](std::uint64_t cell, int level) { wanted.split_to(cell, level); });
     places_.close();
     read(octants, header);

@@ -149,7 +149,7 @@ void Maker::sample() {
 /// By walking around it. In a mesh that is not Delaunay all pages would have to be read.
 void Maker::find_hull() {
     hull_.clear();
-    if (header_.not_delaunay != 0) return;
+    if (!abacus_links_ghosts(header_.standing)) return;
     Outline<2> outline(host_, header_, {}, memory_.sort, memory_.cache);
     abacus_outline_row row;
     std::optional<Point<2>> first, last;

@@ -392,7 +392,7 @@ TEST(Header, TheFormatTellsWhereAttributesAre) {
 
 TEST(Header, OfVerticesThatShareTheirPlaces) {
     abacus_header header = full_header(2);
-    header.not_delaunay = ABACUS_NOT_CONVEX;
+    header.standing = ABACUS_NOT_CONVEX;
     header.staged = header.inserted = header.vertices;
     header.serials = header.duplicates = 0;
     EXPECT_EQ(encode(header)[6], 3);
@@ -427,7 +427,7 @@ TEST(Header, OfVerticesThatShareTheirPlaces) {
     EXPECT_TRUE(refused([](abacus_header &h) { h.split = 1; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.split = h.vertices + 1; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.apart = 1; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.not_delaunay = ABACUS_DELAUNAY; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.standing = ABACUS_DELAUNAY; }));
 }
 
 TEST(Header, EveryTruncationIsRefused) {
@@ -474,16 +474,16 @@ TEST(Header, ContradictionsAreRefused) {
 TEST(Header, OfAMeshThatIsNotDelaunay) {
     const auto taken = [](auto change) {
         abacus_header header = full_header(1);
-        header.not_delaunay = 1;
+        header.standing = 1;
         header.staged = header.inserted = header.vertices;
         header.duplicates = header.serials = 0;
         change(header);
         abacus_header decoded;
-        return decodes(encode(header), &decoded) && decoded.not_delaunay == header.not_delaunay;
+        return decodes(encode(header), &decoded) && decoded.standing == header.standing;
     };
     for (const std::uint32_t why : {ABACUS_NOT_DELAUNAY, ABACUS_WEAKLY_DELAUNAY, ABACUS_NOT_CONVEX})
-        EXPECT_TRUE(taken([&](abacus_header &h) { h.not_delaunay = why; }));
-    EXPECT_FALSE(taken([](abacus_header &h) { h.not_delaunay = ABACUS_NOT_CONVEX + 1; }));
+        EXPECT_TRUE(taken([&](abacus_header &h) { h.standing = why; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.standing = ABACUS_NOT_CONVEX + 1; }));
     EXPECT_FALSE(taken([](abacus_header &h) { h.inserted = 0; }));
     EXPECT_FALSE(taken([](abacus_header &h) { ++h.staged; }));
     EXPECT_FALSE(taken([](abacus_header &h) { h.serials = 1; }));

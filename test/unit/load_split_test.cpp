@@ -158,7 +158,7 @@ TYPED_TEST(LoadSplit, WhatIsGivenIsThereAndSound) {
             if (attributes > 0) mesh.host.set_threads(3, true);
             ASSERT_EQ(mesh.load(t.vertices, t.simplices, memory), ABACUS_OK)
                 << mesh.error.message << ' ' << mesh.error.detail;
-            EXPECT_NE(mesh.header.not_delaunay, 0u);
+            EXPECT_NE(mesh.header.standing, 0u);
             EXPECT_GT(mesh.header.split, 0u);
             EXPECT_EQ(mesh.header.split, split(t));
             EXPECT_EQ(mesh.header.vertices, t.vertices.size());
@@ -208,7 +208,7 @@ TYPED_TEST(LoadSplit, TwoAtOnePlaceAreRefusedUnlessTheyAreWanted) {
     ASSERT_EQ(one.load(whole.vertices, whole.simplices), ABACUS_OK);
     ASSERT_EQ(other.load(whole.vertices, whole.simplices), ABACUS_OK);
     EXPECT_EQ(other.header.split, 0u);
-    EXPECT_EQ(other.header.not_delaunay, one.header.not_delaunay);
+    EXPECT_EQ(other.header.standing, one.header.standing);
 }
 
 /// Simplices with vertices of their own at the places of others.

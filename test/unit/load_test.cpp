@@ -52,7 +52,7 @@ void expect_loads(MeshOf<D> &mesh, Triangulation<D> t, abacus_delaunay delaunay,
     ASSERT_EQ(mesh.load(t.vertices, t.simplices, memory), ABACUS_OK)
         << mesh.error.message << ' ' << mesh.error.detail;
     EXPECT_EQ(mesh.loaded_as, delaunay);
-    EXPECT_EQ(mesh.header.not_delaunay, static_cast<std::uint32_t>(delaunay));
+    EXPECT_EQ(mesh.header.standing, static_cast<std::uint32_t>(delaunay));
     EXPECT_EQ(mesh.header.simplices, t.simplices.size());
     EXPECT_EQ(mesh.header.vertices, t.vertices.size());
     EXPECT_EQ(stored<D>(mesh), sorted<D>(t.simplices));
@@ -185,7 +185,7 @@ TYPED_TEST(Load, VerticesAreTriangulatedAnewIfThatIsWanted) {
             std::vector<Point<D>> points;
             for (const auto &v : t.vertices) points.push_back(v.point);
             EXPECT_EQ(mesh.positions(), cgal_simplices<D>(points));
-            EXPECT_EQ(mesh.header.not_delaunay, 0u);
+            EXPECT_EQ(mesh.header.standing, 0u);
             EXPECT_EQ(mesh.check(), std::vector<std::string>{});
             EXPECT_TRUE(mesh.host.spools.empty());
             EXPECT_EQ(mesh.host.bytes, 0u);

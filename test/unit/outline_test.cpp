@@ -113,7 +113,7 @@ template <int D> void expect_outlines(MeshOf<D> &mesh, std::initializer_list<dou
     for (const double size : sizes) {
         SCOPED_TRACE(size);
         std::vector<abacus_outline_kind> kinds{{size, 0, 0, 0}};
-        if (mesh.header.not_delaunay == 0) kinds.push_back({0, 1, size * size, 0});
+        if (mesh.header.standing == 0) kinds.push_back({0, 1, size * size, 0});
         for (const abacus_outline_kind &kind : kinds) {
             const auto expected = border_by_hand<D>(mesh, kind);
             EXPECT_TRUE(facets_of<D>(read<D>(mesh, kind, little)) == expected);
@@ -162,7 +162,7 @@ template <int D> void expect_outlines_of_pinched(bool is_even) {
     });
     MeshOf<D> mesh(0);
     ASSERT_EQ(mesh.load(t.vertices, t.simplices), ABACUS_OK) << mesh.error.message;
-    ASSERT_NE(mesh.header.not_delaunay, 0u);
+    ASSERT_NE(mesh.header.standing, 0u);
     expect_outlines<D>(mesh, {0, 1.2, 1.5, 9});
 }
 

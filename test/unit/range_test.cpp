@@ -205,7 +205,7 @@ TYPED_TEST(Range, HasAllSimplicesOfLoadedMeshes) {
     });
     MeshOf<D> mesh;
     ASSERT_EQ(mesh.load(shells.vertices, shells.simplices), ABACUS_OK) << mesh.error.message;
-    ASSERT_EQ(mesh.header.not_delaunay, ABACUS_NOT_CONVEX);
+    ASSERT_EQ(mesh.header.standing, ABACUS_NOT_CONVEX);
     expect_all<D>(mesh, boxes<D>(points, random));
 }
 

@@ -126,7 +126,7 @@ header_open_vertices(Host *host, const abacus_header *header)
 	mesh_pages_vertex_table(pages);
 	if (header->duplicates > 0)
 		found = mesh_pages_any(pages, ABACUS_REPEATED_PAGES);
-	else if (header->inserted < header->staged || header->not_delaunay)
+	else if (header->inserted < header->staged || abacus_lists_vertices(header->standing))
 		found = mesh_pages_any(pages, ABACUS_STAGED_PAGES);
 	if (!found)
 		page_table_refuse_newer(&pages->vertices);

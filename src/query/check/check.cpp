@@ -27,7 +27,7 @@ Check<D>::Check(const Host &host, const abacus_header &header, std::size_t cache
     // Two pages that differ about a vertex are found where the cache has both. In a Delaunay mesh
     // it has them at some time: all pages around a vertex are loaded together. In another one it
     // may not, and what is found otherwise is reported as if it had been looked for alone.
-    if (together && header.not_delaunay != 0 && faults_.size() > before) {
+    if (together && !abacus_is_delaunay(header.standing) && faults_.size() > before) {
         faults_.shorten(before);
         check_links_and_points(nullptr);
     }
@@ -53,7 +53,8 @@ template <int D> void Check<D>::check_links_and_points(Together *together) {
     if (is_sound()) faults_.run("point", [&] { check_repeated_points(); });
     if (is_sound())
         faults_.run("point", [&] {
-            header_.not_delaunay != 0 ? check_listed_vertices() : check_waiting_points();
+            abacus_lists_vertices(header_.standing) ? check_listed_vertices()
+                                                    : check_waiting_points();
         });
 }
 
@@ -69,7 +70,7 @@ template <int D> void Check<D>::report(std::uint64_t pages, unsigned threads) {
 /// What need not hold of a header that can be read; the rest capi/header.cpp has seen to.
 template <int D> void Check<D>::check_header() {
     const abacus_header &h = header_;
-    if (D == 2 && h.simplices > 0 && h.not_delaunay == 0 &&
+    if (D == 2 && h.simplices > 0 && abacus_is_delaunay(h.standing) &&
         h.simplices + h.ghosts + 2 != 2 * h.vertices)
         faults_.add("euler", first_key, "Vertices, triangles and hull edges do not add up.");
 }
@@ -104,7 +105,7 @@ template <int D> void Check<D>::check_topology() {
         report_some(++pages);
         return true;
     });
-    if (header_.not_delaunay == 0) check_stars(check.stars().counts());
+    if (abacus_is_delaunay(header_.standing)) check_stars(check.stars().counts());
 }
 
 template <int D> void Check<D>::check_stars(const StarCounts &stars) {

@@ -7,7 +7,7 @@ namespace abacus {
 template <int D>
 TopologyCheck<D>::TopologyCheck(const Host &host, const abacus_header &header,
                                 std::size_t cache_bytes, FaultList &faults)
-    : is_delaunay_(header.not_delaunay == 0), faults_(faults),
+    : is_delaunay_(abacus_is_delaunay(header.standing)), faults_(faults),
       reader_(host, header,
               {.budget = cache_bytes, .verify_links = true, .verify_checksums = false}),
       cache_(reader_.cache()), own_(cache_), stars_(cache_) {}

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t attributes_share = 8;
 
 CacheOptions linked_as(const abacus_header &header, CacheOptions options) {
-    options.linked_ghosts = header.not_delaunay == 0;
+    options.linked_ghosts = abacus_links_ghosts(header.standing);
     options.split_nodes = header.split > 0;
     if (header.apart != 0) options.budget -= options.budget / attributes_share;
     return options;
@@ -36,7 +36,7 @@ template <int D>
 Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOptions &options,
                   bool in_order)
     : header_(header), size_(header.simplices == 0 ? 0 : header.simplices + header.ghosts),
-      delaunay_(header.not_delaunay == 0), in_order_(in_order),
+      delaunay_(abacus_is_delaunay(header.standing)), in_order_(in_order),
       budget_(linked_as(header, options).budget),
       vertex_values_(host, header, options.budget / attributes_share),
       cache_(host, domain_of<D>(header), page_attributes(header), linked_as(header, options)),

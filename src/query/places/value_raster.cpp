@@ -198,7 +198,7 @@ template <int D>
 template <class Visit>
 void ValueRaster<D>::each_page(const Box<D> &band, Visit visit) {
     const BoxRegion<D> region(band);
-    if (header_.not_delaunay == 0) {
+    if (abacus_floods_pages(header_.standing)) {
         RangeScan<D> pages(host_, header_, &region);
         while (pages.advance()) visit(pages.page());
         return;

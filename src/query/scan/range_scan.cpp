@@ -73,8 +73,8 @@ template <int D>
 RangeScan<D>::RangeScan(const Host &host, const abacus_header &header, const Region<D> *region,
                         Wants wants)
     : host_(host), header_(header), region_(region), wants_(std::move(wants)) {
-    const bool is_whole = region == nullptr || header.not_delaunay != 0 || header.simplices == 0 ||
-                          region->has_much_of(domain_of<D>(header));
+    const bool is_whole = region == nullptr || !abacus_floods_pages(header.standing) ||
+                          header.simplices == 0 || region->has_much_of(domain_of<D>(header));
     if (is_whole) {
         whole_.emplace(host, header_);
     } else {

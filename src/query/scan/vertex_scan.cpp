@@ -18,7 +18,7 @@ template <int D> void fill(abacus_vertex &vertex, const std::uint64_t *record) {
 
 template <int D>
 VertexScan<D>::VertexScan(const Host &host, const abacus_header &header, std::size_t cache_bytes)
-    : attributes_(header.attributes), listed_(header.not_delaunay != 0),
+    : attributes_(header.attributes), listed_(abacus_lists_vertices(header.standing)),
       mesh_(host, header, cache_bytes), own_(mesh_.cache()),
       page_(header.vertices > 0 ? first_key : end_key), records_(host),
       vertices_left_(header.vertices), repeated_(host, domain_of<D>(header), header.attributes),

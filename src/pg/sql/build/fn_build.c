@@ -189,7 +189,7 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 	simplices->superseded = superseded_create(host->home);
 	progress_in_batches(&host->progress, header->staged - header->inserted);
 	/* what is no Delaunay triangulation has no points that wait, and may yet have to be bound */
-	if (!header->not_delaunay)
+	if (abacus_is_editable(header->standing))
 		insert_all(&writer, (uint64) batch);
 	compact(&writer, true, true);
 	vertices = mesh_pages_vertex_table(mesh_pages(host));

@@ -176,10 +176,11 @@ put_counts(Figures *figures, const abacus_header *header)
 			   "points in the triangulation that equal an earlier one");
 	put_figure(figures, "simplices", (double) header->simplices, "simplices of the mesh");
 	put_figure(figures, "hull_facets", (double) header->ghosts,
-			   header->not_delaunay ? "facets of its boundary" : "facets of its convex hull");
+			   abacus_is_delaunay(header->standing) ? "facets of its convex hull"
+			   : "facets of its boundary");
 	put_figure(figures, "outside", (double) header->outside,
 			   "points that the domain does not fit, since it was last chosen");
-	put_delaunay(figures, header->not_delaunay);
+	put_delaunay(figures, header->standing);
 	if (header->split > 0)
 		put_figure(figures, "split_nodes", (double) header->split,
 				   "vertices that share their place with another one");
@@ -198,7 +199,7 @@ report_domain(Reader *reader)
 	const abacus_header *header = &reader->header;
 	int			fits;
 
-	if (header->not_delaunay)
+	if (!abacus_is_editable(header->standing))
 		return;
 	host_run(host, abacus_domain_fits, &host->table, header, &fits);
 	if (!fits)

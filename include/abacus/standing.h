@@ -1,0 +1,82 @@
+/*
+ * standing.h: how a mesh stands to the Delaunay triangulation of its vertices, and what follows.
+ */
+#ifndef ABACUS_ABACUS_STANDING_H
+#define ABACUS_ABACUS_STANDING_H
+
+#include "abacus/host_functions.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*
+ * How a mesh is related to the Delaunay triangulation of its vertices. Under the symbolic
+ * perturbation there is only one, which the core makes. Any other mesh was loaded
+ * (abacus_load_open).
+ */
+typedef enum abacus_delaunay
+{
+	ABACUS_DELAUNAY = 0,    /* is that one, and can be changed */
+	ABACUS_NOT_DELAUNAY,    /* a vertex lies inside the circumsphere of a simplex */
+	ABACUS_WEAKLY_DELAUNAY, /* all circumspheres are empty, but of cospherical vertices others
+							   were joined */
+	ABACUS_NOT_CONVEX       /* its boundary is not the convex hull of the vertices: there are
+							   holes, notches or pieces */
+} abacus_delaunay;
+
+/*
+ * The same in words: a clause about the mesh, and a sentence that says why. Not for
+ * ABACUS_DELAUNAY.
+ */
+ABACUS_API const char *abacus_delaunay_clause(abacus_delaunay delaunay);
+ABACUS_API const char *abacus_delaunay_reason(abacus_delaunay delaunay);
+
+/*
+ * What follows. Today one word decides all five, but they are not one: each is asked for where it
+ * is what counts.
+ */
+
+/* Points may be inserted and deleted. */
+static inline int
+abacus_is_editable(uint32_t standing)
+{
+	return standing == ABACUS_DELAUNAY;
+}
+
+/* Ghosts are linked across their ridges: one can walk around the boundary, and beside it. */
+static inline int
+abacus_links_ghosts(uint32_t standing)
+{
+	return standing == ABACUS_DELAUNAY;
+}
+
+/* Vertices are listed in staged pages, in the order of the curve: staged = inserted = vertices. */
+static inline int
+abacus_lists_vertices(uint32_t standing)
+{
+	return standing != ABACUS_DELAUNAY;
+}
+
+/* The pages that meet a convex region hang together: a flood from one of them finds all. */
+static inline int
+abacus_floods_pages(uint32_t standing)
+{
+	return standing == ABACUS_DELAUNAY;
+}
+
+/*
+ * Circumspheres are empty and the boundary is convex: walks arrive, natural neighbours and alpha
+ * shapes are defined, and Euler's relation holds.
+ */
+static inline int
+abacus_is_delaunay(uint32_t standing)
+{
+	return standing == ABACUS_DELAUNAY;
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
