@@ -1,12 +1,14 @@
 #include "tiles/vector_tile.hpp"
 
 #include "geometry/longer_edge.hpp"
+#include "geometry/tetrahedron_cut.hpp"
 #include "query/pages/page_simplex.hpp"
 #include "query/pages/page_values.hpp"
 #include "query/shapes/outline.hpp"
 #include "tiles/tile_lines.hpp"
 #include "tiles/tile_samples.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -238,7 +240,8 @@ void Maker::add_vertices(VectorLayer &layer) const {
 template <class Visit> void each_range(const Arena<Triangle> &triangles, Visit visit) {
     for (const Triangle &t : triangles) {
         const auto [least, most] = std::minmax({t[0].value, t[1].value, t[2].value});
-        if (std::isfinite(t[0].value + t[1].value + t[2].value)) visit(t, least, most);
+        const auto has_value = [](const Corner &corner) { return std::isfinite(corner.value); };
+        if (std::all_of(t.begin(), t.end(), has_value)) visit(t, least, most);
     }
 }
 
@@ -273,7 +276,7 @@ void Maker::add_contours(VectorLayer &layer) const {
                 if ((from.value >= level) == is_above) continue;
                 // Upwards, so that both triangles of an edge find the same point.
                 const Corner &low = is_above ? from : to, &high = is_above ? to : from;
-                const double share = (level - low.value) / (high.value - low.value);
+                const double share = share_at(level, low.value, high.value);
                 Point<2> &at = is_above ? rise : fall;
                 for (int k = 0; k < 2; ++k) at[k] = std::lerp(low.at[k], high.at[k], share);
             }

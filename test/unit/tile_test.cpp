@@ -246,6 +246,27 @@ TEST(VectorTile, TrianglesFillTheWindow) {
     EXPECT_EQ(read.count("hull"), 0u);
 }
 
+/// Values whose differences and sums are no doubles.
+TEST(VectorTile, ContoursOfTheGreatestValues) {
+    MeshOf<2> mesh(1);
+    std::vector<InputOf<2>> input;
+    for (int i = 0; i < 4; ++i) {
+        const double east = i % 2;
+        input.push_back({i, {7 + east, 46.0 + i / 2}, {east == 0 ? -1.5e308 : 1.5e308}});
+    }
+    ASSERT_EQ(mesh.insert(input), ABACUS_OK);
+    const abacus_tile tile = tile_at(8, 7.5, 46.5);
+    const double middle = ((7.5 + 180) / 360 * 256 - tile.x) * 4096;
+    std::size_t lines = 0;
+    for (const ReadFeature &f : read_vector(mesh, tile, {0, 1e308, 0}).at("contours")) {
+        if (f.tags.at("value") != 0) continue;
+        for (const auto &line : f.parts)
+            for (const TilePoint &p : line) EXPECT_NEAR(p.x, middle, 1.01);
+        ++lines;
+    }
+    EXPECT_EQ(lines, 1u);
+}
+
 /// Where lines cross the seam between a tile and the one to its right.
 std::map<double, std::vector<int>> crossings(const ReadTile &tile, int seam) {
     std::map<double, std::vector<int>> result;
