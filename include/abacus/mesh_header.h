@@ -118,7 +118,7 @@ typedef struct abacus_header
 	uint64_t labelled;     /* simplices that have some */
 	uint64_t marked;       /* simplices beside a facet with a marker */
 	uint32_t inherits;     /* 1: a new simplex gets the labels of the one that its centroid lay in */
-	uint64_t split;        /* vertices that share their place with another one, told apart by id;
+	uint64_t split;        /* vertices that share their place with another one, separated by id;
 							  unless 0 the mesh was loaded and is not Delaunay, and no attribute is
 							  apart */
 	char names[ABACUS_MAX_NAMES][ABACUS_NAME_BYTES]; /* of attributes, then of labels */

@@ -169,7 +169,7 @@ private:
     void make_repeated_wait(VertexPageWriter &pages);
     /// Erases all pages of a kind.
     void erase_pages(abacus_page_kind kind);
-    /// Begins anew without a triangulation.
+    /// Starts over without a triangulation.
     void forget_simplices();
     /// Reports every simplex as removed to the change log.
     void log_all_gone();
@@ -199,7 +199,7 @@ private:
     bool holds_ = false;        ///< labels and markers
     Domain<D> domain_;
     std::optional<AttributePages<D>> apart_;    ///< if the mesh has its attributes apart
-    std::optional<Core> core_;                  ///< always there; optional, to be made anew
+    std::optional<Core> core_;                  ///< always there; optional, to be replaced
     std::optional<RepeatedPoints<D>> repeated_; ///< as well
     std::optional<Rest<D>> rest_;               ///< while removals are put off
     Outlet *outlet_ = nullptr;                  ///< while points leave

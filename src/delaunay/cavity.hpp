@@ -84,7 +84,7 @@ private:
         SeenPoint<2> begin;
         double cross; // of both ends
         VertexIndex vertex;
-        // Of the triangle beyond:
+        // About the triangle beyond:
         bool is_inside;
         Link outer;
         SeenPoint<2> apex;

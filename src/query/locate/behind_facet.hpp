@@ -1,6 +1,6 @@
 // Finds the simplex behind a facet of the boundary, for callers that have only the ghost.
 //
-// Of the finite simplices around a corner of the facet, exactly one has all its corners: on the
+// Exactly one of the finite simplices around a corner of the facet has all its corners: on the
 // other side of a fault they have other ids.
 #pragma once
 

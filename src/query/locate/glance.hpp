@@ -127,7 +127,7 @@ private:
     void compare(const PageView<D> &view, int patch, const Prefixes &own);
     /// As in_simplex(); every point is outside of a ghost.
     static int position(PageView<D> &view, int simplex, const Point<D> &p);
-    /// Of the page's vertices, in cells.
+    /// The spacing of the page's vertices, in cells.
     static double spacing(const PageView<D> &view);
 
     const Cache<D> &cache_;

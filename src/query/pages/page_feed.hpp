@@ -55,7 +55,7 @@ public:
         return i == 0 ? first_key : i == n ? end_key : borders_[borders_kept_ * i / n];
     }
     std::size_t most_parts() const { return borders_kept_ > 0 ? borders_kept_ : 1; }
-    /// Of the first page, if there is any.
+    /// The key of the first page, if there is any.
     const Key &first() const { return borders_[0]; }
 
 private:

@@ -24,7 +24,7 @@ public:
         : host_(host), header_(header), cache_bytes_(cache_bytes),
           shape_(without_attributes(header)), stage_(host, shape_, memory, false) {}
 
-    /// Of the mesh.
+    /// The header of the mesh.
     const abacus_header &header() const { return header_; }
     /// Adds places: an id and D coordinates each.
     void add(const std::uint64_t *places, std::size_t count) { stage_.add(places, count); }

@@ -25,7 +25,7 @@
 // hull.
 //
 // A mesh that is not Delaunay may have holes and pieces. The simplices in a window need not be
-// connected there, and only the pages tell where they are. So all pages are read once, and those
+// connected there, and only the pages show where they are. So all pages are read once, and those
 // whose boxes do not meet the region are skipped. The same is done where the region covers much of
 // the domain, since a pass over all pages takes less time than a flood.
 //
