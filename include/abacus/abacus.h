@@ -2,13 +2,13 @@
  * abacus.h: the bridge between PostgreSQL (C) and the Abacus core (C++), all of its headers.
  *
  * The core knows nothing of PostgreSQL. An abacus_host (host_functions.h) gives it what it needs
- * from a database: memory, pages found and stored by key, spool files, and a word about
- * interrupts. The core offers a handful of plain handles:
+ * from a database: memory, pages found and stored by key, spool files, and news of interrupts. The
+ * core offers a handful of plain handles:
  *
  *   build.h      points in (abacus_stage) and simplex pages out (abacus_build)  (dissertation §4.12)
  *   load.h       vertices and simplices made elsewhere in, simplex pages out
  *   labels.h     labels of simplices, markers of facets
- *   locate.h     places, neighbours, nearest vertices, of one place or of many  (§4.11.3)
+ *   locate.h     places, neighbours, nearest vertices, for one place or many (§4.11.3)
  *   values.h     values at places: interpolation, weights, gradients; raster.h: many in rows
  *   lines.h      rays, profiles, lines of sight
  *   windows.h    simplices, vertices and edges of a window; scan.h: all, in order
@@ -16,7 +16,7 @@
  *   draw.h, raycast.h, tile.h                   pictures
  *   octree.h, octree_ask.h                      octrees
  *   check.h                                     verification
- *   mesh_header.h, simplex.h                    what is known of a mesh, and what readers give out
+ *   mesh_header.h, simplex.h                    what is known about a mesh, and what readers return
  *
  * Errors travel by return value only. A host function that fails returns
  * ABACUS_HOST_FAILED and keeps its own error; the core unwinds and returns

@@ -13,17 +13,17 @@ extern "C" {
 
 /*
  * Vertices are numbered from 0 along the curve, so the numbers depend on the points alone. All
- * pages are read once for the vertices, twice for the simplices; what has to be sorted takes at
- * most `memory` bytes, beyond that spools.
+ * pages are read once for the vertices, twice for the simplices; sorting takes at most `memory`
+ * bytes, beyond that spools.
  */
 typedef struct abacus_numbered abacus_numbered;
 ABACUS_API abacus_status abacus_numbered_open(const abacus_host *host, const abacus_header *header,
 											  int simplices, size_t memory,
 											  abacus_numbered **numbered, abacus_error *error);
-/* The next vertex, in the order of the numbers: the first has number 0. Not of simplices. */
+/* The next vertex, in the order of the numbers: the first has number 0. Not for simplices. */
 ABACUS_API abacus_status abacus_numbered_next_vertex(abacus_numbered *numbered,
 													 abacus_vertex *vertex, abacus_error *error);
-/* The next simplex in key order, and the numbers of its dimension + 1 corners. Not of vertices. */
+/* The next simplex in key order, and the numbers of its dimension + 1 corners. Not for vertices. */
 ABACUS_API abacus_status abacus_numbered_next_simplex(abacus_numbered *numbered,
 													  abacus_simplex *simplex, uint64_t *numbers,
 													  abacus_error *error);

@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /*
- * Whether the mesh's domain fits its points, by what the header counts and a look into a few pages;
+ * Whether the mesh's domain fits its points, judged by the counts in the header and by a few pages;
  * if not, abacus_build_rekey() helps.
  */
 ABACUS_API abacus_status abacus_domain_fits(const abacus_host *host, const abacus_header *header,
@@ -25,8 +25,9 @@ typedef struct abacus_fault
 } abacus_fault;
 
 /*
- * Verifies the mesh exactly, once, when opened; then hands out the faults (at most `limit`). The
- * header is one that abacus_header_decode() has read: what that refuses is not looked for again.
+ * Verifies the mesh exactly, once, when opened; then returns the faults (at most `limit`). The
+ * header must have been read by abacus_header_decode(): faults that it refuses are not checked
+ * again.
  */
 typedef struct abacus_check abacus_check;
 ABACUS_API abacus_status abacus_check_open(const abacus_host *host, const abacus_header *header,

@@ -23,17 +23,18 @@ typedef struct abacus_contouring
 } abacus_contouring;
 
 /*
- * Gets a line or ring, `count` points of two coordinates each, of which the last one of a closed
- * one is the first. `value` is the level; of a band the lower one, -infinity below all. `id` counts
- * lines from 1 on, and bands. May fail as a host function may.
+ * Gets a line or ring, `count` points of two coordinates each; if it is closed, the last point is
+ * the first. `value` is the level; for a band the lower one, -infinity below all levels. `id`
+ * counts lines, or bands, from 1 on. May fail as a host function may.
  */
 typedef abacus_host_status (*abacus_contour_report)(void *context, int64_t id, double value,
 													int32_t closed, const double *path,
 													size_t count);
 /*
- * Reports all of them within a window, which is no ball, in ascending order of `value`, then in
- * one that depends on the mesh alone. `memory` bytes, beyond which there are spools, and the
- * longest line. ABACUS_ERROR (argument) if there are too many levels to be told apart.
+ * Reports all of them within a window, which must not be a ball, in ascending order of `value`,
+ * then in an order that depends on the mesh alone. Takes `memory` bytes, spools beyond that, and
+ * memory for the longest line. ABACUS_ERROR (argument) if there are too many levels to be
+ * distinguished.
  */
 ABACUS_API abacus_status abacus_contours(const abacus_host *host, const abacus_header *header,
 										 const abacus_window *window,

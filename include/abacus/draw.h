@@ -25,18 +25,18 @@ typedef enum abacus_ramp
 
 typedef struct abacus_drawing
 {
-	/* Window in mesh coordinates; empty (lower >= upper on an axis) = all there is. In
+	/* Window in mesh coordinates; empty (lower >= upper on an axis) = the whole mesh. In
 	   dimension 3 a box: the picture shows the rectangle that just holds the part of the
 	   plane within it. */
 	double lower[ABACUS_MAX_DIMENSION], upper[ABACUS_MAX_DIMENSION];
 	int32_t width, height;     /* pixels, 1 to 16384; height 0 = from the window's shape */
-	int32_t attribute;         /* vertex attribute that gives colour and relief; -1 = none; of a mesh
-	                              also a label of simplices, numbered behind the attributes */
+	int32_t attribute;         /* vertex attribute that gives colour and relief; -1 = none; for a
+	                              mesh also a label of simplices, numbered behind the attributes */
 	int32_t edges;             /* 1: draw the edges of the triangles, or of the section */
 	double exaggeration;       /* values are multiplied by this for the hill shading; 0 = no shading */
 	double max_edge;           /* leave out simplices with a longer edge; 0 = none */
 	double range[2];           /* values at the ends of the colours, also for values beyond;
-	                              empty ([0] >= [1]) = the least and the greatest that is seen */
+	                              empty ([0] >= [1]) = the least and the greatest value seen */
 	abacus_ramp ramp;
 	double light[2];           /* where it is: degrees from north, clockwise; degrees above the
 	                              horizon, over 0 to 90. 0 there: in the north-west, 45 degrees high */
@@ -44,11 +44,11 @@ typedef struct abacus_drawing
 	int32_t transparent;       /* 1: nothing is behind the mesh */
 	const char *legend;        /* the colours and their values, with this above them, the unit of
 	                              values or a title, in UTF-8; NULL = none */
-	const char *scale_bar;     /* a length, in this unit of coordinates, in UTF-8; NULL = none */
+	const char *scale_bar;     /* scale bar in this unit of coordinates, in UTF-8; NULL = none */
 	int32_t is_geographic;     /* 1: coordinates are longitude and latitude in degrees, and the
 	                              window is of Web Mercator, measured in degrees of longitude */
-	double density;            /* without an attribute: triangles a pixel that look of middle
-	                              density; 0 = as is fitting */
+	double density;            /* without an attribute: triangles per pixel shown as medium
+	                              density; 0 = chosen to fit */
 } abacus_drawing;
 
 typedef struct abacus_picture

@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /*
- * A simplex as a row of its own, with its box: the part of the domain that holds every point in
+ * A simplex as a separate row, with its box: the part of the domain that contains every point in
  * conflict with it. A box is in the R-tree's unit, coordinates times abacus_goose_figures.unit.
  */
 typedef struct abacus_boxed_simplex
@@ -26,13 +26,17 @@ typedef struct abacus_rtree
 {
 	void *context;
 
-	/* Rows whose boxes contain the point, in any order; they stay valid until the next search.
-	   Here and below, *boxes grows by the number of boxes that were looked at. */
+	/*
+	 * Rows whose boxes contain the point, in any order; they stay valid until the next search. Here
+	 * and below, *boxes grows by the number of boxes examined.
+	 */
 	abacus_host_status (*search)(void *context, const double *point,
 								 const abacus_boxed_simplex **found, size_t *count,
 								 uint64_t *boxes);
-	/* Takes a row that was found out of the tree, which is searched for its box; NONE if it is
-	   not there. */
+	/*
+	 * Removes a row that was found from the tree, which is searched for its box; NONE if it is not
+	 * there.
+	 */
 	abacus_host_status (*unlink)(void *context, const abacus_boxed_simplex *row, uint64_t *boxes);
 	/* Then removes the row. */
 	abacus_host_status (*erase)(void *context, const abacus_boxed_simplex *row);
@@ -51,19 +55,19 @@ typedef struct abacus_goose_figures
 	uint64_t deleted;       /* rows removed: true hits of the searches */
 	uint64_t searches;
 	uint64_t found;         /* rows that searches for points found */
-	uint64_t search_boxes;  /* boxes that searches for points looked at */
-	uint64_t unlink_boxes;  /* boxes that searches for rows to be removed looked at */
+	uint64_t search_boxes;  /* boxes examined by searches for points */
+	uint64_t unlink_boxes;  /* boxes examined by searches for rows to be removed */
 	uint64_t search_ns;
 	uint64_t test_ns;       /* in-sphere tests */
 	uint64_t unlink_ns;
 	uint64_t erase_ns;
 	uint64_t insert_ns;
-	uint64_t total_ns;      /* of all insertions; what is missing from the sum is other work */
+	uint64_t total_ns;      /* of all insertions; the part not in the times above is other work */
 } abacus_goose_figures;
 
 /*
  * Inserts the points of a stage that has ended, in its order, into an R-tree without rows. At the
- * end it has a row for each simplex and each ghost; none if the points span no simplex.
+ * end the tree has a row for each simplex and each ghost; none if the points span no simplex.
  */
 ABACUS_API abacus_status abacus_goose_run(const abacus_host *host, const abacus_rtree *rtree,
 										  abacus_stage *stage, const abacus_header *header,

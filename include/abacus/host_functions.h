@@ -1,7 +1,6 @@
 /*
  * host_functions.h: what a database gives the core: memory, pages found and stored by key, spool
- * files, and a word about interrupts. It also defines how both report failure and
- * progress.
+ * files, and news of interrupts. It also defines how both report failure and progress.
  */
 #ifndef ABACUS_ABACUS_HOST_FUNCTIONS_H
 #define ABACUS_ABACUS_HOST_FUNCTIONS_H
@@ -19,13 +18,13 @@ extern "C" {
 #define ABACUS_MAX_DIMENSION 3
 /* Largest number of attributes of a vertex. */
 #define ABACUS_MAX_ATTRIBUTES 1000
-/* ... of those that are in a page with simplices or leaves: the columns of one page. */
+/* ... of those in a page with simplices or leaves: the columns of one page. */
 #define ABACUS_MAX_PAGE_ATTRIBUTES 100
 /* Bytes of an attribute name, with its terminating zero (as NAMEDATALEN). */
 #define ABACUS_NAME_BYTES 64
 /* Bytes of a full page. */
 #define ABACUS_PAGE_BYTES 7936
-/* Largest page the core hands to the host: of one point with so many attributes. */
+/* Largest page that the core gives to the host: of one point with this many attributes. */
 #define ABACUS_MAX_PAGE_BYTES 8064
 
 /* ---- Status and errors ------------------------------------------------- */
@@ -64,8 +63,8 @@ typedef struct abacus_error
  * Key of a simplex and of the page that owns it: `code` is the greatest
  * locational code of the simplex's vertices, their places on a Hilbert curve
  * (31 bits an axis in 2D, 21 in 3D; §4.8), below 2^63; `part` continues it,
- * below 2^63, and counts only where more simplices than fit a page share one
- * code: elsewhere a page's and a link's is 0. Keys are ordered by code, then part.
+ * below 2^63, and is used only where more simplices than fit a page share one code: elsewhere the
+ * part of a page or a link is 0. Keys are ordered by code, then part.
  */
 typedef struct abacus_key
 {
@@ -74,9 +73,9 @@ typedef struct abacus_key
 } abacus_key;
 
 /*
- * What a page holds, as a number. A data type names its kinds where it describes its
- * pages (header.h: those of meshes); the host is told of each before it is used. Each kind
- * has keys of its own.
+ * The kind of a page's contents, as a number. A data type names its kinds where it describes its
+ * pages (mesh_header.h: those of meshes); each is registered with the host before it is used. Each
+ * kind has its own keys.
  */
 typedef uint32_t abacus_page_kind;
 
@@ -113,7 +112,7 @@ typedef struct abacus_progress
 	uint64_t total;         /* 0 = not known */
 	uint64_t pages_read;
 	uint64_t pages_written;
-	uint32_t threads;       /* at work beside the session's; 0 = the session's alone works */
+	uint32_t threads;       /* at work beside the session's; 0 = only the session's works */
 } abacus_progress;
 
 /* ---- The host: what a database gives the core ---------------------------- */
@@ -126,9 +125,9 @@ typedef enum abacus_host_status
 } abacus_host_status;
 
 /*
- * Four parts: memory, control, pages, spools. Every function gets `context`
- * first. None may longjmp or throw. `bytes` that a function hands out stay valid
- * until the next call of a host function other than resize().
+ * Four parts: memory, control, pages, spools. Every function gets `context` first. None may longjmp
+ * or throw. `bytes` that a function returns stay valid until the next call of a host function other
+ * than resize().
  *
  * Threads: every function is for the session's thread alone. Another thread may only
  * read *interrupted, and use memory that the session's thread has reserved for it
@@ -153,10 +152,9 @@ typedef struct abacus_host
 	 * one with the least key > `key` (the first when `key` is NULL). The header
 	 * row is never returned. fetch: the one at page->location, which find or
 	 * next gave, with its bytes at page->bytes; page->size of them will be read.
-	 * If it has been moved since, ABACUS_HOST_NONE, or the one that is there now:
-	 * its key tells. put: stores page->bytes under page->key, replacing the
-	 * version at page->location unless that is 0, and sets page->location.
-	 * erase: removes the version at page->location.
+	 * If it has been moved since, ABACUS_HOST_NONE, or the page that is there now, which its key
+	 * shows. put: stores page->bytes under page->key, replacing the version at page->location
+	 * unless that is 0, and sets page->location. erase: removes the version at page->location.
 	 */
 	abacus_host_status (*find)(void *context, abacus_page_kind kind, abacus_key key,
 							   abacus_page *page);
@@ -178,26 +176,32 @@ typedef struct abacus_host
 	abacus_host_status (*spool_close)(void *context, void *spool);
 
 	/*
-	 * Threads that the core may compute with; 0 is as 1: the session's alone. With
-	 * tiny_intervals they share even little work, in many pieces cut at random: for tests.
+	 * Threads that the core may compute with; 0 and 1 mean the session's alone. With tiny_intervals
+	 * they share even little work, in many pieces cut at random: for tests.
 	 */
 	unsigned threads;
 	int tiny_intervals;
-	/* Bytes that threads may have in all; 0 = any number. For tests, as if memory ran out. */
+	/*
+	 * Bytes that threads may have in total; 0 = no limit. For tests, to simulate running out of
+	 * memory.
+	 */
 	size_t most_thread_bytes;
 
 	/*
-	 * At least `bytes` are about to be written to spools, and will be there at one time. Fails if
-	 * there is no room for them, so that nothing is written in vain.
+	 * At least `bytes` are about to be written to spools, and will be there at the same time. Fails
+	 * if there is no room for them, so that nothing is written in vain.
 	 */
 	abacus_host_status (*spool_expect)(void *context, double bytes);
-	/* Whether there is room for so many bytes: NONE if not. For what would have to be counted. */
+	/*
+	 * Whether there is room for this many bytes: NONE if not. For data that would have to be
+	 * counted first.
+	 */
 	abacus_host_status (*spool_fits)(void *context, double bytes);
 } abacus_host;
 
 /*
- * Stops the threads of the core, in the middle of a call too: for a session that ends without
- * returning from there. Nothing happens if there are none.
+ * Stops the threads of the core, even in the middle of a call: for a session that ends without
+ * returning from it. Nothing happens if there are none.
  */
 ABACUS_API void abacus_stop_threads(void);
 

@@ -1,5 +1,5 @@
 /*
- * labels.h: labels of simplices and markers of facets: given to them, and facets read by their markers.
+ * labels.h: gives labels to simplices and markers to facets, and reads facets by their markers.
  */
 #ifndef ABACUS_ABACUS_LABELS_H
 #define ABACUS_ABACUS_LABELS_H
@@ -17,7 +17,7 @@ typedef struct abacus_labelling abacus_labelling;
 /*
  * Opens the labelling of simplices of a mesh, Delaunay or not. `header` names all labels; the first
  * `known` of them are not new. Each row has values of `count` labels, whose numbers are `labels`.
- * `memory` bounds what it uses for sorting, in bytes.
+ * `memory` bounds the memory for sorting, in bytes.
  */
 ABACUS_API abacus_status abacus_labelling_open(const abacus_host *host,
 											   const abacus_header *header, uint32_t known,
@@ -26,7 +26,7 @@ ABACUS_API abacus_status abacus_labelling_open(const abacus_host *host,
 											   abacus_error *error);
 /*
  * Adds rows of 8-byte words: code and dimension + 1 ids of a simplex, then the values, NaN where
- * there is none. Of several rows for a simplex the last one counts.
+ * there is none. If there are several rows for a simplex, the last one counts.
  */
 ABACUS_API abacus_status abacus_labelling_add(abacus_labelling *labelling, const uint64_t *rows,
 											  size_t count, abacus_error *error);
@@ -48,7 +48,7 @@ ABACUS_API abacus_status abacus_marking_open(const abacus_host *host, const abac
 											 abacus_marking **marking, abacus_error *error);
 /*
  * Adds rows of 8-byte words: code and dimension + 1 ids of a simplex, the number of the corner
- * opposite the facet, and the marker, a double that is a 32-bit integer; NaN takes it away.
+ * opposite the facet, and the marker, a double that is a 32-bit integer; NaN removes it.
  */
 ABACUS_API abacus_status abacus_marking_add(abacus_marking *marking, const uint64_t *rows,
 											size_t count, abacus_error *error);
@@ -68,8 +68,8 @@ typedef struct abacus_facet
 	double corner[ABACUS_MAX_DIMENSION][ABACUS_MAX_DIMENSION];
 } abacus_facet;
 /*
- * The facets with a marker, each once, by marker and then along the curve; NaN: those with any.
- * Sorts within `memory` bytes.
+ * The facets with a marker, each once, by marker and then along the curve; NaN: those with any
+ * marker. Sorts within `memory` bytes.
  */
 typedef struct abacus_facets abacus_facets;
 ABACUS_API abacus_status abacus_facets_open(const abacus_host *host, const abacus_header *header,

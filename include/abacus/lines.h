@@ -1,6 +1,6 @@
 /*
- * lines.h: a mesh along straight lines: what a ray meets, the profile of an
- * attribute over a path, whether one place is seen from another.
+ * lines.h: a mesh along straight lines: the simplices on a ray, the profile of an attribute over a
+ * path, whether one place is visible from another.
  */
 #ifndef ABACUS_ABACUS_LINES_H
 #define ABACUS_ABACUS_LINES_H
@@ -12,7 +12,7 @@ extern "C" {
 #endif
 
 /*
- * Gets a simplex that a ray meets, its labels, as many as the header names, NaN where it has none,
+ * Gets a simplex that a ray meets, its labels (as many as the header names, NaN where it has none),
  * and the parameters between which the ray meets it; valid during the call. May fail as a host
  * function may.
  */
@@ -20,9 +20,10 @@ typedef abacus_host_status (*abacus_ray_report)(void *context, double enters, do
 												const abacus_simplex *simplex,
 												const double *labels);
 /*
- * Reports, in order, the simplices that have more than a point in common with a ray. Of those that
+ * Reports, in order, the simplices that have more than a point in common with a ray. If several
  * have the same piece of it, around an edge or on both sides of a facet, only the one that
- * abacus_mesh_locate finds there. The parameter counts the direction, which must not be 0.
+ * abacus_mesh_locate finds there. The parameter is in multiples of the direction, which must not be
+ * 0.
  */
 ABACUS_API abacus_status abacus_mesh_ray(abacus_mesh *mesh, const double *origin,
 										 const double *direction, abacus_ray_report report,
@@ -33,9 +34,9 @@ typedef abacus_host_status (*abacus_profile_report)(void *context, double distan
 													const double *place, double value);
 /*
  * Reports the places where a path of straight lines crosses the facets of simplices, and its own
- * corners, in order. Where it leaves or enters the mesh a place is reported twice: once as outside.
- * `corners` places of `dimension` finite doubles each. Simplices with an edge longer than max_edge
- * count as outside; infinity: none do.
+ * corners, in order. Where it leaves or enters the mesh a place is reported twice, once of these as
+ * outside. `corners` places of `dimension` finite doubles each. Simplices with an edge longer than
+ * max_edge count as outside; infinity: none do.
  */
 ABACUS_API abacus_status abacus_mesh_profile(abacus_mesh *mesh, uint32_t attribute, double max_edge,
 											 const double *path, size_t corners,
@@ -60,7 +61,7 @@ typedef enum abacus_sight_kind
 typedef struct abacus_sight
 {
 	abacus_sight_kind kind;
-	double place[3]; /* where it is blocked first */
+	double place[3]; /* where it is first blocked */
 } abacus_sight;
 
 /*

@@ -1,5 +1,5 @@
 /*
- * load.h: a triangulation made elsewhere into a mesh.
+ * load.h: turns a triangulation made elsewhere into a mesh.
  */
 #ifndef ABACUS_ABACUS_LOAD_H
 #define ABACUS_ABACUS_LOAD_H
@@ -14,15 +14,15 @@ typedef struct abacus_load abacus_load;
 
 /*
  * Opens the loading of a triangulation made elsewhere into a mesh without points.
- * `memory` bounds what it uses, in bytes (maintenance_work_mem); beyond it everything
- * goes to spools. With `reorient` simplices of negative orientation are turned; without,
- * they are refused. With `split_nodes` vertices at one place are told apart by their ids; without,
- * they are refused. No attributes are apart then.
+ * `memory` bounds the memory used, in bytes (maintenance_work_mem); beyond it everything goes to
+ * spools. With `reorient` simplices of negative orientation are turned; without it they are
+ * refused. With `split_nodes` vertices at one place are distinguished by their ids, and no
+ * attributes are apart; without it such vertices are refused.
  */
 ABACUS_API abacus_status abacus_load_open(const abacus_host *host, const abacus_header *header,
 										  size_t memory, int reorient, int split_nodes,
 										  abacus_load **load, abacus_error *error);
-/* Adds vertices, as abacus_stage_add does points; each id once. */
+/* Adds vertices, as abacus_stage_add adds points; each id once. */
 ABACUS_API abacus_status abacus_load_vertices(abacus_load *load, const uint64_t *points,
 											  size_t count, abacus_error *error);
 /*
@@ -38,9 +38,9 @@ ABACUS_API abacus_status abacus_load_simplices(abacus_load *load, const uint64_t
 ABACUS_API abacus_status abacus_load_facets(abacus_load *load, const uint64_t *facets, size_t count,
 											abacus_error *error);
 /*
- * No more simplices come. Checks exactly that they form a complex, and how this is related to
- * the Delaunay triangulation of its vertices. ABACUS_ERROR (argument) names what is wrong: an
- * unknown or repeated vertex, a flat simplex, a facet used too often, an overlap.
+ * No more simplices come. Checks exactly that they form a complex, and how it is related to the
+ * Delaunay triangulation of its vertices. ABACUS_ERROR (argument) names the fault: an unknown or
+ * repeated vertex, a flat simplex, a facet used too often, an overlap.
  */
 ABACUS_API abacus_status abacus_load_check(abacus_load *load, abacus_delaunay *outcome,
 										   abacus_error *error);
@@ -49,7 +49,7 @@ ABACUS_API const char *abacus_load_detail(const abacus_load *load);
 /* After the check: writes the pages and brings the header up to date. */
 ABACUS_API abacus_status abacus_load_write(abacus_load *load, abacus_header *header,
 										   abacus_error *error);
-/* Or instead: adds the vertices of the simplices to a stage, to be triangulated anew. */
+/* Or instead: adds the vertices of the simplices to a stage, to be triangulated again. */
 ABACUS_API abacus_status abacus_load_stage(abacus_load *load, abacus_stage *stage,
 										   abacus_error *error);
 ABACUS_API void abacus_load_close(abacus_load *load);

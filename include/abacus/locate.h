@@ -1,6 +1,6 @@
 /*
- * locate.h: simplices and vertices found: at a place, nearest to it, across a facet, around;
- * of one place, or of many in one call.
+ * locate.h: finds simplices and vertices: at a place, nearest to it, across a facet, around; for
+ * one place, or for many in one call.
  */
 #ifndef ABACUS_ABACUS_LOCATE_H
 #define ABACUS_ABACUS_LOCATE_H
@@ -45,7 +45,7 @@ typedef abacus_host_status (*abacus_nearest_report)(void *context, int64_t place
 													const abacus_vertex *vertex, double distance);
 /*
  * Reports the k vertices nearest to the point (`dimension` finite doubles), nearest first; fewer if
- * the mesh has fewer. Distances are compared exactly; of vertices equally far the one with the
+ * the mesh has fewer. Distances are compared exactly; of vertices equally far away the one with the
  * lexicographically least coordinates comes first.
  */
 ABACUS_API abacus_status abacus_mesh_nearest(abacus_mesh *mesh, const double *point, uint64_t k,
@@ -56,8 +56,8 @@ ABACUS_API void abacus_mesh_counters(const abacus_mesh *mesh, abacus_counters *c
 /* Gets one of several simplices, valid during the call. May fail as a host function may. */
 typedef abacus_host_status (*abacus_simplex_report)(void *context, const abacus_simplex *simplex);
 /*
- * Reports all simplices that contain the point (`dimension` finite doubles): around a vertex its
- * star, around an edge or on a facet those that meet there, else one or none.
+ * Reports all simplices that contain the point (`dimension` finite doubles): at a vertex its star,
+ * on an edge or a facet those that meet there, otherwise one or none.
  */
 ABACUS_API abacus_status abacus_mesh_star(abacus_mesh *mesh, const double *point,
 										  abacus_simplex_report report, void *context,
@@ -94,7 +94,7 @@ typedef abacus_host_status (*abacus_place_report)(void *context, int64_t id,
 /* No more places come: reports each of them, in the order of the curve. Once. */
 ABACUS_API abacus_status abacus_places_locate(abacus_places *places, abacus_place_report report,
 											  void *context, abacus_error *error);
-/* The same of their nearest vertices: instead of abacus_places_locate(), which finds simplices. */
+/* The same for their nearest vertices: instead of abacus_places_locate(), which finds simplices. */
 ABACUS_API abacus_status abacus_places_nearest(abacus_places *places, uint64_t k,
 											   abacus_nearest_report report, void *context,
 											   abacus_error *error);

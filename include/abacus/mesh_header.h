@@ -1,6 +1,6 @@
 /*
- * mesh_header.h: what is known of a mesh as a whole, and the counters of all its builds. It
- * is a row of its own among the pages.
+ * mesh_header.h: what is known about a mesh as a whole, and the counters of all its builds. It is a
+ * separate row among the pages.
  */
 #ifndef ABACUS_ABACUS_MESH_HEADER_H
 #define ABACUS_ABACUS_MESH_HEADER_H
@@ -22,11 +22,11 @@ enum
 	ABACUS_SIMPLEX_PAGES = 0,
 	/* Points that wait to be inserted, in insertion order: {sequence number of the first, 0}. */
 	ABACUS_STAGED_PAGES,
-	/* Points equal to a vertex: {code, serial number}, an interval as of simplices. */
+	/* Points equal to a vertex: {code, serial number}, an interval as for simplices. */
 	ABACUS_REPEATED_PAGES,
 	/*
-	 * Attributes of vertices, if they are apart, labels of simplices, markers of facets: intervals of
-	 * keys of their own, group by group.
+	 * Attributes of vertices, if they are apart, labels of simplices, markers of facets: separate
+	 * intervals of keys, group by group.
 	 */
 	ABACUS_ATTRIBUTE_PAGES
 };
@@ -46,8 +46,8 @@ typedef struct abacus_counters
 	uint64_t quick_probes;     /* §4.10.1 */
 	uint64_t ray_probes;       /* §4.10.2 */
 	uint64_t concentric_probes;/* §4.10.3 */
-	uint64_t incircle_tests;   /* insertions that asked the application cache (§4.12.4) */
-	uint64_t incircle_hits;    /* ... and were answered */
+	uint64_t incircle_tests;   /* insertions that consulted the application cache (§4.12.4) */
+	uint64_t incircle_hits;    /* ... and found a simplex there */
 	uint64_t walks;            /* point locations by walking */
 	uint64_t created;          /* simplices created */
 	uint64_t deleted;          /* simplices deleted */
@@ -65,7 +65,7 @@ typedef struct abacus_counters
 	uint64_t peak_bytes;       /* largest amount of memory the cache held */
 	uint64_t passes;           /* of several threads over points */
 	uint64_t put_off;          /* points that a pass left to the next one */
-	uint64_t waited_ns;        /* time that threads waited for the session's, of all together */
+	uint64_t waited_ns;        /* total time that threads waited for the session's */
 } abacus_counters;
 
 /* ---- Header of a mesh ----------------------------------------------------- */
@@ -73,20 +73,23 @@ typedef struct abacus_counters
 /* The greatest number of a spatial reference system, as in PostGIS. */
 #define ABACUS_MAX_SRID 999999
 
-/* So many labels simplices may have. */
+/* Most labels that simplices may have. */
 #define ABACUS_MAX_LABELS 115
 #define ABACUS_MAX_NAMES (ABACUS_MAX_ATTRIBUTES + ABACUS_MAX_LABELS)
-/* So many names of attributes and labels the header row has room for; more are in rows of names. */
+/*
+ * Most names of attributes and labels in the header row; if there are more, all are in rows of
+ * names.
+ */
 #define ABACUS_HEADER_NAMES 115
 
-/* What the pages are of. */
+/* The type of data in the pages. */
 typedef enum abacus_type
 {
 	ABACUS_MESH = 0,
 	ABACUS_OCTREE              /* or a quadtree */
 } abacus_type;
 
-/* Copied by abacus_header_copy(): its room for names is much larger than most of them take. */
+/* Copied by abacus_header_copy(): its room for names is much larger than most headers need. */
 typedef struct abacus_header
 {
 	uint32_t type;         /* an abacus_type */
@@ -96,8 +99,8 @@ typedef struct abacus_header
 	uint32_t has_domain;   /* 0 until given or taken from the first points */
 	double lower[ABACUS_MAX_DIMENSION]; /* domain; used for clustering only */
 	double upper[ABACUS_MAX_DIMENSION];
-	uint64_t outside;      /* points that came where the domain does not fit them, outside it or to a
-							  code that fills pages, since it was last chosen */
+	uint64_t outside;      /* points that the domain did not fit since it was last chosen: outside
+							  it, or at a code that fills pages */
 	uint64_t stamp;        /* never repeats; set by the host at each change */
 	uint64_t staged;       /* sequence number of the next staged point */
 	uint64_t inserted;     /* ... of the first that waits; those before it are in the mesh */
@@ -115,7 +118,7 @@ typedef struct abacus_header
 	uint64_t labelled;     /* simplices that have some */
 	uint64_t marked;       /* simplices beside a facet with a marker */
 	uint32_t inherits;     /* 1: a new simplex gets the labels of the one that its centroid lay in */
-	uint64_t split;        /* vertices that share their place with another one, told apart by id;
+	uint64_t split;        /* vertices that share their place with another one, separated by id;
 							  unless 0 the mesh was loaded and is not Delaunay, and no attribute is
 							  apart */
 	char names[ABACUS_MAX_NAMES][ABACUS_NAME_BYTES]; /* of attributes, then of labels */
@@ -129,7 +132,7 @@ typedef struct abacus_header
 #endif
 } abacus_header;
 
-/* All that counts; names behind those that there are are left as they are. */
+/* Copies all that matters; names beyond those in use stay as they are. */
 static inline void
 abacus_header_copy(abacus_header *to, const abacus_header *from)
 {
@@ -149,23 +152,23 @@ abacus_header::copy(const abacus_header &other)
 #endif
 
 /*
- * Whether a new mesh should have so many attributes apart: a few take less room in the simplex
- * pages, in each that names their vertex.
+ * Whether a new mesh should have this many attributes apart: a few take less room in the simplex
+ * pages, even though each page with their vertex has them.
  */
 ABACUS_API uint32_t abacus_are_apart(uint32_t dimension, uint32_t attributes);
 
 /* Bytes of the header row; `bytes` has room for ABACUS_PAGE_BYTES. Returns the size. */
 ABACUS_API size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes);
 /*
- * Checks and reads a header row; ABACUS_ERROR (corrupted) if it is none, (state) if it is one
- * of another format. If it has rows of names beside it, its names are empty until these are read.
+ * Checks and reads a header row; ABACUS_ERROR (corrupted) if it is not a header, (state) if it has
+ * another format. If it has rows of names beside it, its names are empty until these are read.
  */
 ABACUS_API abacus_status abacus_header_decode(const unsigned char *bytes, size_t size,
 											  abacus_header *header, abacus_error *error);
 
 /* Rows of names beside the header row; 0 if this has room for all names. */
 ABACUS_API uint32_t abacus_header_name_rows(const abacus_header *header);
-/* The same of such a row, from 0. */
+/* The same for such a row, from 0. */
 ABACUS_API size_t abacus_header_encode_names(const abacus_header *header, uint32_t row,
 											 unsigned char *bytes);
 ABACUS_API abacus_status abacus_header_decode_names(const unsigned char *bytes, size_t size,

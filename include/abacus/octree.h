@@ -1,9 +1,9 @@
 /*
- * octree.h: quadtrees and octrees, which are made, changed and read as meshes are.
+ * octree.h: quadtrees and octrees, which are made, changed and read like meshes.
  *
- * Their header has the type ABACUS_OCTREE. An octant is named by its Morton code, the place of its
- * least cell on a grid of the finest level (31 levels in the plane, 21 in space), and its level: 0
- * is all of the domain.
+ * Their header has the type ABACUS_OCTREE. An octant is identified by its Morton code, the place of
+ * its least cell on a grid of the finest level (31 levels in the plane, 21 in space), and its
+ * level: 0 is the whole domain.
  */
 #ifndef ABACUS_ABACUS_OCTREE_H
 #define ABACUS_ABACUS_OCTREE_H
@@ -30,17 +30,17 @@ typedef struct abacus_octant
 /* ---- Changes ------------------------------------------------------------- */
 
 /*
- * All of them write the pages and bring the header up to date. What sorts takes at most `memory`
- * bytes, beyond that spools.
+ * All of these write the pages and bring the header up to date. Those that sort take at most
+ * `memory` bytes, beyond that spools.
  */
 
-/* Writes the one leaf of a new octree, and sets what the header says of leaves. */
+/* Writes the single leaf of a new octree, and sets the header's fields about leaves. */
 ABACUS_API abacus_status abacus_octree_root(const abacus_host *host, abacus_header *header,
 											abacus_error *error);
 
 /*
- * Growth: leaves are split until the octree is the least one that serves what it is told. Each
- * growth ends with one of the functions that take the header.
+ * Growth: splits leaves until the octree is the smallest one that meets the requirements given.
+ * Each growth ends with one of the functions that take the header.
  */
 typedef struct abacus_octree_growth abacus_octree_growth;
 ABACUS_API abacus_status abacus_octree_growth_open(const abacus_host *host,
@@ -48,13 +48,13 @@ ABACUS_API abacus_status abacus_octree_growth_open(const abacus_host *host,
 												   abacus_octree_growth **growth,
 												   abacus_error *error);
 /*
- * Adds `count` places: each 1 + dimension words: with `levels` a level (int64_t), else something
+ * Adds `count` places: each 1 + dimension words: with `levels` a level (int64_t), otherwise a word
  * that is not read; then coordinates (double, finite).
  */
 ABACUS_API abacus_status abacus_octree_growth_add(abacus_octree_growth *growth,
 												  const uint64_t *places, size_t count, int levels,
 												  abacus_error *error);
-/* The leaf that has a place is of its level or finer. */
+/* The leaf that contains a place has the place's level or is finer. */
 ABACUS_API abacus_status abacus_octree_growth_levels(abacus_octree_growth *growth,
 													 abacus_header *header,
 													 abacus_error *error);
@@ -63,23 +63,24 @@ ABACUS_API abacus_status abacus_octree_growth_points(abacus_octree_growth *growt
 													 abacus_header *header,
 													 abacus_error *error);
 /*
- * Tells how long octants may be: of `count` of them, given their centers, coordinate by coordinate,
- * and the longest edge of each. A size that is NaN splits nothing. May fail as a host function may.
+ * Says how large octants may be: gets the centers of `count` octants, coordinate by coordinate, and
+ * the longest edge of each, and sets the size allowed there. A size that is NaN splits nothing. May
+ * fail as a host function may.
  */
 typedef abacus_host_status (*abacus_octree_sizes)(void *context, size_t count,
 												  const double *const *centers,
 												  const double *edges, double *sizes);
-/* Leaves are no longer than what is told of their centers, unless they have the finest level. */
+/* Leaves are no larger than the size given for their centers, unless they have the finest level. */
 ABACUS_API abacus_status abacus_octree_growth_sizes(abacus_octree_growth *growth,
 													abacus_octree_sizes sizes, void *context,
 													abacus_header *header, abacus_error *error);
-/* Leaves that touch across a face (1), an edge (2) or a corner (3) differ by one level at most. */
+/* Leaves that touch across a face (1), an edge (2) or a corner (3) differ by at most one level. */
 ABACUS_API abacus_status abacus_octree_growth_balance(abacus_octree_growth *growth, int32_t across,
 													  abacus_header *header,
 													  abacus_error *error);
 ABACUS_API void abacus_octree_growth_close(abacus_octree_growth *growth);
 
-/* Edits of single leaves, in place: one kind an edit. */
+/* Edits of single leaves, in place: each edit is of one kind. */
 typedef struct abacus_octree_edit abacus_octree_edit;
 ABACUS_API abacus_status abacus_octree_edit_open(const abacus_host *host,
 												 const abacus_header *header, size_t memory,
@@ -96,7 +97,7 @@ ABACUS_API abacus_status abacus_octree_edit_merge(abacus_octree_edit *edit, abac
 ABACUS_API abacus_status abacus_octree_edit_add_values(abacus_octree_edit *edit,
 													   const uint64_t *rows, size_t count,
 													   abacus_error *error);
-/* The leaves that have the codes get the attributes. *set: how many leaves. */
+/* The leaves with these codes get the attributes. *set: how many leaves. */
 ABACUS_API abacus_status abacus_octree_edit_set(abacus_octree_edit *edit, abacus_header *header,
 												uint64_t *set, abacus_error *error);
 ABACUS_API void abacus_octree_edit_close(abacus_octree_edit *edit);
@@ -122,13 +123,13 @@ typedef struct abacus_octree abacus_octree;
 ABACUS_API abacus_status abacus_octree_open(const abacus_host *host, const abacus_header *header,
 											size_t cache_bytes, abacus_octree **octree,
 											abacus_error *error);
-/* The leaf that has a place (`dimension` finite doubles); ABACUS_END outside the domain. */
+/* The leaf that contains a place (`dimension` finite doubles); ABACUS_END outside the domain. */
 ABACUS_API abacus_status abacus_octree_locate(abacus_octree *octree, const double *place,
 											  abacus_octant *octant, abacus_error *error);
 /* Gets a neighbour across the face below (side -1) or above (1) on an axis, valid during the call. */
 typedef abacus_host_status (*abacus_octant_report)(void *context, int32_t axis, int32_t side,
 												   const abacus_octant *octant);
-/* Reports the leaves that share a piece of a face with the leaf that has a code. */
+/* Reports the leaves that share a piece of a face with the leaf with this code. */
 ABACUS_API abacus_status abacus_octree_neighbours(abacus_octree *octree, uint64_t code,
 												  abacus_octant_report report, void *context,
 												  abacus_error *error);
@@ -153,7 +154,7 @@ typedef struct abacus_octree_node
 {
 	uint64_t number;
 	double point[ABACUS_MAX_DIMENSION];
-	int32_t anchors;   /* 0, or 2 or 4 of a node that hangs */
+	int32_t anchors;   /* 0, or 2 or 4 for a hanging node */
 	uint64_t anchor[4];
 } abacus_octree_node;
 typedef struct abacus_octree_nodes abacus_octree_nodes;
@@ -185,7 +186,7 @@ ABACUS_API abacus_status abacus_octree_simplices_open(const abacus_host *host,
 													  const abacus_header *header, size_t memory,
 													  abacus_octree_simplices **simplices,
 													  abacus_error *error);
-/* Which leaf it is of, and its dimension + 1 nodes, in positive order. */
+/* The leaf that it is part of, and its dimension + 1 nodes, in positive orientation. */
 ABACUS_API abacus_status abacus_octree_simplices_next(abacus_octree_simplices *simplices,
 													  uint64_t *element, uint64_t *nodes,
 													  abacus_error *error);

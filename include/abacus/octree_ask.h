@@ -1,6 +1,6 @@
 /*
- * octree_ask.h: an octree asked what is where: leaves near a place, values
- * between leaves, both also of many places at once.
+ * octree_ask.h: queries of an octree by place: leaves near a place, values between leaves, both
+ * also for many places at once.
  */
 #ifndef ABACUS_ABACUS_OCTREE_ASK_H
 #define ABACUS_ABACUS_OCTREE_ASK_H
@@ -20,7 +20,7 @@ typedef abacus_host_status (*abacus_octant_near)(void *context, int64_t place, u
 /*
  * Reports the k leaves nearest to a place (`dimension` finite doubles), nearest first; fewer if
  * there are fewer. The distances to their closed boxes are compared exactly; of leaves equally far
- * the one with the least code comes first.
+ * away the one with the least code comes first.
  */
 ABACUS_API abacus_status abacus_octree_nearest(abacus_octree *octree, const double *place,
 											   uint64_t k, abacus_octant_near report,
@@ -37,7 +37,7 @@ ABACUS_API abacus_status abacus_octree_interpolate(abacus_octree *octree,
 
 /*
  * Many places at once: sorted along the curve within `memory` bytes, beyond it in
- * spools, then looked for page by page.
+ * spools, then looked up page by page.
  */
 typedef struct abacus_octree_places abacus_octree_places;
 ABACUS_API abacus_status abacus_octree_places_open(const abacus_host *host,
@@ -49,7 +49,10 @@ ABACUS_API abacus_status abacus_octree_places_open(const abacus_host *host,
 ABACUS_API abacus_status abacus_octree_places_add(abacus_octree_places *places,
 												  const uint64_t *records, size_t count,
 												  abacus_error *error);
-/* Gets the id of a place and the leaf that has it, NULL outside the domain; valid during the call. */
+/*
+ * Gets the id of a place and the leaf that contains it, NULL outside the domain; valid during the
+ * call.
+ */
 typedef abacus_host_status (*abacus_octant_at)(void *context, int64_t place,
 											   const abacus_octant *octant);
 /* No more places come: reports each of them, in the order of the curve. One of these three, once. */

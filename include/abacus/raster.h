@@ -11,11 +11,11 @@ extern "C" {
 #endif
 
 /*
- * Pixels between two corners of a window: row 0 is the one with the greatest y. Column i and row j
- * have their centre at lower[0] + (i + 0.5) * (upper[0] - lower[0]) / width and
- * upper[1] - (j + 0.5) * (upper[1] - lower[1]) / height. In space both corners have the same z.
- * With is_geographic the mesh has longitude and latitude, in degrees, and y of the corners and centres
- * are of Web Mercator, in degrees of longitude; the mesh has dimension 2.
+ * Pixels between two corners of a window: row 0 has the greatest y. Column i and row j have their
+ * centre at lower[0] + (i + 0.5) * (upper[0] - lower[0]) / width and upper[1] - (j + 0.5) *
+ * (upper[1] - lower[1]) / height. In space both corners have the same z. With is_geographic the
+ * mesh has longitude and latitude, in degrees, and y of the corners and centres are of Web
+ * Mercator, in degrees of longitude; the mesh has dimension 2.
  */
 typedef struct abacus_raster
 {
@@ -27,8 +27,8 @@ typedef struct abacus_raster
 } abacus_raster;
 
 /*
- * The values of one attribute at the centres, row by row, as abacus_mesh_interpolate finds them. A
- * band of rows within `memory` bytes is filled at once, of one row at least.
+ * The values of one attribute at the centres, row by row, as abacus_mesh_interpolate finds them. As
+ * many rows as `memory` bytes can hold are filled at once, but at least one.
  */
 typedef struct abacus_raster_scan abacus_raster_scan;
 ABACUS_API abacus_status abacus_raster_open(const abacus_host *host, const abacus_header *header,

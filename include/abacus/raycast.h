@@ -1,6 +1,6 @@
 /*
- * raycast.h: pictures of what is inside a mesh of dimension 3: of what rays
- * from the eye through each pixel meet.
+ * raycast.h: pictures of the inside of a mesh of dimension 3: of the values along rays from the eye
+ * through each pixel.
  */
 #ifndef ABACUS_ABACUS_RAYCAST_H
 #define ABACUS_ABACUS_RAYCAST_H
@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-/* What a pixel shows of the values along its ray. */
+/* How a pixel shows the values along its ray. */
 typedef enum abacus_ray_mode
 {
 	ABACUS_RAY_MEAN = 0, /* over the length inside the mesh */
@@ -20,7 +20,7 @@ typedef enum abacus_ray_mode
 	ABACUS_RAY_SUM       /* the integral along the ray */
 } abacus_ray_mode;
 
-/* What is not given (has_… is 0): see abacus_draw_volume(). */
+/* For what is not given (has_… is 0), see abacus_draw_volume(). */
 typedef struct abacus_camera
 {
 	int32_t has_eye, has_toward, has_up;
@@ -35,9 +35,9 @@ typedef struct abacus_camera
  * empty: all of it. Edges and exaggeration have no effect. Without an attribute the picture shows
  * the length of rays inside the mesh.
  *
- * The eye looks toward the middle of the box, from the south-west and above, if nothing else is
- * given, and z points up, or y where the eye looks up or down. Parallel rays show all of the box:
- * the picture just holds it, whatever the distance of the eye.
+ * Unless something else is given, the eye looks toward the middle of the box, from the south-west
+ * and above, and z points up, or y if the eye looks straight up or down. Parallel rays show all of
+ * the box: it just fits into the picture, whatever the distance of the eye.
  */
 ABACUS_API abacus_status abacus_draw_volume(const abacus_host *host, const abacus_header *header,
 											const abacus_camera *camera,

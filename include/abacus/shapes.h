@@ -1,6 +1,6 @@
 /*
- * shapes.h: what the points of a mesh look like: Voronoi cells, the hull and
- * closer outlines, the spanning tree.
+ * shapes.h: the shape of the points of a mesh: Voronoi cells, the hull and closer outlines, the
+ * spanning tree.
  */
 #ifndef ABACUS_ABACUS_SHAPES_H
 #define ABACUS_ABACUS_SHAPES_H
@@ -12,8 +12,8 @@ extern "C" {
 #endif
 
 /*
- * The Voronoi cells of all vertices, or, with a box, the parts of all cells within it: cells of
- * vertices outside of it, too, so that they fill it. ABACUS_ERROR (state) if the mesh is not
+ * The Voronoi cells of all vertices, or, with a box, the parts of all cells within it: including
+ * cells of vertices outside it, so that they fill it. ABACUS_ERROR (state) if the mesh is not
  * Delaunay.
  */
 typedef struct abacus_voronoi abacus_voronoi;
@@ -23,8 +23,8 @@ ABACUS_API abacus_status abacus_voronoi_open(const abacus_host *host, const abac
 typedef struct abacus_voronoi_cell
 {
 	int64_t vertex;
-	int32_t bounded;    /* whether the cell, not its part, has an end */
-	double area;        /* infinite without one; in space that of the surface */
+	int32_t bounded;    /* whether the whole cell, not its part, is bounded */
+	double area;        /* infinite if unbounded; in space that of the surface */
 	double volume;      /* in space */
 	const double *ring; /* in the plane, `corners` points counterclockwise; valid until the next call */
 	size_t corners;     /* 0 if there is no ring */
@@ -32,7 +32,7 @@ typedef struct abacus_voronoi_cell
 ABACUS_API abacus_status abacus_voronoi_next(abacus_voronoi *voronoi, abacus_voronoi_cell *cell,
 											 abacus_error *error);
 /*
- * What a cell has in common with a neighbour's, or with a side of the box: an edge in the plane, a
+ * The face between a cell and its neighbour's, or a side of the box: an edge in the plane, a
  * polygon in space.
  */
 typedef struct abacus_voronoi_facet
@@ -41,9 +41,9 @@ typedef struct abacus_voronoi_facet
 	int64_t neighbour;
 	int32_t has_neighbour; /* 0: a side of the box */
 	int32_t bounded;
-	double size;           /* a length or an area; infinite without an end */
+	double size;           /* a length or an area; infinite if unbounded */
 	const double *ring;    /* `corners` points, valid until the next call */
-	size_t corners;        /* 0 without an end */
+	size_t corners;        /* 0 if unbounded */
 } abacus_voronoi_facet;
 /* The next facet of any cell: instead of abacus_voronoi_next(). */
 ABACUS_API abacus_status abacus_voronoi_next_facet(abacus_voronoi *voronoi,
@@ -51,7 +51,10 @@ ABACUS_API abacus_status abacus_voronoi_next_facet(abacus_voronoi *voronoi,
 												   abacus_error *error);
 ABACUS_API void abacus_voronoi_close(abacus_voronoi *voronoi);
 
-/* What of a mesh an outline goes around: all, so that it is the hull, or some of its simplices. */
+/*
+ * The part of a mesh that an outline goes around: all, which gives the hull, or some of its
+ * simplices.
+ */
 typedef struct abacus_outline_kind
 {
 	double max_edge;     /* those without a longer edge, unless it is 0 */
@@ -67,13 +70,13 @@ typedef struct abacus_outline_row
 	int64_t vertex;
 	double point[ABACUS_MAX_DIMENSION];
 } abacus_outline_row;
-/* Gets one of them, valid during the call. May fail as a host function may. */
+/* Gets a vertex of a ring, valid during the call. May fail as a host function may. */
 typedef abacus_host_status (*abacus_outline_report)(void *context, const abacus_outline_row *row);
 /*
- * Reports the border of that, ring by ring: counterclockwise, and clockwise around holes; in space
- * counterclockwise seen from outside. Rings come in the order of their least vertices, with which
- * they begin. What is found is sorted in `memory` bytes. ABACUS_ERROR (limit) if these have no room
- * for the parts, page by page, of what may be cavities to be filled.
+ * Reports the border of that part, ring by ring: counterclockwise, and clockwise around holes; in
+ * space counterclockwise seen from outside. Rings come in the order of their least vertices, with
+ * which they begin. Sorting takes `memory` bytes. ABACUS_ERROR (limit) if these have no room for
+ * the parts, page by page, of possible cavities to be filled.
  */
 ABACUS_API abacus_status abacus_outline(const abacus_host *host, const abacus_header *header,
 										const abacus_outline_kind *kind, size_t memory,
@@ -91,8 +94,8 @@ ABACUS_API abacus_status abacus_orientation(const double *a, const double *b, co
 typedef abacus_host_status (*abacus_edge_report)(void *context, const abacus_edge *edge);
 /*
  * Reports the edges of the minimum spanning tree of the mesh's vertices, the shortest first; in
- * meshes that are not Delaunay that of their edges, piece by piece. Of edges of one length those
- * with the lesser ends are taken. What is sorted, and known of vertices, takes `memory` bytes.
+ * meshes that are not Delaunay, the tree of their edges, piece by piece. Among edges of one length
+ * those with the lesser ends are taken. Sorting, and data about vertices, take `memory` bytes.
  * ABACUS_ERROR (limit) if that is too little.
  */
 ABACUS_API abacus_status abacus_spanning_tree(const abacus_host *host, const abacus_header *header,

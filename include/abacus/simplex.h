@@ -1,5 +1,5 @@
 /*
- * simplex.h: a simplex and a vertex as readers give them out.
+ * simplex.h: a simplex and a vertex as readers return them.
  */
 #ifndef ABACUS_ABACUS_SIMPLEX_H
 #define ABACUS_ABACUS_SIMPLEX_H
@@ -30,9 +30,9 @@ typedef struct abacus_vertex
 	int64_t id;
 	double point[ABACUS_MAX_DIMENSION];
 	const double *attributes; /* valid until the next call */
-	int32_t waits;           /* 1: it is not inserted yet */
-	uint64_t sequence;       /* of a point that waits: its place in the insertion order */
-	int64_t vertex;          /* of one that does not: id of the vertex that stands for it,
+	int32_t waits;           /* 1: not yet inserted */
+	uint64_t sequence;       /* for a point that waits: its place in the insertion order */
+	int64_t vertex;          /* for one that does not: id of the vertex that stands for it,
 								its own unless an equal point came before it */
 } abacus_vertex;
 

@@ -1,5 +1,6 @@
 /*
- * standing.h: how a mesh stands to the Delaunay triangulation of its vertices, and what follows.
+ * standing.h: how a mesh is related to the Delaunay triangulation of its vertices, and what
+ * follows.
  */
 #ifndef ABACUS_ABACUS_STANDING_H
 #define ABACUS_ABACUS_STANDING_H
@@ -12,29 +13,29 @@ extern "C" {
 
 /*
  * How a mesh is related to the Delaunay triangulation of its vertices. Under the symbolic
- * perturbation there is only one, which the core makes. Any other mesh was loaded
+ * perturbation there is only one triangulation, which the core makes. Any other mesh was loaded
  * (abacus_load_open).
  */
 typedef enum abacus_delaunay
 {
 	ABACUS_DELAUNAY = 0,    /* is that one, and can be changed */
 	ABACUS_NOT_DELAUNAY,    /* a vertex lies inside the circumsphere of a simplex */
-	ABACUS_WEAKLY_DELAUNAY, /* all circumspheres are empty, but of cospherical vertices others
-							   were joined */
+	ABACUS_WEAKLY_DELAUNAY, /* all circumspheres are empty, but cospherical vertices are
+							   joined differently */
 	ABACUS_NOT_CONVEX       /* its boundary is not the convex hull of the vertices: there are
 							   holes, notches or pieces */
 } abacus_delaunay;
 
 /*
- * The same in words: a clause about the mesh, and a sentence that says why. Not for
+ * The same in words: a clause about the mesh, and a sentence that gives the reason. Not for
  * ABACUS_DELAUNAY.
  */
 ABACUS_API const char *abacus_delaunay_clause(abacus_delaunay delaunay);
 ABACUS_API const char *abacus_delaunay_reason(abacus_delaunay delaunay);
 
 /*
- * What follows. Today one word decides all five, but they are not one: each is asked for where it
- * is what counts.
+ * What follows. Today one word decides all five properties, but they are distinct: each is tested
+ * where it matters.
  */
 
 /* Points may be inserted and deleted. */
@@ -58,7 +59,7 @@ abacus_lists_vertices(uint32_t standing)
 	return standing != ABACUS_DELAUNAY;
 }
 
-/* The pages that meet a convex region hang together: a flood from one of them finds all. */
+/* The pages that meet a convex region are connected: a flood from one of them finds all. */
 static inline int
 abacus_floods_pages(uint32_t standing)
 {

@@ -29,9 +29,9 @@ typedef struct abacus_tile_memory
 } abacus_tile_memory;
 
 /*
- * A picture, as of abacus_draw; the drawing's width is that of the tile in pixels, its window and
- * height are not read. With an attribute it must have a range. Where a pixel has several triangles
- * it shows the one at its centre.
+ * A picture, as by abacus_draw; the drawing's width is that of the tile in pixels, its window and
+ * height are not read. With an attribute the drawing must have a range. Where a pixel has several
+ * triangles it shows the one at its centre.
  */
 ABACUS_API abacus_status abacus_tile_picture(const abacus_host *host, const abacus_header *header,
 											 const abacus_tile *tile, const abacus_drawing *drawing,
@@ -42,7 +42,7 @@ typedef struct abacus_tile_terrain_kind
 {
 	int32_t width;      /* pixels */
 	uint32_t attribute; /* heights in metres */
-	double max_edge;    /* outside of triangles with a longer edge; 0 = none */
+	double max_edge;    /* leave out triangles with a longer edge; 0 = none */
 	double fill;        /* height where there is no mesh */
 } abacus_tile_terrain_kind;
 
@@ -55,14 +55,14 @@ ABACUS_API abacus_status abacus_tile_terrain(const abacus_host *host, const abac
 
 typedef struct abacus_tile_vector_kind
 {
-	int32_t attribute;       /* what triangles, vertices and contours have as value; -1 = none */
+	int32_t attribute;       /* the value of triangles, vertices and contours; -1 = none */
 	double contour_interval; /* 0 = no contours */
 	double max_edge;         /* leave out triangles with a longer edge; 0 = none */
 } abacus_tile_vector_kind;
 
 /*
  * A Mapbox vector tile; `picture` gets its bytes. Its layers are triangles, vertices, contours and
- * hull. Of a tile with many triangles it has no triangles and vertices, and contours between
+ * hull. For a tile with many triangles it has no triangles and vertices, and contours between
  * samples.
  */
 ABACUS_API abacus_status abacus_tile_vector(const abacus_host *host, const abacus_header *header,

@@ -29,11 +29,11 @@ typedef struct abacus_interpolation
 	abacus_method method;
 	abacus_outside outside;
 	double max_edge;     /* simplices with a longer edge count as outside; infinity: none */
-	uint32_t attributes; /* how many are wanted */
+	uint32_t attributes; /* how many are requested */
 	uint32_t attribute[ABACUS_MAX_ATTRIBUTES]; /* their numbers */
 } abacus_interpolation;
 
-/* What the value at a place takes of the value at a vertex. */
+/* The share of the value at a vertex in the value at a place. */
 typedef struct abacus_weight
 {
 	int64_t vertex; /* its id */

@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-/* What of a mesh counts. */
+/* The part of a mesh that counts. */
 typedef struct abacus_surface
 {
 	abacus_window window; /* none or a box: simplices are cut at its border */
@@ -20,10 +20,10 @@ typedef struct abacus_surface
 } abacus_surface;
 
 /*
- * In dimension 2: the area below the surface, the area of the surface, the volumes of what is above
- * the base and of what is below it. In dimension 3: the volume, the area of the surface on which
- * the attribute has the value of the base, the volumes of the parts where it is at least that, and
- * less. Infinite, or no number, where doubles are too small.
+ * In dimension 2: the area below the surface, the area of the surface, the volumes above the base
+ * and below it. In dimension 3: the volume, the area of the surface on which the attribute equals
+ * the base, the volumes of the parts where it is at least that, and less. Infinite, or NaN, where
+ * the range of doubles is too small.
  */
 typedef struct abacus_volume
 {
@@ -35,7 +35,7 @@ ABACUS_API abacus_status abacus_volume_above(const abacus_host *host, const abac
 											 abacus_volume *volume, abacus_error *error);
 /*
  * Between two meshes of dimension 2, where both have heights: cut is where the first is higher. The
- * other one may have a host of its own, and longest edge and window are those of the first.
+ * other mesh may have its own host; longest edge and window are those of the first.
  */
 ABACUS_API abacus_status abacus_volume_between(const abacus_host *host,
 											   const abacus_header *header,

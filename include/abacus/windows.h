@@ -1,5 +1,5 @@
 /*
- * windows.h: what meets a window: simplices with what their corners carry, vertices, edges.
+ * windows.h: what meets a window: simplices with the values at their corners, vertices, edges.
  */
 #ifndef ABACUS_ABACUS_WINDOWS_H
 #define ABACUS_ABACUS_WINDOWS_H
@@ -14,11 +14,11 @@ typedef enum abacus_window_kind
 {
 	ABACUS_NO_WINDOW = 0,    /* all of the mesh */
 	ABACUS_BOX_WINDOW,       /* from lower to upper */
-	ABACUS_BALL_WINDOW,      /* what is at most `radius` from center */
-	ABACUS_BOUNDS_WINDOW     /* what has a bounding box that meets the one from lower to upper */
+	ABACUS_BALL_WINDOW,      /* all places at most `radius` from center */
+	ABACUS_BOUNDS_WINDOW     /* simplices whose bounding boxes meet the box from lower to upper */
 } abacus_window_kind;
 
-/* A closed part of the plane or of space; all is finite. */
+/* A closed part of the plane or of space; all numbers are finite. */
 typedef struct abacus_window
 {
 	abacus_window_kind kind;
@@ -28,7 +28,7 @@ typedef struct abacus_window
 	double radius;
 } abacus_window;
 
-/* The values of an attribute, or of a label, that are wanted; ends may be infinite. */
+/* A range of values of an attribute, or of a label; ends may be infinite. */
 typedef struct abacus_range
 {
 	uint32_t attribute; /* its number, or that of the label */
@@ -37,10 +37,10 @@ typedef struct abacus_range
 } abacus_range;
 
 /*
- * The simplices that meet a window, exactly, in the order in which their pages are found; those of
- * all of the mesh in key order. Those with an edge longer than max_edge are left out, unless it is
- * 0; and those that have not a label within a range, unless that is NULL: their pages are
- * passed over by what the heads of pages of labels say.
+ * The simplices that meet a window, exactly, in the order in which their pages are found; without a
+ * window all simplices in key order. Simplices with an edge longer than max_edge are left out,
+ * unless it is 0; and those whose label is outside the range, unless that is NULL: the heads of
+ * pages of labels show which pages to skip.
  */
 typedef struct abacus_cells abacus_cells;
 ABACUS_API abacus_status abacus_cells_open(const abacus_host *host, const abacus_header *header,
@@ -53,14 +53,14 @@ ABACUS_API abacus_status abacus_cells_open_stretch(const abacus_host *host,
 												   uint64_t greatest, abacus_cells **cells,
 												   abacus_error *error);
 /*
- * `values` gets the attributes of the corners, corner by corner: of each all that the mesh has. It
- * may be NULL.
+ * `values` gets the attributes of the corners, corner by corner: for each corner all attributes of
+ * the mesh. It may be NULL.
  */
 ABACUS_API abacus_status abacus_cells_next(abacus_cells *cells, abacus_simplex *simplex,
 										   double *values, abacus_error *error);
 /*
- * The labels of a simplex, as many as the header names: of one that abacus_cells_next() has given.
- * Valid until the next call.
+ * The labels of a simplex, as many as the header names: of one that abacus_cells_next() has
+ * returned. Valid until the next call.
  */
 ABACUS_API abacus_status abacus_cells_labels(abacus_cells *cells, const abacus_simplex *simplex,
 											 const double **labels, abacus_error *error);
@@ -69,8 +69,8 @@ ABACUS_API uint64_t abacus_cells_pages(const abacus_cells *cells);
 ABACUS_API void abacus_cells_close(abacus_cells *cells);
 
 /*
- * The vertices in a window, or the edges that meet one, each once: those equal to a vertex, and
- * points that wait, are none. Edges longer than max_edge are left out, unless it is 0.
+ * The vertices in a window, or the edges that meet one, each once: points equal to a vertex, and
+ * points that wait, are not included. Edges longer than max_edge are left out, unless it is 0.
  */
 typedef struct abacus_faces abacus_faces;
 ABACUS_API abacus_status abacus_faces_open(const abacus_host *host, const abacus_header *header,
@@ -78,8 +78,8 @@ ABACUS_API abacus_status abacus_faces_open(const abacus_host *host, const abacus
 										   size_t cache_bytes, abacus_faces **faces,
 										   abacus_error *error);
 /*
- * Those vertices of the window of which an attribute is within a range. Pages without such a value
- * are passed over by the heads of their columns.
+ * The vertices of the window with an attribute within a range. The heads of their columns show
+ * which pages have no such value, and these are skipped.
  */
 ABACUS_API abacus_status abacus_faces_open_range(const abacus_host *host,
 												 const abacus_header *header,

@@ -1,17 +1,17 @@
-// Other attributes for all points of a mesh: more, fewer, or the same in another place.
+// Gives all points of a mesh other attributes: more, fewer, or the same in another place.
 //
-// The simplices stay as they are, with their labels, and so does where they lie on the curve. What
-// has attributes is written anew, a kind of pages after the other:
+// The simplices, their labels and their places on the curve stay as they are. Everything that has
+// attributes is rewritten, one kind of pages after the other:
 //
 //   points that wait    behind the others, in their order
 //   repeated points     by way of a spool, since they keep their keys
 //   vertices            If their attributes are apart, these are sorted along the curve, and their
-//                       pages made anew. If they are among the simplices, each page of simplices is
-//                       loaded with what its vertices have from now on, and written again. If they
-//                       come to be apart, both is done.
+//                       pages rebuilt. If they are in the simplex pages, each of these is loaded
+//                       with the new attributes of its vertices, and written again. If they become
+//                       apart, both is done.
 //
-// A mesh whose attributes are apart keeps them apart, as long as it has any. Another one goes by
-// the same rule as a new mesh.
+// A mesh whose attributes are apart keeps them apart as long as it has any. Any other mesh follows
+// the same rule as a new one.
 #pragma once
 
 #include "attributes/rewriting.hpp"
@@ -55,15 +55,15 @@ public:
 
 private:
     static constexpr std::uint64_t report_every = 256; // vertices
-    /// Each page is loaded once, and those that are written tell how much the next ones may hold.
-    /// So a cache for some of them does better than a large one.
+    /// Each page is loaded once, and the pages written show how much the next ones may hold. So a
+    /// cache for a few pages does better than a large one.
     static constexpr std::size_t pass_bytes = std::size_t{1} << 20;
 
     void convert(const double *from, std::uint64_t *to) const {
         for (const std::uint32_t source : source_)
             *to++ = std::bit_cast<std::uint64_t>(value_from(source, from));
     }
-    /// A record with the attributes of now.
+    /// A record with its new attributes.
     const std::uint64_t *converted(const std::uint64_t *record) {
         std::copy_n(record, 1 + D, record_.data());
         convert(record_attributes<D>(record), record_.data() + 1 + D);
@@ -95,7 +95,7 @@ private:
         spool.close();
     }
 
-    /// Gives attribute pages what vertices have, wherever it has been.
+    /// Writes the attributes of vertices to attribute pages, wherever they have been.
     void move_apart() {
         RecordSort sort(host_, 1 + D + count_, 1, memory_); // code, coordinates, attributes
         collect(sort);
@@ -112,7 +112,7 @@ private:
         sort.close();
     }
 
-    /// Adds what vertices have from now on to the sort.
+    /// Adds the new attributes of vertices to the sort.
     void collect(RecordSort &sort) {
         Cache<D> &cache = build_.core_->cache;
         OwnVertices<D> own(cache);
@@ -139,7 +139,7 @@ private:
         }
     }
 
-    /// As they have been.
+    /// The old attributes.
     const double *attributes_of(VertexIndex v) {
         const VertexHeap<D> &vertices = build_.core_->cache.vertices();
         if (!build_.apart_) return vertices.attributes(v);
@@ -155,7 +155,7 @@ private:
         erase_attributes(host_, first_group<1>);
     }
 
-    /// With so many attributes in the pages of simplices.
+    /// With this many attributes in the simplex pages.
     void rewrite_simplices(int attributes) {
         Cache<D> cache(host_, build_.domain_, attributes,
                        CacheOptions{.budget = std::min(build_.cache_bytes_, pass_bytes),
@@ -166,7 +166,7 @@ private:
         for (Key page = first_key; page < end_key;) {
             cache.trim();
             pacer.reached(done);
-            page = cache.visit(page, [&](Handle) { ++done; }); // loaded, it is to be written
+            page = cache.visit(page, [&](Handle) { ++done; }); // once loaded, it is to be written
         }
         cache.flush();
         build_.core_->cache.counters += cache.counters;

@@ -1,16 +1,16 @@
-// Changes of a mesh as a whole (dissertation §4.12.5): points that wait, or that a stage
-// hands on, go into the triangulation; others are taken out of it.
+// Changes of a mesh as a whole (dissertation §4.12.5): points that wait, or that a stage passes on,
+// are inserted into the triangulation; others are removed from it.
 //
 // A point is in one place at a time. It waits on a vertex page (vertex_page.hpp), is a
 // vertex of simplex pages, or, if it equals a vertex, is a repeated point
 // (repeated_points.hpp). While the points span no simplex all of them wait.
 //
-// A mesh whose domain does not fit many of its points gets other keys (build_rekey.cpp). A mesh
-// that loses so many points that triangulating the rest costs less is also made anew (outlay.hpp,
+// A mesh whose domain does not fit many of its points gets other keys (build_rekey.cpp). A mesh is
+// also rebuilt when it loses so many points that triangulating the rest costs less (outlay.hpp,
 // rest.hpp).
 //
-// With several threads points are gathered as long as they come along the curve, and inserted or
-// taken away together (build_threads.cpp).
+// With several threads, points are gathered as long as they come along the curve, and inserted or
+// removed together (build_threads.cpp).
 //
 // Each change ends with all pages written and the header brought up to date.
 #pragma once
@@ -38,34 +38,34 @@ namespace abacus {
 
 template <int D> class Build {
 public:
-    /// `stored` is told by the host what is stored; null if simplices have no labels and
+    /// `stored` learns from the host which pages are stored; null if simplices have no labels and
     /// facets no markers.
     Build(const Host &host, const abacus_header &header, std::size_t cache_bytes,
           StoredPages *stored = nullptr);
 
-    /// From now on keeps account of the simplices that come and go.
+    /// From now on logs the simplices that are created and removed.
     void log_to(SimplexChanges<D> &changes);
-    /// Until settle() labels and markers stay with simplices as they are now: the changes between
-    /// are one.
+    /// Until settle() labels and markers stay with the simplices of now: all changes until then
+    /// count as one.
     void hold() { holds_ = true; }
     void settle(abacus_header &header);
     /// Inserts at most `limit` of the points that wait (0 = all).
     void run(std::uint64_t limit, abacus_header &header);
     /// Inserts what waits, then the points of a stage.
     void insert(Stage<D> &stage, abacus_on_duplicate on_duplicate, abacus_header &header);
-    /// Inserts what waits, then takes away a point for each point of a stage; with
-    /// `exactly`, only one that has its id and attributes. Returns how many there were.
+    /// Inserts what waits, then removes a point for each point of a stage; with `exactly`, only one
+    /// that has its id and attributes. Returns how many there were.
     std::uint64_t remove(Stage<D> &stage, bool exactly, abacus_header &header);
-    /// Inserts what waits, then gives the points of a stage, which have values of the attributes
-    /// `which` only, these values. With `exactly` those of all attributes, as they were, come
-    /// behind them, and a point must have them. Returns for how many there was a point; `missing`
-    /// becomes the first for which there was none.
+    /// Inserts what waits, then gives the points of the mesh the new values in a stage, which has
+    /// only the attributes `which`. With `exactly` the old values of all attributes follow the new
+    /// ones, and a point must have them. Returns how many records had a point in the mesh;
+    /// `missing` becomes the first that had none.
     std::uint64_t update(Stage<D> &stage, std::span<const std::uint32_t> which, bool exactly,
                          abacus_header &header, abacus_named_place &missing);
-    /// Takes away all points, waiting ones included; returns how many there were.
+    /// Removes all points, waiting ones included; returns how many there were.
     std::uint64_t clear(abacus_header &header);
-    /// Gives all points other attributes: as the i-th what has been their attribute source[i], or
-    /// no value (no_attribute). `memory` is for sorting. Then nothing else may follow.
+    /// Gives all points other attributes: the i-th is their former attribute source[i], or has no
+    /// value (no_attribute). `memory` is for sorting. No other change may follow.
     void change_attributes(std::span<const std::uint32_t> source, std::size_t memory,
                            abacus_header &header);
     /// Gives a mesh whose domain does not fit its points another one, with `memory` bytes for
@@ -92,7 +92,7 @@ private:
 
     static void check_attributes(const Stage<D> &stage, std::size_t attributes);
     bool has_simplices() const { return header_->vertices > 0; }
-    /// Of all kinds.
+    /// Finite ones and ghosts.
     std::uint64_t simplices() const {
         return static_cast<std::uint64_t>(core_->mesh.simplices() + core_->mesh.ghosts());
     }
@@ -107,34 +107,34 @@ private:
     void start(const std::array<VertexIndex, D + 1> &vertices);
     /// Adds points, which may be gathered: change_gathered() comes after the last.
     void add(const std::uint64_t *records, std::size_t n);
-    /// Calls take(records, codes, n) for some points after the other, with their codes.
+    /// Calls take(records, codes, n) for some points at a time, with their codes.
     template <class Take>
     void with_codes(const std::uint64_t *records, std::size_t n, std::size_t stride,
                     Take take) const;
     void insert_some(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n);
-    /// So many points come, as far as is known, of which so many words are looked at.
+    /// About `points` points come, and `words` words of each are used.
     void begin_to_gather(std::uint64_t points, std::size_t words);
-    /// Whether there are threads, and room for points that are worth them.
+    /// Whether there are threads, and room for enough points to be worth sharing.
     bool gathers() const;
-    /// What so many gathered points take, with copies of those that have to wait.
+    /// The memory for this many gathered points, with copies of those that have to wait.
     std::size_t gathered_bytes(std::size_t points) const;
     /// Those that leave may come without attributes.
     void gather(const std::uint64_t *records, std::size_t n, std::size_t stride);
     void gather_one(const std::uint64_t *record, std::size_t words, std::uint64_t code);
-    /// Inserts what has been gathered, or takes it away.
+    /// Inserts the gathered points, or removes them.
     void change_gathered();
     std::size_t thread_cache_bytes() const;
-    /// What the session's cache may take: with threads what gathered points leave of it.
+    /// The memory for the session's cache: with threads, what the gathered points leave.
     std::size_t own_cache_bytes() const;
     bool is_worth_sharing() const;
     Cuts cuts_for_threads() const;
     void insert_gathered_here();
     void remove_gathered_here();
     void change_on_threads(Cuts &cuts);
-    /// Adds the points that the threads have left to the session's to `left`.
+    /// Adds the points that the threads have left to the session's thread to `left`.
     void run_passes(Cuts &cuts, Batch &left, const typename Interval<D>::Removing *how);
-    /// Of a gathered point that the threads have left to the session's: adds it to `left` if the
-    /// mesh is needed for it.
+    /// For a gathered point that the threads have left to the session's thread: adds it to `left`
+    /// if it needs the mesh.
     void deal_with_left(std::size_t i, Batch &left);
     /// Inserts gathered points that threads would put off.
     void insert_near_borders(const Cuts &cuts);
@@ -142,27 +142,25 @@ private:
     /// Writes everything and begins with an empty cache.
     void hand_over(const Cuts &cuts);
     void forget_cache();
-    /// Adds a point where there is a vertex.
+    /// Adds a point that equals a vertex.
     void add_duplicate(const std::uint64_t *record);
     /// Takes in the points of a stage.
     void take_in(Stage<D> &stage);
-    /// The same where all points wait, one for each place; or refuses a second point at a
-    /// place.
+    /// The same while all points wait, one for each place; or refuses a second point at a place.
     void take_in_distinct(Stage<D> &stage, bool refuses);
     void insert_waiting(std::uint64_t limit);
-    /// Takes the repeated points at p away.
+    /// Removes the repeated points at p.
     void forget_repeated(const Point<D> &p);
-    /// Takes points away that are all at one place of the triangulation. Returns how many
-    /// there were.
+    /// Removes points that are all at one place of the triangulation. Returns how many there were.
     std::uint64_t erase(const Point<D> &p, Leaving &leaving);
-    /// Takes the first point away: the next one gives the vertex id and attributes, or else
-    /// the vertex goes. Returns 1.
+    /// Removes the first point: the next one gives the vertex its id and attributes; if there is
+    /// none, the vertex is removed. Returns 1.
     std::uint64_t pass_on(const Point<D> &p);
-    /// Takes the vertex away; if a want is given, only a vertex that it takes. Returns whether
-    /// there was one.
+    /// Removes the vertex; if a want is given, only a vertex that it accepts. Returns whether there
+    /// was one.
     std::uint64_t erase_vertex(const Point<D> &p, Leaving *want = nullptr);
-    /// The points that are left, the neighbours of the vertex last found, span no simplex:
-    /// they become waiting points.
+    /// The points left, the neighbours of the vertex last found, span no simplex: they become
+    /// waiting points.
     void collapse();
     /// From now on vertices that leave stay where they are, until the rest is triangulated.
     void put_off_removals(std::size_t memory);
@@ -171,26 +169,26 @@ private:
     void make_repeated_wait(VertexPageWriter &pages);
     /// Erases all pages of a kind.
     void erase_pages(abacus_page_kind kind);
-    /// Begins anew without a triangulation.
+    /// Starts over without a triangulation.
     void forget_simplices();
-    /// All simplices are about to go: so much for whoever wants to know.
+    /// Reports every simplex as removed to the change log.
     void log_all_gone();
     void sweep_labels();
-    /// The domain was another one.
+    /// Sorts labels and markers by the keys of the new domain; `from` is the old one.
     void rekey_labels(const Domain<D> &from, std::size_t memory);
-    /// Counts a point as one that the domain does not fit if the simplices around it share one code
-    /// with more than a page takes. It has just been inserted.
+    /// Counts the point just inserted as one that the domain does not fit if the simplices around
+    /// it share a code with more simplices than a page takes.
     void count_crowded();
-    /// With so many points that come.
+    /// With this many points to come.
     bool has_outgrown_domain(std::uint64_t coming) const;
     static constexpr std::size_t most_at_once = 64; ///< whose codes are computed together
     using Record = std::array<std::uint64_t, record_words(D, ABACUS_MAX_ATTRIBUTES)>;
-    /// Chooses another domain, for all points and those to come, and makes the triangulation anew
+    /// Chooses another domain, for all points and those to come, and rebuilds the triangulation
     /// over it. False if no domain serves them far better.
     bool change_domain(const Spread<D> &coming, std::size_t memory);
     void take_apart(Stage<D> &points, std::array<Record, D + 1> &corners);
     void take_repeated(Stage<D> &points);
-    /// Runs a change, which returns how many points it has dealt with, and ends it.
+    /// Runs a change, which returns how many points it has processed, and ends it.
     template <class Change> void change(abacus_header &header, Change change);
     void report(abacus_phase phase, std::uint64_t done, std::uint64_t total);
 
@@ -201,14 +199,14 @@ private:
     bool holds_ = false;        ///< labels and markers
     Domain<D> domain_;
     std::optional<AttributePages<D>> apart_;    ///< if the mesh has its attributes apart
-    std::optional<Core> core_;                  ///< always there; optional, to be made anew
+    std::optional<Core> core_;                  ///< always there; optional, to be replaced
     std::optional<RepeatedPoints<D>> repeated_; ///< as well
     std::optional<Rest<D>> rest_;               ///< while removals are put off
     Outlet *outlet_ = nullptr;                  ///< while points leave
-    SimplexChanges<D> *changes_ = nullptr;      ///< if somebody wants to know
+    SimplexChanges<D> *changes_ = nullptr;      ///< the log of changes, if any
     abacus_header *header_ = nullptr;           ///< of the current change
     abacus_on_duplicate on_duplicate_ = ABACUS_KEEP;
-    bool counts_crowded_ = false; ///< the mesh had vertices before what comes
+    bool counts_crowded_ = false; ///< the mesh had vertices before these points
     Batch gathered_;
     std::size_t most_gathered_ = 0;      ///< points
     std::uint64_t done_ = 0, to_do_ = 0; ///< gathered points, for reports

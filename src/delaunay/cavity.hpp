@@ -3,21 +3,21 @@
 // hull facet. It is star-shaped around the point, and is replaced by the simplices that join
 // the facets of its rim to the point.
 //
-// A test of a simplex beyond a facet reuses what earlier tests have computed from the
-// facet's corners, and reads one vertex, the apex (geometry/in_sphere.hpp).
+// The test of a simplex beyond a facet reuses what earlier tests have computed from the facet's
+// corners, and reads only one vertex, the apex (geometry/in_sphere.hpp).
 //
 // In the plane the triangles form a tree, since the polygon has no vertex inside. A
 // depth-first search that keeps the order of the edges around each triangle visits each
-// triangle once. It lists the rim as a cycle: an edge ends where the next one begins. Nothing
-// is looked up: the new triangle on an edge meets the one on the next edge.
+// triangle once. It lists the rim as a cycle: an edge ends where the next one begins. Nothing needs
+// to be looked up: the new triangle on an edge meets the one on the next edge.
 //
-// In space the search may come back to a tetrahedron, so it marks what it has seen, and
-// numbers the corners. It goes breadth first, and tests the tetrahedra beyond several facets
-// together. No processor can predict the outcome of a test, which is about a coin's toss. A
-// branch on it would stop the following tests too, not only the next step. So links and
-// vertices are fetched side by side, determinants are computed side by side, and the results
-// are sorted out without branches. The new tetrahedra find one another by their ridges, the
-// edges of the rim, in small tables (ridges.hpp).
+// In space the search may return to a tetrahedron, so it marks what it has seen, and numbers the
+// corners. It goes breadth first, and tests the tetrahedra beyond several facets together. No
+// processor can predict the outcome of a test, which is about a coin's toss. A branch on it would
+// stop the following tests too, not only the next step. So links and vertices are fetched side by
+// side, determinants are computed side by side, and the results are sorted out without branches.
+// The new tetrahedra find one another by their ridges, the edges of the rim, in small tables
+// (ridges.hpp).
 #pragma once
 
 #include "delaunay/delaunay.hpp"
@@ -26,7 +26,7 @@
 
 namespace abacus {
 
-/// The simplices inside, of either dimension.
+/// The simplices inside the cavity, in either dimension.
 template <int D> class CavityInside {
 protected:
     explicit CavityInside(Delaunay<D> &mesh)
@@ -44,7 +44,7 @@ protected:
     std::int64_t hollow_out() {
         std::int64_t ghosts = 0;
         for (const Handle h : inside_) {
-            // The search can come back only where the triangulation is not Delaunay.
+            // The search can return here only if the triangulation is not Delaunay.
             if (cache_.simplex(h).is_free()) throw_no_triangulation();
             ghosts += cache_.simplex(h).is_ghost();
             if (mesh_.log != nullptr) mesh_.log->go(cache_, h);
@@ -53,7 +53,7 @@ protected:
         mesh_.forget();
         return ghosts;
     }
-    /// Of so many that are in their place.
+    /// Logs the n simplices created in their place.
     void log_created(const Arena<Handle> &created, std::size_t n) {
         if (mesh_.log == nullptr) return;
         for (std::size_t i = 0; i < n; ++i) mesh_.log->come(cache_, created[i]);
@@ -74,17 +74,17 @@ public:
     void find(const Point<2> &p, Handle first);
     /// Replaces the cavity found last by the star of v, the vertex at its point.
     void fill(VertexIndex v);
-    /// After find() has thrown: the next one begins anew.
+    /// After find() has thrown: the next search starts afresh.
     void give_up() {}
 
 private:
-    /// Of a triangle inside, counterclockwise; it ends where the one below it on the stack
+    /// An edge of a triangle inside, counterclockwise; it ends where the one below it on the stack
     /// begins.
     struct Edge {
         SeenPoint<2> begin;
         double cross; // of both ends
         VertexIndex vertex;
-        // Of the triangle beyond:
+        // About the triangle beyond:
         bool is_inside;
         Link outer;
         SeenPoint<2> apex;
@@ -98,19 +98,18 @@ private:
 
     /// Tests the triangle beyond an edge whose begin is known.
     void look_beyond(Edge &edge, Link inner, const SeenPoint<2> &end, const Point<2> &p);
-    /// The test where in_circle() is not sure: above all for ghosts, whose point at
-    /// infinity has no coordinates. It is a function of its own to keep the loop around
-    /// the test small.
+    /// The test where in_circle() is uncertain: above all for ghosts, whose point at infinity has
+    /// no coordinates. It is a separate function to keep the loop around the test small.
     [[gnu::noinline]] bool is_exactly_inside(Handle h, const Point<2> &p) const;
     /// Room for more; returns where the top is now.
     Edge *deepen(const Edge *top);
-    /// Slots for the star of a vertex with this code, one for each edge of the rim, the first
-    /// one again at the end.
+    /// Allocates slots for the star of a vertex with this code, one for each edge of the rim, and
+    /// repeats the first one at the end.
     void allot(std::uint64_t code);
     void bring_infinity_last(Handle h);
 
     Arena<Edge> stack_;
-    Arena<RimEdge> rim_; // the first one again at the end, while it is filled
+    Arena<RimEdge> rim_; // with the first one repeated at the end, while it is filled
     Arena<Handle> created_;
 };
 
@@ -145,7 +144,7 @@ private:
         InSphere test;
         SeenPoint<3> apex; // that vertex
     };
-    /// What is tested together.
+    /// The tetrahedra that are tested together.
     struct Batch {
         static constexpr std::size_t most = 8;
         std::size_t size;
@@ -155,16 +154,16 @@ private:
     };
 
     void begin(const Point<3> &p, Handle first);
-    /// Gathers what lies beyond the facets from `at` on and is not known to be inside; returns
-    /// how many facets that were.
+    /// Gathers the tetrahedra beyond the facets from `at` on that are not known to be inside;
+    /// returns the number of facets.
     std::size_t look_beyond(std::size_t at, Batch &batch);
     /// The same links, where pages have to be loaded; loading may number their
     /// vertices.
     [[gnu::noinline]] void load_beyond(std::size_t at, std::size_t facets, Link *outer);
     void test(Batch &batch, const Point<3> &p);
-    /// Decides the tests that were not sure.
+    /// Decides the uncertain tests.
     [[gnu::noinline]] void test_exactly(Batch &batch, const Point<3> &p);
-    /// Marks them; those outside go to the rim, the others are to be entered.
+    /// Marks the tetrahedra; those outside go to the rim, the others will be entered.
     void sort_out(Batch &batch);
     /// Adds a tetrahedron that is inside, with its other three facets.
     void enter(const Beyond &beyond);
@@ -172,7 +171,7 @@ private:
     void make_room();
     LiftedPlane plane(const Facet &facet) const;
     bool is_exactly_inside(Handle h, const Point<3> &p) const;
-    /// The new tetrahedron on a facet of the rim; it leaves its ridges.
+    /// The new tetrahedron on a facet of the rim; it enters its ridges in the table.
     template <class View>
     Handle create(const RimFacet &rim, VertexIndex v, std::uint64_t code, const View &ridges);
 

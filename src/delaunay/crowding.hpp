@@ -1,7 +1,7 @@
-// Whether the domain of a stored mesh fits its points, by a look into a few pages.
+// Decides from a few pages whether the domain of a stored mesh fits its points.
 //
-// Where it does not, most pages lie inside one code, which their keys tell. The vertices of such
-// pages tell whether another domain would serve them far better. There may be none.
+// If it does not, most pages lie within one code, as their keys show. The vertices of such pages
+// show whether another domain would serve them far better. There may be none.
 //
 // Pages are found by their keys. Any distribution of codes is possible. So the next key is always
 // in the middle of the widest stretch of the curve that no page seen so far owns. Empty regions
@@ -14,7 +14,7 @@
 
 namespace abacus {
 
-/// False where a page looked into is damaged.
+/// False if a page that it reads is damaged.
 template <int D> bool looks_crowded(const Host &host, const abacus_header &header);
 
 } // namespace abacus

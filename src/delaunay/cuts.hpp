@@ -1,9 +1,9 @@
-// Where points along the curve are cut into intervals, one for each thread.
+// Cuts the points along the curve into intervals, one for each thread.
 //
-// A point near a border is put off, so borders should be short. The border between two parts of
-// the curve is that of the cells where it is cut: the coarser the cell, the shorter (an edge of
-// the domain where the curve is halved, and any number where it is cut just anywhere). So each
-// border is moved, within a share of what a thread gets, to the coarsest cell there is.
+// A point near a border is put off, so borders should be short. The border between two parts of the
+// curve is that of the cells where it is cut: the coarser the cell, the shorter the border (one
+// edge of the domain where the curve is halved, many edges where it is cut at an arbitrary place).
+// So each border is moved, within a share of what a thread gets, to the coarsest cell there is.
 #pragma once
 
 #include "delaunay/interval.hpp"
@@ -40,7 +40,7 @@ public:
         return i + 1 < size() ? begin(i + 1, batch, run) : batch.run_end(run);
     }
 
-    /// Into so many intervals at most, with as many points of the first run each, more or less.
+    /// At most this many intervals, each with about as many points of the first run.
     void cut_evenly(const Batch &batch, std::size_t intervals) {
         const std::size_t n = batch.run_end(0), share = n / intervals, leeway = share / 32;
         for (std::size_t i = 1; i < intervals; ++i) {
@@ -52,7 +52,7 @@ public:
             first_.push_back(high >> zeros << zeros);
         }
     }
-    /// For tests: anywhere, into intervals of any length, of so many points on average.
+    /// For tests: cuts anywhere, into intervals of any length, with this many points on average.
     void cut_at_random(const Batch &batch, std::size_t points) {
         const std::size_t n = batch.run_end(0);
         std::uint64_t state = n;
@@ -63,7 +63,7 @@ public:
             if (batch.code(i) > first_.back()) first_.push_back(batch.code(i));
         }
     }
-    /// Joins each two.
+    /// Joins the intervals in pairs.
     void join_pairs() {
         for (std::size_t i = 0; 2 * i < size(); ++i) first_[i] = first_[2 * i];
         first_.resize((size() + 1) / 2);

@@ -1,6 +1,6 @@
-// A Delaunay mesh that is being changed: what insertion and removal share, so that both
-// can work on one mesh in turns. It knows how many simplices there are, where the last
-// change was, and the way from there to the next point.
+// A Delaunay mesh that is being changed: the state that insertion and removal share, so that both
+// can work on one mesh in turns. It knows how many simplices there are, where the last change was,
+// and the way from there to the next point.
 #pragma once
 
 #include "delaunay/simplex_log.hpp"
@@ -34,7 +34,7 @@ public:
     /// Finite simplices and ghosts of the whole mesh.
     std::int64_t simplices() const { return simplices_; }
     std::int64_t ghosts() const { return ghosts_; }
-    /// There are so many more, or fewer.
+    /// Adds to the counts; negative if there are fewer.
     void count(std::int64_t simplices, std::int64_t ghosts) {
         simplices_ += simplices;
         ghosts_ += ghosts;
@@ -86,7 +86,7 @@ public:
     }
 
     Marks marks;
-    /// Of simplices that come and go; none unless somebody wants it.
+    /// The log of created and removed simplices, if there is one.
     SimplexLog<D> *log = nullptr;
 
 private:

@@ -1,9 +1,9 @@
 // Points on their way to the waiting ones, one for each place.
 //
-// Equal points come one after the other. The last one goes on to another stage, and points that
-// wait at its place are taken away, many at a time, since they are in no order. Or the second
-// point at a place is refused. All this is only needed while there is no triangulation; with one,
-// each point meets the vertex it equals.
+// Equal points come one after the other. The last of them goes on to another stage, and points that
+// wait at its place are removed, many at a time, since they are in no order. Or the second point at
+// a place is refused. All this is only needed while there is no triangulation; with one, each point
+// meets the vertex it equals.
 #pragma once
 
 #include "delaunay/intake.hpp"
@@ -66,7 +66,7 @@ private:
     const std::size_t stride_;
     Stage<D> &onward_;
     const bool refuses_;
-    Arena<std::uint64_t> last_; // the record that came last, if any
+    Arena<std::uint64_t> last_; // the last record, if any
     WaitingPoints<D> waiting_;
 };
 

@@ -17,7 +17,7 @@ public:
     FirstSimplex(const FirstSimplex &) = delete;
     FirstSimplex &operator=(const FirstSimplex &) = delete;
 
-    /// Looks at the next point, which has this number; true if the simplex is complete.
+    /// Takes the next point, which has this number; true if the simplex is complete.
     bool offer(const Point<D> &p, std::uint64_t number) {
         if (!is_complete() && is_independent(corners_, n_, p)) {
             points_[n_] = p;
@@ -29,7 +29,7 @@ public:
     bool contains(std::uint64_t number) const {
         return std::find(numbers_.begin(), numbers_.begin() + n_, number) != numbers_.begin() + n_;
     }
-    /// Of the i-th corner; they ascend.
+    /// The number of the i-th corner; these ascend.
     std::uint64_t number(int i) const { return numbers_[i]; }
 
 private:

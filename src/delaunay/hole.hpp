@@ -6,17 +6,16 @@
 // before. So they are the part of the Delaunay triangulation of the link that lies inside
 // the rim, ghosts included.
 //
-//   cut    In 2D the link is a polygon. On its closing edge stands the one triangle whose
-//          circumcircle has none of the polygon's other vertices inside; it leaves two
-//          polygons with fewer vertices. Nothing is searched for or allocated.
-//   wrap   In 3D (gift wrapping): on each open facet stands the one tetrahedron whose
-//          circumsphere has no vertex of the link inside. It meets open facets, or opens
-//          new ones.
-//   sew    Both take steps for each pair of a facet and a vertex: best for usual degrees,
-//          hopeless for the centre of a sphere. From some dozens of vertices on, they are
-//          inserted one after the other into a mesh of their own (link_mesh.hpp), of which
-//          the part inside the rim is copied. If the link is flat, the hole gets nothing but
-//          ghosts, one on each finite facet of the rim.
+//   cut    In 2D the link is a polygon. The one triangle on its closing edge whose circumcircle has
+//          none of the polygon's other vertices inside is cut off; this leaves two polygons with
+//          fewer vertices. It needs no search and no allocation.
+//   wrap   In 3D (gift wrapping): each open facet gets the one tetrahedron whose circumsphere has
+//          no vertex of the link inside. It meets open facets, or opens new ones.
+//   sew    The first two take a step for each pair of a facet and a vertex: best for usual degrees,
+//          hopeless for the centre of a sphere. So from some dozens of vertices on, these are
+//          inserted one after the other into a mesh of their own (link_mesh.hpp), and its part
+//          inside the rim is copied. If the link is flat, the hole gets only ghosts, one on each
+//          finite facet of the rim.
 #pragma once
 
 #include "delaunay/link_mesh.hpp"
@@ -64,11 +63,11 @@ private:
     };
     using Facet = typename OpenFacets<D>::Facet;
     void wrap(const Star<D> &star) requires(D == 3);
-    /// Vertices of the simplex to stand on a facet; of one with the point at infinity.
+    /// The vertices of the new simplex on a finite facet, and on one with the point at infinity.
     Vertices best_on_finite(const Facet &facet) const requires(D == 3);
     Vertices best_on_infinite(const Facet &facet) const requires(D == 3);
 
-    /// Returns how many cells that has taken.
+    /// Returns how many cells this has taken.
     std::size_t sew(const Star<D> &star);
     void connect(Handle cell);
 
@@ -79,7 +78,7 @@ private:
     Arena<Chain> chains_;
     Arena<Candidate> candidates_;
     LinkMesh<D> link_;
-    Arena<Handle, Handle> filled_; // of the cells of this that are inside, the simplices
+    Arena<Handle, Handle> filled_; // the simplices of its cells inside
 };
 
 } // namespace abacus

@@ -1,6 +1,6 @@
-// Incremental insertion: a point's cavity is found from a simplex that it is in conflict
-// with, and filled (cavity.hpp). Every decision is an exact predicate under symbolic
-// perturbation, so the mesh after each insertion is the unique perturbed Delaunay
+// Incremental insertion: the search for a point's cavity starts at a simplex in conflict with the
+// point; then the cavity is filled (cavity.hpp). Every decision is an exact predicate under
+// symbolic perturbation, so the mesh after each insertion is the unique perturbed Delaunay
 // triangulation of the points so far, whatever their order.
 #pragma once
 
@@ -23,11 +23,11 @@ public:
     bool insert(const Point<D> &p, std::int64_t id, const double *attributes) {
         return insert(p, cache_.domain().code(p), id, attributes);
     }
-    /// With p's code, where it is known already.
+    /// With p's code, if it is known already.
     bool insert(const Point<D> &p, std::uint64_t code, std::int64_t id, const double *attributes);
 
     /// The same in a cache that keeps within an interval: p is put off, and nothing has changed, if
-    /// a page of another interval would have to be looked into.
+    /// a page of another interval would be needed.
     Inserted insert_within(const Point<D> &p, std::uint64_t code, std::int64_t id,
                            const double *attributes);
 

@@ -1,8 +1,8 @@
-// Where a stage hands its points on to be inserted at once.
+// Takes the points of a stage and inserts them at once.
 //
-// Until the points span a simplex there is no mesh to insert them into. A few are held
-// in memory until then. If there are more, or others wait already, all go to vertex
-// pages and are inserted from there.
+// Until the points span a simplex there is no mesh to insert them into. A few points are held in
+// memory until then. If there are more, or others wait already, all go to vertex pages and are
+// inserted from there.
 #pragma once
 
 #include "delaunay/build.hpp"
@@ -14,7 +14,7 @@ namespace abacus {
 
 template <int D> class Build<D>::Intake final : public RecordSink {
 public:
-    /// So many points come at most.
+    /// At most this many points come.
     Intake(Build &build, std::uint64_t points)
         : build_(build), stride_(record_words(D, build.attributes_)), held_(build.host_) {
         build_.begin_to_gather(points, stride_);

@@ -1,4 +1,4 @@
-// What one thread does: it inserts points along an interval of the curve, or takes points away
+// The work of one thread: it inserts points along an interval of the curve, or removes points
 // there, with a cache of its own.
 //
 // The interval begins and ends where pages do, and the thread loads no page of another one. So it
@@ -7,34 +7,34 @@
 //
 // Why that is right:
 //
-//   Inside. A cavity or a star that was found has been searched without leaving the interval. So
-//   its simplices and those beyond its rim are the interval's. The key of a simplex is the greatest
-//   code of its vertices.
+//   Inside. The search for a cavity or a star has not left the interval. So its simplices and those
+//   beyond its rim belong to the interval. The key of a simplex is the greatest code of its
+//   vertices.
 //      Insertion: a new simplex has vertices of one that it replaces, and the point. Its key is at
 //      least the point's code, and no greater than the key of the other simplex or that code. So it
 //      belongs to the interval, too.
 //      Removal: a simplex in the hole has vertices of the star, so its key is no greater than
-//      theirs. But it lacks the vertex that made them the interval's. If more than D of the
+//      theirs. But it lacks the vertex that made them belong to the interval. If more than D of the
 //      vertex's neighbours lie before the interval, a simplex might join these alone. Then the
 //      vertex is put off, too.
 //
 //   Outside. A simplex with a neighbour in another interval is never replaced, since the search
-//   would have looked at that neighbour. So what a page of another interval says of it, its key,
-//   stays true, and so does what it says of its neighbour.
+//   would have visited that neighbour. So the key by which a page of another interval refers to it
+//   stays valid, and so does the key by which it refers to its neighbour.
 //
-//   All together. Each interval's mesh is that of the whole with the points of all intervals
-//   inserted or taken away one after the other, in any order: no change reads what one in another
-//   interval changes. The triangulation is unique, so its simplices do not depend on the intervals.
+//   All together. The result is that of inserting or removing the points of all intervals one after
+//   the other, in any order: no change reads what a change in another interval writes. The
+//   triangulation is unique, so its simplices do not depend on the intervals.
 //
 //   The last simplices. A removal may leave points that span no simplex. Then the star has all
-//   finite simplices, and all are the interval's. Finite simplices hang together, so if another
+//   finite simplices, and all belong to the interval. Finite simplices are connected, so if another
 //   interval had had one, one of these would have had a neighbour in another interval, and would
-//   still be there. So the interval has had all from the beginning, and has counted them right. It
-//   leaves that vertex to the session's thread.
+//   still be there. So the interval has had all from the beginning, and has counted them correctly.
+//   It leaves that vertex to the session's thread.
 //
-// If one of several equal points is put off, those after it are: of equal points the first in
-// order is the vertex. Equal points leave together. Where there are repeated points, which are
-// pages of the session's thread, they are left to it.
+// If one of several equal points is put off, so are those after it: the first of them in order is
+// the vertex. Equal points leave together. Where there are repeated points, whose pages belong to
+// the session's thread, they are left to that thread.
 #pragma once
 
 #include "delaunay/insertion.hpp"
@@ -54,14 +54,14 @@ public:
     Batch(const Memory &memory, std::size_t stride)
         : stride_(stride), records_(memory), codes_(memory), later_runs_(memory) {}
 
-    /// Begins anew with records of so many words.
+    /// Starts afresh with records of this many words.
     void begin(std::size_t stride) {
         shorten(0);
         stride_ = stride;
     }
     std::size_t stride() const { return stride_; }
     void add(const std::uint64_t *record, std::uint64_t code) { add(record, stride_, code); }
-    /// Of so many words at most; what is missing nobody will read.
+    /// A record of at most this many words; words that are missing will not be read.
     void add(const std::uint64_t *record, std::size_t words, std::uint64_t code) {
         std::uint64_t *to = records_.extend(stride_);
         for (std::size_t word = 0; word < std::min(words, stride_); ++word) to[word] = record[word];
@@ -79,7 +79,7 @@ public:
         codes_.reserve(points);
     }
     std::size_t size() const { return codes_.size(); }
-    /// What so many points take.
+    /// The bytes for this many points.
     std::size_t bytes(std::size_t points) const {
         return points * (stride_ + 1) * sizeof(std::uint64_t);
     }
@@ -112,25 +112,25 @@ public:
 private:
     std::size_t stride_;
     Arena<std::uint64_t> records_, codes_;
-    Arena<std::size_t> later_runs_; // where they begin, but for the first
+    Arena<std::size_t> later_runs_; // where they begin, except the first
 };
 
 template <int D> class Interval {
 public:
-    /// Of what became of points; by number in the batch.
+    /// What became of the points, by their numbers in the batch.
     struct Results {
         explicit Results(const Memory &memory) : left(memory), put_off(memory), gone(memory) {}
 
-        /// In order: those at vertices, that are inserted, or at repeated points, that leave; and
-        /// those whose search would have left the interval.
+        /// In order: inserted points at vertices, or leaving ones at repeated points; and points
+        /// whose search would have left the interval.
         Arena<std::size_t> left, put_off;
-        /// Of places whose vertex has gone, a point each, if attributes are apart.
+        /// One point for each place whose vertex is gone, if attributes are apart.
         Arena<std::size_t> gone;
         std::int64_t simplices = 0, ghosts = 0, vertices = 0; // more than before
         std::uint64_t crowded = 0;                            // came where the domain does not fit
         abacus_counters counters{};
     };
-    /// How points are taken away.
+    /// How points are removed.
     struct Removing {
         bool exactly;           // see Leaving
         std::size_t want_bytes; // for the points of a place
@@ -138,14 +138,14 @@ public:
     };
 
     /// `header` is that of the whole mesh; pages begin at the codes `first` and `last + 1`.
-    /// `changes`: who wants to know which simplices come and go, or null.
+    /// `changes` logs the simplices that are created and removed; may be null.
     Interval(const Host &host, const abacus_header &header, std::uint64_t first, std::uint64_t last,
              std::size_t cache_bytes, SimplexChanges<D> *changes);
 
     /// Inserts points [from, to) of the batch, which are of one run. Adds to `done` as it goes.
     void insert(const Batch &batch, std::size_t from, std::size_t to, bool counts_crowded,
                 std::atomic<std::uint64_t> &done, Results &results);
-    /// The same, but takes points away. Puts off those that are left when a new mesh of the rest is
+    /// The same, but removes points. Puts off those that remain when a new mesh of the rest is
     /// cheaper.
     void remove(const Batch &batch, std::size_t from, std::size_t to, const Removing &how,
                 std::atomic<std::uint64_t> &done, Results &results);
@@ -154,7 +154,7 @@ public:
 
 private:
     AttributePages<D> *attributes_apart();
-    /// Calls change(i) for i = from; it returns the next i, until that is `to`.
+    /// Calls change(i), from i = from on; it returns the next i, until that is `to`.
     template <class Change>
     void each(std::size_t from, std::size_t to, std::atomic<std::uint64_t> &done, Change change);
 

@@ -1,9 +1,8 @@
-// What fills the hole that a vertex q leaves: the simplices that q is in conflict with, in the
-// Delaunay triangulation of its neighbours. They may be a small part of that triangulation:
-// the neighbours of a vertex beside a line full of points, or on a moment curve, have many
-// times as many simplices as the hole. So only those in conflict with q are ever made (Buchin,
-// Devillers, Mulzer, Schrijvers and Shewchuk, "Vertex Deletion for 3D Delaunay
-// Triangulations", 2013).
+// Makes the simplices that fill the hole of a removed vertex q: those in conflict with q in the
+// Delaunay triangulation of its neighbours. They may be a small part of that triangulation: the
+// neighbours of a vertex beside a line full of points, or on a moment curve, have many times as
+// many simplices as the hole. So only those in conflict with q are ever made (Buchin, Devillers,
+// Mulzer, Schrijvers and Shewchuk, "Vertex Deletion for 3D Delaunay Triangulations", 2013).
 //
 // The neighbours come one after the other. In the triangulation of those so far, the simplices
 // in conflict with q form a ball around q. All these neighbours are on its border. A cone joins
@@ -12,15 +11,14 @@
 // mesh: the simplices in conflict with it go, and p is joined to the rim. For
 //
 //   - if p kills a simplex of the ball, not the one beyond a facet, the new simplex there has a
-//     circumsphere that contains what both of theirs have in common, hence q;
+//     circumsphere that contains the intersection of both of theirs, hence q;
 //   - if p kills the cone on a facet, not the simplex on it, the facet is inside the next ball:
 //     the simplex that was beyond it, which is not known here, goes as well;
 //   - if p kills the simplex, not the cone, the facet remains one of the border.
 //
-// (Seen with q at infinity, by an inversion, this is the triangulation of the farthest point
-// and its convex hull.) Each neighbour stays a neighbour of q. So the way to the conflict of
-// p is a walk through the cones alone, towards p as q sees it. All decisions are those of any
-// insertion.
+// (An inversion that takes q to infinity shows this as the farthest-point triangulation and its
+// convex hull.) Each neighbour stays a neighbour of q. So a walk through the cones alone, towards p
+// as q sees it, leads to the conflict of p. All decisions are those of any insertion.
 #pragma once
 
 #include "delaunay/star.hpp"
@@ -36,7 +34,7 @@ public:
           killed_(host), created_(host) {}
 
     /// Triangulates the link of a star. `independent`: vertices of it that span a simplex.
-    /// Returns how many cells it has made, with those that have gone again.
+    /// Returns how many cells it has made, including those removed again.
     std::size_t triangulate(const Cache<D> &cache, const Star<D> &star,
                             const Vertices &independent);
 
@@ -67,7 +65,7 @@ private:
         VertexIndex vertex;
     };
 
-    /// Where q is in a simplex: not in those of the ball.
+    /// Where q is in a simplex; not in those of the ball.
     static int apex_of(const Simplex<D> &s) {
         for (int i = 0; i <= D; ++i)
             if (s.vertex[i] == apex) return i;
@@ -82,19 +80,19 @@ private:
         cells_[h].is_killed = true;
         killed_.push_back(h);
     }
-    /// Joins the rim of what has been killed to v.
+    /// Joins the rim of the killed cells to v.
     void fill(VertexIndex v);
     void join(Handle h, VertexIndex v);
     void meet(Handle h, int rim, int facet);
     Handle create(const Simplex<D> &s);
 
     const Host &host_;
-    Arena<Point<D>, VertexIndex> points_;   // those at 0 and of q first
+    Arena<Point<D>, VertexIndex> points_;   // point 0 and q first
     Arena<VertexIndex, VertexIndex> names_; // of each, in the mesh
     Arena<Place> order_;                    // in which they come
     Arena<Cell, Handle> cells_;
     Arena<Handle> free_, killed_, created_;
-    Handle cone_ = no_handle; // any, where the next way begins
+    Handle cone_ = no_handle; // any cone, where the next walk begins
     std::size_t most_ = 0;    // cells that there can be
     std::size_t made_ = 0;
 };

@@ -1,12 +1,13 @@
-// Which points of a batch lie so near to a border of intervals that threads would put them off.
+// Guesses which points of a batch are so near to a border of intervals that threads would put them
+// off.
 //
 // They are better inserted before the threads begin: while the mesh is still coarse and in memory,
-// each is searched for once, and few pages are made twice. It is no more than a guess. A point that
-// it misses is put off, one too many is inserted by one thread instead of several.
+// each is searched for once, and few pages are made twice. It is only a guess. A point that it
+// misses is put off; one that it wrongly picks is inserted by one thread instead of several.
 //
 // A point is put off where its cavity, in the mesh of the rounds before, reaches beyond the
-// border. So what counts is the distance between vertices of that mesh. It is guessed from
-// points that follow one another on the curve, which lie together.
+// border. So the distance between vertices of that mesh matters. It is guessed from points that
+// follow one another on the curve, which are close to one another.
 #pragma once
 
 #include "delaunay/cuts.hpp"
@@ -20,13 +21,13 @@ namespace abacus {
 
 template <int D> class NearBorder {
 public:
-    /// So many points are looked at together.
+    /// The number of points examined together.
     static constexpr std::size_t together = 32;
 
     NearBorder(const Domain<D> &domain, const Cuts &cuts) : domain_(domain), cuts_(cuts) {}
 
-    /// Looks at the points [begin, end), which are not more than `together`. False if none of them
-    /// is near a border.
+    /// Examines the points [begin, end), at most `together` of them. False if none of them is near
+    /// a border.
     bool look_at(const Batch &batch, std::size_t begin, std::size_t end) {
         Box<D> box;
         for (std::size_t i = begin; i < end; ++i) box.extend(record_point<D>(batch.record(i)));
@@ -45,7 +46,7 @@ public:
         }
         return false;
     }
-    /// Of a point with this code, among those looked at.
+    /// For a point with this code, one of those examined.
     bool is_near(const Point<D> &p, std::uint64_t code) const {
         const std::size_t interval = cuts_.interval(code);
         for (int axis = 0; axis < D; ++axis)

@@ -1,10 +1,9 @@
-// The facets around what is left of a hole while it is being filled: those of its rim, and
-// those of new simplices that have no neighbour yet. A facet is found by its vertices.
+// The facets around the rest of a hole while it is being filled: those of its rim, and those of new
+// simplices that have no neighbour yet. A facet is found by its vertices.
 //
 // It is a hash table of numbers into a list. A facet is entered when the first of its two
-// simplices is known, and closed when the second comes. It never comes again, so nothing
-// is taken out. An entry counts only in the hole that made it, so the table is empty at
-// once for the next hole.
+// simplices is known, and closed when the second comes. It never returns, so nothing is removed. An
+// entry is valid only in the hole that made it, so the table is empty at once for the next hole.
 #pragma once
 
 #include "delaunay/delaunay.hpp"
@@ -52,8 +51,8 @@ public:
         const Facet &facet = facets_[entry.facet];
         return facet.open && facet.vertices.odd == vertices.odd ? &facet : nullptr;
     }
-    /// Joins facet i of a new simplex to its neighbour, if that is known; otherwise
-    /// opens its other side.
+    /// Joins facet i of a new simplex to its neighbour, if this is known; otherwise opens its other
+    /// side.
     void meet(Cache<D> &cache, Handle h, int i) {
         const Simplex<D> &s = cache.simplex(h);
         const Vertices vertices(s.vertex, i);
@@ -93,7 +92,7 @@ private:
             table_.resize(size);
             epoch_ = 0xffffffffu;
         }
-        if (++epoch_ == 0) { // also once in four billion holes
+        if (++epoch_ == 0) { // this also happens once in four billion holes
             std::fill(table_.begin(), table_.end(), Entry{});
             epoch_ = 1;
         }

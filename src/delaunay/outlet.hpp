@@ -1,12 +1,12 @@
-// Where a stage hands on the points to be taken away. They are taken out of the triangulation;
-// once there is none, out of the waiting points, many at a time. When removals get too
-// expensive, vertices that leave are only noted from then on, and the rest is triangulated
-// anew. With several threads points are gathered first, and the threads take away what they can
+// Takes the points to be removed from a stage. They are removed from the triangulation or, once
+// there is none, from the waiting points, many at a time. When removals get too expensive, the
+// vertices to be removed are only noted from then on, and the rest is triangulated again. With
+// several threads, points are gathered first, and the threads remove what they can
 // (build_threads.cpp).
 //
-// Equal points come one after the other, in the order of the rows, and are taken out of the
-// triangulation together. If they were taken out singly, the pages of their place would be
-// searched and written for each of them.
+// Equal points come one after the other, in the order of the rows, and are removed from the
+// triangulation together. If they were removed singly, the pages of their place would be searched
+// and written for each of them.
 #pragma once
 
 #include "delaunay/build.hpp"
@@ -32,7 +32,7 @@ public:
     void add(const std::uint64_t *record) override { add(record, 1, words_); }
     void add(const std::uint64_t *records, std::size_t n, std::size_t stride) override {
         if (is_shared()) return build_.gather(records, n, stride);
-        build_.change_gathered(); // if there is something left
+        build_.change_gathered(); // if any points are left
         for (; n > 0; --n, records += stride) take(records);
     }
     void finish() override {
@@ -42,9 +42,9 @@ public:
     }
     std::size_t held_back() const override { return build_.gathered_.size(); }
 
-    /// Whether threads may take points away, too.
+    /// Whether threads may remove points, too.
     bool is_shared() const { return build_.gathers() && build_.has_simplices() && !build_.rest_; }
-    /// Takes a point away.
+    /// Removes a point.
     void take(const std::uint64_t *record) {
         const Point<D> p = record_point<D>(record);
         if (!leaving_.empty() && (leaving_.is_full() || !(p == place_))) leave();
@@ -62,7 +62,7 @@ public:
     void finish_place() {
         if (!leaving_.empty()) leave();
     }
-    /// Has threads take points away, by use(how).
+    /// Lets threads remove points, by use(how).
     template <class Use> void share(Use use) {
         SharedOutlay<D> shared(outlay_);
         const std::uint64_t before = build_.header_->vertices;
@@ -71,7 +71,7 @@ public:
         taken_ += before - build_.header_->vertices;
         if (shared.is_too_much()) build_.put_off_removals(memory_);
     }
-    /// Points taken away.
+    /// Points removed.
     std::uint64_t taken() const { return taken_; }
 
     abacus_phase phase() const override { return ABACUS_PHASE_DELETING; }
@@ -80,7 +80,7 @@ public:
     }
 
 private:
-    /// Of the memory, what the wants of a place may take.
+    /// The part of the memory that the wants of a place may take.
     static constexpr std::size_t want_share = 16;
 
     void leave() {
@@ -98,7 +98,7 @@ private:
     Build &build_;
     const std::size_t memory_; // for sorting
     const bool exactly_;
-    const std::size_t words_; // of a record, those that are looked at
+    const std::size_t words_; // of a record, those that are used
     Outlay<D> outlay_;
     Leaving leaving_;          // those of one place
     std::uint64_t wanted_ = 0; // how many

@@ -2,7 +2,7 @@
 // the other points, as if this one had never been inserted. (The dissertation adds
 // points only.)
 //
-// The vertex's star leaves and the hole is filled again: star.hpp, hole.hpp.
+// The vertex's star is removed and the hole is filled again: star.hpp, hole.hpp.
 #pragma once
 
 #include "attributes/attribute_pages.hpp"
@@ -28,17 +28,16 @@ public:
         : mesh_(mesh), cache_(mesh.cache()), attributes_(attributes), star_(mesh), hole_(mesh) {}
 
     /// Removes the vertex with exactly these coordinates (-0.0 equals 0.0); if a want is given,
-    /// only one that it takes.
+    /// only a vertex that it accepts.
     Removed remove(const Point<D> &p, Leaving *want = nullptr);
     /// The same in a cache that keeps within an interval (interval.hpp). Returns whether there was
-    /// such a vertex; nothing, and nothing has changed, if it is put off. That is so if a page of
-    /// another interval would have to be looked into, or a new simplex might belong to one, or the
-    /// points left would span no simplex.
+    /// such a vertex; returns nothing, and has changed nothing, if it is put off. This happens if a
+    /// page of another interval would be needed, or a new simplex might belong to another interval,
+    /// or the points left would span no simplex.
     std::optional<bool> remove_within(const Point<D> &p, Leaving &want);
     /// Whether there is a vertex that it would remove.
     bool finds(const Point<D> &p, Leaving *want = nullptr);
-    /// What removals have cost since it was last asked, in simplices made and destroyed
-    /// (outlay.hpp).
+    /// The cost of removals since the last call, in simplices made and destroyed (outlay.hpp).
     std::uint64_t take_effort() { return std::exchange(effort_, 0); }
     /// Offers the vertex there as the first point that may leave. Returns whether the
     /// others make a difference; nothing if there is no vertex.
@@ -62,10 +61,10 @@ public:
     }
 
 private:
-    /// A simplex with a vertex at p, and which of its corners that is, as a link; `nowhere`
-    /// if there is none.
+    /// A simplex with a vertex at p and the number of that corner, as a link; `nowhere` if there is
+    /// none.
     Link find(const Point<D> &p);
-    /// The same, if a want is given only of a vertex that it takes.
+    /// The same; if a want is given, only for a vertex that it accepts.
     Link find(const Point<D> &p, Leaving *want);
     VertexIndex vertex_of(Link corner) const {
         return cache_.simplex(link_simplex(corner)).vertex[link_facet(corner)];
@@ -77,9 +76,10 @@ private:
     bool stays_within() const;
     /// Writes id and attributes of the vertex wherever it is stored.
     void rewrite(Link corner, std::int64_t id, const double *attributes);
-    /// Takes the vertex of the star out.
+    /// Removes the vertex of the star.
     void take_out();
-    /// What a vertex has, until the next call; null if it is apart, unless it is compared.
+    /// The attributes of a vertex, valid until the next call; null if they are apart, unless they
+    /// are compared.
     const double *attributes_of(VertexIndex v, bool are_compared);
 
     Delaunay<D> &mesh_;

@@ -1,7 +1,7 @@
-// The points that are left when many leave, to be triangulated anew. The places of the points that
+// The points that are left when many leave, to be triangulated again. The places of the points that
 // leave are noted first; the vertices follow when all places are known. Both go into one stage,
 // which brings points of one place together. A vertex that comes in a pair does not belong to the
-// rest. So the rest may be larger than memory, as any points to be triangulated.
+// rest. So the rest may be larger than memory, like any points to be triangulated.
 #pragma once
 
 #include "points/record.hpp"
@@ -18,7 +18,7 @@ namespace abacus {
 
 template <int D> class Rest {
 public:
-    /// Of a mesh with this header.
+    /// For a mesh with this header.
     Rest(const Host &host, const abacus_header &header, std::size_t memory)
         : host_(host), header_(without_vertices(header)), points_(host, header_, memory) {}
 
@@ -30,18 +30,18 @@ public:
         points_.add(record.data(), 1);
         last_ = p;
     }
-    /// Whether it is the last one that left.
+    /// Whether p is the last one that left.
     bool has_left_out(const Point<D> &p) const { return last_ == p; }
-    /// A vertex of the mesh; after all that leave.
+    /// Adds a vertex of the mesh; after all that leave.
     void add(const std::uint64_t *record) { points_.add(record, 1); }
-    /// Hands on the rest.
+    /// Passes the rest on.
     void emit(RecordSink &sink) {
         Unpaired unpaired(host_, sink, record_words(D, header_.attributes));
         points_.emit(unpaired, header_);
     }
 
 private:
-    /// Hands on records that have a place of their own.
+    /// Passes on records that have a place of their own.
     class Unpaired final : public RecordSink {
     public:
         Unpaired(const Host &host, RecordSink &sink, std::size_t stride)
@@ -78,7 +78,7 @@ private:
         Arena<std::uint64_t> held_;
     };
 
-    /// None are where the points go.
+    /// The receiver of the points has none.
     static abacus_header without_vertices(abacus_header header) {
         header.vertices = 0;
         return header;

@@ -1,13 +1,14 @@
-// Where a stage hands on other attributes for points that stay where they are.
+// Takes new attributes for points that stay where they are from a stage.
 //
 // Attributes that are apart are found by the place alone, so no simplex page is read or written,
-// unless several points are at the place, or wait. Otherwise all pages that have the vertex are.
-// Only where points are equal it matters which of them is meant: the one with the row's id, or else
-// the first, which is the vertex, whose id a simplex page tells.
+// unless several points are at the place, or wait. Otherwise all pages that have the vertex are
+// read and written. Only where points are equal does it matter which of them is meant: the one with
+// the row's id, or else the first, which is the vertex; its id is in a simplex page.
 //
-// A mesh that follows a table is changed `exactly`: a point is only meant if it has the attributes
-// that the row had before and, where points are equal, its id (points/identities.hpp). Each row is
-// for a point of its own then. So a row is missing if the mesh has missed a change of it.
+// A mesh that follows a table is changed `exactly`: a point matches a row only if it has the
+// attributes that the row had before and, where points are equal, its id (points/identities.hpp).
+// Each row then stands for a different point. So a row is missing if the mesh has missed a change
+// of it.
 #pragma once
 
 #include "delaunay/build.hpp"
@@ -53,24 +54,24 @@ public:
         return {build_.core_->cache.counters.loads, build_.core_->cache.counters.stores};
     }
 
-    /// How many records were for a point that is there.
+    /// How many records had a point in the mesh.
     std::uint64_t changed() const { return changed_; }
-    /// Id and place of the first one that was not.
+    /// Id and place of the first record that had none.
     const std::optional<std::array<std::uint64_t, 1 + D>> &missing() const { return missing_; }
 
 private:
-    static constexpr std::size_t most = std::size_t{1} << 20; // bytes of what is wanted at a place
+    static constexpr std::size_t most = std::size_t{1} << 20; // bytes for the wants at a place
 
     struct Want {
         std::int64_t id;
-        std::int64_t identity; ///< what tells the point: its id, or a number of identities_
+        std::int64_t identity; ///< what identifies the point: its id, or a number of identities_
         std::uint32_t order;
         bool is_met = false;
         bool is_of_vertex = false;
-        std::uint32_t dealt_with = 0; ///< of the first one of an identity: how many of these
+        std::uint32_t dealt_with = 0; ///< in the first one of an identity: how many of these
     };
 
-    /// Points that wait are not looked for exactly.
+    /// There is no exact search for points that wait.
     void wait_for(const std::uint64_t *record) {
         if (exactly_) {
             miss(record_id(record), record_point<D>(record));
@@ -98,7 +99,7 @@ private:
             revise_repeated();
         else if (!exactly_)
             for (Want &want : wants_) want.is_of_vertex = true;
-        else // an attribute page does not tell the id
+        else // an attribute page does not have the id
             wants_[0].is_of_vertex = vertex_has(wants_[0]);
         for (const Want &want : wants_) {
             if (want.is_met || (want.is_of_vertex && set_of_vertex(values(want))))
@@ -110,7 +111,7 @@ private:
         values_.clear();
         identities_.clear();
     }
-    /// Leaves those for the vertex.
+    /// Fulfils the wants for repeated points; leaves those for the vertex.
     void revise_repeated() {
         std::sort(wants_.begin(), wants_.end(), [](const Want &a, const Want &b) {
             return a.identity < b.identity || (a.identity == b.identity && a.order < b.order);
@@ -133,7 +134,7 @@ private:
     std::int64_t identity(std::int64_t id, const double *attributes) {
         return exactly_ ? identities_.find(id, attributes) : id;
     }
-    /// The first want for a point of this identity that has not been dealt with, or the end.
+    /// The first want for a point of this identity that is still open, or the end.
     Want *next_for(std::int64_t identity, Want *&first) {
         first = std::lower_bound(
             wants_.begin(), wants_.end(), identity,
@@ -142,7 +143,7 @@ private:
         Want *next = first + first->dealt_with;
         return next == wants_.end() || next->identity != identity ? wants_.end() : next;
     }
-    /// Deals with what a point of this identity takes: one want exactly, or else all there are.
+    /// Closes the wants that a point of this identity fulfils: one if exactly, or else all.
     template <class Take> std::size_t deal_with(std::int64_t identity, Take take) {
         std::size_t n = 0;
         Want *first;

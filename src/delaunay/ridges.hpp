@@ -1,13 +1,13 @@
 // Finds the two new tetrahedra around each edge of a cavity's rim.
 //
-// Of the two facets that meet there, one sees the edge from a to b, the other from b to
-// a. Every facet first stores its links under its edges, and then takes those under the
-// reversed edges. Which of the two comes first is unpredictable, and does not matter.
+// One of the two facets that meet there sees the edge from a to b, the other from b to a. Every
+// facet first stores its links under its edges, and then takes those under the reversed edges.
+// Which of the two comes first is unpredictable but does not matter.
 //
 // The rim's vertices are numbered as they come. Most cavities have some twenty, and each edge
-// between these has its own place in a small table. Where the small table lacks room, as
-// around a vertex with thousands of tetrahedra, edges are hashed. An entry counts only in the
-// insertion that made it, so both tables are empty at once for the next one.
+// between these has its own place in a small table. If the small table lacks room, as around a
+// vertex with thousands of tetrahedra, edges are hashed. An entry is valid only in the insertion
+// that made it, so both tables are empty at once for the next one.
 #pragma once
 
 #include "host/arena.hpp"
@@ -32,15 +32,15 @@ class Ridges {
     public:
         View(Find find, std::uint64_t epoch) : find_(find), epoch_(epoch << 32) {}
 
-        /// What lies on this side of the edge from a to b. Throws when there is something: the
-        /// cavity is no ball then.
+        /// The entry for this side of the edge from a to b. Throws if it is taken: then the cavity
+        /// is not a ball.
         void add(std::uint32_t a, std::uint32_t b, Link link) const {
             Entry &entry = find_(a, b);
             if ((entry ^ epoch_) >> 32 == 0) [[unlikely]]
                 throw_no_triangulation();
             entry = epoch_ | to_bits(link);
         }
-        /// What lies on the other side; throws when there is nothing.
+        /// The link on the other side; throws if there is none.
         Link across(std::uint32_t a, std::uint32_t b) const {
             const Entry entry = find_(b, a);
             if ((entry ^ epoch_) >> 32 != 0) [[unlikely]]
@@ -59,7 +59,8 @@ public:
         forget();
     }
 
-    /// Calls fill(view) with empty tables, for so many links, in pairs, between so many vertices.
+    /// Calls fill(view) with empty tables, for this many links, in pairs, between this many
+    /// vertices.
     template <class Fill> void pair(std::size_t links, std::size_t vertices, Fill fill) {
         if (++epoch_ == 0) forget(); // once in four billion insertions
         if (vertices <= numbers) [[likely]] {

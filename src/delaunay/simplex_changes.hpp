@@ -1,13 +1,14 @@
-// The simplices that a change of a mesh has created and removed, all in all.
+// The simplices that a change of a mesh has created and removed, in total.
 //
-// The session's thread and each other one have a log in memory (simplex_log.hpp). What a full log
-// holds is sorted by what tells simplices apart, within memory and beyond it in spools. Then all
-// entries of one simplex come together, and their sum tells whether it is new, or gone, or neither.
+// The session's thread and each other one have a log in memory (simplex_log.hpp). The entries of a
+// full log are sorted by what distinguishes simplices, within memory and beyond it in spools. Then
+// all entries of one simplex come together, and their sum shows whether it is new, or gone, or
+// neither.
 //
-// Only the session's thread may use spools. So another thread puts what its log holds into a box,
-// of which there is one, and goes on with an empty log; it waits while the box is full. The
-// session's thread empties the box between requests for pages. What is in the box is memory of the
-// threads, which drop_handed() gives back before that goes away.
+// Only the session's thread may use spools. So another thread puts the contents of its log into a
+// box, which all threads share, and goes on with an empty log; it waits while the box is full. The
+// session's thread empties the box between requests for pages. The contents of the box are in
+// memory of the threads, which drop_handed() returns before that memory goes away.
 #pragma once
 
 #include "delaunay/simplex_log.hpp"
@@ -31,7 +32,7 @@ public:
     SimplexChanges(const Host &host, const abacus_header &, std::size_t memory, unsigned threads,
                    bool has_tiny_logs);
 
-    /// That of the session's thread.
+    /// The log of the session's thread.
     Log &log() { return log_; }
 
     /// A log of another thread, which uses the memory of `host`.
@@ -41,7 +42,7 @@ public:
             : changes_(changes), host_(host), log_(host, changes.thread_bytes_, *this) {}
 
         Log &log() { return log_; }
-        /// Nothing more comes.
+        /// No more entries come.
         void finish() { take(log_); }
 
     private:
@@ -58,11 +59,11 @@ public:
     void work_with(Crew &crew) { crew_ = &crew; }
     /// For the session's thread: takes what a thread has handed over.
     void take_handed();
-    /// When no thread is at work: gives back what has not been taken.
+    /// When no thread is at work: returns the memory of what has not been taken.
     void drop_handed() noexcept { handed_.reset(); }
 
-    /// Calls visit(simplex) for each that has come or gone, in their order; its change is 1 or -1.
-    /// Then all is forgotten.
+    /// Calls visit(simplex) for each simplex created or removed, in their order; its change is 1 or
+    /// -1. Then forgets all of them.
     template <class Visit> void each(Visit visit) {
         take(log_);
         sort_.finish();

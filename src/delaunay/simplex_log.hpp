@@ -1,13 +1,13 @@
-// What has come and what has gone: the simplices that changes of a mesh create and destroy, in
-// memory.
+// A log, in memory, of the simplices that changes of a mesh create and destroy.
 //
-// A simplex is told by its corners, ids included, and by its code. Insertion creates most simplices
-// only to destroy them again, and does so within a short stretch of the curve. So the log is a hash
-// table of net changes: what goes soon after it has come leaves nothing. When it is full, it is
-// handed on as a whole. What comes and goes in different logs cancels out when all are
-// sorted together (simplex_changes.hpp). Only sums count, so the order of logs does not matter.
+// A simplex is identified by its corners, including their ids, and by its code. Insertion creates
+// most simplices only to destroy them again, and does so within a short stretch of the curve. So
+// the log is a hash table of net changes: a simplex that is destroyed soon after its creation
+// leaves no entry. A full log is passed on as a whole. Entries of different logs cancel out when
+// all are sorted together (simplex_changes.hpp). Only sums count, so the order of logs does not
+// matter.
 //
-// Ghosts are left out: they are no simplices of the user's.
+// Ghosts are left out: users do not see them.
 #pragma once
 
 #include "blocks/bit_column.hpp"
@@ -26,9 +26,9 @@ template <int D> struct SimplexWords {
     std::uint64_t code;
     std::array<std::array<std::uint64_t, D>, D + 1> corner; // ranks of doubles
     std::array<std::uint64_t, D + 1> id;                    // in the order of the numbers
-    std::int64_t change;                                    // how often it has come, less gone
+    std::int64_t change;                                    // times created, less times destroyed
 
-    /// What tells it from others.
+    /// What distinguishes it from others.
     static constexpr std::size_t key = 1 + D * (D + 1) + D + 1;
     static constexpr std::size_t words = key + 1;
 
@@ -47,7 +47,7 @@ template <int D> struct SimplexWords {
 static_assert(sizeof(SimplexWords<2>) == SimplexWords<2>::words * sizeof(std::uint64_t));
 static_assert(sizeof(SimplexWords<3>) == SimplexWords<3>::words * sizeof(std::uint64_t));
 
-/// Of a simplex that is not a ghost.
+/// For a simplex that is not a ghost.
 template <int D>
 SimplexWords<D> words_of(const Cache<D> &cache, const Simplex<D> &s, std::uint64_t code) {
     std::array<VertexIndex, D + 1> vertex = s.vertex;
@@ -82,7 +82,7 @@ public:
     /// A simplex has been created, or is about to be destroyed. Its vertices are in the cache.
     void come(const Cache<D> &cache, Handle h) { note(cache, h, 1); }
     void go(const Cache<D> &cache, Handle h) { note(cache, h, -1); }
-    /// The same of one whose code is that of another domain.
+    /// The same for a simplex whose code is from another domain.
     void go(const Cache<D> &cache, Handle h, const Domain<D> &domain) {
         const Simplex<D> &s = cache.simplex(h);
         if (s.is_ghost()) return;
@@ -93,7 +93,7 @@ public:
 
     bool empty() const { return entries_.empty(); }
     const Arena<SimplexWords<D>> &entries() const { return entries_; }
-    /// Forgets all entries, and leaves them to whoever takes them.
+    /// Forgets all entries, and leaves them to the caller.
     Arena<SimplexWords<D>> take() {
         empty_slots();
         return std::move(entries_);

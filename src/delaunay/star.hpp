@@ -1,6 +1,6 @@
 // The star of a vertex: the simplices around it. All of them are loaded, and so are
-// those beyond its rim. So both sides of each facet are cached, whatever is done to the
-// star, and no page outside the cache knows the vertex.
+// those beyond its rim. So both sides of each facet are cached, whatever happens to the star, and
+// no page outside the cache has the vertex.
 #pragma once
 
 #include "delaunay/delaunay.hpp"
@@ -16,7 +16,7 @@ public:
 
     /// Collects the star of the vertex that is this corner of the simplex.
     void collect(Handle h, int corner);
-    /// After collect() has thrown: the next star begins anew.
+    /// After collect() has thrown: the next star starts afresh.
     void give_up() { flood_.give_up(); }
 
     VertexIndex vertex() const { return vertex_; }

@@ -86,7 +86,7 @@ template <int D> void LabelHeirs<D>::look_at(const Simplex &simplex, std::uint64
     });
 }
 
-/// Those that have labels already are not new, or had them from one with a lesser key.
+/// A simplex that has labels already is not new, or got them from one with a lesser key.
 template <int D> std::uint64_t LabelHeirs<D>::give(AttributePages<D, D + 1> &pages) {
     std::uint64_t count = 0;
     sort_along_keys<D>(heirs_);

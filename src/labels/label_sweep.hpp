@@ -1,12 +1,13 @@
-// What goes with its simplices when the mesh changes: labels, or markers of facets.
+// Keeps labels, or markers of facets, in step with the simplices when the mesh changes.
 //
 // Both are found by the places of a simplex' corners, and no insertion or removal looks at them.
-// When all of a change is stored, the rows of each stretch of the curve that it has stored anew are
-// compared with the simplices there: a row whose simplex is no longer in the mesh goes. So it does
-// not matter what came and went on the way, in which order or thread, and whether the mesh was made
-// anew as a whole: a simplex that a change leaves as it is, or brings back, keeps its row.
+// When a change has been stored completely, the rows of each stretch of the curve that it has
+// stored are compared with the simplices there: a row whose simplex is no longer in the mesh is
+// removed. So it does not matter which simplices came and went in between, in which order or
+// thread, or whether the whole mesh was rebuilt: a simplex that a change leaves as it is, or brings
+// back, keeps its row.
 //
-// One page of rows after the other is read, and the pages of simplices with these codes.
+// Pages of rows are read one after the other, each together with the simplex pages of its codes.
 #pragma once
 
 #include "attributes/attribute_pages.hpp"
@@ -18,7 +19,7 @@
 
 namespace abacus {
 
-/// Reads the pages of simplices with codes of a stretch.
+/// Reads the pages of the simplices whose codes lie in a stretch.
 template <int D> class SimplicesOfStretch {
 public:
     using Simplex = Owner<D, D + 1>;
@@ -26,8 +27,8 @@ public:
     SimplicesOfStretch(const Host &host, const abacus_header &header, const Domain<D> &domain)
         : host_(host), domain_(domain), attributes_(page_attributes(header)) {}
 
-    /// Calls visit(simplex, code) for each finite one with a code of the stretch, and after those
-    /// of a page leave(); visit may not call the host.
+    /// Calls visit(simplex, code) for each finite simplex with a code of the stretch, and leave()
+    /// after those of each page; visit must not call the host.
     template <class Visit, class Leave>
     void each(const StoredPages::Stretch &stretch, const Visit &visit, const Leave &leave) {
         abacus_page page;
@@ -57,8 +58,8 @@ private:
     PageView<D> view_;
 };
 
-/// What there is for simplices of a page in the order of their rows, so that few pages of rows are
-/// come to again; elements have a simplex and a code.
+/// Sorts elements for the simplices of a page into the order of their rows, so that few pages of
+/// rows are visited again. An element has a simplex and a code.
 template <int D, class T> void sort_along_keys(Arena<T> &elements) {
     const auto key = [](const T &e) { return attribute_key<D, D + 1>(e.simplex, e.code); };
     std::sort(elements.begin(), elements.end(),
@@ -68,18 +69,18 @@ template <int D, class T> void sort_along_keys(Arena<T> &elements) {
 template <int D> class LabelSweep {
 public:
     using Simplex = Owner<D, D + 1>;
-    /// Gets a simplex that has gone, or that is still there, and what it had.
+    /// Gets a simplex that has been removed, or is still there, and the values of its row.
     using Report = std::function<void(const Simplex &, const double *)>;
 
-    /// Of so many columns, in groups from `first` on.
+    /// For rows of this many columns, in groups from `first` on.
     LabelSweep(const Host &host, const abacus_header &header, const Domain<D> &domain,
                unsigned columns, unsigned first);
 
-    /// Takes away what is without a simplex in a stretch; returns of how many simplices.
-    /// `kept` is for columns of one group.
+    /// Removes the rows of a stretch whose simplices are gone; returns how many simplices these
+    /// are. `kept` requires that the columns are in one group.
     std::uint64_t sweep(const StoredPages::Stretch &stretch, const Report &gone = {},
                         const Report &kept = {});
-    /// Writes what has been changed; returns the pages that have been moved.
+    /// Writes the changes; the counters returned are those of the pages moved.
     abacus_counters finish();
 
     AttributePages<D, D + 1> &pages() { return pages_; }

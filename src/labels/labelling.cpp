@@ -24,7 +24,7 @@ template <int D> void Labelling<D>::add(const std::uint64_t *rows, std::size_t c
     }
 }
 
-/// Whose row it is.
+/// The simplex that owns the row.
 template <int D>
 Owner<D, D + 1> Labelling<D>::owner(NamedSimplices<D> &mesh, const std::uint64_t *record) {
     std::array<std::int64_t, D + 1> ids;
@@ -36,7 +36,7 @@ Owner<D, D + 1> Labelling<D>::owner(NamedSimplices<D> &mesh, const std::uint64_t
     return owner_of<D, D + 1>(points);
 }
 
-/// A row with nothing in it is none.
+/// A row of NULLs only is removed.
 template <int D>
 void Labelling<D>::set_row(AttributePages<D, D + 1> &pages, const Owner<D, D + 1> &simplex,
                            std::uint64_t code, std::uint64_t &labelled) {

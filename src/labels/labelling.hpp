@@ -1,9 +1,9 @@
 // Labels given to simplices of a mesh, many at once.
 //
-// Rows name simplices as readers give them out, by code and ids of corners, in any order. Sorted by
-// code they follow the curve, so that each page of simplices is read once, and each page of labels
-// read and written once. Of several rows for a simplex the last one counts. No simplex page
-// changes, so any mesh may be given labels, whether or not it is Delaunay.
+// Rows name simplices as readers return them, by code and ids of corners, in any order. Sorted by
+// code they follow the curve, so that each simplex page is read once, and each page of labels read
+// and written once. If there are several rows for a simplex, the last one counts. No simplex page
+// changes, so any mesh can get labels, whether or not it is Delaunay.
 #pragma once
 
 #include "attributes/attribute_pages.hpp"
@@ -16,15 +16,15 @@ namespace abacus {
 
 template <int D> class Labelling {
 public:
-    /// `header` names all labels; of these `known` are not new. A row has those whose numbers are
-    /// `labels`. Sorts within `memory` bytes.
+    /// `header` names all labels; the first `known` of them are not new. A row has values of the
+    /// labels with the numbers `labels`. Sorts within `memory` bytes.
     Labelling(const Host &host, const abacus_header &header, unsigned known,
               std::span<const std::uint32_t> labels, std::size_t memory);
 
     /// Adds rows: code, D + 1 ids, values.
     void add(const std::uint64_t *rows, std::size_t count);
-    /// No more come: sets them, and brings the header up to date. Throws an Error (argument) if the
-    /// mesh has no such simplex, or several.
+    /// No more rows come: sets the labels, and brings the header up to date. Throws an Error
+    /// (argument) if the mesh has no such simplex, or several.
     void set(NamedSimplices<D> &mesh, abacus_header &header);
 
 private:
@@ -37,7 +37,7 @@ private:
     const Host &host_;
     const unsigned known_;
     Arena<std::uint32_t> labels_;
-    Arena<double> some_, all_; // of a simplex: those of a row, those of the mesh
+    Arena<double> some_, all_; // of a simplex: the labels in a row, all of the mesh
     RecordSort sort_;          // code, number of the row, ids, values
 };
 

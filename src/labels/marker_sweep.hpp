@@ -1,13 +1,13 @@
-// Markers of facets that stay while simplices beside them come and go.
+// Keeps the markers of facets while the simplices beside them come and go.
 //
-// A facet's marker is kept with each simplex beside it, so both sides agree. When a simplex goes,
-// its row goes (label_sweep.hpp), and with it the markers of its facets. Those facets that are
-// still in the mesh have another simplex on that side, which the change has stored: among the
-// simplices of the stretches that it has stored they are looked for, and get their markers again.
-// So are the facets of simplices that stay: one at the hull may have got a simplex beyond it.
-// Neither order nor threads matter to that, as for labels.
+// A facet's marker is kept with each simplex beside it, so both sides agree. When a simplex is
+// removed, so is its row (label_sweep.hpp), with the markers of its facets. Those facets that are
+// still in the mesh have another simplex on that side, which the change has stored: they are looked
+// up among the simplices of the stored stretches, and get their markers back. The facets of
+// simplices that stay are looked up, too: a facet of the hull may now have a simplex beyond it. As
+// for labels, neither order nor threads matter.
 //
-// These facets go to a spool, and as many are looked for at once as memory holds.
+// These facets go to a spool; as many as memory holds are looked up at once.
 #pragma once
 
 #include "labels/label_sweep.hpp"
@@ -22,7 +22,7 @@ template <int D> Owner<D, D> facet_of(const Owner<D, D + 1> &simplex, int opposi
     return facet;
 }
 
-/// Whether a facet has a marker: what a page has for it is one, or nothing.
+/// Whether a facet has a marker: the stored value must be a marker, or missing.
 inline bool has_marker(double stored) {
     if (!std::isnan(stored) && !is_marker(stored))
         throw_corrupted("A facet has a marker that is no integer of four bytes.");
@@ -46,8 +46,8 @@ public:
     MarkerSweep(const Host &host, const abacus_header &header, const Domain<D> &domain,
                 std::size_t memory);
 
-    /// Of a change that has stored these stretches. Returns how many simplices have markers now, if
-    /// `marked` had before.
+    /// For a change that has stored these stretches. Returns how many simplices have markers now,
+    /// if `marked` had some before.
     std::uint64_t sweep(const Arena<StoredPages::Stretch> &stretches, std::uint64_t marked);
     abacus_counters finish() { return rows_.finish(); }
 
@@ -67,17 +67,17 @@ private:
     static constexpr std::size_t least_room = 64;
 
     void add(const Simplex &simplex, const double *markers);
-    /// Reads the next facets to be looked for; false if there are none.
+    /// Reads the next facets to look up; false if there are none.
     bool read_marked();
     void look_at(const Simplex &simplex, std::uint64_t code);
-    /// Gives what has been found its markers; returns how many simplices had none.
+    /// Gives the facets found their markers; returns how many simplices had none.
     std::uint64_t mark_found();
 
     const Host &host_;
     const Domain<D> domain_;
     LabelSweep<D> rows_;
     RecordSpool spool_;
-    const std::size_t room_; // for so many facets at once
+    const std::size_t room_; // for this many facets at once
     Arena<Marked> marked_;
     Arena<Found> found_; // in a page
 };

@@ -16,7 +16,7 @@ template <int D> Point<D> corner_of(const abacus_simplex &simplex, int corner) {
     return p;
 }
 
-/// The corner of a neighbour that the simplex does not have.
+/// The corner of the neighbour that the simplex does not share.
 template <int D> int corner_beyond(const abacus_simplex &simplex, const abacus_simplex &neighbour) {
     for (int i = 0; i <= D; ++i) {
         bool is_shared = false;

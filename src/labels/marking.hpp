@@ -1,11 +1,11 @@
 // Markers given to facets of a mesh, many at once.
 //
-// A row names a facet by a simplex beside it, by code and ids of corners as readers give them out,
+// A row names a facet by a simplex beside it, with code and ids of corners as readers return them,
 // and by the corner opposite the facet. The simplex on the other side, if there is one, gets the
-// same marker. Sorted by code, rows follow the curve, so that each page of simplices is read once.
-// What they say of either side is sorted once more, by the keys of the simplices, so that each page
-// of markers is written once. Of several rows for a facet the last one of the simplex that comes
-// last on the curve counts.
+// same marker. Sorted by code, rows follow the curve, so that each simplex page is read once. The
+// markers of both sides are sorted once more, by the keys of the simplices, so that each page of
+// markers is written once. If a facet has several rows, the last row of the simplex that is last on
+// the curve counts.
 #pragma once
 
 #include "attributes/attribute_pages.hpp"
@@ -19,10 +19,10 @@ public:
     /// Sorts within `memory` bytes.
     Marking(const Host &host, const abacus_header &header, std::size_t memory);
 
-    /// Adds rows: code, D + 1 ids, number of the corner, marker; NaN takes one away.
+    /// Adds rows: code, D + 1 ids, number of the corner, marker; NaN removes the marker.
     void add(const std::uint64_t *rows, std::size_t count);
-    /// No more come: sets them, and brings the header up to date. Throws an Error (argument) if the
-    /// mesh has no such simplex, or several.
+    /// No more rows come: sets the markers, and brings the header up to date. Throws an Error
+    /// (argument) if the mesh has no such simplex, or several.
     void set(NamedSimplices<D> &mesh, abacus_header &header);
 
 private:

@@ -1,6 +1,6 @@
-// Exact verification of a stored mesh: what §4.11.2 of the dissertation asks for.
+// Exact verification of a stored mesh, as §4.11.2 of the dissertation requires.
 //
-// A look at the header and three passes, each independent of how the mesh was made:
+// A check of the header and three passes, each independent of how the mesh was made:
 //
 //   header    in 2D, Euler's relation holds
 //   pages     every page decodes and has the checksum of its bytes; the intervals
@@ -9,31 +9,30 @@
 //   topology  every link leads, by its stored key, to the simplex with the same facet
 //             in the opposite orientation; pages agree about the vertices they share;
 //             across every facet the empty-sphere criterion holds under the
-//             perturbation, and the hull is convex; simplices wind once around vertices
-//             and edges, and are one piece
+//             perturbation, and the hull is convex; simplices wind once around vertices and edges,
+//             and form one piece
 //   points    every repeated point equals a vertex; the sequence of those that wait is
 //             whole; the counts add up
 //
-// If attributes are apart, two more passes look into their pages, and for the attributes of each
-// vertex. If simplices have labels, two more look into their pages, and whose labels these are; the
-// same for markers of facets, on which both sides have to agree.
+// If attributes are apart, two more passes check their pages, and that each vertex has its
+// attributes. If simplices have labels, two more check their pages, and to which simplices they
+// belong; the same for markers of facets, on which both sides have to agree.
 //
 // A mesh that is not Delaunay need not fulfil the empty-sphere criterion and Euler's
-// relation, nor have a convex hull, which its stars would be judged by. Instead, the two
-// simplices at a facet must lie on its two sides, which follows from their orientations.
-// That simplices which are no neighbours do not overlap is verified when the mesh is
-// loaded, and not again.
+// relation, nor have a convex hull, on which the check of stars relies. Instead, the two simplices
+// at a facet must lie on its two sides, which follows from their orientations. Whether simplices
+// that are not neighbours overlap is verified when the mesh is loaded, and not again.
 //
-// Its vertices are listed beside it, and the list is compared with the pages.
+// The vertices of such a mesh are listed beside it, and the list is compared with the pages.
 //
-// The ids, attributes and places of points are stored only once. So only the checksum tells
-// that they have changed in a simplex page. The other passes do not depend on it, and tell
-// what else has changed.
+// The ids, attributes and places of points are stored only once. So only the checksum shows that
+// they have changed in a simplex page. The other passes do not depend on it, and detect all other
+// changes.
 //
-// Locally Delaunay across every facet is globally Delaunay (Delaunay 1934), and under the
-// perturbation unique, where no place is covered twice: see query/check/stars.hpp.
+// A mesh that is locally Delaunay across every facet is globally Delaunay (Delaunay 1934), and
+// under the perturbation unique, if no place is covered twice: see query/check/stars.hpp.
 //
-// In a large mesh several threads look at pages and follow links (check_threads.cpp).
+// In a large mesh several threads check pages and follow links (check_threads.cpp).
 #pragma once
 
 #include "attributes/attribute_reader.hpp"
@@ -67,13 +66,13 @@ private:
     /// The passes that need a mesh of sound pages; links by several threads if there are any.
     void check_links_and_points(Together *together);
     void check_topology();
-    /// What the stars of all vertices tell together.
+    /// What the stars of all vertices show together.
     void check_stars(const StarCounts &stars);
     void check_repeated_points();
     void check_follows(const Key &last, const Key &at);
     void check_waiting_points();
     void check_listed_vertices();
-    /// Their pages have so many rows in each group.
+    /// Their pages have this many rows in each group.
     template <int K>
     void check_attribute_pages(const char *kind, unsigned attributes, std::uint64_t owners,
                                unsigned first = first_group<K>);
@@ -105,7 +104,7 @@ private:
     FaultList faults_;
     std::uint64_t pages_ = 0;
     std::uint64_t passes_ =
-        2; // over all pages, that are done when labels and the like are looked at
+        2; // passes over all pages that are done before those over labels and the like
     bool is_counted_ = false; // pages_ are all
     typename PageCheck<D>::Counts counts_;
 };

@@ -1,15 +1,14 @@
-// Pages and links of a large mesh checked by several threads.
+// Checks the pages and links of a large mesh with several threads.
 //
-//   pages     The session's thread reads them. Whichever thread has nothing to do gets the next few
-//             (page_feed.hpp).
-//   topology  The curve is cut in parts of as many pages. For each a thread follows all links from
-//             its pages, in a cache of its own, which also loads what lies across the border. What
-//             the stars of vertices tell is added up.
+//   pages     The session's thread reads them. An idle thread gets the next few (page_feed.hpp).
+//   topology  The curve is cut into parts of equally many pages. For each part a thread follows all
+//             links from its pages, in a cache of its own, which also loads pages across the
+//             border. What the stars of vertices show is added up.
 //
-// Threads only find out that there is no fault, which most meshes have not. As soon as one
-// has found any, all end, and the session's thread does the pass again: so which faults are listed,
-// and in which order, does not depend on the number of threads, nor on what their caches held.
-// Nor does a fault escape them: all that is looked at is looked at by some thread.
+// Threads only find out whether there is a fault; most meshes have none. As soon as one has found
+// any, all end, and the session's thread repeats the pass: so the listed faults and their order
+// depend neither on the number of threads nor on what their caches held. Nor does a fault escape
+// them: some thread checks everything that one thread would.
 #pragma once
 
 #include "host/crew.hpp"
@@ -24,8 +23,8 @@ public:
 
     static bool is_worth_while(const Host &host, const abacus_header &header);
 
-    /// The passes; false if a fault was found, or the system grants no thread: then nothing is
-    /// known.
+    /// The passes; false if a fault was found, or the system grants no thread: then the result is
+    /// unknown.
     bool check_pages();
     bool check_topology();
 

@@ -1,4 +1,4 @@
-// What has to hold of a page by itself, and how much is in all that have been looked at.
+// Checks what has to hold for a page by itself, and counts what is in all pages checked.
 #pragma once
 
 #include "blocks/fault_list.hpp"
@@ -11,16 +11,16 @@ template <int D> class PageCheck {
 public:
     PageCheck(const Domain<D> &domain, FaultList &faults) : domain_(domain), faults_(faults) {}
 
-    /// Decodes the page that is stored under faults.at; false if it tells nothing.
+    /// Decodes the page that is stored under faults.at; false if it cannot be decoded.
     bool read(const unsigned char *bytes, std::size_t size, int attributes);
-    /// Looks at what is in the page that was read, whose bytes are still there.
+    /// Checks the contents of the page that was read, whose bytes are still there.
     void check();
     const PageView<D> &page() const { return page_; }
 
     struct Counts {
         std::uint64_t simplices = 0, ghosts = 0;
         std::uint64_t flat = 0;     ///< of the simplices, in doubles (geometry/flatness.hpp)
-        std::uint64_t vertices = 0; ///< of all pages: one that is on several counts for each
+        std::uint64_t vertices = 0; ///< of all pages: a vertex on several pages counts for each
 
         Counts &operator+=(const Counts &more) {
             simplices += more.simplices;

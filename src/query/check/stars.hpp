@@ -1,27 +1,27 @@
-// What the stars of all vertices tell about the whole mesh: that it is in one piece and
-// covers no place twice.
+// What the stars of all vertices show about the whole mesh: that it is in one piece and covers no
+// place twice.
 //
 // A mesh can be sound across every facet and still overlap itself. Two meshes may be stored
-// as one. Or five triangles around a vertex join the corners of a pentagon to the next but
-// one, and wind around the vertex twice: each is positively oriented, no circumcircle is
-// touched, the hull turns left at every corner, and Euler's relation holds.
+// as one. Or five triangles around a vertex join each corner of a pentagon to the next but one, and
+// wind around the vertex twice: each is positively oriented, no circumcircle is touched, the hull
+// turns left at every corner, and Euler's relation holds.
 //
 // One piece. The lexicographically least vertex of a piece has no lesser neighbour. In a
-// triangulation of a convex region there is one such vertex only: the segment from any other to
-// the least one begins in a simplex of its star, which so has a lesser corner. Hence there are
-// at least as many such vertices as pieces, and a sound mesh has one.
+// triangulation of a convex region there is only one such vertex: the segment from any other vertex
+// to the least one begins in a simplex of its star, which therefore has a lesser corner. Hence
+// there are at least as many such vertices as pieces, and a sound mesh has one.
 //
-// Wound once. Around a ridge, which is a vertex in the plane and an edge in space, simplices
-// follow one another as wedges of less than half a turn. In a direction and the opposite one the
-// sides of the line, or plane, along which these lie change: twice in a full turn, at most once in
+// Wound once. Around a ridge, which is a vertex in the plane and an edge in space, simplices follow
+// one another as wedges of less than half a turn. At a direction and its opposite, the wedges
+// change from one side of a line or plane to the other: twice in a full turn, and at most once in
 // half a turn or less, which is what the wedges make up on the hull, where two ghosts close the
-// circle. The direction is one that no vertex lies in: towards greater lexicographic order.
+// circle. No vertex lies in the chosen direction: towards greater lexicographic order.
 //
-// Every star. The stars looked at have as many corners as the mesh. So no vertex has a second
-// star that belongs to no page.
+// Every star. The stars visited have as many corners as the mesh. So no vertex has a second star
+// that belongs to no page.
 //
-// What is in one piece, wound once everywhere and locally convex on its hull is convex and
-// covers no place twice (Tietze 1928; Nakajima 1928, for what is only immersed).
+// A mesh that is in one piece, wound once everywhere and locally convex on its hull is convex and
+// covers no place twice (Tietze 1928; Nakajima 1928, for immersions).
 #pragma once
 
 #include "geometry/predicates.hpp"
@@ -31,10 +31,10 @@
 
 namespace abacus {
 
-/// What stars tell together, of all vertices or of some.
+/// What stars show together, of all vertices or of some.
 struct StarCounts {
     std::uint64_t count = 0;
-    std::uint64_t corners = 0; ///< of simplices, that they are
+    std::uint64_t corners = 0; ///< simplices, counted once for each star that they are in
     std::uint64_t least = 0;   ///< vertices without a lesser neighbour
     bool are_wound_once = true;
 
@@ -52,7 +52,7 @@ public:
     explicit Stars(Cache<D> &cache)
         : cache_(cache), neighbours_(cache.host()), turns_(cache.host()) {}
 
-    /// Looks at all simplices around a vertex, none of which has been evicted. False if they wind
+    /// Visits all simplices around a vertex, none of which has been evicted. False if they wind
     /// around it, or around an edge from there to a greater vertex, more than once.
     bool add(VertexIndex v, const Arena<Handle> &star) {
         ++counts_.count;
@@ -70,7 +70,7 @@ public:
         return once;
     }
 
-    /// Of the stars so far.
+    /// The sums over the stars so far.
     const StarCounts &counts() const { return counts_; }
 
 private:
@@ -79,8 +79,8 @@ private:
         std::uint32_t changes = 0, ghosts = 0;
     };
 
-    /// Adds a simplex to the turns around its vertex v, in space around the edges from there to
-    /// greater vertices, so that each is looked at once. Returns whether it has a lesser vertex.
+    /// Adds a simplex to the turns around its vertex v, in space around the edges from v to greater
+    /// vertices, so that each edge is checked once. Returns whether it has a lesser vertex.
     bool turn(const Simplex<2> &s, VertexIndex v) {
         const int corner = s.index_of(v);
         const VertexIndex a = s.vertex[(corner + 1) % 3], b = s.vertex[(corner + 2) % 3];
@@ -101,8 +101,9 @@ private:
             other[i] = s.vertex[i + (i >= corner)];
             has_lesser |= is_lesser[i] = is_less(other[i], v);
         }
-        // Of each pair of the others, as seen from v, is the second one to the left of the first?
-        // So it is for the edge to the first; for that to the second, the first is to the right.
+        // For each pair of the others, seen from v: is the second to the left of the first? This is
+        // the side for the edge to the first; for the edge to the second, the first is to the
+        // right.
         std::array<bool, 3> is_left{};
         if (!s.is_ghost())
             for (int i = 0; i < 3; ++i) is_left[i] = turns_left(v, other[i], other[(i + 1) % 3]);
@@ -116,7 +117,7 @@ private:
         }
         return has_lesser;
     }
-    /// Of the edge to that neighbour.
+    /// The turn around the edge to that neighbour.
     Turn &turn_around(VertexIndex neighbour) {
         const std::uint32_t n = cache_.number(neighbours_, neighbour);
         if (n == turns_.size()) turns_.push_back({});
@@ -126,12 +127,12 @@ private:
         return lexicographically_less<D>(cache_.point(a), cache_.point(b));
     }
     /// Whether b is to the left of a, seen from v against the direction of lexicographic order:
-    /// in projection along the first axis; where that shows them in line, the next.
+    /// in projection along the first axis; where they are collinear in it, along the next.
     bool turns_left(VertexIndex v, VertexIndex a, VertexIndex b) const {
         const Point<3> &p = cache_.point(v), &q = cache_.point(a), &r = cache_.point(b);
         const SignedArea area = signed_area({q[1] - p[1], q[2] - p[2]}, {r[1] - p[1], r[2] - p[2]});
         if (area.is_sure()) [[likely]]
-            return area.value > 0; // a coin's toss: no branch
+            return area.value > 0; // unpredictable, so no branch
         for (int axis = 0; axis < 3; ++axis) {
             const int i = (axis + 1) % 3, j = (axis + 2) % 3;
             const int side = orientation({p[i], p[j]}, {q[i], q[j]}, {r[i], r[j]});

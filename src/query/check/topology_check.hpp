@@ -1,5 +1,6 @@
-// What has to hold between the simplices of a part of the curve and their neighbours, wherever
-// these lie; and what the stars of the vertices there tell about the whole (stars.hpp).
+// Checks what has to hold between the simplices of a part of the curve and their neighbours,
+// wherever these lie, and collects what the stars of the vertices there show about the whole
+// (stars.hpp).
 #pragma once
 
 #include "blocks/fault_list.hpp"

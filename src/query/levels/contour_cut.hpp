@@ -1,21 +1,21 @@
-// A triangle cut by levels and by a window into pieces of contours.
+// Cuts a triangle by levels and by a window into pieces of contours.
 //
-// What is cut is the part of a triangle in the window, a convex polygon. Its corners are corners of
+// The part of a triangle in the window is a convex polygon; this is cut. Its corners are corners of
 // the triangle, places where an edge of the triangle meets a side of the window, and corners of the
 // window. A corner whose value is a level counts as above it. So around the polygon the level is
-// crossed upwards as often as downwards. From each crossing upwards a piece leads to the next one
-// downwards, with higher ground to its right. That holds for whatever values; rounding cannot break
+// crossed upwards as often as downwards. From each upward crossing a piece leads to the next
+// downward one, with higher ground to its right. This holds for any values; rounding cannot break
 // it.
 //
-// Where a piece ends is a node. Pieces that meet there have equal nodes: the same kind, and the
-// same edge. All that lies on an edge of the triangulation is computed from the edge alone, with
-// its ends in lexicographic order. So the triangles on both sides agree to the bit. Where a contour
-// crosses a side of the window it is computed from the uncut contour. So the windows on both sides
-// agree.
+// The end of a piece is a node. Pieces that meet there have equal nodes: the same kind, and the
+// same edge. Everything on an edge of the triangulation is computed from the edge alone, with its
+// ends in lexicographic order. So the triangles on both sides agree to the bit. Where a contour
+// crosses a side of the window, the crossing is computed from the uncut contour. So the windows on
+// both sides agree.
 //
-// A band is what lies between two levels. Of the pieces around it, those along levels and along
-// sides of the window are made here. Those along edges that have no triangle on their other side
-// are made once these are known (contour_rims.hpp). Bands lie to the left of their pieces.
+// A band is the region between two levels. The pieces around it along levels and along sides of the
+// window are made here; those along edges without a triangle on the other side are made once these
+// edges are known (contour_rims.hpp). Bands lie to the left of their pieces.
 #pragma once
 
 #include "geometry/box.hpp"
@@ -28,11 +28,11 @@
 
 namespace abacus {
 
-/// What a node is, or the first of several kinds.
+/// The kind of a node, or the first of several kinds.
 enum class ContourKind : std::uint8_t {
     end,          // of a line, at a side of the window: pieces do not meet there
-    crossing,     // of an edge and a level
-    lower,        // the same of a band and the level below it
+    crossing,     // of an edge with a level
+    lower,        // the same for a band and the level below it
     upper,        // ... and the level above it
     rim,          // a vertex at the rim of the mesh, named by the rim's edge that begins there
     edge_at_side, // + side
@@ -44,14 +44,14 @@ constexpr ContourKind operator+(ContourKind first, int n) {
     return static_cast<ContourKind>(static_cast<int>(first) + n);
 }
 
-/// A vertex. Several may be at one place, told apart by their ids: an edge on one side of a fault
-/// is another one than that on the other side.
+/// A vertex. Several may be at one place, distinguished by their ids: the edges on the two sides of
+/// a fault are different edges.
 struct ContourPoint : Point<2> {
     std::int64_t id = 0;
 };
 using ContourCorners = std::array<const ContourPoint *, 3>;
 
-/// Points are told apart by where they lie in memory: within a page, a vertex has one.
+/// Points are distinguished by their addresses in memory: a vertex has one point within a page.
 struct ContourNode {
     ContourKind kind = ContourKind::end;
     const ContourPoint *a = nullptr, *b = nullptr; // ends of an edge
@@ -64,7 +64,7 @@ struct ContourEnd {
     ContourNode node;
 };
 
-/// Straight, of a level or a band.
+/// A straight piece, of a level or a band.
 struct ContourPiece {
     std::int64_t level;
     ContourEnd tail, head;
@@ -100,7 +100,7 @@ struct ContourEdge {
     Point<2> crossing(double level) const;
 };
 
-/// A corner of a polygon, and what leads from there to the next one.
+/// A corner of a polygon, and the line from there to the next one.
 struct ContourCorner {
     Point<2> place;
     double value;
@@ -113,13 +113,13 @@ struct ContourCorner {
 ContourCorner meet(const ContourEdge &edge, int side, const ContourWindow &window,
                    const ContourLevels &levels);
 
-/// The part in the window of an edge, in the direction of these corners; false if there is none.
+/// The part of an edge in the window, in the direction of these corners; false if there is none.
 bool clip(const ContourEdge &edge, const ContourWindow &window, const ContourLevels &levels,
           ContourCorner &from, ContourCorner &to);
 
-/// Calls put(piece) for each piece of a straight line from one corner to another along which bands
-/// follow one another. end(level, has_upper) is where it crosses a level, as the band on one side
-/// of it names that.
+/// Calls put(piece) for each piece of a straight line from one corner to another, along which bands
+/// follow one another. end(level, has_upper) is where it crosses a level, as seen from the band on
+/// one side of it.
 template <class CrossingEnd, class Put>
 void cut_into_bands(const ContourCorner &from, const ContourCorner &to, CrossingEnd end, Put put) {
     ContourEnd tail{from.place, from.node};
@@ -139,7 +139,7 @@ public:
     ContourCut(const ContourWindow &window, const ContourLevels &levels, bool bands)
         : window_(window), levels_(levels), bands_(bands) {}
 
-    /// Takes a triangle in positive orientation; false if it has no inside in the window.
+    /// Takes a triangle in positive orientation; false if its interior does not meet the window.
     bool take(const ContourCorners &corners, const std::array<double, 3> &values,
               const std::array<std::int64_t, 3> &ranks);
     /// The least and the greatest rank in the window.

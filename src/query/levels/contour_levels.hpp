@@ -16,12 +16,12 @@ public:
     explicit ContourLevels(const abacus_contouring &contouring) : how_(contouring) {}
 
     /// The number of the greatest level that is not above a finite value: one less than the first
-    /// if there is none. Throws if levels cannot be told apart there.
+    /// if there is none. Throws if levels cannot be distinguished there.
     std::int64_t rank(double value) const;
-    /// Contours are asked for between these. Throws if there are more levels between all of
-    /// them so far than anybody waits for.
+    /// Includes the ranks of contours that are needed. Throws if there are too many levels between
+    /// all that have been included.
     void include(const ContourRanks &ranks);
-    /// Of a number that is a rank; -infinity below all levels.
+    /// The level with this rank; -infinity below all levels.
     double level(std::int64_t number) const;
 
 private:

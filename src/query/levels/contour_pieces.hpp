@@ -1,15 +1,15 @@
-// Pieces of contours joined into lines.
+// Joins pieces of contours into lines.
 //
 // The pieces of a page are joined in memory, at equal nodes. So a page gives a few chains. Their
 // points go to a spool, one chain after the other, and the nodes of their ends to a sort; so ends
-// that meet come together wherever their chains are from. What follows what is then known, and the
-// places of chains in lines are ranked (chain_rank.hpp). Each line is told its number in the order
-// of lines, and each point its line and its place there. One more sort brings the points into their
-// order, and each line is read as a whole.
+// that meet come together, whichever pages their chains are from. Then the successor of each chain
+// is known, and the places of chains in lines are ranked (chain_rank.hpp). Each line gets its
+// number in the order of lines, and each point its line and its place there. One more sort brings
+// the points into their order, and each line is read as a whole.
 //
-// The order of lines: by level, then by their least node, which is a place and, where several nodes
-// have that, the edge it is on, by the places of its ends and by their ids. So it depends on the
-// mesh alone. Memory holds one line, and shares of what the caller grants.
+// The order of lines: by level, then by their least node. Nodes are ordered by place; at one place
+// by the edge of the node, by the places of its ends and by their ids. So the order depends on the
+// mesh alone. Memory holds one line, and sorts take shares of what the caller grants.
 #pragma once
 
 #include "host/arena.hpp"
@@ -23,19 +23,19 @@ class ContourPieces {
 public:
     ContourPieces(const Host &host, std::size_t memory);
 
-    /// At least so many chains will be joined from now on, each of them within a page, and so many
-    /// ends of them are in the window: throws if spools have no room for that.
+    /// At least this many chains will be joined from now on, each of them within a page, and this
+    /// many of their ends are in the window: throws if spools have no room for them.
     void expect(double chains, double ends) const;
-    /// Nodes may name points that are there until the next flush().
+    /// Nodes may refer to points that exist until the next flush().
     void add(const ContourPiece &piece) {
         pieces_.push_back(piece);
         if (pieces_.size() == most_pieces) flush();
     }
-    /// Joins what has been added.
+    /// Joins the pieces that have been added.
     void flush();
 
-    /// No more come. Calls line(level, is_closed, points) for each line, in order. The last point
-    /// of a closed one is the first. Equal points in a row are one.
+    /// No more pieces come. Calls line(level, is_closed, points) for each line, in order. The last
+    /// point of a closed line is the first. Consecutive equal points are merged.
     template <class Line> void each(Line line) {
         finish();
         Arena<Point<2>> points(host_);
@@ -53,8 +53,8 @@ private:
     /// A node with its place, in words that are compared one by one.
     using NodeWords = std::array<std::uint64_t, 9>;
 
-    // Records. Of an end: level, node, whether a chain begins there, its number. Of a chain: level,
-    // points, least node. Of a line: level, least node, number of the chain that names it, closed.
+    // Records. An end: level, node, whether a chain begins there, its number. A chain: level,
+    // points, least node. A line: level, least node, number of the chain that names it, closed.
     static constexpr std::size_t node_words = std::tuple_size_v<NodeWords>;
     static constexpr std::size_t begins_at = node_words - 1; // in an end, which has no place
     static constexpr std::size_t end_words = begins_at + 2, end_key = begins_at + 1;

@@ -1,15 +1,15 @@
-// The rim of what contours are made of: edges that have a triangle on one side only, since the mesh
-// ends there, or the other triangle was left out.
+// The rim of the triangles that contours are made of: edges that have a triangle on one side only,
+// since the mesh ends there, or the other triangle was left out.
 //
-// A page tells of the edges that have one triangle there. Sorted, those of all pages that have
-// another one elsewhere come in pairs. What is left bounds bands, in pieces between the levels that
-// it crosses.
+// A page reports its edges that have one triangle there. When those of all pages are sorted, edges
+// that have another triangle elsewhere come in pairs. The others bound bands, in pieces between the
+// levels that they cross.
 //
 // Where two pieces meet at a vertex the rim goes on. As a rule one edge leads there and one leads
-// away. At some vertices the rim passes several times: the triangles there are in several fans. An
-// edge that leads there ends a fan, and the rim goes on with the edge that begins the same fan. It
-// is the first one from there clockwise, decided exactly. At the end of a fault it comes back along
-// the other side of the fault, after a full turn.
+// away. The rim passes some vertices several times: the triangles there form several fans. An edge
+// that leads there ends a fan, and the rim goes on with the edge that begins the same fan: the
+// first one clockwise, decided exactly. At the end of a fault it comes back along the other side of
+// the fault, after a full turn.
 #pragma once
 
 #include "host/arena.hpp"
@@ -24,7 +24,7 @@ public:
 
     /// An edge, with the triangle to its left.
     void add(const ContourPoint &from, double value_from, const ContourPoint &to, double value_to);
-    /// No more come. Adds the pieces of those that have no triangle to their right.
+    /// No more edges come. Adds the pieces of those that have no triangle to their right.
     void finish(ContourPieces &pieces);
 
 private:

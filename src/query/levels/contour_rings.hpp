@@ -1,10 +1,9 @@
-// A closed path taken apart where it touches itself, so that each ring passes each of its points
-// once.
+// Splits a closed path where it touches itself, so that each ring passes each of its points once.
 //
 // The outline of a band touches itself at vertices that lie exactly at a level, and runs out and
-// back along edges that do. Followed from its beginning, whenever it comes to a point that it has
-// passed, what lies between is a ring, and is taken off. A ring of one or two points, or of no
-// area, bounds nothing.
+// back along edges that do. The path is followed from its beginning; whenever it reaches a point
+// that it has passed, the part between is a ring, and is split off. A ring of one or two points, or
+// without area, bounds nothing.
 #pragma once
 
 #include "geometry/point.hpp"
@@ -42,7 +41,7 @@ private:
     void take(std::size_t place);
     bool has_area() const;
 
-    Arena<Point<2>> open_;      // passed, and in no ring yet
+    Arena<Point<2>> open_;      // passed, but in no ring yet
     Arena<std::size_t> slots_;  // points that are the first of their kind, hashed
     Arena<std::size_t> places_; // of each of them, the last one among the open ones
     Arena<Point<2>> ring_;

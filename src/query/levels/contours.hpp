@@ -1,9 +1,9 @@
 // Lines of equal value in a mesh of the plane, and the bands between them.
 //
 // The pages of the window are read. Each triangle is cut into pieces (contour_cut.hpp), and
-// these are joined (contour_pieces.hpp). A small interval makes any number of them, so unless they
-// are few they are counted first, in a reading of their own. A triangle counts that has a finite
-// value at each corner and no edge too long.
+// these are joined (contour_pieces.hpp). A small interval can make any number of them, so unless
+// they are few they are counted first, in a separate pass over the pages. Only triangles with a
+// finite value at each corner and without too long an edge are used.
 #pragma once
 
 #include "query/levels/contour_pieces.hpp"
@@ -38,13 +38,13 @@ private:
     void count();
     /// Reads the values of a page's vertices; false if no line can be there.
     bool read_values(const Page &page);
-    /// At least as many pieces as the page has whose values have been read.
+    /// A lower bound for the number of pieces of the page whose values have been read.
     double most_pieces(const Page &page) const;
-    /// Cuts triangles of the page whose values have been read, and calls take(corners) for each of
-    /// which something is left.
+    /// Cuts triangles of the page whose values have been read, and calls take(corners) for each
+    /// that has a part left.
     template <class Take> void each_triangle(const Page &page, Take take);
     void read_page(const Page &page);
-    /// Those of the triangle that has been cut.
+    /// Adds the pieces of the triangle that has been cut.
     ContourRanks include_levels() {
         const ContourRanks ranks = cut_.ranks();
         levels_.include(ranks);
@@ -55,11 +55,11 @@ private:
     void report_lines(abacus_contour_report report, void *context);
     void report_bands(abacus_contour_report report, void *context);
 
-    // Up to here they are not counted first.
+    // Up to this many are not counted first.
     static constexpr double few_pieces = 512;
 
     const Host &host_;
-    const abacus_header &header_;   // as long as all is read
+    const abacus_header &header_;   // while all pages are read
     const std::uint64_t simplices_; // of the mesh, ghosts included
     Pacer pacer_;
     const abacus_contouring how_;

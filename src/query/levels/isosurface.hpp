@@ -1,13 +1,13 @@
 // The surface on which an attribute has a value, where it varies linearly in each tetrahedron.
 //
-// It is found in one scan of the pages, past those that have no such value. Each page gives its
-// triangles and their corners; of tetrahedra that share an edge the corner there is one. Between
-// pages the numbers of corners tell which are one (sort/dense_ranks.hpp). These are known when all
-// pages have been read, so triangles and corners wait in spools. Where these may have no room,
-// pages are first read once more, to count.
+// It is found in one scan of the pages, which skips those without such a value. Each page gives its
+// triangles and their corners; tetrahedra that share an edge share the corner on it. Between pages
+// the numbers of corners show which are the same (sort/dense_ranks.hpp). These are known when all
+// pages have been read, so triangles and corners wait in spools. If these may lack room, the pages
+// are read once before, to count.
 //
 // A corner is computed from the two vertices of its edge, the lexicographically lesser one first.
-// So whoever computes it gets the same to the last bit, and the surface has no cracks.
+// So every computation of it gives the same bits, and the surface has no cracks.
 #pragma once
 
 #include "query/pages/page_edges.hpp"
@@ -22,7 +22,7 @@ namespace abacus {
 
 class Isosurface {
 public:
-    /// Numbers corners within `memory` bytes, and finds all there is.
+    /// Numbers corners within `memory` bytes, and finds the whole surface.
     Isosurface(const Host &host, const abacus_header &header, const abacus_isosurface_query &query,
                std::size_t memory);
 
@@ -38,7 +38,7 @@ public:
     }
 
 private:
-    /// Where a vertex is; what has no finite value is nowhere.
+    /// Which side a vertex is on; one without a finite value is on neither.
     enum class Side : std::uint8_t { below, above, nowhere };
     struct Corner {
         std::int64_t number;
@@ -48,7 +48,7 @@ private:
 
     /// First: pages to spools.
     void scan();
-    /// Only counts corners and triangles; throws if spools have no room for them.
+    /// Only counts corners and triangles. Throws if spools have no room for them.
     void count();
     /// Calls end_page() after each page.
     template <class End> void each_page(End end_page);
@@ -63,7 +63,7 @@ private:
     void close();
 
     const abacus_isosurface_query query_;
-    const bool is_split_; // vertices at one place are told apart by their ids
+    const bool is_split_; // vertices at one place are distinguished by their ids
     const Host &host_;
     const abacus_header header_;
     const CellFilter<3> filter_;
@@ -75,7 +75,7 @@ private:
     PageEdges edges_;
     DenseRanks numbers_;
     RecordSpool pages_made_; // corners and triangles of each
-    RecordSpool corners_;    // coordinates, and the value that is carried
+    RecordSpool corners_;    // coordinates, and the value carried
     RecordSpool triangles_;  // the corners' numbers in their page
     std::uint64_t triangles_here_ = 0;
     Arena<Corner> corners_here_;

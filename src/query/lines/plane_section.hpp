@@ -2,12 +2,12 @@
 //
 // The heights of vertices above the plane are exact in their signs, and a vertex in the plane
 // counts as above it (geometry/tetrahedron_cut.hpp). So the polygons tile the plane without gap or
-// overlap. Those of their corners that lie on one vertex are one corner; what is then no more than
-// an edge or a point is no polygon. A facet in the plane is the section of the tetrahedron below
-// it. At the bottom of the mesh there is none below: so it is that of its ghost.
+// overlap. Corners that lie on the same vertex are merged; if only an edge or a point remains, it
+// is not a polygon. A facet in the plane is the section of the tetrahedron below it. At the bottom
+// of the mesh there is none below, so it is the section of the facet's ghost.
 //
 // Corners are computed from the two vertices of their edge, the lexicographically lesser one first.
-// So polygons that share a corner have the same to the last bit.
+// So polygons that share a corner have the same coordinates to the last bit.
 #pragma once
 
 #include "geometry/cutting_plane.hpp"
@@ -19,11 +19,11 @@
 
 namespace abacus {
 
-/// The plane, and a little more on both sides: a point near the middle of the mesh, as near to the
-/// plane as doubles come, is in it.
+/// The plane, and a little more on both sides: it contains a point near the middle of the mesh that
+/// is as near to the plane as doubles allow.
 class PlaneRegion final : public Region<3> {
 public:
-    /// `around`: where the points of the mesh are, as far as one knows.
+    /// `around`: where the points of the mesh are, as far as is known.
     PlaneRegion(const CuttingPlane &plane, const Box<3> &around);
 
     Point<3> inside(const Domain<3> &) const override { return inside_; }
@@ -43,7 +43,7 @@ public:
 
     /// False after the last polygon.
     bool next(abacus_polygon &polygon);
-    /// Whose that was: a simplex of a page, which stays until the next call.
+    /// The simplex of that polygon in its page; valid until the next call.
     const PageView<3> &page() const { return pages_.page(); }
     int simplex() const { return at_ - 1; }
 
@@ -54,14 +54,14 @@ private:
     bool is_bottom(int ghost) const;
     bool is_of_fault(int ghost) const;
     bool is_too_long(int simplex, int corners) const;
-    /// Adds a corner: a vertex, or where the edge between two meets the plane.
+    /// Adds a corner: a vertex, or the place where the edge between two meets the plane.
     void add(int vertex, abacus_polygon &polygon) const;
     void add(int below, int above, abacus_polygon &polygon) const;
 
     const CuttingPlane plane_;
     PageValues<3> values_;
     const double max_edge_;
-    const bool is_split_; // vertices at one place are told apart by their ids
+    const bool is_split_; // vertices at one place are distinguished by their ids
     const Domain<3> domain_;
     const PlaneRegion region_;
     RangeScan<3> pages_;

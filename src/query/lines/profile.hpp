@@ -1,9 +1,9 @@
 // An attribute along a path of straight lines: at its corners, and wherever it crosses a facet of
 // the mesh. Between two such places it is linear.
 //
-// Outside the mesh there is no value. A place where the path leaves or enters the mesh is handed
-// out twice, with its value and without; so what is drawn from place to place has gaps where the
-// mesh has.
+// Outside the mesh there is no value. A place where the path leaves or enters the mesh is reported
+// twice, with its value and without; so a curve drawn from place to place has gaps where the mesh
+// has.
 #pragma once
 
 #include "query/lines/line_scan.hpp"
@@ -20,8 +20,8 @@ public:
     Profile(Reader<D> &reader, std::uint32_t attribute, Report report,
             double max_edge = no_max_edge);
 
-    /// Of a path with the corners corner(0) to corner(n - 1); one corner after another that is
-    /// equal is passed over.
+    /// For a path with the corners corner(0) to corner(n - 1); a corner equal to the one before it
+    /// is skipped.
     void along(std::size_t n, const std::function<Point<D>(std::size_t)> &corner);
 
 private:
@@ -33,7 +33,7 @@ private:
 
     void put(const Row &row, double value);
     void put_outside(double distance, const Point<D> &place);
-    /// A corner of the path, to which it comes inside the mesh or outside.
+    /// A corner of the path, which it reaches inside the mesh or outside.
     void put_corner(const Point<D> &place, bool comes_inside);
     /// The straight line from one corner to the next.
     void put_line(const Point<D> &from, const Point<D> &to);
@@ -42,7 +42,7 @@ private:
     Interpolation<D> interpolation_;
     abacus_interpolation how_{};
     const Report report_;
-    double distance_ = 0; // at the corner put last
+    double distance_ = 0; // at the last corner added
     std::optional<Row> last_;
 };
 

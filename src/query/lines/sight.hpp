@@ -5,7 +5,7 @@
 // line somewhere only if it does where the line crosses an edge or a vertex, or at its ends. There
 // the heights are compared: in doubles with a bound on the error, and in rational numbers where
 // that does not decide. An end that stands on the terrain has the terrain's height there exactly.
-// So a line of sight that touches the terrain, or runs in it, is told from one that it blocks.
+// So a line of sight that touches the terrain, or runs in it, is distinguished from a blocked one.
 #pragma once
 
 #include "query/lines/line_scan.hpp"
@@ -14,8 +14,8 @@
 
 namespace abacus {
 
-/// Where the ground has no height, or none that is finite, nothing blocks; nor in triangles with an
-/// edge longer than max_edge.
+/// Ground without a finite height blocks nothing, and neither do triangles with an edge longer than
+/// max_edge.
 abacus_sight look(Reader<2> &reader, std::uint32_t attribute, const abacus_sight_end &observer,
                   const abacus_sight_end &target, double max_edge = no_max_edge);
 

@@ -1,6 +1,6 @@
-// The simplex behind a facet of the boundary, for those who meet the ghost alone.
+// Finds the simplex behind a facet of the boundary, for callers that have only the ghost.
 //
-// Of the finite simplices around a corner of the facet, exactly one has all its corners: on the
+// Exactly one of the finite simplices around a corner of the facet has all its corners: on the
 // other side of a fault they have other ids.
 #pragma once
 
@@ -35,7 +35,7 @@ private:
 
     const Host &host_;
     const abacus_header header_;
-    std::optional<Reader<D>> mesh_; // once it is needed
+    std::optional<Reader<D>> mesh_; // created when it is first needed
 };
 
 } // namespace abacus

@@ -1,23 +1,23 @@
-// Locating a point in a stored page, without loading that into the cache.
+// Locates a point in a stored page without loading the page into the cache.
 //
-// Loading a page pays off when the page is asked again. Places at random in a mesh far larger
-// than the cache do not come back. Then it is many times quicker to look for the one simplex
-// in the page's bytes, to decode no more of them than that takes, and to keep only the
-// location of the page (known_pages.hpp).
+// Loading a page pays off when the page is needed again. Random places in a mesh far larger than
+// the cache do not come back. Then it is many times faster to search for the one simplex in the
+// page's bytes, to decode no more of them than necessary, and to keep only the location of the page
+// (known_pages.hpp).
 //
-// Where places come along the curve, the last few pages looked into are held, with all that has
-// been decoded of them, and one place after the other is found there. When several places have
-// come to a page, the boxes of its simplices are worth computing: a place is then compared with
-// eight of them at once. Places in no order would pay for the copies with 4 to 6 % of their time.
+// Where places come along the curve, the last few pages searched are held, with everything decoded
+// so far, and one place after the other is found there. When several places have come to a page,
+// the boxes of its simplices are worth computing: a place is then compared with eight of them at
+// once. For places in no order the copies would cost 4 to 6 % of the time.
 //
 // A simplex belongs to the page that owns the greatest of its vertices' codes. So the simplex of
 // a place may lie in another page than the one that owns the place, further on the curve: in the
-// plane one time in ten, in space four in ten. The vertices are about as far away as they are
-// from one another. The greatest code of a few places around, at that distance, leads to the
-// right page nineteen times in twenty, in space four in five.
+// plane one time in ten, in space four in ten. Its vertices are about as far from the place as from
+// one another. The greatest code of a few places around, at that distance, leads to the right page
+// nineteen times in twenty, in space four in five.
 //
-// Nobody knows whether a page will be asked again. So it is loaded the second time, if it is
-// among the last pages looked into and is not held.
+// It is not known whether a page will be needed again. So it is loaded the second time, if it is
+// among the last pages searched and is not held.
 #pragma once
 
 #include "host/memory_resource.hpp"
@@ -37,21 +37,20 @@ namespace abacus {
 
 template <int D> class Glance {
 public:
-    /// `bytes` are for what is known of pages. If places come in the order of the curve, as
-    /// many again are for pages that are held; a page that is looked into again is then not
-    /// needed for long.
+    /// `bytes` are for what is known about pages. If places come in the order of the curve, as many
+    /// again are for held pages; a page that is searched again is then not needed for long.
     Glance(const Cache<D> &cache, const VertexValues<D> &vertex_values, std::size_t bytes,
            bool in_order)
         : cache_(cache), vertex_values_(vertex_values), known_(cache.host(), bytes),
           in_order_(in_order), memory_(cache.host()),
           held_(in_order ? std::clamp<std::size_t>(bytes / sizeof(Held), 2, most_held) : 1,
                 &memory_) {
-        seen_.fill(end_key); // no page's
+        seen_.fill(end_key); // of no page
     }
 
-    /// Looks for a finite simplex with p strictly inside, in pages. False if there is none where
-    /// it may be expected, or p is on a facet, or a page is in the cache, or to be loaded. The
-    /// code is p's, and becomes that of where it may be expected first.
+    /// Searches pages for a finite simplex with p strictly inside. False if there is none where it
+    /// may be expected, or p is on a facet, or a page is in the cache, or should be loaded. The
+    /// code is p's, and becomes that of the first place where the simplex may be expected.
     bool find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex,
               CornerValues *values);
 
@@ -61,9 +60,10 @@ public:
 private:
     static constexpr std::size_t remembered = 32; // pages
     static constexpr std::size_t most_held = D == 2 ? 8 : 16;
-    /// Places in a held page for which the boxes of its simplices are worth having.
+    /// The number of places in a held page from which on the boxes of its simplices are worth
+    /// computing.
     static constexpr unsigned worth_boxes = 8;
-    /// Distances of places around p, in those of vertices.
+    /// Distances of places around p, in units of the distance between vertices.
     static constexpr std::array<double, 4> distances{0.6, 1.2, 2.2, 4};
     static constexpr int most_codes = 2 * D + (1 << D); // at one of them
 
@@ -84,16 +84,16 @@ private:
     enum class Outcome { found, not_here, not_now };
 
     using Prefix = Column::Prefix;
-    /// A page that has been looked into. Its bytes are the host's, and gone with the next call;
+    /// A page that has been searched. Its bytes are the host's, and invalid after the next call;
     /// for places in order they are copied.
     struct Held {
         Held() {} // the arrays get their content with the page
 
-        Key lower{}, upper{}; ///< what it owns; nothing at first
+        Key lower{}, upper{}; ///< the interval it owns; empty at first
         KnownPage page;
         std::uint64_t last_use = 0;
-        unsigned asked = 0;        ///< places looked for
-        std::uint64_t patches = 0; ///< those that have been read, a bit each
+        unsigned asked = 0;        ///< places searched for
+        std::uint64_t patches = 0; ///< the patches that have been read, a bit each
         bool has_boxes = false;
         PageView<D> view;
         SimplexBoxes<D> boxes;
@@ -103,12 +103,11 @@ private:
     /// Codes of places around a cell.
     static void add_along_axes(const Cell<D> &cell, double distance, Codes &codes);
     static void add_diagonally(const Cell<D> &cell, double distance, Codes &codes);
-    /// Looks into the page that owns a code, which may be known.
+    /// Searches the page that owns a code; `known` if its location is known.
     Outcome look(std::uint64_t code, const KnownPage *known, const Point<D> &p,
                  abacus_simplex &simplex, CornerValues *values);
     bool fetch(std::uint64_t code, const KnownPage *known, abacus_page &page);
-    /// The held page that owns a code, or null; for places in no order, the one looked into
-    /// last.
+    /// The held page that owns a code, or null; for places in no order, the one searched last.
     Held *find_held(std::uint64_t code);
     /// Opens the page that owns a code, in place of the one used longest ago.
     Held &hold(std::uint64_t code, const abacus_page &page, const KnownPage *known);
@@ -128,7 +127,7 @@ private:
     void compare(const PageView<D> &view, int patch, const Prefixes &own);
     /// As in_simplex(); every point is outside of a ghost.
     static int position(PageView<D> &view, int simplex, const Point<D> &p);
-    /// Of the page's vertices, in cells.
+    /// The spacing of the page's vertices, in cells.
     static double spacing(const PageView<D> &view);
 
     const Cache<D> &cache_;
@@ -139,11 +138,11 @@ private:
     std::pmr::vector<Held> held_;
     std::uint64_t uses_ = 0;
     std::uint64_t pages_read_ = 0;
-    /// Of each vertex, and of the point at infinity behind them, two bits an axis: whether it
-    /// is below p, or above. What all corners have in common dismisses a simplex.
+    /// For each vertex, and for the point at infinity behind them, two bits per axis: whether it is
+    /// below p, or above. A bit that all corners have in common dismisses a simplex.
     std::array<Side, page_vertices<D> + 1> sides_;
     std::array<Prefix, page_vertices<D>> prefixes_; // of a page's vertices on one axis
-    /// The intervals of the pages that have been looked into for this place.
+    /// The intervals of the pages that have been searched for this place.
     std::array<std::pair<Key, Key>, 1 + distances.size() * most_codes> looked_;
     std::size_t looks_ = 0;
     std::array<Key, remembered> seen_;

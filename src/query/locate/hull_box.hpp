@@ -8,8 +8,8 @@
 
 namespace abacus {
 
-/// A box with all of the mesh. All there is, if the mesh is not Delaunay, and so all pages would
-/// have to be read, or its hull lies on a great many pages.
+/// A box that contains the whole mesh. It is infinite if the mesh is not Delaunay, so that all
+/// pages would have to be read, or if its hull lies on a great many pages.
 template <int D>
 Box<D> hull_box(const Host &host, const abacus_header &header, std::size_t cache_bytes) {
     constexpr int most_pages = 512;

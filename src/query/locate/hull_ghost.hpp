@@ -1,4 +1,4 @@
-// Where the hull of a mesh begins to be walked around.
+// Where a walk around the hull of a mesh begins.
 #pragma once
 
 #include "query/locate/reader.hpp"
@@ -12,7 +12,7 @@ template <int D> Handle hull_ghost(Reader<D> &reader) {
     away.fill(std::numeric_limits<double>::lowest());
     const Handle h = reader.simplex_around(away);
     if (cache.simplex(h).is_ghost()) return h;
-    // No simplex has that place but as a corner, which is then on the hull.
+    // A simplex can have that place only as a corner, which is then on the hull.
     VertexIndex corner = cache.simplex(h).vertex[0];
     for (const VertexIndex v : cache.simplex(h).vertex)
         if (cache.point(v) == away) corner = v;

@@ -1,23 +1,24 @@
-// The vertices nearest to a place, nearest first, exactly; of those equally far the
+// The vertices nearest to a place, nearest first, exactly; of vertices equally far away the
 // lexicographically least comes first, of those at one place the one with the least id.
 //
 // In a Delaunay mesh they are found along edges. Let q be a vertex at the distance d from the place
-// p, and let some vertex be nearer. Blow up a ball that touches q from inside the ball of radius d
-// around p, from a point on. When it first meets other vertices they are within that ball, so
-// nearer than q. It is empty: so those on it are joined among one another, however the cells of
-// cospherical ones are cut, and q has a neighbour that is nearer. Therefore
+// p, and let some vertex be nearer. Starting from a point, blow up a ball that touches q from
+// inside the ball of radius d around p. When it first meets other vertices, these are within the
+// larger ball, so nearer than q. The ball is empty, so the vertices on it are joined to one
+// another, however the cells of cospherical ones are cut, and q has a nearer neighbour. Therefore
 //
 //   descent   from any vertex a way along nearer and nearer neighbours leads to one at the
 //             least distance;
-//   plateau   all at the least distance are on one empty sphere around p, and hang together;
-//   the next  is, after these, a neighbour of one found before: those found are gone through in
-//             order, and their neighbours compete for the places behind.
+//   plateau   all vertices at the least distance are on one empty sphere around p, and are
+//             connected;
+//   the next  vertex after these is a neighbour of one found before: those found are visited in
+//             order, and their neighbours compete for the following ranks.
 //
 // A candidate that k others come before is dropped. So memory grows with k, and with the simplices
 // around what is found, which are in the cache.
 //
-// In other meshes pages are read in the order of how far away their boxes are, until the next one
-// is farther away than the k-th vertex.
+// In other meshes pages are read in order of the distance of their boxes, until the next one is
+// farther away than the k-th vertex.
 #pragma once
 
 #include "geometry/distance.hpp"
@@ -31,7 +32,7 @@ namespace abacus {
 
 template <int D> class Nearest {
 public:
-    /// It can be made for each place: what takes long to make is the reader's.
+    /// Cheap enough to create for each place: the reader owns what takes long to create.
     explicit Nearest(Reader<D> &reader)
         : reader_(reader), cache_(reader.cache()), memory_(cache_.host()),
           words_(record_words(D, reader.vertex_values().count())), records_(cache_.host()),
@@ -56,8 +57,8 @@ private:
     struct Candidate {
         Point<D> point;
         std::int64_t id;
-        mutable std::size_t slot; // of its record; no part of the order
-        Handle simplex;           // that has it as a corner, ...
+        mutable std::size_t slot; // of its record; not part of the order
+        Handle simplex;           // with the candidate as a corner, ...
         VertexIndex vertex;
     };
     struct Order {
@@ -71,11 +72,11 @@ private:
     void search(const Point<D> &p, std::uint64_t k);
     void search_edges();
     void search_pages();
-    /// Goes through the simplices around all vertices as far away as nearest_, and competes with
-    /// their corners; false, and nearest_ is a nearer one, if there is one.
+    /// Visits the simplices around all vertices as far away as nearest_, and lets their corners
+    /// compete. If one is nearer, it becomes nearest_, and the result is false.
     bool look_around_plateau();
     void look_around(const Candidate &candidate);
-    /// A vertex competes.
+    /// Lets a vertex compete.
     void offer(Handle simplex, VertexIndex vertex);
     void offer_corners(Handle simplex) {
         const Simplex<D> &s = cache_.simplex(simplex);
@@ -92,7 +93,7 @@ private:
     const std::size_t words_; // of a record
     Point<D> p_{};
     std::uint64_t k_ = 0;
-    Candidate nearest_{}; // of those met in the descent; without a record
+    Candidate nearest_{}; // of the vertices met in the descent; without a record
     Arena<std::uint64_t> records_;
     Candidates candidates_; // the first k of all that have been met
 };

@@ -1,11 +1,11 @@
 // Point location and walking over a stored mesh (dissertation §4.11.3), in a cache
 // that lives as long as the reader.
 //
-// In a mesh that is not Delaunay a walk may miss a point that the mesh contains: at the
-// border of a hole it ends, and it may take too long. Then, and for a point on a facet,
-// around which not all simplices need be neighbours of one another, all pages are looked
-// into whose box contains the point (page_boxes.hpp, page_search.hpp). Places of this kind
-// come together; so after one the next is looked for in pages at once.
+// In a mesh that is not Delaunay a walk may miss a point that the mesh contains: it ends at the
+// border of a hole, and it may take too long. Then, and for a point on a facet, around which not
+// all simplices need be connected, all pages whose boxes contain the point are searched
+// (page_boxes.hpp, page_search.hpp). Such places come together; so after one of them the next is
+// searched for in pages at once.
 #pragma once
 
 #include "query/locate/glance.hpp"
@@ -30,27 +30,27 @@ template <int D> class Reader {
 public:
     Reader(const Host &host, const abacus_header &header, std::size_t cache_bytes)
         : Reader(host, header, CacheOptions{.budget = cache_bytes}) {}
-    /// `in_order`: places come along the curve. Then a page need not be loaded to be looked into,
+    /// `in_order`: places come along the curve. Then a page need not be loaded to be searched,
     /// whether or not the cache has room for it.
     Reader(const Host &host, const abacus_header &header, const CacheOptions &options,
            bool in_order = false);
 
     /// The simplex that contains p; of several, the first by comes_before(). False
-    /// outside the hull. `values` gets what its corners carry. Simplices with an edge longer than
-    /// `max_edge` count as outside.
+    /// outside the hull. `values` gets the values at its corners. Simplices with an edge longer
+    /// than `max_edge` count as outside.
     bool locate(const Point<D> &p, abacus_simplex &simplex, CornerValues *values = nullptr,
                 double max_edge = no_max_edge);
     /// The neighbour across facet `facet` of the simplex with this code and these ids.
     /// False at the hull; throws an Error (argument) if there is no such simplex, or several,
     /// as there may be where points have equal ids.
     bool walk(std::uint64_t code, const std::int64_t *ids, int facet, abacus_simplex &simplex);
-    /// The simplex with this code and these ids, as of walk().
+    /// The simplex with this code and these ids, as in walk().
     void describe(std::uint64_t code, const std::int64_t *ids, abacus_simplex &simplex);
     /// Calls visit(handle) for all finite simplices that contain p, in no order.
     void containing(const Point<D> &p, const std::function<void(Handle)> &visit);
     /// Calls visit(simplex) for all that contain p.
     void star(const Point<D> &p, const std::function<void(const abacus_simplex &)> &visit);
-    /// ... for the simplex with this code and these ids, as of walk(), and those that can be
+    /// ... for the simplex with this code and these ids, as in walk(), and those that can be
     /// reached from it across at most `steps` facets, the nearest first.
     void neighbours(std::uint64_t code, const std::int64_t *ids, std::uint32_t steps,
                     const std::function<void(const abacus_simplex &)> &visit);
@@ -75,16 +75,16 @@ public:
     bool is_empty() const { return size_ == 0; }
     /// Simplices and ghosts.
     std::uint64_t size() const { return size_; }
-    /// A simplex of the cache as users see it, with what its corners carry.
+    /// A simplex of the cache as users see it, with the values at its corners.
     void describe(Handle h, abacus_simplex &simplex, CornerValues *values = nullptr) const;
-    /// A flood over the cache, for whoever asks between two calls.
+    /// A flood over the cache, for use between two calls.
     Flood<D> &flood() { return around_; }
 
     /// In a mesh that is not Delaunay: how many pages have this vertex, with its id and with the
     /// attributes that pages have.
     std::uint64_t pages_with(const std::uint64_t *vertex);
 
-    /// Pages loaded or looked into.
+    /// Pages loaded or searched.
     std::uint64_t pages_read() const {
         return cache_.counters.loads + glance_.pages_read() + (search_ ? search_->pages_read() : 0);
     }
@@ -99,8 +99,8 @@ private:
     /// A simplex with p in its closure, or a ghost that sees p; no_handle in an empty mesh.
     /// Here and below `code` is p's, or that of where its simplex may be expected.
     Handle find(const Point<D> &p, std::uint64_t code);
-    /// Locates p in a page that is not in the cache, if that has been full, or places come in
-    /// order, and it is worth while. Else says where a walk should begin.
+    /// Locates p in a page that is not in the cache, if the cache has been full, or places come in
+    /// order, and if it is worthwhile. Otherwise says where a walk should begin.
     bool glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex,
                 CornerValues *values);
     /// Where a walk to p begins; no_handle in an empty mesh.
@@ -122,16 +122,16 @@ private:
     /// The same in the pages themselves: visit(page, simplex, position) for every simplex near p,
     /// all that contain it among them, until one returns false.
     template <class Visit> void search_near(const Point<D> &p, Visit visit);
-    /// What is held of pages, once needed; the cache gets less then.
+    /// The held pages, once needed; the cache then gets less memory.
     PageSearch<D> &page_search();
-    /// The first of all simplices that contain p, of those in the pages themselves.
+    /// The first of all simplices that contain p, found in the pages themselves.
     bool search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values,
                       double max_edge);
     /// The simplex with this code and these ids; throws as walk() does.
     Handle named(std::uint64_t code, const std::int64_t *ids);
     /// Whether these are the ids of the simplex's corners, in any order.
     bool has_ids(Handle h, const std::int64_t *ids) const;
-    /// Which of its corners is then meant by corner `facet` of the ids.
+    /// The corner of the simplex that corner `facet` of the ids stands for.
     int named_corner(Handle h, const std::int64_t *ids, int facet) const;
     /// Calls visit(handle) for all finite simplices around a point that h contains.
     template <class Visit> void flood_around(const Point<D> &p, Handle h, Visit visit);
@@ -143,13 +143,14 @@ private:
     std::uint64_t size_; // simplices and ghosts
     bool delaunay_;
     const bool in_order_;
-    /// The place that a walk looked for last was outside or on a facet: none that a glance finds.
+    /// The last place that a walk searched for was outside or on a facet, where a glance finds
+    /// nothing.
     bool is_no_glance_ = false;
     std::size_t budget_;
     std::optional<PageBoxes<D>> boxes_; // once needed
     std::optional<PageSearch<D>> search_;
-    /// The place that was looked for last was strictly inside of no simplex: nor will the next one
-    /// be, most likely, and a walk to it would be in vain.
+    /// The last place searched for was not strictly inside a simplex: most likely the next one will
+    /// not be either, and a walk to it would be in vain.
     bool is_search_ = false;
     VertexValues<D> vertex_values_;
     Cache<D> cache_;

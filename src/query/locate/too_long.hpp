@@ -1,4 +1,4 @@
-// Simplices that have an edge longer than is wanted count as outside.
+// Simplices with an edge longer than a limit count as outside.
 #pragma once
 
 #include "geometry/longer_edge.hpp"
@@ -15,7 +15,7 @@ template <int D> bool is_too_long(const abacus_simplex &simplex, double max_edge
            });
 }
 
-/// Of two simplices that contain a place, whether `a` is the answer: one that is too long is not.
+/// Whether `a` is the answer of two simplices that contain a place: one that is too long is not.
 template <int D>
 bool is_preferred(const abacus_simplex &a, const abacus_simplex &b, double max_edge) {
     const bool a_long = is_too_long<D>(a, max_edge), b_long = is_too_long<D>(b, max_edge);

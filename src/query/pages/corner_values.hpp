@@ -1,4 +1,4 @@
-// What the corners of a simplex carry: the one way by which queries read attributes.
+// Values at the corners of a simplex: the one way in which queries read attributes.
 #pragma once
 
 #include <abacus/mesh_header.h>
@@ -8,8 +8,8 @@
 
 namespace abacus {
 
-/// The attributes that are wanted, and their values at the corners of the simplex handed out last,
-/// in the order of its corners. A missing value is NaN.
+/// The requested attributes, and their values at the corners of the last simplex returned, in the
+/// order of its corners. A missing value is NaN.
 class CornerValues {
 public:
     /// Numbers of attributes of the mesh.
@@ -20,7 +20,7 @@ public:
     std::size_t count() const { return count_; }
     double value(int corner, std::size_t n) const { return values_[corner * count_ + n]; }
 
-    /// attribute(i): the i-th of all that the vertex at this corner has.
+    /// attribute(i): the i-th of all attributes of the vertex at this corner.
     template <class Attribute> void set(int corner, Attribute attribute) {
         for (std::size_t n = 0; n < count_; ++n)
             values_[corner * count_ + n] = attribute(static_cast<int>(wanted_[n]));

@@ -1,6 +1,6 @@
-// Simplices as users see them. The order of the corners in memory depends on how a
-// simplex came about. The order that is handed out does not: positive orientation, the
-// least corner first (by id, then coordinates), in 3D the second least next.
+// Simplices as users see them. The order of the corners in memory depends on the history of a
+// simplex. The order that users see does not: positive orientation, the least corner first (by id,
+// then coordinates), in 3D the second least next.
 #pragma once
 
 #include "geometry/point.hpp"
@@ -13,7 +13,7 @@
 namespace abacus {
 
 /// Even permutations of the corners, so that the orientation stays, found by which corners come
-/// first: in the plane one tells all, in space two.
+/// first: in the plane one determines the permutation, in space two.
 template <int D> class EvenOrders {
 public:
     using Order = std::array<std::uint8_t, D + 1>;
@@ -39,10 +39,10 @@ template <int D> struct DescribedCorners {
     std::array<const Point<D> *, D + 1> point;
 };
 
-/// Returns which of the corners is handed out first, second, and so on.
+/// Returns which of the corners is returned first, second, and so on.
 ///
-/// Which corner is the least is as hard to foresee as a die: it is found without branches, and
-/// corners are written where they belong at once.
+/// Which corner is the least is as unpredictable as a die: it is found without branches, and
+/// corners are written directly to where they belong.
 template <int D>
 const typename EvenOrders<D>::Order &describe(const DescribedCorners<D> &corners,
                                               std::uint64_t code, bool ghost, abacus_simplex &out) {

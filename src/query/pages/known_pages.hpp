@@ -1,9 +1,8 @@
-// The locations of pages that a reader has looked into, so that the host need not search for
-// them again.
+// The locations of pages that a reader has used, so that the host need not search for them again.
 //
-// A stamp names one state of a mesh for ever, and a reader lives as long as its stamp. So what
-// is known of a page's interval stays true. The host may move a page meanwhile. So its location
-// is a hint, and the key of the page there is checked.
+// A stamp identifies one state of a mesh for ever, and a reader lives as long as its stamp. So the
+// known interval of a page stays valid. The host may move a page meanwhile. So its location is a
+// hint, and the key of the page there is checked.
 #pragma once
 
 #include "blocks/directory.hpp"
@@ -21,7 +20,7 @@ struct KnownPage {
 
 class KnownPages {
 public:
-    /// Keeps to about so many bytes: pages beyond them stay unknown.
+    /// Keeps to about this many bytes: pages beyond them stay unknown.
     KnownPages(const Host &host, std::size_t bytes)
         : directory_(host), pages_(host), most_(bytes / bytes_per_page) {}
 

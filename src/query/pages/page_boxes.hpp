@@ -1,8 +1,8 @@
-// Where the pages of a mesh are: their boxes, in memory, to find those around a point.
+// The boxes of the pages of a mesh, in memory, to find the pages around a point.
 //
-// Needed where walking does not lead to a point, in a mesh with holes or several pieces, and
-// made when that happens first: one run over all pages. It takes a box a page, 0.2 bytes a
-// simplex or so; if that is more than its bound, a box for every two, four, ... pages.
+// They are needed where walking does not lead to a point, in a mesh with holes or several pieces,
+// and made when this first happens, in one pass over all pages. There is one box per page, about
+// 0.2 bytes per simplex; if that exceeds the bound, one box for every two, four, ... pages.
 #pragma once
 
 #include "geometry/box_tree.hpp"
@@ -14,12 +14,12 @@ template <int D> class PageBoxes {
 public:
     PageBoxes(const Host &host, const abacus_header &header, std::size_t bytes);
 
-    /// Calls visit(from, to) for intervals of keys, which end at pages, outside of which no
-    /// page has p in its box, until it returns false.
+    /// Calls visit(from, to) for intervals of keys, which end at pages; no page outside them has p
+    /// in its box. Stops when it returns false.
     template <class Visit> void around(const Point<D> &p, Visit visit) const {
         meeting({p, p}, visit);
     }
-    /// The same of pages whose boxes meet a box.
+    /// The same for pages whose boxes meet a box.
     template <class Visit> void meeting(const Box<D> &box, Visit visit) const {
         tree_.visit(box, [&](std::size_t i) {
             return visit(keys_[i], i + 1 < keys_.size() ? keys_[i + 1] : end_key);

@@ -1,4 +1,4 @@
-// Which edges of a page have been met, by the numbers of their ends there.
+// The edges of a page met so far, by the numbers of their ends there.
 #pragma once
 
 #include "host/arena.hpp"
@@ -15,13 +15,14 @@ public:
         std::fill(slots_.begin(), slots_.end(), Slot{});
     }
 
-    /// Forgets all.
+    /// Forgets all edges.
     void clear() {
         for (const std::uint32_t i : taken_) slots_[i] = Slot{};
         taken_.clear();
     }
     std::size_t size() const { return taken_.size(); }
-    /// The number of an edge from 0 on; a new one is size() until then, and gets added.
+    /// The number of an edge, from 0 on; a new edge is added and gets the former size() as its
+    /// number.
     std::size_t number(int from, int to) {
         const std::uint32_t key =
             (static_cast<std::uint32_t>(from) << 16 | static_cast<std::uint32_t>(to)) + 1;
@@ -40,7 +41,7 @@ private:
         std::uint32_t key = 0; // 0: empty
         std::uint32_t number = 0;
     };
-    /// Twice as many as all simplices of a page can bring, of which each has up to four.
+    /// Twice as many as all simplices of a page can have, at up to four each.
     static constexpr std::uint32_t slots = std::bit_ceil(2 * 4 * block_slots<3>);
 
     Arena<Slot> slots_;

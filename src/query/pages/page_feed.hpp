@@ -1,9 +1,9 @@
-// The pages of a mesh in key order, read by the session's thread and handed out to others a few at
-// a time, to whichever has nothing to do.
+// The pages of a mesh in key order, read by the session's thread and given to idle threads a few at
+// a time.
 //
-// How many pages there are and where their keys lie is known only once they have been read. So
-// no part of the curve is promised to a thread. Where such batches begin is kept, thinned out if
-// there are many. So the curve can be cut in parts of as many pages each afterwards.
+// How many pages there are and where their keys lie is known only once they have been read. So no
+// part of the curve is assigned to a thread. The beginnings of batches are kept, thinned out if
+// there are many. So the curve can afterwards be cut into parts of equally many pages.
 #pragma once
 
 #include "host/arena.hpp"
@@ -24,7 +24,7 @@ public:
         std::size_t size;
         alignas(8) unsigned char bytes[ABACUS_PAGE_BYTES];
     };
-    /// Pages that come one after the other.
+    /// Consecutive pages.
     struct Batch {
         static constexpr std::size_t most = 8;
         bool is_free;
@@ -33,7 +33,8 @@ public:
         Page pages[most];
     };
 
-    /// Made by the session's thread: so many batches are in memory at once, of so many pages.
+    /// Created by the session's thread: this many batches, of this many pages each, are in memory
+    /// at once.
     PageFeed(const Memory &memory, std::size_t batches, std::size_t pages);
 
     /// For the session's thread: whether there is room for a batch, and pages to read.
@@ -41,20 +42,20 @@ public:
     /// Reads a batch.
     void read(const Host &host);
     /// For a thread, with its host: the next batch, once there is one; nullptr after the last.
-    /// It goes back when it is no longer needed.
+    /// The thread returns it when it is no longer needed.
     Batch *take(const Host &host);
     void give_back(Batch &batch);
 
-    /// Between two runs: gives the memory of batches back.
+    /// Between two runs: frees the memory of batches.
     void end();
 
-    /// Once all pages have been read: where the i-th of n parts begins, with as many pages each,
-    /// more or less; the first at the beginning of the curve, the n-th is its end.
+    /// Once all pages have been read: where the i-th of n parts with about equally many pages
+    /// begins; part 0 begins with the curve, and n gives its end.
     Key border(std::size_t i, std::size_t n) const {
         return i == 0 ? first_key : i == n ? end_key : borders_[borders_kept_ * i / n];
     }
     std::size_t most_parts() const { return borders_kept_ > 0 ? borders_kept_ : 1; }
-    /// Of the first page, if there is any.
+    /// The key of the first page, if there is any.
     const Key &first() const { return borders_[0]; }
 
 private:
@@ -62,9 +63,9 @@ private:
     void fetch(const Host &host, const Key *key);
     void keep_border(const Key &key);
 
-    // The session's thread's.
+    // For the session's thread.
     const std::size_t pages_; // of a batch
-    Page page_;               // that comes next, if there is one
+    Page page_;               // the next one, if there is any
     bool has_begun_ = false, has_page_ = false;
     std::size_t read_ = 0, each_kept_ = 1; // batches
     std::size_t borders_kept_ = 0;
@@ -74,7 +75,7 @@ private:
     std::condition_variable filled_;
     bool has_ended_ = false;
     Arena<Batch> batches_;
-    Arena<Batch *> queue_; // those that nobody has taken
+    Arena<Batch *> queue_; // not yet taken by a thread
 };
 
 } // namespace abacus

@@ -1,9 +1,9 @@
-// Pages reached from one another across facets.
+// Reaches pages from one another across facets.
 //
-// A page tells for each facet on its border the key of the simplex beyond. So one page of a mesh
-// leads to all pages that a chain of neighbouring simplices reaches, each read once. The page
-// index finds the page of a key. What has been read is known as intervals of keys, which grow
-// together. Memory holds only these intervals and the keys that are still to be looked for.
+// A page has, for each facet on its border, the key of the simplex beyond. So one page of a mesh
+// leads to all pages that a chain of neighbouring simplices reaches, each read once. The page index
+// finds the page of a key. The pages already read are recorded as intervals of keys, which grow
+// together. Memory holds only these intervals and the keys still to be looked up.
 //
 // The next page is the least one ahead on the curve. Pages found behind wait until there is none
 // ahead, and then come in order again. Once all are known they can be read again, strictly along
@@ -42,7 +42,7 @@ public:
     void rewind();
 
     const PageView<D> &page() const { return view_; }
-    /// So far, those read again included.
+    /// Pages read so far, including those read again.
     std::uint64_t pages_read() const { return pages_read_; }
 
 private:
@@ -52,10 +52,10 @@ private:
     /// All pages with simplices of this code will be read.
     void reach_all(std::uint64_t code);
     bool advance_again();
-    /// Takes the next page off the list of those to be read, if it has not been.
+    /// Takes the next page off the list of pages to be read; true if it has not been read.
     bool take_open();
     void read(const Key &key);
-    /// The lower end of the interval of what has been read around a key; null if it has not been.
+    /// The lower end of the interval already read around a key; null if the key has not been read.
     const Key *read_around(const Key &key) const;
     void note_read(Key lower, Key upper);
 

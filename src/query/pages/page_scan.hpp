@@ -1,6 +1,7 @@
 // All pages of a mesh in key order, without a cache.
 //
-// The header counts what is in the pages: advance() compares that, too (blocks/page_cursor.hpp).
+// The header has the counts of what is in the pages: advance() compares these, too
+// (blocks/page_cursor.hpp).
 #pragma once
 
 #include "blocks/page_cursor.hpp"
@@ -31,7 +32,7 @@ public:
         follow();
         return true;
     }
-    /// The same, past pages that wants(page) refuses, of which only the heads are read then.
+    /// The same, but skips pages that wants(page) refuses; only the heads of these are read.
     template <class Wants> bool advance(Wants wants) {
         while (fetch()) {
             view_.open(bytes(), size(), attributes_);

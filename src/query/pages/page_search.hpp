@@ -1,10 +1,10 @@
 // All simplices around a place, or near a box, in pages that are held in memory, patch by patch.
 //
-// Where a walk does not settle a place, all pages are looked into whose boxes contain it
+// If a walk does not settle a place, all pages whose boxes contain it are searched
 // (page_boxes.hpp): two or three pages in a cavity, more at a vertex. Nearly all of their simplices
-// are somewhere else. So the boxes of a page's patches tell which patches to read, and the boxes of
-// a patch's simplices tell which of these to test, eight at once. What has been read of a page is
-// kept; the page used longest ago makes room for another one.
+// are somewhere else. So the boxes of a page's patches select the patches to read, and the boxes of
+// a patch's simplices select the simplices to test, eight at once. The parts of a page that have
+// been read are kept; the page used longest ago makes room for another one.
 #pragma once
 
 #include "geometry/box.hpp"
@@ -21,7 +21,7 @@ namespace abacus {
 
 template <int D> class PageSearch {
 public:
-    /// Holds pages in about so many bytes, two at least.
+    /// Holds pages in about this many bytes, but at least two pages.
     PageSearch(const Host &host, int attributes, std::size_t bytes)
         : host_(host), attributes_(attributes), memory_(host),
           pages_(std::clamp<std::size_t>(bytes / sizeof(Held), 2, most_held), &memory_) {}
@@ -60,11 +60,11 @@ private:
     static constexpr std::size_t most_held = 64;
 
     struct Held {
-        Held() {} // the arrays get their content with the page
+        Held() {} // the arrays are filled with the page
 
-        Key lower{}, upper{}; ///< what it owns; nothing at first
+        Key lower{}, upper{}; ///< the interval it owns; empty at first
         std::uint64_t last_use = 0;
-        std::uint64_t patches = 0; ///< those that have been read, a bit each
+        std::uint64_t patches = 0; ///< the patches that have been read, a bit each
         PageView<D> view;
         SimplexBoxes<D> boxes;
         alignas(8) std::array<unsigned char, ABACUS_PAGE_BYTES> bytes;

@@ -28,7 +28,7 @@ std::uint64_t code_of(const PageView<D> &page, int simplex, const Domain<D> &dom
     return greatest;
 }
 
-/// Returns which corner is handed out first, second, and so on.
+/// Returns which corner is returned first, second, and so on.
 template <int D>
 const typename EvenOrders<D>::Order &describe(const PageView<D> &page, int simplex,
                                               const Domain<D> &domain,
@@ -43,7 +43,7 @@ const typename EvenOrders<D>::Order &describe(const PageView<D> &page, int simpl
     return describe(corners, code_of(page, simplex, domain), ghost, description);
 }
 
-/// With what its corners carry, if `values` is not null.
+/// With the values at its corners, if `values` is not null.
 template <int D>
 void describe(const PageView<D> &page, int simplex, const Domain<D> &domain,
               abacus_simplex &description, CornerValues *values,

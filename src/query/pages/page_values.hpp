@@ -1,5 +1,5 @@
 // An attribute of the vertices of one page after the other. A vertex is in several simplices of its
-// page; what it has is looked up once, and only if it is asked for.
+// page; its value is looked up once, and only if needed.
 #pragma once
 
 #include "query/pages/vertex_values.hpp"
@@ -15,7 +15,7 @@ public:
     PageValues(const Host &host, const abacus_header &header, int attribute)
         : vertex_values_(host, header), attribute_(attribute) {}
 
-    /// Goes to a page, which stays until the next one.
+    /// Goes to a page, which must exist until the next one.
     void enter(const PageView<D> &page) {
         page_ = &page;
         is_known_.reset();
@@ -34,7 +34,7 @@ private:
     const VertexValues<D> vertex_values_;
     const int attribute_;
     const PageView<D> *page_ = nullptr;
-    // What has been looked up changes no answer.
+    // A cache: it changes no answer.
     mutable std::bitset<page_vertices<D>> is_known_;
     mutable std::array<double, page_vertices<D>> values_;
 };

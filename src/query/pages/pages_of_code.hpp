@@ -1,13 +1,14 @@
 // The pages of one code that may have a simplex with given ids.
 //
 // As a rule the simplices of a code lie in one page. Where points crowd far below the resolution
-// of the domain, or around a hub, they fill many pages, and ids do not tell where a simplex lies.
-// But they tell where it does not lie: a page has all corners of its simplices among its vertices.
-// So the ids of each page's vertices are kept as bits, one of a few thousand for each id. A
-// simplex is looked for where the bits of all its corners are set, which is hardly anywhere else.
+// of the domain, or around a hub, they fill many pages, and ids do not show where a simplex lies.
+// But they show where it does not lie: a page has all corners of its simplices among its vertices.
+// So the ids of each page's vertices are kept as bits, one of a few thousand for each id. A simplex
+// is searched for where the bits of all its corners are set, which is hardly ever the case
+// elsewhere.
 //
-// A reader lives as long as one state of the mesh, so what is known of pages stays true. It is
-// kept for the code asked for last, in bounded memory: pages beyond that are read each time.
+// A reader lives as long as one state of the mesh, so what is known about pages stays valid. It is
+// kept for the last code requested, in bounded memory: pages beyond that are read each time.
 #pragma once
 
 #include "host/arena.hpp"
@@ -84,7 +85,7 @@ private:
     const int attributes_;
     const std::size_t most_;
     std::uint64_t code_ = unknown_code;
-    Key rest_ = none;    // where pages begin that are not known
+    Key rest_ = none;    // where the unknown pages begin
     Arena<Known> known_; // from the last page of the code back
     PageView<D> view_;
 };

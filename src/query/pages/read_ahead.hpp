@@ -1,10 +1,10 @@
-// Asks for memory ahead of places that come along the curve, in a mesh in memory.
+// Prefetches memory ahead of places that come along the curve, in a mesh in memory.
 //
-// Where few places lie in a block, each step of a walk would wait for a simplex and a vertex. But
-// the blocks to come are known. A block is a stretch of memory, and so are the vertices that came
-// with its page. So the second place in a block prefetches the simplices of the next block on the
-// curve, the fourth its vertices. They are there when the places have got so far. If those of the
-// current block were not prefetched before, the same places do that.
+// If few places lie in a block, each step of a walk would wait for a simplex and a vertex. But the
+// next blocks are known. A block is a stretch of memory, and so are the vertices that came with its
+// page. So the second place in a block prefetches the simplices of the next block on the curve, the
+// fourth its vertices. They are there when the places reach them. If those of the current block
+// have not been prefetched, the same places do that.
 #pragma once
 
 #include "mesh/cache.hpp"
@@ -37,8 +37,8 @@ public:
 private:
     const Cache<D> &cache_;
     BlockIndex here_ = no_block; // where the places are
-    BlockIndex next_ = no_block; // that was asked for
-    bool is_new_ = false;        // nobody has asked for the current block
+    BlockIndex next_ = no_block; // the block prefetched
+    bool is_new_ = false;        // the current block has not been prefetched
     unsigned places_ = 0;        // in it
 };
 

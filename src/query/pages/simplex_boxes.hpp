@@ -1,7 +1,7 @@
-// The boxes of a page's simplices, to find those around a place eight at a time.
+// The boxes of a page's simplices, to find the simplices around a place eight at a time.
 //
-// They are made of prefixes of coordinates (Column::prefix), two bytes each. A simplex whose box
-// does not contain a place does not contain the place either; one whose box does is tested
+// They consist of prefixes of coordinates (Column::prefix), two bytes each. A simplex whose box
+// does not contain a place does not contain the place either; a simplex whose box does is tested
 // exactly.
 #pragma once
 
@@ -30,7 +30,7 @@ public:
         return place;
     }
 
-    /// Makes those of a patch, which has been read.
+    /// Makes the boxes of a patch, which has been read.
     void make(const PageView<D> &page, int patch);
 
     /// Calls visit(simplex) for each of a range, which begins with a patch and ends with one, whose
@@ -48,7 +48,7 @@ public:
                 if (within[i] != 0 && !visit(first + i)) return;
         }
     }
-    /// The same of those whose box has the place in it.
+    /// The same for those whose box contains the place.
     template <class Visit> void around(const Place &place, Range range, Visit visit) const {
         meeting(place, place, range, visit);
     }

@@ -15,7 +15,7 @@ namespace abacus {
 
 template <int D> class StretchScan {
 public:
-    /// Of the codes from `least` to `greatest`.
+    /// For the codes from `least` to `greatest`.
     StretchScan(const Host &host, const abacus_header &header, std::uint64_t least,
                 std::uint64_t greatest)
         : host_(host),

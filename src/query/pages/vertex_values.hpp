@@ -1,5 +1,5 @@
-// Attributes of vertices for those who query, wherever the mesh keeps them: in the simplex pages,
-// or in pages of their own that are read when the first attribute is asked for.
+// Attributes of vertices for queries, wherever the mesh keeps them: in the simplex pages, or in
+// pages of their own, which are read when the first attribute is needed.
 #pragma once
 
 #include "attributes/attribute_reader.hpp"
@@ -15,7 +15,7 @@ template <int D> class VertexValues {
 public:
     static constexpr std::size_t default_bytes = std::size_t{2} << 20;
 
-    /// Attributes that are apart are kept in about so many bytes.
+    /// Attributes that are apart are cached in about this many bytes.
     VertexValues(const Host &host, const abacus_header &header, std::size_t bytes = default_bytes)
         : attributes_(header.attributes) {
         if (header.apart != 0) apart_.emplace(host, domain_of<D>(header), header.attributes, bytes);
@@ -29,7 +29,7 @@ public:
         if (apart_) return apart_->value(page.point(vertex), static_cast<unsigned>(attribute));
         return page.attribute(vertex, attribute);
     }
-    /// The same of a cached vertex.
+    /// The same for a cached vertex.
     double value(const VertexHeap<D> &heap, VertexIndex v, int attribute) const {
         if (apart_) return apart_->value(heap.point(v), static_cast<unsigned>(attribute));
         return heap.attributes(v)[attribute];
@@ -44,18 +44,18 @@ public:
         if (apart_) return apart_->values(heap.point(v), values);
         std::copy_n(heap.attributes(v), attributes_, values);
     }
-    /// All of the vertex at p, of a mesh that has them apart.
+    /// All attributes of the vertex at p, in a mesh that has them apart.
     void all_at(const Point<D> &p, double *values) const { apart_->values(p, values); }
 
-    /// Whether an attribute of a page's vertices may be from `least` to `greatest`; true where one
-    /// is. The page says so without a look at its vertices; one without attributes cannot tell.
+    /// Whether an attribute of a page's vertices may be from `least` to `greatest`; true if one is.
+    /// The page shows this without reading its vertices; a page without attributes cannot tell.
     bool may_have(const PageView<D> &page, int attribute, double least, double greatest) const {
         return apart_ || page.may_have_attribute(attribute, least, greatest);
     }
 
 private:
     const unsigned attributes_;
-    mutable std::optional<AttributeReader<D>> apart_; // what it has read changes no answer
+    mutable std::optional<AttributeReader<D>> apart_; // a cache: it changes no answer
 };
 
 } // namespace abacus

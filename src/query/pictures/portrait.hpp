@@ -1,6 +1,6 @@
 // Draws a stored mesh: streams its pages to the canvas, twice when the window or the
-// range of values must be found first. Of a window, or of a plane, only the pages that have
-// something to show are read (range_scan.hpp).
+// range of values must be found first. For a window or a plane, only the pages that have something
+// to show are read (range_scan.hpp).
 #pragma once
 
 #include "draw/portrait.hpp"
@@ -14,7 +14,7 @@ namespace abacus {
 /// drawing makes no sense for the mesh.
 Portrait draw_mesh(const Host &host, const abacus_header &header, const abacus_drawing &drawing);
 
-/// The same of a plane section of a mesh of dimension 3.
+/// The same for a plane section of a mesh of dimension 3.
 Portrait draw_section(const Host &host, const abacus_header &header, const abacus_section &section,
                       const abacus_drawing &drawing);
 

@@ -1,5 +1,5 @@
-// Draws what is inside a stored mesh: streams its pages to the canvas of rays, twice when it must
-// be found first how much room the mesh takes in the picture.
+// Draws what is inside a stored mesh: streams its pages to the canvas of rays, twice when the room
+// that the mesh takes in the picture must be found first.
 #pragma once
 
 #include "query/pictures/portrait.hpp"

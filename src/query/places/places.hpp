@@ -1,12 +1,12 @@
-// Many places answered at once (the seismograph query of dissertation §1.1, for all seismographs).
+// Answers many places at once (the seismograph query of dissertation §1.1, for all seismographs).
 //
-// Places in the order in which they come lie anywhere; each costs a page that is read and in
-// part decoded, or memory that was not used for long. So they are sorted along the curve first,
-// as points to be inserted are (staging/stage.hpp): then neighbours come one after the other,
-// and a page is read and decoded once for all places in it. What is asked at each place is the
-// caller's: which simplex, which value, which vertices (question.hpp).
+// Consecutive places of the input may be far apart; then each costs a page that is read and partly
+// decoded, or memory that is cold. So they are first sorted along the curve, like points to be
+// inserted (staging/stage.hpp): then neighbours come one after the other, and a page is read and
+// decoded once for all places in it. The caller decides what to find at each place: which simplex,
+// which value, which vertices (question.hpp).
 //
-// Many are answered by several threads (places_threads.hpp).
+// Several threads answer if there are many (places_threads.hpp).
 #pragma once
 
 #include "query/places/question.hpp"
@@ -24,11 +24,11 @@ public:
         : host_(host), header_(header), cache_bytes_(cache_bytes),
           shape_(without_attributes(header)), stage_(host, shape_, memory, false) {}
 
-    /// Of the mesh.
+    /// The header of the mesh.
     const abacus_header &header() const { return header_; }
     /// Adds places: an id and D coordinates each.
     void add(const std::uint64_t *places, std::size_t count) { stage_.add(places, count); }
-    /// No more come. Asks at each of them, and tells the answers along the curve; once.
+    /// No more places come. Answers all of them and reports the answers along the curve; once.
     void each(const Question<D> &question);
 
 private:

@@ -1,16 +1,16 @@
-// Places that come along the curve, answered by several threads.
+// Answers places that come along the curve with several threads.
 //
-// They are gathered, and cut into pieces along the curve. Whichever thread has nothing to do takes
-// the next piece, in a cache of its own, and puts the answers on a tape. The session's
-// thread serves the threads with pages, and tells the answers piece by piece: so they come in the
-// order of the places, whichever thread has found them.
+// They are gathered, and cut into pieces along the curve. An idle thread takes the next piece,
+// answers it with a cache of its own, and puts the answers on a tape. The session's thread serves
+// the threads with pages, and reports the answers piece by piece: so they come in the order of the
+// places, no matter which thread has found them.
 //
-// Memory. Gathered places and answers take a third of the cache's memory at most, the caches of
-// the threads the rest. The length of an answer is a guess: a piece ends early when its tape is
-// full, and the rest of it is answered when that has been told.
+// Memory. Gathered places and answers take at most a third of the cache's memory, the caches of the
+// threads the rest. The length of an answer is a guess: a piece ends early when its tape is full,
+// and the rest of it is answered when the tape has been reported.
 //
-// Errors. What a thread finds wrong with the mesh is kept with its piece, and raised when the
-// pieces before it have been told: the first error along the curve counts.
+// Errors. An error that a thread finds in the mesh is kept with its piece, and raised when the
+// pieces before it have been reported: the first error along the curve counts.
 #pragma once
 
 #include "host/crew.hpp"
@@ -22,7 +22,7 @@ namespace abacus {
 
 template <int D> class PlacesTogether {
 public:
-    /// Whether there are threads, so many places that they are worth it, and room for them.
+    /// Whether there are threads, enough places to be worth it, and room for them.
     static bool is_worth_while(const Host &host, const abacus_header &header,
                                std::size_t cache_bytes, const Question<D> &question,
                                std::uint64_t total);
@@ -37,10 +37,10 @@ public:
         return held_back() == most_gathered_;
     }
     std::size_t held_back() const { return places_.size() / stride; }
-    /// Answers those gathered, and forgets them. False, and nothing is done, if the system grants
-    /// no thread.
+    /// Answers the gathered places, and forgets them. Does nothing and returns false if the system
+    /// grants no thread.
     bool answer();
-    /// Calls visit(record) for those gathered, and forgets them.
+    /// Calls visit(record) for the gathered places, and forgets them.
     template <class Visit> void each_gathered(Visit visit) {
         for (std::size_t i = 0; i < held_back(); ++i) visit(place(i));
         forget_gathered();
@@ -51,14 +51,14 @@ public:
 private:
     static constexpr std::size_t stride = 1 + D; // words of a place
 
-    /// Places that come one after the other, and their answers.
+    /// Consecutive places and their answers.
     struct Piece {
         explicit Piece(const Memory &memory) : tape(memory) {}
 
         std::size_t told, answered, end; // numbers of gathered places
-        Tape tape;                       // what is answered and not told
-        std::exception_ptr failure;      // of the next one
-        std::atomic<bool> is_ready;      // to be told
+        Tape tape;                       // answered but not yet reported
+        std::exception_ptr failure;      // at the next place
+        std::atomic<bool> is_ready;      // to be reported
     };
     class Round;
 
@@ -73,7 +73,7 @@ private:
     bool has_to_tell() const {
         return first_ < cut_ && pieces_[first_].is_ready.load(std::memory_order_acquire);
     }
-    /// Tells some answers, if there are any that come next.
+    /// Reports some answers, if the next ones are there.
     void tell_some();
     void report_progress();
 
@@ -89,9 +89,9 @@ private:
     HostMemory memory_;
     std::pmr::deque<Piece> pieces_;
     std::size_t cut_ = 0;                // pieces in use
-    std::size_t first_ = 0;              // of them, that has not been told to its end
+    std::size_t first_ = 0;              // first of them that is not completely reported
     std::optional<Tape::Player> player_; // of its tape
-    std::size_t most_words_ = 0;         // of a tape, more or less
+    std::size_t most_words_ = 0;         // of a tape, about
     std::atomic<std::size_t> first_failed_;
     OfEachThread<Answerer<D>> answerers_;
 };

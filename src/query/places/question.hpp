@@ -1,4 +1,4 @@
-// What is asked at each of many places, and the answers until they are told.
+// The question that is put to each of many places, and the answers until they are reported.
 #pragma once
 
 #include "query/locate/reader.hpp"
@@ -6,7 +6,7 @@
 
 namespace abacus {
 
-/// Answers one after the other, as words.
+/// A sequence of answers, as words.
 class Tape {
 public:
     explicit Tape(const Memory &memory) : words_(memory) {}
@@ -17,7 +17,7 @@ public:
         if (n == 0) return;
         std::memcpy(words_.extend(n * sizeof(T) / 8), values, n * sizeof(T));
     }
-    /// Sets a word that was put before, which says how many things follow.
+    /// Sets a word that was put before: the number of things that follow.
     void set(std::size_t at, std::uint64_t word) { words_[at] = word; }
     void reserve(std::size_t words) { words_.reserve(words); }
     std::size_t size() const { return words_.size(); }
@@ -27,7 +27,7 @@ public:
     public:
         explicit Player(const Tape &tape) : at_(tape.words_.data()) {}
 
-        /// The next n of what was put, valid as long as the tape.
+        /// The next n words put, valid as long as the tape.
         template <class T> const T *take(std::size_t n) {
             const auto *values = reinterpret_cast<const T *>(at_);
             at_ += n * sizeof(T) / 8;
@@ -43,7 +43,7 @@ private:
     Arena<std::uint64_t> words_;
 };
 
-/// What a thread needs to answer.
+/// What a thread needs in order to answer.
 template <int D> struct Answerer {
     Answerer(const Host &host, const abacus_header &header, std::size_t cache_bytes)
         : reader(host, header, CacheOptions{.budget = cache_bytes}, true), interpolation(host) {}
@@ -54,13 +54,13 @@ template <int D> struct Answerer {
 
 template <int D> class Question {
 public:
-    /// Words of an answer, more or less.
+    /// The words of an answer, about.
     virtual std::size_t words() const = 0;
     /// Whether it takes hardly longer than reading a page.
     virtual bool is_quick() const { return false; }
-    /// Puts the answer at p. For any thread.
+    /// Puts the answer at p on the tape. For any thread.
     virtual void answer(Answerer<D> &by, const Point<D> &p, Tape &tape) const = 0;
-    /// Tells the next answer. For the session's thread.
+    /// Reports the next answer. For the session's thread.
     virtual void tell(std::int64_t id, Tape::Player &answers) const = 0;
 
 protected:

@@ -1,17 +1,17 @@
 // An attribute at the centres of a raster's pixels, row by row.
 //
-// A band of rows that memory has room for is filled at once. Linear interpolation goes through the
-// pages that meet the band, and through their simplices: each fills the pixels whose centres lie
-// strictly inside of it. There is only one such simplex, the one that Reader::locate() finds; and
-// the value is computed from it as Interpolation does, to the last bit. A centre at a vertex has
-// the vertex's value, whichever simplex it is taken from. The other centres on borders have several
-// simplices, and which of them counts locate() decides: these pixels are marked. After that they
-// are asked for as many places are (places.hpp), and so are all pixels of the other methods, and
-// of a raster that is much coarser than the mesh.
+// As many rows as memory has room for, a band, are filled at once. Linear interpolation goes
+// through the pages that meet the band, and through their simplices: each fills the pixels whose
+// centres lie strictly inside it. A centre has only one such simplex, the one that Reader::locate()
+// finds; and the value is computed from it as in Interpolation, to the last bit. A centre at a
+// vertex has the vertex's value, whichever simplex it is taken from. The other centres on borders
+// have several simplices, and locate() decides which of them counts: these pixels are marked.
+// Afterwards they are looked up like many places (places.hpp), and so are all pixels of the other
+// methods, and of a raster that is much coarser than the mesh.
 //
-// Which centres of a row are in a simplex is decided exactly, but not for each: between two that
-// are, all are. Where these two are is computed in doubles with a bound on the error, and then
-// tried from outside.
+// Which centres of a row are in a simplex is decided exactly, but not one by one: between two that
+// are, all are. These two are computed in doubles with a bound on the error, and then tested from
+// outside.
 #pragma once
 
 #include "query/pages/page_boxes.hpp"
@@ -25,7 +25,7 @@ namespace abacus {
 
 template <int D> class ValueRaster {
 public:
-    /// Throws if the raster's centres are no doubles, or a row has too many.
+    /// Throws if doubles cannot represent the raster's centres, or a row has too many.
     ValueRaster(const Host &host, const abacus_header &header, const abacus_raster &raster,
                 const abacus_interpolation &how, std::size_t memory, std::size_t cache_bytes);
 
@@ -37,7 +37,7 @@ private:
     enum Mark : std::uint8_t { filled, asked };
 
     void fill_band();
-    /// Whether there are so many simplices that it takes less time to ask for each centre.
+    /// Whether there are so many simplices that it takes less time to locate each centre.
     bool is_finer_than_pixels() const;
     void fill_linear();
     void ask();
@@ -78,21 +78,21 @@ private:
     const abacus_raster raster_;
     const double width_, height_; // of the window
     const abacus_interpolation how_;
-    const std::size_t memory_; // half of what there is: a band has it, and the sorting of places
+    const std::size_t memory_; // half of the memory: for a band, and also for sorting places
     const std::size_t cache_bytes_;
-    std::uint32_t rows_ = 0;   // of a band, at most
+    std::uint32_t rows_ = 0;   // most of a band
     std::uint32_t first_ = 0;  // row of the band
     std::uint32_t filled_ = 0; // rows from the first one on
     std::uint32_t next_ = 0;
     std::optional<Box<D>>
         extent_;              // outside of which there is no value, where that is worth knowing
-    Arena<double> latitudes_; // of the rows, if they are not even
+    Arena<double> latitudes_; // of the rows, if not evenly spaced
     Arena<double> values_;
     Arena<Mark> marks_;
     std::optional<PageBoxes<D>> boxes_; // of a mesh that is not Delaunay
     CornerValues carried_;
     const VertexValues<D> vertex_values_;
-    // Of the simplex that pixels are filled from.
+    // The simplex from which pixels are filled.
     int described_ = -1;
     abacus_simplex simplex_{};
 };

@@ -1,5 +1,4 @@
-// Which simplices of a page are wanted: by a window that they meet, and by how long their edges
-// are.
+// Selects simplices of a page: those that meet a window and have no edge longer than a limit.
 #pragma once
 
 #include "query/pages/page_simplex.hpp"
@@ -13,10 +12,10 @@ public:
     CellFilter(const abacus_window &window, double max_edge)
         : window_(window), max_edge_(max_edge) {}
 
-    /// Where they are; null: all of the mesh.
+    /// The region of the window; null: the whole mesh.
     const Region<D> *region() const { return window_.region(); }
 
-    /// Of a simplex that is no ghost.
+    /// For a simplex that is not a ghost.
     bool wants(const PageView<D> &page, int simplex) const {
         const Corners<D> corners = corners_of(page, simplex);
         if (!window_.meets(corners)) return false;

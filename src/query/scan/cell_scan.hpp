@@ -1,5 +1,5 @@
-// The simplices of a window, or of a stretch of the curve, with what their corners carry, page by
-// page. Of a window those may be left out that have not a label within a range.
+// The simplices of a window, or of a stretch of the curve, with the values at their corners, page
+// by page. A window can skip simplices whose label is outside a range.
 #pragma once
 
 #include "keys/locational_code.hpp"
@@ -16,12 +16,12 @@ namespace abacus {
 
 template <int D> class CellScan {
 public:
-    /// Simplices with an edge longer than max_edge are left out, unless that is 0, and those whose
-    /// label is not within a range, unless that is null.
+    /// Leaves out simplices with an edge longer than max_edge, unless that is 0, and those whose
+    /// label is outside the range, unless that is null.
     CellScan(const Host &host, const abacus_header &header, const abacus_window &window,
              double max_edge, const abacus_range *label = nullptr);
 
-    /// Those with codes from `least` to `greatest`, page by page in key order.
+    /// The simplices with codes from `least` to `greatest`, page by page in key order.
     CellScan(const Host &host, const abacus_header &header, std::uint64_t least,
              std::uint64_t greatest);
 
@@ -39,9 +39,9 @@ private:
     const Domain<D> domain_;
     const CellFilter<D> filter_;
     const VertexValues<D> vertex_values_;
-    std::uint64_t least_ = 0, greatest_ = 0; // of a stretch
+    std::uint64_t least_ = 0, greatest_ = 0; // the codes of a stretch
     std::optional<LabelRange<D>> label_;
-    // One of the two.
+    // One of these two is used.
     std::optional<RangeScan<D>> pages_;
     std::optional<StretchScan<D>> stretch_;
     bool in_page_ = false;

@@ -1,13 +1,13 @@
-// The vertices of a window, or its edges, each once, without a list of those that have been.
+// The vertices of a window, or its edges, each once, without a list of those already returned.
 //
-// A face of the mesh, a vertex or an edge, is in all simplices around it, and these in several
-// pages. It is handed out by one of them, which tells so by itself: by the simplex into which a
-// fixed direction leads from the face (geometry/direction.hpp). At the boundary that may lead
-// outside. Then it is handed out by one of the ghosts around it: but whether it does, and which
-// ghost comes first, only all simplices around the face tell. They are looked for in a cache. The
-// facets of the boundary are those that one of them has alone; the one with the lexicographically
-// least corners comes first. What has been found is kept of some faces: a vertex may have any
-// number of ghosts. Of an edge in the plane its ghost alone tells.
+// A face of the mesh, a vertex or an edge, is in all simplices around it, and these are in several
+// pages. One simplex returns it, and can decide this by itself: the simplex into which a fixed
+// direction leads from the face (geometry/direction.hpp). At the boundary the direction may lead
+// outside. Then one of the ghosts around the face returns it: but whether the direction leads
+// outside, and which ghost comes first, follows only from all simplices around the face. They are
+// looked up in a cache. The facets of the boundary are those that only one of the simplices has;
+// the one with the lexicographically least corners comes first. Results are kept for some faces,
+// since a vertex may have any number of ghosts. For an edge in the plane its ghost alone decides.
 //
 // All these simplices and ghosts are in pages of the window, if the face meets it.
 #pragma once
@@ -29,17 +29,17 @@ public:
     FaceScan(const Host &host, const abacus_header &header, const abacus_window &window,
              int corners, double max_edge, std::size_t cache_bytes)
         : FaceScan(host, header, window, corners, max_edge, cache_bytes, std::nullopt) {}
-    /// Vertices of which an attribute is within a range.
+    /// Vertices with an attribute within a range.
     FaceScan(const Host &host, const abacus_header &header, const abacus_window &window,
              const abacus_range &range, std::size_t cache_bytes)
         : FaceScan(host, header, window, 1, 0, cache_bytes, range) {}
 
     /// Goes to the next face; false after the last.
     bool advance();
-    /// The page with the face at hand, and the number of a corner there.
+    /// The page with the current face, and the number of a corner there.
     const PageView<D> &page() const { return pages_.page(); }
     int vertex(int corner) const { return vertices_[corner]; }
-    /// Those of the window, without what the search for owners of faces reads.
+    /// Pages of the window, without those that the search for owners of faces reads.
     std::uint64_t pages_read() const { return pages_.pages_read(); }
     const VertexValues<D> &vertex_values() const { return vertex_values_; }
 
@@ -60,14 +60,14 @@ private:
     bool take(int simplex, unsigned face);
     void compare_values();
     bool is_wanted() const;
-    /// Whether the face at hand belongs to a ghost of the page.
+    /// Whether the current face belongs to a ghost of the page.
     bool is_of_ghost(int ghost);
     /// The ghost to which it belongs, by its corners in order; nothing if the direction leads into
     /// a simplex.
     std::optional<FacetCorners> find_owner();
 
-    /// What has been found of a face.
-    using FaceCorners = std::array<Corner, 2>; // both the same of a vertex
+    /// The result for a face.
+    using FaceCorners = std::array<Corner, 2>; // for a vertex both are the same
     struct Known {
         FaceCorners face;
         std::optional<FacetCorners> owner;
@@ -93,7 +93,7 @@ private:
     std::array<int, 2> vertices_{};
     bool in_page_ = false;
     int simplex_ = 0;
-    unsigned face_ = 0; // next one of the simplex
+    unsigned face_ = 0; // the next face of the simplex
 };
 
 extern template class FaceScan<2>;

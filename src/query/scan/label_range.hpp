@@ -1,8 +1,8 @@
-// Which simplices have a label within a range.
+// Selects the simplices that have a label within a range.
 //
-// Pages of labels lie along the curve as those of simplices do, and the head of a column bounds
-// what is in it. So a page of simplices is passed over if no page of labels that belongs to its
-// stretch of the curve may have such a value. Of those pages the heads tell; labels are read where
+// Pages of labels lie along the curve as those of simplices do, and the head of a column bounds the
+// values in it. So a page of simplices is skipped if no page of labels that belongs to its stretch
+// of the curve may have such a value. The heads of these pages decide; labels are read only where
 // simplices are.
 #pragma once
 
@@ -17,13 +17,13 @@ public:
     /// `range` names the label by its number.
     LabelRange(const Host &host, const abacus_header &header, const abacus_range &range);
 
-    /// Whether some simplex of the page may be wanted; true where one is.
+    /// Whether some simplex of the page may be wanted; true if one is.
     bool may_be_in(const PageView<D> &page);
-    /// Of a simplex that is no ghost. What is NULL is in no range.
+    /// For a simplex that is not a ghost. A NULL is in no range.
     bool wants(const PageView<D> &page, int simplex);
 
 private:
-    /// What one page of labels owns, and whether it may have a wanted value.
+    /// The interval that a page of labels owns, and whether it may have a wanted value.
     struct Stretch {
         Key lower{}, upper{};
         bool may_have = false;
@@ -38,7 +38,7 @@ private:
     const unsigned column_;  // of the label in it
     SimplexLabels<D> labels_;
     AttributePage<D, D + 1> page_;
-    Stretch last_; // asked for
+    Stretch last_; // the last one requested
     alignas(8) std::array<unsigned char, ABACUS_PAGE_BYTES> bytes_;
 };
 

@@ -1,9 +1,9 @@
 // The facets with markers, each once, by marker and along the curve.
 //
-// Both simplices beside a facet have its marker. So all are sorted, and of two equal ones one is
-// left out. The two sides of a fault are facets at one place, told apart by the ids of their
-// corners: where vertices share their places the simplex is asked for these. Memory is that of the
-// sort; the mesh is asked only for the ids of the corners.
+// Both simplices beside a facet have its marker. So all are sorted, and one of each equal pair is
+// left out. The two sides of a fault are facets at one place, distinguished by the ids of their
+// corners: where vertices share their places these come from the simplex. The memory needed is that
+// of the sort; the mesh is read only for the ids of the corners.
 #pragma once
 
 #include "query/locate/reader.hpp"
@@ -16,7 +16,7 @@ namespace abacus {
 
 template <int D> class MarkedFacets {
 public:
-    /// Those with this marker, or all if there is none.
+    /// The facets with this marker, or all if none is given.
     MarkedFacets(const Host &host, const abacus_header &header, std::optional<double> marker,
                  std::size_t memory, std::size_t cache_bytes);
 
@@ -28,7 +28,7 @@ private:
     static constexpr std::size_t key_words = facet_words + D; // the opposite corner
     using Ids = std::array<std::int64_t, D>;
 
-    /// Of the corners of the facet of a record, in their order.
+    /// The ids of the corners of a record's facet, in their order.
     Ids ids_of(const std::uint64_t *record);
     Ids ids_beside(const std::uint64_t *record);
     void read(const Host &host, const abacus_header &header, std::optional<double> marker);

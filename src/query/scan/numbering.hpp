@@ -1,11 +1,12 @@
-// A mesh as two arrays, as programs outside the database want it: vertices, and simplices by the
-// numbers of their corners.
+// A mesh as two arrays, for programs outside the database: vertices, and simplices by the numbers
+// of their corners.
 //
-// Vertices are numbered from 0 in the order of their codes along the curve, of one code by their
-// coordinates, at one place by their ids: so the numbers are those of the points alone, and near
-// ones are near in the array. No page knows a number. Each page names its vertices; an external
-// sort by code brings the names of a vertex together, and its place among all is the number. Where
-// simplices need the numbers, another sort brings them back to the pages (sort/dense_ranks.hpp).
+// Vertices are numbered from 0 in the order of their codes along the curve; those of one code by
+// their coordinates, those at one place by their ids. So the numbers depend on the points alone,
+// and points close to each other are close in the array. No page stores a number. Each page names
+// its vertices; an external sort by code brings the names of a vertex together, and its rank is the
+// number. Where simplices need the numbers, another sort brings them back to the pages
+// (sort/dense_ranks.hpp).
 #pragma once
 
 #include "keys/locational_code.hpp"
@@ -28,7 +29,7 @@ public:
 
 private:
     const VertexValues<D> vertex_values_;
-    const std::size_t key_;      // words of a name that tell the vertex
+    const std::size_t key_;      // words of a name that identify the vertex
     RecordSort named_;           // without attributes that are apart
     std::uint64_t left_;         // vertices, as the header counts them
     const std::uint64_t *ahead_; // the next record, null after the last
@@ -42,16 +43,16 @@ public:
     /// Reads all pages.
     NumberedSimplices(const Host &host, const abacus_header &header, std::size_t memory);
 
-    /// False after the last one. The numbers are of the corners in the order of the description.
+    /// False after the last one. The numbers of the corners are in the order of the description.
     bool next(abacus_simplex &simplex, std::uint64_t *numbers);
 
 private:
     void enter_page();
 
     const Domain<D> domain_;
-    DenseRanks ranks_; // of what pages name, page by page
+    DenseRanks ranks_; // of the names in pages, page by page
     PageScan<D> pages_;
-    Arena<std::uint64_t> numbers_; // of the vertices of the page at hand
+    Arena<std::uint64_t> numbers_; // of the vertices of the current page
     bool in_page_ = false;
     int at_ = 0;
 };

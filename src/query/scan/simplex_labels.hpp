@@ -1,5 +1,5 @@
-// Labels of simplices for those who query: named numbers, kept by the places of the corners in
-// pages of their own, which are read when the first simplex is asked about.
+// Labels of simplices for queries: named numbers, kept by the places of the corners in pages of
+// their own, which are read when the labels of the first simplex are needed.
 #pragma once
 
 #include "attributes/attribute_reader.hpp"
@@ -16,7 +16,7 @@ template <int D> class SimplexLabels {
 public:
     static constexpr std::size_t default_bytes = std::size_t{2} << 20;
 
-    /// Keeps them in about so many bytes.
+    /// Caches them in about this many bytes.
     SimplexLabels(const Host &host, const abacus_header &header, std::size_t bytes = default_bytes)
         : behind_(host, header), values_(host) {
         values_.resize(header.labels);
@@ -34,7 +34,7 @@ public:
         if (pages_) pages_->values_if_any(simplex, values_.data());
         return values_.data();
     }
-    /// The same of a page's simplex; of a ghost those of the simplex behind it.
+    /// The same for a simplex of a page; for a ghost the labels of the simplex behind it.
     const double *of_page(const PageView<D> &page, int simplex) {
         if (!pages_) return values_.data();
         std::array<Point<D>, D + 1> points;

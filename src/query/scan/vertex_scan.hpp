@@ -1,4 +1,5 @@
-// All points: the vertices of the mesh page by page, those equal to one, those that wait.
+// All points: the vertices of the mesh page by page, then the points equal to one, then those that
+// wait.
 #pragma once
 
 #include "points/repeated_points.hpp"
@@ -26,7 +27,7 @@ private:
     void collect();
 
     const unsigned attributes_;
-    const bool listed_; // the vertices of a mesh that is not Delaunay have pages of their own
+    const bool listed_; // a mesh that is not Delaunay has its vertices in pages of their own
     Reader<D> mesh_;
     OwnVertices<D> own_;
     Key page_;                     // the next one to take vertices from

@@ -1,9 +1,11 @@
-// What is asked of a mesh by where it is: all of it, a box, or a ball; closed, and decided exactly.
+// The part of a mesh that a query selects by place: all of it, a box, or a ball; closed, and
+// decided exactly.
 //
 // Or simplices whose bounding boxes meet a box, as spatial indexes find them. Such a simplex may
-// pass by the box at any distance, and no chain of such simplices need lead to it. But on each axis
-// it reaches from one side of the box to the other or into it; so, being convex, it meets the slab
-// that the box cuts out of one axis. A slab is convex: its pages are found as those of any region.
+// pass the box at any distance, and no chain of such simplices need lead to it. But on each axis it
+// reaches from one side of the box to the other or into it; so, being convex, it meets the slab
+// that the box cuts out of one axis. A slab is convex: its pages are found like those of any
+// region.
 #pragma once
 
 #include "geometry/segment.hpp"
@@ -35,10 +37,10 @@ private:
 
 template <int D> class Window {
 public:
-    /// All of the mesh if there is none.
+    /// The whole mesh if there is none.
     explicit Window(const abacus_window &window);
 
-    /// Null: all of the mesh.
+    /// Null: the whole mesh.
     const Region<D> *region() const {
         if (slab_region_) return &*slab_region_;
         if (box_) return &*box_region_;
@@ -54,7 +56,7 @@ public:
         return !ball_ ||
                (ball_region_->may_meet(corners.data(), D + 1) && abacus::meets<D>(corners, *ball_));
     }
-    /// The same of an edge.
+    /// The same for an edge.
     bool meets(const Point<D> &a, const Point<D> &b) const {
         if (box_) return abacus::meets<D>(a, b, *box_);
         const Point<D> *const ends[2] = {&a, &b};

@@ -1,7 +1,8 @@
 // The border between triangles that are kept and what is not, edge by edge.
 //
-// The edges go with what is kept on their left. At a vertex where several of them end, one goes on
-// along the triangles on its left: so what hangs together in a vertex alone has borders apart.
+// The edges have the kept triangles on their left. At a vertex where several of them end, each
+// continues along the triangles on its left: so parts that are connected only in a vertex have
+// separate borders.
 //
 // Between two steps blocks may leave the cache. So an edge is named by its ends, and by the page
 // that has its triangle.
@@ -20,7 +21,7 @@ public:
         int facet;
 
         bool is(const Edge &other) const { return from == other.from && to == other.to; }
-        /// An order of all edges.
+        /// A total order of edges.
         bool comes_before(const Edge &other) const {
             return from != other.from ? lexicographically_less<2>(from, other.from)
                                       : lexicographically_less<2>(to, other.to);
@@ -30,7 +31,7 @@ public:
     Border(Cache<2> &cache, const Kept &kept) : cache_(cache), kept_(kept) {}
 
     bool is_kept(Handle h) const { return abacus::is_kept<2>(kept_, cache_, h); }
-    /// Of a triangle that is kept: whether what is across a facet is not.
+    /// For a kept triangle: whether its neighbour across a facet is not kept.
     bool is_border(Handle h, int facet) { return !is_kept(link_simplex(cache_.cross(h, facet))); }
     Edge edge(Handle h, int facet) const;
     Edge next(const Edge &edge) { return turn(edge, true); }
@@ -39,7 +40,7 @@ public:
         return cache_.vertices().id(cache_.simplex(edge.triangle).vertex[(edge.facet + 1) % 3]);
     }
 
-    /// Lets blocks leave the cache, if it is full. The edges are those that will be used again.
+    /// Lets blocks leave the cache, if it is full. `edges` will be used again.
     template <std::size_t n> void make_room(const std::array<Edge *, n> &edges) {
         for (const Edge *edge : edges) cache_.use(edge->triangle);
         const std::uint64_t evictions = cache_.counters.evictions;
@@ -49,9 +50,9 @@ public:
     }
     /// Finds the triangle of an edge again.
     void find(Edge &edge);
-    /// Whether no edge of its ring comes before this one. Steps go both ways in turn: so an edge
-    /// goes no farther than twice as far as to one that comes before, and all edges of a ring of n
-    /// together make some n log n steps.
+    /// Whether no edge of its ring comes before this one. Steps go both ways in turn: so they go at
+    /// most twice as far as to the nearest edge that comes before, and all edges of a ring of n
+    /// together take some n log n steps.
     bool is_first_of_ring(Edge edge);
 
 private:

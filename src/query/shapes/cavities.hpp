@@ -1,11 +1,12 @@
-// Which parts of what is not kept of a mesh in space are shut in.
+// Finds the cavities of what is kept of a mesh in space: the enclosed parts that are not kept.
 //
-// What is not kept hangs together across facets. The part that has the ghosts is the outside; all
-// others are cavities. Within a page parts are found in memory (union and find). A part that goes
-// on in other pages gets a number, and its facets on the page's border are noted under their
-// corners. Sorted by these, a facet comes twice in a row, and joins the numbers of both its sides;
-// one of a fault may come four times, since each side has a ghost, and all are outside.
-// A part that neither goes on nor has a ghost is a cavity of its own, and takes no memory.
+// The parts that are not kept are connected across facets. The part that has the ghosts is the
+// outside; all others are cavities. Within a page parts are found in memory (union and find). A
+// part that continues in other pages gets a number, and its facets on the page's border are
+// recorded by their corners. After sorting by these, a facet comes twice in a row, and joins the
+// numbers of its two sides; a facet of a fault may come four times, since each side has a ghost,
+// and all are outside. A part that neither continues nor has a ghost is a cavity by itself, and
+// takes no memory.
 #pragma once
 
 #include "query/shapes/disjoint_sets.hpp"
@@ -21,9 +22,10 @@ public:
     /// Takes two thirds of the memory for its facets, the rest for numbers.
     Cavities(const Host &host, std::size_t memory);
 
-    /// Of a page: first all of its simplices that are not kept, in any order, ...
+    /// For a page: first all of its simplices that are not kept, in any order, ...
     void begin_page(Cache<3> &cache, Handle any);
-    /// ... `beyond` a facet what is not kept either, on the page or not, ...
+    /// ... each with `beyond`, the simplex across a facet, if it is not kept either, on the page or
+    /// not, ...
     void meet(Handle h, int facet, Handle beyond);
     void meet_outside(Handle ghost) { here_.join(outside_here, local(ghost)); }
     /// ... then the number of each.

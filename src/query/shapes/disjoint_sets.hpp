@@ -1,4 +1,4 @@
-// Which of some numbers belong together (union and find, Tarjan 1975).
+// A partition of numbers into sets (union and find, Tarjan 1975).
 #pragma once
 
 #include "host/arena.hpp"
@@ -14,13 +14,13 @@ public:
         parent_.resize(n);
         for (std::size_t i = 0; i < n; ++i) parent_[i] = static_cast<std::uint32_t>(i);
     }
-    /// One set more; returns its number.
+    /// Adds a set; returns its number.
     std::uint32_t add() {
         const auto n = static_cast<std::uint32_t>(parent_.size());
         parent_.push_back(n);
         return n;
     }
-    /// Numbers there are.
+    /// How many numbers there are.
     std::size_t size() const { return parent_.size(); }
     std::uint32_t find(std::uint32_t i) {
         while (parent_[i] != i) {
@@ -29,7 +29,7 @@ public:
         }
         return i;
     }
-    /// Makes one of two sets, named by the lesser of their names; false if they are one.
+    /// Joins two sets; the lesser of their names names the result. False if they are the same set.
     bool join(std::uint32_t a, std::uint32_t b) {
         a = find(a);
         b = find(b);

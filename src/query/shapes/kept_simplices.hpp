@@ -1,4 +1,4 @@
-// Which simplices of a mesh an outline goes around.
+// Selects the simplices of a mesh that an outline goes around.
 #pragma once
 
 #include "geometry/ball.hpp"
@@ -10,9 +10,9 @@
 namespace abacus {
 
 struct Kept {
-    /// Those with a longer edge are left out, unless it is 0.
+    /// Simplices with a longer edge are left out, unless it is 0.
     double max_edge = 0;
-    /// Those with a circumsphere of which the square of the radius is greater are left out.
+    /// Simplices whose circumradius has a greater square are left out.
     std::optional<double> alpha;
 
     bool is_all() const { return max_edge == 0 && !alpha; }

@@ -1,10 +1,10 @@
 // The order of lengths as numbers to sort by.
 //
-// The square of a length is a sum of products of doubles, which are computed without rounding: as a
-// sum of doubles that do not overlap (Shewchuk 1997). The double nearest to it comes first, that
-// nearest to the rest second, and so on. Rounding keeps order; so of two squares the lesser one has
-// the lesser first double, or, if these are equal, the lesser second one, and so on. Four tell
-// squares apart that agree in their first 212 bits. The exponent of the first comes before all.
+// The square of a length is a sum of products of doubles, computed without rounding, as a sum of
+// doubles that do not overlap (Shewchuk 1997). The double nearest to it comes first, the one
+// nearest to the rest second, and so on. Rounding preserves order; so the lesser of two squares has
+// the lesser first double, or, if these are equal, the lesser second one, and so on. Four doubles
+// separate squares that agree in their first 212 bits. The exponent of the first comes before them.
 #pragma once
 
 #include "blocks/bit_column.hpp"
@@ -37,7 +37,7 @@ public:
         add(std::fma(a, b, -product));
         add(product);
     }
-    /// Takes the double nearest to the sum off it.
+    /// Subtracts the double nearest to the sum from it, and returns that double.
     double take_nearest() {
         std::size_t i = size_ - 1;
         double high = parts_[i], low = 0;
@@ -46,7 +46,7 @@ public:
             low = part - (sum - high);
             high = sum;
         }
-        // Half way between two doubles the rest decides, where there is one.
+        // Halfway between two doubles the rest decides, if there is one.
         if (i > 0 && low != 0 && (low < 0) == (parts_[i - 1] < 0) && parts_[i - 1] != 0) {
             const double twice = 2 * low, other = high + twice;
             if (other - high == twice) high = other;
@@ -56,7 +56,7 @@ public:
     }
 
 private:
-    // Of three products of sums of two, and what is taken off.
+    // For three products of sums of two, and what is subtracted.
     static constexpr std::size_t most = 32;
     std::array<double, most> parts_{}; // the least first
     std::size_t size_ = 1;
@@ -66,7 +66,7 @@ private:
 using LengthKey = std::array<std::uint64_t, 5>;
 inline constexpr int length_key_bias = 4096; // no exponent is less than its negative
 
-/// Of a length that is not 0.
+/// The key of a length that is not 0.
 template <int D> LengthKey length_key(const Point<D> &a, const Point<D> &b) {
     // Powers of two bring the length near to 1, so that no square is lost or too large.
     double greatest = 0, extent = 0;

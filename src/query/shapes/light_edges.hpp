@@ -5,8 +5,8 @@
 // such as a triangle, is in no minimum spanning tree. In a Delaunay mesh the edges contain the
 // minimum spanning tree of all points.
 //
-// An edge is handed out by the simplex into which a fixed direction leads from it, or by a ghost;
-// some edges of the hull more than once.
+// An edge is reported by the simplex into which a fixed direction leads from it, or by a ghost;
+// some edges of the hull are reported more than once.
 #pragma once
 
 #include "query/locate/reader.hpp"

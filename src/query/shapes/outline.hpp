@@ -1,4 +1,5 @@
-// The border of what is kept of a mesh: of all of it its hull, of some of it a closer outline.
+// The border of what is kept of a mesh: for the whole mesh its hull, for a part of it a closer
+// outline.
 //
 // In the plane the border is closed rings (rings.hpp). In space it is triangles, each a ring of
 // three, in the order of their corners.
@@ -24,7 +25,7 @@ public:
 private:
     Reader<2> reader_;
     Rings rings_;
-    std::optional<RingNesting> nesting_; // where holes are filled
+    std::optional<RingNesting> nesting_; // if holes are filled
     std::uint64_t ring_ = 0, last_ = ~0ull;
 };
 
@@ -44,18 +45,18 @@ private:
     static constexpr std::size_t words = 13;
 
     void add(std::array<Corner, 3> corners, std::uint32_t part);
-    /// The hull alone: no other page is read.
+    /// Only the hull: no other page is read.
     void find_hull(const Host &host, const abacus_header &header, Reader<3> &reader);
     void find_border(Reader<3> &reader, const Kept &kept);
-    /// Collects what the border has in one page after another in borders_; calls end_page() after
-    /// each.
+    /// Collects the facets of the border, page by page, in borders_; calls end_page() after each
+    /// page.
     template <class End> void each_page(Reader<3> &reader, const Kept &kept, End end_page);
-    /// Only counts triangles; throws if spools have no room for them.
+    /// Only counts triangles. Throws if spools have no room for them.
     void count(Reader<3> &reader, const Kept &kept);
     void add_borders(Cache<3> &cache);
 
-    Arena<Link> borders_; // of a page: facets of what is not kept, beyond which something is
-    std::optional<Cavities> cavities_; // where they are filled
+    Arena<Link> borders_; // of a page: facets of simplices not kept, with kept ones beyond
+    std::optional<Cavities> cavities_; // if they are filled
     RecordSort triangles_;
     std::array<std::uint64_t, words> triangle_{};
     std::uint64_t ring_ = 0;

@@ -1,19 +1,19 @@
 // The border of what is kept of a mesh in the plane, as closed rings of vertices.
 //
 // Rings are walked from edge to edge across the mesh (border.hpp), each from its first edge on. So
-// nothing has to be kept of the edges that have been. But such a ring may come through a vertex
-// more than once: where a hole touches another one, or the outline. Rings do not cross. So what
-// lies between two visits of a vertex is a ring of its own, but for what lies between two visits of
-// another vertex there. These pieces nest, and a stack of those that are open tells whose a visit
-// is. What is left comes through each place once, and is a polygon; or it is both sides of an edge
-// of a fault, which is left out. So a fault that ends within the mesh leaves no trace.
+// visited edges need not be remembered. But such a ring may pass through a vertex more than once:
+// where a hole touches another one, or the outline. Rings do not cross. So the part between two
+// visits of a vertex is a ring of its own, except for parts between two visits of another vertex
+// within it. These pieces nest, and a stack of the open pieces shows to which one a visit belongs.
+// The remaining ring passes through each place once, and is a polygon; or it is both sides of an
+// edge of a fault, which is left out. So a fault that ends within the mesh leaves no trace.
 //
 // A ring goes counterclockwise around what is kept, or clockwise around a hole. It begins with its
-// lexicographically least vertex, and rings come in the order of these; of rings that share it
-// counterclockwise.
+// lexicographically least vertex, and rings come in the order of these vertices; rings that share
+// one come counterclockwise.
 //
-// What is known of vertices and rings is sorted again and again, in bounded memory. Beyond that
-// there are only the open pieces of a ring, two words each.
+// Vertices and rings are sorted several times, in bounded memory. The only other memory is for the
+// open pieces of a ring, two words each.
 #pragma once
 
 #include "query/locate/reader.hpp"
@@ -39,10 +39,10 @@ public:
 
     /// The next vertex of a ring; false after the last.
     bool next(Visit &visit);
-    /// To the first again.
+    /// Goes back to the first.
     void rewind() { rows_.rewind(); }
     std::uint64_t count() const { return count_; }
-    /// Edges of the border; vertices of all rings are no more.
+    /// The number of edges of the border; all rings together have no more vertices.
     std::uint64_t edges() const { return edges_; }
     void close() { rows_.close(); }
 
@@ -66,7 +66,7 @@ private:
     void split(RecordSpool &visits, RecordSort &pieces, RecordSort &rings);
     /// Where each ring begins, in their order.
     void find_least(RecordSort &rings, RecordSort &least) const;
-    /// Of rings that share their least vertex the ones to the right come first.
+    /// Among rings that share their least vertex the ones to the right come first.
     void number_rings(RecordSort &least, RecordSort &numbers) const;
     void put_in_order(RecordSort &rings, RecordSort &numbers);
 

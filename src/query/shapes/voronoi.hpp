@@ -1,17 +1,18 @@
 // The Voronoi cells of a mesh, or the parts of them within a window, one by one.
 //
 // A cell is dual to the star of its vertex: its corners are the circumcentres of the simplices
-// there, its facets are crossed by the edges. At the hull it has no end. Where simplices have one
-// circumsphere in common, which exact tests tell, their centre is computed exactly and rounded
-// last, so that they have the same.
+// there, and the edges at the vertex cross its facets. At the hull it is unbounded. If simplices
+// share a circumsphere, which exact tests detect, its centre is computed exactly and rounded last,
+// so that they all have the same.
 //
 // Cells that meet a window W may belong to vertices outside of it. Let p be a place in W and v the
-// vertex nearest to it. Were p inserted, the simplices in conflict with it would go, and p would be
-// joined to v: so some simplex at v has p within its circumsphere, or is a ghost with p beyond its
-// facet. Call zone all simplices whose ball, or half-space, meets W. So v is a corner of the zone.
-// The simplices in conflict with a place hang together, that around it among them; those around
-// the places of W hang together across facets; so the zone does, and a flood finds its pages. That
-// a few more simplices are taken for the zone, because of rounding, does no harm.
+// vertex nearest to it. If p were inserted, the simplices in conflict with it would be removed, and
+// p would be joined to v: so some simplex at v has p within its circumsphere, or is a ghost with p
+// beyond its facet. Let the zone be all simplices whose ball, or half-space, meets W. So v is a
+// corner of the zone. The simplices in conflict with a place are connected, and the one around the
+// place is among them; those around the places of W are connected across facets; so the zone is
+// connected, and a flood finds its pages. If rounding adds a few more simplices to the zone, this
+// does no harm.
 //
 // A vertex belongs to the first page that has a simplex of the zone around it.
 #pragma once
@@ -28,7 +29,7 @@ template <int D> class Voronoi {
 public:
     using Shape = CellShape<D>;
 
-    /// All of the mesh if `window` has no box. Throws if the mesh is not Delaunay.
+    /// The whole mesh if `window` has no box. Throws if the mesh is not Delaunay.
     Voronoi(const Host &host, const abacus_header &header, const abacus_window &window,
             std::size_t cache_bytes);
 
@@ -38,7 +39,7 @@ public:
     std::int64_t id() const { return id_; }
     const Point<D> &vertex() const { return vertex_; }
     bool is_bounded() const { return is_bounded_; }
-    /// Its part in the window, if there is one. Of a cell without end faces are incomplete.
+    /// Its part in the window, if there is one. The faces of an unbounded cell are incomplete.
     const Shape &shape() const { return shape_; }
     bool is_clipped() const { return box_.has_value(); }
     /// Ids of the neighbours by their labels.
@@ -51,7 +52,7 @@ private:
         Point<D> point;
         std::int64_t id;
         VertexIndex vertex;
-        Handle simplex; ///< that has it and the vertex as corners
+        Handle simplex; ///< with it and the vertex as corners
     };
     struct Centre {
         Handle simplex;
@@ -77,9 +78,9 @@ private:
     std::optional<Box<D>> box_;
     Reader<D> reader_;
     Cache<D> &cache_;
-    std::optional<PageFlood<D>> flood_; // where not all pages are read
+    std::optional<PageFlood<D>> flood_; // if not all pages are read
     Key page_ = first_key;
-    Arena<Link> open_; // of the page, the last one next
+    Arena<Link> open_; // of the page; the last is the next
     typename VertexHeap<D>::Numbering numbers_;
     Arena<Handle> star_;
     Arena<Neighbour> neighbours_; // in lexicographic order

@@ -1,10 +1,10 @@
-// Where a place lies in a simplex: the weights of its corners, by which what varies linearly is
-// found.
+// Where a place lies in a simplex: the weights of its corners, for values that vary linearly.
 //
-// A weight is the share of the simplex that the place and the facet opposite the corner span. These
-// volumes are computed in doubles, with bounds on their errors. If the bounds are small beside all
-// of the simplex, the weights are good; else the simplex is flat, or nearly so, and they are
-// computed in rational numbers. Whether a corner has a weight at all is decided exactly.
+// A weight is the share of the simplex that the place spans with the facet opposite the corner.
+// These volumes are computed in doubles, with bounds on their errors. If the bounds are small
+// compared with the whole simplex, the weights are good; otherwise the simplex is flat, or nearly
+// so, and they are computed in rational numbers. Whether a corner has a weight at all is decided
+// exactly.
 #pragma once
 
 #include "geometry/predicates.hpp"
@@ -17,22 +17,22 @@
 
 namespace abacus {
 
-/// Together weights are off by no more than twice this, unless they are computed in rational
-/// numbers. So what varies linearly is off by no more than this part of its range in the simplex.
+/// The total error of weights is at most twice this, unless they are computed in rational numbers.
+/// So the error of a linearly varying value is at most this fraction of its range in the simplex.
 inline constexpr double most_weight_error = 1e-10;
 
-/// A weight that is not 0 is no less, however small it is.
+/// The least weight that is not 0.
 inline constexpr double least_weight = std::numeric_limits<double>::min();
 
-/// The volumes that the facets of a simplex span with a place, but for a factor, and bounds on
-/// their errors.
+/// The volumes that the facets of a simplex span with a place, up to a factor, and bounds on their
+/// errors.
 template <int D> struct CornerVolumes {
     std::array<double, D + 1> volume, error;
 
-    /// Of the corners as seen from the place, of which none equals it; false if the errors may be
-    /// too large.
+    /// Computes them for the corners relative to the place, none of which equals it; false if the
+    /// errors may be too large.
     bool compute(const std::array<Point<D>, D + 1> &seen);
-    /// Whether corner i has a weight for sure.
+    /// Whether corner i certainly has a weight.
     bool is_sure(int i) const { return volume[i] > error[i]; }
 };
 
@@ -40,7 +40,7 @@ namespace exact {
 /// As abacus::barycentric_weights(), in rational numbers.
 template <int D>
 std::array<double, D + 1> barycentric_weights(const abacus_simplex &simplex, const Point<D> &p);
-/// Makes volumes that are not sure 0, or positive, by their exact signs.
+/// Makes uncertain volumes 0 or positive, by their exact signs.
 template <int D>
 void settle(CornerVolumes<D> &volumes, const abacus_simplex &simplex, const Point<D> &p);
 } // namespace exact
@@ -70,7 +70,7 @@ template <int D> inline bool CornerVolumes<D>::compute(const std::array<Point<D>
         permanents += permanent;
         sum += std::max(volume[i], 0.0);
     }
-    // What underflows is far less than a part of 1e-30 of this.
+    // Underflow is far less than 1e-30 of this.
     double least = 1e-250, size = 0;
     if constexpr (D == 3) {
         for (const Point<D> &corner : seen)
@@ -83,10 +83,11 @@ template <int D> inline bool CornerVolumes<D>::compute(const std::array<Point<D>
 }
 
 /// Weights of the corners at p, which lies in the closure of the simplex. Those that are not 0 are
-/// positive, and the corners that have them span the face in whose inside p lies. They sum to 1, up
-/// to rounding; at a corner they are exactly 1 and 0. Corners are taken as seen from p, so the
-/// error is one of p's neighbourhood, not of its coordinates. A place outside, to which rounding
-/// may have led, has no weight of a corner from whose facet it lies beyond.
+/// positive, and their corners span the face whose interior contains p. They sum to 1, up to
+/// rounding; at a corner they are exactly 1 and 0. Corners are taken relative to p, so the error
+/// depends on the size of p's neighbourhood, not on its coordinates. At a place outside, where
+/// rounding may have put it, a corner has no weight if the place lies beyond the facet opposite the
+/// corner.
 template <int D>
 inline std::array<double, D + 1> barycentric_weights(const abacus_simplex &simplex,
                                                      const Point<D> &p) {

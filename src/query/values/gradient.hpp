@@ -1,8 +1,8 @@
-// The gradient of what varies linearly in a simplex.
+// The gradient of a value that varies linearly in a simplex.
 //
 // It solves (corner i − corner 0) · g = value i − value 0, by Cramer's rule. Each number is the
-// exact one, rounded once: it is computed with 106 bits, and where these do not tell how it is
-// rounded, as in a flat simplex, in rational numbers.
+// exact one, rounded once: it is computed with 106 bits, and where these do not determine the
+// rounding, as in a flat simplex, in rational numbers.
 #pragma once
 
 #include "query/locate/reader.hpp"
@@ -11,7 +11,7 @@
 
 namespace abacus {
 
-/// The gradient in a simplex that is not flat, of finite values at its corners.
+/// The gradient in a simplex that is not flat, for finite values at its corners.
 template <int D> Point<D> gradient_in(const abacus_simplex &simplex, const double *values);
 /// Sets the gradient of the first attribute at p, D numbers, each NaN if a corner has no finite
 /// value; false outside.

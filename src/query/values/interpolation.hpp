@@ -1,8 +1,8 @@
 // Values at places between the vertices: which vertices count, and how much.
 //
-// Every method comes down to weights of some vertices, none of them negative, with the sum 1: a
-// value is their mean. So it lies between the least and the greatest of them, to which rounding
-// must not add; and vertices without a weight do not count, whatever they carry or lack.
+// Every method reduces to weights of some vertices, none of them negative, with the sum 1: a value
+// is the weighted mean. So it lies between the least and the greatest value, which rounding must
+// not exceed; and vertices without a weight do not count, whatever values they have or lack.
 #pragma once
 
 #include "query/values/sibson.hpp"
@@ -14,7 +14,7 @@ namespace abacus {
 template <int D> class Interpolation {
 public:
     explicit Interpolation(const Host &host) : sibson_(host), weights_(host), values_(host) {}
-    /// As what is made by a mesh's dimension.
+    /// With the arguments of everything that is created by a mesh's dimension.
     Interpolation(const Host &host, const abacus_header &) : Interpolation(host) {}
 
     /// Finds the weights at p; false outside.
@@ -23,14 +23,14 @@ public:
     bool values(Reader<D> &reader, const abacus_interpolation &what, const Point<D> &p,
                 double *values);
 
-    /// What weigh() has found.
+    /// The result of weigh().
     const Arena<abacus_weight> &weights() const { return weights_; }
 
 private:
     bool weigh_corners(Reader<D> &reader, const abacus_interpolation &what, const Point<D> &p);
     bool weigh_natural(Reader<D> &reader, const abacus_interpolation &what, const Point<D> &p);
     bool weigh_nearest(Reader<D> &reader, const abacus_interpolation &what, const Point<D> &p);
-    /// attribute(i): the i-th of all that the vertex has.
+    /// attribute(i): the i-th of all attributes of the vertex.
     template <class Attribute>
     void add(const abacus_interpolation &what, std::int64_t id, double weight,
              Attribute attribute) {
@@ -41,7 +41,7 @@ private:
 
     Sibson<D> sibson_;
     Arena<abacus_weight> weights_;
-    Arena<double> values_; // wanted, of each of those vertices
+    Arena<double> values_; // the requested ones, for each of those vertices
 };
 
 extern template class Interpolation<2>;

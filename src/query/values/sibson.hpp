@@ -1,29 +1,29 @@
 // Natural neighbours: the weights of Sibson ("A brief description of natural neighbour
 // interpolation", 1981), in the plane and in space.
 //
-// Were p a vertex, its Voronoi cell would be made of what it takes from the cells of others. The
-// weight of a vertex is its share of that. What is taken from v is a polytope. Its corners are the
-// circumcentres x of the simplices at v whose circumsphere has p inside, which are the zone, and
-// the circumcentres y of p with the facets on the rim of the zone at v. Its facets are parts of the
+// If p were a vertex, its Voronoi cell would consist of parts of the cells of others. The weight of
+// a vertex is its share of that cell. The part taken from v is a polytope. Its corners are the
+// circumcentres x of the simplices at v whose circumsphere contains p, which form the zone, and the
+// circumcentres y of p with the facets on the rim of the zone at v. Its facets are parts of the
 // bisectors of v and its neighbours w, and of p and v. By the divergence theorem, with p as the
 // origin, its volume is 1/D of the sum of each facet's area times its distance from p:
 //
 //   share(v) = Σ A(v, w) s(v, w) + A(p, v) |v| / 2,   s(v, w) = (w² − v²) / (2 |w − v|) = −s(w, v).
 //
-// So what is wrong with an A(v, w) moves from one share to another and not out of their sum, and
-// the distances s come from vertices, not from circumcentres, which may be far away. No order of
-// the corners is needed. In the plane A is the length of an edge of a cell, and each of its ends
-// adds its part. In space it is the area of a polygon; each of its sides, which is dual to a facet
-// of the mesh, adds ½ (x × x') · n, and it has the same x and x' in three polygons, those of the
-// edges of that facet. Facets are those between two simplices of the zone, those on its rim, and
-// those which p and the ridges of the rim would make.
+// So an error in A(v, w) moves from one share to another but does not change their sum, and the
+// distances s come from vertices, not from circumcentres, which may be far away. No order of the
+// corners is needed. In the plane A is the length of an edge of a cell, and each of its ends
+// contributes its part. In space it is the area of a polygon; each of its sides, which is dual to a
+// facet of the mesh, adds ½ (x × x') · n, and it has the same x and x' in three polygons, those of
+// the edges of that facet. The facets are those between two simplices of the zone, those on its
+// rim, and those that p would form with the ridges of the rim.
 //
-// The zone is found by the predicates of the triangulation, and so is star-shaped around p, as
-// when p is inserted.
+// The predicates of the triangulation find the zone, so it is star-shaped around p, as when p is
+// inserted.
 //
 // Everything is added in an order of the coordinates: that of neighbours, of simplices by their
-// neighbours, and of the corners of each. So the weights are the same to the last bit however the
-// mesh came about, and whichever simplex around p the search began with.
+// neighbours, and of the corners of each. So the weights are the same to the last bit whatever the
+// history of the mesh, and whichever simplex around p the search began with.
 #pragma once
 
 #include "delaunay/ridges.hpp"
@@ -38,11 +38,11 @@ public:
           seen_(host), shares_(host), centres_(host), rim_(host), ridges_(host) {}
 
     /// Finds the natural neighbours of p, which lies in the closure of a finite simplex of a
-    /// Delaunay mesh, and is no vertex. False if p is on the hull, where cells have no end, or what
-    /// there is cannot be told in doubles.
+    /// Delaunay mesh, and is no vertex. False if p is on the hull, where cells are unbounded, or if
+    /// doubles cannot represent the weights.
     bool find(Cache<D> &cache, Handle h, const Point<D> &p);
 
-    /// What find() has found: the neighbours and their weights, which sum to 1.
+    /// The result of find(): the neighbours and their weights, which sum to 1.
     std::size_t count() const { return numbers_.size(); }
     VertexIndex vertex(std::size_t i) const { return numbers_[i]; }
     double weight(std::size_t i) const { return shares_[i]; }
@@ -72,9 +72,9 @@ private:
     bool find_zone(Cache<D> &cache, Handle h, const Point<D> &p);
     void see(Cache<D> &cache, const Point<D> &p);
     void order_zone(Cache<D> &cache);
-    /// The facet of a simplex as of RimFacet, its least neighbour first.
+    /// The facet of a simplex as in RimFacet, its least neighbour first.
     std::array<std::uint32_t, D> facet_of(Cache<D> &cache, Handle h, int facet);
-    /// Adds what there is across the facets of the n-th member.
+    /// Adds the contributions across the facets of the n-th member.
     void add_simplex(Cache<D> &cache, std::size_t n);
     /// Adds a side, from circumcentre `from` to `to`, of the dual of a facet.
     void add_side(const std::array<std::uint32_t, D> &facet, const Point<D> &from,
@@ -85,7 +85,7 @@ private:
     Point<D> centre(const std::uint32_t *numbers, int n) const;
 
     Marks marks_;
-    Arena<Handle> zone_;    // as it was found
+    Arena<Handle> zone_;    // in the order of discovery
     Arena<Handle> beyond_;  // D + 1 a simplex of the zone, across its facets
     Arena<Member> members_; // the zone in order
     Arena<Place> sorted_;   // the zone by handles

@@ -7,9 +7,9 @@
 
 namespace abacus {
 
-/// Of n values, by weights that are not negative and sum to 1: not less than the least of those
-/// with a weight, nor greater than the greatest, to which rounding must not add. The others do not
-/// count, whatever they are. NaN if one that counts is.
+/// The mean of n values, by weights that are not negative and sum to 1. It is not less than the
+/// least of the values with a weight, nor greater than the greatest, in spite of rounding. The
+/// others do not count, whatever they are. NaN if one that counts is NaN.
 template <class Weight, class Value>
 double weighted_mean(std::size_t n, Weight weight, Value value) {
     double mean = 0, least = INFINITY, greatest = -INFINITY;

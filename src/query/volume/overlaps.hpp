@@ -1,21 +1,22 @@
-// The triangles of a mesh that overlap a triangle of another one: have a part with an area in
-// common with it. Exact.
+// The triangles of a mesh that overlap a triangle of another one: their intersection has an area.
+// Exact.
 //
 // Let T be the triangle, without its border. In a Delaunay mesh a walk leads to a point strictly
 // inside of T. The simplex around it overlaps T, and from there a flood crosses each edge that has
-// points in T. It finds all. Those that overlap T fill the convex part that the mesh has of it;
-// without the vertices that is still connected; and a path in it leads from one triangle to the
-// next across edges that have points in T. Where the point lies outside of the mesh, a flood over
-// the hull's edges that it sees looks for one that has points in T (see range_scan.hpp), and the
-// other flood begins at that.
+// points in T. It finds all of them. Those that overlap T fill its part in the mesh, which is
+// convex; without the vertices this is still connected; and a path in it leads from one triangle to
+// the next across edges that have points in T. If the point lies outside the mesh, a flood over the
+// hull's edges that it sees looks for one that has points in T (see range_scan.hpp), and the other
+// flood begins there.
 //
-// Of T as it is drawn no point may be found that rounding leaves strictly inside. Then the flood
-// begins at a corner and crosses whatever T's box meets, which is more than it must.
+// Because of rounding, no point strictly inside T may be found. Then the flood begins at a corner
+// and crosses every edge that T's box meets, which is more than necessary.
 //
-// A flood holds what it meets in the cache. So beyond some number the pages are read one after the
-// other instead (range_scan.hpp). In a mesh that is not Delaunay pages are found by their boxes.
+// A flood holds what it meets in the cache. So beyond a certain number the pages are read one after
+// the other instead (range_scan.hpp). In a mesh that is not Delaunay, pages are found by their
+// boxes.
 //
-// A window leaves out what lies outside of it, as far as that spares work: some of it may be found.
+// A window leaves out triangles outside it where that saves work: some of them may still be found.
 #pragma once
 
 #include "query/locate/reader.hpp"
@@ -28,8 +29,8 @@ namespace abacus {
 
 class Overlaps {
 public:
-    /// `attribute`: of the values handed out. Triangles with an edge longer than max_edge are left
-    /// out, unless that is 0.
+    /// `attribute`: the one whose values are reported. Triangles with an edge longer than max_edge
+    /// are left out, unless that is 0.
     Overlaps(const Host &host, const abacus_header &header, std::uint32_t attribute,
              double max_edge, const Box<2> &window, std::size_t cache_bytes);
 
@@ -37,16 +38,16 @@ public:
     using Visit = std::function<void(const Corners<2> &, const std::array<double, 3> &)>;
     void each(const Corners<2> &triangle, const Visit &visit);
 
-    /// A box around all of the mesh; infinite of an empty one.
+    /// A box around the whole mesh; the empty box for an empty mesh.
     Box<2> around_all();
 
 private:
-    /// The triangle that is asked for, and what is known of it.
+    /// The triangle of the query, and what is known about it.
     struct Asked {
         const Corners<2> &corners;
         Box<2> box;
-        Point<2> inside; // a point of it, strictly inside of it and of the window or a corner
-        bool is_strictly_inside; // which of both
+        Point<2> inside;         // a point of it, strictly inside it and the window, or a corner
+        bool is_strictly_inside; // whether it is the former
     };
     class Area;
 
@@ -55,7 +56,7 @@ private:
     /// A simplex where a flood may begin: no_handle if nothing overlaps.
     Handle begin(const Asked &t);
     Handle begin_outside(const Asked &t, Handle ghost);
-    /// False if it would be too much at once; nothing has been visited then.
+    /// False if it would meet too many at once; then nothing has been visited.
     bool flood(const Asked &t, const Visit &visit);
     void scan_pages(const Asked &t, const Visit &visit);
     void search_pages(const Asked &t, const Visit &visit);

@@ -1,14 +1,14 @@
-// Areas and volumes of what a mesh stands for.
+// Areas and volumes of what a mesh represents.
 //
-// In the plane an attribute is a surface over the mesh. Asked for is what lies between it and a
-// base, or between the surfaces of two meshes. In space the part is asked for where the attribute
-// is at least the base.
+// In the plane an attribute is a surface over the mesh. The volume is that between it and a base,
+// or between the surfaces of two meshes. In space it is that of the part where the attribute is at
+// least the base.
 //
-// Simplices are cut into pieces on which all is linear (geometry/piece.hpp): at the border of a
-// window, at the edges of the other mesh, and where the surface crosses the base. What a simplex
-// adds is computed from its corners in a fixed order, as seen from the first of them; and the sums
-// are exact (geometry/exact_sum.hpp). So the result does not depend on the order in which
-// simplices come, nor on where pages end, nor on how the mesh came about.
+// Simplices are cut into pieces on which everything is linear (geometry/piece.hpp): at the border
+// of a window, at the edges of the other mesh, and where the surface crosses the base. The
+// contribution of a simplex is computed from its corners in a fixed order, relative to the first of
+// them; and the sums are exact (geometry/exact_sum.hpp). So the result does not depend on the order
+// of the simplices, on where pages end, or on the history of the mesh.
 #pragma once
 
 #include "geometry/exact_sum.hpp"
@@ -23,10 +23,10 @@ namespace abacus {
 template <int D> class Volume {
 public:
     /// In the plane a piece of the surface: its values are heights above the base. In space the
-    /// base is 0 of its values.
+    /// base is where its values are 0.
     void add(const Piece<D> &piece);
-    /// The same of a piece of what lies between two surfaces, the first of which is so many times
-    /// as large as what is below it.
+    /// The same for a piece between two surfaces, the first of which is this many times as large as
+    /// its projection.
     void add(const Piece<D> &piece, double steepness);
 
     abacus_volume sums() const {
@@ -39,12 +39,12 @@ private:
     ExactSum area_, surface_, cut_, fill_;
 };
 
-/// Of a mesh over a base. Simplices with a corner that has no finite value are left out.
+/// For a mesh over a base. Simplices with a corner that has no finite value are left out.
 template <int D>
 abacus_volume volume_above(const Host &host, const abacus_header &header,
                            const abacus_surface &surface, double base);
 
-/// Between a mesh and another one, both of dimension 2; `cache_bytes` for the other's simplices.
+/// For the space between two meshes, both of dimension 2; `cache_bytes` for the other's simplices.
 abacus_volume volume_between(const Host &host, const abacus_header &header,
                              const abacus_surface &surface, const Host &other_host,
                              const abacus_header &other, std::uint32_t other_attribute,
