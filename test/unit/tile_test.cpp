@@ -267,6 +267,23 @@ TEST(VectorTile, ContoursOfTheGreatestValues) {
     EXPECT_EQ(lines, 1u);
 }
 
+TEST(VectorTile, RingsHaveNoCornerTwiceInSuccession) {
+    // Beside a side of the tile corners of small triangles and those that the cut makes are
+    // rounded to one place.
+    const auto mesh = mesh_of(1900, 0.1);
+    std::size_t cut = 0;
+    for (int zoom = 7; zoom <= 10; ++zoom) {
+        const ReadTile read = read_vector(*mesh, tile_at(zoom, 7.05, 46.05), {0, 0, 0});
+        for (const ReadFeature &f : read.at("triangles")) {
+            const std::vector<TilePoint> &ring = f.parts.at(0);
+            for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
+                EXPECT_NE(ring[i], ring[j]) << zoom << " " << ring[i].x << " " << ring[i].y;
+            cut += ring.size() > 3;
+        }
+    }
+    EXPECT_GT(cut, 50u);
+}
+
 /// Where lines cross the seam between a tile and the one to its right.
 std::map<double, std::vector<int>> crossings(const ReadTile &tile, int seam) {
     std::map<double, std::vector<int>> result;
