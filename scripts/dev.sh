@@ -85,7 +85,7 @@ files_named() {
         return
     fi
     for file in "sql/$1.sql" "test/isolation/specs/$1.spec" "test/pgtap/$1.sql" "test/tap/$1.pl" \
-        "docs/$1.md" "$1.md" "test/unit/${1%_test}_test.cpp" "test/suite/${1%_test}_test.py" \
+        "docs/$1.md" "docs/cookbook/$1.md" "docs/reference/$1.md" "$1.md" "test/unit/${1%_test}_test.cpp" "test/suite/${1%_test}_test.py" \
         "test/oracle/${1%_test}_test.py" "test/viewer/$1.test.js"; do
         if [[ -f $file ]]; then echo "$file"; fi
     done
