@@ -8,7 +8,7 @@
 #   dev.sh tidy [FILE...]     clang-tidy over C++ that differs from branch main, or over the files
 #   dev.sh one NAME...        all tests of that name, or the file of that path: a regression or
 #                             isolation test, a pgTAP or TAP file, a page of the documentation, a
-#                             file of unit tests or of Python's; what is none of these is a part of
+#                             file of unit tests or of Python's; any other name is a part of
 #                             a unit test's name, or a filter
 set -euo pipefail
 . "$(dirname "$0")/common.sh"

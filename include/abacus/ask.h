@@ -40,8 +40,8 @@ typedef struct abacus_range
 /*
  * The simplices that meet a window, exactly, in the order in which their pages are found; those of
  * all of the mesh in key order. Those with an edge longer than max_edge are left out, unless it is
- * 0; and those that have not a label within a range, unless that is NULL: their pages are
- * passed over by what the heads of pages of labels say.
+ * 0; and those without a label within a range, unless that is NULL: the heads of pages of labels
+ * say which pages have none.
  */
 typedef struct abacus_cells abacus_cells;
 ABACUS_API abacus_status abacus_cells_open(const abacus_host *host, const abacus_header *header,

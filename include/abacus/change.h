@@ -119,8 +119,8 @@ ABACUS_API abacus_status abacus_build_update(abacus_build *build, abacus_stage *
 /* An attribute that no point has had. */
 #define ABACUS_NO_ATTRIBUTE UINT32_MAX
 /*
- * change_attributes: gives all points other attributes, with `memory` bytes for sorting: as the i-th
- * of `count` that which has the number source[i], or, if that is ABACUS_NO_ATTRIBUTE, one without a
+ * change_attributes: gives all points other attributes, with `memory` bytes for sorting: the i-th
+ * of `count` is the one that has the number source[i], or, if that is ABACUS_NO_ATTRIBUTE, one without a
  * value and without a name. If there are as many as before, they must be the same, in their order.
  * Simplices stay as they are. Attributes that are many come to be apart; with those there are this
  * makes a mesh of format 3 one of format 4. The build can only be closed then.

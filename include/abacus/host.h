@@ -75,7 +75,7 @@ typedef struct abacus_key
 
 /*
  * What a page holds, as a number. A data type names its kinds where it describes its
- * pages (header.h: those of meshes); the host is told of each before it is used. Each kind
+ * pages (header.h: those of meshes); each is declared to the host before it is used. Each kind
  * has keys of its own.
  */
 typedef uint32_t abacus_page_kind;

@@ -20,7 +20,7 @@ typedef abacus_host_status (*abacus_ray_report)(void *context, double enters, do
 												const abacus_simplex *simplex,
 												const double *labels);
 /*
- * Reports, in order, the simplices that have more than a point in common with a ray. Of those that
+ * Reports, in order, the simplices that have more than a point in common with a ray. If several
  * have the same piece of it, around an edge or on both sides of a facet, only the one that
  * abacus_mesh_locate finds there. The parameter counts the direction, which must not be 0.
  */

@@ -39,7 +39,7 @@ ABACUS_API abacus_status abacus_octree_root(const abacus_host *host, abacus_head
 											abacus_error *error);
 
 /*
- * Growth: leaves are split until the octree is the least one that serves what it is told. Each
+ * Growth: leaves are split until the octree is the least one that serves all requests. Each
  * growth ends with one of the functions that take the header.
  */
 typedef struct abacus_octree_growth abacus_octree_growth;
@@ -69,7 +69,7 @@ ABACUS_API abacus_status abacus_octree_growth_points(abacus_octree_growth *growt
 typedef abacus_host_status (*abacus_octree_sizes)(void *context, size_t count,
 												  const double *const *centers,
 												  const double *edges, double *sizes);
-/* Leaves are no longer than what is told of their centers, unless they have the finest level. */
+/* Leaves are no longer than the size given for their centers, unless they have the finest level. */
 ABACUS_API abacus_status abacus_octree_growth_sizes(abacus_octree_growth *growth,
 													abacus_octree_sizes sizes, void *context,
 													abacus_header *header, abacus_error *error);

@@ -145,14 +145,14 @@ typedef struct abacus_fault
 
 /*
  * Verifies the mesh exactly, once, when opened; then hands out the faults (at most `limit`). The
- * header is one that abacus_header_decode() has read: what that refuses is not looked for again.
+ * header is one that abacus_header_decode() has read: faults that it refuses are not checked again.
  */
 typedef struct abacus_check abacus_check;
 ABACUS_API abacus_status abacus_check_open(const abacus_host *host, const abacus_header *header,
 										   size_t cache_bytes, size_t limit, abacus_check **check,
 										   abacus_error *error);
 ABACUS_API abacus_status abacus_check_next(abacus_check *check, abacus_fault *fault);
-/* Simplices whose volume, computed in doubles, is lost in rounding; that is no fault. */
+/* Simplices whose volume, computed in doubles, is lost in rounding; that is not a fault. */
 ABACUS_API uint64_t abacus_check_flat(const abacus_check *check);
 ABACUS_API void abacus_check_close(abacus_check *check);
 

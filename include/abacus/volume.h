@@ -20,8 +20,8 @@ typedef struct abacus_surface
 } abacus_surface;
 
 /*
- * In dimension 2: the area below the surface, the area of the surface, the volumes of what is above
- * the base and of what is below it. In dimension 3: the volume, the area of the surface on which
+ * In dimension 2: the area below the surface, the area of the surface, the volumes above
+ * the base and below it. In dimension 3: the volume, the area of the surface on which
  * the attribute has the value of the base, the volumes of the parts where it is at least that, and
  * less. Infinite, or no number, where doubles are too small.
  */

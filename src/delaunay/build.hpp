@@ -38,7 +38,7 @@ namespace abacus {
 
 template <int D> class Build {
 public:
-    /// `stored` is told by the host what is stored; null if simplices have no labels and
+    /// `stored` gets from the host what is stored; null if simplices have no labels and
     /// facets no markers.
     Build(const Host &host, const abacus_header &header, std::size_t cache_bytes,
           StoredPages *stored = nullptr);
@@ -173,7 +173,7 @@ private:
     void erase_pages(abacus_page_kind kind);
     /// Begins anew without a triangulation.
     void forget_simplices();
-    /// All simplices are about to go: so much for whoever wants to know.
+    /// Reports every simplex as removed to the log of changes.
     void log_all_gone();
     void sweep_labels();
     /// The domain was another one.

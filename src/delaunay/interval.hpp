@@ -117,7 +117,7 @@ private:
 
 template <int D> class Interval {
 public:
-    /// Of what became of points; by number in the batch.
+    /// The outcome for each point, by number in the batch.
     struct Results {
         explicit Results(const Memory &memory) : left(memory), put_off(memory), gone(memory) {}
 

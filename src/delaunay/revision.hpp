@@ -70,7 +70,7 @@ private:
         std::uint32_t dealt_with = 0; ///< of the first one of an identity: how many of these
     };
 
-    /// Points that wait are not looked for exactly.
+    /// Points that wait are not found exactly.
     void wait_for(const std::uint64_t *record) {
         if (exactly_) {
             miss(record_id(record), record_point<D>(record));

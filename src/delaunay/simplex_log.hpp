@@ -1,13 +1,13 @@
 // What has come and what has gone: the simplices that changes of a mesh create and destroy, in
 // memory.
 //
-// A simplex is told by its corners, ids included, and by its code. Insertion creates most simplices
-// only to destroy them again, and does so within a short stretch of the curve. So the log is a hash
-// table of net changes: what goes soon after it has come leaves nothing. When it is full, it is
-// handed on as a whole. What comes and goes in different logs cancels out when all are
-// sorted together (simplex_changes.hpp). Only sums count, so the order of logs does not matter.
+// A simplex is identified by its corners, ids included, and its code. Insertion creates most
+// simplices only to destroy them again, and does so within a short stretch of the curve. So the log
+// is a hash table of net changes: what goes soon after it has come leaves nothing. When it is full,
+// it is handed on as a whole. What comes and goes in different logs cancels out when all are sorted
+// together (simplex_changes.hpp). Only sums count, so the order of logs does not matter.
 //
-// Ghosts are left out: they are no simplices of the user's.
+// Ghosts are left out: they are not simplices of the user.
 #pragma once
 
 #include "blocks/bit_column.hpp"
@@ -93,7 +93,7 @@ public:
 
     bool empty() const { return entries_.empty(); }
     const Arena<SimplexWords<D>> &entries() const { return entries_; }
-    /// Forgets all entries, and leaves them to whoever takes them.
+    /// Forgets all entries, and leaves them to the caller.
     Arena<SimplexWords<D>> take() {
         empty_slots();
         return std::move(entries_);

@@ -1,5 +1,5 @@
 // The simplices of a window, or of a stretch of the curve, with what their corners carry, page by
-// page. Of a window those may be left out that have not a label within a range.
+// page. Can skip simplices whose label is outside a range.
 #pragma once
 
 #include "keys/locational_code.hpp"

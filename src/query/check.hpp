@@ -21,7 +21,7 @@
 // A mesh that is not Delaunay need not fulfil the empty-sphere criterion and Euler's
 // relation, nor have a convex hull, which its stars would be judged by. Instead, the two
 // simplices at a facet must lie on its two sides, which follows from their orientations.
-// That simplices which are no neighbours do not overlap is verified when the mesh is
+// Whether simplices that are not neighbours overlap is checked when the mesh is
 // loaded, and not again.
 //
 // Its vertices are listed beside it, and the list is compared with the pages.
@@ -56,7 +56,7 @@ public:
 
     /// False after the last fault.
     bool next(abacus_fault &fault) { return faults_.next(fault); }
-    /// Simplices that are flat in doubles, which is no fault.
+    /// Simplices that are flat in doubles, which is not a fault.
     std::uint64_t flat() const { return counts_.flat; }
 
 private:

@@ -3,7 +3,7 @@
 // The pieces of a page are joined in memory, at equal nodes. So a page gives a few chains. Their
 // points go to a spool, one chain after the other, and the nodes of their ends to a sort; so ends
 // that meet come together wherever their chains are from. What follows what is then known, and the
-// places of chains in lines are ranked (chain_rank.hpp). Each line is told its number in the order
+// places of chains in lines are ranked (chain_rank.hpp). Each line gets its number in the order
 // of lines, and each point its line and its place there. One more sort brings the points into their
 // order, and each line is read as a whole.
 //

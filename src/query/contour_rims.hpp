@@ -1,7 +1,7 @@
 // The rim of what contours are made of: edges that have a triangle on one side only, since the mesh
 // ends there, or the other triangle was left out.
 //
-// A page tells of the edges that have one triangle there. Sorted, those of all pages that have
+// A page gives the edges that have one triangle there. Sorted, those of all pages that have
 // another one elsewhere come in pairs. What is left bounds bands, in pieces between the levels that
 // it crosses.
 //

@@ -7,7 +7,7 @@
 // pages are first read once more, to count.
 //
 // A corner is computed from the two vertices of its edge, the lexicographically lesser one first.
-// So whoever computes it gets the same to the last bit, and the surface has no cracks.
+// So all pages get the same to the last bit, and the surface has no cracks.
 #pragma once
 
 #include "query/cell_filter.hpp"

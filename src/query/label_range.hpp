@@ -2,8 +2,8 @@
 //
 // Pages of labels lie along the curve as those of simplices do, and the head of a column bounds
 // what is in it. So a page of simplices is passed over if no page of labels that belongs to its
-// stretch of the curve may have such a value. Of those pages the heads tell; labels are read where
-// simplices are.
+// stretch of the curve may have such a value. The heads of those pages say so; labels are read
+// where simplices are.
 #pragma once
 
 #include "query/simplex_labels.hpp"

@@ -6,7 +6,7 @@
 // and a page is read and decoded once for all places in it. What is asked at each place is the
 // caller's: which simplex, which value, which vertices (question.hpp).
 //
-// Many are answered by several threads (places_threads.hpp).
+// Several threads answer many (places_threads.hpp).
 #pragma once
 
 #include "query/question.hpp"

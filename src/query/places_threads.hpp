@@ -1,4 +1,4 @@
-// Places that come along the curve, answered by several threads.
+// Places that come along the curve: several threads answer them.
 //
 // They are gathered, and cut into pieces along the curve. Whichever thread has nothing to do takes
 // the next piece, in a cache of its own, and puts the answers on a tape. The session's
@@ -7,10 +7,10 @@
 //
 // Memory. Gathered places and answers take a third of the cache's memory at most, the caches of
 // the threads the rest. The length of an answer is a guess: a piece ends early when its tape is
-// full, and the rest of it is answered when that has been told.
+// full, and the rest of it is answered after these answers are returned.
 //
-// Errors. What a thread finds wrong with the mesh is kept with its piece, and raised when the
-// pieces before it have been told: the first error along the curve counts.
+// Errors. What a thread finds wrong with the mesh is kept with its piece, and raised after the
+// pieces before it: the first error along the curve counts.
 #pragma once
 
 #include "host/crew.hpp"
@@ -58,7 +58,7 @@ private:
         std::size_t told, answered, end; // numbers of gathered places
         Tape tape;                       // what is answered and not told
         std::exception_ptr failure;      // of the next one
-        std::atomic<bool> is_ready;      // to be told
+        std::atomic<bool> is_ready;      // to be returned
     };
     class Round;
 
@@ -89,7 +89,7 @@ private:
     HostMemory memory_;
     std::pmr::deque<Piece> pieces_;
     std::size_t cut_ = 0;                // pieces in use
-    std::size_t first_ = 0;              // of them, that has not been told to its end
+    std::size_t first_ = 0;              // of them, not yet returned to its end
     std::optional<Tape::Player> player_; // of its tape
     std::size_t most_words_ = 0;         // of a tape, more or less
     std::atomic<std::size_t> first_failed_;

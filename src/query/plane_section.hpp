@@ -3,7 +3,7 @@
 // The heights of vertices above the plane are exact in their signs, and a vertex in the plane
 // counts as above it (geometry/tetrahedron_cut.hpp). So the polygons tile the plane without gap or
 // overlap. Those of their corners that lie on one vertex are one corner; what is then no more than
-// an edge or a point is no polygon. A facet in the plane is the section of the tetrahedron below
+// an edge or a point is not a polygon. A facet in the plane is the section of the tetrahedron below
 // it. At the bottom of the mesh there is none below: so it is that of its ghost.
 //
 // Corners are computed from the two vertices of their edge, the lexicographically lesser one first.

@@ -1,4 +1,4 @@
-// What is asked at each of many places, and the answers until they are told.
+// A question at each of many places, and the answers until they are returned.
 #pragma once
 
 #include "query/interpolation.hpp"

@@ -77,7 +77,7 @@ public:
     std::uint64_t size() const { return size_; }
     /// A simplex of the cache as users see it, with what its corners carry.
     void describe(Handle h, abacus_simplex &simplex, CornerValues *values = nullptr) const;
-    /// A flood over the cache, for whoever asks between two calls.
+    /// A flood over the cache, for use between two calls.
     Flood<D> &flood() { return around_; }
 
     /// In a mesh that is not Delaunay: how many pages have this vertex, with its id and with the

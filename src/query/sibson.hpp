@@ -38,8 +38,8 @@ public:
           seen_(host), shares_(host), centres_(host), rim_(host), ridges_(host) {}
 
     /// Finds the natural neighbours of p, which lies in the closure of a finite simplex of a
-    /// Delaunay mesh, and is no vertex. False if p is on the hull, where cells have no end, or what
-    /// there is cannot be told in doubles.
+    /// Delaunay mesh, and is not a vertex. False if p is on the hull, where cells have no end, or
+    /// if doubles cannot decide.
     bool find(Cache<D> &cache, Handle h, const Point<D> &p);
 
     /// What find() has found: the neighbours and their weights, which sum to 1.

@@ -5,7 +5,7 @@
 // line somewhere only if it does where the line crosses an edge or a vertex, or at its ends. There
 // the heights are compared: in doubles with a bound on the error, and in rational numbers where
 // that does not decide. An end that stands on the terrain has the terrain's height there exactly.
-// So a line of sight that touches the terrain, or runs in it, is told from one that it blocks.
+// So a line of sight that touches the terrain, or runs in it, is not taken for a blocked one.
 #pragma once
 
 #include "query/line_scan.hpp"

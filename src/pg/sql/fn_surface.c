@@ -102,7 +102,7 @@ surface_arguments(FunctionCallInfo fcinfo, const abacus_header *header,
 	if (!isfinite(query->value))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE), errmsg("value must be a finite number"),
-				 errhint("abacus_attributes() tells from which value to which an attribute goes.")));
+				 errhint("abacus_attributes() shows the range of each attribute.")));
 	query->attribute = (uint32_t)
 		(PG_ARGISNULL(SURFACE_ATTRIBUTE) ? header_only_attribute(header)
 		 : attribute_argument(fcinfo, SURFACE_ATTRIBUTE, header));
