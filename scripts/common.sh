@@ -10,7 +10,7 @@ PG_CONFIG=${PG_CONFIG:-/usr/lib/postgresql/$ABACUS_POSTGRESQL/bin/pg_config}
 cd "$ABACUS_ROOT"
 mkdir -p "$ABACUS_BUILD"
 
-# ccache, where there is one: the same for all checkouts, whose folder is no part of an object file but for
+# ccache, where there is one: the same for all checkouts, whose folder is not part of an object file, except for
 # the debugger.
 compilers=()
 if command -v ccache >/dev/null; then

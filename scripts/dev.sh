@@ -8,7 +8,7 @@
 #   dev.sh tidy [FILE...]     clang-tidy over C++ that differs from branch main, or over the files
 #   dev.sh one NAME...        all tests of that name, or the file of that path: a regression or
 #                             isolation test, a pgTAP or TAP file, a page of the documentation, a
-#                             file of unit tests or of Python's; what is none of these is a part of
+#                             file of unit tests or of Python's; any other name is a part of
 #                             a unit test's name, or a filter
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
@@ -85,7 +85,7 @@ files_named() {
         return
     fi
     for file in "sql/$1.sql" "test/isolation/specs/$1.spec" "test/pgtap/$1.sql" "test/tap/$1.pl" \
-        "docs/$1.md" "$1.md" "test/unit/${1%_test}_test.cpp" "test/suite/${1%_test}_test.py" \
+        "docs/$1.md" "docs/cookbook/$1.md" "docs/reference/$1.md" "$1.md" "test/unit/${1%_test}_test.cpp" "test/suite/${1%_test}_test.py" \
         "test/oracle/${1%_test}_test.py" "test/viewer/$1.test.js"; do
         if [[ -f $file ]]; then echo "$file"; fi
     done

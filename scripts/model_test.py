@@ -36,7 +36,7 @@ SIZES = (1, 1, 1, 2, 5, 20, 100, 600)
 
 
 class LoggedSession(Session):
-    """A session that leaves what it was told in a file."""
+    """A session that writes its statements into a file."""
 
     def __init__(self, log):
         super().__init__()

@@ -10,7 +10,7 @@ class Failure(Exception):
 
 
 class Session:
-    """A psql that is told one statement after the other."""
+    """A psql that is given one statement after the other."""
 
     def __init__(self):
         self.psql = subprocess.Popen(

@@ -123,13 +123,19 @@ viewer_tests() {
             test/viewer/${1:-*}.test.js
 }
 
-# The examples of pages; those of abacus_postgis where PostGIS is installed.
+# The examples of pages, each page in a database of its own, and the pictures of the guide; pages that need PostGIS
+# only where it is installed.
 documentation_examples() {
-    if ((!$#)); then
-        set -- docs/sql.md docs/relations.md docs/lab.md docs/operations.md README.md
-        if [[ -e $("$PG_CONFIG" --sharedir)/extension/postgis.control ]]; then set -- "$@" docs/postgis.md; fi
+    if (($#)); then
+        scripts/doc_examples.py "$@"
+        return
     fi
-    scripts/doc_examples.py "$@"
+    local pages=() page postgis
+    postgis=$("$PG_CONFIG" --sharedir)/extension/postgis.control
+    for page in README.md docs/guide.md docs/cookbook/*.md docs/reference/*.md docs/{relations,lab,operations,upkeep,postgis}.md; do
+        if [[ -e $postgis ]] || ! grep -q '^CREATE EXTENSION.* abacus_postgis' "$page"; then pages+=("$page"); fi
+    done
+    scripts/doc_examples.py "${pages[@]}" && scripts/guide_pictures.py --check
 }
 
 # Python tests of the reports that benchmarks make, and of the scripts; names of files in test/suite.

@@ -82,7 +82,7 @@ summary() {
         tail -n 1
 }
 
-# What is tested is what is installed.
+# The tests test the installed extension.
 build_with_core() {
     ABACUS_CORE_OBJECTS=$ABACUS_BUILD/extension build_release "$@"
 }

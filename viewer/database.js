@@ -1,6 +1,6 @@
 // Connections to the database. Those that read are a small pool, read-only, with a limit on the time
-// of a statement. Changes that are not saved have a connection of their own (edits.js). Whoever goes
-// away cancels what was asked. A connection that breaks ends what was asked on it, never the server.
+// of a statement. Changes that are not saved have a connection of their own (edits.js). A client that
+// goes away cancels its statement. A connection that breaks ends the statements on it, never the server.
 import pg from "pg";
 import { Sessions } from "./edits.js";
 import { ask, Away, Refused } from "./errors.js";

@@ -55,7 +55,7 @@ export class Sessions {
 class Session {
     constructor(sessions, client) {
         const now = Date.now();
-        // seen: when the page was heard of; used: when it asked something, which it does not do by itself
+        // seen: when the page reported last; used: when it asked something, which it does not do by itself
         Object.assign(this, { sessions, client, database: sessions.database, token: randomBytes(24).toString("base64url"),
             edit: null, changes: 0, waiting: 0, seen: now, used: now, ended: null, last: Promise.resolve() });
     }
@@ -118,7 +118,7 @@ class Session {
         const left = () => Math.min(this.used + idle, this.seen + absent) - Date.now();
         this.timer = setTimeout(() => {
             if (this.waiting > 0 || left() > 0) return this.watch();
-            const why = this.used + idle <= Date.now() ? `nothing was asked for ${span(idle)}` : `the page was not heard of for ${span(absent)}`;
+            const why = this.used + idle <= Date.now() ? `nothing was asked for ${span(idle)}` : `the page did not report for ${span(absent)}`;
             this.over(`${why}; ${unsaved(this.changes)} undone`);
         }, Math.max(left(), 10));
         this.timer.unref();

@@ -42,7 +42,7 @@ class Mesh {
         const mesh = new Mesh(database, options);
         mesh.oid = await database.resolve(options.mesh);
         mesh.dimension = await mesh.read(null, async (query) => {
-            await query(plane.etag); // says of what is no mesh what it is
+            await query(plane.etag); // an error, with what the table is, if it is not a mesh
             return (await query("SELECT value FROM abacus_stats($1::oid::regclass) WHERE name = 'dimension'"))[0].value;
         });
         return mesh;
@@ -162,7 +162,7 @@ function handler(mesh, hosts) {
         const gone = new AbortController();
         response.on("close", () => { if (!response.writableEnded) gone.abort(); });
         try {
-            // A name that leads here from elsewhere is none of ours.
+            // Another host name that leads here is refused.
             if (!hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""))) throw new Refused(421, "this server has another name");
             const url = address(request);
             const token = request.headers["x-session"] || null;

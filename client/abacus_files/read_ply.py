@@ -59,7 +59,7 @@ class TextRows:
         return numpy.array(list(map(float if type[0] == "f" else int, words)), dtype="f8" if type[0] == "f" else "i8")
 
     def uniform(self, count, row):
-        """A table of `count` rows of (type, how many); None where a row cannot be told from the next."""
+        """A table of `count` rows of (type, how many); None where the rows are not all alike."""
         width = sum(many for _, many in row)
         table = numpy.array(self.words.take(count * width, "its elements"), dtype=object).reshape(count, width)
         columns, at = [], 0

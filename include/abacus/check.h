@@ -34,7 +34,7 @@ ABACUS_API abacus_status abacus_check_open(const abacus_host *host, const abacus
 										   size_t cache_bytes, size_t limit, abacus_check **check,
 										   abacus_error *error);
 ABACUS_API abacus_status abacus_check_next(abacus_check *check, abacus_fault *fault);
-/* Simplices whose volume, computed in doubles, is lost in rounding; that is no fault. */
+/* Simplices whose volume, computed in doubles, is lost in rounding; this is not a fault. */
 ABACUS_API uint64_t abacus_check_flat(const abacus_check *check);
 ABACUS_API void abacus_check_close(abacus_check *check);
 

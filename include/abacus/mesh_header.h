@@ -31,7 +31,7 @@ enum
 	ABACUS_ATTRIBUTE_PAGES
 };
 
-/* Leaves of an octree: in the same place as the simplices of a mesh, for it has none. */
+/* Leaves of an octree: in the same place as the simplices of a mesh, which has none. */
 #define ABACUS_OCTANT_PAGES ABACUS_SIMPLEX_PAGES
 
 /* ---- Counters (chapter 5 of the dissertation) --------------------------- */

@@ -16,42 +16,42 @@ RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_load'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_load(text, text, text, text[], double precision[], double precision[], boolean, boolean, text[], text, boolean) IS
-    'makes a mesh of a triangulation made elsewhere, Delaunay or not, from queries for vertices (id, x, y[, z][, attribute...]) and simplices (v0, v1, v2[, v3][, label...]), and for markers of facets (v0, v1[, v2], marker); checks it exactly, triangulates its vertices anew if that is wanted and it is not Abacus'' own, keeps vertices at one place apart by their ids if that is wanted, and returns the number of simplices';
+    'makes a mesh of a triangulation made elsewhere, Delaunay or not. Checks it exactly. With retriangulate, one that is not Abacus'' own becomes the triangulation of its vertices. With split_nodes, vertices at one place are kept apart by their ids. Returns the number of simplices. Shapes: vertices returns id, x, y[, z] and attributes, simplices v0, v1, v2[, v3] and labels, facets v0, v1[, v2], marker; lower and upper are {x, y}, in space {x, y, z}. Units: lower and upper in those of the coordinates. Errors: 22023 no triangulation, with what is wrong by ids; those of abacus_create and abacus_stage';
 
 CREATE FUNCTION abacus_label(mesh regclass, query text)
 RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_label'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_label(regclass, text) IS
-    'gives simplices labels, numbers by name: for each row (code, v0, v1, v2[, v3], columns named after labels) the simplex with this code and these vertices; returns how many rows there were';
+    'gives simplices labels, which are named numbers. Each row names a simplex by its code and vertices. Returns how many rows there were. Shapes: the query returns code, v0, v1, v2[, v3] and columns named after labels. Errors: 22023 no such simplex, or several; 42701 a name twice, or an attribute''s; 42804 other columns; 54000 more than 115 labels';
 
 CREATE FUNCTION abacus_inherit_labels(mesh regclass, inherit boolean DEFAULT true)
 RETURNS void
 AS 'MODULE_PATHNAME', 'abacus_sql_inherit_labels'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_inherit_labels(regclass, boolean) IS
-    'whether from now on a new simplex of a mesh gets the labels of the simplex that its centroid lay in; otherwise it has none';
+    'decides whether new simplices of a mesh inherit the labels of the simplex that their centroid lay in. Otherwise they have none. Errors: 55000 a mesh without labels';
 
 CREATE FUNCTION abacus_labels(mesh regclass)
 RETURNS text[]
 AS 'MODULE_PATHNAME', 'abacus_sql_labels'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100;
 COMMENT ON FUNCTION abacus_labels(regclass) IS
-    'the names of the labels that simplices of a mesh may have, in the order of abacus_cells().labels';
+    'the names of the labels that simplices of a mesh may have. Their order is that of abacus_cells().labels. Shapes: an array of names. Errors: 42809 not a mesh';
 
 CREATE FUNCTION abacus_labels(mesh regclass, simplex abacus_simplex)
 RETURNS double precision[]
 AS 'MODULE_PATHNAME', 'abacus_sql_labels_of'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_labels(regclass, abacus_simplex) IS
-    'the labels of a simplex; NULL in a mesh without labels';
+    'the labels of a simplex. NULL in a mesh without labels. Shapes: an array of values, as abacus_labels names them. Errors: 22023 no such simplex, 22004 a NULL in it';
 
 CREATE FUNCTION abacus_mark(mesh regclass, query text)
 RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_mark'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_mark(regclass, text) IS
-    'gives facets integer markers: for each row (code, v0, v1, v2[, v3], facet, marker) the facet opposite that vertex of the simplex, on both of its sides; NULL takes a marker away; returns how many rows there were';
+    'gives facets integer markers. Each row names a simplex and the facet opposite that vertex; both sides of the facet have the marker. NULL removes a marker. Returns how many rows there were. Shapes: the query returns code, v0, v1, v2[, v3], facet, marker; facet counts from 0. Errors: 22023 no such simplex or facet, or several, or no integer; 42804 other columns';
 
 CREATE FUNCTION abacus_facets(
     mesh regclass,
@@ -64,4 +64,4 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_facets'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000;
 COMMENT ON FUNCTION abacus_facets(regclass, integer) IS
-    'the facets of a mesh with a marker, or with this one, each once, by marker and along the curve';
+    'the facets of a mesh that have a marker, or this marker. Each comes once, by marker and along the curve. Shapes: corners[i][axis] of corner i, from 1; v2 is NULL in the plane. Units: corners in those of the coordinates. Errors: 42809 not a mesh';

@@ -17,11 +17,11 @@ RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_track'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_track(regclass, regclass, text[], boolean, boolean) IS
-    'keeps the mesh in step with the table from now on, by triggers; columns: names of id, x, y[, z][, attribute...]; an empty mesh gets the rows of the table, another must have them or, with synchronize, is made equal; deferred: the mesh is changed once, at commit; its points and attributes cannot be changed by hand meanwhile; returns the number of points in the mesh';
+    'keeps a mesh in step with a table from now on, by triggers. An empty mesh gets the rows of the table; another must have them or, with synchronize, is made equal. With deferred, the mesh is changed once, at commit. Meanwhile its points and attributes cannot be changed by hand. Returns the number of points in the mesh. Shapes: columns names id, x, y[, z] and the attributes, or id, a geometry and the attributes. Errors: 42809 what cannot be followed, 42501 not the table''s owner, 55000 the mesh differs from the table, 25001 not READ COMMITTED, 0A000 row-level security or a virtual column, 42703 no such column';
 
 CREATE FUNCTION abacus_untrack(mesh regclass, "table" regclass)
 RETURNS void
 AS 'MODULE_PATHNAME', 'abacus_sql_untrack'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_untrack(regclass, regclass) IS
-    'ends abacus_track(): drops its triggers, for the owner of the table or of the mesh; the mesh stays as it is, and can be changed by hand again';
+    'ends abacus_track: drops its triggers. The owner of the table or of the mesh may call it. The mesh stays as it is, and can be changed by hand again. Errors: 42704 the mesh does not follow the table, 42501 neither is the caller''s';

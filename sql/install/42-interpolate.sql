@@ -12,7 +12,7 @@ RETURNS double precision
 AS 'MODULE_PATHNAME', 'abacus_sql_interpolate'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_interpolate(regclass, double precision, double precision, text, text, text, double precision) IS
-    'the value of an attribute at a place in a mesh of dimension 2, by the method linear, natural or nearest; NULL outside the mesh, unless outside is nearest, and where a value is missing';
+    'the value of an attribute at a place in the plane. The method is linear, natural or nearest. NULL outside the mesh, unless outside is nearest, and where a value is missing. Units: the place and max_edge in those of the coordinates, the value in those of the attribute. Errors: 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 22023 an unknown method, a bad max_edge, z missing or too many, a NaN; 55000 natural in a mesh that is not Delaunay';
 
 CREATE FUNCTION abacus_interpolate(
     mesh regclass,
@@ -27,7 +27,7 @@ RETURNS double precision
 AS 'MODULE_PATHNAME', 'abacus_sql_interpolate'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_interpolate(regclass, double precision, double precision, double precision, text, text, text, double precision) IS
-    'the value of an attribute at a place in a mesh of dimension 3, by the method linear, natural or nearest; NULL outside the mesh, unless outside is nearest, and where a value is missing';
+    'the value of an attribute at a place in space. The method is linear, natural or nearest. NULL outside the mesh, unless outside is nearest, and where a value is missing. Units: the place and max_edge in those of the coordinates, the value in those of the attribute. Errors: 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 22023 an unknown method, a bad max_edge, z missing or too many, a NaN; 55000 natural in a mesh that is not Delaunay';
 
 CREATE FUNCTION abacus_interpolate(
     mesh regclass,
@@ -42,7 +42,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_interpolate_places'
 LANGUAGE C VOLATILE PARALLEL UNSAFE COST 1000 ROWS 100000;
 COMMENT ON FUNCTION abacus_interpolate(regclass, text, text[], text, text, double precision) IS
-    'the values of attributes at the places of a query (id, x, y[, z]), as abacus_interpolate of each place finds them';
+    'the values of attributes at the places of a query. They are those of abacus_interpolate at each place. Shapes: the query returns id, x, y[, z], or id and a point of PostGIS; "values" has a value or NULL for each of attributes. Units: max_edge in those of the coordinates, "values" in those of the attributes. Errors: 22023 not a single SELECT, 42804 other columns, 22004 a NULL id or coordinate, 22023 one that is not finite; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all';
 
 -- In quotes the attributes could be a coordinate, and PostgreSQL would call that ambiguous. Where there is a form
 -- with a text it takes that.
@@ -74,7 +74,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_weights'
 LANGUAGE C STABLE PARALLEL SAFE COST 500 ROWS 3;
 COMMENT ON FUNCTION abacus_weights(regclass, double precision, double precision, text, text, double precision) IS
-    'the vertices that abacus_interpolate takes the value at a place of a mesh of dimension 2 from, and their weights, which sum to 1';
+    'the vertices that the value at a place in the plane comes from, and their weights. The weights sum to 1. Units: the place and max_edge in those of the coordinates, weights are shares of 1. Errors: 22023 as abacus_interpolate; 55000 natural in a mesh that is not Delaunay';
 
 CREATE FUNCTION abacus_weights(
     mesh regclass,
@@ -90,7 +90,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_weights'
 LANGUAGE C STABLE PARALLEL SAFE COST 500 ROWS 4;
 COMMENT ON FUNCTION abacus_weights(regclass, double precision, double precision, double precision, text, text, double precision) IS
-    'the vertices that abacus_interpolate takes the value at a place of a mesh of dimension 3 from, and their weights, which sum to 1';
+    'the vertices that the value at a place in space comes from, and their weights. The weights sum to 1. Units: the place and max_edge in those of the coordinates, weights are shares of 1. Errors: 22023 as abacus_interpolate; 55000 natural in a mesh that is not Delaunay';
 
 CREATE FUNCTION abacus_weights(
     mesh regclass,
@@ -105,7 +105,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_weights_places'
 LANGUAGE C VOLATILE PARALLEL UNSAFE COST 1000 ROWS 300000;
 COMMENT ON FUNCTION abacus_weights(regclass, text, text, text, double precision) IS
-    'the vertices, with their weights, that abacus_interpolate takes the values at the places of a query (id, x, y[, z]) from';
+    'the vertices that the values at the places of a query come from, and their weights. The weights of a place sum to 1. Shapes: the query returns id, x, y[, z], or id and a point of PostGIS. Units: max_edge in those of the coordinates, weights are shares of 1. Errors: 22023 not a single SELECT, 42804 other columns, 22004 a NULL id or coordinate, 22023 one that is not finite; 55000 natural in a mesh that is not Delaunay';
 
 CREATE FUNCTION abacus_gradient(
     mesh regclass,
@@ -117,7 +117,7 @@ RETURNS double precision[]
 AS 'MODULE_PATHNAME', 'abacus_sql_gradient'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_gradient(regclass, double precision, double precision, text, double precision) IS
-    'the gradient of an attribute in the triangle around a place, exact and rounded once; NULL outside the mesh and where a value is missing';
+    'the derivatives of an attribute in the triangle around a place. They are exact and rounded once. NULL outside the mesh and where a value is missing. Shapes: a derivative for each axis. Units: the place and max_edge in those of the coordinates, derivatives in those of the attribute by those of the coordinates. Errors: 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 22023 as abacus_interpolate';
 
 CREATE FUNCTION abacus_gradient(
     mesh regclass,
@@ -130,7 +130,7 @@ RETURNS double precision[]
 AS 'MODULE_PATHNAME', 'abacus_sql_gradient'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_gradient(regclass, double precision, double precision, double precision, text, double precision) IS
-    'the gradient of an attribute in the tetrahedron around a place, exact and rounded once; NULL outside the mesh and where a value is missing';
+    'the derivatives of an attribute in the tetrahedron around a place. They are exact and rounded once. NULL outside the mesh and where a value is missing. Shapes: a derivative for each axis. Units: the place and max_edge in those of the coordinates, derivatives in those of the attribute by those of the coordinates. Errors: 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 22023 as abacus_interpolate';
 
 CREATE FUNCTION abacus_slope(
     mesh regclass,
@@ -144,4 +144,4 @@ RETURNS record
 AS 'MODULE_PATHNAME', 'abacus_sql_slope'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_slope(regclass, double precision, double precision, text, double precision) IS
-    'how steep an attribute is in the triangle around a place, and where it goes down, in degrees; aspect is clockwise from north, NULL where it is level';
+    'how steep an attribute is around a place, and which way it goes down. aspect is clockwise from north, and NULL where it is level. Units: the place and max_edge in those of the coordinates, slope and aspect in degrees. Errors: 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 22023 as abacus_interpolate';

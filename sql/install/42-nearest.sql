@@ -20,7 +20,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_nearest'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 1 SUPPORT abacus_nearest_rows;
 COMMENT ON FUNCTION abacus_nearest(regclass, double precision, double precision, integer) IS
-    'the k vertices of a mesh of dimension 2 nearest to the point, nearest first';
+    'the k vertices nearest to a place in the plane, nearest first. Shapes: attributes in the order of the mesh. Units: the place and distance in those of the coordinates. Errors: 22023 k below 1, a coordinate that is not finite, z missing or given in the plane';
 
 CREATE FUNCTION abacus_nearest(
     mesh regclass,
@@ -38,7 +38,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_nearest'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 1 SUPPORT abacus_nearest_rows;
 COMMENT ON FUNCTION abacus_nearest(regclass, double precision, double precision, double precision, integer) IS
-    'the k vertices of a mesh of dimension 3 nearest to the point, nearest first';
+    'the k vertices nearest to a place in space, nearest first. Shapes: attributes in the order of the mesh. Units: the place and distance in those of the coordinates. Errors: 22023 k below 1, a coordinate that is not finite, z missing or given in the plane';
 
 CREATE FUNCTION abacus_nearest(
     mesh regclass,
@@ -52,4 +52,4 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_nearest_places'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE COST 1000 ROWS 100000;
 COMMENT ON FUNCTION abacus_nearest(regclass, text, integer) IS
-    'the k vertices of a mesh nearest to each of the places of a query (id, x, y[, z])';
+    'the k vertices nearest to each place of a query. Shapes: the query returns id, x, y[, z], or id and a point of PostGIS. Units: distance in those of the coordinates. Errors: 22023 not a single SELECT, 42804 other columns, 22004 a NULL id or coordinate, 22023 one that is not finite, 22023 k below 1';

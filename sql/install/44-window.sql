@@ -10,14 +10,14 @@ RETURNS SETOF abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_simplices_in_box'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], double precision[]) IS
-    'the simplices that meet a window, from its least to its greatest corner';
+    'the simplices that meet a window, from its least to its greatest corner. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: lower and upper in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension';
 
 CREATE FUNCTION abacus_simplices(mesh regclass, center double precision[], radius double precision)
 RETURNS SETOF abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_simplices_in_ball'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], double precision) IS
-    'the simplices that come at most as near to a center as a radius';
+    'the simplices that meet a ball. Shapes: center is {x, y}, in space {x, y, z}. Units: center and radius in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension, 22004 a NULL center or radius';
 
 -- In '{0,0}', '{9,9}' the second could be a corner or a radius, and PostgreSQL would call that ambiguous. Where
 -- there is a form with a text it takes that: here, and in those like it below, the text is the corner.
@@ -47,7 +47,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_cells'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision[], double precision, text, double precision[]) IS
-    'the simplices of a mesh, or of a window, or those of which a label is within a range, with the coordinates and attributes of their corners, and their labels';
+    'the simplices of a mesh or of a window, with the coordinates and attributes of their corners, and their labels. With label and range, those whose label is in the range. Shapes: lower and upper are {x, y}, in space {x, y, z}; corners[i][axis] and "values"[i][attribute] of corner i, from 1; range is {least, greatest}; labels as abacus_labels names them. Units: lower, upper, corners and max_edge in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42703 no such label, 22023 a range that descends';
 
 CREATE FUNCTION abacus_cells(
     mesh regclass,
@@ -68,7 +68,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_cells_in_ball'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision, double precision, text, double precision[]) IS
-    'the simplices that come at most as near to a center as a radius, or those of them of which a label is within a range, with the coordinates and attributes of their corners, and their labels';
+    'the simplices that meet a ball, with the coordinates and attributes of their corners, and their labels. With label and range, those whose label is in the range. Shapes: center is {x, y}, in space {x, y, z}; corners[i][axis] and "values"[i][attribute] of corner i, from 1; range is {least, greatest}; labels as abacus_labels names them. Units: center, radius, corners and max_edge in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42703 no such label, 22023 a range that descends, 22004 a NULL center or radius';
 
 CREATE FUNCTION abacus_cells(
     mesh regclass,
@@ -113,7 +113,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_vertices'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_range_rows;
 COMMENT ON FUNCTION abacus_vertices(regclass, double precision[], double precision[], text, double precision[]) IS
-    'all points of a mesh; of a window, from its least to its greatest corner, or of a range of an attribute the vertices there; vertex is the id of the vertex that stands for the point, its own unless an equal point came first; of points that wait to be inserted it is NULL, and sequence says when they will be';
+    'all points of a mesh, or the vertices in a window. With attribute and range, those whose attribute is in the range. Column vertex is the id of the vertex that stands for the point: its own, unless an equal point came first; of points that wait to be inserted it is NULL, and sequence is their order. Shapes: lower and upper are {x, y}, in space {x, y, z}; range is {least, greatest}; attributes in the order of the mesh. Units: lower, upper and places in those of the coordinates, range in those of the attribute. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42703 no such attribute, 22023 a range that descends';
 
 CREATE FUNCTION abacus_vertices(
     mesh regclass,
@@ -149,7 +149,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_vertices_in_ball'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_vertices(regclass, double precision[], double precision) IS
-    'the vertices of a mesh that are at most as far from a center as a radius';
+    'the vertices in a ball. Shapes: center is {x, y}, in space {x, y, z}; attributes in the order of the mesh. Units: center, radius and places in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension, 22004 a NULL center or radius';
 
 -- With the ends of the range by position. They have names, since pg_dump writes the body anew, by names.
 CREATE FUNCTION abacus_vertices(
@@ -173,7 +173,7 @@ BEGIN ATOMIC
     FROM abacus_vertices(mesh, lower, upper, attribute, ARRAY[range_lower, range_upper]) AS v;
 END;
 COMMENT ON FUNCTION abacus_vertices(regclass, text, double precision, double precision, double precision[], double precision[]) IS
-    'the vertices of a mesh, or of a window, of which an attribute is within a range';
+    'the vertices of a mesh, or of a window, whose attribute is in a range. Shapes: lower and upper are {x, y}, in space {x, y, z}; range is {least, greatest}; attributes in the order of the mesh. Units: lower, upper and places in those of the coordinates, range in those of the attribute. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42703 no such attribute, 22023 a range that descends';
 
 CREATE FUNCTION abacus_vertices(
     mesh regclass,
@@ -214,7 +214,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_edges'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision[], double precision) IS
-    'the edges of a mesh, or those that meet a window, each once';
+    'the edges of a mesh, or those that meet a window, each once. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: lower, upper, max_edge and length in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension';
 
 CREATE FUNCTION abacus_edges(
     mesh regclass,
@@ -228,7 +228,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_edges_in_ball'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision, double precision) IS
-    'the edges that come at most as near to a center as a radius, each once';
+    'the edges that meet a ball, each once. Shapes: center is {x, y}, in space {x, y, z}. Units: center, radius, max_edge and length in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension, 22004 a NULL center or radius';
 
 CREATE FUNCTION abacus_edges(
     mesh regclass,
@@ -249,18 +249,18 @@ RETURNS SETOF abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_star'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 6;
 COMMENT ON FUNCTION abacus_star(regclass, double precision, double precision) IS
-    'all triangles of a mesh of dimension 2 around a vertex, or around any place';
+    'all triangles that contain a place. Around a vertex they are its star. Units: the place in those of the coordinates. Errors: 22023 a NaN, z missing or given in the plane';
 
 CREATE FUNCTION abacus_star(mesh regclass, x double precision, y double precision, z double precision)
 RETURNS SETOF abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_star'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 24;
 COMMENT ON FUNCTION abacus_star(regclass, double precision, double precision, double precision) IS
-    'all tetrahedra of a mesh of dimension 3 around a vertex, or around any place';
+    'all tetrahedra that contain a place. Around a vertex they are its star. Units: the place in those of the coordinates. Errors: 22023 a NaN, z missing or given in the plane';
 
 CREATE FUNCTION abacus_neighbours(mesh regclass, simplex abacus_simplex, steps integer)
 RETURNS SETOF abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_neighbours'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 20;
 COMMENT ON FUNCTION abacus_neighbours(regclass, abacus_simplex, integer) IS
-    'a simplex and all that can be reached from it across so many facets, the nearest first';
+    'a simplex and all that can be reached from it across at most so many facets, nearest first. Errors: 22023 steps below 0; those of abacus_walk';

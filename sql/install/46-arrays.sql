@@ -12,7 +12,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_numbered_vertices'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_vertices_rows;
 COMMENT ON FUNCTION abacus_numbered_vertices(regclass) IS
-    'the vertices of a mesh, numbered from 0 along the curve: an array of points';
+    'the vertices of a mesh as an array of points, numbered from 0 along the curve. Shapes: attributes in the order of the mesh. Units: places in those of the coordinates. Errors: 42809 not a mesh, 53400 no room for temporary files';
 
 CREATE FUNCTION abacus_numbered_simplices(
     mesh regclass,
@@ -25,4 +25,4 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_numbered_simplices'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_simplices_rows;
 COMMENT ON FUNCTION abacus_numbered_simplices(regclass) IS
-    'the simplices of a mesh in positive orientation, by the numbers that abacus_numbered_vertices gives its vertices';
+    'the simplices of a mesh, by the numbers of abacus_numbered_vertices. Their orientation is positive. Errors: 42809 not a mesh, 53400 no room for temporary files';

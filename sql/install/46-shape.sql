@@ -13,7 +13,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_voronoi'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_voronoi(regclass, double precision[], double precision[]) IS
-    'the Voronoi cell of each vertex of a mesh, or the parts of the cells within a window';
+    'the Voronoi cell of each vertex of a mesh, or the parts of the cells within a window. Shapes: lower and upper are {x, y}, in space {x, y, z}; ring is {{x, y}, ...}, counterclockwise. Units: lengths in those of the coordinates, area in their square, volume in their cube. Errors: 22023 a bad window, 55000 the mesh is not Delaunay';
 
 CREATE FUNCTION abacus_voronoi_facets(
     mesh regclass,
@@ -28,7 +28,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_voronoi_facets'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_voronoi_facets(regclass, double precision[], double precision[]) IS
-    'what the Voronoi cells of a mesh, or their parts within a window, have in common with their neighbours';
+    'the facets between neighbouring Voronoi cells of a mesh, or their parts within a window. Shapes: lower and upper are {x, y}, in space {x, y, z}; ring is {{x, y}, ...} or {{x, y, z}, ...}. Units: lengths in those of the coordinates, size in them, or in space in their square. Errors: 22023 a bad window, 55000 the mesh is not Delaunay';
 
 CREATE FUNCTION abacus_hull(
     mesh regclass,
@@ -43,7 +43,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_hull'
 LANGUAGE C STABLE PARALLEL SAFE COST 100000 ROWS 1000;
 COMMENT ON FUNCTION abacus_hull(regclass, double precision) IS
-    'the border of a mesh, or of its simplices without longer edges: rings of vertices, in space triangles';
+    'the border of a mesh, or of its simplices without longer edges. Rings of vertices, in space triangles. Units: max_edge and places in those of the coordinates. Errors: 22023 a bad max_edge, 53400 no room for temporary files';
 
 CREATE FUNCTION abacus_alpha_shape(
     mesh regclass,
@@ -59,7 +59,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_alpha_shape'
 LANGUAGE C STABLE PARALLEL SAFE COST 100000 ROWS 1000;
 COMMENT ON FUNCTION abacus_alpha_shape(regclass, double precision, boolean) IS
-    'the border of the simplices whose circumradius has a square of at most alpha: rings of vertices, in space triangles';
+    'the border of the simplices whose circumradius has a square of at most alpha. Rings of vertices, in space triangles. Units: alpha in the square of those of the coordinates. Errors: 22023 alpha not above 0, 22004 alpha NULL, 55000 the mesh is not Delaunay, 54000 too many cavities for work_mem, 53400 no room for temporary files';
 
 CREATE FUNCTION abacus_spanning_tree(
     mesh regclass,
@@ -70,4 +70,4 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_spanning_tree'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000000 ROWS 1000 SUPPORT abacus_vertices_rows;
 COMMENT ON FUNCTION abacus_spanning_tree(regclass) IS
-    'the shortest edges that join all vertices of a mesh, the shortest first';
+    'the minimum spanning tree: the shortest edges that join all vertices of a mesh, shortest first. Units: length in those of the coordinates. Errors: 54000 too many vertices at once for work_mem, 53400 no room for temporary files';

@@ -22,7 +22,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_isosurface'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000 ROWS 10000 SUPPORT abacus_surface_rows;
 COMMENT ON FUNCTION abacus_isosurface(regclass, double precision, text, text, double precision[], double precision[], double precision) IS
-    'triangles of the surface in a mesh of dimension 3 on which an attribute has a value, watertight, with numbered corners and what another attribute is there';
+    'the surface in a mesh in space on which an attribute has a value, as triangles. It is watertight; corners are numbered, and carry another attribute. Shapes: lower and upper are {x, y}, in space {x, y, z}; corners[i][axis], "values"[i] of corner i, from 1. Units: value in those of the attribute; lower, upper, max_edge and corners in those of the coordinates. Errors: 22023 a value that is not finite, a mesh of dimension 2, a bad window; 53400 no room for temporary files; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all';
 
 CREATE FUNCTION abacus_section(
     mesh regclass,
@@ -38,4 +38,4 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_section'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 10000 SUPPORT abacus_surface_rows;
 COMMENT ON FUNCTION abacus_section(regclass, double precision[], double precision[], text, double precision) IS
-    'what the plane through a point with a normal has of each tetrahedron of a mesh of dimension 3, with an attribute at its corners, and its labels';
+    'the polygons in which a plane cuts the tetrahedra of a mesh. The plane goes through a point and has a normal. values has an attribute at the corners. Shapes: through and normal are {x, y, z}; polygon is {x, y, z, x, y, z, ...}. Units: through, max_edge and polygon in those of the coordinates, normal of any length, "values" in those of the attribute. Errors: 22023 a mesh of dimension 2, a normal of zero, a number that is not finite; 2202E arrays of another length than 3; 42703 no such attribute, 42702 none named of several';

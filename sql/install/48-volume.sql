@@ -16,7 +16,7 @@ RETURNS record
 AS 'MODULE_PATHNAME', 'abacus_sql_volume'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_volume(regclass, double precision, text, double precision[], double precision[], double precision) IS
-    'the area of a mesh or window, that of the surface of an attribute over it, and the volumes that the surface has above a base (cut) and below it (fill); in space the volume, the area of the surface where the attribute has the value of the base, and the volumes where it is at least that, and less';
+    'cut and fill over a base: the volumes of a surface above it (cut) and below it (fill). area is that of the mesh or window, surface that of the surface. In space area is the volume, surface the area where the attribute has the value of the base, cut the volume where it is at least that, fill where it is less. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: base in those of the attribute; lower, upper and max_edge in those of the coordinates; area in their square, volumes in that times those of the attribute; in space area and volumes in their cube. Errors: 22023 a base that is not finite, a bad window, two meshes not both of dimension 2; 2202E other lengths; 22003 a result out of range; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all';
 
 CREATE FUNCTION abacus_volume(
     mesh regclass,
@@ -35,7 +35,7 @@ RETURNS record
 AS 'MODULE_PATHNAME', 'abacus_sql_volume_between'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_volume(regclass, regclass, text, double precision[], double precision[], double precision, text) IS
-    'the area where two meshes have a surface each, that of the first surface there, and the volumes where the first is higher (cut) and where the other is (fill)';
+    'cut and fill between two meshes: the volumes where the first surface is higher (cut) and where the other is (fill). area is where both have a surface, and surface that of the first there. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: base in those of the attribute; lower, upper and max_edge in those of the coordinates; area in their square, volumes in that times those of the attribute; in space area and volumes in their cube. Errors: 22023 a base that is not finite, a bad window, two meshes not both of dimension 2; 2202E other lengths; 22003 a result out of range; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all';
 
 -- A quoted name without a type would be taken for a base. A quoted number is one.
 CREATE FUNCTION abacus_volume(

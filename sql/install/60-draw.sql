@@ -21,7 +21,7 @@ RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_draw'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_draw(regclass, integer, integer, double precision[], double precision[], text, boolean, double precision, double precision, double precision[], text, double precision, text, text, boolean, double precision[]) IS
-    'a PNG of the mesh or quadtree, or of the window from lower to upper; an attribute gives colour, from the first value of range to the second, and, with exaggeration above 0, hill shading; contours are drawn at the multiples of a value, a legend with its unit or title, a scale bar with the unit of coordinates';
+    'a PNG of a mesh in the plane or of a quadtree, or of a window of it. An attribute gives colour, from the first value of range to the second, and, with exaggeration above 0, hill shading. Contours are drawn at the multiples of a value; legend is a unit or a title, scale_bar the unit of the coordinates. Shapes: lower and upper are {x, y}; range is {first, last}; light is {direction, height}. Units: width and height in pixels; lower, upper and max_edge in those of the coordinates; range and contours in those of the attribute; light in degrees. Errors: 22023 a mesh of dimension 3, a size, window, factor, range, ramp, contours or light out of range; 2202E other lengths; 42703 no such attribute';
 
 CREATE FUNCTION abacus_draw_section(
     mesh regclass,
@@ -45,7 +45,7 @@ RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_draw_section'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_draw_section(regclass, double precision[], double precision[], integer, integer, text, boolean, double precision[], double precision[], double precision, double precision, double precision[], text, double precision, text, text, boolean) IS
-    'a PNG of the section of a mesh of dimension 3, or of an octree, by the plane through a point with a normal, or of its part within the box from lower to upper; an attribute gives colour, from the first value of range to the second; heights are multiplied by exaggeration; contours, legend and scale bar as for abacus_draw';
+    'a PNG of the section of a mesh in space, or of an octree, by a plane. The plane goes through a point and has a normal; lower and upper are a box. An attribute gives colour, from the first value of range to the second. exaggeration multiplies heights; contours, legend and scale bar as for abacus_draw. Shapes: through, normal, lower and upper are {x, y, z}; range is {first, last}. Units: width and height in pixels; through, lower, upper and max_edge in those of the coordinates; range and contours in those of the attribute. Errors: 22023 a mesh of dimension 2, a normal of zero, a size, window, range, ramp or contours out of range; 2202E other lengths; 42703 no such attribute';
 
 CREATE FUNCTION abacus_draw_volume(
     mesh regclass,
@@ -68,4 +68,4 @@ RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_draw_volume'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_draw_volume(regclass, double precision[], double precision[], double precision[], double precision, integer, integer, text, text, double precision[], double precision[], double precision, double precision[], text, text, boolean) IS
-    'a PNG of what rays through a mesh of dimension 3, or through its part within the box from lower to upper, meet of an attribute: its mean, max, min or sum; without an attribute how far they go inside';
+    'a PNG of what rays through a mesh in space meet of an attribute: its mean, max, min or sum. Without an attribute it shows how far the rays go inside. lower and upper are a box. Shapes: eye, toward, up, lower and upper are {x, y, z}; range is {first, last}. Units: width and height in pixels; eye, toward, lower, upper and max_edge in those of the coordinates; field_of_view in degrees; range in those of the attribute. Errors: 22023 a mesh of dimension 2, an eye, up, field_of_view, size, window, range, mode or ramp that will not do; 2202E other lengths; 42703 no such attribute';

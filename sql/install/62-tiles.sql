@@ -19,7 +19,7 @@ RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_picture'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_tile_picture(regclass, integer, integer, integer, integer, double precision[], integer, text, double precision[], boolean, double precision, double precision, text, double precision) IS
-    'a tile of a web map as a PNG: a mesh whose coordinates are longitude and latitude (SRID 4326) or of Web Mercator (3857), or lie in a square with this lower left corner and side (world), as abacus_draw shows it; nothing is behind it';
+    'a tile of a web map as a PNG, drawn as by abacus_draw, with nothing behind the mesh. The coordinates of the mesh are longitude and latitude (SRID 4326), Web Mercator (3857), or lie in a square with this lower left corner and side (world). Shapes: world is {x, y, side}; range is {first, last}. Units: size in pixels; world and max_edge in those of the coordinates; range and contours in those of the attribute; heights in metres with SRID 4326. Errors: 22023 no such tile, another SRID, a size out of range, an attribute without range, a mesh of dimension 3; 55000 neither srid nor world for a mesh without SRID; 2202E world of another length';
 
 CREATE FUNCTION abacus_tile_vector(
     mesh regclass,
@@ -35,7 +35,7 @@ RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_vector'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_tile_vector(regclass, integer, integer, integer, integer, double precision[], text, double precision, double precision) IS
-    'a tile of a web map as a Mapbox vector tile, with the layers triangles, vertices, contours and hull; of a tile with many triangles only contours and hull';
+    'a tile of a web map as a Mapbox vector tile, with the layers triangles, vertices, contours and hull. A tile with many triangles has only contours and hull. Shapes: world is {x, y, side}. Units: world and max_edge in those of the coordinates; contours in those of the attribute. Errors: those of abacus_tile_picture';
 
 CREATE FUNCTION abacus_tile_terrain(
     mesh regclass,
@@ -52,14 +52,14 @@ RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_terrain'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_tile_terrain(regclass, integer, integer, integer, integer, double precision[], integer, text, double precision, double precision) IS
-    'a tile of a web map as a PNG whose colours are an attribute, in the encoding terrarium: 256 red + green + blue / 256 - 32768';
+    'a tile of a web map as a PNG whose colours are heights. The encoding is terrarium: 256 red + green + blue / 256 - 32768. Shapes: world is {x, y, side}. Units: size in pixels; world and max_edge in those of the coordinates; fill in those of the attribute. Errors: those of abacus_tile_picture';
 
 CREATE FUNCTION abacus_tile_etag(mesh regclass)
 RETURNS text
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_etag'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000;
 COMMENT ON FUNCTION abacus_tile_etag(regclass) IS
-    'a text that is another one after each change of the mesh, as an ETag of its tiles';
+    'a text that changes with each change of the mesh, for ETags of its tiles. Errors: 42809 not a mesh';
 
 CREATE FUNCTION abacus_tiles(
     mesh regclass,
@@ -77,4 +77,4 @@ RETURNS SETOF regprocedure
 AS 'MODULE_PATHNAME', 'abacus_sql_tiles'
 LANGUAGE C VOLATILE PARALLEL UNSAFE COST 100000 ROWS 4;
 COMMENT ON FUNCTION abacus_tiles(regclass, integer, double precision[], text, double precision[], double precision, text, double precision, boolean, double precision, integer) IS
-    'makes functions <mesh>_picture, <mesh>_vector and <mesh>_terrain as the tile server Martin calls them, and <mesh>_mvt for pg_tileserv';
+    'makes functions that tile servers call: <mesh>_picture, <mesh>_vector and <mesh>_terrain for Martin, <mesh>_mvt for pg_tileserv. Returns them. Shapes: world is {x, y, side}; range is {first, last}. Units: size in pixels; world and max_edge in those of the coordinates; range and contours in those of the attribute. Errors: those of abacus_tile_picture; 42622 too long a name, 42501 no right to make functions';

@@ -38,11 +38,11 @@ RETURNS regclass[]
 AS 'MODULE_PATHNAME', 'abacus_sql_publish'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_publish(regclass, text, text, text, boolean, integer, text) IS
-    'makes foreign tables of the cells and of the points of a mesh, <mesh>_cells and <mesh>_points unless other names are given; where PostGIS is installed they have geometries, with an attribute as Z if z names one; columns of attributes that are dropped later cannot be read any more';
+    'makes foreign tables of the cells and the points of a mesh. They are <mesh>_cells and <mesh>_points unless other names are given. Where PostGIS is installed they have geometries, with the attribute z as Z. Columns of attributes that are dropped later cannot be read any more. Returns the tables. Shapes: an array of the two tables. Errors: 42809 not a mesh, 42703 no such attribute, 55000 geometry without PostGIS, 22023 another srid than the mesh has, or z of a mesh in space, 42P07 a table of that name';
 
 CREATE FUNCTION abacus_unpublish(mesh regclass)
 RETURNS integer
 AS 'MODULE_PATHNAME', 'abacus_sql_unpublish'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_unpublish(regclass) IS
-    'drops the foreign tables of a mesh that abacus_publish() has made for the caller; returns how many';
+    'drops the foreign tables of a mesh that the caller owns. Returns how many. Errors: 42809 not a mesh';

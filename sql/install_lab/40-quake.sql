@@ -28,4 +28,4 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_quake'
 LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE ROWS 1000000;
 COMMENT ON FUNCTION abacus_quake(double precision, double precision) IS
-    'corners of an octree over a basin of 100 km x 100 km x 37.5 km that resolves seismic waves of a frequency (Hz), in Z-order, with the ground there (m, m/s, kg/m3); in a select list they stream';
+    'the corners of an octree over a sedimentary basin that resolves seismic waves of a frequency, with the ground there. The basin is 100 km x 100 km x 37.5 km. Rows come in Z-order; in a select list they stream. Units: frequency in Hz; x, y, z in m; vs and vp in m/s; density in kg/m3. Errors: 22023 a frequency or a number of points that is not above 0 and finite';

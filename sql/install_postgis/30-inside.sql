@@ -40,7 +40,7 @@ RETURNS geometry
 AS 'MODULE_PATHNAME', 'abacus_sql_geometry_area'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION _abacus_area(regclass, geometry) IS
-    'inside abacus_postgis: a geometry as it is, or an error if it is no area of a mesh';
+    'inside abacus_postgis: a geometry as it is, or an error if it is not an area of a mesh';
 
 CREATE FUNCTION _abacus_place(mesh regclass, place geometry)
 RETURNS double precision[]

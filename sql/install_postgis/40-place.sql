@@ -5,14 +5,14 @@ RETURNS abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_locate_geometry'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_locate(regclass, geometry) IS
-    'the simplex of a mesh that contains the point; NULL outside the mesh';
+    'the simplex that contains a point. NULL outside the mesh. Errors: 22023 another SRID, no point, or one without z in space';
 
 CREATE FUNCTION abacus_star(mesh regclass, place geometry)
 RETURNS SETOF abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_star_geometry'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 6;
 COMMENT ON FUNCTION abacus_star(regclass, geometry) IS
-    'all simplices of a mesh around a vertex, or around any place';
+    'all simplices that contain a point. Around a vertex they are its star. Errors: 22023 another SRID, no point, or one without z in space';
 
 CREATE FUNCTION abacus_nearest(
     mesh regclass,
@@ -28,7 +28,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_nearest_geometry'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 1 SUPPORT abacus_nearest_rows;
 COMMENT ON FUNCTION abacus_nearest(regclass, geometry, integer) IS
-    'the k vertices of a mesh nearest to the point, nearest first';
+    'the k vertices nearest to a point, nearest first. Shapes: attributes in the order of the mesh. Units: distance in those of the coordinates. Errors: 22023 another SRID, no point, one without z in space, k below 1';
 
 CREATE FUNCTION abacus_interpolate(
     mesh regclass,
@@ -41,7 +41,7 @@ RETURNS double precision
 AS 'MODULE_PATHNAME', 'abacus_sql_interpolate_geometry'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_interpolate(regclass, geometry, text, text, text, double precision) IS
-    'the value of an attribute at a place, by the method linear, natural or nearest; NULL outside the mesh, unless outside is nearest, and where a value is missing';
+    'the value of an attribute at a point. The method is linear, natural or nearest. NULL outside the mesh, unless outside is nearest, and where a value is missing. Units: max_edge in those of the coordinates, the value in those of the attribute. Errors: 22023 another SRID, no point, or one without z in space; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all';
 
 CREATE FUNCTION abacus_weights(
     mesh regclass,
@@ -55,7 +55,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_weights_geometry'
 LANGUAGE C STABLE PARALLEL SAFE COST 500 ROWS 3;
 COMMENT ON FUNCTION abacus_weights(regclass, geometry, text, text, double precision) IS
-    'the vertices that abacus_interpolate takes the value at a place from, and their weights, which sum to 1';
+    'the vertices that the value at a point comes from, and their weights. The weights sum to 1. Units: max_edge in those of the coordinates, weights are shares of 1. Errors: 22023 another SRID, no point, or one without z in space';
 
 CREATE FUNCTION abacus_gradient(
     mesh regclass,
@@ -66,7 +66,7 @@ RETURNS double precision[]
 AS 'MODULE_PATHNAME', 'abacus_sql_gradient_geometry'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_gradient(regclass, geometry, text, double precision) IS
-    'the gradient of an attribute in the simplex around a place; NULL outside the mesh and where a value is missing';
+    'the derivatives of an attribute in the simplex around a point. NULL outside the mesh and where a value is missing. Shapes: a derivative for each axis. Units: max_edge in those of the coordinates, derivatives in those of the attribute by those of the coordinates. Errors: 22023 another SRID, no point, or one without z in space; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all';
 
 CREATE FUNCTION abacus_slope(
     mesh regclass,
@@ -79,7 +79,7 @@ RETURNS record
 AS 'MODULE_PATHNAME', 'abacus_sql_slope_geometry'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_slope(regclass, geometry, text, double precision) IS
-    'how steep an attribute is in the triangle around a place, and where it goes down, in degrees; aspect is clockwise from north, NULL where it is level';
+    'how steep an attribute is around a point, and which way it goes down. aspect is clockwise from north, and NULL where it is level. Units: max_edge in those of the coordinates, slope and aspect in degrees. Errors: 22023 another SRID or no point; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all';
 
 CREATE FUNCTION abacus_visible(
     mesh regclass,
@@ -97,7 +97,7 @@ RETURNS record
 AS 'MODULE_PATHNAME', 'abacus_sql_visible_geometry'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000;
 COMMENT ON FUNCTION abacus_visible(regclass, geometry, geometry, text, double precision, double precision, double precision) IS
-    'whether a target is seen from an observer over a terrain, and where the line of sight is blocked first if not; both stand on the ground, or above it';
+    'whether a target is seen from an observer over a terrain. If not, x, y and z are the first place that blocks the sight. Both stand on the ground, or above it. Units: places and max_edge in those of the coordinates, heights in those of the attribute. Errors: 22023 another SRID or no point; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all';
 
 -- Of two texts in quotes PostgreSQL could not tell whether they are arrays or geometries. They are arrays.
 CREATE FUNCTION abacus_visible(

@@ -21,7 +21,7 @@ BEGIN ATOMIC
     WHERE ST_IsEmpty(bounds) IS NOT TRUE;
 END;
 COMMENT ON FUNCTION abacus_cells_geom(regclass, geometry, text, double precision) IS
-    'the simplices of a mesh, or those that meet the box around a geometry: polygons, with an attribute as z, and tetrahedra as closed surfaces';
+    'the simplices of a mesh, or those that meet the box around a geometry. Triangles are polygons, with an attribute as z; tetrahedra are closed surfaces. Shapes: "values"[i][attribute] of corner i, from 1. Units: max_edge in those of the coordinates. Errors: 22023 another SRID; 42703 no such attribute';
 
 CREATE FUNCTION abacus_vertices_geom(
     mesh regclass,
@@ -42,7 +42,7 @@ BEGIN ATOMIC
     WHERE NOT ST_IsEmpty(bounds);
 END;
 COMMENT ON FUNCTION abacus_vertices_geom(regclass, geometry) IS
-    'all points of a mesh, or its vertices in the box around a geometry';
+    'all points of a mesh, or its vertices in the box around a geometry. Shapes: attributes in the order of the mesh. Errors: 22023 another SRID';
 
 CREATE FUNCTION abacus_edges_geom(
     mesh regclass,
@@ -61,7 +61,7 @@ BEGIN ATOMIC
     WHERE ST_IsEmpty(bounds) IS NOT TRUE;
 END;
 COMMENT ON FUNCTION abacus_edges_geom(regclass, geometry, double precision) IS
-    'the edges of a mesh, or those that meet the box around a geometry, each once';
+    'the edges of a mesh, or those that meet the box around a geometry, each once. Units: max_edge and length in those of the coordinates. Errors: 22023 another SRID or a bad max_edge';
 
 CREATE FUNCTION abacus_contours_geom(
     mesh regclass,
@@ -92,7 +92,7 @@ BEGIN ATOMIC
     GROUP BY c.id;
 END;
 COMMENT ON FUNCTION abacus_contours_geom(regclass, double precision, double precision, double precision[], boolean, text, geometry, double precision) IS
-    'the contours of an attribute in a mesh of dimension 2, or in the box around a geometry, as whole lines; with polygonize the bands between levels, a multipolygon each';
+    'the contours of an attribute in a mesh in the plane, or in the box around a geometry, as whole lines. With polygonize, the bands between levels, a multipolygon each. Shapes: fixed_levels is an array of levels. Units: levels in those of the attribute, max_edge in those of the coordinates. Errors: those of abacus_contours; 22023 another SRID';
 
 CREATE FUNCTION abacus_profile_geom(
     mesh regclass,
@@ -109,7 +109,7 @@ BEGIN ATOMIC
     FROM _abacus_facts(mesh, NULL) AS f, abacus_profile(mesh, _abacus_path(mesh, line), attribute, max_edge) AS p;
 END;
 COMMENT ON FUNCTION abacus_profile_geom(regclass, geometry, text, double precision) IS
-    'an attribute along a line: at its corners and wherever it crosses an edge, in space a facet; with NULL where it leaves and enters the mesh';
+    'an attribute along a line. A row stands at each corner of the line and wherever it crosses an edge, in space a facet; value is NULL where the line leaves or enters the mesh. Units: distance and max_edge in those of the coordinates, value in those of the attribute. Errors: those of abacus_profile; 22023 another SRID or no line';
 
 CREATE FUNCTION abacus_voronoi_geom(
     mesh regclass,
@@ -128,7 +128,7 @@ BEGIN ATOMIC
     WHERE ST_IsEmpty(bounds) IS NOT TRUE;
 END;
 COMMENT ON FUNCTION abacus_voronoi_geom(regclass, geometry) IS
-    'the Voronoi cell of each vertex of a mesh, or the parts of the cells within the box around a geometry; in space without a geometry, which facets have';
+    'the Voronoi cell of each vertex of a mesh, or the parts of the cells within the box around a geometry. In space geom is NULL; facets have one. Units: area in the square of those of the coordinates, volume in their cube. Errors: those of abacus_voronoi; 22023 another SRID';
 
 CREATE FUNCTION abacus_voronoi_facets_geom(
     mesh regclass,
@@ -148,7 +148,7 @@ BEGIN ATOMIC
     WHERE ST_IsEmpty(bounds) IS NOT TRUE;
 END;
 COMMENT ON FUNCTION abacus_voronoi_facets_geom(regclass, geometry) IS
-    'what the Voronoi cells of a mesh have in common with their neighbours: lines, in space polygons';
+    'the facets between neighbouring Voronoi cells of a mesh: lines, in space polygons. Units: size in those of the coordinates, in space in their square. Errors: those of abacus_voronoi_facets; 22023 another SRID';
 
 CREATE FUNCTION abacus_hull_geom(mesh regclass, max_edge double precision DEFAULT NULL)
 RETURNS geometry
@@ -161,7 +161,7 @@ BEGIN ATOMIC
           FROM abacus_hull(mesh, max_edge) AS h GROUP BY h.ring) AS r;
 END;
 COMMENT ON FUNCTION abacus_hull_geom(regclass, double precision) IS
-    'the convex hull of a mesh, or the outline of its simplices without longer edges: polygons with holes, in space a TIN';
+    'the convex hull of a mesh, or the outline of its simplices without longer edges. Polygons with holes, in space a TIN. Units: max_edge in those of the coordinates. Errors: those of abacus_hull';
 
 CREATE FUNCTION abacus_alpha_shape_geom(
     mesh regclass,
@@ -177,7 +177,7 @@ BEGIN ATOMIC
           FROM abacus_alpha_shape(mesh, alpha, allow_holes) AS h GROUP BY h.ring) AS r;
 END;
 COMMENT ON FUNCTION abacus_alpha_shape_geom(regclass, double precision, boolean) IS
-    'the simplices whose circumradius has a square of at most alpha: polygons with holes, in space a TIN around them';
+    'the simplices whose circumradius has a square of at most alpha. Polygons with holes, in space a TIN around them. Units: alpha in the square of those of the coordinates. Errors: those of abacus_alpha_shape';
 
 CREATE FUNCTION abacus_isosurface_geom(
     mesh regclass,
@@ -200,7 +200,7 @@ BEGIN ATOMIC
     WHERE ST_IsEmpty(bounds) IS NOT TRUE;
 END;
 COMMENT ON FUNCTION abacus_isosurface_geom(regclass, double precision, text, text, geometry, double precision) IS
-    'triangles of the surface in a mesh of dimension 3 on which an attribute has a value';
+    'the triangles of the surface in a mesh in space on which an attribute has a value. Shapes: "values"[i] of corner i, from 1. Units: value in those of the attribute, max_edge in those of the coordinates. Errors: those of abacus_isosurface; 22023 another SRID';
 
 CREATE FUNCTION abacus_section_geom(
     mesh regclass,
@@ -219,4 +219,4 @@ BEGIN ATOMIC
          abacus_section(mesh, _abacus_place(mesh, through), normal, attribute, max_edge) AS s;
 END;
 COMMENT ON FUNCTION abacus_section_geom(regclass, geometry, double precision[], text, double precision) IS
-    'what the plane through a point with a normal has of each tetrahedron of a mesh of dimension 3, with an attribute at its corners';
+    'the polygons in which a plane cuts the tetrahedra of a mesh. The plane goes through a point and has a normal. values has an attribute at the corners. Shapes: normal is {x, y, z}; "values"[i] of corner i, from 1. Units: max_edge in those of the coordinates, normal of any length. Errors: those of abacus_section; 22023 another SRID or no point';

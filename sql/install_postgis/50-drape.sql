@@ -11,7 +11,7 @@ RETURNS geometry
 AS 'MODULE_PATHNAME', 'abacus_sql_drape'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000;
 COMMENT ON FUNCTION abacus_drape(regclass, geometry, text, boolean, text, double precision) IS
-    'points, lines or polygons with an attribute of a mesh of dimension 2 as z; with densify they have a place wherever they cross an edge; z is NaN outside the mesh, unless outside is nearest, and where a value is missing';
+    'points, lines or polygons with an attribute of a mesh in the plane as z. With densify, they get a place wherever they cross an edge. z is NaN outside the mesh, unless outside is nearest, and where a value is missing. Units: max_edge in those of the coordinates, z in those of the attribute. Errors: 22023 curves and surfaces, another SRID, a mesh of dimension 3, a coordinate that is not finite; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all';
 
 CREATE FUNCTION abacus_clip(
     mesh regclass,
@@ -44,4 +44,4 @@ BEGIN ATOMIC
     WHERE p.whole OR NOT ST_IsEmpty(p.part);
 END;
 COMMENT ON FUNCTION abacus_clip(regclass, geometry, text, double precision) IS
-    'what the triangles of a mesh of dimension 2 have within polygons: those wholly inside as they are, others cut at the border, with an attribute as z';
+    'the parts of the triangles of a mesh in the plane that lie within polygons. Triangles wholly inside stay as they are; others are cut at the border, with an attribute as z. Units: max_edge in those of the coordinates. Errors: 22023 no polygon, another SRID, a mesh of dimension 3; 42703 no such attribute';

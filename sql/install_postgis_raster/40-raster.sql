@@ -43,4 +43,4 @@ RETURN CASE WHEN NOT ST_IsEmpty(template) AND _abacus_area(mesh, ST_Envelope(tem
     ST_SetValues(ST_AddBand(ST_MakeEmptyRaster(template), 1, '64BF', '-1.7976931348623157e308'::double precision, '-1.7976931348623157e308'::double precision),
                  1, 1, 1, _abacus_pixels(mesh, template, attribute, method, outside, max_edge)) END;
 COMMENT ON FUNCTION abacus_raster(regclass, raster, text, text, text, double precision) IS
-    'a raster with the pixels of another one and an attribute of a mesh of dimension 2 at their centres, as abacus_interpolate finds it; no data where there is none';
+    'an attribute of a mesh in the plane as a raster with the pixels of another one. A value is that of abacus_interpolate at the centre of a pixel; no data where there is none. Units: max_edge in those of the coordinates, pixels in those of the attribute. Errors: 22023 another SRID or a mesh of dimension 3; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all';

@@ -5,7 +5,7 @@
 
 namespace abacus {
 
-/// The attributes of a mesh in groups that are as even as can be, none wider than `widest`.
+/// The attributes of a mesh in groups that are as even as possible, none wider than `widest`.
 class AttributeGroups {
 public:
     static constexpr unsigned widest = 32;

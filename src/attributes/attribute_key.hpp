@@ -110,9 +110,9 @@ template <int D, int K> [[noreturn]] void throw_no_attributes() {
     throw_corrupted(K == 1 ? "A vertex has no attributes." : "A simplex has no attributes.");
 }
 
-/// What is missing, NULL in SQL, is no number, as everywhere in the core.
+/// A missing value, NULL in SQL, is NaN, as everywhere in the core.
 inline constexpr double null_value = std::numeric_limits<double>::quiet_NaN();
-/// Whether the double of that rank is no number.
+/// Whether the double of that rank is NaN.
 constexpr bool is_null(std::uint64_t rank) {
     constexpr double most = std::numeric_limits<double>::infinity();
     return rank < ordered(-most) || ordered(most) < rank;

@@ -27,7 +27,7 @@ void AttributePage<D, K>::read(const unsigned char *bytes, std::size_t size, uns
     std::memcpy(&header, bytes, sizeof header);
     require(header.magic == AttributePageHeader::expected_magic &&
                 header.version == AttributePageHeader::expected_version,
-            "A page of attributes is none of this format version.");
+            "A page of attributes is not of this format version.");
     require(header.dimension == D && header.group == group && header.columns == columns &&
                 columns <= columns_.size() && (K > 1 || header.points == 0),
             "An attribute page belongs to another kind of mesh.");

@@ -6,7 +6,7 @@
 // attributes so as well, those that have any: attribute_key.hpp tells who is named how.
 //
 // The order of owners is that of their keys. Those with the same key, which only happens on
-// purpose, share a page. Who reads one attribute of many reads its group.
+// purpose, share a page. To read one attribute of many, read its group.
 //
 //   header    what is in it
 //   heads     of the columns (blocks/bit_column.hpp): ranks of the points on each axis; for each

@@ -99,7 +99,7 @@ public:
     /// Reads it, and compares it with the one before. Throws an Error (corrupted).
     void read();
     const Key &key() const { return key_; }
-    /// Of those of the kind.
+    /// Counted among the groups of the kind.
     unsigned group() const { return group_of(key_) - first_; }
     const AttributePage<D, K> &page() const { return page_; }
 

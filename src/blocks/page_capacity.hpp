@@ -48,7 +48,7 @@ public:
     }
 
 private:
-    /// Of what would fit: pages differ, and one that turns out too large has to be split.
+    /// The share of what would fit: pages differ, and one that turns out too large has to be split.
     static constexpr double margin = 0.97;
     static constexpr double most_known = 8; // pages
 

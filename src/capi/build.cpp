@@ -26,7 +26,7 @@ struct abacus_build {
 
     abacus::StoredPages stored;
     const abacus::Host host;
-    // Of what sorts with one thread (simplex_changes.hpp).
+    // For sorts with one thread (simplex_changes.hpp).
     abacus_host alone;
     std::optional<abacus::Host> lone_host;
     abacus::ByDimension<abacus::Build> build;

@@ -18,8 +18,8 @@ namespace {
 
 /// A header begins with the bytes "ABACUS" and the format of the mesh: of the header and of
 /// all its pages together. The number is raised when any of them changes. Whether vertices have
-/// their attributes in simplex pages or apart is told by the format alone, unless there are labels
-/// or markers, vertices that share their places, or names in rows of their own.
+/// their attributes in simplex pages or apart follows from the format alone, unless there are
+/// labels or markers, vertices that share their places, or names in rows of their own.
 constexpr std::uint64_t name = 0x535543414241, format = 3, format_apart = 4, format_labelled = 5,
                         format_extended = 6;
 constexpr int name_bits = 48;
@@ -259,7 +259,7 @@ bool has_name(std::uint64_t found, std::uint64_t name) {
 }
 
 void check_format(std::uint64_t found) {
-    if (!has_name(found, name)) throw_corrupted("The row with the lowest key is no header.");
+    if (!has_name(found, name)) throw_corrupted("The row with the lowest key is not a header.");
     if (found >> name_bits < format || found >> name_bits > format_extended)
         throw Error(ABACUS_ERROR_STATE,
                     "mesh is stored in format " + std::to_string(found >> name_bits) +

@@ -39,7 +39,7 @@ template <int D> std::uint64_t Hole<D>::fill(const Star<D> &star) {
     created_ = ghosts_ = 0;
     mesh_.forget();
     for (const Rim<D> &rim : star.rim()) cache_.mark_dirty(link_simplex(rim.outer));
-    std::size_t tried = 0; // simplices that are none of the mesh
+    std::size_t tried = 0; // simplices that do not belong to the mesh
     if (star.link().size() >= large)
         tried = 2 * sew(star);
     else if constexpr (D == 2)

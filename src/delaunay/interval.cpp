@@ -12,7 +12,7 @@ namespace abacus {
 
 namespace {
 constexpr std::size_t poll_every = 256;     // points
-constexpr std::uint64_t told_effort = 1024; // of removals: others are told then
+constexpr std::uint64_t told_effort = 1024; // of removals: then others get them
 } // namespace
 
 template <int D> AttributePages<D> *Interval<D>::attributes_apart() {

@@ -140,7 +140,7 @@ template <int D> void Removal<D>::rewrite(Link corner, std::int64_t id, const do
         if (mesh_.log != nullptr) mesh_.log->go(cache_, h);
     }
     cache_.rename_vertex(star_.vertex(), id, attributes);
-    if (mesh_.log != nullptr) // a simplex is told by the ids of its vertices
+    if (mesh_.log != nullptr) // the ids of its vertices identify a simplex
         for (const Handle h : star_.simplices()) mesh_.log->come(cache_, h);
 }
 

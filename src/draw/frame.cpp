@@ -57,7 +57,7 @@ std::int32_t height_of_shape(std::int32_t width, double shape) {
         std::min({std::int64_t{max_side}, max_pixels / width, width * tallest}));
     const double least = std::max(1.0, std::floor(width * flattest));
     const double height = std::floor(width * shape + 0.5);
-    // Where there is no shape it is no number.
+    // Where there is no shape it is NaN.
     return static_cast<std::int32_t>(height >= least ? std::min(height, most) : least);
 }
 

@@ -24,7 +24,7 @@ public:
     Relief(const Host &host, std::int32_t width, Arena<double> heights, Arena<float> spacings,
            const double (&rise)[2], const double (&light)[2]);
 
-    /// Pixels from which on others do not change the light of one, as far as can be seen.
+    /// Pixels from which on others do not change the light of one visibly.
     static constexpr std::int32_t reach = 96;
 
     /// Light that falls on a pixel; flat ground gives white.

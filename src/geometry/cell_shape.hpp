@@ -5,7 +5,7 @@
 // the next one. What lies beyond that edge is known by a label: a neighbour by its number, a side
 // of the window as -1 - side. In space a face has a label too.
 //
-// A cell inside the window has the corners that the mesh tells of, circumcentres. Any other one
+// A cell inside the window has the corners that the mesh gives it, circumcentres. Any other one
 // begins as the window and is cut by the bisector with each neighbour. Which corners go is decided
 // in doubles. A new corner is the place that its labels have in common (equidistant.hpp), held
 // between the ends of the edge it lies on: so what is wrong with a decision is as little as

@@ -1,7 +1,7 @@
 // The place at the same distance from some points, on some sides of a box: D + 1 of both together.
 // So a corner of a Voronoi cell is given by what it is a corner of, and not by other corners.
 //
-// Points are taken in lexicographic order. So whoever asks for a place gets the same doubles, and
+// Points are taken in lexicographic order. So every caller gets the same doubles for a place, and
 // cells fit together without gaps. Where that matters, among cospherical points, they are asked for
 // as rounded rational numbers: these do not depend on which of the points are named.
 #pragma once

@@ -8,8 +8,8 @@
 //
 // In space, seen from the point that is tested, the determinant for corners s, t, u and e
 // is |e|^2 [s t u] - e . n, with [s t u] the triple product and n = |s|^2 t x u + |t|^2 u
-// x s + |u|^2 s x t. So three cross products tell all about a facet. Of those of the next
-// facet two are new, in other words three for each simplex that is entered.
+// x s + |u|^2 s x t. So three cross products tell all about a facet. For the next
+// facet two of them are new, in other words three for each simplex that is entered.
 #pragma once
 
 #include "geometry/pair.hpp"

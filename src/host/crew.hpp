@@ -13,8 +13,8 @@
 //      as it runs them.
 //
 // An error of a thread stops the others, and run() throws it. An error of the host, or an
-// interrupt, is found by the session's thread; it stops all threads and goes on to whoever has
-// called run().
+// interrupt, is found by the session's thread; it stops all threads and goes on to the caller
+// of run().
 #pragma once
 
 #include "host/desk.hpp"

@@ -25,7 +25,7 @@ template <int D> Owner<D, D> facet_of(const Owner<D, D + 1> &simplex, int opposi
 /// Whether a facet has a marker: the stored value must be a marker, or missing.
 inline bool has_marker(double stored) {
     if (!std::isnan(stored) && !is_marker(stored))
-        throw_corrupted("A facet has a marker that is no integer of four bytes.");
+        throw_corrupted("A facet has a marker that is not an integer of four bytes.");
     return !std::isnan(stored);
 }
 

@@ -76,7 +76,7 @@ public:
     /// Or instead: calls add(vertex) with the record of each vertex of a simplex.
     template <class Add> void give_vertices(Add add) {
         for (auto *sort : {&links_, &boundary_, &elements_, &labelled_, &marker_rows_})
-            if (*sort) end(*sort); // whoever takes the vertices needs memory
+            if (*sort) end(*sort); // taking the vertices needs memory
         while (const Word *vertex = ordered_.next()) add(vertex);
         ordered_.close();
     }
@@ -149,7 +149,7 @@ private:
     Spread<D> spread_; // of the vertices
     Box<D> box_;       // that the domain is chosen by
     /// As far as it has been looked into: the circumspheres are empty, the boundary is the convex
-    /// hull, and of cospherical vertices those are joined that the perturbation joins.
+    /// hull, and cospherical vertices are joined as the perturbation joins them.
     bool is_empty_ = true, is_convex_ = true, is_own_ = true;
     Word vertex_count_ = 0, simplex_count_ = 0;
     Word split_count_ = 0;          // vertices that share their places

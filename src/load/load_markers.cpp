@@ -46,7 +46,7 @@ template <int D> void Load<D>::refuse_marks_before(const std::array<Word, D> *id
          mark_ = marks_->next()) {
         std::array<Word, D> unknown;
         std::copy_n(mark_, D, unknown.begin());
-        faults_.add("facet " + sorted_name(unknown) + " is none of any simplex", {},
+        faults_.add("facet " + sorted_name(unknown) + " belongs to no simplex", {},
                     "Name facets of the simplices, by the ids of their vertices.");
     }
 }

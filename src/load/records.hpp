@@ -3,7 +3,7 @@
 //   vertex    id, coordinates, attributes, as everywhere
 //   simplex   code, part, D+1 vertices: positively oriented
 //   boundary  code, part, D vertices of a ghost; code and part of the simplex behind it,
-//             id and coordinates of the vertex of that which is not the ghost's
+//             id and coordinates of the vertex of that simplex that the ghost lacks
 //   flank     a simplex's side of a facet: the K ids of the facet in ascending order;
 //             number << 3 | facet << 1 | odd; id of the opposite vertex; code, part of the
 //             simplex; coordinates of the opposite vertex

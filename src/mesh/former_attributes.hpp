@@ -16,7 +16,7 @@ inline double value_from(std::uint32_t source, const double *values) {
 }
 
 /// How pages that have another number of attributes are read: a vertex gets as its i-th attribute
-/// that which was the attribute source[i].
+/// the former attribute source[i].
 struct FormerAttributes {
     int count = -1; ///< of such a page; negative: there are none
     std::span<const std::uint32_t> source{};

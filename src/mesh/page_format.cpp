@@ -29,7 +29,7 @@ void PageView<D>::read_header(const unsigned char *bytes, std::size_t size, int 
     require(size >= sizeof header_ + checksum_bytes && size <= ABACUS_PAGE_BYTES,
             "A simplex page has an impossible size.");
     std::memcpy(&header_, bytes, sizeof header_);
-    require(header_.magic == PageHeader::expected_magic, "A page is no simplex page.");
+    require(header_.magic == PageHeader::expected_magic, "A page is not a simplex page.");
     if (header_.version != PageHeader::expected_version)
         throw Error(ABACUS_ERROR_CORRUPTED, "mesh has pages of another format",
                     "A simplex page has format version " + std::to_string(header_.version) +
@@ -166,7 +166,7 @@ template <int D> void PageView<D>::read_patch(int patch) {
     PageLink *reached = parents_.data() + s;
     Lanes repeated{}; // where an apex is, too
     // What comes next is as hard to foresee as a coin: branches only lead to errors, and those
-    // that nothing of this loop relies on are told after it.
+    // that nothing of this loop relies on are reported after it.
     while (s < patch_end) {
         std::uint64_t steps = steps_.word(static_cast<std::size_t>(s));
         for (const int end = std::min(s + simplices_at_once, patch_end); s < end; ++s) {

@@ -20,7 +20,7 @@ constexpr int page_facet(PageLink link) { return link & 3; }
 constexpr int facet_back(int f) { return f ^ static_cast<int>(f < 2); }
 
 /// The vertices of a simplex, four numbers in one word: in a page's reader by their places there,
-/// in its writer by those in the cache. In the plane the last one is no vertex.
+/// in its writer by those in the cache. In the plane the last one is not a vertex.
 inline constexpr int lanes = 4;
 using Lanes = std::uint16_t __attribute__((vector_size(2 * lanes)));
 using WideLanes = std::uint32_t __attribute__((vector_size(4 * lanes)));

@@ -3,7 +3,7 @@
 //   order(), then each link, then finish()
 //
 // A link to a simplex of the page tells what lies across the facet, one to anywhere else that
-// the facet is on the page's border. A facet may also be `untold`: whoever reads the page
+// the facet is on the page's border. A facet may also be `untold`: the reader of the page
 // finds out by comparing vertices; it only takes more bytes and time.
 #pragma once
 

@@ -1,7 +1,7 @@
 // Which stretches of the curve have been stored, as the codes of the simplex pages tell that were.
 //
 // A page that has lost a simplex or got one is stored again, or what it owned is stored with
-// another page's. So whoever asks what a change has done to the mesh need look at these stretches
+// another page's. So to find out what a change has done to the mesh, look at these stretches
 // alone.
 #pragma once
 

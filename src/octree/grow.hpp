@@ -16,8 +16,8 @@ namespace abacus {
 /// Writes the one leaf of a new octree, without attributes.
 template <int D> void create_root(const Host &host, abacus_header &header);
 
-/// Grows an octree until it is the least one that serves what it is told, and no leaf is lost that
-/// there was. A leaf that is split leaves its attributes to its children.
+/// Grows an octree until it is the least one that serves all requests. No leaf that was there is
+/// lost. A leaf that is split leaves its attributes to its children.
 template <int D> class Growth {
 public:
     Growth(const Host &host, const abacus_header &header, std::size_t memory)

@@ -23,7 +23,7 @@ void OctantPageView<D>::read(const unsigned char *bytes, std::size_t size, int a
     require(size >= sizeof head_ + checksum_bytes && size <= ABACUS_PAGE_BYTES,
             "An octant page has an impossible size.");
     std::memcpy(&head_, bytes, sizeof head_);
-    require(head_.magic == OctantPageHead::expected_magic, "A page is no octant page.");
+    require(head_.magic == OctantPageHead::expected_magic, "A page is not an octant page.");
     require(head_.version == OctantPageHead::expected_version,
             "An octant page has another format.");
     require(head_.dimension == D && head_.attributes == attributes && head_.reserved == 0,

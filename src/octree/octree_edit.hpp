@@ -18,10 +18,10 @@ public:
     std::size_t attributes() const { return attributes_; }
     /// The octant of a level that has a place shall be a leaf, unless it lies in one.
     void merge_at(const Point<D> &place, std::int64_t level);
-    /// The leaf that has a cell gets these attributes; of several that are told of one, the last.
+    /// The leaf that has a cell gets these attributes; of several for one leaf, the last.
     void set_at(std::uint64_t cell, const double *values);
 
-    /// Each does what it was told, and brings the header up to date. Returns how many leaves were
+    /// Each does its edits, and brings the header up to date. Returns how many leaves were
     /// merged, or set.
     std::uint64_t merge(abacus_header &header);
     std::uint64_t set(abacus_header &header);

@@ -29,7 +29,7 @@ template <int D> bool OctreeInterpolation<D>::values(const Point<D> &place, doub
     return true;
 }
 
-// Corners without a share are not looked at: they need not have values.
+// Corners without a share are ignored: they need not have values.
 template <int D>
 void OctreeInterpolation<D>::inside(const Octant<D> &leaf, const Share &share, double *values) {
     std::array<std::size_t, corners> nodes{};

@@ -1,7 +1,7 @@
 // A balanced octree as a conforming mesh of triangles or tetrahedra, leaf by leaf along the curve,
 // by the numbers of its nodes (octree_nodes.hpp). leaf_split.hpp tells how a leaf is cut.
 //
-// A leaf must be told its nodes, those in the middles of its edges and faces too. Corners are
+// A leaf must be given its nodes, those in the middles of its edges and faces too. Corners are
 // sorted, as for the nodes. Around a node that hangs, leaves that do not have it as a corner are
 // one level coarser; so they are known by their codes, without looking for them. Each node is sent
 // to the leaves that have it, by one more sort. A leaf that gets a node for another level is not

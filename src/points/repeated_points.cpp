@@ -40,7 +40,7 @@ void decode(const abacus_page &page, const Domain<D> &domain, unsigned attribute
     if (page.size < sizeof header) throw_bad_page("is too short");
     std::memcpy(&header, page.bytes, sizeof header);
     if (header.magic != RepeatedPageHeader::current_magic)
-        throw_bad_page("is none of this format version");
+        throw_bad_page("is not of this format version");
     if (header.dimension != D || header.attributes != attributes)
         throw_bad_page("has points of another kind than the mesh");
     const std::size_t room = page.size - sizeof header;

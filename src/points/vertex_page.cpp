@@ -49,7 +49,7 @@ VertexPage<D>::VertexPage(const std::uint64_t *words, std::size_t size, unsigned
     if (size < sizeof header) throw_bad_page(first_, "is too short");
     std::memcpy(&header, words, sizeof header);
     if (header.magic != VertexPageHeader::current_magic)
-        throw_bad_page(first_, "is none of this format version");
+        throw_bad_page(first_, "is not of this format version");
     if (header.dimension != D || header.attributes != attributes)
         throw_bad_page(first_, "has points of another kind than the mesh");
     if (header.first != first_ || key.part != 0)

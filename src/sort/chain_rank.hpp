@@ -43,8 +43,8 @@ public:
 
 private:
     // A record of an element: number, successor, weight. Of a rank: number, chain, position,
-    // closed. Of what became part of another in a round: the round, counted down, the other one,
-    // number, offset.
+    // closed. For a chain that became part of another in a round: the round, counted down, the
+    // other one, number, offset.
     static constexpr std::size_t element = 3, rank = 4, part = 4;
 
     void count_link(std::uint64_t number, std::uint64_t successor) {

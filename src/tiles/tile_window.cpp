@@ -16,7 +16,7 @@ TileWindow::TileWindow(const abacus_tile &tile, const abacus_header &header)
             throw Error(ABACUS_ERROR_ARGUMENT, "there is no such tile",
                         "Tile " + std::to_string(tile.zoom) + "/" + std::to_string(tile.x) + "/" +
                             std::to_string(tile.y) +
-                            " is none: at this zoom x and y are from 0 to " +
+                            " does not exist: at this zoom x and y are from 0 to " +
                             std::to_string(tiles - 1) + ".");
     const double lower[2] = {tile.is_geographic != 0 ? -180 : tile.lower[0],
                              tile.is_geographic != 0 ? -180 : tile.lower[1]};

@@ -49,7 +49,7 @@ public:
             std::bit_cast<std::uint64_t>(id));
         has_texts_ = true;
     }
-    /// None if it is no number.
+    /// None if it is NaN.
     void tag(std::uint32_t key, double value) {
         if (value == value) tag(key, ValueKind::number, std::bit_cast<std::uint64_t>(value + 0.0));
     }

@@ -20,8 +20,8 @@ SOURCES = {".c", ".h", ".cpp", ".hpp"}
 SERVER = re.compile(r"^(postgres|fmgr|miscadmin|pgstat|port|access/|catalog/|commands/|executor/|"
                     r"lib/|libpq/|nodes/|optimizer/|parser/|storage/|tcop/|utils/)")
 DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/evaluation.md",
-             "docs/sql.md", "docs/operations.md", "docs/install.md", *(f"docs/design/{page.name}"
-                                                   for page in (ROOT / "docs/design").glob("*.md"))]
+             *(page.relative_to(ROOT).as_posix() for folder in ("docs", "docs/design", "docs/cookbook", "docs/reference")
+               for page in (ROOT / folder).glob("*.md"))]
 
 
 def rooms():

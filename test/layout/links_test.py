@@ -6,6 +6,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LINK = re.compile(r"\]\(([^()\s]+(?:\([^()\s]*\)[^()\s]*)*)\)")
+ANCHOR = re.compile(r'<a id="([^"]+)"></a>')
 HEADING = re.compile(r"^#{1,6} +(.*?) *#*$", re.MULTILINE)
 FENCE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"(`+)(?!`).+?(?<!`)\1(?!`)")
@@ -23,8 +24,8 @@ def prose(text):
 
 
 def anchors(text):
-    """As GitHub makes them of headings: another one with the same words gets a number."""
-    found = set()
+    """As GitHub makes them of headings, of which a second one with the same words gets a number; and those written out."""
+    found = set(ANCHOR.findall(text))
     for heading in HEADING.findall(prose(text)):
         words = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading)
         anchor = re.sub(r"[^\w\- ]", "", words.lower()).replace(" ", "-")
@@ -68,7 +69,7 @@ class Links(unittest.TestCase):
         page = ROOT / "page.md"
         documents = {page: "# A `b_c(x)`, d\n## Twice\n## Twice\n```\n[no](link)\n# no heading\n```\n`[no](link)` "
                            "[a](#a-b_cx-d) [b](page.md#twice-1) [c](#twice-2) [d](gone.md) [e](#no-heading) [f](https://x.org/#y) [g](docs)"}
-        wrong = wrong_links(documents, {page, ROOT / "docs/sql.md"})
+        wrong = wrong_links(documents, {page, ROOT / "docs/guide.md"})
         self.assertEqual([(target, why) for _, target, why in wrong],
                          [("#twice-2", "no such heading"), ("gone.md", "no such file"), ("#no-heading", "no such heading")])
 

@@ -48,7 +48,7 @@ BEGIN
     RETURN 1;
 END $$;
 SELECT throws_ok($$ SELECT * FROM abacus_goose('intruded', 'SELECT CASE WHEN id = 300 THEN pg_temp.intrude(''(-9,-9),(999,999)'') ELSE id END, x, y FROM points') $$,
-                 'XX001', NULL, 'a row that is no simplex');
+                 'XX001', NULL, 'a row that is not a simplex');
 SELECT hasnt_table('intruded', 'nothing is left');
 SELECT throws_ok($$ SELECT * FROM abacus_goose('dropped', 'SELECT id, x, y FROM points WHERE pg_temp.drop_table() IS NULL') $$, '42883', NULL, 'an error of the query');
 CREATE FUNCTION pg_temp.drop_table() RETURNS bigint LANGUAGE plpgsql AS $$ BEGIN DROP TABLE dropped; END $$;

@@ -85,8 +85,8 @@ test("who changes the mesh elsewhere is named, and soon", async () => {
     await editing.post("end", {}, session);
 });
 
-test("what is not saved is undone when the page is not heard of, or nobody is at it", async () => {
-    for (const [limits, alive, why] of [[{ absent: 2 }, false, "the page was not heard of for 2 seconds"], [{ idle: 2, absent: 60 }, true, "nothing was asked for 2 seconds"]]) {
+test("what is not saved is undone when the page does not report, or nobody is at it", async () => {
+    for (const [limits, alive, why] of [[{ absent: 2 }, false, "the page did not report for 2 seconds"], [{ idle: 2, absent: 60 }, true, "nothing was asked for 2 seconds"]]) {
         const server = await serve("terrain", { edit: true, ...limits }), before = count();
         try {
             const session = await begin(server);
@@ -105,7 +105,7 @@ test("what is not saved is undone when the page is not heard of, or nobody is at
     }
 });
 
-test("a page that is heard of, and used, keeps its changes", async () => {
+test("a page that reports, and is used, keeps its changes", async () => {
     const server = await serve("terrain", { edit: true, absent: 3, idle: 3 });
     try {
         const session = await begin(server);

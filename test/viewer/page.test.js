@@ -64,7 +64,7 @@ const take = async (name) => {
 };
 const located = (place) => psql(`SELECT v0, v1, v2 FROM abacus_locate('terrain', ${place})`).replaceAll("|", " ");
 
-test("a click asks for the triangle, its circle, neighbours and values", async () => {
+test("a click shows the triangle, its circle, neighbours and values", async () => {
     await open("terrain");
     for (let i = 0; i < 4; ++i) await page.getByRole("button", { name: "Zoom in" }).click();
     await page.waitForTimeout(700);

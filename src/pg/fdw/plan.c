@@ -26,7 +26,7 @@
 
 /* What it costs to find one more of the nearest vertices, in rows. */
 #define ROWS_PER_NEAREST 20.0
-/* Of those more are found at once than this only when they are asked for. */
+/* More of these are found at once only when they are asked for. */
 #define MOST_AT_FIRST 1000
 
 /* Simplices of a page that are looked at cost so many operators each. */

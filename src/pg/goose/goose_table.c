@@ -147,7 +147,7 @@ read_row(const GooseTable *table, abacus_boxed_simplex *row)
 	if (!goose_row_decode(table->dimension, table->slot, row))
 		ereport(ERROR,
 				(errcode(ERRCODE_DATA_CORRUPTED),
-				 errmsg("table \"%s\" holds a row that is no simplex",
+				 errmsg("table \"%s\" holds a row that is not a simplex",
 						RelationGetRelationName(table->heap)),
 				 errhint("Nothing else may write the table while abacus_goose() makes it.")));
 }

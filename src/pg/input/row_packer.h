@@ -35,7 +35,7 @@ typedef struct RowOrigin
 	const char *id;				/* the first column */
 	const char *an_id;			/* what a value of it is */
 	const char *level;			/* the second column, if it is no coordinate */
-	bool		by_number;		/* a row is told by its number, not by its id */
+	bool		by_number;		/* a row is identified by its number, not its id */
 	bool		takes_geometry; /* a geometry may stand behind the first column */
 	bool		makes_id;		/* rows without an id can be given one in the query */
 } RowOrigin;

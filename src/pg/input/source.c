@@ -103,10 +103,10 @@ check_is_query(const char *query)
 		return;
 	ereport(ERROR,
 			(errcode(ERRCODE_SYNTAX_ERROR),
-			 errmsg("this is no query: \"%.*s%s\"", length, query,
+			 errmsg("this is not a query: \"%.*s%s\"", length, query,
 					query[length] == '\0' ? "" : "..."),
 			 errdetail("A query begins with SELECT, VALUES, TABLE or WITH."),
-			 errhint("Of a geometry give the coordinates, ST_X(geom) and ST_Y(geom), or, with the "
+			 errhint("For a geometry give its coordinates, ST_X(geom) and ST_Y(geom), or, with the "
 					 "extension abacus_postgis, a value of type geometry.")));
 }
 

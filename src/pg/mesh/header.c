@@ -7,7 +7,7 @@
  * the header that it sees has the stamp it was filled under.
  *
  * The names of many attributes are in rows of their own, under (-1, 1) and so on. They are changed
- * with the header alone, so whoever sees it sees those that belong to it. Those that stay as they
+ * with the header alone, so a reader of the header sees the names that belong to it. Those that stay as they
  * are are not written.
  */
 #include "postgres.h"
@@ -114,7 +114,7 @@ header_find(Host *host, StoredPage *row)
 }
 
 /*
- * Locks and checks the vertex table. If the header tells of rows there, the snapshot
+ * Locks and checks the vertex table. If the header counts rows there, the snapshot
  * must see them.
  */
 void

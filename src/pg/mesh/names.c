@@ -107,7 +107,7 @@ names_to_database(abacus_header *header, StoredNames *stored)
 }
 
 /*
- * The attributes are others than when the names were read: as the i-th that which had the number
+ * The attributes are others than when the names were read: the i-th is the one that had the number
  * source[i], or one that has no name yet (ABACUS_NO_ATTRIBUTE). The labels are the same.
  */
 void

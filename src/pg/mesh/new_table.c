@@ -26,9 +26,9 @@ new_table_name(text *name)
 				(errcode(ERRCODE_INVALID_NAME),
 				 errmsg("invalid name of a mesh: \"%s\"", given),
 				 strpbrk(given, ".\"") != NULL || given[0] == '\0'
-				 ? errhint("It is written as in SQL: schema.name, each in double quotes if it is no "
+				 ? errhint("It is written as in SQL: schema.name, each in double quotes unless it is a "
 						   "plain identifier.")
-				 : errhint("It is written as in SQL, in double quotes if it is no plain identifier: "
+				 : errhint("It is written as in SQL, in double quotes unless it is a plain identifier: "
 						   "'\"%s\"'.", given)));
 	return makeRangeVarFromNameList(textToQualifiedNameList(name));
 }
@@ -59,7 +59,7 @@ new_table_check_name(Oid schema, const char *name)
 			 : errhint("Choose another name for the mesh, or drop the relation.")));
 }
 
-/* Whether the error tells of two rows of one name in the catalogue. */
+/* Whether the error is about two rows of one name in the catalogue. */
 static bool
 is_name_taken(const ErrorData *error)
 {

@@ -250,7 +250,7 @@ port_local_transaction(void)
 }
 
 /*
- * The first of the active snapshots, or NULL if it cannot be told. From 18 on it is known only
+ * The first of the active snapshots, or NULL if it is not known. From 18 on it is known only
  * while the portal without a name runs. That is a client's statement, below which there is none;
  * portals of cursors and of functions have names.
  */

@@ -3,7 +3,7 @@
  * before.
  *
  * The index is not asked. Rows may have moved, and VACUUM may have cut the file. It
- * needs a lock for that which ours excludes, so the length of the file is asked for
+ * needs a lock for that, which ours excludes, so the length of the file is asked for
  * only once after each call of page_table_expect_moves().
  *
  * Mostly the heap page is still in the same buffer. Then the shared table of buffers,

@@ -4,8 +4,8 @@
  * Pages are found through the primary key. There may be other indexes. REINDEX
  * CONCURRENTLY builds a new one while writers go on. As soon as it is ready for that,
  * the writers add the entries that it would miss. They also keep the old one until
- * nobody reads it. So a writer keeps every index on the key columns, whoever has made
- * it. Indexes with expressions or predicates would need the executor, and indexes on
+ * nobody reads it. So a writer keeps every index on the key columns, also those that
+ * others have made. Indexes with expressions or predicates would need the executor, and indexes on
  * the page itself have no use: with one of them the mesh can only be read.
  */
 #include "postgres.h"

@@ -7,7 +7,7 @@
 #include "pg/postgis/geometry_errors.h"
 #include "pg/track/in_step.h"
 
-/* Whether points of the mesh have what the trigger gives, each attribute that which it was made for. */
+/* Whether points of the mesh have what the trigger gives, each attribute the one it was made for. */
 void
 in_step_check_shape(const Change *change, ExpectedShape expected, const char *trigger)
 {

@@ -15,7 +15,7 @@
 #include "pg/postgis/catalogue.h"
 #include "pg/track/tracked_points.h"
 
-/* The type of a column, InvalidOid if there is none of this name. */
+/* The type of a column, InvalidOid if no column has this name. */
 static Oid
 column_type(Relation table, const char *name)
 {

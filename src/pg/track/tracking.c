@@ -183,7 +183,7 @@ belongs(const TrackingTrigger *trigger, Oid mesh, Oid table)
 
 /*
  * The triggers that call the function, TRACKING_FUNCTION, for this mesh: those bound to
- * it, and some that only name it. Of these count the triggers of `table` (which may be
+ * it, and some that only name it. Only these count: the triggers of `table` (which may be
  * InvalidOid), of its partitions and children, and of tables that the mesh's owner
  * owns.
  */

@@ -6,7 +6,7 @@
  * do. No other rows are compared, and no sort is needed: taking equal rows out of two
  * lists, one for one, leaves the same difference whichever pairs are found.
  *
- * Rows with a NULL among the coordinates are no points. They become points when they
+ * Rows with a NULL among the coordinates are not points. They become points when they
  * get coordinates, and cease to be points when they lose them.
  *
  * The rows are read straight out of the tuplestores. That costs less than planning a

@@ -186,7 +186,7 @@ template <int D> void Check<D>::check_listed_vertices() {
         previous_id = id;
         const std::uint64_t pages = mesh.pages_with(list.record());
         if (pages == 0)
-            faults_.add("vertex", "A vertex of the list is none of the mesh, or another one.");
+            faults_.add("vertex", "A vertex of the list is not in the mesh, or is another one.");
         in_pages += pages;
     }
     if (in_pages != counts_.vertices)

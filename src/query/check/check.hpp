@@ -55,7 +55,7 @@ public:
 
     /// False after the last fault.
     bool next(abacus_fault &fault) { return faults_.next(fault); }
-    /// Simplices that are flat in doubles, which is no fault.
+    /// Simplices that are flat in doubles, which is not a fault.
     std::uint64_t flat() const { return counts_.flat; }
 
 private:

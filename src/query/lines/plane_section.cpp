@@ -143,7 +143,7 @@ bool PlaneSection::is_bottom(int ghost) const {
     for (int i = 0; i < 3; ++i)
         if (heights_[page.corner(ghost, i)] != 0) return false;
     // Its corners turn to the left as seen from outside. Seen along an axis on which the normal is
-    // not 0 it is no line.
+    // not 0 it is not a line.
     const Point<3> &normal = plane_.normal();
     int axis = 0;
     for (int i = 1; i < 3; ++i)

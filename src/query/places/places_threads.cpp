@@ -22,7 +22,7 @@ constexpr std::size_t tiny_gathered = 61, tiny_piece = 4;
 constexpr std::size_t gathered_share = 3;
 /// Pieces for each thread, so that none waits long for the last one.
 constexpr std::size_t pieces_a_thread = 8;
-/// Answers that are told until threads are served again.
+/// Answers that are returned before threads are served again.
 constexpr std::size_t told_at_once = 64;
 /// Places until a thread looks whether it has to end.
 constexpr std::size_t poll_every = 64;
@@ -121,7 +121,7 @@ template <int D> void PlacesTogether<D>::answer(Piece &piece, const Host &host) 
         piece.tape.reserve(most_words_);
         for (std::size_t i = piece.answered; i < piece.end; ++i) {
             if (i % poll_every == 0) host.poll();
-            // None of those behind the first failure will be told.
+            // None after the first failure will be returned.
             if (piece.tape.size() > most_words_ ||
                 i > first_failed_.load(std::memory_order_relaxed))
                 break;

@@ -70,7 +70,7 @@ template <int D> auto MarkedFacets<D>::ids_of(const std::uint64_t *record) -> Id
         Point<D> p;
         std::memcpy(p.data(), record + 3 + i * D, sizeof p);
         const auto id = mesh_.vertex_at(p);
-        if (!id) throw_corrupted("A facet with a marker has a corner that is no vertex.");
+        if (!id) throw_corrupted("A facet with a marker has a corner that is not a vertex.");
         ids[i] = *id;
     }
     return ids;

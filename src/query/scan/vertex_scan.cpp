@@ -67,7 +67,7 @@ template <int D> bool VertexScan<D>::next_repeated(abacus_vertex &vertex) {
     --repeated_left_;
     fill<D>(vertex, repeated_.record());
     const auto found = mesh_.vertex_at(record_point<D>(repeated_.record()));
-    if (!found) throw_corrupted("A repeated point is no vertex of the mesh.");
+    if (!found) throw_corrupted("A repeated point is not a vertex of the mesh.");
     vertex.vertex = *found;
     return true;
 }

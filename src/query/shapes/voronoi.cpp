@@ -130,7 +130,7 @@ template <int D> Point<D> Voronoi<D>::centre(Handle h) {
         const VertexIndex apex = cache_.simplex(link_simplex(beyond)).vertex[link_facet(beyond)];
         if (apex == infinite_vertex) continue;
         const Point<D> &p = cache_.point(apex);
-        // What is right to ten digits tells of nearly all that they are not on the sphere.
+        // Ten right digits show for nearly all points that they are not on the sphere.
         if (std::abs(distance<D>(centre, p) - radius) > 1e-7 * radius) continue;
         if (exact::unperturbed_in_sphere<D>(corners, p) == 0)
             return circumcentre<D>(corners, Rounding::at_the_end);

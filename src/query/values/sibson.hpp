@@ -38,8 +38,8 @@ public:
           seen_(host), shares_(host), centres_(host), rim_(host), ridges_(host) {}
 
     /// Finds the natural neighbours of p, which lies in the closure of a finite simplex of a
-    /// Delaunay mesh, and is no vertex. False if p is on the hull, where cells are unbounded, or if
-    /// doubles cannot represent the weights.
+    /// Delaunay mesh, and is not a vertex. False if p is on the hull, where cells are unbounded, or
+    /// if doubles cannot represent the weights.
     bool find(Cache<D> &cache, Handle h, const Point<D> &p);
 
     /// The result of find(): the neighbours and their weights, which sum to 1.

@@ -32,5 +32,5 @@ notice_missing_values(Reader *reader, uint32 attribute)
 	if (status == ABACUS_END)
 		ereport(NOTICE,
 				(errmsg("attribute \"%s\" has no value", reader->header.names[attribute]),
-				 errhint("abacus_attributes() tells which attributes have values.")));
+				 errhint("abacus_attributes() shows which attributes have values.")));
 }

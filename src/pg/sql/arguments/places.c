@@ -2,7 +2,7 @@
  * places.c: the places of a query, read for a function that answers all of
  * them.
  *
- * All places are read before the first is answered, for they are brought into
+ * All places are read before the first is answered, since they are brought into
  * the order of the curve; so the rows go into a tuplestore, as those of a
  * function in FROM do anyway. The session's cache has no part in it: the core
  * looks for all places of a page together, and keeps none.

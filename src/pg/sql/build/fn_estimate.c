@@ -9,7 +9,7 @@
  * row, with privileges and a snapshot of its own, and the user who plans a query may
  * lack the right to run it.
  *
- * A relation that is no mesh, or is not known yet, gets the estimate of CREATE FUNCTION.
+ * A relation that is not a mesh, or is not known yet, gets the estimate of CREATE FUNCTION.
  * The function reports such errors when it runs.
  */
 #include "postgres.h"
@@ -258,7 +258,7 @@ abacus_sql_line_rows(PG_FUNCTION_ARGS)
 	PG_RETURN_POINTER(is_estimated ? request : NULL);
 }
 
-/* How many levels contours are drawn at; where that is not told, as a map has. */
+/* How many levels contours are drawn at; where that is not given, as many as a map has. */
 static double
 levels_of_call(const SupportRequestRows *request)
 {

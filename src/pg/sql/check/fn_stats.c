@@ -119,7 +119,7 @@ put_srid(Figures *figures, const abacus_header *header)
 				   "spatial reference system of the coordinates, as PostGIS numbers it");
 }
 
-/* Of what only some meshes have. */
+/* Rows about what only some meshes have. */
 static void
 put_labels(Figures *figures, const abacus_header *header)
 {

@@ -68,7 +68,7 @@ run(SizeQuery *query, size_t count, const double *const *centers, double *sizes)
 	for (uint32 i = 0; i < query->dimension; i++)
 		arguments[i] = attribute_array(centers[i], (int) count);
 	if (SPI_execute_plan(query->plan, arguments, NULL, true, 2) != SPI_OK_SELECT)
-		refuse_answer("It is no SELECT.");
+		refuse_answer("It is not a SELECT.");
 	MemoryContextSwitchTo(query->scratch);	/* SPI has gone to its own */
 	if (SPI_processed != 1 || SPI_tuptable->tupdesc->natts != 1)
 		refuse_answer("It returned another number of rows or columns than one.");

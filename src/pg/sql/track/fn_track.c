@@ -68,7 +68,7 @@ check_kind(Relation table)
 		ereport(ERROR,
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
 				 errmsg("cannot track \"%s\"", RelationGetRelationName(table)),
-				 errdetail("Triggers that tell of all changes are for tables.")));
+				 errdetail("Only tables have triggers that see all changes.")));
 	if (root != RelationGetRelid(table))
 		ereport(ERROR,
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
