@@ -35,7 +35,7 @@ typedef abacus_host_status (*abacus_contour_report)(void *context, int64_t id, d
  * one that depends on the mesh alone. `memory` bytes, beyond which there are spools, and the
  * longest line. ABACUS_ERROR (argument) if there are too many levels to be told apart.
  */
-ABACUS_API abacus_status abacus_contours(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_contours(const abacus_host *host, const abacus_facts *facts,
 										 const abacus_window *window,
 										 const abacus_contouring *contouring, size_t memory,
 										 abacus_contour_report report, void *context,

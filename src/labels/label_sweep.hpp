@@ -23,8 +23,8 @@ template <int D> class SimplicesOfStretch {
 public:
     using Simplex = Owner<D, D + 1>;
 
-    SimplicesOfStretch(const Host &host, const abacus_header &header, const Domain<D> &domain)
-        : host_(host), domain_(domain), attributes_(page_attributes(header)) {}
+    SimplicesOfStretch(const Host &host, const abacus_facts &facts, const Domain<D> &domain)
+        : host_(host), domain_(domain), attributes_(page_attributes(facts.columns)) {}
 
     /// Calls visit(simplex, code) for each finite one with a code of the stretch, and after those
     /// of a page leave(); visit may not call the host.
@@ -72,7 +72,7 @@ public:
     using Report = std::function<void(const Simplex &, const double *)>;
 
     /// Of so many columns, in groups from `first` on.
-    LabelSweep(const Host &host, const abacus_header &header, const Domain<D> &domain,
+    LabelSweep(const Host &host, const abacus_facts &facts, const Domain<D> &domain,
                unsigned columns, unsigned first);
 
     /// Takes away what is without a simplex in a stretch; returns of how many simplices.

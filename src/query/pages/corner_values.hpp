@@ -1,7 +1,7 @@
 // What the corners of a simplex carry: the one way by which queries read attributes.
 #pragma once
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 #include <array>
 #include <cstdint>

@@ -37,7 +37,7 @@ public:
 
     /// Reports all edges, the shortest first. Sorts and what is known of vertices take `memory`
     /// bytes. Throws if vertices become no fewer, and there is no room for all of them.
-    SpanningTree(const Host &host, const abacus_header &header, std::size_t memory,
+    SpanningTree(const Host &host, const abacus_facts &facts, std::size_t memory,
                  std::size_t cache_bytes, const Report &report);
 
 private:
