@@ -24,7 +24,7 @@ void require(abacus_status status, const abacus_error &error) {
 
 template <int D> abacus_header empty_header() {
     abacus_header header{};
-    header.dimension = D;
+    header.facts.form.dimension = D;
     return header;
 }
 
@@ -46,17 +46,18 @@ template <int D> std::vector<std::uint64_t> uniform_rows(std::size_t count) {
 void stage(MemoryHost &host, abacus_header &header, const std::vector<std::uint64_t> &rows) {
     abacus_stage *handle = nullptr;
     abacus_error error{};
-    require(abacus_stage_open(host.table(), &header, sort_bytes, &handle, &error), error);
-    require(abacus_stage_add(handle, rows.data(), rows.size() / (1 + header.dimension), &error),
+    require(abacus_stage_open(host.table(), &header.facts, sort_bytes, &handle, &error), error);
+    require(abacus_stage_add(handle, rows.data(), rows.size() / (1 + header.facts.form.dimension),
+                             &error),
             error);
-    require(abacus_stage_finish(handle, &header, &error), error);
+    require(abacus_stage_finish(handle, &header.facts, &error), error);
     abacus_stage_close(handle);
 }
 
 void build(MemoryHost &host, abacus_header &header, std::size_t cache_bytes) {
     abacus_build *handle = nullptr;
     abacus_error error{};
-    require(abacus_build_open(host.table(), &header, cache_bytes, &handle, &error), error);
+    require(abacus_build_open(host.table(), &header.facts, cache_bytes, &handle, &error), error);
     require(abacus_build_run(handle, 0, &header, &error), error);
     abacus_build_close(handle);
 }
@@ -96,7 +97,7 @@ template <int D> void Build(benchmark::State &state) {
     }
     state.SetItemsProcessed(state.iterations() * state.range(0));
     const auto &counters = header.counters;
-    state.counters["bytes/simplex"] = double(page_bytes) / double(header.simplices);
+    state.counters["bytes/simplex"] = double(page_bytes) / double(header.facts.census.simplices);
     state.counters["fill"] = double(page_bytes) / double(page_count) / ABACUS_PAGE_BYTES;
     state.counters["loads"] = double(counters.loads);
     state.counters["stores"] = double(counters.stores);
@@ -114,9 +115,9 @@ template <int D> void Locate(benchmark::State &state) {
     build(host, header, std::size_t{64} << 20);
     abacus_mesh *mesh = nullptr;
     abacus_error error{};
-    require(
-        abacus_mesh_open(host.table(), &header, std::size_t(state.range(1)) << 20, &mesh, &error),
-        error);
+    require(abacus_mesh_open(host.table(), &header.facts, std::size_t(state.range(1)) << 20, &mesh,
+                             &error),
+            error);
     std::mt19937_64 engine(2);
     const auto locate = [&] {
         std::array<double, D> point;

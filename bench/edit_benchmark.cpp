@@ -25,7 +25,7 @@ template <int D> class Mesh {
 public:
     Mesh(std::size_t points, std::size_t cache_bytes) : cache_bytes_(cache_bytes) {
         host_.strict = false;
-        header.dimension = D;
+        header.facts.form.dimension = D;
         std::mt19937_64 engine(1);
         rows_.reserve(points * (1 + D));
         for (std::size_t i = 0; i < points; ++i) {
@@ -52,10 +52,11 @@ private:
         abacus_stage *stage = nullptr;
         abacus_build *build = nullptr;
         abacus_error error{};
-        require(abacus_stage_open(host_.table(), &header, sort_bytes, &stage, &error), error);
+        require(abacus_stage_open(host_.table(), &header.facts, sort_bytes, &stage, &error), error);
         require(abacus_stage_add(stage, rows_.data() + from * (1 + D), to - from, &error), error);
-        require(abacus_stage_end(stage, &header, &error), error);
-        require(abacus_build_open(host_.table(), &header, cache_bytes_, &build, &error), error);
+        require(abacus_stage_end(stage, &header.facts, &error), error);
+        require(abacus_build_open(host_.table(), &header.facts, cache_bytes_, &build, &error),
+                error);
         header.counters = {};
         std::uint64_t deleted;
         require(removes ? abacus_build_delete(build, stage, 0, &header, &deleted, &error)

@@ -71,8 +71,8 @@ public:
     /// From now on requests are printed.
     void start(const abacus_header &header) {
         spans_[ABACUS_SIMPLEX_PAGES] =
-            double(std::uint64_t{1} << (header.dimension == 2 ? 62 : 63));
-        spans_[ABACUS_STAGED_PAGES] = double(header.staged);
+            double(std::uint64_t{1} << (header.facts.form.dimension == 2 ? 62 : 63));
+        spans_[ABACUS_STAGED_PAGES] = double(header.facts.census.staged);
         spans_[ABACUS_REPEATED_PAGES] = spans_[ABACUS_SIMPLEX_PAGES];
         started_ = true;
         start_ = cpu_seconds();
@@ -108,12 +108,12 @@ private:
 void run(unsigned dimension, const char *path, std::size_t cache_bytes) {
     TracingHost host;
     abacus_header header{};
-    header.dimension = dimension;
+    header.facts.form.dimension = dimension;
     stage_file(host.tracing(), header, path);
     host.start(header);
     abacus_build *build = nullptr;
     abacus_error error{};
-    require(abacus_build_open(&host.tracing(), &header, cache_bytes, &build, &error), error);
+    require(abacus_build_open(&host.tracing(), &header.facts, cache_bytes, &build, &error), error);
     require(abacus_build_run(build, 0, &header, &error), error);
     abacus_build_close(build);
 }

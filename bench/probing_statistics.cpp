@@ -79,7 +79,7 @@ private:
 /// Calls visit(point, id) for the staged points, until it returns false.
 template <int D, class Visit>
 void for_each_point(const Host &host, const abacus_header &header, Visit visit) {
-    VertexReader<D> reader(host, header.attributes, 0, header.staged);
+    VertexReader<D> reader(host, header.facts.columns.attributes, 0, header.facts.census.staged);
     while (reader.advance() && visit(reader.point(), reader.id())) {
     }
 }
@@ -88,10 +88,11 @@ template <int D> int run(const char *path, std::size_t cache_bytes) {
     WatchingHost memory;
     const Host host(memory.watching());
     abacus_header header{};
-    header.dimension = D;
+    header.facts.form.dimension = D;
     stage_file(memory.watching(), header, path);
 
-    Cache<D> cache(host, domain_of<D>(header), 0, {.budget = cache_bytes, .stored_links = false});
+    Cache<D> cache(host, domain_of<D>(header.facts.form), 0,
+                   {.budget = cache_bytes, .stored_links = false});
     Delaunay<D> delaunay(host, cache, 0, 0);
     Insertion<D> insertion(delaunay);
     memory.watch(cache.counters);

@@ -24,13 +24,13 @@ inline void stage_file(const abacus_host &host, abacus_header &header, const cha
     if (!file) throw std::runtime_error(std::string("cannot open ") + path);
     abacus_stage *stage = nullptr;
     abacus_error error{};
-    require(abacus_stage_open(&host, &header, std::size_t{256} << 20, &stage, &error), error);
-    const std::size_t words = 1 + header.dimension;
+    require(abacus_stage_open(&host, &header.facts, std::size_t{256} << 20, &stage, &error), error);
+    const std::size_t words = 1 + header.facts.form.dimension;
     std::vector<std::uint64_t> records((1 << 14) * words);
     while (const std::size_t count =
                std::fread(records.data(), words * sizeof(std::uint64_t), 1 << 14, file.get()))
         require(abacus_stage_add(stage, records.data(), count, &error), error);
-    require(abacus_stage_finish(stage, &header, &error), error);
+    require(abacus_stage_finish(stage, &header.facts, &error), error);
     abacus_stage_close(stage);
 }
 

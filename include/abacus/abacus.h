@@ -16,7 +16,9 @@
  *   draw.h, raycast.h, tile.h                   pictures
  *   octree.h, octree_ask.h                      octrees
  *   check.h                                     verification
- *   mesh_header.h, simplex.h                    what is known about a mesh, and what readers return
+ *   facts.h, standing.h                         what is known of a mesh, but for its names
+ *   mesh_header.h, mesh_counters.h              all that is known of it; what has been done with it
+ *   page_kinds.h, simplex.h                     kinds of pages, and what readers return
  *
  * Errors travel by return value only. A host function that fails returns
  * ABACUS_HOST_FAILED and keeps its own error; the core unwinds and returns
@@ -36,15 +38,18 @@
 #include "abacus/check.h"
 #include "abacus/contours.h"
 #include "abacus/draw.h"
+#include "abacus/facts.h"
 #include "abacus/goose.h"
 #include "abacus/host_functions.h"
 #include "abacus/labels.h"
 #include "abacus/lines.h"
 #include "abacus/load.h"
 #include "abacus/locate.h"
+#include "abacus/mesh_counters.h"
 #include "abacus/mesh_header.h"
 #include "abacus/octree.h"
 #include "abacus/octree_ask.h"
+#include "abacus/page_kinds.h"
 #include "abacus/populate.h"
 #include "abacus/quake.h"
 #include "abacus/raster.h"

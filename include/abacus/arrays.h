@@ -17,7 +17,7 @@ extern "C" {
  * bytes, beyond that spools.
  */
 typedef struct abacus_numbered abacus_numbered;
-ABACUS_API abacus_status abacus_numbered_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_numbered_open(const abacus_host *host, const abacus_facts *facts,
 											  int simplices, size_t memory,
 											  abacus_numbered **numbered, abacus_error *error);
 /* The next vertex, in the order of the numbers: the first has number 0. Not for simplices. */

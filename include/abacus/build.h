@@ -4,6 +4,7 @@
 #ifndef ABACUS_ABACUS_BUILD_H
 #define ABACUS_ABACUS_BUILD_H
 
+#include "abacus/mesh_header.h"
 #include "abacus/simplex.h"
 
 #ifdef __cplusplus
@@ -15,10 +16,11 @@ extern "C" {
 typedef struct abacus_stage abacus_stage;
 
 /*
- * Opens a stage for points of the header's dimension and attributes. `memory` bounds the memory for
- * sorting, in bytes (maintenance_work_mem); beyond it points go to spools.
+ * Opens a stage for points of the dimension and the attributes in `facts`. `memory`
+ * bounds what it uses for sorting, in bytes (maintenance_work_mem); beyond it
+ * points go to spools.
  */
-ABACUS_API abacus_status abacus_stage_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_stage_open(const abacus_host *host, const abacus_facts *facts,
 										   size_t memory, abacus_stage **stage,
 										   abacus_error *error);
 /*
@@ -27,11 +29,11 @@ ABACUS_API abacus_status abacus_stage_open(const abacus_host *host, const abacus
  */
 ABACUS_API abacus_status abacus_stage_add(abacus_stage *stage, const uint64_t *points,
 										  size_t count, abacus_error *error);
-/* No more points come. A header without a domain gets theirs. */
-ABACUS_API abacus_status abacus_stage_end(abacus_stage *stage, abacus_header *header,
+/* No more points come. A mesh without a domain gets theirs. */
+ABACUS_API abacus_status abacus_stage_end(abacus_stage *stage, abacus_facts *facts,
 										  abacus_error *error);
-/* Ends, orders the points, writes the vertex pages, brings the header up to date. */
-ABACUS_API abacus_status abacus_stage_finish(abacus_stage *stage, abacus_header *header,
+/* Ends, orders the points, writes the vertex pages, brings the facts up to date. */
+ABACUS_API abacus_status abacus_stage_finish(abacus_stage *stage, abacus_facts *facts,
 											 abacus_error *error);
 ABACUS_API void abacus_stage_close(abacus_stage *stage);
 
@@ -40,10 +42,11 @@ ABACUS_API void abacus_stage_close(abacus_stage *stage);
 typedef struct abacus_build abacus_build;
 
 /*
- * Opens a mesh for inserting, with a computational cache of `cache_bytes`. Its domain is the one
- * that the header has now, so for the first points call abacus_stage_end() first.
+ * Opens a mesh for inserting, with a computational cache of `cache_bytes`. Its domain
+ * is the one that `facts` has now, so for the first points call abacus_stage_end()
+ * before.
  */
-ABACUS_API abacus_status abacus_build_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_build_open(const abacus_host *host, const abacus_facts *facts,
 										   size_t cache_bytes, abacus_build **build,
 										   abacus_error *error);
 /*
@@ -133,8 +136,8 @@ ABACUS_API abacus_status abacus_build_clear(abacus_build *build, abacus_header *
 /*
  * rekey: gives a mesh whose domain does not fit many of its points another domain, and all its
  * pages other keys, with `memory` bytes for sorting. The simplices stay the same. *done is 0 if
- * there is no better domain; then header->outside is 0 if all points were examined. The insertion
- * of many points does this by itself.
+ * there is no better domain; the census counts no points as outside then, if that took a look at all
+ * points. The insertion of many points does this by itself.
  */
 ABACUS_API abacus_status abacus_build_rekey(abacus_build *build, size_t memory,
 											abacus_header *header, int *done,

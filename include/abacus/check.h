@@ -4,7 +4,7 @@
 #ifndef ABACUS_ABACUS_CHECK_H
 #define ABACUS_ABACUS_CHECK_H
 
-#include "abacus/mesh_header.h"
+#include "abacus/facts.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -14,7 +14,7 @@ extern "C" {
  * Whether the mesh's domain fits its points, judged by the counts in the header and by a few pages;
  * if not, abacus_build_rekey() helps.
  */
-ABACUS_API abacus_status abacus_domain_fits(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_domain_fits(const abacus_host *host, const abacus_facts *facts,
 											int *fits, abacus_error *error);
 
 typedef struct abacus_fault
@@ -30,7 +30,7 @@ typedef struct abacus_fault
  * again.
  */
 typedef struct abacus_check abacus_check;
-ABACUS_API abacus_status abacus_check_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_check_open(const abacus_host *host, const abacus_facts *facts,
 										   size_t cache_bytes, size_t limit, abacus_check **check,
 										   abacus_error *error);
 ABACUS_API abacus_status abacus_check_next(abacus_check *check, abacus_fault *fault);

@@ -36,7 +36,7 @@ typedef abacus_host_status (*abacus_contour_report)(void *context, int64_t id, d
  * memory for the longest line. ABACUS_ERROR (argument) if there are too many levels to be
  * distinguished.
  */
-ABACUS_API abacus_status abacus_contours(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_contours(const abacus_host *host, const abacus_facts *facts,
 										 const abacus_window *window,
 										 const abacus_contouring *contouring, size_t memory,
 										 abacus_contour_report report, void *context,

@@ -4,7 +4,7 @@
 #ifndef ABACUS_ABACUS_DRAW_H
 #define ABACUS_ABACUS_DRAW_H
 
-#include "abacus/mesh_header.h"
+#include "abacus/facts.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -59,7 +59,7 @@ typedef struct abacus_picture
 } abacus_picture;
 
 /* Draws a mesh of dimension 2, or a quadtree without contours, as a PNG. */
-ABACUS_API abacus_status abacus_draw(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_draw(const abacus_host *host, const abacus_facts *facts,
 									 const abacus_drawing *drawing, abacus_picture *picture,
 									 abacus_error *error);
 
@@ -77,7 +77,7 @@ typedef struct abacus_section
 } abacus_section;
 
 /* Draws the section of a mesh of dimension 3, or of an octree, by a plane, as abacus_draw does. */
-ABACUS_API abacus_status abacus_draw_section(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_draw_section(const abacus_host *host, const abacus_facts *facts,
 											 const abacus_section *section,
 											 const abacus_drawing *drawing, abacus_picture *picture,
 											 abacus_error *error);

@@ -70,7 +70,7 @@ typedef struct abacus_goose_figures
  * end the tree has a row for each simplex and each ghost; none if the points span no simplex.
  */
 ABACUS_API abacus_status abacus_goose_run(const abacus_host *host, const abacus_rtree *rtree,
-										  abacus_stage *stage, const abacus_header *header,
+										  abacus_stage *stage, const abacus_facts *facts,
 										  abacus_goose_figures *figures, abacus_error *error);
 
 #ifdef __cplusplus

@@ -4,6 +4,7 @@
 #ifndef ABACUS_ABACUS_LABELS_H
 #define ABACUS_ABACUS_LABELS_H
 
+#include "abacus/mesh_header.h"
 #include "abacus/simplex.h"
 
 #ifdef __cplusplus
@@ -15,12 +16,12 @@ extern "C" {
 typedef struct abacus_labelling abacus_labelling;
 
 /*
- * Opens the labelling of simplices of a mesh, Delaunay or not. `header` names all labels; the first
+ * Opens the labelling of simplices of a mesh, Delaunay or not. `facts` counts all labels; the first
  * `known` of them are not new. Each row has values of `count` labels, whose numbers are `labels`.
  * `memory` bounds the memory for sorting, in bytes.
  */
 ABACUS_API abacus_status abacus_labelling_open(const abacus_host *host,
-											   const abacus_header *header, uint32_t known,
+											   const abacus_facts *facts, uint32_t known,
 											   const uint32_t *labels, size_t count, size_t memory,
 											   size_t cache_bytes, abacus_labelling **labelling,
 											   abacus_error *error);
@@ -43,7 +44,7 @@ ABACUS_API void abacus_labelling_close(abacus_labelling *labelling);
 typedef struct abacus_marking abacus_marking;
 
 /* Opens the marking of facets of a mesh, Delaunay or not; `memory` as for labels. */
-ABACUS_API abacus_status abacus_marking_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_marking_open(const abacus_host *host, const abacus_facts *facts,
 											 size_t memory, size_t cache_bytes,
 											 abacus_marking **marking, abacus_error *error);
 /*
@@ -72,7 +73,7 @@ typedef struct abacus_facet
  * marker. Sorts within `memory` bytes.
  */
 typedef struct abacus_facets abacus_facets;
-ABACUS_API abacus_status abacus_facets_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_facets_open(const abacus_host *host, const abacus_facts *facts,
 											double marker, size_t memory, size_t cache_bytes,
 											abacus_facets **facets, abacus_error *error);
 ABACUS_API abacus_status abacus_facets_next(abacus_facets *facets, abacus_facet *facet,

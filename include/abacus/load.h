@@ -5,6 +5,7 @@
 #define ABACUS_ABACUS_LOAD_H
 
 #include "abacus/build.h"
+#include "abacus/mesh_header.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -19,7 +20,7 @@ typedef struct abacus_load abacus_load;
  * refused. With `split_nodes` vertices at one place are distinguished by their ids, and no
  * attributes are apart; without it such vertices are refused.
  */
-ABACUS_API abacus_status abacus_load_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_load_open(const abacus_host *host, const abacus_facts *facts,
 										  size_t memory, int reorient, int split_nodes,
 										  abacus_load **load, abacus_error *error);
 /* Adds vertices, as abacus_stage_add adds points; each id once. */

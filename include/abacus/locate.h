@@ -5,6 +5,7 @@
 #ifndef ABACUS_ABACUS_LOCATE_H
 #define ABACUS_ABACUS_LOCATE_H
 
+#include "abacus/mesh_counters.h"
 #include "abacus/simplex.h"
 
 #ifdef __cplusplus
@@ -13,7 +14,7 @@ extern "C" {
 
 typedef struct abacus_mesh abacus_mesh;
 
-ABACUS_API abacus_status abacus_mesh_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_mesh_open(const abacus_host *host, const abacus_facts *facts,
 										  size_t cache_bytes, abacus_mesh **mesh,
 										  abacus_error *error);
 ABACUS_API void abacus_mesh_close(abacus_mesh *mesh);
@@ -77,7 +78,7 @@ ABACUS_API abacus_status abacus_mesh_neighbours(abacus_mesh *mesh, uint64_t code
  * spools, then located page by page.
  */
 typedef struct abacus_places abacus_places;
-ABACUS_API abacus_status abacus_places_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_places_open(const abacus_host *host, const abacus_facts *facts,
 											size_t memory, size_t cache_bytes,
 											abacus_places **places, abacus_error *error);
 /* Adds `count` places: each 1 + dimension words of 8 bytes, as in abacus_stage_add. */

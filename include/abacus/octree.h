@@ -8,8 +8,8 @@
 #ifndef ABACUS_ABACUS_OCTREE_H
 #define ABACUS_ABACUS_OCTREE_H
 
-#include "abacus/windows.h"
 #include "abacus/mesh_header.h"
+#include "abacus/windows.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -44,7 +44,7 @@ ABACUS_API abacus_status abacus_octree_root(const abacus_host *host, abacus_head
  */
 typedef struct abacus_octree_growth abacus_octree_growth;
 ABACUS_API abacus_status abacus_octree_growth_open(const abacus_host *host,
-												   const abacus_header *header, size_t memory,
+												   const abacus_facts *facts, size_t memory,
 												   abacus_octree_growth **growth,
 												   abacus_error *error);
 /*
@@ -83,7 +83,7 @@ ABACUS_API void abacus_octree_growth_close(abacus_octree_growth *growth);
 /* Edits of single leaves, in place: each edit is of one kind. */
 typedef struct abacus_octree_edit abacus_octree_edit;
 ABACUS_API abacus_status abacus_octree_edit_open(const abacus_host *host,
-												 const abacus_header *header, size_t memory,
+												 const abacus_facts *facts, size_t memory,
 												 size_t cache_bytes, abacus_octree_edit **edit,
 												 abacus_error *error);
 /* Adds `count` leaves to be: each 1 + dimension words: a level (int64_t), coordinates of a place. */
@@ -108,7 +108,7 @@ ABACUS_API void abacus_octree_edit_close(abacus_octree_edit *edit);
  */
 typedef struct abacus_octree_load abacus_octree_load;
 ABACUS_API abacus_status abacus_octree_load_open(const abacus_host *host,
-												 const abacus_header *header, size_t memory,
+												 const abacus_facts *facts, size_t memory,
 												 abacus_octree_load **load, abacus_error *error);
 /* Adds `count` leaves: each 2 + attributes words: a code, a level (double), attributes. */
 ABACUS_API abacus_status abacus_octree_load_add(abacus_octree_load *load, const uint64_t *rows,
@@ -120,7 +120,7 @@ ABACUS_API void abacus_octree_load_close(abacus_octree_load *load);
 /* ---- Reading ------------------------------------------------------------- */
 
 typedef struct abacus_octree abacus_octree;
-ABACUS_API abacus_status abacus_octree_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_octree_open(const abacus_host *host, const abacus_facts *facts,
 											size_t cache_bytes, abacus_octree **octree,
 											abacus_error *error);
 /* The leaf that contains a place (`dimension` finite doubles); ABACUS_END outside the domain. */
@@ -139,7 +139,7 @@ ABACUS_API void abacus_octree_close(abacus_octree *octree);
 /* The leaves that meet a window (all, a box, or a ball), along the curve. */
 typedef struct abacus_octree_scan abacus_octree_scan;
 ABACUS_API abacus_status abacus_octree_scan_open(const abacus_host *host,
-												 const abacus_header *header,
+												 const abacus_facts *facts,
 												 const abacus_window *window, size_t cache_bytes,
 												 abacus_octree_scan **scan, abacus_error *error);
 ABACUS_API abacus_status abacus_octree_scan_next(abacus_octree_scan *scan, abacus_octant *octant,
@@ -159,7 +159,7 @@ typedef struct abacus_octree_node
 } abacus_octree_node;
 typedef struct abacus_octree_nodes abacus_octree_nodes;
 ABACUS_API abacus_status abacus_octree_nodes_open(const abacus_host *host,
-												  const abacus_header *header, size_t memory,
+												  const abacus_facts *facts, size_t memory,
 												  abacus_octree_nodes **nodes,
 												  abacus_error *error);
 ABACUS_API abacus_status abacus_octree_nodes_next(abacus_octree_nodes *nodes,
@@ -169,7 +169,7 @@ ABACUS_API void abacus_octree_nodes_close(abacus_octree_nodes *nodes);
 /* Leaves along the curve, by the numbers of their 2^dimension corners; axis 0 varies fastest. */
 typedef struct abacus_octree_elements abacus_octree_elements;
 ABACUS_API abacus_status abacus_octree_elements_open(const abacus_host *host,
-													 const abacus_header *header, size_t memory,
+													 const abacus_facts *facts, size_t memory,
 													 abacus_octree_elements **elements,
 													 abacus_error *error);
 ABACUS_API abacus_status abacus_octree_elements_next(abacus_octree_elements *elements,
@@ -183,7 +183,7 @@ ABACUS_API void abacus_octree_elements_close(abacus_octree_elements *elements);
  */
 typedef struct abacus_octree_simplices abacus_octree_simplices;
 ABACUS_API abacus_status abacus_octree_simplices_open(const abacus_host *host,
-													  const abacus_header *header, size_t memory,
+													  const abacus_facts *facts, size_t memory,
 													  abacus_octree_simplices **simplices,
 													  abacus_error *error);
 /* The leaf that it is part of, and its dimension + 1 nodes, in positive orientation. */

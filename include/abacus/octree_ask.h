@@ -41,7 +41,7 @@ ABACUS_API abacus_status abacus_octree_interpolate(abacus_octree *octree,
  */
 typedef struct abacus_octree_places abacus_octree_places;
 ABACUS_API abacus_status abacus_octree_places_open(const abacus_host *host,
-												   const abacus_header *header, size_t memory,
+												   const abacus_facts *facts, size_t memory,
 												   size_t cache_bytes,
 												   abacus_octree_places **places,
 												   abacus_error *error);

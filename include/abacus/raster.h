@@ -31,7 +31,7 @@ typedef struct abacus_raster
  * many rows as `memory` bytes can hold are filled at once, but at least one.
  */
 typedef struct abacus_raster_scan abacus_raster_scan;
-ABACUS_API abacus_status abacus_raster_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_raster_open(const abacus_host *host, const abacus_facts *facts,
 											const abacus_raster *raster,
 											const abacus_interpolation *interpolation,
 											size_t memory, size_t cache_bytes,

@@ -39,7 +39,7 @@ typedef struct abacus_camera
  * and above, and z points up, or y if the eye looks straight up or down. Parallel rays show all of
  * the box: it just fits into the picture, whatever the distance of the eye.
  */
-ABACUS_API abacus_status abacus_draw_volume(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_draw_volume(const abacus_host *host, const abacus_facts *facts,
 											const abacus_camera *camera,
 											const abacus_drawing *drawing, abacus_picture *picture,
 											abacus_error *error);

@@ -12,7 +12,7 @@ extern "C" {
 
 /* All simplices, page by page in key order; with `ghosts` the hull facets too. */
 typedef struct abacus_scan abacus_scan;
-ABACUS_API abacus_status abacus_scan_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_scan_open(const abacus_host *host, const abacus_facts *facts,
 										  int ghosts, abacus_scan **scan, abacus_error *error);
 ABACUS_API abacus_status abacus_scan_next(abacus_scan *scan, abacus_simplex *simplex,
 										  abacus_error *error);
@@ -24,7 +24,7 @@ ABACUS_API void abacus_scan_close(abacus_scan *scan);
  */
 typedef struct abacus_vertex_scan abacus_vertex_scan;
 ABACUS_API abacus_status abacus_vertex_scan_open(const abacus_host *host,
-												 const abacus_header *header, size_t cache_bytes,
+												 const abacus_facts *facts, size_t cache_bytes,
 												 abacus_vertex_scan **scan, abacus_error *error);
 ABACUS_API abacus_status abacus_vertex_scan_next(abacus_vertex_scan *scan, abacus_vertex *vertex,
 												 abacus_error *error);

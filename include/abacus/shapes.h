@@ -17,7 +17,7 @@ extern "C" {
  * Delaunay.
  */
 typedef struct abacus_voronoi abacus_voronoi;
-ABACUS_API abacus_status abacus_voronoi_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_voronoi_open(const abacus_host *host, const abacus_facts *facts,
 											 const abacus_window *window, size_t cache_bytes,
 											 abacus_voronoi **voronoi, abacus_error *error);
 typedef struct abacus_voronoi_cell
@@ -78,7 +78,7 @@ typedef abacus_host_status (*abacus_outline_report)(void *context, const abacus_
  * which they begin. Sorting takes `memory` bytes. ABACUS_ERROR (limit) if these have no room for
  * the parts, page by page, of possible cavities to be filled.
  */
-ABACUS_API abacus_status abacus_outline(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_outline(const abacus_host *host, const abacus_facts *facts,
 										const abacus_outline_kind *kind, size_t memory,
 										size_t cache_bytes, abacus_outline_report report,
 										void *context, abacus_error *error);
@@ -98,7 +98,7 @@ typedef abacus_host_status (*abacus_edge_report)(void *context, const abacus_edg
  * those with the lesser ends are taken. Sorting, and data about vertices, take `memory` bytes.
  * ABACUS_ERROR (limit) if that is too little.
  */
-ABACUS_API abacus_status abacus_spanning_tree(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_spanning_tree(const abacus_host *host, const abacus_facts *facts,
 											  size_t memory, size_t cache_bytes,
 											  abacus_edge_report report, void *context,
 											  abacus_error *error);

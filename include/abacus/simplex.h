@@ -4,7 +4,7 @@
 #ifndef ABACUS_ABACUS_SIMPLEX_H
 #define ABACUS_ABACUS_SIMPLEX_H
 
-#include "abacus/mesh_header.h"
+#include "abacus/facts.h"
 
 #ifdef __cplusplus
 extern "C" {

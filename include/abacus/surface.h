@@ -44,7 +44,7 @@ typedef abacus_host_status (*abacus_surface_report)(void *context,
  * Reports the triangles of the surface. Tetrahedra with a corner without a finite value have none.
  * Corners are numbered within `memory` bytes and spools.
  */
-ABACUS_API abacus_status abacus_isosurface(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_isosurface(const abacus_host *host, const abacus_facts *facts,
 										   const abacus_isosurface_query *query, size_t memory,
 										   abacus_surface_report report, void *context,
 										   abacus_error *error);
@@ -77,7 +77,7 @@ typedef struct abacus_polygon
  * of the ghost.
  */
 typedef struct abacus_sections abacus_sections;
-ABACUS_API abacus_status abacus_sections_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_sections_open(const abacus_host *host, const abacus_facts *facts,
 											  const abacus_section_query *query,
 											  abacus_sections **sections, abacus_error *error);
 ABACUS_API abacus_status abacus_sections_next(abacus_sections *sections, abacus_polygon *polygon,

@@ -33,7 +33,7 @@ typedef struct abacus_tile_memory
  * height are not read. With an attribute the drawing must have a range. Where a pixel has several
  * triangles it shows the one at its centre.
  */
-ABACUS_API abacus_status abacus_tile_picture(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_tile_picture(const abacus_host *host, const abacus_facts *facts,
 											 const abacus_tile *tile, const abacus_drawing *drawing,
 											 const abacus_tile_memory *memory,
 											 abacus_picture *picture, abacus_error *error);
@@ -47,7 +47,7 @@ typedef struct abacus_tile_terrain_kind
 } abacus_tile_terrain_kind;
 
 /* Heights as colours of a PNG: 256 red + green + blue / 256 - 32768 ("terrarium"). */
-ABACUS_API abacus_status abacus_tile_terrain(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_tile_terrain(const abacus_host *host, const abacus_facts *facts,
 											 const abacus_tile *tile,
 											 const abacus_tile_terrain_kind *kind,
 											 const abacus_tile_memory *memory,
@@ -65,7 +65,7 @@ typedef struct abacus_tile_vector_kind
  * hull. For a tile with many triangles it has no triangles and vertices, and contours between
  * samples.
  */
-ABACUS_API abacus_status abacus_tile_vector(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_tile_vector(const abacus_host *host, const abacus_facts *facts,
 											const abacus_tile *tile,
 											const abacus_tile_vector_kind *kind,
 											const abacus_tile_memory *memory,

@@ -30,7 +30,7 @@ typedef struct abacus_volume
 	double area, surface, cut, fill;
 } abacus_volume;
 
-ABACUS_API abacus_status abacus_volume_above(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_volume_above(const abacus_host *host, const abacus_facts *facts,
 											 const abacus_surface *surface, double base,
 											 abacus_volume *volume, abacus_error *error);
 /*
@@ -38,10 +38,10 @@ ABACUS_API abacus_status abacus_volume_above(const abacus_host *host, const abac
  * other mesh may have its own host; longest edge and window are those of the first.
  */
 ABACUS_API abacus_status abacus_volume_between(const abacus_host *host,
-											   const abacus_header *header,
+											   const abacus_facts *facts,
 											   const abacus_surface *surface,
 											   const abacus_host *other_host,
-											   const abacus_header *other,
+											   const abacus_facts *other,
 											   uint32_t other_attribute, size_t cache_bytes,
 											   abacus_volume *volume, abacus_error *error);
 

@@ -43,13 +43,13 @@ typedef struct abacus_range
  * pages of labels show which pages to skip.
  */
 typedef struct abacus_cells abacus_cells;
-ABACUS_API abacus_status abacus_cells_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_cells_open(const abacus_host *host, const abacus_facts *facts,
 										   const abacus_window *window, double max_edge,
 										   const abacus_range *label, abacus_cells **cells,
 										   abacus_error *error);
 /* The simplices with codes from `least` to `greatest`, page by page in key order. */
 ABACUS_API abacus_status abacus_cells_open_stretch(const abacus_host *host,
-												   const abacus_header *header, uint64_t least,
+												   const abacus_facts *facts, uint64_t least,
 												   uint64_t greatest, abacus_cells **cells,
 												   abacus_error *error);
 /*
@@ -73,7 +73,7 @@ ABACUS_API void abacus_cells_close(abacus_cells *cells);
  * points that wait, are not included. Edges longer than max_edge are left out, unless it is 0.
  */
 typedef struct abacus_faces abacus_faces;
-ABACUS_API abacus_status abacus_faces_open(const abacus_host *host, const abacus_header *header,
+ABACUS_API abacus_status abacus_faces_open(const abacus_host *host, const abacus_facts *facts,
 										   const abacus_window *window, int edges, double max_edge,
 										   size_t cache_bytes, abacus_faces **faces,
 										   abacus_error *error);
@@ -82,7 +82,7 @@ ABACUS_API abacus_status abacus_faces_open(const abacus_host *host, const abacus
  * which pages have no such value, and these are skipped.
  */
 ABACUS_API abacus_status abacus_faces_open_range(const abacus_host *host,
-												 const abacus_header *header,
+												 const abacus_facts *facts,
 												 const abacus_window *window,
 												 const abacus_range *range, size_t cache_bytes,
 												 abacus_faces **faces, abacus_error *error);

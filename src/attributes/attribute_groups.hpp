@@ -1,7 +1,7 @@
 // Which attributes share a page: see attribute_page.hpp.
 #pragma once
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 namespace abacus {
 

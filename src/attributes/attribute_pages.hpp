@@ -10,7 +10,7 @@
 #include "attributes/attribute_page.hpp"
 #include "host/memory_resource.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/mesh_counters.h>
 
 #include <deque>
 #include <span>

@@ -1,7 +1,7 @@
 // Sums of what meshes and octrees count.
 #pragma once
 
-#include <abacus/mesh_header.h>
+#include <abacus/mesh_counters.h>
 
 #include <algorithm>
 #include <array>

@@ -12,16 +12,16 @@
 #include <cstring>
 
 struct abacus_build {
-    abacus_build(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
-        : stored(abacus::Host(*table)), host(*table, watch(header)), alone(*table),
-          build(host, header, cache_bytes, watch(header)) {
+    abacus_build(const abacus_host *table, const abacus_facts &facts, std::size_t cache_bytes)
+        : stored(abacus::Host(*table)), host(*table, watch(facts)), alone(*table),
+          build(host, facts, cache_bytes, watch(facts)) {
         alone.threads = 1;
         alone.tiny_intervals = 0;
     }
 
     /// Where something may go with a simplex.
-    abacus::StoredPages *watch(const abacus_header &header) {
-        return header.labelled > 0 || header.marked > 0 ? &stored : nullptr;
+    abacus::StoredPages *watch(const abacus_facts &facts) {
+        return facts.census.labelled > 0 || facts.census.marked > 0 ? &stored : nullptr;
     }
 
     abacus::StoredPages stored;
@@ -34,11 +34,11 @@ struct abacus_build {
     std::optional<abacus::ByDimension<abacus::SimplexChanges>> changes;
 };
 
-abacus_status abacus_build_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_build_open(const abacus_host *host, const abacus_facts *facts,
                                 size_t cache_bytes, abacus_build **build, abacus_error *error) {
     return abacus::guard(error, [&] {
-        abacus::require_editable(*header);
-        *build = abacus::create_handle<abacus_build>(host, *header, cache_bytes);
+        abacus::require_editable(*facts);
+        *build = abacus::create_handle<abacus_build>(host, *facts, cache_bytes);
         return ABACUS_OK;
     });
 }
@@ -115,8 +115,8 @@ abacus_status abacus_build_change_attributes(abacus_build *build, const uint32_t
                 std::memset(changed.names[i], 0, ABACUS_NAME_BYTES);
             else
                 std::memcpy(changed.names[i], header->names[source[i]], ABACUS_NAME_BYTES);
-        std::memcpy(changed.names[count], header->names[header->attributes],
-                    header->labels * std::size_t{ABACUS_NAME_BYTES});
+        std::memcpy(changed.names[count], header->names[header->facts.columns.attributes],
+                    header->facts.columns.labels * std::size_t{ABACUS_NAME_BYTES});
         opened.change_attributes({source, count}, memory, changed);
     });
 }
@@ -138,8 +138,8 @@ abacus_status abacus_build_log(abacus_build *build, size_t memory, abacus_error 
     return abacus::guard(error, [&] {
         const abacus::Host &lone = build->lone_host.emplace(build->alone);
         build->build.visit([&]<int D>(abacus::Build<D> &opened) {
-            abacus_header shape{};
-            shape.dimension = D;
+            abacus_facts shape{};
+            shape.form.dimension = D;
             auto &changes = build->changes.emplace(lone, shape, memory, build->host.threads(),
                                                    build->host.has_tiny_intervals());
             opened.log_to(changes.template get<D>());

@@ -10,15 +10,15 @@
 #include <numeric>
 
 struct abacus_cells {
-    abacus_cells(const abacus_host *table, const abacus_header &header, const abacus_window &window,
+    abacus_cells(const abacus_host *table, const abacus_facts &facts, const abacus_window &window,
                  double max_edge, const abacus_range *label)
-        : host(*table), values(all.data(), header.attributes), labels(host, header),
-          cells(host, header, window, max_edge, label) {}
+        : host(*table), values(all.data(), facts.columns.attributes), labels(host, facts),
+          cells(host, facts, window, max_edge, label) {}
 
-    abacus_cells(const abacus_host *table, const abacus_header &header, std::uint64_t least,
+    abacus_cells(const abacus_host *table, const abacus_facts &facts, std::uint64_t least,
                  std::uint64_t greatest)
-        : host(*table), values(all.data(), header.attributes), labels(host, header),
-          cells(host, header, least, greatest) {}
+        : host(*table), values(all.data(), facts.columns.attributes), labels(host, facts),
+          cells(host, facts, least, greatest) {}
 
     static constexpr std::array<std::uint32_t, ABACUS_MAX_ATTRIBUTES> all = [] {
         std::array<std::uint32_t, ABACUS_MAX_ATTRIBUTES> numbers;
@@ -32,21 +32,21 @@ struct abacus_cells {
     abacus::ByDimension<abacus::CellScan> cells;
 };
 
-abacus_status abacus_cells_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_cells_open(const abacus_host *host, const abacus_facts *facts,
                                 const abacus_window *window, double max_edge,
                                 const abacus_range *label, abacus_cells **cells,
                                 abacus_error *error) {
     return abacus::guard(error, [&] {
-        *cells = abacus::create_handle<abacus_cells>(host, *header, *window, max_edge, label);
+        *cells = abacus::create_handle<abacus_cells>(host, *facts, *window, max_edge, label);
         return ABACUS_OK;
     });
 }
 
-abacus_status abacus_cells_open_stretch(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_cells_open_stretch(const abacus_host *host, const abacus_facts *facts,
                                         uint64_t least, uint64_t greatest, abacus_cells **cells,
                                         abacus_error *error) {
     return abacus::guard(error, [&] {
-        *cells = abacus::create_handle<abacus_cells>(host, *header, least, greatest);
+        *cells = abacus::create_handle<abacus_cells>(host, *facts, least, greatest);
         return ABACUS_OK;
     });
 }

@@ -9,13 +9,13 @@
 #include <abacus/check.h>
 
 struct abacus_check {
-    abacus_check(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes,
+    abacus_check(const abacus_host *table, const abacus_facts &facts, std::size_t cache_bytes,
                  std::size_t limit)
         : host(*table) {
-        if (header.type == ABACUS_OCTREE)
-            octree.emplace(host, header, limit);
+        if (facts.form.type == ABACUS_OCTREE)
+            octree.emplace(host, facts, limit);
         else
-            mesh.emplace(host, header, cache_bytes, limit);
+            mesh.emplace(host, facts, cache_bytes, limit);
     }
     template <class Visit> abacus_status visit(Visit visit) {
         return octree ? octree->visit(visit) : mesh->visit(visit);
@@ -26,11 +26,11 @@ struct abacus_check {
     std::optional<abacus::ByDimension<abacus::OctreeCheck>> octree;
 };
 
-abacus_status abacus_check_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_check_open(const abacus_host *host, const abacus_facts *facts,
                                 size_t cache_bytes, size_t limit, abacus_check **check,
                                 abacus_error *error) {
     return abacus::guard(error, [&] {
-        *check = abacus::create_handle<abacus_check>(host, *header, cache_bytes, limit);
+        *check = abacus::create_handle<abacus_check>(host, *facts, cache_bytes, limit);
         return ABACUS_OK;
     });
 }

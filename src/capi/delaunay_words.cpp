@@ -1,5 +1,5 @@
 // How a mesh is related to the Delaunay triangulation of its vertices, in words.
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 const char *abacus_delaunay_clause(abacus_delaunay delaunay) {
     switch (delaunay) {

@@ -3,7 +3,7 @@
 
 #include "host/host.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 #include <utility>
 #include <variant>
 
@@ -12,13 +12,13 @@ namespace abacus {
 template <template <int> class T> class ByDimension {
 public:
     template <class... Args>
-    ByDimension(const Host &host, const abacus_header &header, Args &&...args) {
-        switch (header.dimension) {
+    ByDimension(const Host &host, const abacus_facts &facts, Args &&...args) {
+        switch (facts.form.dimension) {
         case 2:
-            any_.template emplace<1>(host, header, std::forward<Args>(args)...);
+            any_.template emplace<1>(host, facts, std::forward<Args>(args)...);
             break;
         case 3:
-            any_.template emplace<2>(host, header, std::forward<Args>(args)...);
+            any_.template emplace<2>(host, facts, std::forward<Args>(args)...);
             break;
         default:
             throw Error(ABACUS_ERROR_ARGUMENT, "a mesh has 2 or 3 dimensions");

@@ -9,8 +9,8 @@
 
 namespace {
 
-void require_dimension(const abacus_header &header, unsigned dimension) {
-    if (header.dimension != dimension)
+void require_dimension(const abacus_facts &facts, unsigned dimension) {
+    if (facts.form.dimension != dimension)
         throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the mesh has another dimension");
 }
 
@@ -23,35 +23,36 @@ abacus_status hand_over(abacus::Portrait portrait, abacus_picture *picture) {
 
 } // namespace
 
-abacus_status abacus_draw(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_draw(const abacus_host *host, const abacus_facts *facts,
                           const abacus_drawing *drawing, abacus_picture *picture,
                           abacus_error *error) {
     return abacus::guard(error, [&] {
-        require_dimension(*header, 2);
+        require_dimension(*facts, 2);
         const abacus::Host wrapped(*host);
-        const auto draw = header->type == ABACUS_OCTREE ? abacus::draw_octree : abacus::draw_mesh;
-        return hand_over(draw(wrapped, *header, *drawing), picture);
+        const auto draw =
+            facts->form.type == ABACUS_OCTREE ? abacus::draw_octree : abacus::draw_mesh;
+        return hand_over(draw(wrapped, *facts, *drawing), picture);
     });
 }
 
-abacus_status abacus_draw_section(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_draw_section(const abacus_host *host, const abacus_facts *facts,
                                   const abacus_section *section, const abacus_drawing *drawing,
                                   abacus_picture *picture, abacus_error *error) {
     return abacus::guard(error, [&] {
-        require_dimension(*header, 3);
+        require_dimension(*facts, 3);
         const abacus::Host wrapped(*host);
         const auto draw =
-            header->type == ABACUS_OCTREE ? abacus::draw_octree_section : abacus::draw_section;
-        return hand_over(draw(wrapped, *header, *section, *drawing), picture);
+            facts->form.type == ABACUS_OCTREE ? abacus::draw_octree_section : abacus::draw_section;
+        return hand_over(draw(wrapped, *facts, *section, *drawing), picture);
     });
 }
 
-abacus_status abacus_draw_volume(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_draw_volume(const abacus_host *host, const abacus_facts *facts,
                                  const abacus_camera *camera, const abacus_drawing *drawing,
                                  abacus_picture *picture, abacus_error *error) {
     return abacus::guard(error, [&] {
-        require_dimension(*header, 3);
+        require_dimension(*facts, 3);
         const abacus::Host wrapped(*host);
-        return hand_over(abacus::draw_rays(wrapped, *header, *camera, *drawing), picture);
+        return hand_over(abacus::draw_rays(wrapped, *facts, *camera, *drawing), picture);
     });
 }

@@ -3,15 +3,15 @@
 
 #include "host/host.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 namespace abacus {
 
 /// Throws an Error (state) for a mesh that is not Delaunay: insertion and deletion rely on
 /// empty circumspheres and a convex hull.
-inline void require_editable(const abacus_header &header) {
-    if (abacus_is_editable(header.standing)) return;
-    const auto delaunay = static_cast<abacus_delaunay>(header.standing);
+inline void require_editable(const abacus_facts &facts) {
+    if (abacus_is_editable(facts.standing)) return;
+    const auto delaunay = static_cast<abacus_delaunay>(facts.standing);
     throw Error(ABACUS_ERROR_STATE, abacus_delaunay_clause(delaunay),
                 std::string(abacus_delaunay_reason(delaunay)) +
                     " The mesh was loaded by abacus_load() and can be read, not changed.",

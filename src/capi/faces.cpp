@@ -10,36 +10,36 @@
 #include <utility>
 
 struct abacus_faces {
-    abacus_faces(const abacus_host *table, const abacus_header &header, const abacus_window &window,
+    abacus_faces(const abacus_host *table, const abacus_facts &facts, const abacus_window &window,
                  int corners, double max_edge, std::size_t cache_bytes)
-        : host(*table), faces(host, header, window, corners, max_edge, cache_bytes) {}
+        : host(*table), faces(host, facts, window, corners, max_edge, cache_bytes) {}
 
-    abacus_faces(const abacus_host *table, const abacus_header &header, const abacus_window &window,
+    abacus_faces(const abacus_host *table, const abacus_facts &facts, const abacus_window &window,
                  const abacus_range &range, std::size_t cache_bytes)
-        : host(*table), faces(host, header, window, range, cache_bytes) {}
+        : host(*table), faces(host, facts, window, range, cache_bytes) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::FaceScan> faces;
     double attributes[ABACUS_MAX_ATTRIBUTES]; // of the vertex handed out last
 };
 
-abacus_status abacus_faces_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_faces_open(const abacus_host *host, const abacus_facts *facts,
                                 const abacus_window *window, int edges, double max_edge,
                                 std::size_t cache_bytes, abacus_faces **faces,
                                 abacus_error *error) {
     return abacus::guard(error, [&] {
-        *faces = abacus::create_handle<abacus_faces>(host, *header, *window, edges != 0 ? 2 : 1,
+        *faces = abacus::create_handle<abacus_faces>(host, *facts, *window, edges != 0 ? 2 : 1,
                                                      max_edge, cache_bytes);
         return ABACUS_OK;
     });
 }
 
-abacus_status abacus_faces_open_range(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_faces_open_range(const abacus_host *host, const abacus_facts *facts,
                                       const abacus_window *window, const abacus_range *range,
                                       std::size_t cache_bytes, abacus_faces **faces,
                                       abacus_error *error) {
     return abacus::guard(error, [&] {
-        *faces = abacus::create_handle<abacus_faces>(host, *header, *window, *range, cache_bytes);
+        *faces = abacus::create_handle<abacus_faces>(host, *facts, *window, *range, cache_bytes);
         return ABACUS_OK;
     });
 }

@@ -6,6 +6,7 @@
 // so decoding checks every field; it accepts exactly what encoding can produce.
 #include "capi/guard.hpp"
 
+#include <abacus/mesh_header.h>
 #include <abacus/octree.h>
 #include <algorithm>
 #include <bit>
@@ -92,58 +93,61 @@ private:
 
 /// The fields of the header in their order in the row, up to the names.
 template <class Header, class Visit> void visit_fields(Header &header, Visit &visit) {
-    visit(header.dimension);
-    visit(header.attributes);
-    visit(header.has_domain);
-    for (auto &value : header.lower) visit(value);
-    for (auto &value : header.upper) visit(value);
-    visit(header.outside);
+    auto &[form, columns, census, standing] = header.facts;
+    visit(form.dimension);
+    visit(columns.attributes);
+    visit(form.has_domain);
+    for (auto &value : form.lower) visit(value);
+    for (auto &value : form.upper) visit(value);
+    visit(census.outside);
     visit(header.stamp);
-    visit(header.staged);
-    visit(header.inserted);
-    visit(header.vertices);
-    visit(header.duplicates);
-    visit(header.serials);
-    visit(header.simplices);
-    visit(header.ghosts);
-    visit(header.standing);
+    visit(census.staged);
+    visit(census.inserted);
+    visit(census.vertices);
+    visit(census.duplicates);
+    visit(census.serials);
+    visit(census.simplices);
+    visit(census.ghosts);
+    visit(standing);
 }
 template <class Header, class Visit> void visit_octree_fields(Header &header, Visit &visit) {
-    visit(header.dimension);
-    visit(header.attributes);
-    visit(header.levels);
-    for (auto &value : header.lower) visit(value);
-    for (auto &value : header.upper) visit(value);
+    auto &[form, columns, census, standing] = header.facts;
+    visit(form.dimension);
+    visit(columns.attributes);
+    visit(form.levels);
+    for (auto &value : form.lower) visit(value);
+    for (auto &value : form.upper) visit(value);
     visit(header.stamp);
-    visit(header.leaves);
+    visit(census.leaves);
 }
 
-void check_domain(abacus_header &header) {
-    if (header.has_domain > 1) throw_corrupted("The header's domain is neither set nor unset.");
+void check_domain(abacus_form &form) {
+    if (form.has_domain > 1) throw_corrupted("The header's domain is neither set nor unset.");
     for (unsigned i = 0; i < ABACUS_MAX_DIMENSION; ++i) {
-        double &lower = header.lower[i], &upper = header.upper[i];
-        if (header.has_domain == 0 || i >= header.dimension) lower = upper = 0;
+        double &lower = form.lower[i], &upper = form.upper[i];
+        if (form.has_domain == 0 || i >= form.dimension) lower = upper = 0;
         if (!std::isfinite(lower) || !std::isfinite(upper) || lower > upper)
             throw_corrupted("The header's domain is not a finite box.");
     }
 }
 
-void check_counts(const abacus_header &header) {
-    if (header.staged >= count_limit || header.outside >= count_limit ||
-        header.inserted > header.staged || header.vertices >= count_limit ||
-        header.serials >= count_limit || header.duplicates > header.serials ||
-        (header.vertices == 0 && header.duplicates > 0))
+void check_counts(const abacus_facts &facts) {
+    const abacus_census &census = facts.census;
+    if (census.staged >= count_limit || census.outside >= count_limit ||
+        census.inserted > census.staged || census.vertices >= count_limit ||
+        census.serials >= count_limit || census.duplicates > census.serials ||
+        (census.vertices == 0 && census.duplicates > 0))
         throw_corrupted("The header's counts of points contradict each other.");
-    if (header.standing > ABACUS_NOT_CONVEX ||
-        (header.standing != ABACUS_DELAUNAY &&
-         (header.simplices == 0 || header.staged != header.vertices ||
-          header.inserted != header.vertices || header.serials > 0)))
+    if (facts.standing > ABACUS_NOT_CONVEX ||
+        (facts.standing != ABACUS_DELAUNAY &&
+         (census.simplices == 0 || census.staged != census.vertices ||
+          census.inserted != census.vertices || census.serials > 0)))
         throw_corrupted("The header's mark of a mesh that is not Delaunay is not valid.");
-    if ((header.staged > 0 || header.vertices > 0) && header.has_domain == 0)
+    if ((census.staged > 0 || census.vertices > 0) && facts.form.has_domain == 0)
         throw_corrupted("The header has points but no domain.");
-    if (header.simplices >= count_limit || header.ghosts >= count_limit ||
-        (header.vertices == 0 && (header.simplices > 0 || header.ghosts > 0)) ||
-        (header.vertices > 0 && (header.simplices == 0 || header.ghosts == 0)))
+    if (census.simplices >= count_limit || census.ghosts >= count_limit ||
+        (census.vertices == 0 && (census.simplices > 0 || census.ghosts > 0)) ||
+        (census.vertices > 0 && (census.simplices == 0 || census.ghosts == 0)))
         throw_corrupted("The header's counts of simplices contradict its count of vertices.");
 }
 
@@ -152,91 +156,104 @@ void read_names(HeaderReader &read, unsigned begin, unsigned end, abacus_header 
         const char *name = read.text(ABACUS_NAME_BYTES);
         const std::size_t length = strnlen(name, ABACUS_NAME_BYTES);
         if (length == 0 || length == ABACUS_NAME_BYTES)
-            throw_corrupted(
-                (i < header.attributes ? "The name of attribute " : "The name of label ") +
-                std::to_string(i < header.attributes ? i + 1 : i - header.attributes + 1) +
-                " is not valid.");
+            throw_corrupted((i < header.facts.columns.attributes ? "The name of attribute "
+                                                                 : "The name of label ") +
+                            std::to_string(i < header.facts.columns.attributes
+                                               ? i + 1
+                                               : i - header.facts.columns.attributes + 1) +
+                            " is not valid.");
         std::memcpy(header.names[i], name, length);
         std::memset(header.names[i] + length, 0, ABACUS_NAME_BYTES - length);
     }
 }
 
 /// A mesh without SRID has no word for it.
-void read_srid(HeaderReader &read, abacus_header &header) {
+void read_srid(HeaderReader &read, abacus_form &form) {
     if (read.left() == 0) return;
-    read(header.srid);
-    if (header.srid == 0 || header.srid > ABACUS_MAX_SRID)
+    read(form.srid);
+    if (form.srid == 0 || form.srid > ABACUS_MAX_SRID)
         throw_corrupted("The header's SRID is out of range.");
     if (read.left() > 0) throw_corrupted("The header is too long.");
 }
 
-unsigned names_of(const abacus_header &header) { return header.attributes + header.labels; }
+unsigned names_of(const abacus_columns &columns) { return columns.attributes + columns.labels; }
 
 /// Whether the names are in rows of their own.
-bool is_wide(const abacus_header &header) {
-    return header.attributes > ABACUS_MAX_PAGE_ATTRIBUTES || names_of(header) > ABACUS_HEADER_NAMES;
+bool is_wide(const abacus_columns &columns) {
+    return columns.attributes > ABACUS_MAX_PAGE_ATTRIBUTES ||
+           names_of(columns) > ABACUS_HEADER_NAMES;
 }
 /// So many are in a row.
 constexpr unsigned names_in_row = ABACUS_PAGE_BYTES / ABACUS_NAME_BYTES;
-unsigned first_name(const abacus_header &header, unsigned row) {
-    return std::min(row * names_in_row, names_of(header));
+unsigned first_name(const abacus_columns &columns, unsigned row) {
+    return std::min(row * names_in_row, names_of(columns));
 }
 
-bool is_labelled(const abacus_header &header) { return header.labels > 0 || header.marked > 0; }
+bool is_labelled(const abacus_facts &facts) {
+    return facts.columns.labels > 0 || facts.census.marked > 0;
+}
 
-template <class Header, class Visit> void visit_label_fields(Header &header, Visit &visit) {
-    visit(header.srid);
-    visit(header.apart);
-    visit(header.labels);
-    visit(header.labelled);
-    visit(header.marked);
-    visit(header.inherits);
+template <class Facts, class Visit> void visit_label_fields(Facts &facts, Visit &visit) {
+    auto &[form, columns, census, standing] = facts;
+    visit(form.srid);
+    visit(columns.apart);
+    visit(columns.labels);
+    visit(census.labelled);
+    visit(census.marked);
+    visit(columns.inherits);
 }
 
 /// What only the latest format can tell.
-bool is_extended(const abacus_header &header) { return header.split > 0 || is_wide(header); }
+bool is_extended(const abacus_facts &facts) {
+    return facts.census.split > 0 || is_wide(facts.columns);
+}
 
-void check_labels(const abacus_header &header) {
-    if (header.apart > 1 || (header.apart == 0 && header.attributes > ABACUS_MAX_PAGE_ATTRIBUTES))
+void check_labels(const abacus_facts &facts) {
+    const abacus_columns &columns = facts.columns;
+    const abacus_census &census = facts.census;
+    if (columns.apart > 1 ||
+        (columns.apart == 0 && columns.attributes > ABACUS_MAX_PAGE_ATTRIBUTES))
         throw_corrupted("The header's attributes are neither apart nor not.");
-    if (header.labels > ABACUS_MAX_LABELS || header.labelled > header.simplices ||
-        header.marked > header.simplices || (header.labelled > 0 && header.labels == 0) ||
-        header.inherits > (header.labels > 0 ? 1u : 0u))
+    if (columns.labels > ABACUS_MAX_LABELS || census.labelled > census.simplices ||
+        census.marked > census.simplices || (census.labelled > 0 && columns.labels == 0) ||
+        columns.inherits > (columns.labels > 0 ? 1u : 0u))
         throw_corrupted("The header's counts of labels and markers contradict the others.");
 }
 
-void check_split(const abacus_header &header) {
-    if (header.split > 0 && (header.split < 2 || header.split > header.vertices ||
-                             header.standing == ABACUS_DELAUNAY || header.apart != 0))
+void check_split(const abacus_facts &facts) {
+    const abacus_census &census = facts.census;
+    if (census.split > 0 && (census.split < 2 || census.split > census.vertices ||
+                             facts.standing == ABACUS_DELAUNAY || facts.columns.apart != 0))
         throw_corrupted("The header's count of vertices that share their places is not valid.");
 }
 
 /// Labels of simplices, markers of facets, vertices that share their places; then names.
 void read_labels(HeaderReader &read, bool extended, abacus_header &header) {
-    visit_label_fields(header, read);
-    if (extended) read(header.split);
-    if (header.srid > ABACUS_MAX_SRID) throw_corrupted("The header's SRID is out of range.");
-    check_labels(header);
-    check_split(header);
-    if (is_extended(header) != extended || !(extended || is_labelled(header)))
+    abacus_facts &facts = header.facts;
+    visit_label_fields(facts, read);
+    if (extended) read(facts.census.split);
+    if (facts.form.srid > ABACUS_MAX_SRID) throw_corrupted("The header's SRID is out of range.");
+    check_labels(facts);
+    check_split(facts);
+    if (is_extended(facts) != extended || !(extended || is_labelled(facts)))
         throw_corrupted("The header's format does not fit what it tells.");
-    if (is_wide(header))
-        for (unsigned i = 0; i < names_of(header); ++i) header.names[i][0] = '\0';
+    if (is_wide(facts.columns))
+        for (unsigned i = 0; i < names_of(facts.columns); ++i) header.names[i][0] = '\0';
     else
-        read_names(read, extended ? 0 : header.attributes, names_of(header), header);
+        read_names(read, extended ? 0 : facts.columns.attributes, names_of(facts.columns), header);
     if (read.left() > 0) throw_corrupted("The header is too long.");
 }
 
-void check_octree(abacus_header &header) {
-    header.has_domain = 1;
-    check_domain(header);
-    for (unsigned i = 0; i < header.dimension; ++i)
-        if (!(header.lower[i] < header.upper[i]) ||
-            !std::isfinite(header.upper[i] - header.lower[i]))
+void check_octree(abacus_facts &facts) {
+    abacus_form &form = facts.form;
+    form.has_domain = 1;
+    check_domain(form);
+    for (unsigned i = 0; i < form.dimension; ++i)
+        if (!(form.lower[i] < form.upper[i]) || !std::isfinite(form.upper[i] - form.lower[i]))
             throw_corrupted("The header's domain is empty.");
-    if (header.levels > abacus_octree_levels(header.dimension))
+    if (form.levels > abacus_octree_levels(form.dimension))
         throw_corrupted("The header has too many levels.");
-    if (header.leaves == 0 || header.leaves >= count_limit)
+    if (facts.census.leaves == 0 || facts.census.leaves >= count_limit)
         throw_corrupted("The header's count of leaves is not valid.");
 }
 
@@ -248,10 +265,10 @@ void check_octree_format(std::uint64_t found) {
                                             std::to_string(octree_format));
 }
 
-std::uint64_t format_of(const abacus_header &header) {
-    if (is_extended(header)) return format_extended;
-    if (is_labelled(header)) return format_labelled;
-    return header.apart != 0 ? format_apart : format;
+std::uint64_t format_of(const abacus_facts &facts) {
+    if (is_extended(facts)) return format_extended;
+    if (is_labelled(facts)) return format_labelled;
+    return facts.columns.apart != 0 ? format_apart : format;
 }
 
 bool has_name(std::uint64_t found, std::uint64_t name) {
@@ -271,42 +288,44 @@ void check_format(std::uint64_t found) {
 }
 
 void decode(const unsigned char *bytes, std::size_t size, abacus_header &header) {
+    abacus_facts &facts = header.facts;
     HeaderReader read(bytes, size);
     std::uint64_t found;
     read(found);
     const bool is_octree = has_name(found, octree_name);
-    header.type = is_octree ? ABACUS_OCTREE : ABACUS_MESH;
+    facts.form.type = is_octree ? ABACUS_OCTREE : ABACUS_MESH;
     if (is_octree) {
         check_octree_format(found);
         visit_octree_fields(header, read);
     } else {
         check_format(found);
-        header.apart = found >> name_bits == format_apart;
+        facts.columns.apart = found >> name_bits == format_apart;
         visit_fields(header, read);
     }
-    if (header.dimension < 2 || header.dimension > ABACUS_MAX_DIMENSION)
-        throw_corrupted("The header's dimension is " + std::to_string(header.dimension) + ".");
+    if (facts.form.dimension < 2 || facts.form.dimension > ABACUS_MAX_DIMENSION)
+        throw_corrupted("The header's dimension is " + std::to_string(facts.form.dimension) + ".");
     const bool extended = !is_octree && found >> name_bits == format_extended,
                labelled = !is_octree && found >> name_bits >= format_labelled;
-    if (header.attributes > (extended ? ABACUS_MAX_ATTRIBUTES : ABACUS_MAX_PAGE_ATTRIBUTES))
-        throw_corrupted("The header has " + std::to_string(header.attributes) + " attributes.");
+    if (facts.columns.attributes > (extended ? ABACUS_MAX_ATTRIBUTES : ABACUS_MAX_PAGE_ATTRIBUTES))
+        throw_corrupted("The header has " + std::to_string(facts.columns.attributes) +
+                        " attributes.");
     if (is_octree) {
-        check_octree(header);
+        check_octree(facts);
     } else {
-        check_domain(header);
-        check_counts(header);
+        check_domain(facts.form);
+        check_counts(facts);
     }
     std::uint64_t counters[counter_count]{};
-    const std::size_t names = header.attributes * std::size_t{ABACUS_NAME_BYTES};
+    const std::size_t names = facts.columns.attributes * std::size_t{ABACUS_NAME_BYTES};
     const bool has_all = labelled || read.left() >= names + sizeof counters;
     for (std::size_t i = 0; i < (has_all ? counter_count : least_counters); ++i) read(counters[i]);
     std::memcpy(&header.counters, counters, sizeof counters);
-    if (!extended) read_names(read, 0, header.attributes, header);
+    if (!extended) read_names(read, 0, facts.columns.attributes, header);
     if (labelled)
         read_labels(read, extended, header);
     else
-        read_srid(read, header);
-    if (header.apart != 0 && header.attributes == 0)
+        read_srid(read, facts.form);
+    if (facts.columns.apart != 0 && facts.columns.attributes == 0)
         throw_corrupted("The header has no attributes, and says that they are apart.");
 }
 
@@ -315,7 +334,7 @@ void decode_named(const unsigned char *bytes, std::size_t size, abacus_header &h
     try {
         decode(bytes, size, header);
     } catch (const Error &error) {
-        if (error.kind != ABACUS_ERROR_CORRUPTED || header.type != ABACUS_OCTREE) throw;
+        if (error.kind != ABACUS_ERROR_CORRUPTED || header.facts.form.type != ABACUS_OCTREE) throw;
         throw_corrupted(error.detail, "octree");
     }
 }
@@ -331,39 +350,41 @@ uint32_t abacus_are_apart(uint32_t dimension, uint32_t attributes) {
 
 size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes) {
     using namespace abacus;
+    const abacus_facts &facts = header->facts;
     Writer write(bytes);
-    if (header->type == ABACUS_OCTREE) {
+    if (facts.form.type == ABACUS_OCTREE) {
         write(octree_name | octree_format << name_bits);
         visit_octree_fields(*header, write);
     } else {
-        write(name | format_of(*header) << name_bits);
+        write(name | format_of(facts) << name_bits);
         visit_fields(*header, write);
     }
     std::uint64_t counters[counter_count];
     std::memcpy(counters, &header->counters, sizeof counters);
     for (const auto counter : counters) write(counter);
-    const bool extended = header->type == ABACUS_MESH && is_extended(*header);
-    if (!extended) write.names(*header, 0, header->attributes);
-    if (extended || is_labelled(*header)) {
-        visit_label_fields(*header, write);
-        if (extended) write(header->split);
-        if (!is_wide(*header))
-            write.names(*header, extended ? 0 : header->attributes, names_of(*header));
-    } else if (header->srid != 0) {
-        write(header->srid);
+    const bool extended = facts.form.type == ABACUS_MESH && is_extended(facts);
+    if (!extended) write.names(*header, 0, facts.columns.attributes);
+    if (extended || is_labelled(facts)) {
+        visit_label_fields(facts, write);
+        if (extended) write(facts.census.split);
+        if (!is_wide(facts.columns))
+            write.names(*header, extended ? 0 : facts.columns.attributes, names_of(facts.columns));
+    } else if (facts.form.srid != 0) {
+        write(facts.form.srid);
     }
     return write.size();
 }
 
-uint32_t abacus_header_name_rows(const abacus_header *header) {
+uint32_t abacus_header_name_rows(const abacus_columns *columns) {
     using namespace abacus;
-    return is_wide(*header) ? (names_of(*header) + names_in_row - 1) / names_in_row : 0;
+    return is_wide(*columns) ? (names_of(*columns) + names_in_row - 1) / names_in_row : 0;
 }
 
 size_t abacus_header_encode_names(const abacus_header *header, uint32_t row, unsigned char *bytes) {
     using namespace abacus;
     Writer write(bytes);
-    write.names(*header, first_name(*header, row), first_name(*header, row + 1));
+    write.names(*header, first_name(header->facts.columns, row),
+                first_name(header->facts.columns, row + 1));
     return write.size();
 }
 
@@ -371,7 +392,8 @@ abacus_status abacus_header_decode_names(const unsigned char *bytes, size_t size
                                          abacus_header *header, abacus_error *error) {
     using namespace abacus;
     return guard(error, [&] {
-        const unsigned begin = first_name(*header, row), end = first_name(*header, row + 1);
+        const unsigned begin = first_name(header->facts.columns, row),
+                       end = first_name(header->facts.columns, row + 1);
         if (size != (end - begin) * std::size_t{ABACUS_NAME_BYTES})
             throw_corrupted("A row of names is missing or does not have the size of its names.");
         HeaderReader read(bytes, size);

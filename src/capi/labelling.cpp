@@ -8,23 +8,23 @@
 #include <abacus/labels.h>
 
 struct abacus_labelling {
-    abacus_labelling(const abacus_host *table, const abacus_header &header, std::uint32_t known,
+    abacus_labelling(const abacus_host *table, const abacus_facts &facts, std::uint32_t known,
                      std::span<const std::uint32_t> labels, std::size_t memory,
                      std::size_t cache_bytes)
-        : host(*table), cache_bytes(cache_bytes), labelling(host, header, known, labels, memory) {}
+        : host(*table), cache_bytes(cache_bytes), labelling(host, facts, known, labels, memory) {}
 
     const abacus::Host host;
     const std::size_t cache_bytes;
     abacus::ByDimension<abacus::Labelling> labelling;
 };
 
-abacus_status abacus_labelling_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_labelling_open(const abacus_host *host, const abacus_facts *facts,
                                     uint32_t known, const uint32_t *labels, size_t count,
                                     size_t memory, size_t cache_bytes, abacus_labelling **labelling,
                                     abacus_error *error) {
     return abacus::guard(error, [&] {
         *labelling = abacus::create_handle<abacus_labelling>(
-            host, *header, known, std::span(labels, count), memory, cache_bytes);
+            host, *facts, known, std::span(labels, count), memory, cache_bytes);
         return ABACUS_OK;
     });
 }

@@ -9,20 +9,20 @@
 #include <abacus/load.h>
 
 struct abacus_load {
-    abacus_load(const abacus_host *table, const abacus_header &header, std::size_t memory,
+    abacus_load(const abacus_host *table, const abacus_facts &facts, std::size_t memory,
                 bool reorient, bool split_nodes)
-        : host(*table), load(host, header, memory, reorient, split_nodes) {}
+        : host(*table), load(host, facts, memory, reorient, split_nodes) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::Load> load;
     std::string detail;
 };
 
-abacus_status abacus_load_open(const abacus_host *host, const abacus_header *header, size_t memory,
+abacus_status abacus_load_open(const abacus_host *host, const abacus_facts *facts, size_t memory,
                                int reorient, int split_nodes, abacus_load **load,
                                abacus_error *error) {
     return abacus::guard(error, [&] {
-        *load = abacus::create_handle<abacus_load>(host, *header, memory, reorient != 0,
+        *load = abacus::create_handle<abacus_load>(host, *facts, memory, reorient != 0,
                                                    split_nodes != 0);
         return ABACUS_OK;
     });

@@ -10,9 +10,9 @@
 #include <cmath>
 
 struct abacus_marking {
-    abacus_marking(const abacus_host *table, const abacus_header &header, std::size_t memory,
+    abacus_marking(const abacus_host *table, const abacus_facts &facts, std::size_t memory,
                    std::size_t cache_bytes)
-        : host(*table), cache_bytes(cache_bytes), marking(host, header, memory) {}
+        : host(*table), cache_bytes(cache_bytes), marking(host, facts, memory) {}
 
     const abacus::Host host;
     const std::size_t cache_bytes;
@@ -20,19 +20,19 @@ struct abacus_marking {
 };
 
 struct abacus_facets {
-    abacus_facets(const abacus_host *table, const abacus_header &header,
-                  std::optional<double> marker, std::size_t memory, std::size_t cache_bytes)
-        : host(*table), facets(host, header, marker, memory, cache_bytes) {}
+    abacus_facets(const abacus_host *table, const abacus_facts &facts, std::optional<double> marker,
+                  std::size_t memory, std::size_t cache_bytes)
+        : host(*table), facets(host, facts, marker, memory, cache_bytes) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::MarkedFacets> facets;
 };
 
-abacus_status abacus_marking_open(const abacus_host *host, const abacus_header *header,
-                                  size_t memory, size_t cache_bytes, abacus_marking **marking,
+abacus_status abacus_marking_open(const abacus_host *host, const abacus_facts *facts, size_t memory,
+                                  size_t cache_bytes, abacus_marking **marking,
                                   abacus_error *error) {
     return abacus::guard(error, [&] {
-        *marking = abacus::create_handle<abacus_marking>(host, *header, memory, cache_bytes);
+        *marking = abacus::create_handle<abacus_marking>(host, *facts, memory, cache_bytes);
         return ABACUS_OK;
     });
 }
@@ -51,12 +51,12 @@ abacus_status abacus_marking_end(abacus_marking *marking, abacus_header *header,
 
 void abacus_marking_close(abacus_marking *marking) { abacus::destroy_handle(marking); }
 
-abacus_status abacus_facets_open(const abacus_host *host, const abacus_header *header,
-                                 double marker, size_t memory, size_t cache_bytes,
-                                 abacus_facets **facets, abacus_error *error) {
+abacus_status abacus_facets_open(const abacus_host *host, const abacus_facts *facts, double marker,
+                                 size_t memory, size_t cache_bytes, abacus_facets **facets,
+                                 abacus_error *error) {
     return abacus::guard(error, [&] {
         const auto wanted = std::isnan(marker) ? std::nullopt : std::optional(marker);
-        *facets = abacus::create_handle<abacus_facets>(host, *header, wanted, memory, cache_bytes);
+        *facets = abacus::create_handle<abacus_facets>(host, *facts, wanted, memory, cache_bytes);
         return ABACUS_OK;
     });
 }

@@ -24,10 +24,10 @@ abacus_status answer_at(abacus_mesh *mesh, const double *point, abacus_error *er
 
 } // namespace
 
-abacus_status abacus_mesh_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_mesh_open(const abacus_host *host, const abacus_facts *facts,
                                size_t cache_bytes, abacus_mesh **mesh, abacus_error *error) {
     return abacus::guard(error, [&] {
-        *mesh = abacus::create_handle<abacus_mesh>(host, *header, cache_bytes);
+        *mesh = abacus::create_handle<abacus_mesh>(host, *facts, cache_bytes);
         return ABACUS_OK;
     });
 }

@@ -9,9 +9,9 @@
 #include <cmath>
 
 struct abacus_mesh {
-    abacus_mesh(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
-        : host(*table), reader(host, header, cache_bytes), interpolation(host, header),
-          labels(host, header) {}
+    abacus_mesh(const abacus_host *table, const abacus_facts &facts, std::size_t cache_bytes)
+        : host(*table), reader(host, facts, cache_bytes), interpolation(host, facts),
+          labels(host, facts) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::Reader> reader;

@@ -5,12 +5,14 @@
 #include "labels/named_simplices.hpp"
 #include "query/locate/reader.hpp"
 
+#include <abacus/mesh_header.h>
+
 namespace abacus {
 
 template <int D> class NamedByReader final : public NamedSimplices<D> {
 public:
-    NamedByReader(const Host &host, const abacus_header &header, std::size_t cache_bytes)
-        : mesh_(host, header, cache_bytes) {}
+    NamedByReader(const Host &host, const abacus_facts &facts, std::size_t cache_bytes)
+        : mesh_(host, facts, cache_bytes) {}
 
     void describe(std::uint64_t code, const std::int64_t *ids, abacus_simplex &simplex) override {
         mesh_.describe(code, ids, simplex);

@@ -6,13 +6,13 @@
 #include "capi/handle.hpp"
 
 struct abacus_numbered {
-    abacus_numbered(const abacus_host *table, const abacus_header &header, bool of_simplices,
+    abacus_numbered(const abacus_host *table, const abacus_facts &facts, bool of_simplices,
                     std::size_t memory)
         : host(*table) {
         if (of_simplices)
-            simplices.emplace(host, header, memory);
+            simplices.emplace(host, facts, memory);
         else
-            vertices.emplace(host, header, memory);
+            vertices.emplace(host, facts, memory);
     }
 
     const abacus::Host host;
@@ -20,11 +20,11 @@ struct abacus_numbered {
     std::optional<abacus::ByDimension<abacus::NumberedSimplices>> simplices;
 };
 
-abacus_status abacus_numbered_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_numbered_open(const abacus_host *host, const abacus_facts *facts,
                                    int simplices, size_t memory, abacus_numbered **numbered,
                                    abacus_error *error) {
     return abacus::guard(error, [&] {
-        *numbered = abacus::create_handle<abacus_numbered>(host, *header, simplices != 0, memory);
+        *numbered = abacus::create_handle<abacus_numbered>(host, *facts, simplices != 0, memory);
         return ABACUS_OK;
     });
 }

@@ -12,25 +12,25 @@
 #include <cmath>
 
 struct abacus_octree_growth {
-    abacus_octree_growth(const abacus_host *table, const abacus_header &header, std::size_t memory)
-        : host(*table), growth(host, header, memory) {}
+    abacus_octree_growth(const abacus_host *table, const abacus_facts &facts, std::size_t memory)
+        : host(*table), growth(host, facts, memory) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::Growth> growth;
 };
 
 struct abacus_octree_edit {
-    abacus_octree_edit(const abacus_host *table, const abacus_header &header, std::size_t memory,
+    abacus_octree_edit(const abacus_host *table, const abacus_facts &facts, std::size_t memory,
                        std::size_t cache_bytes)
-        : host(*table), edit(host, header, memory, cache_bytes) {}
+        : host(*table), edit(host, facts, memory, cache_bytes) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::OctreeEdit> edit;
 };
 
 struct abacus_octree_load {
-    abacus_octree_load(const abacus_host *table, const abacus_header &header, std::size_t memory)
-        : host(*table), attributes(header.attributes), load(host, header, memory) {}
+    abacus_octree_load(const abacus_host *table, const abacus_facts &facts, std::size_t memory)
+        : host(*table), attributes(facts.columns.attributes), load(host, facts, memory) {}
 
     const abacus::Host host;
     const std::size_t attributes;
@@ -70,19 +70,19 @@ abacus_status abacus_octree_root(const abacus_host *table, abacus_header *header
                                  abacus_error *error) {
     return abacus::guard(error, [&] {
         const abacus::Host host(*table);
-        header->dimension == 2 ? abacus::create_root<2>(host, *header)
-                               : abacus::create_root<3>(host, *header);
+        header->facts.form.dimension == 2 ? abacus::create_root<2>(host, *header)
+                                          : abacus::create_root<3>(host, *header);
         return ABACUS_OK;
     });
 }
 
 // ---- Growth ----------------------------------------------------------------------
 
-abacus_status abacus_octree_growth_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_octree_growth_open(const abacus_host *host, const abacus_facts *facts,
                                         size_t memory, abacus_octree_growth **growth,
                                         abacus_error *error) {
     return abacus::guard(error, [&] {
-        *growth = abacus::create_handle<abacus_octree_growth>(host, *header, memory);
+        *growth = abacus::create_handle<abacus_octree_growth>(host, *facts, memory);
         return ABACUS_OK;
     });
 }
@@ -130,11 +130,11 @@ void abacus_octree_growth_close(abacus_octree_growth *growth) { abacus::destroy_
 
 // ---- Edits -----------------------------------------------------------------------
 
-abacus_status abacus_octree_edit_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_octree_edit_open(const abacus_host *host, const abacus_facts *facts,
                                       size_t memory, size_t cache_bytes, abacus_octree_edit **edit,
                                       abacus_error *error) {
     return abacus::guard(error, [&] {
-        *edit = abacus::create_handle<abacus_octree_edit>(host, *header, memory, cache_bytes);
+        *edit = abacus::create_handle<abacus_octree_edit>(host, *facts, memory, cache_bytes);
         return ABACUS_OK;
     });
 }
@@ -173,11 +173,11 @@ void abacus_octree_edit_close(abacus_octree_edit *edit) { abacus::destroy_handle
 
 // ---- Loading ---------------------------------------------------------------------
 
-abacus_status abacus_octree_load_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_octree_load_open(const abacus_host *host, const abacus_facts *facts,
                                       size_t memory, abacus_octree_load **load,
                                       abacus_error *error) {
     return abacus::guard(error, [&] {
-        *load = abacus::create_handle<abacus_octree_load>(host, *header, memory);
+        *load = abacus::create_handle<abacus_octree_load>(host, *facts, memory);
         return ABACUS_OK;
     });
 }

@@ -10,9 +10,9 @@
 #include <abacus/octree_ask.h>
 
 struct abacus_octree_places {
-    abacus_octree_places(const abacus_host *table, const abacus_header &header, std::size_t memory,
+    abacus_octree_places(const abacus_host *table, const abacus_facts &facts, std::size_t memory,
                          std::size_t cache_bytes)
-        : host(*table), places(host, header, memory, cache_bytes) {}
+        : host(*table), places(host, facts, memory, cache_bytes) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::OctreePlaces> places;
@@ -55,11 +55,11 @@ abacus_status abacus_octree_interpolate(abacus_octree *octree, const uint32_t *a
     });
 }
 
-abacus_status abacus_octree_places_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_octree_places_open(const abacus_host *host, const abacus_facts *facts,
                                         size_t memory, size_t cache_bytes,
                                         abacus_octree_places **places, abacus_error *error) {
     return abacus::guard(error, [&] {
-        *places = abacus::create_handle<abacus_octree_places>(host, *header, memory, cache_bytes);
+        *places = abacus::create_handle<abacus_octree_places>(host, *facts, memory, cache_bytes);
         return ABACUS_OK;
     });
 }

@@ -8,8 +8,8 @@
 #include <abacus/octree.h>
 
 struct abacus_octree {
-    abacus_octree(const abacus_host *table, const abacus_header &header, std::size_t cache_bytes)
-        : host(*table), reader(host, header, cache_bytes) {}
+    abacus_octree(const abacus_host *table, const abacus_facts &facts, std::size_t cache_bytes)
+        : host(*table), reader(host, facts, cache_bytes) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::OctreeReader> reader;

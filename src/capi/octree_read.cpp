@@ -12,9 +12,9 @@ namespace {
 /// Leaves of a window, or all of them.
 template <int D> class WindowScan {
 public:
-    WindowScan(const Host &host, const abacus_header &header, const abacus_window &window,
+    WindowScan(const Host &host, const abacus_facts &facts, const abacus_window &window,
                std::size_t cache_bytes)
-        : leaves_(open(host, header, window, cache_bytes)) {}
+        : leaves_(open(host, facts, window, cache_bytes)) {}
 
     bool next(abacus_octant &octant) {
         Octant<D> leaf;
@@ -25,12 +25,12 @@ public:
     }
 
 private:
-    static OctreeScan<D> open(const Host &host, const abacus_header &header,
+    static OctreeScan<D> open(const Host &host, const abacus_facts &facts,
                               const abacus_window &window, std::size_t cache_bytes) {
-        if (window.kind == ABACUS_NO_WINDOW) return {host, header};
+        if (window.kind == ABACUS_NO_WINDOW) return {host, facts};
         if (window.kind == ABACUS_BALL_WINDOW)
-            return {host, header, Ball<D>{place_of<D>(window.center), window.radius}, cache_bytes};
-        return {host, header, Box<D>(place_of<D>(window.lower), place_of<D>(window.upper)),
+            return {host, facts, Ball<D>{place_of<D>(window.center), window.radius}, cache_bytes};
+        return {host, facts, Box<D>(place_of<D>(window.lower), place_of<D>(window.upper)),
                 cache_bytes};
     }
 
@@ -39,8 +39,8 @@ private:
 
 template <int D> class NodeList {
 public:
-    NodeList(const Host &host, const abacus_header &header, std::size_t memory)
-        : grid_(header), nodes_(host, header, memory) {}
+    NodeList(const Host &host, const abacus_facts &facts, std::size_t memory)
+        : grid_(facts.form), nodes_(host, facts, memory) {}
 
     bool next(abacus_octree_node &to) {
         typename OctreeNodes<D>::Node node;
@@ -59,8 +59,8 @@ private:
 
 template <int D> class ElementList {
 public:
-    ElementList(const Host &host, const abacus_header &header, std::size_t memory)
-        : grid_(header), elements_(host, header, memory) {}
+    ElementList(const Host &host, const abacus_facts &facts, std::size_t memory)
+        : grid_(facts.form), elements_(host, facts, memory) {}
 
     bool next(abacus_octant &octant, std::uint64_t *corners) {
         std::array<std::uint64_t, Octant<D>::children> numbers;
@@ -79,35 +79,34 @@ private:
 } // namespace abacus
 
 struct abacus_octree_scan {
-    abacus_octree_scan(const abacus_host *table, const abacus_header &header,
+    abacus_octree_scan(const abacus_host *table, const abacus_facts &facts,
                        const abacus_window &window, std::size_t cache_bytes)
-        : host(*table), scan(host, header, window, cache_bytes) {}
+        : host(*table), scan(host, facts, window, cache_bytes) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::WindowScan> scan;
 };
 
 struct abacus_octree_nodes {
-    abacus_octree_nodes(const abacus_host *table, const abacus_header &header, std::size_t memory)
-        : host(*table), nodes(host, header, memory) {}
+    abacus_octree_nodes(const abacus_host *table, const abacus_facts &facts, std::size_t memory)
+        : host(*table), nodes(host, facts, memory) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::NodeList> nodes;
 };
 
 struct abacus_octree_elements {
-    abacus_octree_elements(const abacus_host *table, const abacus_header &header,
-                           std::size_t memory)
-        : host(*table), elements(host, header, memory) {}
+    abacus_octree_elements(const abacus_host *table, const abacus_facts &facts, std::size_t memory)
+        : host(*table), elements(host, facts, memory) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::ElementList> elements;
 };
 
-abacus_status abacus_octree_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_octree_open(const abacus_host *host, const abacus_facts *facts,
                                  size_t cache_bytes, abacus_octree **octree, abacus_error *error) {
     return abacus::guard(error, [&] {
-        *octree = abacus::create_handle<abacus_octree>(host, *header, cache_bytes);
+        *octree = abacus::create_handle<abacus_octree>(host, *facts, cache_bytes);
         return ABACUS_OK;
     });
 }
@@ -145,11 +144,11 @@ void abacus_octree_counters(const abacus_octree *octree, abacus_counters *counte
 
 void abacus_octree_close(abacus_octree *octree) { abacus::destroy_handle(octree); }
 
-abacus_status abacus_octree_scan_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_octree_scan_open(const abacus_host *host, const abacus_facts *facts,
                                       const abacus_window *window, size_t cache_bytes,
                                       abacus_octree_scan **scan, abacus_error *error) {
     return abacus::guard(error, [&] {
-        *scan = abacus::create_handle<abacus_octree_scan>(host, *header, *window, cache_bytes);
+        *scan = abacus::create_handle<abacus_octree_scan>(host, *facts, *window, cache_bytes);
         return ABACUS_OK;
     });
 }
@@ -164,11 +163,11 @@ abacus_status abacus_octree_scan_next(abacus_octree_scan *scan, abacus_octant *o
 
 void abacus_octree_scan_close(abacus_octree_scan *scan) { abacus::destroy_handle(scan); }
 
-abacus_status abacus_octree_nodes_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_octree_nodes_open(const abacus_host *host, const abacus_facts *facts,
                                        size_t memory, abacus_octree_nodes **nodes,
                                        abacus_error *error) {
     return abacus::guard(error, [&] {
-        *nodes = abacus::create_handle<abacus_octree_nodes>(host, *header, memory);
+        *nodes = abacus::create_handle<abacus_octree_nodes>(host, *facts, memory);
         return ABACUS_OK;
     });
 }
@@ -183,11 +182,11 @@ abacus_status abacus_octree_nodes_next(abacus_octree_nodes *nodes, abacus_octree
 
 void abacus_octree_nodes_close(abacus_octree_nodes *nodes) { abacus::destroy_handle(nodes); }
 
-abacus_status abacus_octree_elements_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_octree_elements_open(const abacus_host *host, const abacus_facts *facts,
                                           size_t memory, abacus_octree_elements **elements,
                                           abacus_error *error) {
     return abacus::guard(error, [&] {
-        *elements = abacus::create_handle<abacus_octree_elements>(host, *header, memory);
+        *elements = abacus::create_handle<abacus_octree_elements>(host, *facts, memory);
         return ABACUS_OK;
     });
 }

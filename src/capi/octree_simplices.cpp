@@ -7,19 +7,18 @@
 #include <abacus/octree.h>
 
 struct abacus_octree_simplices {
-    abacus_octree_simplices(const abacus_host *table, const abacus_header &header,
-                            std::size_t memory)
-        : host(*table), simplices(host, header, memory) {}
+    abacus_octree_simplices(const abacus_host *table, const abacus_facts &facts, std::size_t memory)
+        : host(*table), simplices(host, facts, memory) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::OctreeSimplices> simplices;
 };
 
-abacus_status abacus_octree_simplices_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_octree_simplices_open(const abacus_host *host, const abacus_facts *facts,
                                            size_t memory, abacus_octree_simplices **simplices,
                                            abacus_error *error) {
     return abacus::guard(error, [&] {
-        *simplices = abacus::create_handle<abacus_octree_simplices>(host, *header, memory);
+        *simplices = abacus::create_handle<abacus_octree_simplices>(host, *facts, memory);
         return ABACUS_OK;
     });
 }

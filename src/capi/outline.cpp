@@ -6,13 +6,13 @@
 #include "capi/dimension.hpp"
 #include "capi/guard.hpp"
 
-abacus_status abacus_outline(const abacus_host *table, const abacus_header *header,
+abacus_status abacus_outline(const abacus_host *table, const abacus_facts *facts,
                              const abacus_outline_kind *kind, std::size_t memory,
                              std::size_t cache_bytes, abacus_outline_report report, void *context,
                              abacus_error *error) {
     return abacus::guard(error, [&] {
         const abacus::Host host(*table);
-        abacus::ByDimension<abacus::Outline> outline(host, *header, *kind, memory, cache_bytes);
+        abacus::ByDimension<abacus::Outline> outline(host, *facts, *kind, memory, cache_bytes);
         outline.visit([&](auto &rings) {
             abacus_outline_row row;
             while (rings.next(row)) abacus::host::require(report(context, &row));

@@ -9,9 +9,9 @@
 #include <abacus/values.h>
 
 struct abacus_places {
-    abacus_places(const abacus_host *table, const abacus_header &header, std::size_t memory,
+    abacus_places(const abacus_host *table, const abacus_facts &facts, std::size_t memory,
                   std::size_t cache_bytes)
-        : host(*table), places(host, header, memory, cache_bytes) {}
+        : host(*table), places(host, facts, memory, cache_bytes) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::Places> places;
@@ -22,9 +22,8 @@ namespace {
 
 template <int D> class Locating final : public Question<D> {
 public:
-    Locating(const Host &host, const abacus_header &header, abacus_place_report report,
-             void *context)
-        : labels_(host, header), report_(report), context_(context) {}
+    Locating(const Host &host, const abacus_facts &facts, abacus_place_report report, void *context)
+        : labels_(host, facts), report_(report), context_(context) {}
 
     std::size_t words() const override { return 1 + sizeof(abacus_simplex) / 8; }
     bool is_quick() const override { return true; }
@@ -107,11 +106,10 @@ private:
 
 template <int D> class Nearing final : public Question<D> {
 public:
-    Nearing(const abacus_header &header, std::uint64_t k, abacus_nearest_report report,
-            void *context)
-        : record_words_(record_words(D, header.attributes)),
-          words_(1 + std::min({k, header.vertices, most_counted}) * (1 + record_words_)), k_(k),
-          report_(report), context_(context) {}
+    Nearing(const abacus_facts &facts, std::uint64_t k, abacus_nearest_report report, void *context)
+        : record_words_(record_words(D, facts.columns.attributes)),
+          words_(1 + std::min({k, facts.census.vertices, most_counted}) * (1 + record_words_)),
+          k_(k), report_(report), context_(context) {}
 
     std::size_t words() const override { return words_; }
     void answer(Answerer<D> &by, const Point<D> &p, Tape &tape) const override {
@@ -146,11 +144,10 @@ private:
 } // namespace
 } // namespace abacus
 
-abacus_status abacus_places_open(const abacus_host *host, const abacus_header *header,
-                                 size_t memory, size_t cache_bytes, abacus_places **places,
-                                 abacus_error *error) {
+abacus_status abacus_places_open(const abacus_host *host, const abacus_facts *facts, size_t memory,
+                                 size_t cache_bytes, abacus_places **places, abacus_error *error) {
     return abacus::guard(error, [&] {
-        *places = abacus::create_handle<abacus_places>(host, *header, memory, cache_bytes);
+        *places = abacus::create_handle<abacus_places>(host, *facts, memory, cache_bytes);
         return ABACUS_OK;
     });
 }
@@ -163,7 +160,7 @@ abacus_status abacus_places_add(abacus_places *places, const uint64_t *records, 
 abacus_status abacus_places_locate(abacus_places *places, abacus_place_report report, void *context,
                                    abacus_error *error) {
     return abacus::dispatch(places->places, error, [&]<int D>(abacus::Places<D> &all) {
-        all.each(abacus::Locating<D>(places->host, all.header(), report, context));
+        all.each(abacus::Locating<D>(places->host, all.facts(), report, context));
     });
 }
 
@@ -187,7 +184,7 @@ abacus_status abacus_places_weigh(abacus_places *places, const abacus_interpolat
 abacus_status abacus_places_nearest(abacus_places *places, uint64_t k, abacus_nearest_report report,
                                     void *context, abacus_error *error) {
     return abacus::dispatch(places->places, error, [&]<int D>(abacus::Places<D> &all) {
-        all.each(abacus::Nearing<D>(all.header(), k, report, context));
+        all.each(abacus::Nearing<D>(all.facts(), k, report, context));
     });
 }
 

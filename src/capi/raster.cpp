@@ -6,22 +6,22 @@
 #include "capi/handle.hpp"
 
 struct abacus_raster_scan {
-    abacus_raster_scan(const abacus_host *table, const abacus_header &header,
+    abacus_raster_scan(const abacus_host *table, const abacus_facts &facts,
                        const abacus_raster &raster, const abacus_interpolation &how,
                        std::size_t memory, std::size_t cache_bytes)
-        : host(*table), rows(host, header, raster, how, memory, cache_bytes) {}
+        : host(*table), rows(host, facts, raster, how, memory, cache_bytes) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::ValueRaster> rows;
 };
 
-abacus_status abacus_raster_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_raster_open(const abacus_host *host, const abacus_facts *facts,
                                  const abacus_raster *raster,
                                  const abacus_interpolation *interpolation, size_t memory,
                                  size_t cache_bytes, abacus_raster_scan **scan,
                                  abacus_error *error) {
     return abacus::guard(error, [&] {
-        *scan = abacus::create_handle<abacus_raster_scan>(host, *header, *raster, *interpolation,
+        *scan = abacus::create_handle<abacus_raster_scan>(host, *facts, *raster, *interpolation,
                                                           memory, cache_bytes);
         return ABACUS_OK;
     });

@@ -9,26 +9,25 @@
 #include <abacus/scan.h>
 
 struct abacus_scan {
-    abacus_scan(const abacus_host *table, const abacus_header &header, bool ghosts)
-        : host(*table), simplices(host, header, ghosts) {}
+    abacus_scan(const abacus_host *table, const abacus_facts &facts, bool ghosts)
+        : host(*table), simplices(host, facts, ghosts) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::SimplexScan> simplices;
 };
 
 struct abacus_vertex_scan {
-    abacus_vertex_scan(const abacus_host *table, const abacus_header &header,
-                       std::size_t cache_bytes)
-        : host(*table), vertices(host, header, cache_bytes) {}
+    abacus_vertex_scan(const abacus_host *table, const abacus_facts &facts, std::size_t cache_bytes)
+        : host(*table), vertices(host, facts, cache_bytes) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::VertexScan> vertices;
 };
 
-abacus_status abacus_scan_open(const abacus_host *host, const abacus_header *header, int ghosts,
+abacus_status abacus_scan_open(const abacus_host *host, const abacus_facts *facts, int ghosts,
                                abacus_scan **scan, abacus_error *error) {
     return abacus::guard(error, [&] {
-        *scan = abacus::create_handle<abacus_scan>(host, *header, ghosts != 0);
+        *scan = abacus::create_handle<abacus_scan>(host, *facts, ghosts != 0);
         return ABACUS_OK;
     });
 }
@@ -42,11 +41,11 @@ abacus_status abacus_scan_next(abacus_scan *scan, abacus_simplex *simplex, abacu
 
 void abacus_scan_close(abacus_scan *scan) { abacus::destroy_handle(scan); }
 
-abacus_status abacus_vertex_scan_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_vertex_scan_open(const abacus_host *host, const abacus_facts *facts,
                                       size_t cache_bytes, abacus_vertex_scan **scan,
                                       abacus_error *error) {
     return abacus::guard(error, [&] {
-        *scan = abacus::create_handle<abacus_vertex_scan>(host, *header, cache_bytes);
+        *scan = abacus::create_handle<abacus_vertex_scan>(host, *facts, cache_bytes);
         return ABACUS_OK;
     });
 }

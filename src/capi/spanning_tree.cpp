@@ -5,7 +5,7 @@
 
 #include <abacus/shapes.h>
 
-abacus_status abacus_spanning_tree(const abacus_host *table, const abacus_header *header,
+abacus_status abacus_spanning_tree(const abacus_host *table, const abacus_facts *facts,
                                    std::size_t memory, std::size_t cache_bytes,
                                    abacus_edge_report report, void *context, abacus_error *error) {
     return abacus::guard(error, [&] {
@@ -14,10 +14,10 @@ abacus_status abacus_spanning_tree(const abacus_host *table, const abacus_header
             const abacus_edge edge{{ids[0], ids[1]}, length};
             abacus::host::require(report(context, &edge));
         };
-        if (header->dimension == 2)
-            abacus::SpanningTree<2>(host, *header, memory, cache_bytes, pass_on);
+        if (facts->form.dimension == 2)
+            abacus::SpanningTree<2>(host, *facts, memory, cache_bytes, pass_on);
         else
-            abacus::SpanningTree<3>(host, *header, memory, cache_bytes, pass_on);
+            abacus::SpanningTree<3>(host, *facts, memory, cache_bytes, pass_on);
         return ABACUS_OK;
     });
 }

@@ -7,8 +7,8 @@
 #include <abacus/build.h>
 
 struct abacus_stage {
-    abacus_stage(const abacus_host *table, const abacus_header &header, std::size_t memory)
-        : host(*table), stage(host, header, memory) {}
+    abacus_stage(const abacus_host *table, const abacus_facts &facts, std::size_t memory)
+        : host(*table), stage(host, facts, memory) {}
 
     const abacus::Host host;
     abacus::ByDimension<abacus::Stage> stage;

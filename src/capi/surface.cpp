@@ -10,20 +10,20 @@
 
 namespace {
 
-void require_space(const abacus_header &header) {
-    if (header.dimension != 3)
+void require_space(const abacus_facts &facts) {
+    if (facts.form.dimension != 3)
         throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the mesh has another dimension");
 }
 
 } // namespace
 
-abacus_status abacus_isosurface(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_isosurface(const abacus_host *host, const abacus_facts *facts,
                                 const abacus_isosurface_query *query, size_t memory,
                                 abacus_surface_report report, void *context, abacus_error *error) {
     return abacus::guard(error, [&] {
-        require_space(*header);
+        require_space(*facts);
         const abacus::Host wrapped(*host);
-        abacus::Isosurface surface(wrapped, *header, *query, memory);
+        abacus::Isosurface surface(wrapped, *facts, *query, memory);
         surface.each([&](const abacus_surface_triangle &triangle) {
             abacus::host::require(report(context, &triangle));
         });
@@ -32,21 +32,21 @@ abacus_status abacus_isosurface(const abacus_host *host, const abacus_header *he
 }
 
 struct abacus_sections {
-    abacus_sections(const abacus_host *table, const abacus_header &header,
+    abacus_sections(const abacus_host *table, const abacus_facts &facts,
                     const abacus_section_query &query)
-        : host(*table), section(host, header, query), labels(host, header) {}
+        : host(*table), section(host, facts, query), labels(host, facts) {}
 
     const abacus::Host host;
     abacus::PlaneSection section;
     abacus::SimplexLabels<3> labels;
 };
 
-abacus_status abacus_sections_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_sections_open(const abacus_host *host, const abacus_facts *facts,
                                    const abacus_section_query *query, abacus_sections **sections,
                                    abacus_error *error) {
     return abacus::guard(error, [&] {
-        require_space(*header);
-        *sections = abacus::create_handle<abacus_sections>(host, *header, *query);
+        require_space(*facts);
+        *sections = abacus::create_handle<abacus_sections>(host, *facts, *query);
         return ABACUS_OK;
     });
 }

@@ -7,8 +7,8 @@
 
 namespace {
 
-void require_plane(const abacus_header &header) {
-    if (header.dimension != 2)
+void require_plane(const abacus_facts &facts) {
+    if (facts.form.dimension != 2)
         throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the mesh has another dimension");
 }
 
@@ -21,39 +21,39 @@ abacus_status hand_over(abacus::Png bytes, bool is_blank, abacus_picture *pictur
 
 } // namespace
 
-abacus_status abacus_tile_picture(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_tile_picture(const abacus_host *host, const abacus_facts *facts,
                                   const abacus_tile *tile, const abacus_drawing *drawing,
                                   const abacus_tile_memory *memory, abacus_picture *picture,
                                   abacus_error *error) {
     return abacus::guard(error, [&] {
-        require_plane(*header);
+        require_plane(*facts);
         const abacus::Host wrapped(*host);
         abacus::Portrait portrait =
-            abacus::draw_picture_tile(wrapped, *header, *tile, *drawing, *memory);
+            abacus::draw_picture_tile(wrapped, *facts, *tile, *drawing, *memory);
         return hand_over(std::move(portrait.png), portrait.is_blank, picture);
     });
 }
 
-abacus_status abacus_tile_terrain(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_tile_terrain(const abacus_host *host, const abacus_facts *facts,
                                   const abacus_tile *tile, const abacus_tile_terrain_kind *kind,
                                   const abacus_tile_memory *memory, abacus_picture *picture,
                                   abacus_error *error) {
     return abacus::guard(error, [&] {
-        require_plane(*header);
+        require_plane(*facts);
         const abacus::Host wrapped(*host);
-        return hand_over(abacus::terrain_tile(wrapped, *header, *tile, *kind, *memory), false,
+        return hand_over(abacus::terrain_tile(wrapped, *facts, *tile, *kind, *memory), false,
                          picture);
     });
 }
 
-abacus_status abacus_tile_vector(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_tile_vector(const abacus_host *host, const abacus_facts *facts,
                                  const abacus_tile *tile, const abacus_tile_vector_kind *kind,
                                  const abacus_tile_memory *memory, abacus_picture *picture,
                                  abacus_error *error) {
     return abacus::guard(error, [&] {
-        require_plane(*header);
+        require_plane(*facts);
         const abacus::Host wrapped(*host);
-        abacus::Png bytes = abacus::vector_tile(wrapped, *header, *tile, *kind, *memory);
+        abacus::Png bytes = abacus::vector_tile(wrapped, *facts, *tile, *kind, *memory);
         const bool is_blank = bytes.size() == 0;
         return hand_over(std::move(bytes), is_blank, picture);
     });

@@ -5,41 +5,41 @@
 
 namespace {
 
-void require_box(const abacus_surface &surface, const abacus_header &header) {
+void require_box(const abacus_surface &surface, const abacus_facts &facts) {
     if (surface.window.kind == ABACUS_BALL_WINDOW)
         throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the window must be a box");
-    if (surface.attribute >= header.attributes)
+    if (surface.attribute >= facts.columns.attributes)
         throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
 }
 
 } // namespace
 
-abacus_status abacus_volume_above(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_volume_above(const abacus_host *host, const abacus_facts *facts,
                                   const abacus_surface *surface, double base, abacus_volume *volume,
                                   abacus_error *error) {
     return abacus::guard(error, [&] {
-        require_box(*surface, *header);
+        require_box(*surface, *facts);
         const abacus::Host wrapped(*host);
-        *volume = header->dimension == 2
-                      ? abacus::volume_above<2>(wrapped, *header, *surface, base)
-                      : abacus::volume_above<3>(wrapped, *header, *surface, base);
+        *volume = facts->form.dimension == 2
+                      ? abacus::volume_above<2>(wrapped, *facts, *surface, base)
+                      : abacus::volume_above<3>(wrapped, *facts, *surface, base);
         return ABACUS_OK;
     });
 }
 
-abacus_status abacus_volume_between(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_volume_between(const abacus_host *host, const abacus_facts *facts,
                                     const abacus_surface *surface, const abacus_host *other_host,
-                                    const abacus_header *other, uint32_t other_attribute,
+                                    const abacus_facts *other, uint32_t other_attribute,
                                     size_t cache_bytes, abacus_volume *volume,
                                     abacus_error *error) {
     return abacus::guard(error, [&] {
-        if (header->dimension != 2 || other->dimension != 2)
+        if (facts->form.dimension != 2 || other->form.dimension != 2)
             throw abacus::Error(ABACUS_ERROR_ARGUMENT, "both meshes must have dimension 2");
-        require_box(*surface, *header);
-        if (other_attribute >= other->attributes)
+        require_box(*surface, *facts);
+        if (other_attribute >= other->columns.attributes)
             throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the other mesh has no such attribute");
         const abacus::Host first(*host), second(*other_host);
-        *volume = abacus::volume_between(first, *header, *surface, second, *other, other_attribute,
+        *volume = abacus::volume_between(first, *facts, *surface, second, *other, other_attribute,
                                          cache_bytes);
         return ABACUS_OK;
     });

@@ -8,9 +8,9 @@
 #include <abacus/shapes.h>
 
 struct abacus_voronoi {
-    abacus_voronoi(const abacus_host *table, const abacus_header &header,
-                   const abacus_window &window, std::size_t cache_bytes)
-        : host(*table), ring(host), cells(host, header, window, cache_bytes) {}
+    abacus_voronoi(const abacus_host *table, const abacus_facts &facts, const abacus_window &window,
+                   std::size_t cache_bytes)
+        : host(*table), ring(host), cells(host, facts, window, cache_bytes) {}
 
     const abacus::Host host;
     abacus::Arena<double> ring; // handed out last
@@ -104,11 +104,11 @@ bool next_facet(abacus_voronoi &voronoi, const Voronoi<3> &cells, abacus_voronoi
 } // namespace
 } // namespace abacus
 
-abacus_status abacus_voronoi_open(const abacus_host *host, const abacus_header *header,
+abacus_status abacus_voronoi_open(const abacus_host *host, const abacus_facts *facts,
                                   const abacus_window *window, std::size_t cache_bytes,
                                   abacus_voronoi **voronoi, abacus_error *error) {
     return abacus::guard(error, [&] {
-        *voronoi = abacus::create_handle<abacus_voronoi>(host, *header, *window, cache_bytes);
+        *voronoi = abacus::create_handle<abacus_voronoi>(host, *facts, *window, cache_bytes);
         return ABACUS_OK;
     });
 }

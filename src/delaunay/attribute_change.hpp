@@ -41,7 +41,7 @@ public:
     /// Writes everything; the header is as it was.
     void change(bool was_apart, bool will_be_apart) {
         if (build_.has_waiting()) change_waiting();
-        if (build_.header_->duplicates > 0) change_repeated();
+        if (build_.facts_->census.duplicates > 0) change_repeated();
         if (!build_.has_simplices()) return build_.apart_.reset();
         if (will_be_apart)
             move_apart();
@@ -71,13 +71,14 @@ private:
     }
 
     void change_waiting() {
-        abacus_header &header = *build_.header_;
-        VertexReader<D> reader(host_, build_.attributes_, header.inserted, header.staged, true);
-        VertexPageWriter pages(host_, D, count_, header.staged);
+        abacus_facts &facts = *build_.facts_;
+        VertexReader<D> reader(host_, build_.attributes_, facts.census.inserted,
+                               facts.census.staged, true);
+        VertexPageWriter pages(host_, D, count_, facts.census.staged);
         while (reader.advance()) pages.add(converted(reader.record()));
         pages.finish();
-        header.inserted = header.staged;
-        header.staged = pages.next();
+        facts.census.inserted = facts.census.staged;
+        facts.census.staged = pages.next();
     }
 
     void change_repeated() {
@@ -118,7 +119,7 @@ private:
         OwnVertices<D> own(cache);
         Arena<VertexIndex> vertices(host_);
         Pacer pacer(host_);
-        pacer.begin(ABACUS_PHASE_SORTING, build_.header_->vertices);
+        pacer.begin(ABACUS_PHASE_SORTING, build_.facts_->census.vertices);
         for (Key page = first_key; page < end_key;) {
             cache.trim();
             pacer.reached(sort.size());
@@ -161,7 +162,8 @@ private:
                        CacheOptions{.budget = std::min(build_.cache_bytes_, pass_bytes),
                                     .former = {static_cast<int>(build_.attributes_), source_}});
         Pacer pacer(host_);
-        pacer.begin(ABACUS_PHASE_FLUSHING, build_.header_->simplices + build_.header_->ghosts);
+        pacer.begin(ABACUS_PHASE_FLUSHING,
+                    build_.facts_->census.simplices + build_.facts_->census.ghosts);
         std::uint64_t done = 0;
         for (Key page = first_key; page < end_key;) {
             cache.trim();

@@ -26,26 +26,27 @@ constexpr std::uint64_t rekeyed_at_once = 1 << 16, rekeyed_by_share = 64;
 } // namespace
 
 template <int D>
-Build<D>::Core::Core(const Host &host, const abacus_header &header, std::size_t cache_bytes,
+Build<D>::Core::Core(const Host &host, const abacus_facts &facts, std::size_t cache_bytes,
                      AttributePages<D> *attributes)
-    : cache(host, domain_of<D>(header), page_attributes(header),
+    : cache(host, domain_of<D>(facts.form), page_attributes(facts.columns),
             CacheOptions{.budget = cache_bytes}),
-      mesh(host, cache, static_cast<std::int64_t>(header.simplices),
-           static_cast<std::int64_t>(header.ghosts)),
+      mesh(host, cache, static_cast<std::int64_t>(facts.census.simplices),
+           static_cast<std::int64_t>(facts.census.ghosts)),
       insertion(mesh), removal(mesh, attributes) {}
 
 template <int D>
-Build<D>::Build(const Host &host, const abacus_header &header, std::size_t cache_bytes,
+Build<D>::Build(const Host &host, const abacus_facts &facts, std::size_t cache_bytes,
                 StoredPages *stored)
-    : host_(host), attributes_(header.attributes), cache_bytes_(cache_bytes), stored_(stored),
-      domain_(domain_of<D>(header)), repeated_(std::in_place, host_, domain_, header.attributes),
-      gathered_(host_, record_words(D, header.attributes)) {
-    if (header.apart != 0) apart_.emplace(host_, domain_, header.attributes);
-    make_core(header, cache_bytes_);
+    : host_(host), attributes_(facts.columns.attributes), cache_bytes_(cache_bytes),
+      stored_(stored), domain_(domain_of<D>(facts.form)),
+      repeated_(std::in_place, host_, domain_, facts.columns.attributes),
+      gathered_(host_, record_words(D, facts.columns.attributes)) {
+    if (facts.columns.apart != 0) apart_.emplace(host_, domain_, facts.columns.attributes);
+    make_core(facts, cache_bytes_);
 }
 
-template <int D> void Build<D>::make_core(const abacus_header &header, std::size_t cache_bytes) {
-    core_.emplace(host_, header, cache_bytes, apart_ ? &*apart_ : nullptr);
+template <int D> void Build<D>::make_core(const abacus_facts &facts, std::size_t cache_bytes) {
+    core_.emplace(host_, facts, cache_bytes, apart_ ? &*apart_ : nullptr);
     if (changes_ != nullptr) core_->mesh.log = &changes_->log();
 }
 
@@ -62,7 +63,7 @@ template <int D> VertexIndex Build<D>::create(const std::uint64_t *record) {
 
 template <int D> void Build<D>::start(const std::array<VertexIndex, D + 1> &vertices) {
     core_->insertion.start(vertices);
-    header_->vertices = D + 1;
+    facts_->census.vertices = D + 1;
 }
 
 template <int D> void Build<D>::add(const std::uint64_t *records, std::size_t n) {
@@ -125,7 +126,7 @@ void Build<D>::insert_some(const std::uint64_t *records, const std::uint64_t *co
     for (std::size_t i = 0; i < n; ++i, records += stride) {
         if (core_->insertion.insert(record_point<D>(records), codes[i], record_id(records),
                                     record_attributes<D>(records))) {
-            ++header_->vertices;
+            ++facts_->census.vertices;
             if (counts_crowded_) count_crowded();
         } else {
             add_duplicate(records);
@@ -137,11 +138,11 @@ template <int D> void Build<D>::add_duplicate(const std::uint64_t *record) {
     const Point<D> p = record_point<D>(record);
     switch (on_duplicate_) {
     case ABACUS_KEEP:
-        repeated_->add(header_->serials++, record);
-        ++header_->duplicates;
+        repeated_->add(facts_->census.serials++, record);
+        ++facts_->census.duplicates;
         return;
     case ABACUS_REPLACE:
-        if (header_->duplicates > 0) forget_repeated(p);
+        if (facts_->census.duplicates > 0) forget_repeated(p);
         // Attributes that are apart have been stored when the point came.
         core_->removal.rename(p, record_id(record), record_attributes<D>(record));
         return;
@@ -152,11 +153,12 @@ template <int D> void Build<D>::add_duplicate(const std::uint64_t *record) {
 
 template <int D> void Build<D>::insert_waiting(std::uint64_t limit) {
     if (!has_waiting()) return;
-    const std::uint64_t from = header_->inserted;
-    std::uint64_t to = limit == 0 ? header_->staged : std::min(header_->staged, from + limit);
+    const std::uint64_t from = facts_->census.inserted;
+    std::uint64_t to =
+        limit == 0 ? facts_->census.staged : std::min(facts_->census.staged, from + limit);
     FirstSimplex<D> first;
     if (!has_simplices()) {
-        VertexReader<D> reader(host_, attributes_, from, header_->staged);
+        VertexReader<D> reader(host_, attributes_, from, facts_->census.staged);
         while (!first.is_complete() && reader.advance())
             first.offer(reader.point(), reader.sequence());
         if (!first.is_complete()) return;
@@ -180,7 +182,7 @@ template <int D> void Build<D>::insert_waiting(std::uint64_t limit) {
         if (!first.contains(reader.sequence())) add(reader.record(), 1);
     }
     change_gathered();
-    header_->inserted = to;
+    facts_->census.inserted = to;
 }
 
 template <int D>
@@ -188,7 +190,7 @@ template <class Change>
 void Build<D>::change(abacus_header &header, Change change) {
     core_->cache.counters = {};
     core_->cache.expect_last_pass(false);
-    header_ = &header;
+    facts_ = &header.facts;
     std::uint64_t time = 0;
     {
         const Stopwatch stopwatch(time);
@@ -204,8 +206,8 @@ void Build<D>::change(abacus_header &header, Change change) {
         }
         if (stored_ != nullptr && !holds_) sweep_labels();
     }
-    header.simplices = static_cast<std::uint64_t>(core_->mesh.simplices());
-    header.ghosts = static_cast<std::uint64_t>(core_->mesh.ghosts());
+    facts_->census.simplices = static_cast<std::uint64_t>(core_->mesh.simplices());
+    facts_->census.ghosts = static_cast<std::uint64_t>(core_->mesh.ghosts());
     core_->cache.counters.total_ns = time;
     header.counters += core_->cache.counters;
 }
@@ -217,9 +219,9 @@ template <int D> void Build<D>::settle(abacus_header &header) {
 
 template <int D> void Build<D>::run(std::uint64_t limit, abacus_header &header) {
     change(header, [&] {
-        const std::uint64_t before = header.inserted;
+        const std::uint64_t before = facts_->census.inserted;
         insert_waiting(limit);
-        return header.inserted - before;
+        return facts_->census.inserted - before;
     });
 }
 
@@ -232,13 +234,13 @@ template <int D> void Build<D>::check_attributes(const Stage<D> &stage, std::siz
 
 template <int D> void Build<D>::take_in(Stage<D> &stage) {
     Intake intake(*this, stage.points());
-    stage.emit(intake, *header_);
+    stage.emit(intake, *facts_);
 }
 
 template <int D> void Build<D>::take_in_distinct(Stage<D> &stage, bool refuses) {
-    Stage<D> distinct(host_, *header_, stage.memory());
+    Stage<D> distinct(host_, *facts_, stage.memory());
     Distinct filter(*this, distinct, refuses);
-    stage.emit(filter, *header_);
+    stage.emit(filter, *facts_);
     take_in(distinct);
 }
 
@@ -248,8 +250,8 @@ void Build<D>::insert(Stage<D> &stage, abacus_on_duplicate on_duplicate, abacus_
     change(header, [&] {
         const std::uint64_t points = stage.points();
         // Not for a few points: a single one would have to wait for all of a large mesh.
-        const bool is_worth_it =
-            header.vertices <= rekeyed_at_once || header.vertices / rekeyed_by_share <= points;
+        const bool is_worth_it = facts_->census.vertices <= rekeyed_at_once ||
+                                 facts_->census.vertices / rekeyed_by_share <= points;
         if (is_worth_it && has_outgrown_domain(points))
             change_domain(stage.spread(), stage.memory());
         insert_waiting(0);
@@ -276,7 +278,7 @@ std::uint64_t Build<D>::remove(Stage<D> &stage, bool exactly, abacus_header &hea
         insert_waiting(0);
         if (has_simplices() || has_waiting()) {
             Outlet outlet(*this, stage, exactly);
-            stage.emit(outlet, header, true);
+            stage.emit(outlet, *facts_, true);
             taken = outlet.taken();
         }
         if (rest_) triangulate_rest();
@@ -295,7 +297,7 @@ std::uint64_t Build<D>::update(Stage<D> &stage, std::span<const std::uint32_t> w
         const bool come = has_waiting();
         insert_waiting(0);
         Revision revision(*this, which, exactly);
-        abacus_header ordered = header; // which may have no domain, if it has no points
+        abacus_facts ordered = *facts_; // which may have no domain, if it has no points
         stage.end(ordered);
         stage.emit(revision, ordered);
         changed = revision.changed();
@@ -317,27 +319,28 @@ template <int D>
 void Build<D>::change_attributes(std::span<const std::uint32_t> source, std::size_t memory,
                                  abacus_header &header) {
     const auto count = static_cast<std::uint32_t>(source.size());
-    const bool was_apart = header.apart != 0;
+    const bool was_apart = header.facts.columns.apart != 0;
     const bool will_be_apart =
-        count > 0 && (was_apart || abacus_are_apart(header.dimension, count) != 0);
+        count > 0 && (was_apart || abacus_are_apart(header.facts.form.dimension, count) != 0);
     change(header, [&] {
         Attributes(*this, source, memory).change(was_apart, will_be_apart);
-        header.attributes = count;
-        header.apart = will_be_apart;
+        facts_->columns.attributes = count;
+        facts_->columns.apart = will_be_apart;
         forget_cache();
         if (stored_ != nullptr) stored_->clear(); // with the same simplices as before
-        return header.vertices;
+        return facts_->census.vertices;
     });
 }
 
 template <int D> std::uint64_t Build<D>::clear(abacus_header &header) {
     std::uint64_t points = 0;
     change(header, [&] {
-        points = header.vertices + header.duplicates + (header.staged - header.inserted);
+        points = facts_->census.vertices + facts_->census.duplicates +
+                 (facts_->census.staged - facts_->census.inserted);
         repeated_->forget();
         erase_pages(ABACUS_STAGED_PAGES);
         erase_pages(ABACUS_REPEATED_PAGES);
-        header.inserted = header.staged;
+        facts_->census.inserted = facts_->census.staged;
         forget_simplices();
         return points;
     });
@@ -345,11 +348,11 @@ template <int D> std::uint64_t Build<D>::clear(abacus_header &header) {
 }
 
 template <int D> bool Build<D>::rekey(std::size_t memory, abacus_header &header) {
-    header_ = &header;
-    if (!has_outgrown_domain(0) && !looks_crowded<D>(host_, header)) return false;
+    facts_ = &header.facts;
+    if (!has_outgrown_domain(0) && !looks_crowded<D>(host_, *facts_)) return false;
     bool is_changed = false;
     change(header, [&] {
-        const std::uint64_t points = header.vertices + header.duplicates;
+        const std::uint64_t points = facts_->census.vertices + facts_->census.duplicates;
         is_changed = change_domain(Spread<D>(host_), memory);
         return points;
     });

@@ -30,6 +30,7 @@
 #include "staging/stage.hpp"
 
 #include <abacus/build.h>
+#include <abacus/mesh_header.h>
 #include <chrono>
 #include <optional>
 #include <span>
@@ -40,7 +41,7 @@ template <int D> class Build {
 public:
     /// `stored` learns from the host which pages are stored; null if simplices have no labels and
     /// facets no markers.
-    Build(const Host &host, const abacus_header &header, std::size_t cache_bytes,
+    Build(const Host &host, const abacus_facts &facts, std::size_t cache_bytes,
           StoredPages *stored = nullptr);
 
     /// From now on logs the simplices that are created and removed.
@@ -82,7 +83,7 @@ private:
 
     /// The triangulation in memory. All of it goes when the mesh collapses.
     struct Core {
-        Core(const Host &host, const abacus_header &header, std::size_t cache_bytes,
+        Core(const Host &host, const abacus_facts &facts, std::size_t cache_bytes,
              AttributePages<D> *attributes);
         Cache<D> cache;
         Delaunay<D> mesh;
@@ -91,13 +92,13 @@ private:
     };
 
     static void check_attributes(const Stage<D> &stage, std::size_t attributes);
-    bool has_simplices() const { return header_->vertices > 0; }
-    /// Finite ones and ghosts.
+    bool has_simplices() const { return facts_->census.vertices > 0; }
+    /// Of all kinds.
     std::uint64_t simplices() const {
         return static_cast<std::uint64_t>(core_->mesh.simplices() + core_->mesh.ghosts());
     }
-    bool has_waiting() const { return header_->inserted < header_->staged; }
-    void make_core(const abacus_header &header, std::size_t cache_bytes);
+    bool has_waiting() const { return facts_->census.inserted < facts_->census.staged; }
+    void make_core(const abacus_facts &facts, std::size_t cache_bytes);
     VertexIndex create(const std::uint64_t *record);
     void store_attributes(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n);
     /// A vertex of the cache as a record.
@@ -203,8 +204,8 @@ private:
     std::optional<RepeatedPoints<D>> repeated_; ///< as well
     std::optional<Rest<D>> rest_;               ///< while removals are put off
     Outlet *outlet_ = nullptr;                  ///< while points leave
-    SimplexChanges<D> *changes_ = nullptr;      ///< the log of changes, if any
-    abacus_header *header_ = nullptr;           ///< of the current change
+    SimplexChanges<D> *changes_ = nullptr;      ///< if somebody wants to know
+    abacus_facts *facts_ = nullptr;             ///< of the current change
     abacus_on_duplicate on_duplicate_ = ABACUS_KEEP;
     bool counts_crowded_ = false; ///< the mesh had vertices before these points
     Batch gathered_;

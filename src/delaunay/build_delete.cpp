@@ -11,7 +11,7 @@ namespace abacus {
 
 template <int D> std::uint64_t Build<D>::erase(const Point<D> &p, Leaving &leaving) {
     if (rest_ && rest_->has_left_out(p)) return 0;
-    const bool is_repeated = header_->duplicates > 0 && repeated_->contains(p);
+    const bool is_repeated = facts_->census.duplicates > 0 && repeated_->contains(p);
     if (!is_repeated) return erase_vertex(p, &leaving);
     leaving.begin();
     const auto more = core_->removal.offer(p, leaving);
@@ -19,17 +19,17 @@ template <int D> std::uint64_t Build<D>::erase(const Point<D> &p, Leaving &leavi
     if (*more) repeated_->offer(p, leaving);
     leaving.decide();
     const std::uint64_t taken = repeated_->take(p, leaving);
-    if (taken > header_->duplicates)
+    if (taken > facts_->census.duplicates)
         throw_corrupted("There are more repeated points than the header counts.");
-    header_->duplicates -= taken;
+    facts_->census.duplicates -= taken;
     return taken + (leaving.has_first() ? pass_on(p) : 0);
 }
 
 template <int D> void Build<D>::forget_repeated(const Point<D> &p) {
     const std::uint64_t taken = repeated_->take_all(p);
-    if (taken > header_->duplicates)
+    if (taken > facts_->census.duplicates)
         throw_corrupted("There are more repeated points than the header counts.");
-    header_->duplicates -= taken;
+    facts_->census.duplicates -= taken;
 }
 
 template <int D> void Build<D>::rename(const Point<D> &p, const std::uint64_t *record) {
@@ -49,10 +49,10 @@ template <int D> void Build<D>::read_vertex(VertexIndex v, std::uint64_t *record
 }
 
 template <int D> std::uint64_t Build<D>::pass_on(const Point<D> &p) {
-    const std::uint64_t *next = header_->duplicates > 0 ? repeated_->take_first(p) : nullptr;
+    const std::uint64_t *next = facts_->census.duplicates > 0 ? repeated_->take_first(p) : nullptr;
     if (next == nullptr) return erase_vertex(p);
     rename(p, next);
-    --header_->duplicates;
+    --facts_->census.duplicates;
     return 1;
 }
 
@@ -66,7 +66,7 @@ template <int D> std::uint64_t Build<D>::erase_vertex(const Point<D> &p, Leaving
     case Removed::no_such_vertex:
         return 0;
     case Removed::removed:
-        --header_->vertices;
+        --facts_->census.vertices;
         if (apart_) apart_->drop(p, domain_.code(p));
         break;
     case Removed::collapses:
@@ -78,7 +78,7 @@ template <int D> std::uint64_t Build<D>::erase_vertex(const Point<D> &p, Leaving
 
 template <int D> void Build<D>::collapse() {
     // Of equal points the vertex comes first, as it did.
-    VertexPageWriter pages(host_, D, attributes_, header_->staged);
+    VertexPageWriter pages(host_, D, attributes_, facts_->census.staged);
     std::uint64_t record[record_words(D, ABACUS_MAX_ATTRIBUTES)];
     core_->removal.each_neighbour([&](VertexIndex v) {
         read_vertex(v, record);
@@ -94,12 +94,12 @@ template <int D> void Build<D>::make_repeated_wait(VertexPageWriter &pages) {
     while (repeated.advance()) pages.add(repeated.record());
     repeated_->forget();
     pages.finish();
-    header_->staged = pages.next();
-    header_->duplicates = 0;
+    facts_->census.staged = pages.next();
+    facts_->census.duplicates = 0;
 }
 
 template <int D> void Build<D>::put_off_removals(std::size_t memory) {
-    rest_.emplace(host_, *header_, memory);
+    rest_.emplace(host_, *facts_, memory);
 }
 
 template <int D> void Build<D>::triangulate_rest() {
@@ -108,15 +108,15 @@ template <int D> void Build<D>::triangulate_rest() {
         read_vertex(v, record);
         rest_->add(record);
     });
-    const std::uint64_t repeated = header_->duplicates, vertices = header_->vertices;
+    const std::uint64_t repeated = facts_->census.duplicates, vertices = facts_->census.vertices;
     forget_simplices();
-    header_->duplicates = repeated; // their vertices come again, and their pages stay
+    facts_->census.duplicates = repeated; // their vertices come again, and their pages stay
     Intake intake(*this, vertices);
     rest_->emit(intake);
     rest_.reset();
     insert_waiting(0); // if they had to be staged after all
     if (has_simplices() || repeated == 0) return;
-    VertexPageWriter pages(host_, D, attributes_, header_->staged);
+    VertexPageWriter pages(host_, D, attributes_, facts_->census.staged);
     make_repeated_wait(pages);
 }
 
@@ -132,7 +132,7 @@ template <int D> void Build<D>::erase_pages(abacus_page_kind kind) {
 /// Their codes are those that they have from now on: the header may have another domain by now.
 template <int D> void Build<D>::log_all_gone() {
     if (changes_ == nullptr || !has_simplices()) return;
-    const Domain<D> domain = domain_of<D>(*header_);
+    const Domain<D> domain = domain_of<D>(facts_->form);
     Cache<D> &cache = core_->cache;
     for (Key page = first_key; page < end_key;) {
         cache.trim();
@@ -148,7 +148,8 @@ template <int D> void Build<D>::forget_simplices() {
         apart_->forget();
         erase_attributes(host_, first_group<1>);
     }
-    header_->vertices = header_->duplicates = header_->simplices = header_->ghosts = 0;
+    facts_->census.vertices = facts_->census.duplicates = facts_->census.simplices =
+        facts_->census.ghosts = 0;
     forget_cache();
 }
 

@@ -18,37 +18,37 @@ template <int D> void Build<D>::sweep_labels() {
     if (core_->mesh.simplices() == 0) {
         erase_attributes(host_, first_group<D + 1>);
         erase_attributes(host_, marker_group);
-        header_->labelled = header_->marked = 0;
+        facts_->census.labelled = facts_->census.marked = 0;
     }
-    if (header_->labelled > 0) {
-        LabelSweep<D> sweep(host_, *header_, domain_, header_->labels, first_group<D + 1>);
+    if (facts_->census.labelled > 0) {
+        LabelSweep<D> sweep(host_, *facts_, domain_, facts_->columns.labels, first_group<D + 1>);
         std::optional<LabelHeirs<D>> heirs;
         typename LabelSweep<D>::Report lose;
-        if (header_->inherits != 0) {
-            heirs.emplace(host_, header_->labels, cache_bytes_ / share);
+        if (facts_->columns.inherits != 0) {
+            heirs.emplace(host_, facts_->columns.labels, cache_bytes_ / share);
             lose = [&](const auto &simplex, const double *v) { heirs->lose(simplex, v); };
         }
         std::uint64_t gone = 0;
         for (const StoredPages::Stretch &stretch : stored_->stretches())
             gone += sweep.sweep(stretch, lose);
-        if (gone > header_->labelled) throw_corrupted("The header counts too few labels.");
-        header_->labelled -= gone;
-        if (heirs) header_->labelled += heirs->pass_on(sweep, stored_->stretches());
+        if (gone > facts_->census.labelled) throw_corrupted("The header counts too few labels.");
+        facts_->census.labelled -= gone;
+        if (heirs) facts_->census.labelled += heirs->pass_on(sweep, stored_->stretches());
         core_->cache.counters += sweep.finish();
     }
-    if (header_->marked > 0) {
-        MarkerSweep<D> sweep(host_, *header_, domain_, cache_bytes_ / share);
-        header_->marked = sweep.sweep(stored_->stretches(), header_->marked);
+    if (facts_->census.marked > 0) {
+        MarkerSweep<D> sweep(host_, *facts_, domain_, cache_bytes_ / share);
+        facts_->census.marked = sweep.sweep(stored_->stretches(), facts_->census.marked);
         core_->cache.counters += sweep.finish();
     }
     stored_->clear();
 }
 
 template <int D> void Build<D>::rekey_labels(const Domain<D> &from, std::size_t memory) {
-    if (header_->labelled > 0)
+    if (facts_->census.labelled > 0)
         core_->cache.counters +=
-            rekey_attributes<D, D + 1>(host_, from, domain_, header_->labels, memory);
-    if (header_->marked > 0)
+            rekey_attributes<D, D + 1>(host_, from, domain_, facts_->columns.labels, memory);
+    if (facts_->census.marked > 0)
         core_->cache.counters +=
             rekey_attributes<D, D + 1>(host_, from, domain_, D + 1, memory, marker_group);
 }

@@ -47,19 +47,21 @@ template <int D> void widen(Box<D> &box) {
 } // namespace
 
 template <int D> bool Build<D>::has_outgrown_domain(std::uint64_t coming) const {
-    const std::uint64_t waiting = header_->staged - header_->inserted;
-    const std::uint64_t points = header_->vertices + header_->duplicates + waiting + coming;
-    return abacus::has_outgrown_domain(header_->outside, points);
+    const std::uint64_t waiting = facts_->census.staged - facts_->census.inserted;
+    const std::uint64_t points =
+        facts_->census.vertices + facts_->census.duplicates + waiting + coming;
+    return abacus::has_outgrown_domain(facts_->census.outside, points);
 }
 
 template <int D> void Build<D>::count_crowded() {
-    if (core_->mesh.is_crowded()) ++header_->outside;
+    if (core_->mesh.is_crowded()) ++facts_->census.outside;
 }
 
 template <int D> bool Build<D>::change_domain(const Spread<D> &coming, std::size_t memory) {
-    abacus_header shape = *header_;
-    shape.has_domain = 0; // there are no vertices either: the points go where there is no mesh yet
-    shape.vertices = 0;
+    abacus_facts shape = *facts_;
+    // There are no vertices either: the points go where there is no mesh yet.
+    shape.form.has_domain = 0;
+    shape.census.vertices = 0;
     Stage<D> points(host_, shape, memory);
     std::array<Record, D + 1> corners;
     const bool is_mesh = has_simplices();
@@ -70,24 +72,24 @@ template <int D> bool Build<D>::change_domain(const Spread<D> &coming, std::size
     spread.add(points.spread());
     if (is_mesh)
         for (const Record &corner : corners) spread.add(record_point<D>(corner.data()));
-    VertexReader<D> waiting(host_, attributes_, header_->inserted, header_->staged);
+    VertexReader<D> waiting(host_, attributes_, facts_->census.inserted, facts_->census.staged);
     while (waiting.advance()) spread.add(waiting.point());
 
-    const Box<D> old = domain_box<D>(*header_); // it may have been given for what comes
+    const Box<D> old = domain_box<D>(facts_->form); // it may have been given for what comes
     Box<D> box = spread.box();
     box.extend(old);
     box = spread.choose(box);
     widen(box);
-    header_->outside = 0;
+    facts_->census.outside = 0;
     if (!spread.is_better(box, old)) {
         points.drop();
         return false;
     }
 
     if (is_mesh) take_repeated(points);
-    set_domain(*header_, box);
+    set_domain(*facts_, box);
     forget_simplices();
-    const Domain<D> before = std::exchange(domain_, domain_of<D>(*header_));
+    const Domain<D> before = std::exchange(domain_, domain_of<D>(facts_->form));
     rekey_labels(before, memory);
     if (apart_) {
         core_->cache.counters += apart_->take_counters();

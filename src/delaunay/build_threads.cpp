@@ -70,7 +70,7 @@ public:
                               end = cuts_.end(number, batch, run);
             if (begin == end) continue;
             if (!interval)
-                interval.emplace(host, *build_.header_, cuts_.first(number), cuts_.last(number),
+                interval.emplace(host, *build_.facts_, cuts_.first(number), cuts_.last(number),
                                  build_.thread_cache_bytes(), build_.changes_);
             if (how_ != nullptr)
                 interval->remove(batch, begin, end, *how_, done_, results_[number]);
@@ -230,10 +230,10 @@ void Build<D>::run_passes(Cuts &cuts, Batch &left, const typename Interval<D>::R
         if (changes_ != nullptr) changes_->take_handed(); // the last one
         Arena<std::size_t> put_off(host_);
         for (const auto &results : pass.results()) {
-            header_->simplices += static_cast<std::uint64_t>(results.simplices);
-            header_->ghosts += static_cast<std::uint64_t>(results.ghosts);
-            header_->vertices += static_cast<std::uint64_t>(results.vertices);
-            header_->outside += results.crowded;
+            facts_->census.simplices += static_cast<std::uint64_t>(results.simplices);
+            facts_->census.ghosts += static_cast<std::uint64_t>(results.ghosts);
+            facts_->census.vertices += static_cast<std::uint64_t>(results.vertices);
+            facts_->census.outside += results.crowded;
             core_->cache.counters += results.counters;
             for (const std::size_t i : results.left) deal_with_left(i, left);
             for (const std::size_t i : results.put_off) put_off.push_back(i);
@@ -296,14 +296,14 @@ template <int D> void Build<D>::insert_near_borders(const Cuts &cuts) {
 template <int D> void Build<D>::hand_over(const Cuts &cuts) {
     for (std::size_t i = 1; i < cuts.size(); ++i) core_->cache.cut(cuts.first(i));
     core_->cache.flush(false); // as packing would move the borders
-    header_->simplices = static_cast<std::uint64_t>(core_->mesh.simplices());
-    header_->ghosts = static_cast<std::uint64_t>(core_->mesh.ghosts());
+    facts_->census.simplices = static_cast<std::uint64_t>(core_->mesh.simplices());
+    facts_->census.ghosts = static_cast<std::uint64_t>(core_->mesh.ghosts());
     forget_cache();
 }
 
 template <int D> void Build<D>::forget_cache() {
     const abacus_counters counters = core_->cache.counters;
-    make_core(*header_, own_cache_bytes());
+    make_core(*facts_, own_cache_bytes());
     core_->cache.counters = counters;
 }
 

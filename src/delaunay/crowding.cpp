@@ -28,8 +28,8 @@ struct Stretch {
 
 template <int D> class Look {
 public:
-    Look(const Host &host, const abacus_header &header)
-        : host_(host), header_(header), spread_(host), unseen_(host) {}
+    Look(const Host &host, const abacus_facts &facts)
+        : host_(host), facts_(facts), spread_(host), unseen_(host) {}
 
     bool at_crowds() {
         unseen_.push_back({place_of(first_key), place_of(end_key)});
@@ -49,7 +49,7 @@ private:
         abacus_page page{};
         host_.poll();
         if (!host_.find(ABACUS_SIMPLEX_PAGES, key_at(middle), page)) return false;
-        view_.read(page.bytes, page.size, page_attributes(header_));
+        view_.read(page.bytes, page.size, page_attributes(facts_.columns));
         const Place lower = place_of(view_.lower()), upper = place_of(view_.upper());
         if (middle < lower || upper <= middle) return false;
         if (stretch.from < lower) unseen_.push_back({stretch.from, lower});
@@ -60,10 +60,12 @@ private:
         for (int vertex = 0; vertex < view_.vertices(); ++vertex) spread_.add(view_.point(vertex));
         return true;
     }
-    bool is_another_better() { return spread_.is_better(spread_.choose(), domain_box<D>(header_)); }
+    bool is_another_better() {
+        return spread_.is_better(spread_.choose(), domain_box<D>(facts_.form));
+    }
 
     const Host &host_;
-    const abacus_header &header_;
+    const abacus_facts &facts_;
     Spread<D> spread_; // of the vertices of crowded pages
     Arena<Stretch> unseen_;
     PageView<D> view_;
@@ -72,17 +74,17 @@ private:
 
 } // namespace
 
-template <int D> bool looks_crowded(const Host &host, const abacus_header &header) {
-    if (header.simplices == 0) return false;
+template <int D> bool looks_crowded(const Host &host, const abacus_facts &facts) {
+    if (facts.census.simplices == 0) return false;
     try {
-        return Look<D>(host, header).at_crowds();
+        return Look<D>(host, facts).at_crowds();
     } catch (const Error &error) {
         if (error.kind != ABACUS_ERROR_CORRUPTED) throw;
         return false; // the next reader of the page says what is wrong with it
     }
 }
 
-template bool looks_crowded<2>(const Host &, const abacus_header &);
-template bool looks_crowded<3>(const Host &, const abacus_header &);
+template bool looks_crowded<2>(const Host &, const abacus_facts &);
+template bool looks_crowded<3>(const Host &, const abacus_facts &);
 
 } // namespace abacus

@@ -10,11 +10,11 @@
 
 #include "host/host.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 namespace abacus {
 
-/// False if a page that it reads is damaged.
-template <int D> bool looks_crowded(const Host &host, const abacus_header &header);
+/// False where a page looked into is damaged.
+template <int D> bool looks_crowded(const Host &host, const abacus_facts &facts);
 
 } // namespace abacus

@@ -56,7 +56,7 @@ private:
     void displace() {
         if (!build_.has_waiting()) return;
         const std::uint64_t displaced =
-            waiting_.take_all(build_.header_->inserted, build_.header_->staged);
+            waiting_.take_all(build_.facts_->census.inserted, build_.facts_->census.staged);
         if (displaced > 0 && refuses_)
             throw_duplicate("a point is at the place of point " +
                             std::to_string(waiting_.last_taken()) + ", which waits");

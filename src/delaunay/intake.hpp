@@ -43,7 +43,7 @@ public:
         if (build_.has_simplices()) return build_.change_gathered();
         if (!pages_) stage();
         pages_->finish();
-        build_.header_->staged = pages_->next();
+        build_.facts_->census.staged = pages_->next();
     }
 
     std::size_t held_back() const override { return build_.gathered_.size(); }
@@ -67,7 +67,7 @@ private:
         held_.reset();
     }
     void stage() {
-        pages_.emplace(build_.host_, D, build_.attributes_, build_.header_->staged);
+        pages_.emplace(build_.host_, D, build_.attributes_, build_.facts_->census.staged);
         for (std::size_t i = 0; i < held(); ++i) pages_->add(held(i));
         held_.reset();
     }

@@ -16,17 +16,18 @@ constexpr std::uint64_t told_effort = 1024; // of removals: then others get them
 } // namespace
 
 template <int D> AttributePages<D> *Interval<D>::attributes_apart() {
-    if (header_.apart == 0) return nullptr;
-    return &apart_.emplace(host_, cache_.domain(), header_.attributes);
+    if (facts_.columns.apart == 0) return nullptr;
+    return &apart_.emplace(host_, cache_.domain(), facts_.columns.attributes);
 }
 
 template <int D>
-Interval<D>::Interval(const Host &host, const abacus_header &header, std::uint64_t first,
+Interval<D>::Interval(const Host &host, const abacus_facts &facts, std::uint64_t first,
                       std::uint64_t last, std::size_t cache_bytes, SimplexChanges<D> *changes)
-    : host_(host), header_(header), cache_(host, domain_of<D>(header), page_attributes(header),
-                                           CacheOptions{.budget = cache_bytes}),
-      mesh_(host, cache_, static_cast<std::int64_t>(header.simplices),
-            static_cast<std::int64_t>(header.ghosts)),
+    : host_(host), facts_(facts),
+      cache_(host, domain_of<D>(facts.form), page_attributes(facts.columns),
+             CacheOptions{.budget = cache_bytes}),
+      mesh_(host, cache_, static_cast<std::int64_t>(facts.census.simplices),
+            static_cast<std::int64_t>(facts.census.ghosts)),
       insertion_(mesh_), removal_(mesh_, attributes_apart()) {
     cache_.keep_within(first, last);
     if (changes != nullptr) mesh_.log = &log_.emplace(*changes, host).log();
@@ -64,8 +65,8 @@ void Interval<D>::each(std::size_t from, std::size_t to, std::atomic<std::uint64
 template <int D> void Interval<D>::finish(Results &results) {
     within([&] { cache_.flush(); });
     if (log_) log_->finish();
-    results.simplices += mesh_.simplices() - static_cast<std::int64_t>(header_.simplices);
-    results.ghosts += mesh_.ghosts() - static_cast<std::int64_t>(header_.ghosts);
+    results.simplices += mesh_.simplices() - static_cast<std::int64_t>(facts_.census.simplices);
+    results.ghosts += mesh_.ghosts() - static_cast<std::int64_t>(facts_.census.ghosts);
     results.counters += cache_.counters;
     if (apart_) results.counters += apart_->take_counters();
 }
@@ -102,8 +103,8 @@ void Interval<D>::insert(const Batch &batch, std::size_t from, std::size_t to, b
 template <int D>
 void Interval<D>::remove(const Batch &batch, std::size_t from, std::size_t to, const Removing &how,
                          std::atomic<std::uint64_t> &done, Results &results) {
-    Leaving leaving(host_, how.want_bytes, how.exactly, header_.attributes);
-    RepeatedPoints<D> repeated(host_, cache_.domain(), header_.attributes);
+    Leaving leaving(host_, how.want_bytes, how.exactly, facts_.columns.attributes);
+    RepeatedPoints<D> repeated(host_, cache_.domain(), facts_.columns.attributes);
     std::uint64_t effort = 0, dealt = 0; // that others do not know of
     each(from, to, done, [&](std::size_t i) {
         std::size_t end = i;
@@ -116,12 +117,12 @@ void Interval<D>::remove(const Batch &batch, std::size_t from, std::size_t to, c
             return end;
         };
         if (how.outlay.is_too_much()) return keep(results.put_off);
-        if (leaving.is_full() || (header_.duplicates > 0 && repeated.contains(p)))
+        if (leaving.is_full() || (facts_.census.duplicates > 0 && repeated.contains(p)))
             return keep(results.left);
         const std::optional<bool> removed = removal_.remove_within(p, leaving);
         if (!removed) return keep(results.put_off);
         results.vertices -= *removed;
-        if (*removed && header_.apart != 0) results.gone.push_back(i);
+        if (*removed && facts_.columns.apart != 0) results.gone.push_back(i);
         effort += removal_.take_effort();
         dealt += end - i;
         if (effort >= told_effort)

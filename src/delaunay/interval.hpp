@@ -42,7 +42,8 @@
 #include "delaunay/removal.hpp"
 #include "delaunay/simplex_changes.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
+#include <abacus/mesh_counters.h>
 
 #include <atomic>
 
@@ -137,9 +138,9 @@ public:
         SharedOutlay<D> &outlay;
     };
 
-    /// `header` is that of the whole mesh; pages begin at the codes `first` and `last + 1`.
-    /// `changes` logs the simplices that are created and removed; may be null.
-    Interval(const Host &host, const abacus_header &header, std::uint64_t first, std::uint64_t last,
+    /// `facts` are those of the whole mesh; pages begin at the codes `first` and `last + 1`.
+    /// `changes`: who wants to know which simplices come and go, or null.
+    Interval(const Host &host, const abacus_facts &facts, std::uint64_t first, std::uint64_t last,
              std::size_t cache_bytes, SimplexChanges<D> *changes);
 
     /// Inserts points [from, to) of the batch, which are of one run. Adds to `done` as it goes.
@@ -159,7 +160,7 @@ private:
     void each(std::size_t from, std::size_t to, std::atomic<std::uint64_t> &done, Change change);
 
     const Host &host_;
-    const abacus_header &header_; // of the whole mesh, before
+    const abacus_facts &facts_; // of the whole mesh, before
     Cache<D> cache_;
     Delaunay<D> mesh_;
     Insertion<D> insertion_;

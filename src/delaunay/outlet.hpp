@@ -19,7 +19,7 @@ public:
     Outlet(Build &build, const Stage<D> &stage, bool exactly)
         : build_(build), memory_(stage.memory()), exactly_(exactly),
           words_(record_words(D, exactly ? build.attributes_ : 0)),
-          outlay_(stage.points(), build.header_->vertices, build.simplices()),
+          outlay_(stage.points(), build.facts_->census.vertices, build.simplices()),
           leaving_(build.host_, build.cache_bytes_ / want_share, exactly, build.attributes_),
           waiting_(build.host_, build.attributes_, exactly) {
         build_.outlet_ = this;
@@ -65,10 +65,10 @@ public:
     /// Lets threads remove points, by use(how).
     template <class Use> void share(Use use) {
         SharedOutlay<D> shared(outlay_);
-        const std::uint64_t before = build_.header_->vertices;
+        const std::uint64_t before = build_.facts_->census.vertices;
         const std::size_t want_bytes = build_.thread_cache_bytes() / want_share;
         use(typename Interval<D>::Removing{exactly_, want_bytes, shared});
-        taken_ += before - build_.header_->vertices;
+        taken_ += before - build_.facts_->census.vertices;
         if (shared.is_too_much()) build_.put_off_removals(memory_);
     }
     /// Points removed.
@@ -92,7 +92,7 @@ private:
         wanted_ = 0;
     }
     void take_waiting() {
-        taken_ += waiting_.take(build_.header_->inserted, build_.header_->staged);
+        taken_ += waiting_.take(build_.facts_->census.inserted, build_.facts_->census.staged);
     }
 
     Build &build_;

@@ -8,7 +8,7 @@
 #include "points/record_sink.hpp"
 #include "staging/stage.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 #include <algorithm>
 #include <array>
@@ -18,14 +18,14 @@ namespace abacus {
 
 template <int D> class Rest {
 public:
-    /// For a mesh with this header.
-    Rest(const Host &host, const abacus_header &header, std::size_t memory)
-        : host_(host), header_(without_vertices(header)), points_(host, header_, memory) {}
+    /// Of a mesh of which these are the facts.
+    Rest(const Host &host, const abacus_facts &facts, std::size_t memory)
+        : host_(host), facts_(without_vertices(facts)), points_(host, facts_, memory) {}
 
     /// The vertex at p leaves.
     void leave_out(const Point<D> &p) {
         std::array<std::uint64_t, record_words(D, ABACUS_MAX_ATTRIBUTES)> record;
-        std::fill_n(record.data(), record_words(D, header_.attributes), 0);
+        std::fill_n(record.data(), record_words(D, facts_.columns.attributes), 0);
         fill_record<D>(record.data(), 0, p, nullptr, 0);
         points_.add(record.data(), 1);
         last_ = p;
@@ -36,8 +36,8 @@ public:
     void add(const std::uint64_t *record) { points_.add(record, 1); }
     /// Passes the rest on.
     void emit(RecordSink &sink) {
-        Unpaired unpaired(host_, sink, record_words(D, header_.attributes));
-        points_.emit(unpaired, header_);
+        Unpaired unpaired(host_, sink, record_words(D, facts_.columns.attributes));
+        points_.emit(unpaired, facts_);
     }
 
 private:
@@ -78,14 +78,14 @@ private:
         Arena<std::uint64_t> held_;
     };
 
-    /// The receiver of the points has none.
-    static abacus_header without_vertices(abacus_header header) {
-        header.vertices = 0;
-        return header;
+    /// None are where the points go.
+    static abacus_facts without_vertices(abacus_facts facts) {
+        facts.census.vertices = 0;
+        return facts;
     }
 
     const Host &host_;
-    const abacus_header header_;
+    const abacus_facts facts_;
     Stage<D> points_;
     std::optional<Point<D>> last_;
 };

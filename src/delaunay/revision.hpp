@@ -84,7 +84,8 @@ private:
         if (!missing_) fill_record<D>(missing_.emplace().data(), id, p, nullptr, 0);
     }
     void change_waiting() {
-        changed_ += waiting_.apply(build_.header_->inserted, build_.header_->staged, missing_);
+        changed_ +=
+            waiting_.apply(build_.facts_->census.inserted, build_.facts_->census.staged, missing_);
     }
     bool is_full() const {
         return wants_.size() * (sizeof(Want) + 8 * which_.size() + identities_.bytes_each()) >=
@@ -95,7 +96,7 @@ private:
     }
     /// All wants for a place at once, so that the points that equal its vertex are read once.
     void revise_place() {
-        if (build_.header_->duplicates > 0 && build_.repeated_->contains(place_))
+        if (build_.facts_->census.duplicates > 0 && build_.repeated_->contains(place_))
             revise_repeated();
         else if (!exactly_)
             for (Want &want : wants_) want.is_of_vertex = true;

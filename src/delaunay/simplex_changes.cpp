@@ -18,7 +18,7 @@ constexpr std::chrono::milliseconds longest_wait{20};
 
 /// Besides the threads' logs there may be one in the box, and one that is being sorted.
 template <int D>
-SimplexChanges<D>::SimplexChanges(const Host &host, const abacus_header &, std::size_t memory,
+SimplexChanges<D>::SimplexChanges(const Host &host, const abacus_facts &, std::size_t memory,
                                   unsigned threads, bool has_tiny_logs)
     : host_(host), thread_bytes_(has_tiny_logs ? tiny_log : memory / threads_share / (threads + 2)),
       log_(host, has_tiny_logs ? tiny_log : memory / log_share, *this),

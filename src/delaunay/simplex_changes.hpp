@@ -15,7 +15,7 @@
 #include "host/crew.hpp"
 #include "sort/record_sort.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 #include <condition_variable>
 #include <mutex>
@@ -29,7 +29,7 @@ public:
     using Entries = Arena<SimplexWords<D>>;
 
     /// `host` computes with one thread: the sort may run in the middle of others' work.
-    SimplexChanges(const Host &host, const abacus_header &, std::size_t memory, unsigned threads,
+    SimplexChanges(const Host &host, const abacus_facts &, std::size_t memory, unsigned threads,
                    bool has_tiny_logs);
 
     /// The log of the session's thread.

@@ -17,9 +17,10 @@ abacus_drawing widened(const abacus_drawing &drawing, std::int32_t margin);
 /// `stream(picture)` adds all patches to a picture, an Extent or a Canvas; `unit` is the unit of
 /// coordinates in the picture. Throws an Error (argument) if there is no such attribute.
 template <class Stream>
-Portrait draw_patches(const Host &host, const abacus_header &header, const abacus_drawing &drawing,
+Portrait draw_patches(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing,
                       std::int32_t margin, abacus_ramp usual, double unit, Stream stream) {
-    if (drawing.attribute >= static_cast<std::int32_t>(header.attributes + header.labels))
+    if (drawing.attribute >=
+        static_cast<std::int32_t>(facts.columns.attributes + facts.columns.labels))
         throw Error(ABACUS_ERROR_ARGUMENT, "there is no such attribute");
     Extent extent(drawing);
     if (Extent::is_needed(drawing)) stream(extent);

@@ -101,11 +101,11 @@ double lower_end(double x, double unit) {
 
 } // namespace
 
-template <int D> Circumboxes<D>::Circumboxes(const abacus_header &header) {
+template <int D> Circumboxes<D>::Circumboxes(const abacus_facts &facts) {
     double half = 0; // of the widest side, which itself may overflow
     for (int k = 0; k < D; ++k) {
-        lower_[k] = header.lower[k];
-        upper_[k] = header.upper[k];
+        lower_[k] = facts.form.lower[k];
+        upper_[k] = facts.form.upper[k];
         half = std::max(half, upper_[k] / 2 - lower_[k] / 2);
     }
     constexpr int smallest = -4, largest = 300, between = 40;

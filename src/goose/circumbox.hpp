@@ -22,7 +22,7 @@ namespace abacus {
 
 template <int D> class Circumboxes {
 public:
-    explicit Circumboxes(const abacus_header &header);
+    explicit Circumboxes(const abacus_facts &facts);
 
     /// Of coordinates in an R-tree: a power of two. PostgreSQL's boxes are compared with a
     /// tolerance of 1e-6 and have an area that must neither overflow nor underflow; so a

@@ -21,9 +21,9 @@ template <int D> Side side_of(const abacus_simplex &row, const Point<D> &p) {
 } // namespace
 
 template <int D>
-Goose<D>::Goose(const Host &host, const abacus_rtree &rtree, const abacus_header &header,
+Goose<D>::Goose(const Host &host, const abacus_rtree &rtree, const abacus_facts &facts,
                 abacus_goose_figures &figures)
-    : host_(host), rtree_(rtree), boxes_(header), figures_(figures), rim_(host), hits_(host),
+    : host_(host), rtree_(rtree), boxes_(facts), figures_(figures), rim_(host), hits_(host),
       cavity_(host), filling_(host) {
     figures_ = {};
     figures_.unit = boxes_.unit();

@@ -25,7 +25,7 @@ namespace abacus {
 
 template <int D> class Goose final : public RecordSink {
 public:
-    Goose(const Host &host, const abacus_rtree &rtree, const abacus_header &header,
+    Goose(const Host &host, const abacus_rtree &rtree, const abacus_facts &facts,
           abacus_goose_figures &figures);
 
     void add(const std::uint64_t *record) override;

@@ -3,7 +3,7 @@
 #include "geometry/box.hpp"
 #include "keys/locational_code.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 #include <algorithm>
 
@@ -33,17 +33,17 @@ template <int D> Domain<D> domain_around(Point<D> lower, Point<D> upper) {
     return {lower, upper};
 }
 
-/// The box in a mesh's header.
-template <int D> Box<D> domain_box(const abacus_header &header) {
+/// The box that a mesh's form tells.
+template <int D> Box<D> domain_box(const abacus_form &form) {
     Box<D> box;
-    std::copy_n(header.lower, D, box.lower.begin());
-    std::copy_n(header.upper, D, box.upper.begin());
+    std::copy_n(form.lower, D, box.lower.begin());
+    std::copy_n(form.upper, D, box.upper.begin());
     return box;
 }
 
 /// The domain of a mesh.
-template <int D> Domain<D> domain_of(const abacus_header &header) {
-    const Box<D> box = domain_box<D>(header);
+template <int D> Domain<D> domain_of(const abacus_form &form) {
+    const Box<D> box = domain_box<D>(form);
     return domain_around<D>(box.lower, box.upper);
 }
 
@@ -54,11 +54,11 @@ inline bool has_outgrown_domain(std::uint64_t outside, std::uint64_t points) {
 }
 
 /// Gives a mesh a domain with room for all points of a box.
-template <int D> void set_domain(abacus_header &header, const Box<D> &box) {
-    header.has_domain = 1;
-    header.outside = 0;
-    std::copy_n(box.lower.begin(), D, header.lower);
-    std::copy_n(box.upper.begin(), D, header.upper);
+template <int D> void set_domain(abacus_facts &facts, const Box<D> &box) {
+    facts.form.has_domain = 1;
+    facts.census.outside = 0;
+    std::copy_n(box.lower.begin(), D, facts.form.lower);
+    std::copy_n(box.upper.begin(), D, facts.form.upper);
 }
 
 } // namespace abacus

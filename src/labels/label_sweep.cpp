@@ -12,11 +12,11 @@ constexpr Key row_begin(unsigned group, std::uint64_t code) {
 } // namespace
 
 template <int D>
-LabelSweep<D>::LabelSweep(const Host &host, const abacus_header &header, const Domain<D> &domain,
+LabelSweep<D>::LabelSweep(const Host &host, const abacus_facts &facts, const Domain<D> &domain,
                           unsigned columns, unsigned first)
     : host_(host), domain_(domain), columns_(AttributeGroups(columns).columns(0)), group_(first),
       values_(host), pages_(host, domain, columns, first), keys_(host), is_found_(host),
-      simplices_(host, header, domain) {
+      simplices_(host, facts, domain) {
     values_.resize(columns);
 }
 

@@ -24,8 +24,8 @@ template <int D> class SimplicesOfStretch {
 public:
     using Simplex = Owner<D, D + 1>;
 
-    SimplicesOfStretch(const Host &host, const abacus_header &header, const Domain<D> &domain)
-        : host_(host), domain_(domain), attributes_(page_attributes(header)) {}
+    SimplicesOfStretch(const Host &host, const abacus_facts &facts, const Domain<D> &domain)
+        : host_(host), domain_(domain), attributes_(page_attributes(facts.columns)) {}
 
     /// Calls visit(simplex, code) for each finite simplex with a code of the stretch, and leave()
     /// after those of each page; visit must not call the host.
@@ -72,8 +72,8 @@ public:
     /// Gets a simplex that has been removed, or is still there, and the values of its row.
     using Report = std::function<void(const Simplex &, const double *)>;
 
-    /// For rows of this many columns, in groups from `first` on.
-    LabelSweep(const Host &host, const abacus_header &header, const Domain<D> &domain,
+    /// Of so many columns, in groups from `first` on.
+    LabelSweep(const Host &host, const abacus_facts &facts, const Domain<D> &domain,
                unsigned columns, unsigned first);
 
     /// Removes the rows of a stretch whose simplices are gone; returns how many simplices these

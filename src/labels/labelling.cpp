@@ -7,7 +7,7 @@
 namespace abacus {
 
 template <int D>
-Labelling<D>::Labelling(const Host &host, const abacus_header &, unsigned known,
+Labelling<D>::Labelling(const Host &host, const abacus_facts &, unsigned known,
                         std::span<const std::uint32_t> labels, std::size_t memory)
     : host_(host), known_(known), labels_(host), some_(host), all_(host),
       sort_(host, 1 + name_words + labels.size(), 2, memory) {
@@ -60,17 +60,17 @@ void Labelling<D>::set_row(AttributePages<D, D + 1> &pages, const Owner<D, D + 1
 
 template <int D> void Labelling<D>::set(NamedSimplices<D> &mesh, abacus_header &header) {
     sort_.finish();
-    const Domain<D> domain = domain_of<D>(header);
-    if (header.labelled > 0 && known_ < header.labels)
+    const Domain<D> domain = domain_of<D>(header.facts.form);
+    if (header.facts.census.labelled > 0 && known_ < header.facts.columns.labels)
         header.counters +=
-            widen_attributes<D, D + 1>(host_, domain, known_, header.labels - known_);
-    AttributePages<D, D + 1> pages(host_, domain, header.labels);
-    all_.resize(header.labels);
+            widen_attributes<D, D + 1>(host_, domain, known_, header.facts.columns.labels - known_);
+    AttributePages<D, D + 1> pages(host_, domain, header.facts.columns.labels);
+    all_.resize(header.facts.columns.labels);
     some_.resize(labels_.size());
     while (const std::uint64_t *record = sort_.next()) {
         const Owner<D, D + 1> simplex = owner(mesh, record);
         std::memcpy(some_.data(), record + 1 + name_words, some_.size() * sizeof(double));
-        set_row(pages, simplex, record[0], header.labelled);
+        set_row(pages, simplex, record[0], header.facts.census.labelled);
     }
     pages.flush();
     sort_.close();

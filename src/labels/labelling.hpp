@@ -10,15 +10,16 @@
 #include "labels/named_simplices.hpp"
 #include "sort/record_sort.hpp"
 
+#include <abacus/mesh_header.h>
 #include <span>
 
 namespace abacus {
 
 template <int D> class Labelling {
 public:
-    /// `header` names all labels; the first `known` of them are not new. A row has values of the
-    /// labels with the numbers `labels`. Sorts within `memory` bytes.
-    Labelling(const Host &host, const abacus_header &header, unsigned known,
+    /// `facts` counts all labels; of these `known` are not new. A row has those whose numbers are
+    /// `labels`. Sorts within `memory` bytes.
+    Labelling(const Host &host, const abacus_facts &facts, unsigned known,
               std::span<const std::uint32_t> labels, std::size_t memory);
 
     /// Adds rows: code, D + 1 ids, values.

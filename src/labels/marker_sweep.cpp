@@ -5,9 +5,9 @@
 namespace abacus {
 
 template <int D>
-MarkerSweep<D>::MarkerSweep(const Host &host, const abacus_header &header, const Domain<D> &domain,
+MarkerSweep<D>::MarkerSweep(const Host &host, const abacus_facts &facts, const Domain<D> &domain,
                             std::size_t memory)
-    : host_(host), domain_(domain), rows_(host, header, domain, D + 1, marker_group),
+    : host_(host), domain_(domain), rows_(host, facts, domain, D + 1, marker_group),
       spool_(host, D * D + 1), room_(std::max(least_room, memory / sizeof(Marked))), marked_(host),
       found_(host) {}
 

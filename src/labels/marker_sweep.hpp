@@ -43,7 +43,7 @@ bool set_marker(AttributePages<D, D + 1> &pages, const Owner<D, D + 1> &simplex,
 
 template <int D> class MarkerSweep {
 public:
-    MarkerSweep(const Host &host, const abacus_header &header, const Domain<D> &domain,
+    MarkerSweep(const Host &host, const abacus_facts &facts, const Domain<D> &domain,
                 std::size_t memory);
 
     /// For a change that has stored these stretches. Returns how many simplices have markers now,

@@ -30,7 +30,7 @@ template <int D> int corner_beyond(const abacus_simplex &simplex, const abacus_s
 } // namespace
 
 template <int D>
-Marking<D>::Marking(const Host &host, const abacus_header &, std::size_t memory)
+Marking<D>::Marking(const Host &host, const abacus_facts &, std::size_t memory)
     : host_(host), sort_(host, 1 + row_words, 2, memory / 2),
       sides_(host, side_words, side_key, memory / 2) {}
 
@@ -61,8 +61,8 @@ template <int D> void Marking<D>::set(NamedSimplices<D> &mesh, abacus_header &he
     while (const std::uint64_t *record = sort_.next()) add_sides(mesh, record);
     sort_.close();
     sides_.finish();
-    Pages pages(host_, domain_of<D>(header), D + 1, marker_group);
-    while (const std::uint64_t *side = sides_.next()) mark(pages, side, header.marked);
+    Pages pages(host_, domain_of<D>(header.facts.form), D + 1, marker_group);
+    while (const std::uint64_t *side = sides_.next()) mark(pages, side, header.facts.census.marked);
     pages.flush();
     sides_.close();
     header.counters += pages.take_counters();

@@ -12,12 +12,14 @@
 #include "labels/named_simplices.hpp"
 #include "sort/record_sort.hpp"
 
+#include <abacus/mesh_header.h>
+
 namespace abacus {
 
 template <int D> class Marking {
 public:
     /// Sorts within `memory` bytes.
-    Marking(const Host &host, const abacus_header &header, std::size_t memory);
+    Marking(const Host &host, const abacus_facts &facts, std::size_t memory);
 
     /// Adds rows: code, D + 1 ids, number of the corner, marker; NaN removes the marker.
     void add(const std::uint64_t *rows, std::size_t count);

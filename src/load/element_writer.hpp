@@ -12,7 +12,7 @@
 #include "mesh/cache.hpp"
 #include "sort/record_sort.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/mesh_counters.h>
 
 #include <algorithm>
 

@@ -19,21 +19,21 @@ constexpr std::size_t sorts_with_labels = sorts_at_once + 1;
 } // namespace
 
 template <int D>
-Load<D>::Load(const Host &host, const abacus_header &header, std::size_t memory, bool reorient,
+Load<D>::Load(const Host &host, const abacus_facts &facts, std::size_t memory, bool reorient,
               bool split_nodes)
-    : host_(host), attributes_(header.attributes), in_pages_(page_attributes(header)),
-      layout_(static_cast<unsigned>(in_pages_)), labels_(header.labels),
+    : host_(host), attributes_(facts.columns.attributes), in_pages_(page_attributes(facts.columns)),
+      layout_(static_cast<unsigned>(in_pages_)), labels_(facts.columns.labels),
       vertex_words_(record_words(D, attributes_)), reorient_(reorient), split_nodes_(split_nodes),
       unknown_(host), share_(memory / (labels_ > 0 ? sorts_with_labels : sorts_at_once)),
       pacer_(host), spread_(host), used_(host, vertex_words_), ordered_(host, vertex_words_),
       simplices_(host, layout_.simplex), label_rows_(host, std::max(1u, labels_)) {
-    if (header.staged > 0 || header.vertices > 0)
+    if (facts.census.staged > 0 || facts.census.vertices > 0)
         throw Error(ABACUS_ERROR_STATE, "the mesh has points already", {},
                     "Load into an empty mesh.");
-    if (split_nodes && header.apart != 0)
+    if (split_nodes && facts.columns.apart != 0)
         throw Error(ABACUS_ERROR_ARGUMENT,
                     "attributes that are apart are found by place, which split nodes share");
-    if (header.has_domain != 0) domain_ = domain_of<D>(header);
+    if (facts.form.has_domain != 0) domain_ = domain_of<D>(facts.form);
     begin(vertices_, vertex_words_, 1);
     begin(corners_, 2, 2);
     pacer_.begin(ABACUS_PHASE_READING, 0);
@@ -117,7 +117,7 @@ template <int D> void Load<D>::write(abacus_header &header) {
     const bool is_delaunay = outcome() == ABACUS_DELAUNAY;
     add_ghosts();
     if (links_) end(links_);
-    header.ghosts = boundary_->size();
+    header.facts.census.ghosts = boundary_->size();
     end(boundary_);
     elements_->finish();
 
@@ -131,14 +131,14 @@ template <int D> void Load<D>::write(abacus_header &header) {
     if (marker_rows_) write_markers(header);
 
     if (keeps_domain_)
-        header.outside = outside_;
+        header.facts.census.outside = outside_;
     else
-        set_domain(header, box_);
-    header.vertices = vertex_count_;
-    header.simplices = simplex_count_;
-    header.standing = outcome();
-    header.split = split_count_;
-    if (!is_delaunay) header.staged = header.inserted = vertex_count_;
+        set_domain(header.facts, box_);
+    header.facts.census.vertices = vertex_count_;
+    header.facts.census.simplices = simplex_count_;
+    header.facts.standing = outcome();
+    header.facts.census.split = split_count_;
+    if (!is_delaunay) header.facts.census.staged = header.facts.census.inserted = vertex_count_;
 }
 
 template class Load<2>;

@@ -60,7 +60,7 @@ template <int D> class Load {
 public:
     /// `reorient`: simplices of negative orientation are turned, not refused. `split_nodes`:
     /// vertices at one place are kept apart, not refused; no attributes are apart then.
-    Load(const Host &host, const abacus_header &header, std::size_t memory, bool reorient,
+    Load(const Host &host, const abacus_facts &facts, std::size_t memory, bool reorient,
          bool split_nodes);
 
     /// Adds vertices, as in abacus_stage_add; all before the simplices.

@@ -35,7 +35,7 @@ template <int D> void Load<D>::place_labels(const Corners<D> &corners) {
 }
 
 template <int D> void Load<D>::write_labels(abacus_header &header) {
-    header.labelled = labelled_->size();
+    header.facts.census.labelled = labelled_->size();
     labelled_->finish();
     AttributePages<D, D + 1> pages(host_, *domain_, labels_);
     Arena<double> labels(host_);

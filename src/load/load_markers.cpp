@@ -99,7 +99,7 @@ template <int D> void Load<D>::place_markers(Word simplex, const Word *record) {
 }
 
 template <int D> void Load<D>::write_markers(abacus_header &header) {
-    header.marked = marker_rows_->size();
+    header.facts.census.marked = marker_rows_->size();
     marker_rows_->finish();
     AttributePages<D, D + 1> pages(host_, *domain_, D + 1, marker_group);
     while (const Word *row = marker_rows_->next()) {

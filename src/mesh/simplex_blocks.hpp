@@ -7,7 +7,8 @@
 #include "mesh/page_format.hpp"
 #include "mesh/simplex.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
+#include <abacus/mesh_counters.h>
 
 namespace abacus {
 

@@ -2,7 +2,7 @@
 
 #include "mesh/page_format.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 namespace abacus {
 

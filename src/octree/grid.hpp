@@ -8,7 +8,7 @@
 #include "keys/domain_of.hpp"
 #include "octree/octant.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace abacus {
 
 template <int D> class Grid {
 public:
-    explicit Grid(const abacus_header &header) : domain_(domain_box<D>(header)) {}
+    explicit Grid(const abacus_form &form) : domain_(domain_box<D>(form)) {}
 
     /// The coordinate of a line, 0 to axis_cells; never less than that of the line before.
     double line(int axis, std::uint64_t i) const {

@@ -11,12 +11,12 @@ namespace abacus {
 template <int D> void create_root(const Host &host, abacus_header &header) {
     LeafWriter<D> writer(host, header);
     Arena<double> values(host);
-    values.resize(header.attributes);
+    values.resize(header.facts.columns.attributes);
     std::fill(values.begin(), values.end(), std::numeric_limits<double>::quiet_NaN());
     writer.begin(0, 0);
     writer.add({}, values.data(), true);
     writer.end(key_word_end);
-    header.leaves = 1;
+    header.facts.census.leaves = 1;
     header.counters += writer.counters();
 }
 
@@ -32,8 +32,8 @@ template <int D> void Growth<D>::add(const Point<D> &place, std::int64_t level) 
 template <int D>
 template <class Visit>
 void Growth<D>::read(SplitOctants<D> &octants, abacus_header &header, Visit visit) {
-    pacer_.begin(ABACUS_PHASE_SCANNING, header_.leaves);
-    LeafScan<D> leaves(host_, header_);
+    pacer_.begin(ABACUS_PHASE_SCANNING, facts_.census.leaves);
+    LeafScan<D> leaves(host_, facts_);
     std::uint64_t done = 0;
     while (leaves.next()) {
         octants.split_to(leaves.leaf().code, leaves.leaf().level);
@@ -47,7 +47,7 @@ void Growth<D>::read(SplitOctants<D> &octants, abacus_header &header, Visit visi
 template <int D> void Growth<D>::expect(double wanted_bytes) const {
     // Memory has room for some of each level.
     constexpr double in_memory = static_cast<double>(finest_level<D> * RecordSpool::piece_bytes);
-    const double split = static_cast<double>(header_.leaves - 1) / (Octant<D>::children - 1);
+    const double split = static_cast<double>(facts_.census.leaves - 1) / (Octant<D>::children - 1);
     host_.spool_expect(std::max(0.0, 8 * split - in_memory) + wanted_bytes);
 }
 
@@ -72,7 +72,7 @@ template <int D> template <class SplitTo> void Growth<D>::each_place(SplitTo spl
 
 template <int D> void Growth<D>::to_levels(abacus_header &header) {
     places_.finish();
-    if (places_.size() < header_.leaves / leaves_a_place) {
+    if (places_.size() < facts_.census.leaves / leaves_a_place) {
         split_in_place(header);
         return;
     }
@@ -85,7 +85,7 @@ template <int D> void Growth<D>::to_levels(abacus_header &header) {
 }
 
 template <int D> void Growth<D>::split_in_place(abacus_header &header) {
-    OctreeCache<D> cache(host_, header_, memory_ / 2); // the sort has the other half
+    OctreeCache<D> cache(host_, facts_, memory_ / 2); // the sort has the other half
     pacer_.begin(ABACUS_PHASE_LOCATING, places_.size());
     std::uint64_t done = 0;
     while (const std::uint64_t *place = places_.next()) {
@@ -93,7 +93,7 @@ template <int D> void Growth<D>::split_in_place(abacus_header &header) {
             const Handle h = cache.find(place[0]);
             if (cache.octant(h).level >= static_cast<int>(place[1])) break;
             cache.split(h);
-            header.leaves += Octant<D>::children - 1;
+            header.facts.census.leaves += Octant<D>::children - 1;
         }
         pacer_.reached(++done, {cache.counters.loads, cache.counters.stores});
     }
@@ -156,8 +156,8 @@ template <int D> void Growth<D>::rewrite(SplitOctants<D> &octants, abacus_header
     const std::uint64_t all = 1 + (Octant<D>::children - 1) * octants.size();
     octants.rewind();
     pacer_.begin(ABACUS_PHASE_FLUSHING, all);
-    LeafScan<D> before(host_, header_);
-    LeafWriter<D> writer(host_, header_);
+    LeafScan<D> before(host_, facts_);
+    LeafWriter<D> writer(host_, facts_);
     std::uint64_t leaves = 0;
     const auto turn_page = [&] {
         if (before.pages() > 0) {
@@ -185,7 +185,7 @@ template <int D> void Growth<D>::rewrite(SplitOctants<D> &octants, abacus_header
             header.counters.deleted += !(leaf == old);
         }
     octants.close();
-    header.leaves = leaves;
+    header.facts.census.leaves = leaves;
     header.counters.loads += before.pages();
     header.counters.bytes_read += before.bytes();
     header.counters += writer.counters();

@@ -9,6 +9,7 @@
 #include "sort/pacer.hpp"
 #include "sort/record_sort.hpp"
 
+#include <abacus/mesh_header.h>
 #include <abacus/octree.h>
 
 namespace abacus {
@@ -20,9 +21,9 @@ template <int D> void create_root(const Host &host, abacus_header &header);
 /// lost. A leaf that is split leaves its attributes to its children.
 template <int D> class Growth {
 public:
-    Growth(const Host &host, const abacus_header &header, std::size_t memory)
-        : host_(host), pacer_(host), memory_(memory), levels_(static_cast<int>(header.levels)),
-          header_(header), grid_(header), places_(host, 2, 2, memory / 2) {}
+    Growth(const Host &host, const abacus_facts &facts, std::size_t memory)
+        : host_(host), pacer_(host), memory_(memory), levels_(static_cast<int>(facts.form.levels)),
+          facts_(facts), grid_(facts.form), places_(host, 2, 2, memory / 2) {}
 
     /// A place, and the coarsest level of the leaf that has it. Throws Error (argument) outside the
     /// domain and for a level that no leaf may have.
@@ -70,7 +71,7 @@ private:
     Pacer pacer_;
     const std::size_t memory_;
     const int levels_;
-    const abacus_header header_;
+    const abacus_facts facts_;
     Grid<D> grid_;
     RecordSort places_; // code, level
 };

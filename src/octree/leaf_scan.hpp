@@ -5,16 +5,16 @@
 #include "host/arena.hpp"
 #include "octree/octant_page.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 namespace abacus {
 
 template <int D> class LeafScan {
 public:
-    LeafScan(const Host &host, const abacus_header &header)
+    LeafScan(const Host &host, const abacus_facts &facts)
         : cursor_(host, ABACUS_OCTANT_PAGES, "octree"),
-          attributes_(static_cast<int>(header.attributes)), values_(host) {
-        values_.resize(header.attributes);
+          attributes_(static_cast<int>(facts.columns.attributes)), values_(host) {
+        values_.resize(facts.columns.attributes);
     }
 
     /// The next leaf; false after the last. Throws Error (corrupted) unless leaves tile the domain.

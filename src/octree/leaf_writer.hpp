@@ -11,10 +11,11 @@ namespace abacus {
 
 template <int D> class LeafWriter {
 public:
-    LeafWriter(const Host &host, const abacus_header &header)
-        : host_(host), attributes_(header.attributes),
-          capacity_(octant_pages(static_cast<int>(header.attributes))),
-          writer_(host, static_cast<int>(header.attributes)), octants_(host), values_(host) {}
+    LeafWriter(const Host &host, const abacus_facts &facts)
+        : host_(host), attributes_(facts.columns.attributes),
+          capacity_(octant_pages(static_cast<int>(facts.columns.attributes))),
+          writer_(host, static_cast<int>(facts.columns.attributes)), octants_(host), values_(host) {
+    }
 
     /// From here on leaves come whose pages begin there. The first takes the place of the one
     /// stored at `location`, unless that is 0.

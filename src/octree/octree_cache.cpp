@@ -7,11 +7,11 @@
 namespace abacus {
 
 template <int D>
-OctreeCache<D>::OctreeCache(const Host &host, const abacus_header &header, std::size_t budget)
+OctreeCache<D>::OctreeCache(const Host &host, const abacus_facts &facts, std::size_t budget)
     : Blocks(host, budget, {.after_others = budget, .alone = budget},
-             PageCapacity(octant_pages(static_cast<int>(header.attributes)))),
-      stride_(header.attributes), values_(host), free_values_(host),
-      writer_(host, static_cast<int>(header.attributes)), order_(host), kept_(host) {
+             PageCapacity(octant_pages(static_cast<int>(facts.columns.attributes)))),
+      stride_(facts.columns.attributes), values_(host), free_values_(host),
+      writer_(host, static_cast<int>(facts.columns.attributes)), order_(host), kept_(host) {
     kept_.resize(stride_);
 }
 

@@ -11,7 +11,8 @@
 #include "host/free_numbers.hpp"
 #include "octree/octant_page.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
+#include <abacus/mesh_counters.h>
 
 namespace abacus {
 
@@ -61,7 +62,7 @@ template <int D> class OctreeCache : public BlockCache<OctreeCache<D>, LeafBlock
     using Blocks = BlockCache<OctreeCache<D>, LeafBlocks<D>>;
 
 public:
-    OctreeCache(const Host &host, const abacus_header &header, std::size_t budget);
+    OctreeCache(const Host &host, const abacus_facts &facts, std::size_t budget);
 
     /// The leaf that has a cell. Other handles may die.
     Handle find(std::uint64_t cell);

@@ -12,8 +12,8 @@ namespace abacus {
 template <int D> class OctreeCheck {
 public:
     /// Verifies at once; keeps at most `limit` faults.
-    OctreeCheck(const Host &host, const abacus_header &header, std::size_t limit)
-        : host_(host), header_(header), faults_(host, limit) {
+    OctreeCheck(const Host &host, const abacus_facts &facts, std::size_t limit)
+        : host_(host), facts_(facts), faults_(host, limit) {
         check_pages();
     }
 
@@ -25,7 +25,7 @@ private:
     void check_leaves();
 
     const Host &host_;
-    const abacus_header &header_;
+    const abacus_facts &facts_;
     FaultList faults_;
     OctantPageView<D> view_;
     std::uint64_t leaves_ = 0;
@@ -40,7 +40,7 @@ template <int D> void OctreeCheck<D>::check_pages() {
         faults_.at = pages.key();
         bool is_read = false; // the list of faults may be full, so its length does not tell
         faults_.run("page", [&] {
-            view_.read(pages.bytes(), pages.size(), static_cast<int>(header_.attributes));
+            view_.read(pages.bytes(), pages.size(), static_cast<int>(facts_.columns.attributes));
             is_read = true;
         });
         if (is_read)
@@ -53,7 +53,7 @@ template <int D> void OctreeCheck<D>::check_pages() {
     if (!is_known_) return;
     if (upper_ != key_word_end) faults_.add("interval", "Pages do not reach the end of the curve.");
     if (end_ != domain_cells<D>) faults_.add("leaf", "Leaves do not reach the end of the domain.");
-    if (faults_.size() == 0 && leaves_ != header_.leaves)
+    if (faults_.size() == 0 && leaves_ != facts_.census.leaves)
         faults_.add("count", "The header counts other leaves than there are.");
 }
 
@@ -68,7 +68,7 @@ template <int D> void OctreeCheck<D>::check_leaves() {
     if (view_.leaves() > 0) end_ = view_.first();
     for (std::uint32_t i = 0; i < view_.leaves(); ++i) {
         end_ += cells_at<D>(view_.level(i));
-        if (view_.level(i) > static_cast<int>(header_.levels))
+        if (view_.level(i) > static_cast<int>(facts_.form.levels))
             faults_.add("leaf", "A leaf is finer than leaves of this octree may be.");
     }
     leaves_ += view_.leaves();

@@ -42,7 +42,7 @@ template <int D> std::uint64_t OctreeEdit<D>::merge(abacus_header &header) {
         const std::uint64_t leaves = cache_.merge({change[0], static_cast<int>(change[1])});
         if (leaves > 1) {
             merged += leaves;
-            header.leaves -= leaves - 1;
+            header.facts.census.leaves -= leaves - 1;
         }
         reached(++done);
     }

@@ -6,14 +6,16 @@
 #include "octree/octree_cache.hpp"
 #include "sort/record_sort.hpp"
 
+#include <abacus/mesh_header.h>
+
 namespace abacus {
 
 template <int D> class OctreeEdit {
 public:
-    OctreeEdit(const Host &host, const abacus_header &header, std::size_t memory,
+    OctreeEdit(const Host &host, const abacus_facts &facts, std::size_t memory,
                std::size_t cache_bytes)
-        : host_(host), pacer_(host), attributes_(header.attributes), grid_(header),
-          cache_(host, header, cache_bytes), changes_(host, 3 + attributes_, 3, memory) {}
+        : host_(host), pacer_(host), attributes_(facts.columns.attributes), grid_(facts.form),
+          cache_(host, facts, cache_bytes), changes_(host, 3 + attributes_, 3, memory) {}
 
     std::size_t attributes() const { return attributes_; }
     /// The octant of a level that has a place shall be a leaf, unless it lies in one.

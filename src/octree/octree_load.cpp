@@ -20,8 +20,8 @@ std::string row(std::uint64_t number) { return "row " + std::to_string(number); 
 template <int D>
 void OctreeLoad<D>::add(std::uint64_t code, std::int64_t level, const double *values) {
     const std::uint64_t number = leaves_.size() + 1;
-    if (level < 0 || level > static_cast<std::int64_t>(header_.levels))
-        throw_no_level(level, static_cast<int>(header_.levels));
+    if (level < 0 || level > static_cast<std::int64_t>(facts_.form.levels))
+        throw_no_level(level, static_cast<int>(facts_.form.levels));
     const Octant<D> leaf{code, static_cast<int>(level)};
     if (code >= domain_cells<D> || !leaf.is_aligned())
         throw Error(ABACUS_ERROR_ARGUMENT,
@@ -32,15 +32,15 @@ void OctreeLoad<D>::add(std::uint64_t code, std::int64_t level, const double *va
     record[0] = code;
     record[1] = static_cast<std::uint64_t>(level);
     record[2] = number;
-    std::memcpy(record + 3, values, header_.attributes * sizeof *values);
+    std::memcpy(record + 3, values, facts_.columns.attributes * sizeof *values);
 }
 
 template <int D> void OctreeLoad<D>::write(abacus_header &header) {
-    LeafScan<D> before(host_, header_);
-    if (header_.leaves != 1 || !before.next())
+    LeafScan<D> before(host_, facts_);
+    if (facts_.census.leaves != 1 || !before.next())
         throw Error(ABACUS_ERROR_STATE, "the octree has leaves already",
                     "Rows are loaded into a new octree.");
-    LeafWriter<D> writer(host_, header_);
+    LeafWriter<D> writer(host_, facts_);
     writer.begin(0, before.location());
     // Leaves that were merged may have left empty pages behind.
     while (before.next_page())
@@ -65,7 +65,7 @@ template <int D> void OctreeLoad<D>::write(abacus_header &header) {
     if (end != domain_cells<D>) refuse("There is a gap behind the octant of " + row(last) + ".");
     leaves_.close();
     writer.end(key_word_end);
-    header.leaves = n;
+    header.facts.census.leaves = n;
     header.counters += writer.counters();
     ++header.counters.deleted; // the leaf that there was
 }

@@ -11,8 +11,8 @@ namespace abacus {
 
 template <int D> class OctreeLoad {
 public:
-    OctreeLoad(const Host &host, const abacus_header &header, std::size_t memory)
-        : host_(host), header_(header), leaves_(host, 3 + header.attributes, 2, memory) {}
+    OctreeLoad(const Host &host, const abacus_facts &facts, std::size_t memory)
+        : host_(host), facts_(facts), leaves_(host, 3 + facts.columns.attributes, 2, memory) {}
 
     /// The next row.
     void add(std::uint64_t code, std::int64_t level, const double *values);
@@ -21,7 +21,7 @@ public:
 
 private:
     const Host &host_;
-    const abacus_header header_;
+    const abacus_facts facts_;
     RecordSort leaves_; // code, level, row, attributes
 };
 

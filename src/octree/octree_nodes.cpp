@@ -11,17 +11,17 @@ void throw_unbalanced() {
 }
 
 template <int D>
-OctreeNodes<D>::OctreeNodes(const Host &host, const abacus_header &header, std::size_t memory)
+OctreeNodes<D>::OctreeNodes(const Host &host, const abacus_facts &facts, std::size_t memory)
     : host_(host), nodes_(host, 3), wanted_(host, 4, 2, memory / 4),
       found_(host, 3, 2, memory / 4) {
-    find_nodes(memory / 2, header);
+    find_nodes(memory / 2, facts);
     join_anchors();
 }
 
-template <int D> void OctreeNodes<D>::find_nodes(std::size_t memory, const abacus_header &header) {
+template <int D> void OctreeNodes<D>::find_nodes(std::size_t memory, const abacus_facts &facts) {
     RecordSort corners(host_, 3, 2, memory); // key, level
-    corners.expect(corners_in_all<D>(header));
-    each_corner<D>(host_, header, [&](const NodeKey &key, const Octant<D> &leaf, int) {
+    corners.expect(corners_in_all<D>(facts));
+    each_corner<D>(host_, facts, [&](const NodeKey &key, const Octant<D> &leaf, int) {
         std::uint64_t *const record = corners.add();
         record[0] = key.code;
         record[1] = key.ends;
@@ -102,10 +102,10 @@ template <int D> bool OctreeNodes<D>::next(Node &node) {
 }
 
 template <int D>
-OctreeElements<D>::OctreeElements(const Host &host, const abacus_header &header, std::size_t memory)
-    : scan_(host, header), corners_(host, 2, memory) {
-    corners_.expect(corners_in_all<D>(header));
-    each_corner<D>(host, header, [&](const NodeKey &key, const Octant<D> &, int) {
+OctreeElements<D>::OctreeElements(const Host &host, const abacus_facts &facts, std::size_t memory)
+    : scan_(host, facts), corners_(host, 2, memory) {
+    corners_.expect(corners_in_all<D>(facts));
+    each_corner<D>(host, facts, [&](const NodeKey &key, const Octant<D> &, int) {
         std::uint64_t *const record = corners_.add();
         record[0] = key.code;
         record[1] = key.ends;

@@ -16,7 +16,7 @@
 #include "sort/record_sort.hpp"
 #include "sort/record_spool.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 #include <optional>
 
@@ -74,13 +74,13 @@ template <int D> std::optional<std::uint64_t> cell_around(const GridPoint<D> &po
     return morton<D>(cell);
 }
 /// Of all leaves, those that they share counted for each.
-template <int D> double corners_in_all(const abacus_header &header) {
-    return static_cast<double>(header.leaves) * Octant<D>::children;
+template <int D> double corners_in_all(const abacus_facts &facts) {
+    return static_cast<double>(facts.census.leaves) * Octant<D>::children;
 }
 /// Calls visit(key, leaf, number) for all corners of all leaves, by their numbers.
 template <int D, class Visit>
-void each_corner(const Host &host, const abacus_header &header, Visit visit) {
-    LeafScan<D> leaves(host, header);
+void each_corner(const Host &host, const abacus_facts &facts, Visit visit) {
+    LeafScan<D> leaves(host, facts);
     while (leaves.next())
         for (int i = 0; i < Octant<D>::children; ++i)
             visit(node_key<D>(corner(leaves.leaf(), i)), leaves.leaf(), i);
@@ -107,7 +107,7 @@ template <int D> MiddleAxes<D> middle_axes(const GridPoint<D> &point, std::uint6
 template <int D> class OctreeNodes {
 public:
     /// Throws Error (state) if the octree is not balanced across faces and edges.
-    OctreeNodes(const Host &host, const abacus_header &header, std::size_t memory);
+    OctreeNodes(const Host &host, const abacus_facts &facts, std::size_t memory);
 
     struct Node {
         std::uint64_t number;
@@ -119,7 +119,7 @@ public:
     bool next(Node &node);
 
 private:
-    void find_nodes(std::size_t memory, const abacus_header &header);
+    void find_nodes(std::size_t memory, const abacus_facts &facts);
     void add_anchors(const GridPoint<D> &point, std::uint64_t level);
     void join_anchors();
 
@@ -132,7 +132,7 @@ private:
 
 template <int D> class OctreeElements {
 public:
-    OctreeElements(const Host &host, const abacus_header &header, std::size_t memory);
+    OctreeElements(const Host &host, const abacus_facts &facts, std::size_t memory);
 
     /// The next leaf, and the numbers of its corners; false after the last.
     bool next(std::array<std::uint64_t, Octant<D>::children> &corners);

@@ -13,9 +13,9 @@ namespace abacus {
 template <int D> class OctreePlaces {
 public:
     /// Sorts within `memory` bytes and spools, and keeps `cache_bytes` of leaves.
-    OctreePlaces(const Host &host, const abacus_header &header, std::size_t memory,
+    OctreePlaces(const Host &host, const abacus_facts &facts, std::size_t memory,
                  std::size_t cache_bytes)
-        : pacer_(host), places_(host, words, words, memory), reader_(host, header, cache_bytes) {
+        : pacer_(host), places_(host, words, words, memory), reader_(host, facts, cache_bytes) {
         pacer_.begin(ABACUS_PHASE_READING, 0);
     }
 

@@ -41,9 +41,9 @@ void show(const Box<2> &leaf, double value, const abacus_drawing &drawing, Pictu
 class Sections {
 public:
     /// `sheet`: what is drawn of it, with its margin.
-    Sections(const Host &host, const abacus_header &header, const Plane &plane,
+    Sections(const Host &host, const abacus_facts &facts, const Plane &plane,
              const abacus_drawing &sheet)
-        : host_(host), reader_(host, header, cache_bytes), plane_(plane), sheet_(sheet),
+        : host_(host), reader_(host, facts, cache_bytes), plane_(plane), sheet_(sheet),
           has_window_(!shows_whole<2>(sheet)) {}
 
     template <class Picture> void show(Picture &picture) { show(Octant<3>{}, picture); }
@@ -164,14 +164,14 @@ bool Sections::cut(const Octant<3> &leaf, const Place (&places)[corners], Patch 
 
 } // namespace
 
-Portrait draw_octree(const Host &host, const abacus_header &header, const abacus_drawing &drawing) {
+Portrait draw_octree(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing) {
     const bool is_whole = shows_whole<2>(drawing);
     const std::int32_t margin = is_whole ? 0 : Canvas::margin_of(drawing);
     abacus_drawing wider = is_whole ? drawing : widened(drawing, margin);
     const auto show_leaves = [&](auto &picture) {
         const Box<2> window({wider.lower[0], wider.lower[1]}, {wider.upper[0], wider.upper[1]});
-        OctreeScan<2> leaves = is_whole ? OctreeScan<2>(host, header)
-                                        : OctreeScan<2>(host, header, window, cache_bytes);
+        OctreeScan<2> leaves =
+            is_whole ? OctreeScan<2>(host, facts) : OctreeScan<2>(host, facts, window, cache_bytes);
         Octant<2> leaf;
         for (const double *values; leaves.next(leaf, values);)
             show(leaves.grid().box(leaf), drawing.attribute >= 0 ? values[drawing.attribute] : NAN,
@@ -179,10 +179,10 @@ Portrait draw_octree(const Host &host, const abacus_header &header, const abacus
     };
     abacus_drawing plain = drawing;
     plain.contour_interval = 0;
-    return draw_patches(host, header, plain, margin, ABACUS_RAMP_TERRAIN, 1, show_leaves);
+    return draw_patches(host, facts, plain, margin, ABACUS_RAMP_TERRAIN, 1, show_leaves);
 }
 
-Portrait draw_octree_section(const Host &host, const abacus_header &header,
+Portrait draw_octree_section(const Host &host, const abacus_facts &facts,
                              const abacus_section &section, const abacus_drawing &drawing) {
     const Plane plane(section);
     abacus_drawing sheet = drawing;
@@ -196,9 +196,9 @@ Portrait draw_octree_section(const Host &host, const abacus_header &header,
     const std::int32_t margin = has_window ? Canvas::margin_of(drawing) : 0;
     const abacus_drawing wider = has_window ? widened(sheet, margin) : sheet;
     const auto show_sections = [&](auto &picture) {
-        Sections(host, header, plane, wider).show(picture);
+        Sections(host, facts, plane, wider).show(picture);
     };
-    return draw_patches(host, header, sheet, margin, ABACUS_RAMP_STRATA, Plane::scale,
+    return draw_patches(host, facts, sheet, margin, ABACUS_RAMP_STRATA, Plane::scale,
                         show_sections);
 }
 

@@ -8,8 +8,8 @@ namespace abacus {
 
 template <int D> class OctreeReader {
 public:
-    OctreeReader(const Host &host, const abacus_header &header, std::size_t cache_bytes)
-        : grid_(header), cache_(host, header, cache_bytes) {}
+    OctreeReader(const Host &host, const abacus_facts &facts, std::size_t cache_bytes)
+        : grid_(facts.form), cache_(host, facts, cache_bytes) {}
 
     const Grid<D> &grid() const { return grid_; }
     OctreeCache<D> &cache() { return cache_; }

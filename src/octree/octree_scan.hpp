@@ -12,19 +12,19 @@ namespace abacus {
 
 template <int D> class OctreeScan {
 public:
-    OctreeScan(const Host &host, const abacus_header &header) : grid_(header) {
-        all_.emplace(host, header);
+    OctreeScan(const Host &host, const abacus_facts &facts) : grid_(facts.form) {
+        all_.emplace(host, facts);
     }
-    OctreeScan(const Host &host, const abacus_header &header, const Box<D> &box,
+    OctreeScan(const Host &host, const abacus_facts &facts, const Box<D> &box,
                std::size_t cache_bytes)
-        : grid_(header) {
-        reader_.emplace(host, header, cache_bytes);
+        : grid_(facts.form) {
+        reader_.emplace(host, facts, cache_bytes);
         if (!grid_.find(box, box_)) at_ = domain_cells<D>;
     }
-    OctreeScan(const Host &host, const abacus_header &header, const Ball<D> &ball,
+    OctreeScan(const Host &host, const abacus_facts &facts, const Ball<D> &ball,
                std::size_t cache_bytes)
-        : grid_(header) {
-        reader_.emplace(host, header, cache_bytes);
+        : grid_(facts.form) {
+        reader_.emplace(host, facts, cache_bytes);
         ball_.emplace(grid_, ball);
     }
 

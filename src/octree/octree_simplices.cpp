@@ -27,19 +27,18 @@ template <int D> bool is_positive(const typename LeafSplit<D>::Simplex &simplex)
 } // namespace
 
 template <int D>
-OctreeSimplices<D>::OctreeSimplices(const Host &host, const abacus_header &header,
-                                    std::size_t memory)
-    : host_(host), sent_(host, 4, 2, memory / 2), scan_(host, header) {
-    find_nodes(header, memory / 2);
+OctreeSimplices<D>::OctreeSimplices(const Host &host, const abacus_facts &facts, std::size_t memory)
+    : host_(host), sent_(host, 4, 2, memory / 2), scan_(host, facts) {
+    find_nodes(facts, memory / 2);
     sent_.finish();
     arrived_ = sent_.next();
 }
 
 template <int D>
-void OctreeSimplices<D>::find_nodes(const abacus_header &header, std::size_t memory) {
+void OctreeSimplices<D>::find_nodes(const abacus_facts &facts, std::size_t memory) {
     RecordSort corners(host_, 5, 2, memory); // key, code and level of the leaf, which corner
-    corners.expect(corners_in_all<D>(header));
-    each_corner<D>(host_, header, [&](const NodeKey &key, const Octant<D> &leaf, int i) {
+    corners.expect(corners_in_all<D>(facts));
+    each_corner<D>(host_, facts, [&](const NodeKey &key, const Octant<D> &leaf, int i) {
         std::uint64_t *const record = corners.add();
         record[0] = key.code;
         record[1] = key.ends;

@@ -16,7 +16,7 @@ namespace abacus {
 template <int D> class OctreeSimplices {
 public:
     /// Throws Error (state) if the octree is not balanced across faces and edges; next() does, too.
-    OctreeSimplices(const Host &host, const abacus_header &header, std::size_t memory);
+    OctreeSimplices(const Host &host, const abacus_facts &facts, std::size_t memory);
 
     /// The next simplex, of positive orientation, its least node first and, in space, the least of
     /// the others second; false after the last. `element` is the number of its leaf.
@@ -31,7 +31,7 @@ private:
         int count;
     };
 
-    void find_nodes(const abacus_header &header, std::size_t memory);
+    void find_nodes(const abacus_facts &facts, std::size_t memory);
     void send(const GridPoint<D> &point, const Touching &leaves, std::uint64_t number);
     void send_to(const Octant<D> &leaf, int place, std::uint64_t order);
     bool next_leaf();

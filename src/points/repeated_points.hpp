@@ -20,7 +20,7 @@
 #include "points/leaving.hpp"
 #include "points/record.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 namespace abacus {
 

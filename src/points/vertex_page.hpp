@@ -12,7 +12,7 @@
 #include "points/record.hpp"
 #include "points/record_sink.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 #include <cstdint>
 #include <cstring>

@@ -17,12 +17,12 @@ constexpr double vertices_a_sample = 32;
 } // namespace
 
 template <int D>
-Stage<D>::Stage(const Host &host, const abacus_header &header, std::size_t memory, bool with_rounds)
-    : host_(host), stride_(record_words(D, header.attributes)), memory_(memory),
+Stage<D>::Stage(const Host &host, const abacus_facts &facts, std::size_t memory, bool with_rounds)
+    : host_(host), stride_(record_words(D, facts.columns.attributes)), memory_(memory),
       with_rounds_(with_rounds), budget_(memory, 8 * stride_, D), pacer_(host),
       sample_(host, budget_.sampled), spread_(host), buffer_(host), room_(budget_.records),
       piles_(host) {
-    if (header.has_domain != 0) domain_ = domain_of<D>(header);
+    if (facts.form.has_domain != 0) domain_ = domain_of<D>(facts.form);
     pacer_.begin(ABACUS_PHASE_READING, 0);
 }
 
@@ -118,18 +118,17 @@ template <int D> bool Stage<D>::is_distributed_by(const Slice<D> &slice) const {
     return has_rounds == (slice.rounds != nullptr) && is_distributed_over(slice.domain);
 }
 
-template <int D> void Stage<D>::end(abacus_header &header) {
-    if (header.has_domain != 0)
-        header.outside += outside_;
+template <int D> void Stage<D>::end(abacus_facts &facts) {
+    if (facts.form.has_domain != 0)
+        facts.census.outside += outside_;
     else if (points() > 0)
-        set_domain(header, spread_.choose());
+        set_domain(facts, spread_.choose());
 }
 
 /// Whether the mesh has vertices where the points are, at least as many as an earlier round
 /// would have brought.
-template <int D>
-bool Stage<D>::mesh_stands_in(const abacus_header &header, const Domain<D> &domain) {
-    if (header.vertices == 0) return false;
+template <int D> bool Stage<D>::mesh_stands_in(const abacus_facts &facts, const Domain<D> &domain) {
+    if (facts.census.vertices == 0) return false;
     const double wanted = static_cast<double>(points()) * promotion<D>; // vertices
     const auto looked_up = static_cast<std::size_t>(std::ceil(wanted / vertices_a_sample));
     Arena<std::uint64_t> codes(host_);
@@ -145,13 +144,13 @@ bool Stage<D>::mesh_stands_in(const abacus_header &header, const Domain<D> &doma
     return is_dense(host_, codes, wanted / static_cast<double>(codes.size()));
 }
 
-template <int D> void Stage<D>::emit(RecordSink &sink, const abacus_header &header, bool reversed) {
+template <int D> void Stage<D>::emit(RecordSink &sink, const abacus_facts &facts, bool reversed) {
     const std::uint64_t n = points();
     if (n == 0) return;
     const Rounds<D> rounds(n, reversed);
-    const Domain<D> domain = domain_of<D>(header);
+    const Domain<D> domain = domain_of<D>(facts.form);
     const bool in_rounds =
-        with_rounds_ && rounds.size() > 1 && (reversed || !mesh_stands_in(header, domain));
+        with_rounds_ && rounds.size() > 1 && (reversed || !mesh_stands_in(facts, domain));
     const Slice<D> all{domain, in_rounds ? &rounds : nullptr};
     ExternalSort<D> sort(host_, stride_, budget_, sample_, pacer_, sink);
     if (spilled_ == 0) {
@@ -184,14 +183,14 @@ template <int D> void Stage<D>::drop() {
     buffered_ = spilled_ = 0;
 }
 
-template <int D> void Stage<D>::finish(abacus_header &header) {
+template <int D> void Stage<D>::finish(abacus_facts &facts) {
     const std::uint64_t n = points();
-    if (n >= (std::uint64_t{1} << 63) - header.staged)
+    if (n >= (std::uint64_t{1} << 63) - facts.census.staged)
         throw Error(ABACUS_ERROR_LIMIT, "a mesh cannot have that many points");
-    end(header);
-    VertexPageWriter pages(host_, D, header.attributes, header.staged);
-    emit(pages, header);
-    header.staged = pages.next();
+    end(facts);
+    VertexPageWriter pages(host_, D, facts.columns.attributes, facts.census.staged);
+    emit(pages, facts);
+    facts.census.staged = pages.next();
 }
 
 template class Stage<2>;

@@ -16,7 +16,7 @@
 #include "points/spread.hpp"
 #include "staging/external_sort.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 #include <optional>
 
 namespace abacus {
@@ -24,19 +24,18 @@ namespace abacus {
 template <int D> class Stage {
 public:
     /// Without rounds the order is that of the curve alone, as places are best looked for.
-    Stage(const Host &host, const abacus_header &header, std::size_t memory,
-          bool with_rounds = true);
+    Stage(const Host &host, const abacus_facts &facts, std::size_t memory, bool with_rounds = true);
 
     /// Adds records as in abacus_stage_add.
     void add(const std::uint64_t *points, std::size_t count);
-    /// No more points come. A header without a domain gets theirs; any other header counts
+    /// No more points come. A mesh without a domain gets theirs; of any other the census counts
     /// the points outside its domain.
-    void end(abacus_header &header);
+    void end(abacus_facts &facts);
     /// Hands the points on: in insertion order, or with the rounds in reverse order, in which
-    /// points are best taken away. Once, with the header that end() has seen.
-    void emit(RecordSink &sink, const abacus_header &header, bool reversed = false);
-    /// Ends, writes the points to vertex pages and brings the header up to date.
-    void finish(abacus_header &header);
+    /// points are best taken away. Once, with the facts that end() has seen.
+    void emit(RecordSink &sink, const abacus_facts &facts, bool reversed = false);
+    /// Ends, writes the points to vertex pages and brings the facts up to date.
+    void finish(abacus_facts &facts);
 
     /// Frees the points, which are not needed after all.
     void drop();
@@ -63,7 +62,7 @@ private:
     Domain<D> domain_so_far();
     bool is_distributed_over(const Domain<D> &domain) const;
     bool is_distributed_by(const Slice<D> &slice) const;
-    bool mesh_stands_in(const abacus_header &header, const Domain<D> &domain);
+    bool mesh_stands_in(const abacus_facts &facts, const Domain<D> &domain);
 
     const Host &host_;
     const std::size_t stride_;

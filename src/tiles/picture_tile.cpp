@@ -125,12 +125,12 @@ private:
     Canvas &canvas_;
 };
 
-Portrait draw_samples(const Host &host, const abacus_header &header, const TileWindow &window,
+Portrait draw_samples(const Host &host, const abacus_facts &facts, const TileWindow &window,
                       const abacus_drawing &drawing, const abacus_tile_memory &memory) {
     const std::int32_t margin = Canvas::margin_of(drawing);
     const Samples samples(window, drawing, margin);
-    Places<2> places(host, header, memory.sort, memory.cache);
-    samples.add_to(places, hull_box<2>(host, header, memory.cache));
+    Places<2> places(host, facts, memory.sort, memory.cache);
+    samples.add_to(places, hull_box<2>(host, facts, memory.cache));
     Canvas canvas(host, drawing, drawing.attribute >= 0 ? drawing.range[0] : NAN,
                   drawing.attribute >= 0 ? drawing.range[1] : NAN, margin);
     places.each(SampleQuestion(drawing, window.plane(), samples, canvas));
@@ -139,10 +139,10 @@ Portrait draw_samples(const Host &host, const abacus_header &header, const TileW
 
 } // namespace
 
-Portrait draw_picture_tile(const Host &host, const abacus_header &header, const abacus_tile &tile,
+Portrait draw_picture_tile(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
                            const abacus_drawing &drawing, const abacus_tile_memory &memory) {
-    const TileWindow window(tile, header);
-    if (drawing.attribute >= static_cast<std::int32_t>(header.attributes))
+    const TileWindow window(tile, facts);
+    if (drawing.attribute >= static_cast<std::int32_t>(facts.columns.attributes))
         throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
     if (drawing.attribute >= 0 && !has_range(drawing))
         throw Error(ABACUS_ERROR_ARGUMENT, "a picture tile of an attribute needs a range", {},
@@ -156,9 +156,9 @@ Portrait draw_picture_tile(const Host &host, const abacus_header &header, const 
     of_tile.is_geographic = tile.is_geographic;
     if (tile.is_geographic != 0) of_tile.exaggeration /= metres_of_degree;
     check_drawing(of_tile);
-    of_tile.density = window.mean_triangles(header, window.side() / drawing.width);
-    if (of_tile.density > most_drawn) return draw_samples(host, header, window, of_tile, memory);
-    return draw_mesh(host, header, of_tile);
+    of_tile.density = window.mean_triangles(facts, window.side() / drawing.width);
+    if (of_tile.density > most_drawn) return draw_samples(host, facts, window, of_tile, memory);
+    return draw_mesh(host, facts, of_tile);
 }
 
 } // namespace abacus

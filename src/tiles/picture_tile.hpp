@@ -13,7 +13,7 @@
 namespace abacus {
 
 /// Throws an Error (argument) if there is no such tile, or it cannot be drawn.
-Portrait draw_picture_tile(const Host &host, const abacus_header &header, const abacus_tile &tile,
+Portrait draw_picture_tile(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
                            const abacus_drawing &drawing, const abacus_tile_memory &memory);
 
 } // namespace abacus

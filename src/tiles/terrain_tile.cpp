@@ -15,13 +15,13 @@ std::uint32_t colour_of(double height) {
 
 } // namespace
 
-Png terrain_tile(const Host &host, const abacus_header &header, const abacus_tile &tile,
+Png terrain_tile(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
                  const abacus_tile_terrain_kind &kind, const abacus_tile_memory &memory) {
-    const TileWindow window(tile, header);
+    const TileWindow window(tile, facts);
     if (kind.width < 1 || kind.width > max_side || !std::isfinite(kind.fill))
         throw Error(ABACUS_ERROR_ARGUMENT, "size or fill of the tile is out of range");
     const auto width = static_cast<std::uint32_t>(kind.width);
-    ValueRaster<2> rows = tile_samples(host, header, window, window.box(), width,
+    ValueRaster<2> rows = tile_samples(host, facts, window, window.box(), width,
                                        {kind.attribute, kind.max_edge}, memory);
     Picture picture(host, kind.width, kind.width, false);
     for (std::int32_t y = 0; y < kind.width; ++y) {

@@ -7,7 +7,7 @@
 namespace abacus {
 
 /// Throws an Error (argument) if there is no such tile.
-Png terrain_tile(const Host &host, const abacus_header &header, const abacus_tile &tile,
+Png terrain_tile(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
                  const abacus_tile_terrain_kind &kind, const abacus_tile_memory &memory);
 
 } // namespace abacus

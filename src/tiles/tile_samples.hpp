@@ -12,7 +12,7 @@ struct SampledValue {
 };
 
 /// Row by row, `width` a row and as many rows, at the centres of the pixels of `box`.
-inline ValueRaster<2> tile_samples(const Host &host, const abacus_header &header,
+inline ValueRaster<2> tile_samples(const Host &host, const abacus_facts &facts,
                                    const TileWindow &window, const Box<2> &box, std::uint32_t width,
                                    const SampledValue &value, const abacus_tile_memory &memory) {
     abacus_raster raster{};
@@ -26,7 +26,7 @@ inline ValueRaster<2> tile_samples(const Host &host, const abacus_header &header
     how.attributes = 1;
     how.attribute[0] = value.attribute;
     how.max_edge = value.max_edge > 0 ? value.max_edge : no_max_edge;
-    return {host, header, raster, how, memory.sort, memory.cache};
+    return {host, facts, raster, how, memory.sort, memory.cache};
 }
 
 } // namespace abacus

@@ -2,10 +2,10 @@
 
 namespace abacus {
 
-TileWindow::TileWindow(const abacus_tile &tile, const abacus_header &header)
+TileWindow::TileWindow(const abacus_tile &tile, const abacus_facts &facts)
     : plane_(tile.is_geographic != 0) {
-    if (header.has_domain != 0 && (header.lower[1] > 90 || header.upper[1] < -90))
-        plane_.project({header.lower[0], header.lower[1]});
+    if (facts.form.has_domain != 0 && (facts.form.lower[1] > 90 || facts.form.upper[1] < -90))
+        plane_.project({facts.form.lower[0], facts.form.lower[1]});
     if (tile.zoom < 0 || tile.zoom > most_zoom)
         throw Error(ABACUS_ERROR_ARGUMENT, "zoom of the tile is out of range",
                     "It is " + std::to_string(tile.zoom) + "; it must be from 0 to " +
@@ -41,18 +41,18 @@ Box<2> TileWindow::wider(double margin) const {
     return box;
 }
 
-double TileWindow::mean_triangles(const abacus_header &header, double side) const {
-    if (header.has_domain == 0) return 0;
+double TileWindow::mean_triangles(const abacus_facts &facts, double side) const {
+    if (facts.form.has_domain == 0) return 0;
     double area = 1;
     for (int axis = 0; axis < 2; ++axis) {
-        double lower = header.lower[axis], upper = header.upper[axis];
+        double lower = facts.form.lower[axis], upper = facts.form.upper[axis];
         if (axis == 1 && plane_.is_geographic()) {
             lower = MapPlane::mercator(lower);
             upper = MapPlane::mercator(upper);
         }
         area *= std::fmax(upper - lower, 1e-300) / side;
     }
-    return static_cast<double>(header.simplices) / area;
+    return static_cast<double>(facts.census.simplices) / area;
 }
 
 } // namespace abacus

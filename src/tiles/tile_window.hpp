@@ -14,7 +14,7 @@ class TileWindow {
 public:
     /// Throws an Error (argument) if there is no such tile, or no place of the mesh can be on the
     /// map.
-    TileWindow(const abacus_tile &tile, const abacus_header &header);
+    TileWindow(const abacus_tile &tile, const abacus_facts &facts);
 
     const MapPlane &plane() const { return plane_; }
     const Box<2> &box() const { return box_; }
@@ -26,7 +26,7 @@ public:
 
     /// How many triangles of the mesh a square of this side has as a mean, anywhere in its domain:
     /// the same for all tiles of a zoom.
-    double mean_triangles(const abacus_header &header, double side) const;
+    double mean_triangles(const abacus_facts &facts, double side) const;
 
 private:
     MapPlane plane_;

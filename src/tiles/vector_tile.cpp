@@ -32,10 +32,10 @@ using Triangle = std::array<Corner, 3>; // counterclockwise where y points up
 
 class Maker {
 public:
-    Maker(const Host &host, const abacus_header &header, const TileWindow &window,
+    Maker(const Host &host, const abacus_facts &facts, const TileWindow &window,
           const abacus_tile_vector_kind &kind, const abacus_tile_memory &memory)
-        : host_(host), header_(header), window_(window), kind_(kind), memory_(memory),
-          values_(host, header, kind.attribute), triangles_(host), hull_(host), bytes_(host) {}
+        : host_(host), facts_(facts), window_(window), kind_(kind), memory_(memory),
+          values_(host, facts, kind.attribute), triangles_(host), hull_(host), bytes_(host) {}
 
     Png make() {
         if (!read() || !write_all()) {
@@ -74,7 +74,7 @@ private:
     bool write_all();
 
     const Host &host_;
-    const abacus_header &header_;
+    const abacus_facts &facts_;
     const TileWindow &window_;
     const abacus_tile_vector_kind &kind_;
     const abacus_tile_memory &memory_;
@@ -89,7 +89,7 @@ private:
 /// All triangles; false if there are too many.
 bool Maker::read() {
     const BoxRegion<2> region(window_.in_mesh(margin));
-    RangeScan<2> pages(host_, header_, &region);
+    RangeScan<2> pages(host_, facts_, &region);
     while (pages.advance())
         if (!read(pages.page())) return false;
     return true;
@@ -129,7 +129,7 @@ void Maker::sample() {
     // Samples are at the centres of pixels, so these are half a square away.
     const Box<2> box = window_.wider(1.5 / squares);
     ValueRaster<2> rows =
-        tile_samples(host_, header_, window_, box, points,
+        tile_samples(host_, facts_, window_, box, points,
                      {static_cast<std::uint32_t>(kind_.attribute), kind_.max_edge}, memory_);
     constexpr double step = double{tile_extent} / squares;
     std::array<double, points> above{}, here{};
@@ -151,8 +151,8 @@ void Maker::sample() {
 /// By walking around it. In a mesh that is not Delaunay all pages would have to be read.
 void Maker::find_hull() {
     hull_.clear();
-    if (!abacus_links_ghosts(header_.standing)) return;
-    Outline<2> outline(host_, header_, {}, memory_.sort, memory_.cache);
+    if (!abacus_links_ghosts(facts_.standing)) return;
+    Outline<2> outline(host_, facts_, {}, memory_.sort, memory_.cache);
     abacus_outline_row row;
     std::optional<Point<2>> first, last;
     while (outline.next(row)) {
@@ -314,14 +314,14 @@ bool Maker::write_all() {
 
 } // namespace
 
-Png vector_tile(const Host &host, const abacus_header &header, const abacus_tile &tile,
+Png vector_tile(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
                 const abacus_tile_vector_kind &kind, const abacus_tile_memory &memory) {
-    const TileWindow window(tile, header);
-    if (kind.attribute >= static_cast<std::int32_t>(header.attributes))
+    const TileWindow window(tile, facts);
+    if (kind.attribute >= static_cast<std::int32_t>(facts.columns.attributes))
         throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
     if (!(std::isfinite(kind.contour_interval) && kind.contour_interval >= 0))
         throw Error(ABACUS_ERROR_ARGUMENT, "interval of the contours is negative or not finite");
-    return Maker(host, header, window, kind, memory).make();
+    return Maker(host, facts, window, kind, memory).make();
 }
 
 } // namespace abacus

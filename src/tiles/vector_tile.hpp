@@ -16,7 +16,7 @@ inline constexpr std::size_t most_tile_bytes = 500000;
 inline constexpr std::size_t most_tile_triangles = 4096;
 
 /// Throws an Error (argument) if there is no such tile. The bytes are a tile's, not a PNG's.
-Png vector_tile(const Host &host, const abacus_header &header, const abacus_tile &tile,
+Png vector_tile(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
                 const abacus_tile_vector_kind &kind, const abacus_tile_memory &memory);
 
 } // namespace abacus

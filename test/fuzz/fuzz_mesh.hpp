@@ -61,10 +61,11 @@ public:
         run([&](abacus_error &error) {
             abacus_stage *stage = nullptr;
             abacus_status status =
-                abacus_stage_open(host.table(), &header, 1 << 20, &stage, &error);
+                abacus_stage_open(host.table(), &header.facts, 1 << 20, &stage, &error);
             for (int i = 0; i < points && status == ABACUS_OK; ++i) {
                 std::vector<std::uint64_t> record{random() % 1000};
-                for (unsigned j = 0; j < header.dimension + header.attributes; ++j)
+                for (unsigned j = 0;
+                     j < header.facts.form.dimension + header.facts.columns.attributes; ++j)
                     record.push_back(std::bit_cast<std::uint64_t>(unit(random)));
                 status = abacus_stage_add(stage, record.data(), 1, &error);
             }
@@ -76,7 +77,7 @@ public:
 
     void stage(int points, unsigned seed) {
         with_stage(points, seed, [&](abacus_stage *stage, abacus_error &error) {
-            return abacus_stage_finish(stage, &header, &error);
+            return abacus_stage_finish(stage, &header.facts, &error);
         });
     }
 
@@ -84,7 +85,7 @@ public:
         with_stage(points, seed, [&](abacus_stage *stage, abacus_error &error) {
             abacus_build *build = nullptr;
             abacus_status status =
-                abacus_build_open(host.table(), &header, cache_bytes, &build, &error);
+                abacus_build_open(host.table(), &header.facts, cache_bytes, &build, &error);
             if (status != ABACUS_OK) return status;
             std::uint64_t deleted;
             status = abacus_build_delete(build, stage, 0, &header, &deleted, &error);
@@ -97,7 +98,7 @@ public:
         return run([&](abacus_error &error) {
             abacus_build *build = nullptr;
             abacus_status status =
-                abacus_build_open(host.table(), &header, cache_bytes, &build, &error);
+                abacus_build_open(host.table(), &header.facts, cache_bytes, &build, &error);
             if (status != ABACUS_OK) return status;
             status = abacus_build_run(build, 0, &header, &error);
             abacus_build_close(build);
@@ -110,14 +111,15 @@ public:
             run([&](abacus_error &error) {
                 abacus_mesh *mesh = nullptr;
                 abacus_status status =
-                    abacus_mesh_open(host.table(), &header, cache_bytes, &mesh, &error);
+                    abacus_mesh_open(host.table(), &header.facts, cache_bytes, &mesh, &error);
                 if (status != ABACUS_OK) return status;
                 const double p[] = {0.1 + 0.15 * i, 0.8 - 0.1 * i, 0.2 + 0.1 * i};
                 abacus_simplex s;
                 status = abacus_mesh_locate(mesh, p, &s, &error);
                 for (int step = 0; step < 12 && status == ABACUS_OK; ++step)
-                    status = abacus_mesh_walk(mesh, s.code, s.id,
-                                              step % (int(header.dimension) + 1), &s, &error);
+                    status =
+                        abacus_mesh_walk(mesh, s.code, s.id,
+                                         step % (int(header.facts.form.dimension) + 1), &s, &error);
                 abacus_mesh_close(mesh);
                 return status;
             });
@@ -131,13 +133,13 @@ public:
     void locate_places() {
         run([&](abacus_error &error) {
             abacus_places *places = nullptr;
-            abacus_status status =
-                abacus_places_open(host.table(), &header, 1 << 20, cache_bytes, &places, &error);
+            abacus_status status = abacus_places_open(host.table(), &header.facts, 1 << 20,
+                                                      cache_bytes, &places, &error);
             for (int i = 0; i < 100 && status == ABACUS_OK; ++i) {
                 std::vector<std::uint64_t> record{static_cast<std::uint64_t>(i)};
                 for (const int step : {7, 31, 53}) // dense enough for many in one page
                     record.push_back(std::bit_cast<std::uint64_t>(i * step % 100 / 100.0));
-                record.resize(1 + header.dimension);
+                record.resize(1 + header.facts.form.dimension);
                 status = abacus_places_add(places, record.data(), 1, &error);
             }
             if (status == ABACUS_OK)
@@ -150,7 +152,7 @@ public:
     void scan() {
         run([&](abacus_error &error) {
             abacus_scan *scan = nullptr;
-            abacus_status status = abacus_scan_open(host.table(), &header, 1, &scan, &error);
+            abacus_status status = abacus_scan_open(host.table(), &header.facts, 1, &scan, &error);
             if (status != ABACUS_OK) return status;
             abacus_simplex s;
             while ((status = abacus_scan_next(scan, &s, &error)) == ABACUS_OK) {
@@ -164,7 +166,7 @@ public:
         run([&](abacus_error &error) {
             abacus_vertex_scan *scan = nullptr;
             abacus_status status =
-                abacus_vertex_scan_open(host.table(), &header, cache_bytes, &scan, &error);
+                abacus_vertex_scan_open(host.table(), &header.facts, cache_bytes, &scan, &error);
             if (status != ABACUS_OK) return status;
             abacus_vertex v;
             while ((status = abacus_vertex_scan_next(scan, &v, &error)) == ABACUS_OK) {
@@ -180,7 +182,7 @@ public:
         run([&](abacus_error &error) {
             abacus_check *check = nullptr;
             const abacus_status status =
-                abacus_check_open(host.table(), &header, cache_bytes, 20, &check, &error);
+                abacus_check_open(host.table(), &header.facts, cache_bytes, 20, &check, &error);
             if (status != ABACUS_OK) return status;
             for (abacus_fault fault; abacus_check_next(check, &fault) == ABACUS_OK;) ++faults;
             abacus_check_close(check);
@@ -205,9 +207,9 @@ public:
             const abacus_section section{{0.5, 0.5, 0.5}, {1, 2, 3}, 1};
             abacus_picture picture{};
             const abacus_status status =
-                header.dimension == 2
-                    ? abacus_draw(host.table(), &header, &drawing, &picture, &error)
-                    : abacus_draw_section(host.table(), &header, &section, &drawing, &picture,
+                header.facts.form.dimension == 2
+                    ? abacus_draw(host.table(), &header.facts, &drawing, &picture, &error)
+                    : abacus_draw_section(host.table(), &header.facts, &section, &drawing, &picture,
                                           &error);
             if (status == ABACUS_OK) host.host().release(picture.png);
             return status;
@@ -238,12 +240,12 @@ enum class Carried { in_pages, apart, many };
 inline const Mesh &sound_mesh(int dimension, Carried carried = Carried::in_pages) {
     static Mesh meshes[6];
     Mesh &mesh = meshes[dimension - 2 + 2 * static_cast<int>(carried)];
-    if (mesh.header.dimension == 0) {
+    if (mesh.header.facts.form.dimension == 0) {
         const bool many = carried == Carried::many;
-        mesh.header.dimension = static_cast<std::uint32_t>(dimension);
-        mesh.header.attributes = many ? ABACUS_MAX_ATTRIBUTES : 5;
-        mesh.header.apart = carried != Carried::in_pages;
-        for (unsigned i = 0; i < mesh.header.attributes; ++i)
+        mesh.header.facts.form.dimension = static_cast<std::uint32_t>(dimension);
+        mesh.header.facts.columns.attributes = many ? ABACUS_MAX_ATTRIBUTES : 5;
+        mesh.header.facts.columns.apart = carried != Carried::in_pages;
+        for (unsigned i = 0; i < mesh.header.facts.columns.attributes; ++i)
             std::strcpy(mesh.header.names[i], "height");
         const int points = many ? 10 : 40;
         mesh.stage(4 * points, 1);

@@ -18,12 +18,12 @@ std::vector<std::uint8_t> encode(const abacus_header &header) {
 
 extern "C" int LLVMFuzzerInitialize(int *argc, char ***argv) {
     abacus_header empty{};
-    empty.dimension = 3;
+    empty.facts.form.dimension = 3;
     abacus_header with_srid = sound_mesh(2).header;
-    with_srid.srid = 4326;
+    with_srid.facts.form.srid = 4326;
     abacus_header wide = sound_mesh(2).header;
-    wide.attributes = ABACUS_MAX_ATTRIBUTES;
-    wide.apart = 1;
+    wide.facts.columns.attributes = ABACUS_MAX_ATTRIBUTES;
+    wide.facts.columns.apart = 1;
     for (auto &name : wide.names) std::snprintf(name, sizeof name, "a");
     std::vector<std::uint8_t> names(ABACUS_PAGE_BYTES);
     names.resize(abacus_header_encode_names(&wide, 0, names.data()));
@@ -38,11 +38,11 @@ namespace {
 /// The bytes are also a row of names of a mesh with many attributes.
 void read_names(const std::uint8_t *data, std::size_t size) {
     abacus_header header{};
-    header.dimension = 2;
-    header.attributes = static_cast<std::uint32_t>(std::min<std::size_t>(
+    header.facts.form.dimension = 2;
+    header.facts.columns.attributes = static_cast<std::uint32_t>(std::min<std::size_t>(
         size / ABACUS_NAME_BYTES + ABACUS_MAX_PAGE_ATTRIBUTES, ABACUS_MAX_ATTRIBUTES));
-    header.apart = 1;
-    for (std::uint32_t row = 0; row < abacus_header_name_rows(&header); ++row) {
+    header.facts.columns.apart = 1;
+    for (std::uint32_t row = 0; row < abacus_header_name_rows(&header.facts.columns); ++row) {
         abacus_error error{};
         if (abacus_header_decode_names(data, size, row, &header, &error) != ABACUS_OK) {
             require(error.kind == ABACUS_ERROR_CORRUPTED, "names are refused for another reason");

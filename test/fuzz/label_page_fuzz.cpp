@@ -15,8 +15,8 @@ void each_simplex(Mesh &mesh, Take take, const abacus_range *range = nullptr) {
     mesh.run([&](abacus_error &error) {
         abacus_window window{};
         abacus_cells *cells = nullptr;
-        abacus_status status =
-            abacus_cells_open(mesh.host.table(), &mesh.header, &window, 0, range, &cells, &error);
+        abacus_status status = abacus_cells_open(mesh.host.table(), &mesh.header.facts, &window, 0,
+                                                 range, &cells, &error);
         if (status != ABACUS_OK) return status;
         abacus_simplex simplex;
         const double *labels = nullptr;
@@ -30,7 +30,7 @@ void each_simplex(Mesh &mesh, Take take, const abacus_range *range = nullptr) {
 
 void name(std::vector<std::uint64_t> &rows, const Mesh &mesh, const abacus_simplex &simplex) {
     rows.push_back(simplex.code);
-    rows.insert(rows.end(), simplex.id, simplex.id + mesh.header.dimension + 1);
+    rows.insert(rows.end(), simplex.id, simplex.id + mesh.header.facts.form.dimension + 1);
 }
 
 /// Gives all simplices two labels.
@@ -43,15 +43,16 @@ void label(Mesh &mesh) {
     });
     mesh.run([&](abacus_error &error) {
         const std::uint32_t numbers[] = {0, 1};
-        const std::size_t words = mesh.header.dimension + 4;
+        const std::size_t words = mesh.header.facts.form.dimension + 4;
         abacus_header named = mesh.header;
-        named.labels = 2;
+        named.facts.columns.labels = 2;
         for (unsigned i = 0; i < 2; ++i)
-            std::strcpy(named.names[named.attributes + i], i == 0 ? "material" : "age");
+            std::strcpy(named.names[named.facts.columns.attributes + i],
+                        i == 0 ? "material" : "age");
         abacus_labelling *labelling = nullptr;
         abacus_status status =
-            abacus_labelling_open(mesh.host.table(), &named, mesh.header.labels, numbers, 2,
-                                  1 << 20, 1 << 20, &labelling, &error);
+            abacus_labelling_open(mesh.host.table(), &named.facts, mesh.header.facts.columns.labels,
+                                  numbers, 2, 1 << 20, 1 << 20, &labelling, &error);
         if (status != ABACUS_OK) return status;
         status = abacus_labelling_add(labelling, rows.data(), rows.size() / words, &error);
         if (status == ABACUS_OK) status = abacus_labelling_end(labelling, &named, &error);
@@ -66,14 +67,14 @@ void mark(Mesh &mesh) {
     std::vector<std::uint64_t> rows;
     each_simplex(mesh, [&](const abacus_simplex &simplex) {
         name(rows, mesh, simplex);
-        rows.push_back(simplex.code % (mesh.header.dimension + 1));
+        rows.push_back(simplex.code % (mesh.header.facts.form.dimension + 1));
         const double marker = simplex.code % 5 == 0 ? NAN : double(simplex.code % 7);
         rows.push_back(std::bit_cast<std::uint64_t>(marker));
     });
     mesh.run([&](abacus_error &error) {
-        const std::size_t words = mesh.header.dimension + 4;
+        const std::size_t words = mesh.header.facts.form.dimension + 4;
         abacus_marking *marking = nullptr;
-        abacus_status status = abacus_marking_open(mesh.host.table(), &mesh.header, 1 << 20,
+        abacus_status status = abacus_marking_open(mesh.host.table(), &mesh.header.facts, 1 << 20,
                                                    1 << 20, &marking, &error);
         if (status != ABACUS_OK) return status;
         status = abacus_marking_add(marking, rows.data(), rows.size() / words, &error);
@@ -86,8 +87,8 @@ void mark(Mesh &mesh) {
 void read_facets(Mesh &mesh) {
     mesh.run([&](abacus_error &error) {
         abacus_facets *facets = nullptr;
-        abacus_status status = abacus_facets_open(mesh.host.table(), &mesh.header, NAN, 1 << 20,
-                                                  1 << 20, &facets, &error);
+        abacus_status status = abacus_facets_open(mesh.host.table(), &mesh.header.facts, NAN,
+                                                  1 << 20, 1 << 20, &facets, &error);
         if (status != ABACUS_OK) return status;
         abacus_facet facet;
         while ((status = abacus_facets_next(facets, &facet, &error)) == ABACUS_OK) {
@@ -101,31 +102,33 @@ void read_facets(Mesh &mesh) {
 const Mesh &labelled_mesh(int dimension) {
     static Mesh meshes[2];
     Mesh &mesh = meshes[dimension - 2];
-    if (mesh.header.dimension == 0) {
-        mesh.header.dimension = static_cast<std::uint32_t>(dimension);
-        mesh.header.has_domain = 1;
-        std::fill_n(mesh.header.upper, dimension, 1.0);
+    if (mesh.header.facts.form.dimension == 0) {
+        mesh.header.facts.form.dimension = static_cast<std::uint32_t>(dimension);
+        mesh.header.facts.form.has_domain = 1;
+        std::fill_n(mesh.header.facts.form.upper, dimension, 1.0);
         std::mt19937_64 random(1);
         std::uniform_real_distribution<double> unit(0, 1);
         mesh.run([&](abacus_error &error) {
             abacus_stage *stage = nullptr;
             abacus_status status =
-                abacus_stage_open(mesh.host.table(), &mesh.header, 1 << 20, &stage, &error);
+                abacus_stage_open(mesh.host.table(), &mesh.header.facts, 1 << 20, &stage, &error);
             for (std::uint64_t id = 2000; id < 2500 && status == ABACUS_OK; ++id) {
                 std::vector<std::uint64_t> record{id};
                 for (int i = 0; i < dimension; ++i)
                     record.push_back(std::bit_cast<std::uint64_t>(unit(random)));
                 status = abacus_stage_add(stage, record.data(), 1, &error);
             }
-            if (status == ABACUS_OK) status = abacus_stage_finish(stage, &mesh.header, &error);
+            if (status == ABACUS_OK)
+                status = abacus_stage_finish(stage, &mesh.header.facts, &error);
             abacus_stage_close(stage);
             return status;
         });
         require(mesh.build() == ABACUS_OK, "the mesh cannot be built");
         label(mesh);
         mark(mesh);
-        mesh.header.inherits = dimension == 3;
-        require(mesh.header.labelled > 0 && mesh.header.marked > 0 && mesh.check() == 0,
+        mesh.header.facts.columns.inherits = dimension == 3;
+        require(mesh.header.facts.census.labelled > 0 && mesh.header.facts.census.marked > 0 &&
+                    mesh.check() == 0,
                 "the mesh is not sound");
     }
     return mesh;

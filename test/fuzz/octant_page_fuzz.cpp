@@ -23,7 +23,7 @@ template <int D> const Octree<D> &sound_octree() {
     static const Octree<D> sound = [] {
         Octree<D> octree(attributes);
         std::mt19937_64 random(1);
-        octree.header.levels = D == 2 ? 9 : 6;
+        octree.header.facts.form.levels = D == 2 ? 9 : 6;
         octree.split_to(test::random_cells<D>(random, 150, D == 2 ? 9 : 6));
         const Host host = octree.host->host();
         OctreeEdit<D> edit(host, octree.header, octree.memory, octree.memory);

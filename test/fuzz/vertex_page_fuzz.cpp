@@ -22,7 +22,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
             damage(mesh.host.staged_pages, again);
             if (alone) {
                 mesh.host.pages.clear();
-                mesh.header.vertices = mesh.header.simplices = mesh.header.ghosts = 0;
+                mesh.header.facts.census.vertices = mesh.header.facts.census.simplices =
+                    mesh.header.facts.census.ghosts = 0;
             }
             mesh.vertex_scan();
             mesh.check();

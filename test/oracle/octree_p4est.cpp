@@ -97,7 +97,7 @@ template <int D> void compare(const char *name, Cells cells) {
         compare_leaves<D>(octree, forest);
         if (across == D) compare_nodes<D>(octree, forest);
         std::printf("%dD %s, across %d: %lld leaves\n", D, name, across,
-                    static_cast<long long>(octree.header.leaves));
+                    static_cast<long long>(octree.header.facts.census.leaves));
         Foreign<D>::destroy(forest);
         Foreign<D>::destroy(unit);
     }

@@ -12,7 +12,7 @@ inline bool are_attributes_apart() { return std::getenv("ABACUS_TEST_APART") != 
 
 /// For a new mesh whose attributes have been counted.
 inline void choose_where_attributes_are(abacus_header &header) {
-    header.apart = header.attributes > 0 && are_attributes_apart();
+    header.facts.columns.apart = header.facts.columns.attributes > 0 && are_attributes_apart();
 }
 
 } // namespace abacus::test

@@ -11,7 +11,7 @@ namespace abacus::test {
 template <int D> std::vector<std::string> faults_of(MeshOf<D> &mesh, std::size_t limit = 1000) {
     std::vector<std::string> faults;
     abacus_check *check = nullptr;
-    const abacus_status status = abacus_check_open(mesh.host.table(), &mesh.header,
+    const abacus_status status = abacus_check_open(mesh.host.table(), &mesh.header.facts,
                                                    mesh.cache_bytes, limit, &check, &mesh.error);
     if (status != ABACUS_OK)
         return {"status " + std::to_string(status) + ": " + mesh.error.message};

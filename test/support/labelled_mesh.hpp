@@ -33,7 +33,7 @@ template <int D> class LabelledMesh {
 public:
     explicit LabelledMesh(unsigned labels, std::size_t cache_bytes = 1 << 20)
         : mesh(0, cache_bytes), labels_(labels) {
-        mesh.header.labels = labels;
+        mesh.header.facts.columns.labels = labels;
         for (unsigned i = 0; i < labels; ++i)
             std::strcpy(mesh.header.names[i], ("label " + std::to_string(i)).c_str());
     }
@@ -58,7 +58,7 @@ public:
         }
         ASSERT_EQ(mesh.load(t.vertices, t.simplices, memory, true, false, given), ABACUS_OK)
             << mesh.error.message << ' ' << mesh.error.detail;
-        EXPECT_EQ(mesh.header.labelled, labelled_);
+        EXPECT_EQ(mesh.header.facts.census.labelled, labelled_);
         EXPECT_TRUE(mesh.host.spools.empty());
         EXPECT_EQ(mesh.host.bytes, 0u);
         EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
@@ -104,8 +104,8 @@ public:
         std::mt19937_64 random(6);
         std::uniform_real_distribution<double> wide(-0.1, 1.1);
         abacus_places *places = nullptr;
-        ASSERT_EQ(abacus_places_open(mesh.host.table(), &mesh.header, 1 << 20, 1 << 20, &places,
-                                     &mesh.error),
+        ASSERT_EQ(abacus_places_open(mesh.host.table(), &mesh.header.facts, 1 << 20, 1 << 20,
+                                     &places, &mesh.error),
                   ABACUS_OK);
         for (std::uint64_t i = 0; i < 500; ++i) {
             std::array<std::uint64_t, 1 + D> record{i};
@@ -121,14 +121,14 @@ public:
     /// Gives some simplices other values of these labels, of which the last ones may be new.
     void label(const std::vector<std::uint32_t> &numbers, unsigned seed) {
         std::mt19937_64 random(seed);
-        const std::uint32_t known = mesh.header.labels;
+        const std::uint32_t known = mesh.header.facts.columns.labels;
         abacus_header named = mesh.header;
         for (const std::uint32_t number : numbers)
-            if (number >= named.labels) {
-                named.labels = number + 1;
+            if (number >= named.facts.columns.labels) {
+                named.facts.columns.labels = number + 1;
                 std::strcpy(named.names[number], ("label " + std::to_string(number)).c_str());
             }
-        labels_ = named.labels;
+        labels_ = named.facts.columns.labels;
         for (auto &[ids, row] : known_) row.resize(labels_, null_value);
         auto simplices = mesh.simplices(false);
         std::shuffle(simplices.begin(), simplices.end(), random);
@@ -146,7 +146,7 @@ public:
             }
         }
         abacus_labelling *labelling = nullptr;
-        ASSERT_EQ(abacus_labelling_open(mesh.host.table(), &named, known, numbers.data(),
+        ASSERT_EQ(abacus_labelling_open(mesh.host.table(), &named.facts, known, numbers.data(),
                                         numbers.size(), 1 << 16, 1 << 20, &labelling, &mesh.error),
                   ABACUS_OK);
         EXPECT_EQ(abacus_labelling_add(labelling, rows.data(), simplices.size(), &mesh.error),
@@ -229,7 +229,7 @@ private:
     }
     /// Of several the one with the least key; null if there is none.
     const Labelled *has_centroid(const std::vector<Labelled> &all, const Owner<D, D + 1> &simplex) {
-        const Domain<D> domain = domain_of<D>(mesh.header);
+        const Domain<D> domain = domain_of<D>(mesh.header.facts.form);
         Point<D> centroid{};
         for (const Point<D> &p : simplex)
             for (int axis = 0; axis < D; ++axis) centroid[axis] += p[axis] / (D + 1);
@@ -250,8 +250,8 @@ private:
     template <class Take>
     void each_cell(const abacus_window &window, const abacus_range *range, Take take) {
         abacus_cells *cells = nullptr;
-        ASSERT_EQ(abacus_cells_open(mesh.host.table(), &mesh.header, &window, 0, range, &cells,
-                                    &mesh.error),
+        ASSERT_EQ(abacus_cells_open(mesh.host.table(), &mesh.header.facts, &window, 0, range,
+                                    &cells, &mesh.error),
                   ABACUS_OK);
         abacus_simplex simplex;
         const double *labels = nullptr;

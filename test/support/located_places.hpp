@@ -32,7 +32,7 @@ abacus_status locate_places(MeshOf<D> &mesh, const std::vector<InputOf<D>> &plac
         for (const double x : place.point) records.push_back(std::bit_cast<std::uint64_t>(x));
     }
     abacus_places *handle = nullptr;
-    abacus_status status = abacus_places_open(mesh.host.table(), &mesh.header, memory,
+    abacus_status status = abacus_places_open(mesh.host.table(), &mesh.header.facts, memory,
                                               mesh.cache_bytes, &handle, &mesh.error);
     if (status != ABACUS_OK) return status;
     status = abacus_places_add(handle, records.data(), places.size(), &mesh.error);

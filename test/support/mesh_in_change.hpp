@@ -35,9 +35,9 @@ public:
           cache(host_, domain_around<D>(box.lower(), box.upper()), attributes,
                 {.budget = cache_bytes, .verify_links = true}),
           delaunay(host_, cache, 0, 0), insertion(delaunay), removal(delaunay) {
-        mesh_.header.has_domain = 1;
-        std::copy_n(box.lower().begin(), D, mesh_.header.lower);
-        std::copy_n(box.upper().begin(), D, mesh_.header.upper);
+        mesh_.header.facts.form.has_domain = 1;
+        std::copy_n(box.lower().begin(), D, mesh_.header.facts.form.lower);
+        std::copy_n(box.upper().begin(), D, mesh_.header.facts.form.upper);
     }
 
     /// Starts the mesh with these points, in some order; false if they span no simplex.
@@ -64,9 +64,9 @@ public:
     std::vector<std::string> check(std::size_t vertices) {
         cache.flush();
         if (const char *fault = cache.check_invariants()) return {fault};
-        mesh_.header.vertices = vertices;
-        mesh_.header.simplices = static_cast<std::uint64_t>(delaunay.simplices());
-        mesh_.header.ghosts = static_cast<std::uint64_t>(delaunay.ghosts());
+        mesh_.header.facts.census.vertices = vertices;
+        mesh_.header.facts.census.simplices = static_cast<std::uint64_t>(delaunay.simplices());
+        mesh_.header.facts.census.ghosts = static_cast<std::uint64_t>(delaunay.ghosts());
         return mesh_.check();
     }
 

@@ -94,12 +94,12 @@ public:
     static constexpr std::size_t memory = std::size_t{1} << 20;
 
     explicit StoredOctree(std::uint32_t attributes = 0) {
-        header.type = ABACUS_OCTREE;
-        header.dimension = D;
-        header.attributes = attributes;
-        header.has_domain = 1;
-        header.levels = finest_level<D>;
-        for (int i = 0; i < D; ++i) header.upper[i] = 1;
+        header.facts.form.type = ABACUS_OCTREE;
+        header.facts.form.dimension = D;
+        header.facts.columns.attributes = attributes;
+        header.facts.form.has_domain = 1;
+        header.facts.form.levels = finest_level<D>;
+        for (int i = 0; i < D; ++i) header.facts.form.upper[i] = 1;
         host = std::make_unique<MemoryHost>();
         create_root<D>(host->host(), header);
     }
@@ -133,8 +133,8 @@ public:
     /// empty, as merges leave them.
     void spread_root(std::uint64_t pages) {
         const Host h = host->host();
-        OctantPageWriter<D> writer(h, static_cast<int>(header.attributes));
-        const std::vector<double> values(header.attributes, 0.5);
+        OctantPageWriter<D> writer(h, static_cast<int>(header.facts.columns.attributes));
+        const std::vector<double> values(header.facts.columns.attributes, 0.5);
         const auto border = [&](std::uint64_t i) { return domain_cells<D> / pages * i; };
         for (std::uint64_t i = 0; i < pages; ++i) {
             writer.write(
@@ -148,7 +148,7 @@ public:
     }
     /// The lower corner of a cell.
     Point<D> place(std::uint64_t cell) const {
-        return Grid<D>(header).box({cell, finest_level<D>}).lower;
+        return Grid<D>(header.facts.form).box({cell, finest_level<D>}).lower;
     }
     std::vector<Octant<D>> list() const {
         std::vector<Octant<D>> list;

@@ -58,8 +58,8 @@ template <int D> std::vector<std::uint64_t> record_of(const InputOf<D> &input) {
 } // namespace
 
 template <int D> MeshOf<D>::MeshOf(int attributes, std::size_t bytes) : cache_bytes(bytes) {
-    header.dimension = D;
-    header.attributes = static_cast<std::uint32_t>(attributes);
+    header.facts.form.dimension = D;
+    header.facts.columns.attributes = static_cast<std::uint32_t>(attributes);
     choose_where_attributes_are(header);
     for (int i = 0; i < attributes; ++i)
         std::snprintf(header.names[i], ABACUS_NAME_BYTES, "a%d", i);
@@ -71,8 +71,8 @@ abacus_status MeshOf<D>::with_stage(const std::vector<InputOf<D>> &points, std::
                                     bool with_attributes) {
     abacus_stage *stage = nullptr;
     abacus_header staged = header;
-    if (!with_attributes) staged.attributes = 0;
-    abacus_status status = abacus_stage_open(host.table(), &staged, memory, &stage, &error);
+    if (!with_attributes) staged.facts.columns.attributes = 0;
+    abacus_status status = abacus_stage_open(host.table(), &staged.facts, memory, &stage, &error);
     if (status != ABACUS_OK) return status;
     for (const InputOf<D> &input : points) {
         std::vector<std::uint64_t> record = record_of(input);
@@ -92,9 +92,9 @@ abacus_status MeshOf<D>::load(const std::vector<InputOf<D>> &vertices,
                               const std::vector<std::vector<double>> &labels,
                               const std::vector<std::uint64_t> &facets) {
     abacus_load *load = nullptr;
-    if (split_nodes) header.apart = 0;
+    if (split_nodes) header.facts.columns.apart = 0;
     abacus_status status =
-        abacus_load_open(host.table(), &header, memory, reorient, split_nodes, &load, &error);
+        abacus_load_open(host.table(), &header.facts, memory, reorient, split_nodes, &load, &error);
     if (status != ABACUS_OK) return status;
     for (const InputOf<D> &vertex : vertices) {
         const std::vector<std::uint64_t> record = record_of(vertex);
@@ -107,7 +107,7 @@ abacus_status MeshOf<D>::load(const std::vector<InputOf<D>> &vertices,
         const std::size_t begin = at;
         for (; at < std::min(begin + 100, simplices.size()); ++at) {
             records.insert(records.end(), simplices[at].begin(), simplices[at].end());
-            for (std::uint32_t i = 0; i < header.labels; ++i)
+            for (std::uint32_t i = 0; i < header.facts.columns.labels; ++i)
                 records.push_back(std::bit_cast<std::uint64_t>(labels.at(at).at(i)));
         }
         status = abacus_load_simplices(load, records.data(), at - begin, &error);
@@ -118,7 +118,7 @@ abacus_status MeshOf<D>::load(const std::vector<InputOf<D>> &vertices,
     if (status == ABACUS_OK && retriangulate && loaded_as != ABACUS_DELAUNAY)
         status = with_stage({}, memory, [&](abacus_stage *stage) {
             const abacus_status staged = abacus_load_stage(load, stage, &error);
-            return staged == ABACUS_OK ? abacus_stage_finish(stage, &header, &error) : staged;
+            return staged == ABACUS_OK ? abacus_stage_finish(stage, &header.facts, &error) : staged;
         });
     else if (status == ABACUS_OK)
         status = abacus_load_write(load, &header, &error);
@@ -129,7 +129,8 @@ abacus_status MeshOf<D>::load(const std::vector<InputOf<D>> &vertices,
 template <int D>
 abacus_status MeshOf<D>::with_build(const std::function<abacus_status(abacus_build *)> &use) {
     abacus_build *build = nullptr;
-    abacus_status status = abacus_build_open(host.table(), &header, cache_bytes, &build, &error);
+    abacus_status status =
+        abacus_build_open(host.table(), &header.facts, cache_bytes, &build, &error);
     if (status == ABACUS_OK) status = use(build);
     abacus_build_close(build);
     return status;
@@ -138,7 +139,7 @@ abacus_status MeshOf<D>::with_build(const std::function<abacus_status(abacus_bui
 template <int D>
 abacus_status MeshOf<D>::stage(const std::vector<InputOf<D>> &points, std::size_t memory) {
     return with_stage(points, memory, [&](abacus_stage *stage) {
-        return abacus_stage_finish(stage, &header, &error);
+        return abacus_stage_finish(stage, &header.facts, &error);
     });
 }
 
@@ -152,7 +153,7 @@ abacus_status MeshOf<D>::insert(const std::vector<InputOf<D>> &points, std::size
                                 abacus_on_duplicate on_duplicate) {
     const abacus_header before = header;
     const abacus_status status = with_stage(points, memory, [&](abacus_stage *stage) {
-        const abacus_status ended = abacus_stage_end(stage, &header, &error);
+        const abacus_status ended = abacus_stage_end(stage, &header.facts, &error);
         if (ended != ABACUS_OK) return ended;
         return with_build([&](abacus_build *build) {
             return abacus_build_insert(build, stage, on_duplicate, &header, &error);
@@ -192,7 +193,7 @@ template <int D> std::vector<Positions<D>> MeshOf<D>::positions() {
 template <int D> std::vector<abacus_simplex> MeshOf<D>::simplices(bool ghosts) {
     std::vector<abacus_simplex> result;
     abacus_scan *scan = nullptr;
-    abacus_status status = abacus_scan_open(host.table(), &header, ghosts, &scan, &error);
+    abacus_status status = abacus_scan_open(host.table(), &header.facts, ghosts, &scan, &error);
     abacus_simplex s;
     while (status == ABACUS_OK && (status = abacus_scan_next(scan, &s, &error)) == ABACUS_OK)
         result.push_back(s);
@@ -205,7 +206,7 @@ template <int D> std::vector<std::string> MeshOf<D>::check() {
     std::vector<std::string> faults;
     abacus_check *check = nullptr;
     const abacus_status status =
-        abacus_check_open(host.table(), &header, cache_bytes, 100, &check, &error);
+        abacus_check_open(host.table(), &header.facts, cache_bytes, 100, &check, &error);
     if (status != ABACUS_OK) return {std::string("status: ") + error.message};
     abacus_fault fault;
     while (abacus_check_next(check, &fault) == ABACUS_OK)
@@ -216,7 +217,8 @@ template <int D> std::vector<std::string> MeshOf<D>::check() {
 
 template <int D> abacus_status MeshOf<D>::locate(const Point<D> &p, abacus_simplex &simplex) {
     abacus_mesh *mesh = nullptr;
-    abacus_status status = abacus_mesh_open(host.table(), &header, cache_bytes, &mesh, &error);
+    abacus_status status =
+        abacus_mesh_open(host.table(), &header.facts, cache_bytes, &mesh, &error);
     if (status != ABACUS_OK) return status;
     status = abacus_mesh_locate(mesh, p.data(), &simplex, &error);
     abacus_mesh_close(mesh);
@@ -224,8 +226,9 @@ template <int D> abacus_status MeshOf<D>::locate(const Point<D> &p, abacus_simpl
 }
 
 template <int D> OpenMeshOf<D>::OpenMeshOf(MeshOf<D> &mesh, std::size_t cache_bytes) {
-    EXPECT_EQ(abacus_mesh_open(mesh.host.table(), &mesh.header, cache_bytes, &handle_, &error),
-              ABACUS_OK);
+    EXPECT_EQ(
+        abacus_mesh_open(mesh.host.table(), &mesh.header.facts, cache_bytes, &handle_, &error),
+        ABACUS_OK);
 }
 
 template <int D> abacus_counters OpenMeshOf<D>::counters() const {

@@ -11,7 +11,8 @@
 namespace abacus::test {
 
 PageEditor::PageEditor(const MemoryHost::Page &page, const abacus_header &mesh)
-    : domain(domain_of<2>(mesh)), attribute_count(static_cast<int>(mesh.attributes)) {
+    : domain(domain_of<2>(mesh.facts.form)),
+      attribute_count(static_cast<int>(mesh.facts.columns.attributes)) {
     PageView<2> view;
     view.read(reinterpret_cast<const unsigned char *>(page.words.data()), page.size,
               attribute_count);

@@ -106,8 +106,8 @@ public:
 private:
     void expect_points(MeshOf<D> &mesh) const {
         abacus_vertex_scan *scan = nullptr;
-        ASSERT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header, mesh.cache_bytes, &scan,
-                                          &mesh.error),
+        ASSERT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header.facts, mesh.cache_bytes,
+                                          &scan, &mesh.error),
                   ABACUS_OK);
         std::map<Point<D>, std::vector<std::int64_t>> seen;
         abacus_vertex v;

@@ -51,15 +51,18 @@ public:
         const abacus_header before = mesh_.header;
         expect([&] {
             return mesh_.with_stage(points, 16 << 20, [&](abacus_stage *stage) {
-                const abacus_status ended = abacus_stage_end(stage, &mesh_.header, &mesh_.error);
+                const abacus_status ended =
+                    abacus_stage_end(stage, &mesh_.header.facts, &mesh_.error);
                 return ended != ABACUS_OK ? ended : run([&](abacus_build *build) {
                     return abacus_build_insert(build, stage, how, &mesh_.header, &mesh_.error);
                 });
             });
         });
-        domain_changed = before.has_domain != 0 &&
-                         (!std::equal(before.lower, before.lower + D, mesh_.header.lower) ||
-                          !std::equal(before.upper, before.upper + D, mesh_.header.upper));
+        domain_changed = before.facts.form.has_domain != 0 &&
+                         (!std::equal(before.facts.form.lower, before.facts.form.lower + D,
+                                      mesh_.header.facts.form.lower) ||
+                          !std::equal(before.facts.form.upper, before.facts.form.upper + D,
+                                      mesh_.header.facts.form.upper));
     }
     void remove(const std::vector<InputOf<D>> &points) {
         expect([&] {
@@ -104,7 +107,7 @@ private:
         Rows before = all(false);
         ASSERT_EQ(change(), ABACUS_OK) << mesh_.error.message << ' ' << mesh_.error.detail;
         Rows after = all(true);
-        const Domain<D> domain = domain_of<D>(mesh_.header);
+        const Domain<D> domain = domain_of<D>(mesh_.header.facts.form);
         for (ChangedSimplex<D> &s : before) {
             s.code = 0;
             for (const Point<D> &p : s.point) s.code = std::max(s.code, domain.code(p));

@@ -68,7 +68,7 @@ protected:
         header = empty_header<3>(1);
         EXPECT_EQ(stage<3>(host, header, input, ample, error), ABACUS_OK);
         abacus_build *build = nullptr;
-        EXPECT_EQ(abacus_build_open(host.table(), &header, ample, &build, &error), ABACUS_OK);
+        EXPECT_EQ(abacus_build_open(host.table(), &header.facts, ample, &build, &error), ABACUS_OK);
         EXPECT_EQ(abacus_build_run(build, 0, &header, &error), ABACUS_OK) << error.detail;
         abacus_build_close(build);
     }
@@ -87,7 +87,7 @@ protected:
         abacus_picture picture{};
         error = {};
         const abacus_status status =
-            abacus_draw_section(host.table(), &header, &section, &drawing, &picture, &error);
+            abacus_draw_section(host.table(), &header.facts, &section, &drawing, &picture, &error);
         if (status == ABACUS_OK) {
             image = decode(picture.png, picture.size);
             host.host().release(picture.png);
@@ -105,7 +105,7 @@ protected:
         const Plane plane(section);
         double sum = 0;
         abacus_scan *scan = nullptr;
-        EXPECT_EQ(abacus_scan_open(host.table(), &header, 1, &scan, &error), ABACUS_OK);
+        EXPECT_EQ(abacus_scan_open(host.table(), &header.facts, 1, &scan, &error), ABACUS_OK);
         for (abacus_simplex s; abacus_scan_next(scan, &s, &error) == ABACUS_OK;) {
             Cut cut[4] = {};
             for (int i = 0; i < 4 - s.ghost; ++i)

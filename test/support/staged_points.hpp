@@ -49,8 +49,8 @@ template <int D> std::vector<std::uint64_t> words(const Input<D> &input) {
 
 template <int D> abacus_header empty_header(unsigned attributes = 0) {
     abacus_header header{};
-    header.dimension = D;
-    header.attributes = attributes;
+    header.facts.form.dimension = D;
+    header.facts.columns.attributes = attributes;
     test::choose_where_attributes_are(header);
     return header;
 }
@@ -60,13 +60,13 @@ template <int D>
 abacus_status stage(MemoryHost &host, abacus_header &header, const Input<D> &input,
                     std::size_t memory, abacus_error &error, std::size_t batch = 1000) {
     const std::vector<std::uint64_t> records = words(input);
-    const std::size_t stride = record_words(D, header.attributes);
+    const std::size_t stride = record_words(D, header.facts.columns.attributes);
     abacus_stage *handle = nullptr;
-    abacus_status status = abacus_stage_open(host.table(), &header, memory, &handle, &error);
+    abacus_status status = abacus_stage_open(host.table(), &header.facts, memory, &handle, &error);
     for (std::size_t at = 0; status == ABACUS_OK && at < input.size(); at += batch)
         status = abacus_stage_add(handle, records.data() + at * stride,
                                   std::min(batch, input.size() - at), &error);
-    if (status == ABACUS_OK) status = abacus_stage_finish(handle, &header, &error);
+    if (status == ABACUS_OK) status = abacus_stage_finish(handle, &header.facts, &error);
     abacus_stage_close(handle);
     return status;
 }
@@ -77,15 +77,17 @@ template <int D> Input<D> staged(MemoryHost &host, const abacus_header &header) 
     for (auto &[key, page] : host.staged_pages) {
         EXPECT_EQ(key.code, result.size());
         EXPECT_LE(page.size, std::size_t{ABACUS_MAX_PAGE_BYTES});
-        const VertexPage<D> view(page.words.data(), page.size, header.attributes, key);
+        const VertexPage<D> view(page.words.data(), page.size, header.facts.columns.attributes,
+                                 key);
         for (std::size_t i = 0; i < view.size(); ++i) {
             const std::uint64_t *record = view.record(i);
-            result.push_back({record_id(record),
-                              record_point<D>(record),
-                              {record + 1 + D, record + record_words(D, header.attributes)}});
+            result.push_back(
+                {record_id(record),
+                 record_point<D>(record),
+                 {record + 1 + D, record + record_words(D, header.facts.columns.attributes)}});
         }
     }
-    EXPECT_EQ(header.staged, result.size());
+    EXPECT_EQ(header.facts.census.staged, result.size());
     return result;
 }
 

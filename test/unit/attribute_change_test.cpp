@@ -15,7 +15,7 @@ constexpr std::size_t little = 60 << 10, ample = 64 << 20;
 template <int D> class Changing {
 public:
     Changing(int count, std::size_t cache_bytes, bool apart) : mesh(count, cache_bytes) {
-        mesh.header.apart = apart;
+        mesh.header.facts.columns.apart = apart;
     }
 
     std::vector<double> values(std::size_t n) {
@@ -32,7 +32,7 @@ public:
                 x = kind == 1 ? double(random() % 5)
                               : std::uniform_real_distribution<double>(0, 1)(random);
             if (kind == 2) p.fill(double(next_id_));
-            points.push_back({next_id_, p, values(mesh.header.attributes)});
+            points.push_back({next_id_, p, values(mesh.header.facts.columns.attributes)});
         }
         return points;
     }
@@ -48,7 +48,7 @@ public:
     }
     void change(const std::vector<std::uint32_t> &source) {
         ASSERT_EQ(run(source), ABACUS_OK) << mesh.error.message << ' ' << mesh.error.detail;
-        EXPECT_EQ(mesh.header.attributes, source.size());
+        EXPECT_EQ(mesh.header.facts.columns.attributes, source.size());
         model.change_attributes(source);
         model.expect(mesh);
     }
@@ -64,21 +64,21 @@ public:
         change(source);
     }
     std::vector<std::uint32_t> same() const {
-        std::vector<std::uint32_t> source(mesh.header.attributes);
+        std::vector<std::uint32_t> source(mesh.header.facts.columns.attributes);
         std::iota(source.begin(), source.end(), 0u);
         return source;
     }
     /// What was added has a value.
     void update_last() {
-        const std::uint32_t last = mesh.header.attributes - 1;
+        const std::uint32_t last = mesh.header.facts.columns.attributes - 1;
         std::vector<InputOf<D>> points = model.points();
         for (InputOf<D> &p : points) p.attributes = values(1);
         model.update(points, {last});
         abacus_header shape = mesh.header;
-        shape.attributes = 1;
+        shape.facts.columns.attributes = 1;
         abacus_stage *stage = nullptr;
         abacus_status status =
-            abacus_stage_open(mesh.host.table(), &shape, 1 << 20, &stage, &mesh.error);
+            abacus_stage_open(mesh.host.table(), &shape.facts, 1 << 20, &stage, &mesh.error);
         for (const InputOf<D> &p : points) {
             std::array<std::uint64_t, 2 + D> record;
             fill_record<D>(record.data(), p.id, p.point, p.attributes.data(), 1);
@@ -118,7 +118,7 @@ TYPED_TEST(AttributeChange, OneByOneFromNoneToManyAndBack) {
             changing.insert(changing.fresh(500, kind));
             for (std::uint32_t n = 1; n <= 7; ++n) {
                 changing.add();
-                EXPECT_EQ(changing.mesh.header.apart, abacus_are_apart(D, n));
+                EXPECT_EQ(changing.mesh.header.facts.columns.apart, abacus_are_apart(D, n));
                 changing.update_last();
                 changing.insert(changing.fresh(60, kind));
                 if (this->HasFatalFailure()) return;
@@ -126,7 +126,7 @@ TYPED_TEST(AttributeChange, OneByOneFromNoneToManyAndBack) {
             changing.model.expect(changing.mesh);
             for (std::uint32_t n = 7; n > 0; --n) {
                 changing.drop(n / 2);
-                EXPECT_EQ(changing.mesh.header.apart, n > 1);
+                EXPECT_EQ(changing.mesh.header.facts.columns.apart, n > 1);
                 changing.insert(changing.fresh(20, kind));
                 std::uint64_t deleted = 0;
                 auto points = changing.model.points();
@@ -150,7 +150,8 @@ TYPED_TEST(AttributeChange, OverTheBorderOfGroups) {
         changing.model.expect(changing.mesh);
     }
     for (const std::size_t which : {0, 33, 16})
-        changing.drop(std::min<std::size_t>(which, changing.mesh.header.attributes - 1));
+        changing.drop(
+            std::min<std::size_t>(which, changing.mesh.header.facts.columns.attributes - 1));
     changing.insert(changing.fresh(200, 0));
     changing.model.expect(changing.mesh);
 }
@@ -177,7 +178,7 @@ TYPED_TEST(AttributeChange, ManyLeaveTheSimplexPages) {
         changing.insert(changing.fresh(D == 2 ? 1500 : 400, 0));
         const std::size_t before = changing.mesh.host.pages.size();
         changing.change(changing.same());
-        EXPECT_EQ(changing.mesh.header.apart, 1u);
+        EXPECT_EQ(changing.mesh.header.facts.columns.apart, 1u);
         EXPECT_LT(changing.mesh.host.pages.size(), before / 2);
         Changing<D> bare(0, cache, false);
         bare.insert(bare.fresh(D == 2 ? 1500 : 400, 0));

@@ -28,8 +28,8 @@ double unit(Random &random) { return std::uniform_real_distribution<double>(0, 1
 /// Inserts points with a cache of these options into a mesh, as a build does.
 abacus_counters insert(Mesh &mesh, const std::vector<Point<2>> &points,
                        const CacheOptions &options) {
-    mesh.header.has_domain = 1;
-    mesh.header.upper[0] = mesh.header.upper[1] = 1;
+    mesh.header.facts.form.has_domain = 1;
+    mesh.header.facts.form.upper[0] = mesh.header.facts.form.upper[1] = 1;
     const Host host = mesh.host.host();
     Cache<2> cache(host, Domain<2>({0, 0}, {1, 1}), 0, options);
     Delaunay<2> delaunay(host, cache, 0, 0);
@@ -40,9 +40,9 @@ abacus_counters insert(Mesh &mesh, const std::vector<Point<2>> &points,
     for (std::size_t i = 3; i < points.size(); ++i)
         EXPECT_TRUE(insertion.insert(points[i], static_cast<std::int64_t>(i), nullptr));
     cache.flush();
-    mesh.header.vertices = points.size();
-    mesh.header.simplices = static_cast<std::uint64_t>(delaunay.simplices());
-    mesh.header.ghosts = static_cast<std::uint64_t>(delaunay.ghosts());
+    mesh.header.facts.census.vertices = points.size();
+    mesh.header.facts.census.simplices = static_cast<std::uint64_t>(delaunay.simplices());
+    mesh.header.facts.census.ghosts = static_cast<std::uint64_t>(delaunay.ghosts());
     return cache.counters;
 }
 
@@ -287,7 +287,8 @@ TEST(Cache, InTheLastRoundFinishedBlocksLeave) {
     EXPECT_LE(c.peak_bytes, 20u << 20);
     EXPECT_GE(c.peak_bytes, 16u << 20);
     EXPECT_LE(c.loads, c.stores / 4); // hardly any is needed again
-    EXPECT_EQ(mesh.header.simplices + mesh.header.ghosts, 2 * mesh.header.vertices - 2);
+    EXPECT_EQ(mesh.header.facts.census.simplices + mesh.header.facts.census.ghosts,
+              2 * mesh.header.facts.census.vertices - 2);
 }
 
 TEST(Cache, CountsWhatItDoes) {
@@ -298,8 +299,9 @@ TEST(Cache, CountsWhatItDoes) {
     const abacus_counters &c = mesh.header.counters;
     std::size_t stored_bytes = 0;
     for (const auto &[key, page] : mesh.host.pages) stored_bytes += page.size;
-    EXPECT_EQ(c.insertions, mesh.header.vertices - 3);
-    EXPECT_EQ(c.created - c.deleted, mesh.header.simplices + mesh.header.ghosts);
+    EXPECT_EQ(c.insertions, mesh.header.facts.census.vertices - 3);
+    EXPECT_EQ(c.created - c.deleted,
+              mesh.header.facts.census.simplices + mesh.header.facts.census.ghosts);
     EXPECT_EQ(c.stores, calls.put);
     EXPECT_EQ(c.stores - c.rewrites - calls.erase, mesh.host.pages.size());
     EXPECT_EQ(c.splits - c.merges, mesh.host.pages.size() - 1);
@@ -408,7 +410,7 @@ TEST(Cache, TakesAHubLargerThanItself) {
     ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message;
     ASSERT_EQ(mesh.stage({{n, {0, 0}}}), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message;
-    EXPECT_GE(mesh.header.simplices, mesh.header.vertices - 1);
+    EXPECT_GE(mesh.header.facts.census.simplices, mesh.header.facts.census.vertices - 1);
     points.push_back({0, 0});
     EXPECT_EQ(mesh.positions(), cgal_simplices<2>(points));
     EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});

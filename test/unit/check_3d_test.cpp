@@ -15,7 +15,7 @@ struct Solid {
         abacus_error error{};
         EXPECT_EQ(stage<3>(host, header, with_ids<3>(points), ample, error), ABACUS_OK);
         abacus_build *build = nullptr;
-        EXPECT_EQ(abacus_build_open(host.table(), &header, ample, &build, &error), ABACUS_OK);
+        EXPECT_EQ(abacus_build_open(host.table(), &header.facts, ample, &build, &error), ABACUS_OK);
         EXPECT_EQ(abacus_build_run(build, 0, &header, &error), ABACUS_OK) << error.detail;
         abacus_build_close(build);
         EXPECT_EQ(faults(), 0);
@@ -24,7 +24,7 @@ struct Solid {
     int faults() {
         abacus_error error{};
         abacus_check *check = nullptr;
-        if (abacus_check_open(host.table(), &header, ample, 10, &check, &error) != ABACUS_OK)
+        if (abacus_check_open(host.table(), &header.facts, ample, 10, &check, &error) != ABACUS_OK)
             return -1;
         int count = 0;
         for (abacus_fault fault; abacus_check_next(check, &fault) == ABACUS_OK;) ++count;
@@ -56,7 +56,7 @@ TEST(CheckInSpace, LoadsPagesAFewTimesWhereVerticesHaveMostOfThem) {
     }
     test::MeshOf<3> mesh;
     ASSERT_EQ(mesh.insert(test::number<3>(points)), ABACUS_OK) << mesh.error.detail;
-    ASSERT_EQ(mesh.header.simplices, std::uint64_t(n - 1) * (n - 1));
+    ASSERT_EQ(mesh.header.facts.census.simplices, std::uint64_t(n - 1) * (n - 1));
     mesh.cache_bytes = 8 << 20; // some two thirds of the pages
     const std::uint64_t before = mesh.host.calls.find;
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});

@@ -39,7 +39,7 @@ TEST(Check, KnowsHowMuchIsLeftOnceThePagesAreCounted) {
         const std::uint64_t passes = apart ? 3 : 2;
         for (Input &p : points) p.attributes.assign(apart, p.point[0]);
         Mesh mesh(apart);
-        mesh.header.apart = apart;
+        mesh.header.facts.columns.apart = apart;
         ASSERT_EQ(mesh.insert(points), ABACUS_OK);
         const std::uint64_t pages = mesh.host.pages.size();
         ASSERT_GT(pages, 128u);
@@ -110,8 +110,8 @@ TEST(Check, FindsGeometricDamageInsideAPage) {
                 return;
             }
         });
-        --small.mesh.header.simplices;
-        ++small.mesh.header.ghosts;
+        --small.mesh.header.facts.census.simplices;
+        ++small.mesh.header.facts.census.ghosts;
     });
     small.expect_fault("a vertex moved far", "orientation", [&] {
         small.edit_vertex(small.input[30].point,
@@ -206,7 +206,7 @@ TEST(Check, FindsWrongLinksAndPlaces) {
             while (page.is_ghost(s)) ++s;
             page.simplices.erase(page.simplices.begin() + s);
         });
-        --big.mesh.header.simplices;
+        --big.mesh.header.facts.census.simplices;
     });
     big.expect_fault("a triangle twice in a page", "count", [&] {
         big.edit(big.smallest(),
@@ -294,19 +294,20 @@ TEST(Check, FindsDamageOfThePointsThatWait) {
     });
     for (const std::int64_t step : {-1, 1}) {
         big.expect_fault("fewer or more", step < 0 ? "count" : "point",
-                         [&] { big.mesh.header.staged += 200 * step; });
+                         [&] { big.mesh.header.facts.census.staged += 200 * step; });
         big.expect_fault("others", step < 0 ? "point" : "count",
-                         [&] { big.mesh.header.inserted += step < 0 ? -200 : 400; });
+                         [&] { big.mesh.header.facts.census.inserted += step < 0 ? -200 : 400; });
     }
-    big.expect_fault("points that were inserted", "count",
-                     [&] { big.mesh.header.inserted = big.mesh.header.staged; });
+    big.expect_fault("points that were inserted", "count", [&] {
+        big.mesh.header.facts.census.inserted = big.mesh.header.facts.census.staged;
+    });
 }
 
 TEST(Check, FindsDamageOfRepeatedPoints) {
     std::vector<Input> points = random_points(600, 1);
     for (int i = 0; i < 400; ++i) points.push_back({5000 + i, points[i].point, {0.5}});
     Patient patient(points);
-    ASSERT_EQ(patient.mesh.header.duplicates, 400u);
+    ASSERT_EQ(patient.mesh.header.facts.census.duplicates, 400u);
     auto &pages = patient.mesh.host.repeated_pages;
     ASSERT_GT(pages.size(), 2u);
     const auto second = [&]() -> MemoryHost::Page & { return std::next(pages.begin())->second; };
@@ -325,27 +326,29 @@ TEST(Check, FindsDamageOfRepeatedPoints) {
         patient.expect_fault("its header", "point", [&] { ++second().words[word]; });
     for (const int step : {-1, 1})
         patient.expect_fault("their number", "count",
-                             [&] { patient.mesh.header.duplicates += step; });
+                             [&] { patient.mesh.header.facts.census.duplicates += step; });
 }
 
 TEST(Check, FindsEveryWrongCountOfTheHeader) {
     Patient big(800, 0);
-    using Field = std::uint64_t abacus_header::*;
+    using Field = std::uint64_t abacus_census::*;
     for (const Field field :
-         {&abacus_header::duplicates, &abacus_header::simplices, &abacus_header::ghosts})
+         {&abacus_census::duplicates, &abacus_census::simplices, &abacus_census::ghosts})
         for (const std::uint64_t value : {std::uint64_t(0), std::uint64_t(1) << 40})
             big.expect_fault("a count", "count", [&] {
-                big.mesh.header.*field = value == big.mesh.header.*field ? 1 : value;
+                big.mesh.header.facts.census.*field =
+                    value == big.mesh.header.facts.census.*field ? 1 : value;
             });
     for (const int step : {-1, 1}) {
-        big.expect_fault("vertices", "euler", [&] { big.mesh.header.vertices += step; });
+        big.expect_fault("vertices", "euler",
+                         [&] { big.mesh.header.facts.census.vertices += step; });
         big.expect_fault("triangles and ghosts", "count", [&] {
-            big.mesh.header.simplices += step;
-            big.mesh.header.ghosts -= step;
+            big.mesh.header.facts.census.simplices += step;
+            big.mesh.header.facts.census.ghosts -= step;
         });
     }
-    big.expect_fault("a domain", "key", [&] { big.mesh.header.upper[0] *= 2; });
-    big.expect_fault("attributes", "page", [&] { big.mesh.header.attributes = 1; });
+    big.expect_fault("a domain", "key", [&] { big.mesh.header.facts.form.upper[0] *= 2; });
+    big.expect_fault("attributes", "page", [&] { big.mesh.header.facts.columns.attributes = 1; });
 }
 
 } // namespace

@@ -30,7 +30,7 @@ protected:
         }
         return points;
     }
-    static Domain<D> domain(const MeshOf<D> &mesh) { return domain_of<D>(mesh.header); }
+    static Domain<D> domain(const MeshOf<D> &mesh) { return domain_of<D>(mesh.header.facts.form); }
     static double edge(const MeshOf<D> &mesh) {
         return domain(mesh).upper()[0] - domain(mesh).lower()[0];
     }
@@ -41,7 +41,7 @@ protected:
     }
     bool fits(MeshOf<D> &mesh) {
         int fits = -1;
-        EXPECT_EQ(abacus_domain_fits(mesh.host.table(), &mesh.header, &fits, &mesh.error),
+        EXPECT_EQ(abacus_domain_fits(mesh.host.table(), &mesh.header.facts, &fits, &mesh.error),
                   ABACUS_OK);
         return fits == 1;
     }
@@ -80,7 +80,7 @@ TYPED_TEST(OtherDomain, ForManyPointsOutside) {
                 }
                 model.insert(points);
                 ASSERT_EQ(mesh.insert(points, memory), ABACUS_OK) << mesh.error.detail;
-                EXPECT_EQ(mesh.header.outside, 0u);
+                EXPECT_EQ(mesh.header.facts.census.outside, 0u);
                 ASSERT_NO_FATAL_FAILURE(model.expect(mesh));
             }
         }
@@ -97,7 +97,7 @@ TYPED_TEST(OtherDomain, OneByOneFromNothing) {
     }
     model.expect(mesh);
     EXPECT_GE(this->edge(mesh), 0.9);
-    EXPECT_LE(mesh.header.outside, 110u);
+    EXPECT_LE(mesh.header.facts.census.outside, 110u);
 }
 
 TYPED_TEST(OtherDomain, AsFewPagesAsOfAFreshMesh) {
@@ -123,12 +123,12 @@ TYPED_TEST(OtherDomain, NotForAFewFarAway) {
     points = this->fresh(20, 1e9, 1e9);
     model.insert(points);
     ASSERT_EQ(mesh.insert(points), ABACUS_OK);
-    EXPECT_EQ(mesh.header.outside, 20u);
+    EXPECT_EQ(mesh.header.facts.census.outside, 20u);
     EXPECT_EQ(this->domain(mesh).upper(), before.upper());
     int done = 1;
     ASSERT_EQ(this->rekey(mesh, done), ABACUS_OK);
     EXPECT_EQ(done, 0);
-    EXPECT_EQ(mesh.header.outside, 20u);
+    EXPECT_EQ(mesh.header.facts.census.outside, 20u);
     model.expect(mesh);
 }
 
@@ -142,11 +142,11 @@ TYPED_TEST(OtherDomain, WithPointsThatWait) {
     points = this->fresh(600, -3, 5);
     model.stage(points);
     ASSERT_EQ(mesh.stage(points), ABACUS_OK);
-    EXPECT_GT(mesh.header.outside, 300u);
+    EXPECT_GT(mesh.header.facts.census.outside, 300u);
     int done = 0;
     ASSERT_EQ(this->rekey(mesh, done), ABACUS_OK);
     EXPECT_EQ(done, 1);
-    EXPECT_EQ(mesh.header.staged - mesh.header.inserted, 600u);
+    EXPECT_EQ(mesh.header.facts.census.staged - mesh.header.facts.census.inserted, 600u);
     EXPECT_GE(this->edge(mesh), 5);
     model.expect(mesh);
     ASSERT_EQ(this->rekey(mesh, done), ABACUS_OK);
@@ -165,7 +165,7 @@ TYPED_TEST(OtherDomain, WhereAllPointsLieOnALine) {
         for (auto &p : points) p.point.fill(p.point[0]);
         model.insert(points);
         ASSERT_EQ(mesh.insert(points), ABACUS_OK);
-        EXPECT_EQ(mesh.header.vertices, 0u);
+        EXPECT_EQ(mesh.header.facts.census.vertices, 0u);
         EXPECT_GE(this->edge(mesh), 0.9 * edge);
     }
     const auto points = this->fresh(300, 0, 1e6);
@@ -221,12 +221,12 @@ TYPED_TEST(OtherDomain, OfALargeMeshNotForAFewPoints) {
     const Domain<D> before = this->domain(mesh);
     for (int i = 0; i < 26; ++i) ASSERT_EQ(mesh.insert(this->fresh(500, 1.3, 2)), ABACUS_OK);
     EXPECT_EQ(this->domain(mesh).upper(), before.upper());
-    EXPECT_GT(mesh.header.outside, 12000u);
+    EXPECT_GT(mesh.header.facts.census.outside, 12000u);
     ASSERT_EQ(mesh.insert(this->fresh(2000, 1.3, 2)), ABACUS_OK);
-    EXPECT_EQ(mesh.header.outside, 0u);
+    EXPECT_EQ(mesh.header.facts.census.outside, 0u);
     EXPECT_GE(this->edge(mesh), 3);
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
-    EXPECT_EQ(mesh.header.vertices + mesh.header.duplicates, 90000u);
+    EXPECT_EQ(mesh.header.facts.census.vertices + mesh.header.facts.census.duplicates, 90000u);
 }
 
 // One garbage coordinate among many points: the domain is that of the others.
@@ -241,7 +241,7 @@ TYPED_TEST(OtherDomain, NotAroundOnePointFarAway) {
         model.insert(points);
         ASSERT_EQ(mesh.insert(points, std::size_t(1)), ABACUS_OK) << mesh.error.detail;
         EXPECT_LE(this->edge(mesh), 3000);
-        EXPECT_EQ(mesh.header.outside, 0u);
+        EXPECT_EQ(mesh.header.facts.census.outside, 0u);
         EXPECT_EQ(this->crowded(mesh), 0u);
         EXPECT_LE(double(mesh.host.pages.size()), 1.1 * double(plain.host.pages.size()) + 2);
         EXPECT_TRUE(this->fits(mesh));
@@ -275,8 +275,9 @@ TYPED_TEST(OtherDomain, OnDemandWhereItHasNeverFitted) {
     constexpr int D = TypeParam::value;
     MeshOf<D> mesh(1);
     PointModel<D> model;
-    mesh.header.has_domain = 1;
-    for (int i = 0; i < D; ++i) mesh.header.lower[i] = -1e30, mesh.header.upper[i] = 1e30;
+    mesh.header.facts.form.has_domain = 1;
+    for (int i = 0; i < D; ++i)
+        mesh.header.facts.form.lower[i] = -1e30, mesh.header.facts.form.upper[i] = 1e30;
     auto points = this->fresh(3000, 0, 1);
     points.push_back(this->at(1e29));
     model.insert(points);
@@ -314,7 +315,7 @@ TYPED_TEST(OtherDomain, NotWhereNoneIsBetter) {
     int done = 1;
     ASSERT_EQ(this->rekey(mesh, done), ABACUS_OK);
     EXPECT_EQ(done, 0);
-    EXPECT_EQ(mesh.header.outside, 0u);
+    EXPECT_EQ(mesh.header.facts.census.outside, 0u);
     EXPECT_EQ(this->domain(mesh).upper(), before.upper());
     EXPECT_TRUE(this->fits(mesh));
     const std::uint64_t found = mesh.host.calls.find, spools = mesh.host.calls.spool_create;

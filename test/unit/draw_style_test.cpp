@@ -280,7 +280,7 @@ TEST(Captions, CountInRoundSteps) {
 
 Image window_of(MeshOf<2> &mesh, const abacus_drawing &drawing) {
     abacus_picture picture{};
-    EXPECT_EQ(abacus_draw(mesh.host.table(), &mesh.header, &drawing, &picture, &mesh.error),
+    EXPECT_EQ(abacus_draw(mesh.host.table(), &mesh.header.facts, &drawing, &picture, &mesh.error),
               ABACUS_OK)
         << mesh.error.message;
     const Image image = decode(picture.png, picture.size);

@@ -337,7 +337,7 @@ TEST_F(Draw, LeavesOutLongTriangles) {
     abacus_error error{};
     ASSERT_EQ(stage<2>(memory, header, with_ids<2>(corners), ample, error), ABACUS_OK);
     abacus_build *build = nullptr;
-    ASSERT_EQ(abacus_build_open(memory.table(), &header, ample, &build, &error), ABACUS_OK);
+    ASSERT_EQ(abacus_build_open(memory.table(), &header.facts, ample, &build, &error), ABACUS_OK);
     ASSERT_EQ(abacus_build_run(build, 0, &header, &error), ABACUS_OK);
     abacus_build_close(build);
     for (const double max_edge : {0.0, 3.0}) {
@@ -346,7 +346,8 @@ TEST_F(Draw, LeavesOutLongTriangles) {
         drawing.attribute = -1;
         drawing.max_edge = max_edge;
         abacus_picture picture{};
-        ASSERT_EQ(abacus_draw(memory.table(), &header, &drawing, &picture, &error), ABACUS_OK);
+        ASSERT_EQ(abacus_draw(memory.table(), &header.facts, &drawing, &picture, &error),
+                  ABACUS_OK);
         const Image image = decode(picture.png, picture.size);
         host.release(picture.png);
         EXPECT_EQ(picture.is_blank, 0);
@@ -364,12 +365,13 @@ TEST_F(Draw, HasInAWindowWhatIsThereInALargerOne) {
     abacus_error error{};
     ASSERT_EQ(stage<2>(memory, header, input, ample, error), ABACUS_OK);
     abacus_build *build = nullptr;
-    ASSERT_EQ(abacus_build_open(memory.table(), &header, ample, &build, &error), ABACUS_OK);
+    ASSERT_EQ(abacus_build_open(memory.table(), &header.facts, ample, &build, &error), ABACUS_OK);
     ASSERT_EQ(abacus_build_run(build, 0, &header, &error), ABACUS_OK);
     abacus_build_close(build);
     const auto shown = [&](const abacus_drawing &drawing, bool &is_blank) {
         abacus_picture picture{};
-        EXPECT_EQ(abacus_draw(memory.table(), &header, &drawing, &picture, &error), ABACUS_OK);
+        EXPECT_EQ(abacus_draw(memory.table(), &header.facts, &drawing, &picture, &error),
+                  ABACUS_OK);
         const Image image = decode(picture.png, picture.size);
         host.release(picture.png);
         is_blank = picture.is_blank != 0;

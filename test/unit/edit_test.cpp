@@ -176,14 +176,14 @@ TYPED_TEST(Edit, CollapsesAndGrowsAgain) {
     }
     model.insert(flat);
     ASSERT_EQ(mesh.insert(flat), ABACUS_OK);
-    EXPECT_EQ(mesh.header.vertices, 0u);
+    EXPECT_EQ(mesh.header.facts.census.vertices, 0u);
     Point<D> apex{};
     apex[D - 1] = 77;
     for (int round = 0; round < 3; ++round) {
         const std::vector<InputOf<D>> beside = {{this->next_id++, apex, {1.}}};
         model.insert(beside);
         ASSERT_EQ(mesh.insert(beside), ABACUS_OK);
-        EXPECT_GT(mesh.header.vertices, 0u);
+        EXPECT_GT(mesh.header.facts.census.vertices, 0u);
         model.expect(mesh);
         // Alone, then with some of the others, before and after it in the order.
         auto gone = beside;
@@ -195,7 +195,7 @@ TYPED_TEST(Edit, CollapsesAndGrowsAgain) {
         const std::uint64_t expected = model.remove(gone);
         ASSERT_EQ(mesh.remove(gone, deleted), ABACUS_OK) << mesh.error.detail;
         EXPECT_EQ(deleted, expected);
-        EXPECT_EQ(mesh.header.vertices, 0u);
+        EXPECT_EQ(mesh.header.facts.census.vertices, 0u);
         EXPECT_TRUE(mesh.host.pages.empty());
         model.expect(mesh);
     }
@@ -228,8 +228,8 @@ TYPED_TEST(Edit, ExactlyTakesNoOtherPointOfThePlace) {
     EXPECT_EQ(taken(like(alone, alone.id, 0)), 0u);
     EXPECT_EQ(taken(like(first, -1, first.attributes[0])), 0u);
     EXPECT_EQ(taken(like(first, 1001, 0)), 0u);
-    EXPECT_EQ(mesh.header.vertices, 50u);
-    EXPECT_EQ(mesh.header.duplicates, 3u);
+    EXPECT_EQ(mesh.header.facts.census.vertices, 50u);
+    EXPECT_EQ(mesh.header.facts.census.duplicates, 3u);
     EXPECT_EQ(taken(alone), 1u);
     EXPECT_EQ(taken(twin), 1u);
     EXPECT_EQ(taken(twin), 0u);
@@ -237,7 +237,7 @@ TYPED_TEST(Edit, ExactlyTakesNoOtherPointOfThePlace) {
     EXPECT_EQ(taken(first), 0u);
     EXPECT_EQ(taken(like(none, 1001, -NAN)), 1u);
     EXPECT_EQ(taken(like(zero, 1000, 0.0)), 1u);
-    EXPECT_EQ(mesh.header.vertices, 48u);
+    EXPECT_EQ(mesh.header.facts.census.vertices, 48u);
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
 }
 
@@ -249,14 +249,16 @@ TYPED_TEST(Edit, TakesWaitingPointsOfOnePlaceInLinearTime) {
     std::vector<InputOf<D>> points(n), others;
     for (int i = 0; i < n; ++i) points[i].id = i;
     ASSERT_EQ(mesh.insert(points), ABACUS_OK);
-    ASSERT_EQ(mesh.header.staged - mesh.header.inserted, std::uint64_t(n));
+    ASSERT_EQ(mesh.header.facts.census.staged - mesh.header.facts.census.inserted,
+              std::uint64_t(n));
     for (int i = 0; i < n / 2; ++i) others.push_back({i % 2 ? i : -i, {}});
     std::uint64_t deleted;
     ASSERT_EQ(mesh.remove(others, deleted, 16 << 20, true), ABACUS_OK);
     EXPECT_EQ(deleted, n / 4 + 1); // 0 as well
     ASSERT_EQ(mesh.remove(others, deleted), ABACUS_OK);
     EXPECT_EQ(deleted, n / 2);
-    EXPECT_EQ(mesh.header.staged - mesh.header.inserted, n - deleted - n / 4 - 1);
+    EXPECT_EQ(mesh.header.facts.census.staged - mesh.header.facts.census.inserted,
+              n - deleted - n / 4 - 1);
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
 }
 
@@ -286,7 +288,7 @@ TYPED_TEST(Edit, RefusesDamagedRepeatedPoints) {
         mesh.host.repeated_pages.insert(std::move(second));
     });
     // There are more than there should be.
-    expect_refused([](MeshOf<D> &mesh) { mesh.header.duplicates = 7; });
+    expect_refused([](MeshOf<D> &mesh) { mesh.header.facts.census.duplicates = 7; });
 }
 
 TYPED_TEST(Edit, ClearsAllPages) {

@@ -73,7 +73,7 @@ public:
     }
     abacus_status run(const std::vector<std::uint64_t> &rows, std::size_t count) {
         abacus_marking *marking = nullptr;
-        abacus_status status = abacus_marking_open(mesh.host.table(), &mesh.header, 1 << 16,
+        abacus_status status = abacus_marking_open(mesh.host.table(), &mesh.header.facts, 1 << 16,
                                                    1 << 20, &marking, &mesh.error);
         if (status == ABACUS_OK)
             status = abacus_marking_add(marking, rows.data(), count, &mesh.error);
@@ -85,8 +85,8 @@ public:
     std::map<Facet, double> facets(double marker = std::nan("")) {
         std::map<Facet, double> result;
         abacus_facets *facets = nullptr;
-        EXPECT_EQ(abacus_facets_open(mesh.host.table(), &mesh.header, marker, 1 << 16, 1 << 20,
-                                     &facets, &mesh.error),
+        EXPECT_EQ(abacus_facets_open(mesh.host.table(), &mesh.header.facts, marker, 1 << 16,
+                                     1 << 20, &facets, &mesh.error),
                   ABACUS_OK);
         abacus_facet facet;
         double last = -std::numeric_limits<double>::infinity();
@@ -187,7 +187,7 @@ TYPED_TEST(Markers, AreGivenAndTakenAway) {
         for (unsigned seed = 10; seed < 60; ++seed) mesh.mark(1, seed, true);
         mesh.expect_known();
         EXPECT_EQ(mesh.count(), 0u);
-        EXPECT_EQ(mesh.mesh.header.marked, 0u);
+        EXPECT_EQ(mesh.mesh.header.facts.census.marked, 0u);
         EXPECT_TRUE(mesh.mesh.host.attribute_pages.empty());
         if (testing::Test::HasFailure()) return;
     }
@@ -258,9 +258,9 @@ TYPED_TEST(Markers, FollowToAnotherDomain) {
     MarkedMesh<D> mesh;
     mesh.load(uniform<D>(2000));
     mesh.mark(2, 1);
-    const double before = mesh.mesh.header.upper[0];
+    const double before = mesh.mesh.header.facts.form.upper[0];
     ASSERT_EQ(mesh.mesh.insert(points_in<D>(4000, 100, 100000)), ABACUS_OK);
-    EXPECT_GT(mesh.mesh.header.upper[0], before);
+    EXPECT_GT(mesh.mesh.header.facts.form.upper[0], before);
     mesh.expect_followed();
     EXPECT_GT(mesh.count(), 500u);
 }
@@ -275,7 +275,7 @@ TYPED_TEST(Markers, OfAMeshThatIsTakenAway) {
     ASSERT_EQ(mesh.mesh.remove({t.vertices.begin(), t.vertices.end() - 100}, deleted), ABACUS_OK);
     mesh.expect_followed();
     ASSERT_EQ(mesh.mesh.remove({t.vertices.end() - 100, t.vertices.end()}, deleted), ABACUS_OK);
-    EXPECT_EQ(mesh.mesh.header.marked, 0u);
+    EXPECT_EQ(mesh.mesh.header.facts.census.marked, 0u);
     EXPECT_TRUE(mesh.mesh.host.attribute_pages.empty());
 }
 
@@ -314,7 +314,7 @@ TYPED_TEST(Markers, ThatDifferOnTwoSidesAreAFault) {
     ASSERT_GT(pages.size(), 2u);
     const auto sound = pages;
     const Host host = mesh.mesh.host.host();
-    const auto domain = domain_of<D>(mesh.mesh.header);
+    const auto domain = domain_of<D>(mesh.mesh.header.facts.form);
     AttributePages<D, D + 1> markers(host, domain, D + 1, marker_group);
     // One side of a facet becomes another one.
     AttributeScan<D, D + 1> scan(host, domain, D + 1, marker_group);

@@ -36,14 +36,15 @@ abacus_status draw(Mesh &mesh) {
     drawing.exaggeration = 1;
     abacus_picture picture{};
     const abacus_status status =
-        abacus_draw(mesh.host.table(), &mesh.header, &drawing, &picture, &mesh.error);
+        abacus_draw(mesh.host.table(), &mesh.header.facts, &drawing, &picture, &mesh.error);
     if (status == ABACUS_OK) mesh.host.host().release(picture.png);
     return status;
 }
 
 abacus_status scan(Mesh &mesh) {
     abacus_scan *scan = nullptr;
-    abacus_status status = abacus_scan_open(mesh.host.table(), &mesh.header, 1, &scan, &mesh.error);
+    abacus_status status =
+        abacus_scan_open(mesh.host.table(), &mesh.header.facts, 1, &scan, &mesh.error);
     if (status != ABACUS_OK) return status;
     abacus_simplex s;
     while ((status = abacus_scan_next(scan, &s, &mesh.error)) == ABACUS_OK) {
@@ -54,7 +55,7 @@ abacus_status scan(Mesh &mesh) {
 
 abacus_status vertex_scan(Mesh &mesh) {
     abacus_vertex_scan *scan = nullptr;
-    abacus_status status = abacus_vertex_scan_open(mesh.host.table(), &mesh.header,
+    abacus_status status = abacus_vertex_scan_open(mesh.host.table(), &mesh.header.facts,
                                                    mesh.cache_bytes, &scan, &mesh.error);
     if (status != ABACUS_OK) return status;
     abacus_vertex v;
@@ -66,7 +67,7 @@ abacus_status vertex_scan(Mesh &mesh) {
 
 abacus_status check(Mesh &mesh) {
     abacus_check *check = nullptr;
-    const abacus_status status = abacus_check_open(mesh.host.table(), &mesh.header,
+    const abacus_status status = abacus_check_open(mesh.host.table(), &mesh.header.facts,
                                                    mesh.cache_bytes, 10, &check, &mesh.error);
     if (status != ABACUS_OK) return status;
     abacus_fault fault;
@@ -78,8 +79,8 @@ abacus_status check(Mesh &mesh) {
 /// Locates and walks along a line through the whole mesh.
 abacus_status read(Mesh &mesh) {
     abacus_mesh *handle = nullptr;
-    abacus_status status =
-        abacus_mesh_open(mesh.host.table(), &mesh.header, mesh.cache_bytes, &handle, &mesh.error);
+    abacus_status status = abacus_mesh_open(mesh.host.table(), &mesh.header.facts, mesh.cache_bytes,
+                                            &handle, &mesh.error);
     if (status != ABACUS_OK) return status;
     for (int i = 0; i < 40; ++i) {
         const double p[] = {0.1 + i * 0.02, 0.9 - i * 0.02};

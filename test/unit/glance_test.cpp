@@ -89,7 +89,7 @@ TYPED_TEST(Glance, IsNotMisledByAnotherPage) {
     abacus_host table = *sound_host;
     table.fetch = fetch_another;
     abacus_mesh *handle = nullptr;
-    ASSERT_EQ(abacus_mesh_open(&table, &mesh.header, mesh.tenth(), &handle, &mesh.error),
+    ASSERT_EQ(abacus_mesh_open(&table, &mesh.header.facts, mesh.tenth(), &handle, &mesh.error),
               ABACUS_OK);
     OpenMeshOf<D> other(mesh, ample);
     for (int round = 0; round < 2000; ++round) {

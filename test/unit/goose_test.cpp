@@ -19,10 +19,10 @@ namespace {
 template <int D> struct GooseRun {
     abacus_status operator()(const std::vector<Point<D>> &points, std::size_t memory = 1 << 20) {
         return mesh.with_stage(number<D>(points), memory, [&](abacus_stage *stage) {
-            const abacus_status ended = abacus_stage_end(stage, &mesh.header, &mesh.error);
+            const abacus_status ended = abacus_stage_end(stage, &mesh.header.facts, &mesh.error);
             if (ended != ABACUS_OK) return ended;
-            return abacus_goose_run(mesh.host.table(), tree.table(), stage, &mesh.header, &figures,
-                                    &mesh.error);
+            return abacus_goose_run(mesh.host.table(), tree.table(), stage, &mesh.header.facts,
+                                    &figures, &mesh.error);
         });
     }
 
@@ -62,8 +62,8 @@ template <int D> void expect_triangulation(const std::vector<Point<D>> &points) 
 
     MeshOf<D> abacus;
     ASSERT_EQ(abacus.insert(number<D>(points)), ABACUS_OK);
-    EXPECT_EQ(abacus.header.vertices, figures.vertices);
-    EXPECT_EQ(abacus.header.ghosts, figures.ghosts);
+    EXPECT_EQ(abacus.header.facts.census.vertices, figures.vertices);
+    EXPECT_EQ(abacus.header.facts.census.ghosts, figures.ghosts);
 }
 
 class GooseIn2D : public testing::TestWithParam<PointSet<2>> {};
@@ -163,10 +163,10 @@ abacus_boxed_simplex boxed(const Circumboxes<D> &boxes, const std::vector<Point<
 
 template <int D> abacus_header domain(double lower, double upper) {
     abacus_header header{};
-    header.dimension = D;
-    header.has_domain = 1;
-    std::fill_n(header.lower, D, lower);
-    std::fill_n(header.upper, D, upper);
+    header.facts.form.dimension = D;
+    header.facts.form.has_domain = 1;
+    std::fill_n(header.facts.form.lower, D, lower);
+    std::fill_n(header.facts.form.upper, D, upper);
     return header;
 }
 
@@ -278,8 +278,8 @@ template <int D> void expect_conflicts_in_boxes() {
         if (turn == 0) continue;
         if (turn < 0) std::swap(points[0], points[1]);
         abacus_header header = domain<D>(0, 0);
-        std::copy_n(box.lower.begin(), D, header.lower);
-        std::copy_n(box.upper.begin(), D, header.upper);
+        std::copy_n(box.lower.begin(), D, header.facts.form.lower);
+        std::copy_n(box.upper.begin(), D, header.facts.form.upper);
         const Circumboxes<D> boxes(header);
         const auto finite = boxed<D>(boxes, {points.begin(), points.begin() + D + 1});
         const auto ghost = boxed<D>(boxes, {points.begin(), points.begin() + D});

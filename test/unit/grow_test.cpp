@@ -79,10 +79,10 @@ TYPED_TEST(Grow, MorePointsThanMemoryHoldsAreOneRound) {
         ASSERT_EQ(mesh.insert(this->part(points, 0, many)), ABACUS_OK);
         ASSERT_EQ(mesh.stage(more, memory), ABACUS_OK);
         EXPECT_EQ(mesh.host.calls.spool_create > 0, memory == scarce);
-        ASSERT_EQ(mesh.header.staged, many);
+        ASSERT_EQ(mesh.header.facts.census.staged, many);
         const Host host = mesh.host.host();
         VertexReader<D> waiting(host, 0, 0, many);
-        const Domain<D> domain = domain_of<D>(mesh.header);
+        const Domain<D> domain = domain_of<D>(mesh.header.facts.form);
         std::vector<std::uint64_t> codes;
         std::set<std::int64_t> ids;
         while (waiting.advance()) {
@@ -142,9 +142,9 @@ TYPED_TEST(Grow, ExchangedPointsCutFewPages) {
 TYPED_TEST(Grow, OnlyAMeshWhereThePointsAreStandsIn) {
     constexpr int D = TypeParam::value;
     MeshOf<D> mesh;
-    mesh.header.has_domain = 1;
-    mesh.header.upper[0] = 2;
-    for (int i = 1; i < D; ++i) mesh.header.upper[i] = 1;
+    mesh.header.facts.form.has_domain = 1;
+    mesh.header.facts.form.upper[0] = 2;
+    for (int i = 1; i < D; ++i) mesh.header.facts.form.upper[i] = 1;
     ASSERT_EQ(mesh.insert(this->uniform(TestFixture::many, 3)), ABACUS_OK);
     Point<D> lower{}, upper;
     upper.fill(1);

@@ -14,22 +14,22 @@ namespace {
 
 abacus_header full_header(unsigned attributes) {
     abacus_header header{};
-    header.dimension = 3;
-    header.attributes = attributes;
-    header.has_domain = 1;
+    header.facts.form.dimension = 3;
+    header.facts.columns.attributes = attributes;
+    header.facts.form.has_domain = 1;
     for (int i = 0; i < ABACUS_MAX_DIMENSION; ++i) {
-        header.lower[i] = -1.7e308 / (i + 1);
-        header.upper[i] = 5e-324 * i;
+        header.facts.form.lower[i] = -1.7e308 / (i + 1);
+        header.facts.form.upper[i] = 5e-324 * i;
     }
     header.stamp = UINT64_MAX;
-    header.outside = 7;
-    header.staged = 1000;
-    header.inserted = 900;
-    header.vertices = 800;
-    header.duplicates = 100;
-    header.serials = 110;
-    header.simplices = 4000;
-    header.ghosts = 90;
+    header.facts.census.outside = 7;
+    header.facts.census.staged = 1000;
+    header.facts.census.inserted = 900;
+    header.facts.census.vertices = 800;
+    header.facts.census.duplicates = 100;
+    header.facts.census.serials = 110;
+    header.facts.census.simplices = 4000;
+    header.facts.census.ghosts = 90;
     header.counters.insertions = 1;
     header.counters.removals = 2;
     header.counters.peak_bytes = UINT64_MAX;
@@ -70,8 +70,8 @@ TEST(Header, ComesBackAsItWas) {
         std::memset(static_cast<void *>(&decoded), 0xff, sizeof decoded);
         ASSERT_TRUE(decodes(bytes, &decoded));
         EXPECT_EQ(encode(decoded), bytes);
-        EXPECT_EQ(decoded.lower[2], header.lower[2]);
-        EXPECT_EQ(decoded.simplices, header.simplices);
+        EXPECT_EQ(decoded.facts.form.lower[2], header.facts.form.lower[2]);
+        EXPECT_EQ(decoded.facts.census.simplices, header.facts.census.simplices);
         EXPECT_EQ(decoded.counters.peak_bytes, UINT64_MAX);
         for (unsigned i = 0; i < attributes; ++i)
             EXPECT_EQ(decoded.names[i], "attribute " + std::to_string(i));
@@ -83,7 +83,7 @@ TEST(Header, KeepsTheSridBehindTheNames) {
         abacus_header header = full_header(attributes);
         const auto without = encode(header);
         for (const std::uint32_t srid : {1u, 4326u, unsigned{ABACUS_MAX_SRID}}) {
-            header.srid = srid;
+            header.facts.form.srid = srid;
             const auto bytes = encode(header);
             EXPECT_LE(bytes.size(), std::size_t{ABACUS_PAGE_BYTES});
             // A word more than a header has without one, which is as it always was.
@@ -91,7 +91,7 @@ TEST(Header, KeepsTheSridBehindTheNames) {
             EXPECT_TRUE(std::equal(without.begin(), without.end(), bytes.begin()));
             abacus_header decoded;
             ASSERT_TRUE(decodes(bytes, &decoded));
-            EXPECT_EQ(decoded.srid, srid);
+            EXPECT_EQ(decoded.facts.form.srid, srid);
             EXPECT_EQ(encode(decoded), bytes);
         }
     }
@@ -126,12 +126,12 @@ TEST(Header, OfLabelsAndMarkers) {
             for (const std::uint32_t srid : {0u, 4326u}) {
                 abacus_header header = full_header(attributes);
                 const auto without = encode(header);
-                header.labels = labels;
-                header.labelled = labels == 0 ? 0 : 4000;
-                header.marked = labels == 0 ? 1 : 0;
-                header.inherits = labels > 1;
-                header.apart = attributes > 4;
-                header.srid = srid;
+                header.facts.columns.labels = labels;
+                header.facts.census.labelled = labels == 0 ? 0 : 4000;
+                header.facts.census.marked = labels == 0 ? 1 : 0;
+                header.facts.columns.inherits = labels > 1;
+                header.facts.columns.apart = attributes > 4;
+                header.facts.form.srid = srid;
                 for (unsigned i = 0; i < labels; ++i)
                     std::strcpy(header.names[attributes + i],
                                 ("label " + std::to_string(i)).c_str());
@@ -142,21 +142,21 @@ TEST(Header, OfLabelsAndMarkers) {
                 std::memset(static_cast<void *>(&decoded), 0xff, sizeof decoded);
                 ASSERT_TRUE(decodes(bytes, &decoded));
                 EXPECT_EQ(encode(decoded), bytes);
-                EXPECT_EQ(decoded.apart, header.apart);
-                EXPECT_EQ(decoded.srid, srid);
-                EXPECT_EQ(decoded.labels, labels);
-                EXPECT_EQ(decoded.labelled, header.labelled);
-                EXPECT_EQ(decoded.marked, header.marked);
-                EXPECT_EQ(decoded.inherits, header.inherits);
+                EXPECT_EQ(decoded.facts.columns.apart, header.facts.columns.apart);
+                EXPECT_EQ(decoded.facts.form.srid, srid);
+                EXPECT_EQ(decoded.facts.columns.labels, labels);
+                EXPECT_EQ(decoded.facts.census.labelled, header.facts.census.labelled);
+                EXPECT_EQ(decoded.facts.census.marked, header.facts.census.marked);
+                EXPECT_EQ(decoded.facts.columns.inherits, header.facts.columns.inherits);
                 if (labels > 0) {
                     EXPECT_STREQ(decoded.names[attributes], "label 0");
                 }
                 // Without them it is as it always was.
-                header.labels = 0;
-                header.labelled = header.marked = 0;
-                header.inherits = 0;
-                header.apart = 0;
-                header.srid = 0;
+                header.facts.columns.labels = 0;
+                header.facts.census.labelled = header.facts.census.marked = 0;
+                header.facts.columns.inherits = 0;
+                header.facts.columns.apart = 0;
+                header.facts.form.srid = 0;
                 EXPECT_EQ(encode(header), without);
             }
 }
@@ -164,7 +164,7 @@ TEST(Header, OfLabelsAndMarkers) {
 /// The header and the rows of names beside it.
 std::vector<std::vector<unsigned char>> encode_rows(const abacus_header &header) {
     std::vector<std::vector<unsigned char>> rows{encode(header)};
-    for (std::uint32_t row = 0; row < abacus_header_name_rows(&header); ++row) {
+    for (std::uint32_t row = 0; row < abacus_header_name_rows(&header.facts.columns); ++row) {
         auto &bytes = rows.emplace_back(ABACUS_PAGE_BYTES);
         bytes.resize(abacus_header_encode_names(&header, row, bytes.data()));
     }
@@ -173,7 +173,7 @@ std::vector<std::vector<unsigned char>> encode_rows(const abacus_header &header)
 
 bool decodes_rows(const std::vector<std::vector<unsigned char>> &rows, abacus_header &header) {
     if (!decodes(rows[0], &header)) return false;
-    EXPECT_EQ(abacus_header_name_rows(&header), rows.size() - 1);
+    EXPECT_EQ(abacus_header_name_rows(&header.facts.columns), rows.size() - 1);
     for (std::uint32_t row = 0; row + 1 < rows.size(); ++row) {
         abacus_error error{};
         const std::vector<unsigned char> copy(rows[row + 1]);
@@ -187,8 +187,8 @@ bool decodes_rows(const std::vector<std::vector<unsigned char>> &rows, abacus_he
 
 abacus_header wide_header(unsigned attributes, unsigned labels) {
     abacus_header header = full_header(attributes);
-    header.apart = 1;
-    header.labels = labels;
+    header.facts.columns.apart = 1;
+    header.facts.columns.labels = labels;
     for (unsigned i = 0; i < labels; ++i)
         std::strcpy(header.names[attributes + i], ("label " + std::to_string(i)).c_str());
     return header;
@@ -205,7 +205,7 @@ TEST(Header, OfManyNames) {
           Case{ABACUS_MAX_ATTRIBUTES, ABACUS_MAX_LABELS, 9}})
         for (const std::uint32_t srid : {0u, 4326u}) {
             abacus_header header = wide_header(attributes, labels);
-            header.srid = srid;
+            header.facts.form.srid = srid;
             const auto bytes = encode_rows(header);
             ASSERT_EQ(bytes.size(), rows + 1);
             EXPECT_EQ(bytes[0][6], rows > 0 ? 6 : 5);
@@ -213,9 +213,9 @@ TEST(Header, OfManyNames) {
             std::memset(static_cast<void *>(&decoded), 0xff, sizeof decoded);
             ASSERT_TRUE(decodes_rows(bytes, decoded));
             EXPECT_EQ(encode_rows(decoded), bytes);
-            EXPECT_EQ(decoded.srid, srid);
-            EXPECT_EQ(decoded.apart, 1u);
-            EXPECT_EQ(decoded.labels, labels);
+            EXPECT_EQ(decoded.facts.form.srid, srid);
+            EXPECT_EQ(decoded.facts.columns.apart, 1u);
+            EXPECT_EQ(decoded.facts.columns.labels, labels);
             const std::string last = "attribute " + std::to_string(attributes - 1);
             EXPECT_EQ(decoded.names[attributes - 1], last);
         }
@@ -229,11 +229,11 @@ TEST(Header, WrongRowsOfNamesAreRefused) {
         return !decodes_rows(encode_rows(header), decoded);
     };
     EXPECT_FALSE(refuses(500, 2, [](abacus_header &) {}));
-    EXPECT_TRUE(refuses(500, 2, [](abacus_header &h) { h.apart = 0; }));
+    EXPECT_TRUE(refuses(500, 2, [](abacus_header &h) { h.facts.columns.apart = 0; }));
     EXPECT_TRUE(refuses(500, 2, [](abacus_header &h) { h.names[499][0] = 0; }));
     EXPECT_TRUE(refuses(500, 2, [](abacus_header &h) { h.names[501][0] = 0; }));
-    EXPECT_TRUE(refuses(500, 0, [](abacus_header &h) { h.labelled = 1; }));
-    EXPECT_TRUE(refuses(500, 2, [](abacus_header &h) { h.srid = ABACUS_MAX_SRID + 1; }));
+    EXPECT_TRUE(refuses(500, 0, [](abacus_header &h) { h.facts.census.labelled = 1; }));
+    EXPECT_TRUE(refuses(500, 2, [](abacus_header &h) { h.facts.form.srid = ABACUS_MAX_SRID + 1; }));
     const auto rows = encode_rows(wide_header(500, 2));
     for (std::size_t row = 0; row < rows.size(); ++row) {
         auto changed = rows;
@@ -260,8 +260,8 @@ TEST(Header, WrongRowsOfNamesAreRefused) {
 
 TEST(Header, WrongCountsOfLabelsAreRefused) {
     abacus_header header = full_header(5);
-    header.labels = 2;
-    header.labelled = 17;
+    header.facts.columns.labels = 2;
+    header.facts.census.labelled = 17;
     std::strcpy(header.names[5], "material");
     std::strcpy(header.names[6], "age");
     const auto accepts = [&](auto change) {
@@ -270,14 +270,17 @@ TEST(Header, WrongCountsOfLabelsAreRefused) {
         return decodes(encode(changed));
     };
     EXPECT_TRUE(accepts([](abacus_header &) {}));
-    EXPECT_TRUE(accepts([](abacus_header &h) { h.labelled = h.simplices; }));
-    EXPECT_FALSE(accepts([](abacus_header &h) { h.labelled = UINT64_MAX; }));
-    EXPECT_FALSE(accepts([](abacus_header &h) { h.apart = 2; }));
-    EXPECT_FALSE(accepts([](abacus_header &h) { h.srid = ABACUS_MAX_SRID + 1; }));
-    EXPECT_FALSE(accepts([](abacus_header &h) { h.marked = UINT64_MAX; }));
+    EXPECT_TRUE(
+        accepts([](abacus_header &h) { h.facts.census.labelled = h.facts.census.simplices; }));
+    EXPECT_FALSE(accepts([](abacus_header &h) { h.facts.census.labelled = UINT64_MAX; }));
+    EXPECT_FALSE(accepts([](abacus_header &h) { h.facts.columns.apart = 2; }));
+    EXPECT_FALSE(accepts([](abacus_header &h) { h.facts.form.srid = ABACUS_MAX_SRID + 1; }));
+    EXPECT_FALSE(accepts([](abacus_header &h) { h.facts.census.marked = UINT64_MAX; }));
     EXPECT_FALSE(accepts([](abacus_header &h) { h.names[6][0] = 0; }));
-    EXPECT_FALSE(accepts([](abacus_header &h) { h.labels = 0, h.marked = 1; }));
-    EXPECT_FALSE(accepts([](abacus_header &h) { h.attributes = 0, h.apart = 1; }));
+    EXPECT_FALSE(
+        accepts([](abacus_header &h) { h.facts.columns.labels = 0, h.facts.census.marked = 1; }));
+    EXPECT_FALSE(accepts(
+        [](abacus_header &h) { h.facts.columns.attributes = 0, h.facts.columns.apart = 1; }));
     const auto bytes = encode(header);
     for (std::size_t cut = 1; cut <= 2 * ABACUS_NAME_BYTES + 40; ++cut) {
         auto shorter = bytes;
@@ -291,14 +294,15 @@ TEST(Header, WrongCountsOfLabelsAreRefused) {
 
 TEST(Header, OfAnEmptyMesh) {
     abacus_header header{};
-    header.dimension = 2;
+    header.facts.form.dimension = 2;
     EXPECT_TRUE(decodes(encode(header)));
     // Bounds that do not count are not kept.
-    header.lower[0] = header.upper[2] = std::numeric_limits<double>::quiet_NaN();
+    header.facts.form.lower[0] = header.facts.form.upper[2] =
+        std::numeric_limits<double>::quiet_NaN();
     abacus_header decoded;
     ASSERT_TRUE(decodes(encode(header), &decoded));
-    EXPECT_EQ(decoded.lower[0], 0);
-    EXPECT_EQ(decoded.upper[2], 0);
+    EXPECT_EQ(decoded.facts.form.lower[0], 0);
+    EXPECT_EQ(decoded.facts.form.upper[2], 0);
 }
 
 TEST(Header, OfAMeshFromBeforeThreadsWereCounted) {
@@ -322,23 +326,23 @@ TEST(Header, OfAMeshFromBeforeThreadsWereCounted) {
 
 TEST(Header, OfAnOctreeComesBackAsItWas) {
     abacus_header header{};
-    header.type = ABACUS_OCTREE;
-    header.dimension = 3;
-    header.attributes = 2;
-    header.levels = 21;
-    header.leaves = 15;
+    header.facts.form.type = ABACUS_OCTREE;
+    header.facts.form.dimension = 3;
+    header.facts.columns.attributes = 2;
+    header.facts.form.levels = 21;
+    header.facts.census.leaves = 15;
     header.stamp = UINT64_MAX;
     header.counters.peak_bytes = 12345;
-    for (int i = 0; i < 3; ++i) header.upper[i] = i + 1;
+    for (int i = 0; i < 3; ++i) header.facts.form.upper[i] = i + 1;
     std::strcpy(header.names[0], "vs");
     std::strcpy(header.names[1], "vp");
     const auto bytes = encode(header);
     abacus_header decoded;
     ASSERT_TRUE(decodes(bytes, &decoded));
     EXPECT_EQ(encode(decoded), bytes);
-    EXPECT_EQ(decoded.type, unsigned{ABACUS_OCTREE});
-    EXPECT_EQ(decoded.leaves, 15u);
-    EXPECT_EQ(decoded.upper[2], 3);
+    EXPECT_EQ(decoded.facts.form.type, unsigned{ABACUS_OCTREE});
+    EXPECT_EQ(decoded.facts.census.leaves, 15u);
+    EXPECT_EQ(decoded.facts.form.upper[2], 3);
     EXPECT_STREQ(decoded.names[1], "vp");
 
     const auto refused = [&](auto change) {
@@ -346,11 +350,12 @@ TEST(Header, OfAnOctreeComesBackAsItWas) {
         change(changed);
         return !decodes(encode(changed));
     };
-    EXPECT_TRUE(refused([](abacus_header &h) { h.levels = 22; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.leaves = 0; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.upper[1] = h.lower[1]; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.lower[0] = -1e308, h.upper[0] = 1e308; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.dimension = 4; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.form.levels = 22; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.census.leaves = 0; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.form.upper[1] = h.facts.form.lower[1]; }));
+    EXPECT_TRUE(refused(
+        [](abacus_header &h) { h.facts.form.lower[0] = -1e308, h.facts.form.upper[0] = 1e308; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.form.dimension = 4; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.names[0][0] = 0; }));
     auto shorter = bytes;
     shorter.pop_back();
@@ -379,32 +384,32 @@ TEST(Header, AnotherFormatIsSaid) {
 TEST(Header, TheFormatTellsWhereAttributesAre) {
     for (const bool apart : {false, true}) {
         abacus_header header = full_header(2), decoded;
-        header.apart = apart;
+        header.facts.columns.apart = apart;
         const auto bytes = encode(header);
         EXPECT_EQ(bytes[6], apart ? 4 : 3);
         ASSERT_TRUE(decodes(bytes, &decoded));
-        EXPECT_EQ(decoded.apart, header.apart);
+        EXPECT_EQ(decoded.facts.columns.apart, header.facts.columns.apart);
     }
     abacus_header header = full_header(0);
-    header.apart = 1;
+    header.facts.columns.apart = 1;
     EXPECT_FALSE(decodes(encode(header)));
 }
 
 TEST(Header, OfVerticesThatShareTheirPlaces) {
     abacus_header header = full_header(2);
-    header.standing = ABACUS_NOT_CONVEX;
-    header.staged = header.inserted = header.vertices;
-    header.serials = header.duplicates = 0;
+    header.facts.standing = ABACUS_NOT_CONVEX;
+    header.facts.census.staged = header.facts.census.inserted = header.facts.census.vertices;
+    header.facts.census.serials = header.facts.census.duplicates = 0;
     EXPECT_EQ(encode(header)[6], 3);
-    header.split = 2;
+    header.facts.census.split = 2;
     for (const bool marked : {false, true}) {
-        header.marked = marked ? 3 : 0;
+        header.facts.census.marked = marked ? 3 : 0;
         const auto bytes = encode(header);
         EXPECT_EQ(bytes[6], 6);
         abacus_header decoded;
         ASSERT_TRUE(decodes(bytes, &decoded));
-        EXPECT_EQ(decoded.split, 2u);
-        EXPECT_EQ(decoded.marked, header.marked);
+        EXPECT_EQ(decoded.facts.census.split, 2u);
+        EXPECT_EQ(decoded.facts.census.marked, header.facts.census.marked);
         EXPECT_EQ(encode(decoded), bytes);
     }
     const auto refused = [&](auto change) {
@@ -413,21 +418,22 @@ TEST(Header, OfVerticesThatShareTheirPlaces) {
         return !decodes(encode(changed));
     };
     // With many names, too.
-    header.attributes = 100;
-    header.labels = 20;
+    header.facts.columns.attributes = 100;
+    header.facts.columns.labels = 20;
     for (unsigned i = 0; i < 120; ++i)
         std::strcpy(header.names[i], ("name " + std::to_string(i)).c_str());
     const auto rows = encode_rows(header);
     EXPECT_EQ(rows.size(), 2u);
     abacus_header decoded;
     ASSERT_TRUE(decodes_rows(rows, decoded));
-    EXPECT_EQ(decoded.split, 2u);
+    EXPECT_EQ(decoded.facts.census.split, 2u);
     EXPECT_EQ(encode_rows(decoded), rows);
-    EXPECT_TRUE(refused([](abacus_header &h) { h.attributes = 101; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.split = 1; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.split = h.vertices + 1; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.apart = 1; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.standing = ABACUS_DELAUNAY; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.columns.attributes = 101; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.census.split = 1; }));
+    EXPECT_TRUE(
+        refused([](abacus_header &h) { h.facts.census.split = h.facts.census.vertices + 1; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.columns.apart = 1; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.standing = ABACUS_DELAUNAY; }));
 }
 
 TEST(Header, EveryTruncationIsRefused) {
@@ -448,47 +454,51 @@ TEST(Header, ContradictionsAreRefused) {
         return !decodes(encode(header));
     };
     EXPECT_FALSE(refused([](abacus_header &) {}));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.dimension = 1; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.dimension = 4; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.has_domain = 2; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.has_domain = 0; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.upper[1] = -1.7e308; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.lower[1] = std::nan(""); }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.form.dimension = 1; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.form.dimension = 4; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.form.has_domain = 2; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.form.has_domain = 0; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.form.upper[1] = -1.7e308; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.form.lower[1] = std::nan(""); }));
+    EXPECT_TRUE(refused(
+        [](abacus_header &h) { h.facts.form.upper[0] = std::numeric_limits<double>::infinity(); }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.census.inserted = 1001; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.census.staged = std::uint64_t{1} << 62; }));
+    EXPECT_FALSE(refused([](abacus_header &h) {
+        h.facts.census.simplices = h.facts.census.ghosts = (std::uint64_t{1} << 62) - 1;
+    }));
     EXPECT_TRUE(
-        refused([](abacus_header &h) { h.upper[0] = std::numeric_limits<double>::infinity(); }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.inserted = 1001; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.staged = std::uint64_t{1} << 62; }));
-    EXPECT_FALSE(
-        refused([](abacus_header &h) { h.simplices = h.ghosts = (std::uint64_t{1} << 62) - 1; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.simplices = std::uint64_t{1} << 62; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.ghosts = std::uint64_t{1} << 62; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.duplicates = 111; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.serials = 99; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.serials = UINT64_MAX; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.vertices = UINT64_MAX; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.vertices = 0; }));
-    EXPECT_TRUE(refused([](abacus_header &h) { h.simplices = 0; }));
+        refused([](abacus_header &h) { h.facts.census.simplices = std::uint64_t{1} << 62; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.census.ghosts = std::uint64_t{1} << 62; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.census.duplicates = 111; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.census.serials = 99; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.census.serials = UINT64_MAX; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.census.vertices = UINT64_MAX; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.census.vertices = 0; }));
+    EXPECT_TRUE(refused([](abacus_header &h) { h.facts.census.simplices = 0; }));
     EXPECT_TRUE(refused([](abacus_header &h) { h.names[0][0] = '\0'; }));
 }
 
 TEST(Header, OfAMeshThatIsNotDelaunay) {
     const auto taken = [](auto change) {
         abacus_header header = full_header(1);
-        header.standing = 1;
-        header.staged = header.inserted = header.vertices;
-        header.duplicates = header.serials = 0;
+        header.facts.standing = 1;
+        header.facts.census.staged = header.facts.census.inserted = header.facts.census.vertices;
+        header.facts.census.duplicates = header.facts.census.serials = 0;
         change(header);
         abacus_header decoded;
-        return decodes(encode(header), &decoded) && decoded.standing == header.standing;
+        return decodes(encode(header), &decoded) && decoded.facts.standing == header.facts.standing;
     };
     for (const std::uint32_t why : {ABACUS_NOT_DELAUNAY, ABACUS_WEAKLY_DELAUNAY, ABACUS_NOT_CONVEX})
-        EXPECT_TRUE(taken([&](abacus_header &h) { h.standing = why; }));
-    EXPECT_FALSE(taken([](abacus_header &h) { h.standing = ABACUS_NOT_CONVEX + 1; }));
-    EXPECT_FALSE(taken([](abacus_header &h) { h.inserted = 0; }));
-    EXPECT_FALSE(taken([](abacus_header &h) { ++h.staged; }));
-    EXPECT_FALSE(taken([](abacus_header &h) { h.serials = 1; }));
-    EXPECT_FALSE(taken(
-        [](abacus_header &h) { h.staged = h.inserted = h.vertices = h.simplices = h.ghosts = 0; }));
+        EXPECT_TRUE(taken([&](abacus_header &h) { h.facts.standing = why; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.facts.standing = ABACUS_NOT_CONVEX + 1; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.facts.census.inserted = 0; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { ++h.facts.census.staged; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.facts.census.serials = 1; }));
+    EXPECT_FALSE(taken([](abacus_header &h) {
+        h.facts.census.staged = h.facts.census.inserted = h.facts.census.vertices =
+            h.facts.census.simplices = h.facts.census.ghosts = 0;
+    }));
 }
 
 TEST(Header, DamagedBytesNeverCrash) {

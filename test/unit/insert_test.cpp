@@ -42,8 +42,8 @@ protected:
     void expect_mesh(MeshOf<D> &mesh, const Points &points) {
         EXPECT_EQ(mesh.positions(), cgal_simplices<D>(points));
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
-        EXPECT_EQ(mesh.header.vertices + mesh.header.duplicates + mesh.header.staged -
-                      mesh.header.inserted,
+        EXPECT_EQ(mesh.header.facts.census.vertices + mesh.header.facts.census.duplicates +
+                      mesh.header.facts.census.staged - mesh.header.facts.census.inserted,
                   points.size());
         EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
         EXPECT_EQ(mesh.host.bytes, 0u);
@@ -66,7 +66,7 @@ TYPED_TEST(Insert, GivesTheMeshOfAllPointsAndNoVertexPages) {
         }
         this->expect_mesh(mesh, all);
         EXPECT_TRUE(mesh.host.staged_pages.empty());
-        EXPECT_EQ(mesh.header.staged, 0u);
+        EXPECT_EQ(mesh.header.facts.census.staged, 0u);
     }
 }
 
@@ -77,8 +77,8 @@ TYPED_TEST(Insert, WaitsForASimplex) {
         MeshOf<D> mesh;
         auto all = this->line(n);
         ASSERT_EQ(mesh.insert(number<D>(all)), ABACUS_OK);
-        EXPECT_EQ(mesh.header.vertices, 0u);
-        EXPECT_EQ(mesh.header.staged, std::uint64_t(n));
+        EXPECT_EQ(mesh.header.facts.census.vertices, 0u);
+        EXPECT_EQ(mesh.header.facts.census.staged, std::uint64_t(n));
         this->expect_mesh(mesh, all);
         for (const int more : {1, 100}) {
             const auto points = this->uniform(more);
@@ -86,7 +86,7 @@ TYPED_TEST(Insert, WaitsForASimplex) {
             ASSERT_EQ(mesh.insert(number<D>(points)), ABACUS_OK) << mesh.error.detail;
             this->expect_mesh(mesh, all);
         }
-        EXPECT_GT(mesh.header.simplices, 0u);
+        EXPECT_GT(mesh.header.facts.census.simplices, 0u);
         EXPECT_TRUE(mesh.host.staged_pages.empty());
     }
 }
@@ -112,7 +112,7 @@ TYPED_TEST(Insert, InsertsFirstWhatWaits) {
     auto again = number<D>(all); // so these are duplicates, under other ids
     for (InputOf<D> &input : again) input.id += 1000;
     ASSERT_EQ(mesh.insert(again), ABACUS_OK);
-    EXPECT_EQ(mesh.header.duplicates, 800u);
+    EXPECT_EQ(mesh.header.facts.census.duplicates, 800u);
     for (const abacus_simplex &s : mesh.simplices(false))
         for (int i = 0; i <= D; ++i) EXPECT_LT(s.id[i], 1000);
     all.insert(all.end(), all.begin(), all.begin() + 800);
@@ -143,8 +143,9 @@ TYPED_TEST(Insert, KeepsEveryRepeatedPoint) {
     EXPECT_GT(mesh.host.repeated_pages.size(), 8u);
     this->expect_mesh(mesh, all);
     abacus_vertex_scan *scan = nullptr;
-    ASSERT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header, little, &scan, &mesh.error),
-              ABACUS_OK);
+    ASSERT_EQ(
+        abacus_vertex_scan_open(mesh.host.table(), &mesh.header.facts, little, &scan, &mesh.error),
+        ABACUS_OK);
     abacus_vertex v;
     while (abacus_vertex_scan_next(scan, &v, &mesh.error) == ABACUS_OK) {
         const auto found = given.find(v.id);

@@ -276,8 +276,8 @@ TYPED_TEST(Interpolation, OfManyPlacesIsThatOfEach) {
         };
         for (const bool weigh : {true, false}) {
             abacus_places *handle = nullptr;
-            ASSERT_EQ(abacus_places_open(mesh.host.table(), &mesh.header, 16 << 20, mesh.tenth(),
-                                         &handle, &mesh.error),
+            ASSERT_EQ(abacus_places_open(mesh.host.table(), &mesh.header.facts, 16 << 20,
+                                         mesh.tenth(), &handle, &mesh.error),
                       ABACUS_OK);
             ASSERT_EQ(abacus_places_add(handle, records.data(), places.size(), &mesh.error),
                       ABACUS_OK);

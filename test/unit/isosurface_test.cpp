@@ -58,9 +58,9 @@ struct Solid : MeshOf<3> {
             static_cast<std::vector<Triangle> *>(context)->push_back(triangle);
             return ABACUS_HOST_OK;
         };
-        EXPECT_EQ(
-            abacus_isosurface(host.table(), &header, &query, memory, report, &triangles, &error),
-            ABACUS_OK)
+        EXPECT_EQ(abacus_isosurface(host.table(), &header.facts, &query, memory, report, &triangles,
+                                    &error),
+                  ABACUS_OK)
             << error.message;
         EXPECT_TRUE(host.spools.empty());
         return triangles;
@@ -355,11 +355,11 @@ TEST(Isosurface, ReadsNoPageWithoutTheValue) {
     MeshOf<3> empty(1);
     abacus_isosurface_query query{};
     query.carried = -1;
-    EXPECT_EQ(abacus_isosurface(empty.host.table(), &empty.header, &query, 1, nullptr, nullptr,
-                                &empty.error),
+    EXPECT_EQ(abacus_isosurface(empty.host.table(), &empty.header.facts, &query, 1, nullptr,
+                                nullptr, &empty.error),
               ABACUS_OK);
     MeshOf<2> flat(1);
-    EXPECT_EQ(abacus_isosurface(flat.host.table(), &flat.header, &query, 1, nullptr, nullptr,
+    EXPECT_EQ(abacus_isosurface(flat.host.table(), &flat.header.facts, &query, 1, nullptr, nullptr,
                                 &flat.error),
               ABACUS_ERROR);
     EXPECT_EQ(flat.error.kind, ABACUS_ERROR_ARGUMENT);

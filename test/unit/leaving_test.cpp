@@ -139,8 +139,8 @@ TEST(Leaving, IsTheSameWhilePointsWait) {
         }
         ASSERT_EQ(deleted, points.size() - left);
         abacus_vertex_scan *scan = nullptr;
-        ASSERT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header, mesh.cache_bytes, &scan,
-                                          &mesh.error),
+        ASSERT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header.facts, mesh.cache_bytes,
+                                          &scan, &mesh.error),
                   ABACUS_OK);
         abacus_vertex vertex;
         while (abacus_vertex_scan_next(scan, &vertex, &mesh.error) == ABACUS_OK)
@@ -184,11 +184,11 @@ public:
     /// Compares the points, and which of them is the vertex.
     void expect() {
         ASSERT_EQ(mesh.check(), std::vector<std::string>{});
-        ASSERT_EQ(mesh.header.vertices, here.empty() ? 3u : 4u);
-        ASSERT_EQ(mesh.header.duplicates, here.empty() ? 0u : here.size() - 1);
+        ASSERT_EQ(mesh.header.facts.census.vertices, here.empty() ? 3u : 4u);
+        ASSERT_EQ(mesh.header.facts.census.duplicates, here.empty() ? 0u : here.size() - 1);
         abacus_vertex_scan *scan = nullptr;
-        ASSERT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header, mesh.cache_bytes, &scan,
-                                          &mesh.error),
+        ASSERT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header.facts, mesh.cache_bytes,
+                                          &scan, &mesh.error),
                   ABACUS_OK);
         std::vector<std::pair<std::int64_t, double>> found, expected;
         for (const Input &p : here) expected.push_back({p.id, p.attributes[0]});

@@ -297,7 +297,7 @@ template <int D> void expect_lines_of_loaded() {
         if (!is_pinched) flip(t, 100, 3);
         MeshOf<D> mesh(0);
         ASSERT_EQ(mesh.load(t.vertices, t.simplices), ABACUS_OK) << mesh.error.message;
-        ASSERT_NE(mesh.header.standing, 0u);
+        ASSERT_NE(mesh.header.facts.standing, 0u);
         std::vector<Point<D>> points;
         for (const auto &v : t.vertices) points.push_back(v.point);
         expect_lines<D>(mesh, points, D == 2 ? 3 : 2);

@@ -76,7 +76,7 @@ TYPED_TEST(LoadQuery, LocatesTheFirstOfTheSimplicesAroundThePoint) {
     for (const auto &t : meshes<D>()) {
         MeshOf<D> mesh(0);
         ASSERT_EQ(mesh.load(t.vertices, t.simplices), ABACUS_OK) << mesh.error.message;
-        ASSERT_NE(mesh.header.standing, 0u);
+        ASSERT_NE(mesh.header.facts.standing, 0u);
         const auto all = mesh.simplices(false);
         OpenMeshOf<D> large(mesh, ample), small(mesh, little);
         int inside = 0, outside = 0;
@@ -133,7 +133,7 @@ TYPED_TEST(LoadQuery, WalksAcrossEveryFacet) {
                 for (int k = 0; k <= D; ++k) shared = shared || facet(next, k) == facet(s, i);
                 EXPECT_TRUE(shared);
             }
-        EXPECT_EQ(boundary, mesh.header.ghosts);
+        EXPECT_EQ(boundary, mesh.header.facts.census.ghosts);
     }
 }
 

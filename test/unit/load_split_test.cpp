@@ -158,17 +158,17 @@ TYPED_TEST(LoadSplit, WhatIsGivenIsThereAndSound) {
             if (attributes > 0) mesh.host.set_threads(3, true);
             ASSERT_EQ(mesh.load(t.vertices, t.simplices, memory), ABACUS_OK)
                 << mesh.error.message << ' ' << mesh.error.detail;
-            EXPECT_NE(mesh.header.standing, 0u);
-            EXPECT_GT(mesh.header.split, 0u);
-            EXPECT_EQ(mesh.header.split, split(t));
-            EXPECT_EQ(mesh.header.vertices, t.vertices.size());
-            EXPECT_EQ(mesh.header.ghosts, boundary(t));
+            EXPECT_NE(mesh.header.facts.standing, 0u);
+            EXPECT_GT(mesh.header.facts.census.split, 0u);
+            EXPECT_EQ(mesh.header.facts.census.split, split(t));
+            EXPECT_EQ(mesh.header.facts.census.vertices, t.vertices.size());
+            EXPECT_EQ(mesh.header.facts.census.ghosts, boundary(t));
             EXPECT_EQ(stored<D>(mesh), sorted<D>(t.simplices));
             EXPECT_EQ(mesh.check(), std::vector<std::string>{});
             EXPECT_TRUE(mesh.host.spools.empty());
             EXPECT_EQ(mesh.host.bytes, 0u);
             EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
-            --mesh.header.split;
+            --mesh.header.facts.census.split;
             EXPECT_NE(mesh.check(), std::vector<std::string>{});
         }
 }
@@ -207,8 +207,8 @@ TYPED_TEST(LoadSplit, TwoAtOnePlaceAreRefusedUnlessTheyAreWanted) {
     other.split_nodes = true;
     ASSERT_EQ(one.load(whole.vertices, whole.simplices), ABACUS_OK);
     ASSERT_EQ(other.load(whole.vertices, whole.simplices), ABACUS_OK);
-    EXPECT_EQ(other.header.split, 0u);
-    EXPECT_EQ(other.header.standing, one.header.standing);
+    EXPECT_EQ(other.header.facts.census.split, 0u);
+    EXPECT_EQ(other.header.facts.standing, one.header.facts.standing);
 }
 
 /// Simplices with vertices of their own at the places of others.
@@ -255,7 +255,7 @@ TYPED_TEST(LoadSplit, AllMayBeFaults) {
     MeshOf<D> mesh(1, little);
     mesh.split_nodes = true;
     ASSERT_EQ(mesh.load(t.vertices, t.simplices), ABACUS_OK) << mesh.error.message;
-    EXPECT_EQ(mesh.header.ghosts, t.simplices.size() * (D + 1));
+    EXPECT_EQ(mesh.header.facts.census.ghosts, t.simplices.size() * (D + 1));
     EXPECT_EQ(stored<D>(mesh), sorted<D>(t.simplices));
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
 }

@@ -52,9 +52,9 @@ void expect_loads(MeshOf<D> &mesh, Triangulation<D> t, abacus_delaunay delaunay,
     ASSERT_EQ(mesh.load(t.vertices, t.simplices, memory), ABACUS_OK)
         << mesh.error.message << ' ' << mesh.error.detail;
     EXPECT_EQ(mesh.loaded_as, delaunay);
-    EXPECT_EQ(mesh.header.standing, static_cast<std::uint32_t>(delaunay));
-    EXPECT_EQ(mesh.header.simplices, t.simplices.size());
-    EXPECT_EQ(mesh.header.vertices, t.vertices.size());
+    EXPECT_EQ(mesh.header.facts.standing, static_cast<std::uint32_t>(delaunay));
+    EXPECT_EQ(mesh.header.facts.census.simplices, t.simplices.size());
+    EXPECT_EQ(mesh.header.facts.census.vertices, t.vertices.size());
     EXPECT_EQ(stored<D>(mesh), sorted<D>(t.simplices));
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
     EXPECT_TRUE(mesh.host.spools.empty());
@@ -79,7 +79,7 @@ TYPED_TEST(Load, DelaunayTriangulationsBecomeFullMeshes) {
             ASSERT_EQ(built.stage(number<D>(points)), ABACUS_OK);
             ASSERT_EQ(built.build(), ABACUS_OK);
             EXPECT_EQ(mesh.positions(), built.positions());
-            EXPECT_EQ(mesh.header.ghosts, built.header.ghosts);
+            EXPECT_EQ(mesh.header.facts.census.ghosts, built.header.facts.census.ghosts);
             // It can be added to: the same as building all of it.
             auto all = points;
             const auto more = random_points<D>(500, 2);
@@ -185,7 +185,7 @@ TYPED_TEST(Load, VerticesAreTriangulatedAnewIfThatIsWanted) {
             std::vector<Point<D>> points;
             for (const auto &v : t.vertices) points.push_back(v.point);
             EXPECT_EQ(mesh.positions(), cgal_simplices<D>(points));
-            EXPECT_EQ(mesh.header.standing, 0u);
+            EXPECT_EQ(mesh.header.facts.standing, 0u);
             EXPECT_EQ(mesh.check(), std::vector<std::string>{});
             EXPECT_TRUE(mesh.host.spools.empty());
             EXPECT_EQ(mesh.host.bytes, 0u);
@@ -253,7 +253,7 @@ TYPED_TEST(Load, NothingAtAll) {
     constexpr int D = TestFixture::D;
     MeshOf<D> mesh(0);
     ASSERT_EQ(mesh.load({}, {}), ABACUS_OK) << mesh.error.message;
-    EXPECT_EQ(mesh.header.simplices, 0u);
+    EXPECT_EQ(mesh.header.facts.census.simplices, 0u);
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
 }
 
@@ -280,7 +280,7 @@ template <int D> std::string refusal(Triangulation<D> t, bool reorient = true, b
     if (status == ABACUS_OK) return "";
     EXPECT_EQ(mesh.error.kind, ABACUS_ERROR_ARGUMENT);
     EXPECT_STRNE(mesh.error.hint, "");
-    EXPECT_EQ(mesh.header.simplices, 0u);
+    EXPECT_EQ(mesh.header.facts.census.simplices, 0u);
     return mesh.error.message;
 }
 

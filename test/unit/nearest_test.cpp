@@ -80,7 +80,7 @@ template <int D> void expect_nearest_of_sets() {
         MeshOf<D> mesh(0);
         ASSERT_EQ(mesh.stage(number<D>(points)), ABACUS_OK);
         ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message;
-        if (mesh.header.simplices > 0) expect_nearest<D>(mesh, points, random);
+        if (mesh.header.facts.census.simplices > 0) expect_nearest<D>(mesh, points, random);
     }
 }
 
@@ -105,7 +105,7 @@ template <int D> void expect_nearest_of_loaded() {
     flip(t, 200, 3);
     MeshOf<D> mesh(0);
     ASSERT_EQ(mesh.load(t.vertices, t.simplices), ABACUS_OK) << mesh.error.message;
-    ASSERT_NE(mesh.header.standing, 0u);
+    ASSERT_NE(mesh.header.facts.standing, 0u);
     std::vector<Point<D>> points;
     for (const auto &v : t.vertices) points.push_back(v.point);
     expect_nearest<D>(mesh, points, random);

@@ -37,7 +37,7 @@ TYPED_TEST(OctreesEdited, are_split_and_merged_in_place) {
         }
         cache.flush();
     }
-    octree.header.leaves = model.leaves.size();
+    octree.header.facts.census.leaves = model.leaves.size();
     ASSERT_EQ(octree.list(), model.list());
     expect_sound(octree);
     // And as a whole.
@@ -54,10 +54,11 @@ TYPED_TEST(OctreesEdited, are_what_a_model_is_after_changes_at_random) {
         std::mt19937_64 random(seed);
         StoredOctree<D> octree(seed % 3);
         OctreeModel<D> model;
-        octree.header.levels = D == 2 ? 11 : 7;
+        octree.header.facts.form.levels = D == 2 ? 11 : 7;
         for (int step = 0; step < 40; ++step) {
             const int n = 1 << random() % 10;
-            const auto cells = random_cells<D>(random, n, static_cast<int>(octree.header.levels));
+            const auto cells =
+                random_cells<D>(random, n, static_cast<int>(octree.header.facts.form.levels));
             switch (random() % 4) {
             case 0:
                 octree.split_to(cells);
@@ -68,7 +69,8 @@ TYPED_TEST(OctreesEdited, are_what_a_model_is_after_changes_at_random) {
                 for (const auto &[cell, level] : cells) points.push_back(cell >> (3 * level));
                 const std::uint64_t most = 1 + random() % 20;
                 octree.split_to_points(points, most);
-                model.split_to_points(points, most, static_cast<int>(octree.header.levels));
+                model.split_to_points(points, most,
+                                      static_cast<int>(octree.header.facts.form.levels));
                 break;
             }
             case 2: {
@@ -94,7 +96,8 @@ TYPED_TEST(OctreesEdited, are_what_a_model_is_after_changes_at_random) {
                 EXPECT_EQ(octree.merge(octants, random() % 2 ? 1 : octree.memory), merged);
             }
             }
-            ASSERT_EQ(octree.header.leaves, model.leaves.size()) << seed << ' ' << step;
+            ASSERT_EQ(octree.header.facts.census.leaves, model.leaves.size())
+                << seed << ' ' << step;
             ASSERT_EQ(octree.list(), model.list()) << seed << ' ' << step;
             expect_sound(octree);
         }

@@ -23,7 +23,7 @@ TYPED_TEST(OctreesGrown, are_grown_to_levels) {
             octree.split_to(cells);
             for (const auto &[cell, level] : cells) model.split_to(cell, level);
             ASSERT_EQ(octree.list(), model.list());
-            ASSERT_EQ(octree.header.leaves, model.leaves.size());
+            ASSERT_EQ(octree.header.facts.census.leaves, model.leaves.size());
             expect_sound(octree);
         }
     }
@@ -45,7 +45,7 @@ TYPED_TEST(OctreesGrown, are_balanced_as_little_as_can_be) {
             octree.balance(across);
             model.balance(across);
             ASSERT_EQ(octree.list(), model.list()) << across << ' ' << kind;
-            ASSERT_EQ(octree.header.leaves, model.leaves.size());
+            ASSERT_EQ(octree.header.facts.census.leaves, model.leaves.size());
             expect_sound(octree);
         }
 }
@@ -55,7 +55,7 @@ TYPED_TEST(OctreesGrown, hold_so_many_points_in_a_leaf) {
     std::mt19937_64 random(4);
     for (const std::uint64_t most : {1, 3, 40}) {
         StoredOctree<D> octree;
-        octree.header.levels = 12;
+        octree.header.facts.form.levels = 12;
         OctreeModel<D> model;
         std::vector<std::uint64_t> cells;
         for (int i = 0; i < 2000; ++i)
@@ -83,7 +83,7 @@ TYPED_TEST(OctreesGrown, are_as_fine_as_a_function_tells) {
     for (bool done = false; !done;) {
         done = true;
         for (const Octant<D> &leaf : model.list()) {
-            const Point<D> center = Grid<D>(octree.header).center(leaf);
+            const Point<D> center = Grid<D>(octree.header.facts.form).center(leaf);
             const double *centers[D];
             for (int i = 0; i < D; ++i) centers[i] = &center[i];
             double size;
@@ -130,7 +130,7 @@ TYPED_TEST(OctreesGrown, are_grown_again_where_leaves_were_merged_across_pages) 
             model.balance(D);
         }
         ASSERT_EQ(octree.list(), model.list()) << kind;
-        EXPECT_EQ(octree.header.leaves, model.leaves.size());
+        EXPECT_EQ(octree.header.facts.census.leaves, model.leaves.size());
         expect_sound(octree);
     }
 }
@@ -145,7 +145,7 @@ TYPED_TEST(OctreesGrown, are_grown_in_place_at_few_places) {
     EXPECT_LE(octree.host->calls.find + octree.host->calls.next, 4u) << "of " << pages;
     for (const auto &[cell, level] : cells) octree.model.split_to(cell, level);
     EXPECT_EQ(octree.list(), octree.model.list());
-    EXPECT_EQ(octree.header.leaves, octree.model.leaves.size());
+    EXPECT_EQ(octree.header.facts.census.leaves, octree.model.leaves.size());
     expect_sound(octree);
 }
 

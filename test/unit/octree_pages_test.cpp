@@ -35,7 +35,7 @@ TYPED_TEST(OctreePages, take_no_more_memory_than_they_are_given) {
     const auto refine = [&] {
         const Host h = octree.host->host();
         Growth<D> growth(h, octree.header, memory);
-        for (std::uint64_t i = 0; i < octree.header.leaves / 512; ++i)
+        for (std::uint64_t i = 0; i < octree.header.facts.census.leaves / 512; ++i)
             growth.add(octree.place(octree.random() % domain_cells<D>), 0);
         growth.to_levels(octree.header);
     };
@@ -81,7 +81,7 @@ TYPED_TEST(OctreePages, count_what_they_do_and_tell_how_far_they_are) {
         EXPECT_THAT(phases, testing::IsSupersetOf(expected));
         phases.clear();
         const abacus_counters &counters = octree.header.counters;
-        EXPECT_EQ(counters.created - counters.deleted, octree.header.leaves);
+        EXPECT_EQ(counters.created - counters.deleted, octree.header.facts.census.leaves);
         EXPECT_GE(counters.stores, counters.rewrites);
         EXPECT_GT(counters.bytes_written, octree.host->pages.size());
     };
@@ -121,7 +121,7 @@ TYPED_TEST(OctreePages, do_not_depend_on_order_and_memory) {
     // At most a byte a leaf.
     std::size_t bytes = 0;
     for (const auto &[key, page] : a.host->pages) bytes += page.size;
-    EXPECT_LE(bytes, a.header.leaves);
+    EXPECT_LE(bytes, a.header.facts.census.leaves);
 }
 
 TYPED_TEST(OctreePages, do_not_trust_their_pages) {

@@ -61,7 +61,7 @@ TYPED_TEST(OctreesRead, give_all_leaves_and_those_of_a_window) {
     constexpr int D = TypeParam::value;
     Coded<D> octree;
     const Host h = octree.host->host();
-    const Grid<D> grid(octree.header);
+    const Grid<D> grid(octree.header.facts.form);
     for (int round = 0; round < 60; ++round) {
         Point<D> lower, upper;
         for (int i = 0; i < D; ++i) {

@@ -39,9 +39,9 @@ template <int D>
 std::vector<Row> read(MeshOf<D> &mesh, const abacus_outline_kind &kind, std::size_t memory) {
     std::vector<Row> rows;
     abacus_error error{};
-    EXPECT_EQ(
-        abacus_outline(mesh.host.table(), &mesh.header, &kind, memory, memory, keep, &rows, &error),
-        ABACUS_OK)
+    EXPECT_EQ(abacus_outline(mesh.host.table(), &mesh.header.facts, &kind, memory, memory, keep,
+                             &rows, &error),
+              ABACUS_OK)
         << error.message;
     EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
     EXPECT_EQ(mesh.host.bytes, 0u);
@@ -113,7 +113,7 @@ template <int D> void expect_outlines(MeshOf<D> &mesh, std::initializer_list<dou
     for (const double size : sizes) {
         SCOPED_TRACE(size);
         std::vector<abacus_outline_kind> kinds{{size, 0, 0, 0}};
-        if (mesh.header.standing == 0) kinds.push_back({0, 1, size * size, 0});
+        if (mesh.header.facts.standing == 0) kinds.push_back({0, 1, size * size, 0});
         for (const abacus_outline_kind &kind : kinds) {
             const auto expected = border_by_hand<D>(mesh, kind);
             EXPECT_TRUE(facets_of<D>(read<D>(mesh, kind, little)) == expected);
@@ -162,7 +162,7 @@ template <int D> void expect_outlines_of_pinched(bool is_even) {
     });
     MeshOf<D> mesh(0);
     ASSERT_EQ(mesh.load(t.vertices, t.simplices), ABACUS_OK) << mesh.error.message;
-    ASSERT_NE(mesh.header.standing, 0u);
+    ASSERT_NE(mesh.header.facts.standing, 0u);
     expect_outlines<D>(mesh, {0, 1.2, 1.5, 9});
 }
 

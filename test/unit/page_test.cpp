@@ -312,7 +312,7 @@ TEST(Pages, AreWellFilled) {
     std::size_t bytes = 0;
     for (const auto &[key, page] : mesh.host.pages) bytes += page.size;
     EXPECT_GT(bytes, mesh.host.pages.size() * ABACUS_PAGE_BYTES * 85 / 100);
-    EXPECT_LT(bytes, mesh.header.simplices * 12);
+    EXPECT_LT(bytes, mesh.header.facts.census.simplices * 12);
 }
 
 TEST(Pages, HoldMoreOfWhatLiesOnAGrid) {

@@ -67,8 +67,9 @@ abacus_section_query plane(const Point<3> &through, const Point<3> &normal) {
 std::vector<abacus_polygon> section(MeshOf<3> &mesh, const abacus_section_query &query) {
     std::vector<abacus_polygon> polygons;
     abacus_sections *sections = nullptr;
-    EXPECT_EQ(abacus_sections_open(mesh.host.table(), &mesh.header, &query, &sections, &mesh.error),
-              ABACUS_OK)
+    EXPECT_EQ(
+        abacus_sections_open(mesh.host.table(), &mesh.header.facts, &query, &sections, &mesh.error),
+        ABACUS_OK)
         << mesh.error.detail;
     abacus_polygon polygon;
     while (abacus_sections_next(sections, &polygon, &mesh.error) == ABACUS_OK)
@@ -157,7 +158,7 @@ TEST_P(SectionOfPoints, TilesItsHull) {
         for (const double x : p) size = std::max(size, std::fabs(x));
     MeshOf<3> mesh;
     build(mesh, points);
-    if (mesh.header.simplices == 0) return;
+    if (mesh.header.facts.census.simplices == 0) return;
     for (int round = 0; round < 12; ++round) {
         Point<3> through = points[random() % points.size()];
         Point<3> normal{0, 0, 0};

@@ -31,8 +31,9 @@ abacus_host_status size_of(void *, std::size_t count, const double *const *cente
 
 TEST(QuakeOctree, has_the_earthquake_points_as_nodes) {
     StoredOctree<3> octree;
-    octree.header.lower[2] = -Basin::depth;
-    for (int i = 0; i < 3; ++i) octree.header.upper[i] = octree.header.lower[i] + 2 * Basin::width;
+    octree.header.facts.form.lower[2] = -Basin::depth;
+    for (int i = 0; i < 3; ++i)
+        octree.header.facts.form.upper[i] = octree.header.facts.form.lower[i] + 2 * Basin::width;
     const Host h = octree.host->host();
     {
         Growth<3> growth(h, octree.header, octree.memory);
@@ -41,7 +42,7 @@ TEST(QuakeOctree, has_the_earthquake_points_as_nodes) {
     octree.balance(2);
     QuakePoints points(frequency, points_per_wavelength);
     OctreeNodes<3> nodes(h, octree.header, octree.memory);
-    const Grid<3> grid(octree.header);
+    const Grid<3> grid(octree.header.facts.form);
     std::int64_t count = 0;
     for (OctreeNodes<3>::Node node; nodes.next(node);) {
         Point<3> place;

@@ -152,7 +152,7 @@ TEST(WalkInSpace, CrossesEveryFacetOfEveryTetrahedron) {
                 else
                     EXPECT_EQ(rank<3>(found), rank<3>(*both[both[0] == &s]));
             }
-        EXPECT_EQ(hull, mesh.header.ghosts);
+        EXPECT_EQ(hull, mesh.header.facts.census.ghosts);
         EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
     }
 }
@@ -197,8 +197,8 @@ TEST(ScanInSpace, GivesPositiveTetrahedraAndAClosedHull) {
             EXPECT_EQ(s.id[1], *std::min_element(s.id + 1, s.id + 4));
             EXPECT_EQ(side<3>(s, 0, nullptr), 1);
         }
-        EXPECT_EQ(finite, mesh.header.simplices);
-        EXPECT_EQ(ghosts, mesh.header.ghosts);
+        EXPECT_EQ(finite, mesh.header.facts.census.simplices);
+        EXPECT_EQ(ghosts, mesh.header.facts.census.ghosts);
         EXPECT_EQ(2 * edges.size(), 6 * ghosts); // each once, and once the other way
         for (const auto &[edge, count] : edges) {
             EXPECT_EQ(count, 1);

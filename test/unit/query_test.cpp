@@ -144,7 +144,7 @@ TEST(Walk, CrossesEveryFacetOfEveryTriangle) {
                 else
                     ++hull;
             }
-        EXPECT_EQ(hull, mesh.header.ghosts);
+        EXPECT_EQ(hull, mesh.header.facts.census.ghosts);
         EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
     }
 }
@@ -255,8 +255,8 @@ TEST(Walk, KeepsToItsMemoryWhereManyPagesShareACode) {
     for (Input &p : points)
         for (double &x : p.point) x = 0.3 + x * 1e-11;
     Mesh mesh(0, ample);
-    mesh.header.has_domain = 1;
-    mesh.header.upper[0] = mesh.header.upper[1] = 1;
+    mesh.header.facts.form.has_domain = 1;
+    mesh.header.facts.form.upper[0] = mesh.header.facts.form.upper[1] = 1;
     build(mesh, points);
     const auto all = mesh.simplices(false);
     const auto peak = [&](std::size_t cache_bytes) {
@@ -334,8 +334,8 @@ TEST(Scan, GivesTheHullAsGhosts) {
             next[s.id[0]] = s.id[1];
         }
     }
-    EXPECT_EQ(triangles, mesh.header.simplices);
-    EXPECT_EQ(next.size(), mesh.header.ghosts);
+    EXPECT_EQ(triangles, mesh.header.facts.census.simplices);
+    EXPECT_EQ(next.size(), mesh.header.facts.census.ghosts);
     std::size_t steps = 0; // the hull is one cycle
     for (std::int64_t at = next.begin()->first; steps == 0 || at != next.begin()->first; ++steps)
         at = next.at(at);
@@ -361,11 +361,12 @@ TEST(VertexScan, TracesEveryPointToItsVertex) {
         ASSERT_EQ(mesh.build(), ABACUS_OK);
     }
     abacus_vertex_scan *scan = nullptr;
-    ASSERT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header, little, &scan, &mesh.error),
-              ABACUS_OK);
+    ASSERT_EQ(
+        abacus_vertex_scan_open(mesh.host.table(), &mesh.header.facts, little, &scan, &mesh.error),
+        ABACUS_OK);
     std::map<std::int64_t, Input> seen;
     abacus_vertex v;
-    std::uint64_t sequence = mesh.header.inserted;
+    std::uint64_t sequence = mesh.header.facts.census.inserted;
     abacus_status status;
     while ((status = abacus_vertex_scan_next(scan, &v, &mesh.error)) == ABACUS_OK) {
         EXPECT_EQ(seen.count(v.id), 0u);

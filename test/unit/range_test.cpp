@@ -83,7 +83,7 @@ std::multiset<Positions<D>> read(MeshOf<D> &mesh, const Box<D> &box,
         for (int s = 0; s < page.simplices(); ++s) {
             if (page.is_ghost(s) || !abacus::meets<D>(corners_of(page, s), box)) continue;
             abacus_simplex described;
-            describe(page, s, domain_of<D>(mesh.header), described);
+            describe(page, s, domain_of<D>(mesh.header.facts.form), described);
             simplices.insert(places<D>(described));
         }
     };
@@ -190,7 +190,8 @@ TYPED_TEST(Range, ReadsFewPages) {
     EXPECT_LE(pages, D == 2 ? 10u : 30u);
     // Of a large window every page, once.
     lower.fill(-1);
-    EXPECT_EQ(read<D>(mesh, around<D>(lower, far), &pages).size(), mesh.header.simplices);
+    EXPECT_EQ(read<D>(mesh, around<D>(lower, far), &pages).size(),
+              mesh.header.facts.census.simplices);
     EXPECT_LE(pages, mesh.host.pages.size() + 2);
 }
 
@@ -205,7 +206,7 @@ TYPED_TEST(Range, HasAllSimplicesOfLoadedMeshes) {
     });
     MeshOf<D> mesh;
     ASSERT_EQ(mesh.load(shells.vertices, shells.simplices), ABACUS_OK) << mesh.error.message;
-    ASSERT_EQ(mesh.header.standing, ABACUS_NOT_CONVEX);
+    ASSERT_EQ(mesh.header.facts.standing, ABACUS_NOT_CONVEX);
     expect_all<D>(mesh, boxes<D>(points, random));
 }
 

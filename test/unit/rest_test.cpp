@@ -63,13 +63,14 @@ protected:
     /// Takes them away, which triangulates the rest.
     void remove(MeshOf<D> &mesh, PointModel<D> &model, const Points &points,
                 std::size_t memory = 16 << 20) {
-        const std::uint64_t vertices = mesh.header.vertices,
+        const std::uint64_t vertices = mesh.header.facts.census.vertices,
                             removals = mesh.header.counters.removals;
         std::uint64_t deleted = 0;
         const std::uint64_t expected = model.remove(points);
         ASSERT_EQ(mesh.remove(points, deleted, memory), ABACUS_OK) << mesh.error.detail;
         EXPECT_EQ(deleted, expected);
-        EXPECT_LT(mesh.header.counters.removals - removals, vertices - mesh.header.vertices);
+        EXPECT_LT(mesh.header.counters.removals - removals,
+                  vertices - mesh.header.facts.census.vertices);
         model.expect(mesh);
     }
 
@@ -104,16 +105,16 @@ TYPED_TEST(Rest, WaitsIfItSpansNoSimplex) {
     MeshOf<D> mesh(1, 60 << 10);
     PointModel<D> model;
     this->insert(mesh, model, this->crowd(true));
-    EXPECT_EQ(mesh.header.vertices, 0u);
+    EXPECT_EQ(mesh.header.facts.census.vertices, 0u);
     for (int round = 0; round < 2; ++round) {
         const auto hubs = this->hubs(200);
         this->insert(mesh, model, hubs);
-        EXPECT_GT(mesh.header.vertices, 0u);
-        EXPECT_GT(mesh.header.duplicates, 0u);
+        EXPECT_GT(mesh.header.facts.census.vertices, 0u);
+        EXPECT_GT(mesh.header.facts.census.duplicates, 0u);
         this->remove(mesh, model, hubs);
         if (this->HasFatalFailure()) return;
-        EXPECT_EQ(mesh.header.vertices, 0u);
-        EXPECT_EQ(mesh.header.duplicates, 0u);
+        EXPECT_EQ(mesh.header.facts.census.vertices, 0u);
+        EXPECT_EQ(mesh.header.facts.census.duplicates, 0u);
         EXPECT_TRUE(mesh.host.pages.empty());
     }
 }
@@ -129,7 +130,7 @@ TYPED_TEST(Rest, MayBeNothing) {
     std::uint64_t deleted = 0;
     ASSERT_EQ(mesh.remove(all, deleted), ABACUS_OK) << mesh.error.detail;
     EXPECT_EQ(deleted, all.size());
-    EXPECT_EQ(mesh.header.vertices, 0u);
+    EXPECT_EQ(mesh.header.facts.census.vertices, 0u);
     EXPECT_TRUE(mesh.host.pages.empty());
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
     ASSERT_EQ(mesh.insert(all), ABACUS_OK);

@@ -51,7 +51,8 @@ TYPED_TEST(Returning, IsTheDifferenceOfBeforeAndAfter) {
         Returned<TypeParam::value> returned(mesh);
         const auto points = this->uniform(2000);
         returned.insert(points);
-        EXPECT_EQ(returned.rows.size(), mesh.header.simplices); // nothing of what went again
+        EXPECT_EQ(returned.rows.size(),
+                  mesh.header.facts.census.simplices); // nothing of what went again
         returned.insert(this->uniform(1));
         EXPECT_LT(returned.rows.size(), 400u);
         EXPECT_GT(returned.rows.size(), 2u);
@@ -109,7 +110,7 @@ TYPED_TEST(Returning, OfPointsThatWaitedOrWillWait) {
     EXPECT_FALSE(returned.rows.empty());
     returned.remove(points); // and takes them all away
     EXPECT_FALSE(returned.rows.empty());
-    EXPECT_EQ(mesh.header.simplices, 0u);
+    EXPECT_EQ(mesh.header.facts.census.simplices, 0u);
     EXPECT_TRUE(std::none_of(returned.rows.begin(), returned.rows.end(),
                              [](const auto &row) { return row.created; }));
 }
@@ -160,7 +161,8 @@ TYPED_TEST(Returning, EndsWellWhateverFails) {
             MeshOf<D> mesh(1, little);
             memory ? mesh.host.fail_resize_at(n) : mesh.host.fail_at(n);
             const abacus_status status = mesh.with_stage(points, 1 << 20, [&](abacus_stage *stage) {
-                const abacus_status ended = abacus_stage_end(stage, &mesh.header, &mesh.error);
+                const abacus_status ended =
+                    abacus_stage_end(stage, &mesh.header.facts, &mesh.error);
                 if (ended != ABACUS_OK) return ended;
                 return mesh.with_build([&](abacus_build *build) {
                     abacus_status step = abacus_build_log(build, 1, &mesh.error);

@@ -201,8 +201,8 @@ TEST_F(Section, RefusesWhatCannotBeDrawn) {
     // Each mesh has its own kind of picture.
     abacus_picture picture{};
     const D flat = drawing(10);
-    EXPECT_EQ(abacus_draw(host.table(), &header, &flat, &picture, &error), ABACUS_ERROR);
-    header.dimension = 2;
+    EXPECT_EQ(abacus_draw(host.table(), &header.facts, &flat, &picture, &error), ABACUS_ERROR);
+    header.facts.form.dimension = 2;
     EXPECT_TRUE(refused([](O &, D &) {}));
 }
 

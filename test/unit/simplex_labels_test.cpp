@@ -75,8 +75,8 @@ TYPED_TEST(SimplexLabels, LeaveSimplexPagesAsTheyAre) {
 TYPED_TEST(SimplexLabels, OfAMeshThatHasAttributesApart) {
     constexpr int D = TestFixture::D;
     LabelledMesh<D> mesh(2);
-    mesh.mesh.header.attributes = 6;
-    mesh.mesh.header.apart = 1;
+    mesh.mesh.header.facts.columns.attributes = 6;
+    mesh.mesh.header.facts.columns.apart = 1;
     auto t = some_triangulation<D>(500);
     for (auto &v : t.vertices) v.attributes = {1, 2, 3, 4, 5, double(v.id)};
     for (unsigned i = 0; i < 8; ++i) std::strcpy(mesh.mesh.header.names[i], "a name");
@@ -97,9 +97,9 @@ TYPED_TEST(SimplexLabels, WhoseNobodyHasOrTooFewAreFaults) {
               std::vector<std::string>{
                   "labels: The pages have another number of simplices than the header counts."});
     pages = sound;
-    --mesh.mesh.header.labelled;
+    --mesh.mesh.header.facts.census.labelled;
     EXPECT_FALSE(mesh.mesh.check().empty());
-    ++mesh.mesh.header.labelled;
+    ++mesh.mesh.header.facts.census.labelled;
     // Those of another mesh with as many.
     LabelledMesh<D> other(2);
     auto moved = some_triangulation<D>(1500);
@@ -143,7 +143,7 @@ TYPED_TEST(SimplexLabels, StayAndGoWithTheirSimplices) {
                 mesh.expect_followed();
                 if (testing::Test::HasFailure()) return;
             }
-            EXPECT_GT(mesh.mesh.header.labelled, 100u);
+            EXPECT_GT(mesh.mesh.header.facts.census.labelled, 100u);
         }
 }
 
@@ -154,7 +154,7 @@ TYPED_TEST(SimplexLabels, AreInherited) {
         for (const unsigned labels : {2u, 40u}) {
             LabelledMesh<D> mesh(labels, 300 << 10);
             mesh.load(some_triangulation<D>(D == 2 ? 800 : 200));
-            mesh.mesh.header.inherits = 1;
+            mesh.mesh.header.facts.columns.inherits = 1;
             mesh.mesh.host.set_threads(threads, threads > 1);
             for (const int n : {1, 30, 100}) {
                 const auto points = more_points<D>(n, 1.1, 100000 + n); // some are outside
@@ -176,24 +176,24 @@ TYPED_TEST(SimplexLabels, AreInheritedInAnotherDomain) {
     constexpr int D = TestFixture::D;
     LabelledMesh<D> mesh(3);
     mesh.load(some_triangulation<D>(D == 2 ? 1000 : 400));
-    mesh.mesh.header.inherits = 1;
-    const double width = mesh.mesh.header.upper[0];
+    mesh.mesh.header.facts.columns.inherits = 1;
+    const double width = mesh.mesh.header.facts.form.upper[0];
     const auto before = mesh.all_labelled();
     ASSERT_EQ(mesh.mesh.insert(more_points<D>(2000, 100, 100000)), ABACUS_OK);
-    EXPECT_GT(mesh.mesh.header.upper[0], width);
+    EXPECT_GT(mesh.mesh.header.facts.form.upper[0], width);
     mesh.expect_inherited(before);
-    EXPECT_GT(mesh.mesh.header.labelled, 500u);
+    EXPECT_GT(mesh.mesh.header.facts.census.labelled, 500u);
 }
 
 TYPED_TEST(SimplexLabels, FollowToAnotherDomain) {
     constexpr int D = TestFixture::D;
     LabelledMesh<D> mesh(3);
     mesh.load(some_triangulation<D>(2000));
-    const double before = mesh.mesh.header.upper[0];
+    const double before = mesh.mesh.header.facts.form.upper[0];
     ASSERT_EQ(mesh.mesh.insert(more_points<D>(4000, 100, 100000)), ABACUS_OK);
-    EXPECT_GT(mesh.mesh.header.upper[0], before);
+    EXPECT_GT(mesh.mesh.header.facts.form.upper[0], before);
     mesh.expect_followed();
-    EXPECT_GT(mesh.mesh.header.labelled, 1000u);
+    EXPECT_GT(mesh.mesh.header.facts.census.labelled, 1000u);
 }
 
 /// Most points leave, and the rest is triangulated anew; then all leave.
@@ -207,8 +207,8 @@ TYPED_TEST(SimplexLabels, OfAMeshThatIsTakenAway) {
     ASSERT_EQ(mesh.mesh.remove(many, deleted), ABACUS_OK);
     mesh.expect_followed();
     ASSERT_EQ(mesh.mesh.remove({t.vertices.end() - 100, t.vertices.end()}, deleted), ABACUS_OK);
-    EXPECT_EQ(mesh.mesh.header.simplices, 0u);
-    EXPECT_EQ(mesh.mesh.header.labelled, 0u);
+    EXPECT_EQ(mesh.mesh.header.facts.census.simplices, 0u);
+    EXPECT_EQ(mesh.mesh.header.facts.census.labelled, 0u);
     EXPECT_TRUE(mesh.mesh.host.attribute_pages.empty());
 }
 
@@ -247,7 +247,7 @@ TYPED_TEST(SimplexLabels, ForASimplexThatIsNoneAreRefused) {
     const std::uint32_t number = 0;
     abacus_labelling *labelling = nullptr;
     abacus_header header = mesh.mesh.header;
-    ASSERT_EQ(abacus_labelling_open(mesh.mesh.host.table(), &header, 1, &number, 1, 1 << 16,
+    ASSERT_EQ(abacus_labelling_open(mesh.mesh.host.table(), &header.facts, 1, &number, 1, 1 << 16,
                                     1 << 20, &labelling, &mesh.mesh.error),
               ABACUS_OK);
     ASSERT_EQ(abacus_labelling_add(labelling, row.data(), 1, &mesh.mesh.error), ABACUS_OK);
@@ -262,7 +262,7 @@ TYPED_TEST(SimplexLabels, OfWhichThereAreNone) {
     constexpr int D = TestFixture::D;
     LabelledMesh<D> mesh(2);
     mesh.load(some_triangulation<D>(100), 64 << 20, 1);
-    EXPECT_EQ(mesh.mesh.header.labelled, 0u);
+    EXPECT_EQ(mesh.mesh.header.facts.census.labelled, 0u);
     EXPECT_TRUE(mesh.mesh.host.attribute_pages.empty());
     mesh.expect_all_in_cells();
     EXPECT_EQ(mesh.mesh.check(), std::vector<std::string>{});

@@ -36,8 +36,8 @@ abacus_host_status keep(void *context, const abacus_edge *edge) {
 template <int D> std::vector<Ends> read(MeshOf<D> &mesh, std::size_t memory) {
     std::vector<abacus_edge> edges;
     abacus_error error{};
-    EXPECT_EQ(abacus_spanning_tree(mesh.host.table(), &mesh.header, memory, 1 << 10, keep, &edges,
-                                   &error),
+    EXPECT_EQ(abacus_spanning_tree(mesh.host.table(), &mesh.header.facts, memory, 1 << 10, keep,
+                                   &edges, &error),
               ABACUS_OK)
         << error.message;
     EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
@@ -96,7 +96,7 @@ template <int D> void expect_trees() {
         MeshOf<D> mesh(0);
         ASSERT_EQ(mesh.stage(input), ABACUS_OK);
         ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message;
-        if (mesh.header.simplices == 0) continue;
+        if (mesh.header.facts.census.simplices == 0) continue;
         const auto expected = by_hand<D>(input);
         EXPECT_TRUE(read<D>(mesh, 16 << 20) == expected);
         for (const std::size_t vertices : {32, 100}) // at once

@@ -182,27 +182,27 @@ TYPED_TEST(Staging, HeaderIsBroughtUpToDate) {
     abacus_error error{};
     abacus_header header = empty_header<D>();
     ASSERT_EQ(stage<D>(host, header, {}, ample, error), ABACUS_OK);
-    EXPECT_EQ(header.has_domain, 0u);
-    EXPECT_EQ(header.staged, 0u);
+    EXPECT_EQ(header.facts.form.has_domain, 0u);
+    EXPECT_EQ(header.facts.census.staged, 0u);
     EXPECT_TRUE(host.staged_pages.empty());
 
     Point<D> p, q;
     p.fill(-2);
     q.fill(3);
     ASSERT_EQ(stage<D>(host, header, with_ids<D>({q, p, q}), ample, error), ABACUS_OK);
-    EXPECT_EQ(header.has_domain, 1u);
-    EXPECT_EQ(header.staged, 3u);
+    EXPECT_EQ(header.facts.form.has_domain, 1u);
+    EXPECT_EQ(header.facts.census.staged, 3u);
     for (int axis = 0; axis < D; ++axis) {
-        EXPECT_EQ(header.lower[axis], -2);
-        EXPECT_EQ(header.upper[axis], 3);
+        EXPECT_EQ(header.facts.form.lower[axis], -2);
+        EXPECT_EQ(header.facts.form.upper[axis], 3);
     }
 
     // A later call goes on counting and keeps the domain, even for points outside.
     Point<D> far;
     far.fill(1e9);
     ASSERT_EQ(stage<D>(host, header, with_ids<D>({far, p}), ample, error), ABACUS_OK);
-    EXPECT_EQ(header.staged, 5u);
-    EXPECT_EQ(header.upper[0], 3);
+    EXPECT_EQ(header.facts.census.staged, 5u);
+    EXPECT_EQ(header.facts.form.upper[0], 3);
     const Input<D> order = staged<D>(host, header);
     EXPECT_EQ(order[3].point, p);
     EXPECT_EQ(order[4].point, far);
@@ -211,8 +211,8 @@ TYPED_TEST(Staging, HeaderIsBroughtUpToDate) {
     MemoryHost other;
     abacus_header single = empty_header<D>();
     ASSERT_EQ(stage<D>(other, single, with_ids<D>({p}), ample, error), ABACUS_OK);
-    EXPECT_EQ(single.has_domain, 1u);
-    EXPECT_EQ(single.lower[0], single.upper[0]);
+    EXPECT_EQ(single.facts.form.has_domain, 1u);
+    EXPECT_EQ(single.facts.form.lower[0], single.facts.form.upper[0]);
 }
 
 TYPED_TEST(Staging, GivenDomainIsKept) {
@@ -220,13 +220,13 @@ TYPED_TEST(Staging, GivenDomainIsKept) {
     MemoryHost host;
     abacus_error error{};
     abacus_header header = empty_header<D>();
-    header.has_domain = 1;
-    header.lower[0] = -10;
-    header.upper[0] = 10;
+    header.facts.form.has_domain = 1;
+    header.facts.form.lower[0] = -10;
+    header.facts.form.upper[0] = 10;
     const Input<D> input = with_ids<D>(points<D>(Kind::uniform, 20000));
     ASSERT_EQ(stage<D>(host, header, input, tiny, error), ABACUS_OK);
-    EXPECT_EQ(header.lower[0], -10);
-    EXPECT_EQ(header.upper[0], 10);
+    EXPECT_EQ(header.facts.form.lower[0], -10);
+    EXPECT_EQ(header.facts.form.upper[0], 10);
     expect_permutation<D>(input, staged<D>(host, header));
 }
 
@@ -245,7 +245,7 @@ TYPED_TEST(Staging, CoordinatesThatAreNotFiniteAreRefused) {
         EXPECT_EQ(error.kind, ABACUS_ERROR_ARGUMENT);
         EXPECT_NE(std::string(error.message).find("-42"), std::string::npos) << error.message;
         EXPECT_NE(error.hint[0], '\0');
-        EXPECT_EQ(header.staged, 0u);
+        EXPECT_EQ(header.facts.census.staged, 0u);
         EXPECT_TRUE(host.staged_pages.empty());
         EXPECT_EQ(host.bytes, 0u);
     }
@@ -265,7 +265,7 @@ TYPED_TEST(Staging, EveryHostCallMayFail) {
             const abacus_status status = stage<D>(host, header, input, tiny, error, 3000);
             done = !host.failed;
             EXPECT_EQ(status, done ? ABACUS_OK : ABACUS_HOST_ERROR);
-            EXPECT_EQ(header.staged, done ? input.size() : 0);
+            EXPECT_EQ(header.facts.census.staged, done ? input.size() : 0);
             EXPECT_EQ(host.bytes, 0u);
             EXPECT_TRUE(host.violations.empty()) << host.violations[0];
         }
@@ -287,7 +287,7 @@ TYPED_TEST(Staging, MemoryMayRunOut) {
             if (status == ABACUS_OK) break;
             EXPECT_EQ(status, ABACUS_ERROR);
             EXPECT_EQ(error.kind, ABACUS_ERROR_MEMORY);
-            EXPECT_EQ(header.staged, 0u);
+            EXPECT_EQ(header.facts.census.staged, 0u);
         }
     }
 }
@@ -374,9 +374,9 @@ TEST(StagingHandle, RefusesOtherDimensions) {
     MemoryHost host;
     abacus_error error{};
     abacus_header header = empty_header<2>();
-    header.dimension = 4;
+    header.facts.form.dimension = 4;
     abacus_stage *handle = nullptr;
-    EXPECT_EQ(abacus_stage_open(host.table(), &header, ample, &handle, &error), ABACUS_ERROR);
+    EXPECT_EQ(abacus_stage_open(host.table(), &header.facts, ample, &handle, &error), ABACUS_ERROR);
     EXPECT_EQ(error.kind, ABACUS_ERROR_ARGUMENT);
     EXPECT_EQ(host.bytes, 0u);
 }

@@ -42,9 +42,10 @@ TEST_P(Tetrahedralization, EqualsCgalForEveryOrderAndCacheSize) {
         MeshOf<3> mesh(0, cache_sizes[i]);
         ASSERT_EQ(mesh.stage(number<3>(points)), ABACUS_OK) << mesh.error.message;
         ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message << ' ' << mesh.error.detail;
-        EXPECT_EQ(mesh.header.simplices, expected.size());
+        EXPECT_EQ(mesh.header.facts.census.simplices, expected.size());
         if (!expected.empty()) {
-            EXPECT_EQ(mesh.header.vertices + mesh.header.duplicates, points.size());
+            EXPECT_EQ(mesh.header.facts.census.vertices + mesh.header.facts.census.duplicates,
+                      points.size());
         }
         EXPECT_EQ(mesh.positions(), expected) << "cache of " << cache_sizes[i] << " bytes";
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
@@ -73,7 +74,7 @@ TEST(Tetrahedralization, AddsToAMeshThatIsThere) {
         ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.detail;
     }
     EXPECT_EQ(mesh.positions(), cgal_simplices<3>(points));
-    EXPECT_EQ(mesh.header.duplicates, 200u);
+    EXPECT_EQ(mesh.header.facts.census.duplicates, 200u);
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
 }
 
@@ -92,10 +93,10 @@ TEST(Tetrahedralization, FewerDimensionsMakeAnEmptyMeshThatCanGrow) {
         ASSERT_EQ(mesh.stage(number<3>(points)), ABACUS_OK);
         ASSERT_EQ(mesh.build(), ABACUS_OK);
         EXPECT_EQ(mesh.positions(), cgal_simplices<3>(points));
-        EXPECT_EQ(mesh.header.staged, points.size());
+        EXPECT_EQ(mesh.header.facts.census.staged, points.size());
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
         abacus_simplex simplex;
-        if (mesh.header.simplices == 0) {
+        if (mesh.header.facts.census.simplices == 0) {
             EXPECT_EQ(mesh.locate({1, 2, 3}, simplex), ABACUS_END);
         }
         Points all = points;
@@ -107,7 +108,7 @@ TEST(Tetrahedralization, FewerDimensionsMakeAnEmptyMeshThatCanGrow) {
             EXPECT_EQ(mesh.positions(), cgal_simplices<3>(all));
             EXPECT_EQ(mesh.check(), std::vector<std::string>{});
         }
-        EXPECT_GT(mesh.header.simplices, 0u);
+        EXPECT_GT(mesh.header.facts.census.simplices, 0u);
     }
 }
 
@@ -133,11 +134,11 @@ TEST(ProbingInSpace, GivesTheSameMeshAsStoredLinks) {
     EXPECT_GT(cache.counters.concentric_probes, 0u);
     EXPECT_EQ(cache.counters.link_probes, 0u);
 
-    mesh.header.has_domain = 1;
-    std::fill_n(mesh.header.upper, 3, 1.0);
-    mesh.header.vertices = points.size();
-    mesh.header.simplices = static_cast<std::uint64_t>(delaunay.simplices());
-    mesh.header.ghosts = static_cast<std::uint64_t>(delaunay.ghosts());
+    mesh.header.facts.form.has_domain = 1;
+    std::fill_n(mesh.header.facts.form.upper, 3, 1.0);
+    mesh.header.facts.census.vertices = points.size();
+    mesh.header.facts.census.simplices = static_cast<std::uint64_t>(delaunay.simplices());
+    mesh.header.facts.census.ghosts = static_cast<std::uint64_t>(delaunay.ghosts());
     EXPECT_EQ(mesh.positions(), cgal_simplices<3>(points));
     EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
 }

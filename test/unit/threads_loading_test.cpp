@@ -53,7 +53,7 @@ protected:
         EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
         if (status != ABACUS_OK) return std::string(mesh.error.message) + mesh.error.detail;
         EXPECT_TRUE(mesh.host.spools.empty());
-        EXPECT_EQ(mesh.header.simplices, t.simplices.size());
+        EXPECT_EQ(mesh.header.facts.census.simplices, t.simplices.size());
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
         return "";
     }

@@ -86,7 +86,7 @@ abacus_status ask(MeshOf<D> &mesh, Asked asked, const std::vector<InputOf<D>> &p
         for (const double x : place.point) records.push_back(std::bit_cast<std::uint64_t>(x));
     }
     abacus_places *handle = nullptr;
-    abacus_status status = abacus_places_open(mesh.host.table(), &mesh.header, 1 << 20,
+    abacus_status status = abacus_places_open(mesh.host.table(), &mesh.header.facts, 1 << 20,
                                               mesh.cache_bytes, &handle, &mesh.error);
     if (status == ABACUS_OK)
         status = abacus_places_add(handle, records.data(), places.size(), &mesh.error);
@@ -258,7 +258,7 @@ TYPED_TEST(ThreadsReading, CheckLargeMeshes) {
         EXPECT_EQ(watched.seen, 3);
         EXPECT_EQ(watched.told, 3);
     }
-    mesh.header.vertices += 1; // found by what all threads have seen together
+    mesh.header.facts.census.vertices += 1; // found by what all threads have seen together
     const auto together = faults_of(mesh);
     EXPECT_FALSE(together.empty());
     mesh.host.set_threads(1, false);
@@ -284,7 +284,7 @@ TYPED_TEST(ThreadsReading, FindTheSameFaultsInDamagedMeshes) {
                 mesh.host.pages.erase(page);
                 break;
             case 1:
-                ++mesh.header.simplices;
+                ++mesh.header.facts.census.simplices;
                 break;
             default: // a bit, with a checksum that is right unless it is the last kind
                 page->second.bytes()[mesh.random() % page->second.size] ^= 1 << mesh.random() % 8;
@@ -334,7 +334,7 @@ TYPED_TEST(ThreadsReading, EndCleanlyWhereverTheHostFails) {
                          [&] {
                              abacus_check *check = nullptr;
                              const auto status =
-                                 abacus_check_open(mesh.host.table(), &mesh.header,
+                                 abacus_check_open(mesh.host.table(), &mesh.header.facts,
                                                    mesh.cache_bytes, 10, &check, &mesh.error);
                              abacus_check_close(check);
                              return expect_clean(status);
@@ -372,8 +372,8 @@ TYPED_TEST(ThreadsReading, EndCleanlyWhenMemoryRunsOut) {
     };
     const auto check = [&] {
         abacus_check *check = nullptr;
-        const auto status = abacus_check_open(mesh.host.table(), &mesh.header, mesh.cache_bytes, 10,
-                                              &check, &mesh.error);
+        const auto status = abacus_check_open(mesh.host.table(), &mesh.header.facts,
+                                              mesh.cache_bytes, 10, &check, &mesh.error);
         abacus_check_close(check);
         return expect_clean(status);
     };
@@ -409,7 +409,7 @@ TYPED_TEST(ThreadsReading, EndCleanlyWhenTheyAreCancelled) {
     EXPECT_EQ(mesh.host.bytes, bytes);
     cancel_once_at_work();
     abacus_check *check = nullptr;
-    EXPECT_EQ(abacus_check_open(mesh.host.table(), &mesh.header, mesh.cache_bytes, 10, &check,
+    EXPECT_EQ(abacus_check_open(mesh.host.table(), &mesh.header.facts, mesh.cache_bytes, 10, &check,
                                 &mesh.error),
               ABACUS_HOST_ERROR);
     EXPECT_TRUE(were_at_work);

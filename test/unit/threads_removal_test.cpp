@@ -99,8 +99,8 @@ TYPED_TEST(ThreadsRemoval, TakesTheRightOnesOfEqualPoints) {
             this->remove(mesh, model, wanted);
             if (this->HasFatalFailure()) return;
         }
-        EXPECT_GT(mesh.header.vertices, 0u);
-        EXPECT_GT(mesh.header.duplicates, 0u);
+        EXPECT_GT(mesh.header.facts.census.vertices, 0u);
+        EXPECT_GT(mesh.header.facts.census.duplicates, 0u);
     }
 }
 
@@ -223,8 +223,8 @@ TYPED_TEST(ThreadsRemoval, LeavesPointsThatWait) {
         leave.insert(leave.begin() + 100, one[0]);
         this->remove(mesh, model, leave);
         if (this->HasFatalFailure()) return;
-        EXPECT_EQ(mesh.header.vertices, 0u);
-        EXPECT_GT(mesh.header.staged, mesh.header.inserted);
+        EXPECT_EQ(mesh.header.facts.census.vertices, 0u);
+        EXPECT_GT(mesh.header.facts.census.staged, mesh.header.facts.census.inserted);
         this->insert(mesh, model, one);
         model.expect(mesh);
     }
@@ -263,7 +263,7 @@ TYPED_TEST(ThreadsRemoval, SharesMuchWorkEvenly) {
         EXPECT_GT(phases, 2u);
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
         EXPECT_TRUE(this->ids(mesh) == expected);
-        EXPECT_EQ(mesh.header.duplicates, alone.header.duplicates);
+        EXPECT_EQ(mesh.header.facts.census.duplicates, alone.header.facts.census.duplicates);
         EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
         EXPECT_EQ(mesh.host.bytes, 0u);
     }
@@ -290,7 +290,7 @@ TYPED_TEST(ThreadsRemoval, EndsCleanlyWhereverTheHostFails) {
             ASSERT_EQ(deleted, leave.size());
         } else {
             ASSERT_EQ(status, ABACUS_HOST_ERROR) << n;
-            ASSERT_EQ(mesh.header.vertices, before.vertices);
+            ASSERT_EQ(mesh.header.facts.census.vertices, before.facts.census.vertices);
         }
     }
 }

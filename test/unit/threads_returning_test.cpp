@@ -37,7 +37,7 @@ TYPED_TEST(ThreadsReturning, OfMuchWorkSharedEvenly) {
     mesh.host.set_threads(2, false);
     Returned<D> returned(mesh, 2 << 20);
     returned.insert(points);
-    EXPECT_EQ(returned.rows.size(), mesh.header.simplices);
+    EXPECT_EQ(returned.rows.size(), mesh.header.facts.census.simplices);
     EXPECT_GT(mesh.header.counters.passes, 0u);
 }
 
@@ -50,7 +50,7 @@ TYPED_TEST(ThreadsReturning, EndsWellWhateverFails) {
         mesh.host.set_threads(3, true);
         mesh.host.fail_at(n);
         const abacus_status status = mesh.with_stage(points, 1 << 20, [&](abacus_stage *stage) {
-            const abacus_status ended = abacus_stage_end(stage, &mesh.header, &mesh.error);
+            const abacus_status ended = abacus_stage_end(stage, &mesh.header.facts, &mesh.error);
             if (ended != ABACUS_OK) return ended;
             return mesh.with_build([&](abacus_build *build) {
                 const abacus_status logs = abacus_build_log(build, 1, &mesh.error);

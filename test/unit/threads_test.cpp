@@ -30,8 +30,8 @@ protected:
             }
             EXPECT_EQ(mesh.check(), std::vector<std::string>{});
             EXPECT_TRUE(ids(mesh) == expected) << threads << " threads";
-            EXPECT_EQ(mesh.header.vertices, alone.header.vertices);
-            EXPECT_EQ(mesh.header.duplicates, alone.header.duplicates);
+            EXPECT_EQ(mesh.header.facts.census.vertices, alone.header.facts.census.vertices);
+            EXPECT_EQ(mesh.header.facts.census.duplicates, alone.header.facts.census.duplicates);
             EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
             EXPECT_EQ(mesh.host.bytes, 0u);
         }
@@ -76,7 +76,7 @@ TYPED_TEST(Threads, ShareMuchWorkEvenly) {
         EXPECT_EQ(most, threads_at_first + 2);
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
         EXPECT_TRUE(this->ids(mesh) == expected);
-        EXPECT_EQ(mesh.header.duplicates, 5000u);
+        EXPECT_EQ(mesh.header.facts.census.duplicates, 5000u);
         EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
     }
 }
@@ -89,13 +89,13 @@ TYPED_TEST(Threads, GatherNoMoreThanTheirShareOfTheMemory) {
     for (auto &p : input) p.attributes.assign(100, p.point[0]);
     for (const auto on_duplicate : {ABACUS_KEEP, ABACUS_REPLACE}) {
         MeshOf<D> mesh(100, cache);
-        mesh.header.apart = 1;
+        mesh.header.facts.columns.apart = 1;
         mesh.host.set_threads(2, false);
         ASSERT_EQ(mesh.insert({input.begin(), input.begin() + 10}), ABACUS_OK);
         mesh.host.peak_bytes = 0;
         ASSERT_EQ(mesh.insert(input, sort, on_duplicate), ABACUS_OK) << mesh.error.message;
         EXPECT_LT(mesh.host.peak_bytes, std::size_t{14} << 20);
-        EXPECT_EQ(mesh.header.vertices, 20000u);
+        EXPECT_EQ(mesh.header.facts.census.vertices, 20000u);
     }
 }
 
@@ -175,7 +175,7 @@ TYPED_TEST(Threads, EndCleanlyWhereverTheHostFails) {
             ended = 1;
         else {
             ASSERT_EQ(status, ABACUS_HOST_ERROR) << n;
-            ASSERT_EQ(mesh.header.vertices, before.vertices);
+            ASSERT_EQ(mesh.header.facts.census.vertices, before.facts.census.vertices);
         }
     }
 }
@@ -198,7 +198,7 @@ TYPED_TEST(Threads, EndCleanlyWhenTheirMemoryRunsOut) {
         if (status == ABACUS_OK) break;
         ASSERT_EQ(status, ABACUS_ERROR);
         ASSERT_EQ(mesh.error.kind, ABACUS_ERROR_MEMORY) << mesh.error.message;
-        ASSERT_EQ(mesh.header.vertices, before.vertices);
+        ASSERT_EQ(mesh.header.facts.census.vertices, before.facts.census.vertices);
     }
     EXPECT_GT(failures, 5);
 }

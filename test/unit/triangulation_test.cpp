@@ -35,8 +35,9 @@ TEST_P(Triangulation, EqualsCgalForEveryOrderAndCacheSize) {
         Mesh mesh(0, cache);
         ASSERT_EQ(mesh.stage(number(points)), ABACUS_OK) << mesh.error.message;
         ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message << ' ' << mesh.error.detail;
-        EXPECT_EQ(mesh.header.simplices, expected.size());
-        EXPECT_EQ(mesh.header.vertices + mesh.header.duplicates, points.size());
+        EXPECT_EQ(mesh.header.facts.census.simplices, expected.size());
+        EXPECT_EQ(mesh.header.facts.census.vertices + mesh.header.facts.census.duplicates,
+                  points.size());
         EXPECT_EQ(mesh.positions(), expected) << "cache of " << cache << " bytes";
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
         EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
@@ -62,7 +63,7 @@ TEST(Triangulation, AddsToAMeshThatIsThere) {
     ASSERT_EQ(mesh.stage({all.begin() + 6000, all.end()}), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.detail;
     EXPECT_EQ(mesh.positions(), cgal_simplices<2>(points));
-    EXPECT_EQ(mesh.header.duplicates, 600u);
+    EXPECT_EQ(mesh.header.facts.census.duplicates, 600u);
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});
 }
 
@@ -86,8 +87,8 @@ TEST(Triangulation, FewerDimensionsMakeAnEmptyMeshThatCanGrow) {
         Mesh mesh;
         ASSERT_EQ(mesh.stage(number(points)), ABACUS_OK);
         ASSERT_EQ(mesh.build(), ABACUS_OK);
-        EXPECT_EQ(mesh.header.simplices, 0u);
-        EXPECT_EQ(mesh.header.staged, points.size());
+        EXPECT_EQ(mesh.header.facts.census.simplices, 0u);
+        EXPECT_EQ(mesh.header.facts.census.staged, points.size());
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
         abacus_simplex simplex;
         EXPECT_EQ(mesh.locate({1, 2}, simplex), ABACUS_END);

@@ -18,7 +18,7 @@ template <int D> class Updated {
 public:
     Updated(bool apart, std::size_t cache_bytes, int count = static_cast<int>(attributes))
         : mesh(count, cache_bytes), count_(static_cast<std::size_t>(count)) {
-        mesh.header.apart = apart;
+        mesh.header.facts.columns.apart = apart;
     }
 
     /// Points of a kind: 0 uniform, 1 few places, 2 on a line or plane.
@@ -87,12 +87,12 @@ private:
                          std::size_t memory) {
         const std::size_t width = which.size() + (exactly ? count_ : 0);
         abacus_header shape = mesh.header;
-        shape.attributes = static_cast<std::uint32_t>(width);
+        shape.facts.columns.attributes = static_cast<std::uint32_t>(width);
         abacus_stage *stage = nullptr;
         abacus_status status =
-            abacus_stage_open(mesh.host.table(), &shape, memory, &stage, &mesh.error);
+            abacus_stage_open(mesh.host.table(), &shape.facts, memory, &stage, &mesh.error);
         for (const InputOf<D> &p : points) {
-            std::vector<std::uint64_t> record(record_words(D, shape.attributes));
+            std::vector<std::uint64_t> record(record_words(D, shape.facts.columns.attributes));
             fill_record<D>(record.data(), p.id, p.point, p.attributes.data(), width);
             if (status == ABACUS_OK)
                 status = abacus_stage_add(stage, record.data(), 1, &mesh.error);
@@ -188,12 +188,13 @@ TYPED_TEST(Update, LooksForNoLabels) {
     for (const bool labelled : {false, true}) {
         Updated<D> world(false, 1 << 20, 1);
         world.insert(world.fresh(2000, 0));
-        world.mesh.header.labels = world.mesh.header.labelled = labelled; // none is stored
+        world.mesh.header.facts.columns.labels = world.mesh.header.facts.census.labelled =
+            labelled; // none is stored
         const auto points = world.changes(1000, 1);
         const std::size_t before = world.mesh.host.calls.find;
         ASSERT_EQ(world.update(points, {0}), ABACUS_OK) << world.mesh.error.detail;
         found[labelled] = world.mesh.host.calls.find - before;
-        world.mesh.header.labels = world.mesh.header.labelled = 0;
+        world.mesh.header.facts.columns.labels = world.mesh.header.facts.census.labelled = 0;
         world.model.update(points, {0});
         world.model.expect(world.mesh);
     }
@@ -268,8 +269,8 @@ TYPED_TEST(Update, ExactlyChangesPointsThatAreAsTheyWere) {
 template <int D> std::vector<double> values_at(MeshOf<D> &mesh, const InputOf<D> &like) {
     std::vector<double> values;
     abacus_vertex_scan *scan = nullptr;
-    EXPECT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header, mesh.cache_bytes, &scan,
-                                      &mesh.error),
+    EXPECT_EQ(abacus_vertex_scan_open(mesh.host.table(), &mesh.header.facts, mesh.cache_bytes,
+                                      &scan, &mesh.error),
               ABACUS_OK);
     abacus_vertex v;
     while (abacus_vertex_scan_next(scan, &v, &mesh.error) == ABACUS_OK)
@@ -334,7 +335,7 @@ TYPED_TEST(Update, SaysWhichPointIsMissing) {
     ASSERT_EQ(empty.update({{1, Point<D>{}, {1.}}}, {0}), ABACUS_OK);
     EXPECT_EQ(empty.updated, 0u);
     EXPECT_EQ(empty.missing.id, 1);
-    EXPECT_EQ(empty.mesh.header.has_domain, 0u);
+    EXPECT_EQ(empty.mesh.header.facts.form.has_domain, 0u);
 }
 
 TYPED_TEST(Update, LosesNothingWhenAnythingFails) {

@@ -122,7 +122,7 @@ TEST(ValueRaster, OfMeshesWithHoles) {
     for (auto &v : t.vertices) v.attributes = {wavy<2>(v.point)};
     Mesh mesh(1);
     ASSERT_EQ(mesh.load(t.vertices, t.simplices), ABACUS_OK) << mesh.error.message;
-    ASSERT_NE(mesh.header.standing, 0u);
+    ASSERT_NE(mesh.header.facts.standing, 0u);
     expect_rasters<2>(mesh, 13, false);
 }
 

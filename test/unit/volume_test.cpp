@@ -176,9 +176,9 @@ abacus_window window(double x0, double y0, double x1, double y1) {
 template <int D> abacus_volume above(MeshOf<D> &mesh, const abacus_window &window, double base) {
     const abacus_surface surface = surface_in(window);
     abacus_volume volume{};
-    EXPECT_EQ(
-        abacus_volume_above(mesh.host.table(), &mesh.header, &surface, base, &volume, &mesh.error),
-        ABACUS_OK)
+    EXPECT_EQ(abacus_volume_above(mesh.host.table(), &mesh.header.facts, &surface, base, &volume,
+                                  &mesh.error),
+              ABACUS_OK)
         << mesh.error.message;
     EXPECT_EQ(mesh.host.bytes, 0u);
     return volume;
@@ -188,9 +188,9 @@ abacus_volume between(Mesh &first, Mesh &second, const abacus_window &window,
                       std::size_t cache_bytes = std::size_t{1} << 20) {
     const abacus_surface surface = surface_in(window);
     abacus_volume volume{};
-    EXPECT_EQ(abacus_volume_between(first.host.table(), &first.header, &surface,
-                                    second.host.table(), &second.header, 0, cache_bytes, &volume,
-                                    &first.error),
+    EXPECT_EQ(abacus_volume_between(first.host.table(), &first.header.facts, &surface,
+                                    second.host.table(), &second.header.facts, 0, cache_bytes,
+                                    &volume, &first.error),
               ABACUS_OK)
         << first.error.message << first.error.detail;
     EXPECT_EQ(first.host.bytes + second.host.bytes, 0u);
@@ -409,12 +409,13 @@ TEST(Volume, LeavesOutLongEdges) {
     other.triangles = keep_short(other.triangles);
     ASSERT_GT(mesh.triangles.size(), 100u);
     abacus_volume volume{};
-    ASSERT_EQ(
-        abacus_volume_above(mesh.host.table(), &mesh.header, &surface, 0.1, &volume, &mesh.error),
-        ABACUS_OK);
+    ASSERT_EQ(abacus_volume_above(mesh.host.table(), &mesh.header.facts, &surface, 0.1, &volume,
+                                  &mesh.error),
+              ABACUS_OK);
     expect_near(volume, expected_above(mesh, {}, 0.1));
-    ASSERT_EQ(abacus_volume_between(mesh.host.table(), &mesh.header, &surface, other.host.table(),
-                                    &other.header, 0, std::size_t{1} << 20, &volume, &mesh.error),
+    ASSERT_EQ(abacus_volume_between(mesh.host.table(), &mesh.header.facts, &surface,
+                                    other.host.table(), &other.header.facts, 0,
+                                    std::size_t{1} << 20, &volume, &mesh.error),
               ABACUS_OK);
     expect_near(volume, expected_between(mesh, other, {}));
 }
@@ -537,10 +538,10 @@ TEST(Volume, ShowsItsProgress) {
             between(mesh, mesh, window(0, 0, 0.3, 0.3));
         ASSERT_GE(reports.size(), 2u);
         EXPECT_EQ(reports.front().phase, ABACUS_PHASE_SCANNING);
-        EXPECT_EQ(reports.front().total, is_alone ? mesh.header.simplices : 0);
+        EXPECT_EQ(reports.front().total, is_alone ? mesh.header.facts.census.simplices : 0);
         EXPECT_GT(reports.back().done, 0u);
         if (is_alone) {
-            EXPECT_EQ(reports.back().done, mesh.header.simplices);
+            EXPECT_EQ(reports.back().done, mesh.header.facts.census.simplices);
         }
         mesh.host.on_progress = {};
     }
@@ -556,16 +557,16 @@ TEST(Volume, SurvivesFailures) {
         for (std::uint64_t n = 1; n < 40; n += 3) {
             failing->fail_at(n);
             const abacus_status status = abacus_volume_between(
-                first.host.table(), &first.header, &surface, second.host.table(), &second.header, 0,
-                100 << 10, &volume, &first.error);
+                first.host.table(), &first.header.facts, &surface, second.host.table(),
+                &second.header.facts, 0, 100 << 10, &volume, &first.error);
             EXPECT_EQ(status, failing->failed ? ABACUS_HOST_ERROR : ABACUS_OK);
             failing->recover();
             EXPECT_EQ(first.host.bytes + second.host.bytes, 0u);
         }
     first.host.cancel();
-    EXPECT_EQ(abacus_volume_between(first.host.table(), &first.header, &surface,
-                                    second.host.table(), &second.header, 0, 100 << 10, &volume,
-                                    &first.error),
+    EXPECT_EQ(abacus_volume_between(first.host.table(), &first.header.facts, &surface,
+                                    second.host.table(), &second.header.facts, 0, 100 << 10,
+                                    &volume, &first.error),
               ABACUS_HOST_ERROR);
 }
 

@@ -26,8 +26,9 @@ template <int D> Cells read(MeshOf<D> &mesh, const abacus_window &window, std::s
     abacus_voronoi *voronoi = nullptr;
     abacus_error error{};
     const auto open = [&] {
-        EXPECT_EQ(abacus_voronoi_open(host, &mesh.header, &window, cache_bytes, &voronoi, &error),
-                  ABACUS_OK)
+        EXPECT_EQ(
+            abacus_voronoi_open(host, &mesh.header.facts, &window, cache_bytes, &voronoi, &error),
+            ABACUS_OK)
             << error.message;
     };
     open();

@@ -20,12 +20,12 @@ constexpr std::size_t little = 60 << 10, ample = 64 << 20;
 template <int D> class Wide {
 public:
     explicit Wide(int count, std::size_t cache_bytes = ample) : mesh(count, cache_bytes) {
-        mesh.header.apart = 1;
+        mesh.header.facts.columns.apart = 1;
     }
 
     /// Incompressible values, NaN among them.
     std::vector<double> values() {
-        std::vector<double> values(mesh.header.attributes);
+        std::vector<double> values(mesh.header.facts.columns.attributes);
         for (double &x : values) {
             x = std::uniform_real_distribution<double>(-1, 1)(random);
             if (random() % 50 == 0) x = std::numeric_limits<double>::quiet_NaN();
@@ -84,22 +84,22 @@ public:
         }),
                   ABACUS_OK)
             << mesh.error.detail;
-        for (std::uint32_t i = 0; i < mesh.header.attributes; ++i)
+        for (std::uint32_t i = 0; i < mesh.header.facts.columns.attributes; ++i)
             std::snprintf(mesh.header.names[i], ABACUS_NAME_BYTES, "a%u", i);
         model.change_attributes(source);
         model.expect(mesh);
     }
     /// Other values of the first, the last and one in the middle.
     void update(std::size_t n) {
-        const std::uint32_t count = mesh.header.attributes;
+        const std::uint32_t count = mesh.header.facts.columns.attributes;
         const std::vector<std::uint32_t> which{count - 1, 0, count / 2};
         auto points = some(n);
         for (InputOf<D> &p : points) p.attributes = {1, double(p.id), 3};
         abacus_header shape = mesh.header;
-        shape.attributes = static_cast<std::uint32_t>(which.size());
+        shape.facts.columns.attributes = static_cast<std::uint32_t>(which.size());
         abacus_stage *stage = nullptr;
         abacus_status status =
-            abacus_stage_open(mesh.host.table(), &shape, 1 << 20, &stage, &mesh.error);
+            abacus_stage_open(mesh.host.table(), &shape.facts, 1 << 20, &stage, &mesh.error);
         for (const InputOf<D> &p : points) {
             std::array<std::uint64_t, record_words(D, 3)> record;
             fill_record<D>(record.data(), p.id, p.point, p.attributes.data(), 3);

@@ -63,11 +63,11 @@ estimate_mesh(const Published *published, Oid user, MeshSize *size)
 		return;
 	reader = published_open_mesh(published, user, CurrentMemoryContext, NULL);
 	size->is_known = true;
-	size->dimension = reader->header.dimension;
-	size->rows = (double) (published->content == CONTENT_CELLS ? reader->header.simplices
-						   : reader->header.vertices);
-	memcpy(size->lower, reader->header.lower, sizeof(size->lower));
-	memcpy(size->upper, reader->header.upper, sizeof(size->upper));
+	size->dimension = reader->header.facts.form.dimension;
+	size->rows = (double) (published->content == CONTENT_CELLS ? reader->header.facts.census.simplices
+						   : reader->header.facts.census.vertices);
+	memcpy(size->lower, reader->header.facts.form.lower, sizeof(size->lower));
+	memcpy(size->upper, reader->header.facts.form.upper, sizeof(size->upper));
 	size->pages = pages_of(published->mesh);
 	host_destroy(reader->host);
 }

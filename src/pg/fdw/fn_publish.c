@@ -41,7 +41,7 @@ enum
 typedef struct Publishing
 {
 	Oid			mesh;
-	const abacus_header *header;
+	abacus_names names;
 	const Numbering *numbering;
 	const char *schema;			/* of the foreign tables */
 	const char *functions;		/* schema of ours */
@@ -100,8 +100,8 @@ attribute_number(const Publishing *publication, uint32 position)
 static void
 add_attributes(Definition *definition, const Publishing *publication)
 {
-	for (uint32 i = 0; i < publication->header->attributes; i++)
-		add_column(definition, publication->header->names[i], "pg_catalog.float8",
+	for (uint32 i = 0; i < publication->names.facts->columns.attributes; i++)
+		add_column(definition, publication->names.of[i], "pg_catalog.float8",
 				   psprintf("attribute %u", attribute_number(publication, i)), "");
 }
 
@@ -118,7 +118,7 @@ add_values(Definition *definition, const Publishing *publication)
 static void
 add_geometry(Definition *definition, const Publishing *publication, Content content)
 {
-	bool		is_flat = publication->header->dimension == 2;
+	bool		is_flat = publication->names.facts->form.dimension == 2;
 	const char *kind = content == CONTENT_POINTS ? "Point" : is_flat ? "Polygon" : "PolyhedralSurface";
 	bool		has_z = !is_flat || publication->z >= 0;
 
@@ -136,7 +136,7 @@ add_columns(Definition *definition, const Publishing *publication, Content conte
 {
 	static const char *const ids[] = {"code", "v0", "v1", "v2", "v3"};
 	static const char *const axes[] = {"x", "y", "z"};
-	int			dimension = (int) publication->header->dimension;
+	int			dimension = (int) publication->names.facts->form.dimension;
 
 	if (content == CONTENT_CELLS)
 	{
@@ -198,9 +198,9 @@ z_argument(FunctionCallInfo fcinfo, const Publishing *publication)
 {
 	if (PG_ARGISNULL(PUBLISH_Z))
 		return -1;
-	header_require_dimension(publication->header, 2,
+	header_require_dimension(&publication->names.facts->form, 2,
 							 "Geometries of a mesh in space have a Z already: leave out z.");
-	return header_find_attribute(publication->header, text_to_cstring(PG_GETARG_TEXT_PP(PUBLISH_Z)));
+	return header_find_attribute(publication->names, text_to_cstring(PG_GETARG_TEXT_PP(PUBLISH_Z)));
 }
 
 /* The SRID of the geometries: that of the mesh, or one that is given for a mesh without one. */
@@ -208,8 +208,8 @@ static int
 srid_argument(FunctionCallInfo fcinfo, const Publishing *publication)
 {
 	if (PG_ARGISNULL(PUBLISH_SRID))
-		return (int) publication->header->srid;
-	header_require_srid(publication->header, PG_GETARG_INT32(PUBLISH_SRID));
+		return (int) publication->names.facts->form.srid;
+	header_require_srid(&publication->names.facts->form, PG_GETARG_INT32(PUBLISH_SRID));
 	return PG_GETARG_INT32(PUBLISH_SRID);
 }
 
@@ -266,10 +266,10 @@ read_mesh(Publishing *publication)
 	CommandCounterIncrement();
 	PushActiveSnapshot(GetLatestSnapshot());
 	reader = reader_open(publication->mesh, CurrentMemoryContext);
-	numbering_read(reader->host, &reader->header, numbering);
+	numbering_read(reader->host, &reader->header.facts.columns, numbering);
 	host_release(reader->host);
 	PopActiveSnapshot();
-	publication->header = &reader->header;
+	publication->names = abacus_names_of(&reader->header);
 	publication->numbering = numbering;
 	return reader;
 }

@@ -4,7 +4,7 @@
 #ifndef ABACUS_GEOMETRY_COLUMN_H
 #define ABACUS_GEOMETRY_COLUMN_H
 
-#include "abacus/mesh_header.h"
+#include "abacus/facts.h"
 #include "pg/postgis/geometry_write.h"
 
 /* How a column gets its values. */

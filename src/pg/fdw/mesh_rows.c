@@ -69,14 +69,14 @@ check_attributes(const MeshRows *rows, Relation table, int at)
 static void
 check_column(const MeshRows *rows, Relation table, int at)
 {
-	const abacus_header *header = &rows->reader->header;
+	const abacus_facts *facts = &rows->reader->header.facts;
 	const Column *column = &rows->published->columns[at];
 	bool		has = true;
 
 	if (column->holds == HOLDS_CORNER)
-		has = column->number <= header->dimension;
+		has = column->number <= facts->form.dimension;
 	else if (column->holds == HOLDS_COORDINATE)
-		has = column->number < header->dimension;
+		has = column->number < facts->form.dimension;
 	if (!has)
 		ereport(ERROR,
 				(errcode(ERRCODE_FDW_COLUMN_NAME_NOT_FOUND),
@@ -102,7 +102,8 @@ static int32
 srid_of(const MeshRows *rows, GeometryMaker *maker, int number)
 {
 	MeshRow		row = {
-		.dimension = rows->reader->header.dimension, .attributes = rows->reader->header.attributes
+		.dimension = rows->reader->header.facts.form.dimension,
+		.attributes = rows->reader->header.facts.columns.attributes
 	};
 	GeometryBytes bytes;
 
@@ -167,7 +168,7 @@ mesh_rows_open(Relation table, const Published *published, const Bitmapset *want
 uint32
 mesh_rows_dimension(const MeshRows *rows)
 {
-	return rows->reader->header.dimension;
+	return rows->reader->header.facts.form.dimension;
 }
 
 int32
@@ -196,10 +197,10 @@ begin_cells(MeshRows *rows, const Bounds *bounds)
 	Host	   *host = reader->host;
 
 	if (bounds->has_codes)
-		host_run(host, abacus_cells_open_stretch, &host->table, &reader->header,
+		host_run(host, abacus_cells_open_stretch, &host->table, &reader->header.facts,
 				 bounds->least_code, bounds->greatest_code, &rows->cells);
 	else
-		host_run(host, abacus_cells_open, &host->table, &reader->header, &bounds->window, 0.0, NULL,
+		host_run(host, abacus_cells_open, &host->table, &reader->header.facts, &bounds->window, 0.0, NULL,
 				 &rows->cells);
 	host_own(host, rows->cells, (void (*) (void *)) abacus_cells_close);
 }
@@ -214,10 +215,10 @@ begin_points(MeshRows *rows, const Bounds *bounds)
 
 	range.attribute = (uint32) position;
 	if (position >= 0)
-		host_run(host, abacus_faces_open_range, &host->table, &reader->header, &bounds->window,
+		host_run(host, abacus_faces_open_range, &host->table, &reader->header.facts, &bounds->window,
 				 &range, setting_cache_bytes(), &rows->points);
 	else
-		host_run(host, abacus_faces_open, &host->table, &reader->header, &bounds->window, 0, 0.0,
+		host_run(host, abacus_faces_open, &host->table, &reader->header.facts, &bounds->window, 0, 0.0,
 				 setting_cache_bytes(), &rows->points);
 	host_own(host, rows->points, (void (*) (void *)) abacus_faces_close);
 }
@@ -331,8 +332,8 @@ fetch(MeshRows *rows, MeshRow *row)
 static void
 make_row(const MeshRows *rows, MeshRow *row, Datum *values, bool *isnull)
 {
-	row->dimension = rows->reader->header.dimension;
-	row->attributes = rows->reader->header.attributes;
+	row->dimension = rows->reader->header.facts.form.dimension;
+	row->attributes = rows->reader->header.facts.columns.attributes;
 	for (int i = 0; i < rows->published->count; i++)
 	{
 		isnull[i] = !bms_is_member(i, rows->wanted);

@@ -276,7 +276,7 @@ published_open_mesh(const Published *published, Oid user, MemoryContext memory,
 	SetUserIdAndSecContext(user, context | SECURITY_LOCAL_USERID_CHANGE);
 	reader = reader_open(published->mesh, memory);
 	if (numbering != NULL)
-		numbering_read(reader->host, &reader->header, numbering);
+		numbering_read(reader->host, &reader->header.facts.columns, numbering);
 	SetUserIdAndSecContext(caller, context);
 	host_release(reader->host);
 	return reader;

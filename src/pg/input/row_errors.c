@@ -14,13 +14,13 @@ static const char *const corner_names[ABACUS_MAX_DIMENSION + 1] = {"v0", "v1", "
 
 /* What a column is called in messages, and in tables by default. */
 const char *
-row_packer_column(const abacus_header *header, int column)
+row_packer_column(abacus_names names, int column)
 {
 	if (column == 0)
 		return "id";
-	if (column <= (int) header->dimension)
+	if (column <= (int) names.facts->form.dimension)
 		return coordinate_names[column - 1];
-	return header->names[column - 1 - header->dimension];
+	return names.of[column - 1 - names.facts->form.dimension];
 }
 
 /* The word of a record that a column of a row becomes. */
@@ -35,7 +35,7 @@ row_word(const RowPacker *packer, int column)
 static const char *
 simplex_column(const RowPacker *packer, int column)
 {
-	int			dimension = (int) packer->header->dimension;
+	int			dimension = (int) packer->names.facts->form.dimension;
 	int			corner = packer->ids > dimension + 1 ? column - 1 : column;
 
 	return corner < 0 ? "code" : corner <= dimension ? corner_names[corner] : "facet";
@@ -47,7 +47,7 @@ column_name(const RowPacker *packer, int column)
 {
 	if (packer->ids > 1)
 		return column >= packer->ids
-			? packer->header->names[packer->header->attributes + column - packer->ids]
+			? packer->names.of[packer->names.facts->columns.attributes + column - packer->ids]
 			: simplex_column(packer, column);
 	if (row_has_geometry(packer) && column == GEOMETRY_COLUMN)
 		return "geometry";
@@ -57,7 +57,7 @@ column_name(const RowPacker *packer, int column)
 		return packer->origin->level;
 	column = row_word(packer, column) - packer->ids;
 	return column < packer->coordinates ? coordinate_names[column]
-		: packer->header->names[column - packer->coordinates];
+		: packer->names.of[column - packer->coordinates];
 }
 
 /* "id, x, y, height" */
@@ -148,7 +148,7 @@ row_tell_order(const RowPacker *packer, TupleDesc desc)
 		ereport(NOTICE,
 				(errmsg("columns go by position, not by name: %s", taken_columns(packer, desc)),
 				 errhint("The order is %s, %s%s.", packer->origin->id,
-						 packer->header->dimension == 2 ? "x, y" : "x, y, z",
+						 packer->names.facts->form.dimension == 2 ? "x, y" : "x, y, z",
 						 packer->inputs > 1 + packer->coordinates ? ", then attributes" : "")));
 }
 
@@ -168,7 +168,7 @@ geometry_hint(const RowPacker *packer, const char *column, Oid type)
 		return psprintf("Give a geometry of it, %s::geometry.", quoted);
 	if (strcmp(name, "geometry") != 0)
 		return NULL;
-	return psprintf(packer->header->dimension == 2 ? "%2$s, ST_X(%1$s) and ST_Y(%1$s)."
+	return psprintf(packer->names.facts->form.dimension == 2 ? "%2$s, ST_X(%1$s) and ST_Y(%1$s)."
 					: "%2$s, ST_X(%1$s), ST_Y(%1$s) and ST_Z(%1$s).",
 					quoted, packer->origin->geometry_hint);
 }
@@ -213,7 +213,7 @@ count_hint(const RowPacker *packer, TupleDesc desc)
 							 TupleDescAttr(desc, i)->atttypid);
 	if (hint != NULL || packer->ids > 1 || packer->origin->level != NULL)
 		return hint;
-	if (desc->natts > packer->inputs && packer->header->dimension == 2 && desc->natts > 3 &&
+	if (desc->natts > packer->inputs && packer->names.facts->form.dimension == 2 && desc->natts > 3 &&
 		pg_strcasecmp(NameStr(TupleDescAttr(desc, 3)->attname), "z") == 0)
 		return psprintf("The %s has dimension 2; one in space is made with dimension => 3.",
 						packer->origin->whole);
@@ -260,8 +260,8 @@ row_refuse_value(const RowPacker *packer, const uint64 *point, int column, bool 
 void
 row_refuse_srid(const RowPacker *packer, const char *what, int32 srid)
 {
-	if (packer->header->srid != 0 || !packer->takes_srid)
-		geometry_refuse_srid(what, srid, (int32) packer->header->srid, packer->origin->whole);
+	if (packer->names.facts->form.srid != 0 || !packer->takes_srid)
+		geometry_refuse_srid(what, srid, (int32) packer->names.facts->form.srid, packer->origin->whole);
 	ereport(ERROR,
 			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 			 errmsg("%s has SRID %d, but those before it have SRID %d", what, srid, packer->srid),

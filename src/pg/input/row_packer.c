@@ -152,7 +152,7 @@ static void
 pack_geometry(RowPacker *packer, const TupleTableSlot *slot, uint64 *record)
 {
 	const char *what = psprintf("geometry of point " INT64_FORMAT, (int64) record[0]);
-	uint32		dimension = packer->header->dimension;
+	uint32		dimension = packer->names.facts->form.dimension;
 	GeometryPoint point;
 
 	if (slot->tts_isnull[GEOMETRY_COLUMN])
@@ -239,19 +239,19 @@ shut_down(DestReceiver *self)
  * have others behind them; `takes_srid`: a mesh without SRID takes that of geometries.
  */
 static RowPacker *
-create(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int ids,
+create(TupleDesc desc, abacus_names names, const RowOrigin *origin, int ids,
 	   int coordinates, int attributes, bool more, bool takes_srid, size_t batch)
 {
 	int			columns = ids + coordinates + attributes;
 	RowPacker  *packer = palloc0(sizeof(RowPacker));
 
 	packer->origin = origin;
-	packer->header = header;
+	packer->names = names;
 	packer->ids = ids;
 	packer->coordinates = coordinates;
 	packer->columns = packer->inputs = columns;
 	packer->takes_srid = takes_srid;
-	packer->srid = takes_srid && header->srid == 0 ? -1 : (int32) header->srid;
+	packer->srid = takes_srid && names.facts->form.srid == 0 ? -1 : (int32) names.facts->form.srid;
 	if (origin->takes_geometry && row_packer_takes_geometry(desc))
 	{
 		geometry_open(&packer->geometry, TupleDescAttr(desc, GEOMETRY_COLUMN)->atttypid,
@@ -286,82 +286,83 @@ create(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int
  * `takes_srid`: a mesh without SRID takes that of geometries.
  */
 RowPacker *
-row_packer_create(TupleDesc desc, const abacus_header *header, bool takes_srid, size_t batch)
+row_packer_create(TupleDesc desc, abacus_names names, bool takes_srid, size_t batch)
 {
-	return create(desc, header, &query_of_points, 1, header->dimension, header->attributes, false,
-				  takes_srid, batch);
+	return create(desc, names, &query_of_points, 1, names.facts->form.dimension,
+				  names.facts->columns.attributes, false, takes_srid, batch);
 }
 
 /* The same for rows of a query that are places: id and coordinates, whatever else the rows have. */
 RowPacker *
-row_packer_create_places(TupleDesc desc, const abacus_header *header, size_t batch)
+row_packer_create_places(TupleDesc desc, abacus_names names, size_t batch)
 {
-	return create(desc, header, &query_of_points, 1, header->dimension, 0, true, false, batch);
+	return create(desc, names, &query_of_points, 1, names.facts->form.dimension, 0, true, false, batch);
 }
 
 /* The same for rows of a table that the mesh follows. */
 RowPacker *
-row_packer_create_tracked(TupleDesc desc, const abacus_header *header, size_t batch)
+row_packer_create_tracked(TupleDesc desc, abacus_names names, size_t batch)
 {
-	return create(desc, header, &tracked_table, 1, header->dimension, header->attributes, false,
-				  true, batch);
+	return create(desc, names, &tracked_table, 1, names.facts->form.dimension,
+				  names.facts->columns.attributes, false, true, batch);
 }
 
 /* The same for rows of a query that are simplices: ids of their vertices, and their labels. */
 RowPacker *
-row_packer_create_simplices(TupleDesc desc, const abacus_header *header, size_t batch)
+row_packer_create_simplices(TupleDesc desc, abacus_names names, size_t batch)
 {
-	return create(desc, header, &query_of_simplices, header->dimension + 1, 0, header->labels, false,
-				  false, batch);
+	return create(desc, names, &query_of_simplices, names.facts->form.dimension + 1, 0,
+				  names.facts->columns.labels, false, false, batch);
 }
 
 /* The same for rows of a query that label simplices, which have a code before the ids. */
 RowPacker *
-row_packer_create_labels(TupleDesc desc, const abacus_header *shape, size_t batch)
+row_packer_create_labels(TupleDesc desc, abacus_names names, size_t batch)
 {
-	return create(desc, shape, &query_of_labels, shape->dimension + 2, 0, shape->labels, false,
-				  false, batch);
+	return create(desc, names, &query_of_labels, names.facts->form.dimension + 2, 0,
+				  names.facts->columns.labels, false, false, batch);
 }
 
 /* A packer for rows of so many ids and a marker. */
 static RowPacker *
-create_marking(TupleDesc desc, const abacus_header *header, const RowOrigin *origin, int ids,
+create_marking(TupleDesc desc, abacus_names names, const RowOrigin *origin, int ids,
 			   size_t batch)
 {
-	abacus_header *shape = palloc(sizeof(abacus_header));
+	static const char marker[1][ABACUS_NAME_BYTES] = {"marker"};
+	abacus_facts *facts = palloc(sizeof(abacus_facts));
 
-	abacus_header_copy(shape, header);
-	shape->attributes = 0;
-	shape->labels = 1;
-	strlcpy(shape->names[0], "marker", ABACUS_NAME_BYTES);
-	return create(desc, shape, origin, ids, 0, 1, false, false, batch);
+	*facts = *names.facts;
+	facts->columns.attributes = 0;
+	facts->columns.labels = 1;
+	return create(desc, (abacus_names) {facts, marker}, origin, ids, 0, 1, false, false, batch);
 }
 
 /* The same for rows of a query that mark facets, each by a simplex and the number of a corner. */
 RowPacker *
-row_packer_create_facets(TupleDesc desc, const abacus_header *header, size_t batch)
+row_packer_create_facets(TupleDesc desc, abacus_names names, size_t batch)
 {
-	return create_marking(desc, header, &query_of_labels, header->dimension + 3, batch);
+	return create_marking(desc, names, &query_of_labels, names.facts->form.dimension + 3, batch);
 }
 
 /* The same for facets of simplices that are loaded, by the ids of their vertices. */
 RowPacker *
-row_packer_create_loaded_facets(TupleDesc desc, const abacus_header *header, size_t batch)
+row_packer_create_loaded_facets(TupleDesc desc, abacus_names names, size_t batch)
 {
-	return create_marking(desc, header, &query_of_simplices, header->dimension, batch);
+	return create_marking(desc, names, &query_of_simplices, names.facts->form.dimension, batch);
 }
 
 /* The same for rows of a query that are for an octree; `takes_srid` as above. */
 RowPacker *
-row_packer_create_octants(TupleDesc desc, const abacus_header *header, OctantRows rows,
+row_packer_create_octants(TupleDesc desc, abacus_names names, OctantRows rows,
 						  bool takes_srid, size_t batch)
 {
 	bool		has_attributes = rows == OCTANT_LEAVES || rows == OCTANT_VALUES;
 	int			coordinates = rows == OCTANT_LEAVES ? 1
-		: rows == OCTANT_VALUES ? 0 : (int) header->dimension;
+		: rows == OCTANT_VALUES ? 0 : (int) names.facts->form.dimension;
 
-	return create(desc, header, &queries_of_octants[rows], 1, coordinates,
-				  has_attributes ? header->attributes : 0, rows == OCTANT_POINTS, takes_srid, batch);
+	return create(desc, names, &queries_of_octants[rows], 1, coordinates,
+				  has_attributes ? names.facts->columns.attributes : 0, rows == OCTANT_POINTS,
+				  takes_srid, batch);
 }
 
 void

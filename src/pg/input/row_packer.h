@@ -53,7 +53,7 @@ typedef struct RowPacker
 {
 	DestReceiver receiver;
 	const RowOrigin *origin;
-	const abacus_header *header;
+	abacus_names names;			/* of the columns, which may be others than the mesh has */
 	int			columns;		/* of a record: id, coordinates, attributes; or ids, labels */
 	int			ids;			/* columns of ids: 1, or of a simplex */
 	int			coordinates;	/* columns behind them that must be finite: coordinates, or a level */
@@ -71,22 +71,22 @@ typedef struct RowPacker
 } RowPacker;
 
 extern bool row_packer_takes_geometry(TupleDesc desc);
-extern const char *row_packer_column(const abacus_header *header, int column);
-extern RowPacker *row_packer_create(TupleDesc desc, const abacus_header *header, bool takes_srid,
+extern const char *row_packer_column(abacus_names names, int column);
+extern RowPacker *row_packer_create(TupleDesc desc, abacus_names names, bool takes_srid,
 									size_t batch);
-extern RowPacker *row_packer_create_places(TupleDesc desc, const abacus_header *header,
+extern RowPacker *row_packer_create_places(TupleDesc desc, abacus_names names,
 										   size_t batch);
-extern RowPacker *row_packer_create_tracked(TupleDesc desc, const abacus_header *header,
+extern RowPacker *row_packer_create_tracked(TupleDesc desc, abacus_names names,
 											size_t batch);
-extern RowPacker *row_packer_create_simplices(TupleDesc desc, const abacus_header *header,
+extern RowPacker *row_packer_create_simplices(TupleDesc desc, abacus_names names,
 											  size_t batch);
-extern RowPacker *row_packer_create_labels(TupleDesc desc, const abacus_header *shape,
+extern RowPacker *row_packer_create_labels(TupleDesc desc, abacus_names names,
 										   size_t batch);
-extern RowPacker *row_packer_create_facets(TupleDesc desc, const abacus_header *header,
+extern RowPacker *row_packer_create_facets(TupleDesc desc, abacus_names names,
 										   size_t batch);
-extern RowPacker *row_packer_create_loaded_facets(TupleDesc desc, const abacus_header *header,
+extern RowPacker *row_packer_create_loaded_facets(TupleDesc desc, abacus_names names,
 												  size_t batch);
-extern RowPacker *row_packer_create_octants(TupleDesc desc, const abacus_header *header,
+extern RowPacker *row_packer_create_octants(TupleDesc desc, abacus_names names,
 											OctantRows rows, bool takes_srid, size_t batch);
 extern void row_packer_reset(RowPacker *packer);
 

@@ -162,62 +162,62 @@ source_column_name(const Source *source, int column)
 }
 
 /*
- * Starts reading points for a mesh with this header, which takes the SRID of geometries if it has
+ * Starts reading points for a mesh with these names, which takes the SRID of geometries if it has
  * none, and if the points come to stay.
  */
 void
-source_open(Source *source, const abacus_header *header, bool takes_srid)
+source_open(Source *source, abacus_names names, bool takes_srid)
 {
 	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
-	source->packer = row_packer_create(source->portal->tupDesc, header, takes_srid, ROWS_A_BATCH);
+	source->packer = row_packer_create(source->portal->tupDesc, names, takes_srid, ROWS_A_BATCH);
 }
 
 /* Starts reading places: points without attributes, whatever other columns there are. */
 void
-source_open_places(Source *source, const abacus_header *header)
+source_open_places(Source *source, abacus_names names)
 {
 	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
-	source->packer = row_packer_create_places(source->portal->tupDesc, header, ROWS_A_BATCH);
+	source->packer = row_packer_create_places(source->portal->tupDesc, names, ROWS_A_BATCH);
 }
 
 /* Starts reading simplices, by the ids of their vertices. */
 void
-source_open_simplices(Source *source, const abacus_header *header)
+source_open_simplices(Source *source, abacus_names names)
 {
 	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
-	source->packer = row_packer_create_simplices(source->portal->tupDesc, header, ROWS_A_BATCH);
+	source->packer = row_packer_create_simplices(source->portal->tupDesc, names, ROWS_A_BATCH);
 }
 
-/* Starts reading simplices of a mesh, by code and ids, with the labels that a header describes. */
+/* Starts reading simplices of a mesh, by code and ids, with the labels that are named. */
 void
-source_open_labels(Source *source, const abacus_header *shape)
+source_open_labels(Source *source, abacus_names names)
 {
 	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
-	source->packer = row_packer_create_labels(source->portal->tupDesc, shape, ROWS_A_BATCH);
+	source->packer = row_packer_create_labels(source->portal->tupDesc, names, ROWS_A_BATCH);
 }
 
 /* Starts reading facets of a mesh, each by a simplex and its corner opposite, with their markers. */
 void
-source_open_facets(Source *source, const abacus_header *header)
+source_open_facets(Source *source, abacus_names names)
 {
 	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
-	source->packer = row_packer_create_facets(source->portal->tupDesc, header, ROWS_A_BATCH);
+	source->packer = row_packer_create_facets(source->portal->tupDesc, names, ROWS_A_BATCH);
 }
 
 /* Starts reading facets of simplices that are loaded, by the ids of their vertices, and markers. */
 void
-source_open_loaded_facets(Source *source, const abacus_header *header)
+source_open_loaded_facets(Source *source, abacus_names names)
 {
 	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
-	source->packer = row_packer_create_loaded_facets(source->portal->tupDesc, header, ROWS_A_BATCH);
+	source->packer = row_packer_create_loaded_facets(source->portal->tupDesc, names, ROWS_A_BATCH);
 }
 
 /* Starts reading rows for an octree; see row_packer_create_octants(). */
 void
-source_open_octants(Source *source, const abacus_header *header, OctantRows rows, bool takes_srid)
+source_open_octants(Source *source, abacus_names names, OctantRows rows, bool takes_srid)
 {
 	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
-	source->packer = row_packer_create_octants(source->portal->tupDesc, header, rows, takes_srid,
+	source->packer = row_packer_create_octants(source->portal->tupDesc, names, rows, takes_srid,
 											   ROWS_A_BATCH);
 }
 

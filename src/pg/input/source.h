@@ -23,13 +23,13 @@ extern void source_prepare(Source *source, const char *query);
 extern int	source_columns(const Source *source);
 extern const char *source_column_name(const Source *source, int column);
 extern int	source_first_attribute(const Source *source, uint32 dimension);
-extern void source_open(Source *source, const abacus_header *header, bool takes_srid);
-extern void source_open_places(Source *source, const abacus_header *header);
-extern void source_open_simplices(Source *source, const abacus_header *header);
-extern void source_open_labels(Source *source, const abacus_header *shape);
-extern void source_open_facets(Source *source, const abacus_header *header);
-extern void source_open_loaded_facets(Source *source, const abacus_header *header);
-extern void source_open_octants(Source *source, const abacus_header *header, OctantRows rows,
+extern void source_open(Source *source, abacus_names names, bool takes_srid);
+extern void source_open_places(Source *source, abacus_names names);
+extern void source_open_simplices(Source *source, abacus_names names);
+extern void source_open_labels(Source *source, abacus_names names);
+extern void source_open_facets(Source *source, abacus_names names);
+extern void source_open_loaded_facets(Source *source, abacus_names names);
+extern void source_open_octants(Source *source, abacus_names names, OctantRows rows,
 								bool takes_srid);
 extern size_t source_fetch(Source *source, const uint64 **points);
 extern void source_close(Source *source);

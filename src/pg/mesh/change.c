@@ -29,7 +29,7 @@ close_handles(void *handle)
 static Change *
 begun(Change *change)
 {
-	change->duplicates = change->writer.header->duplicates;
+	change->duplicates = change->writer.header->facts.census.duplicates;
 	host_own(change->writer.host, change, close_handles);
 	return change;
 }
@@ -54,9 +54,9 @@ change_begin_in_trigger(Oid mesh, const char *command)
 	return begun(change);
 }
 
-/* Opens an empty stage for points of the shape that a header describes. */
+/* Opens an empty stage for points of the shape that these facts describe. */
 void
-change_open_stage(Change *change, const abacus_header *shape)
+change_open_stage(Change *change, const abacus_facts *shape)
 {
 	Host	   *host = change->writer.host;
 
@@ -77,13 +77,13 @@ change_add(Change *change, const uint64 *points, size_t count)
 }
 
 static void
-read_query(Change *change, Source *source, const abacus_header *shape, bool takes_srid)
+read_query(Change *change, Source *source, abacus_names names, bool takes_srid)
 {
 	const uint64 *points;
 	size_t		count;
 
-	source_open(source, shape, takes_srid);
-	change_open_stage(change, shape);
+	source_open(source, names, takes_srid);
+	change_open_stage(change, names.facts);
 	while ((count = source_fetch(source, &points)) > 0)
 		change_add(change, points, count);
 	source_close(source);
@@ -93,15 +93,15 @@ read_query(Change *change, Source *source, const abacus_header *shape, bool take
 void
 change_read(Change *change, Source *source)
 {
-	read_query(change, source, change->writer.header, true);
+	read_query(change, source, abacus_names_of(change->writer.header), true);
 	change_take_srid(change, source->packer->srid);
 }
 
-/* The same of points to be found in it, of the shape that a header describes. */
+/* The same of points to be found in it, with the columns that are named. */
 void
-change_read_gone(Change *change, Source *source, const abacus_header *shape)
+change_read_gone(Change *change, Source *source, abacus_names names)
 {
-	read_query(change, source, shape, false);
+	read_query(change, source, names, false);
 }
 
 /* A mesh without SRID takes that of the geometries that have come; -1: of none. */
@@ -109,7 +109,7 @@ void
 change_take_srid(Change *change, int32 srid)
 {
 	if (srid > 0)
-		change->writer.header->srid = (uint32) srid;
+		change->writer.header->facts.form.srid = (uint32) srid;
 }
 
 /* Swaps the stage with the one put aside before; the first time there is none. */
@@ -133,7 +133,7 @@ change_open_build(Change *change)
 
 	if (change->build != NULL)
 		return;
-	host_run(host, abacus_build_open, &host->table, change->writer.header,
+	host_run(host, abacus_build_open, &host->table, &change->writer.header->facts,
 			 setting_cache_bytes(), &change->build);
 	if (change->holds)
 		host_run(host, abacus_build_hold, change->build);
@@ -164,7 +164,7 @@ change_insert(Change *change)
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
 
-	host_run(host, abacus_stage_end, change->stage, header);
+	host_run(host, abacus_stage_end, change->stage, &header->facts);
 	change_open_build(change);
 	host_run(host, abacus_build_insert, change->build, change->stage, change->on_duplicate,
 			 header);

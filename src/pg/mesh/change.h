@@ -30,10 +30,10 @@ typedef struct Change
 
 extern Change *change_begin(Oid mesh, const char *command);
 extern Change *change_begin_in_trigger(Oid mesh, const char *command);
-extern void change_open_stage(Change *change, const abacus_header *shape);
+extern void change_open_stage(Change *change, const abacus_facts *shape);
 extern void change_add(Change *change, const uint64 *points, size_t count);
 extern void change_read(Change *change, Source *source);
-extern void change_read_gone(Change *change, Source *source, const abacus_header *shape);
+extern void change_read_gone(Change *change, Source *source, abacus_names names);
 extern void change_take_srid(Change *change, int32 srid);
 extern void change_swap_stages(Change *change);
 extern void change_open_build(Change *change);

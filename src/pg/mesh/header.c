@@ -42,7 +42,7 @@ static void
 store_names(Host *host, const abacus_header *header)
 {
 	MeshPages  *pages = mesh_pages(host);
-	uint32		rows = abacus_header_name_rows(header);
+	uint32		rows = abacus_header_name_rows(&header->facts.columns);
 	unsigned char bytes[ABACUS_PAGE_BYTES];
 
 	for (uint32 i = 0; i < Max(rows, pages->name_rows); i++)
@@ -118,15 +118,15 @@ header_find(Host *host, StoredPage *row)
  * must see them.
  */
 void
-header_open_vertices(Host *host, const abacus_header *header)
+header_open_vertices(Host *host, const abacus_facts *facts)
 {
 	MeshPages  *pages = mesh_pages(host);
 	bool		found = true;
 
 	mesh_pages_vertex_table(pages);
-	if (header->duplicates > 0)
+	if (facts->census.duplicates > 0)
 		found = mesh_pages_any(pages, ABACUS_REPEATED_PAGES);
-	else if (header->inserted < header->staged || abacus_lists_vertices(header->standing))
+	else if (facts->census.inserted < facts->census.staged || abacus_lists_vertices(facts->standing))
 		found = mesh_pages_any(pages, ABACUS_STAGED_PAGES);
 	if (!found)
 		page_table_refuse_newer(&pages->vertices);
@@ -139,7 +139,7 @@ try_decode_names(Host *host, abacus_header *header)
 	MeshPages  *pages = mesh_pages(host);
 	abacus_status status = ABACUS_OK;
 
-	pages->name_rows = abacus_header_name_rows(header);
+	pages->name_rows = abacus_header_name_rows(&header->facts.columns);
 	for (uint32 i = 0; i < pages->name_rows && status == ABACUS_OK; i++)
 	{
 		static const StoredPage missing;
@@ -166,16 +166,16 @@ header_try_decode(Host *host, const StoredPage *row, abacus_header *header)
 	invalid = status == ABACUS_OK ? names_find_invalid(header) : -1;
 	if (invalid >= 0)
 	{
-		const char *name = type_name(header->type);
+		const char *name = type_name(header->facts.form.type);
 
 		MemSet(&host->failure, 0, sizeof(host->failure));
 		host->failure.kind = ABACUS_ERROR_CORRUPTED;
 		snprintf(host->failure.message, sizeof(host->failure.message), "%s is corrupted", name);
 		snprintf(host->failure.detail, sizeof(host->failure.detail),
 				 "The name of %s %d is not valid in UTF-8.",
-				 invalid < (int) header->attributes ? "attribute" : "label",
-				 invalid < (int) header->attributes ? invalid + 1
-				 : invalid - (int) header->attributes + 1);
+				 invalid < (int) header->facts.columns.attributes ? "attribute" : "label",
+				 invalid < (int) header->facts.columns.attributes ? invalid + 1
+				 : invalid - (int) header->facts.columns.attributes + 1);
 		snprintf(host->failure.hint, sizeof(host->failure.hint),
 				 "Restore the %s from a backup or build it anew.", name);
 		return ABACUS_ERROR;
@@ -197,14 +197,14 @@ header_decode(Host *host, const StoredPage *row, abacus_header *header)
 
 /* An error if the pages are of another type than the caller takes. */
 void
-header_require_type(Host *host, const abacus_header *header)
+header_require_type(Host *host, const abacus_form *form)
 {
 	const MeshPages *pages = mesh_pages(host);
 	const char *name = RelationGetRelationName(pages->simplices.heap);
 
-	if (pages->type == ANY_TYPE || pages->type == header->type)
+	if (pages->type == ANY_TYPE || pages->type == form->type)
 		return;
-	if (header->type == ABACUS_OCTREE)
+	if (form->type == ABACUS_OCTREE)
 		ereport(ERROR,
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
 				 errmsg("\"%s\" is an octree, not a mesh", name),
@@ -233,7 +233,7 @@ header_read(Host *host, abacus_header *header, ItemPointer tid)
 	if (tid != NULL)
 		*tid = row.tid;
 	header_decode(host, &row, header);
-	header_require_type(host, header);
+	header_require_type(host, &header->facts.form);
 }
 
 /*
@@ -257,12 +257,12 @@ header_update(Host *host, abacus_header *header, ItemPointer tid)
 
 /* An error, with what the user may do instead, if the mesh has another dimension. */
 void
-header_require_dimension(const abacus_header *header, uint32 dimension, const char *hint)
+header_require_dimension(const abacus_form *form, uint32 dimension, const char *hint)
 {
-	if (header->dimension != dimension)
+	if (form->dimension != dimension)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("%s has dimension %u, not %u", type_name(header->type), header->dimension,
+				 errmsg("%s has dimension %u, not %u", type_name(form->type), form->dimension,
 						dimension),
 				 errhint("%s%s", hint,
 						 dimension == 3 ? " One in space is made with dimension => 3." : "")));
@@ -270,115 +270,122 @@ header_require_dimension(const abacus_header *header, uint32 dimension, const ch
 
 /* An SRID that is given for a mesh: an error if the mesh has another one. */
 void
-header_require_srid(const abacus_header *header, int32 srid)
+header_require_srid(const abacus_form *form, int32 srid)
 {
-	if (header->srid != 0 && srid != (int32) header->srid)
+	if (form->srid != 0 && srid != (int32) form->srid)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("srid is %d, but the mesh has SRID %u", srid, header->srid),
+				 errmsg("srid is %d, but the mesh has SRID %u", srid, form->srid),
 				 errhint("Leave out srid. If the mesh is of another system, say so by "
 						 "abacus_set_srid(mesh, %d).", srid)));
 }
 
 /* Number of the attribute with this name, -1 if there is none. */
 int
-header_attribute(const abacus_header *header, const char *name)
+header_attribute(abacus_names names, const char *name)
 {
-	for (uint32 i = 0; i < header->attributes; i++)
-		if (strcmp(header->names[i], name) == 0)
+	for (uint32 i = 0; i < names.facts->columns.attributes; i++)
+		if (strcmp(names.of[i], name) == 0)
 			return (int) i;
 	return -1;
 }
 
 /* Number of the label with this name, -1 if there is none. */
 int
-header_label(const abacus_header *header, const char *name)
+header_label(abacus_names names, const char *name)
 {
-	for (uint32 i = 0; i < header->labels; i++)
-		if (strcmp(header->names[header->attributes + i], name) == 0)
+	const abacus_columns *columns = &names.facts->columns;
+
+	for (uint32 i = 0; i < columns->labels; i++)
+		if (strcmp(names.of[columns->attributes + i], name) == 0)
 			return (int) i;
 	return -1;
 }
 
 /* An error if an attribute or a label has this name. */
 void
-header_require_new_name(const abacus_header *header, const char *name)
+header_require_new_name(abacus_names names, const char *name)
 {
-	bool		is_attribute = header_attribute(header, name) >= 0;
+	bool		is_attribute = header_attribute(names, name) >= 0;
 
-	if (is_attribute || header_label(header, name) >= 0)
+	if (is_attribute || header_label(names, name) >= 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_DUPLICATE_COLUMN),
-				 is_attribute ? errmsg("%s has an attribute \"%s\" already", type_name(header->type), name)
+				 is_attribute ? errmsg("%s has an attribute \"%s\" already",
+									   type_name(names.facts->form.type), name)
 				 : errmsg("mesh has a label \"%s\" already", name)));
 }
 
 /* Some of the names, for messages. */
 static char *
-list_names(const abacus_header *header, uint32 first, uint32 count)
+list_names(abacus_names names, uint32 first, uint32 count)
 {
-	StringInfoData names;
+	StringInfoData list;
 
-	initStringInfo(&names);
+	initStringInfo(&list);
 	for (uint32 i = 0; i < count; i++)
-		appendStringInfo(&names, "%s\"%s\"", i > 0 ? ", " : "", header->names[first + i]);
-	return names.data;
+		appendStringInfo(&list, "%s\"%s\"", i > 0 ? ", " : "", names.of[first + i]);
+	return list.data;
 }
 
 /* Number of the attribute with this name, which must be there. */
 int
-header_find_attribute(const abacus_header *header, const char *name)
+header_find_attribute(abacus_names names, const char *name)
 {
-	int			number = header_attribute(header, name);
+	const abacus_columns *columns = &names.facts->columns;
+	int			number = header_attribute(names, name);
 
 	if (number < 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_COLUMN),
-				 errmsg("%s has no attribute \"%s\"", type_name(header->type), name),
-				 header->attributes == 0 ? errdetail("It has no attributes.")
-				 : errdetail("Its attributes are %s.", list_names(header, 0, header->attributes))));
+				 errmsg("%s has no attribute \"%s\"", type_name(names.facts->form.type), name),
+				 columns->attributes == 0 ? errdetail("It has no attributes.")
+				 : errdetail("Its attributes are %s.", list_names(names, 0, columns->attributes))));
 	return number;
 }
 
 /* Number of the label with this name, which must be there. */
 int
-header_find_label(const abacus_header *header, const char *name)
+header_find_label(abacus_names names, const char *name)
 {
-	int			number = header_label(header, name);
+	const abacus_columns *columns = &names.facts->columns;
+	int			number = header_label(names, name);
 
 	if (number < 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_COLUMN),
 				 errmsg("mesh has no label \"%s\"", name),
-				 header->labels == 0 ? errdetail("It has no labels.")
+				 columns->labels == 0 ? errdetail("It has no labels.")
 				 : errdetail("Its labels are %s.",
-							 list_names(header, header->attributes, header->labels))));
+							 list_names(names, columns->attributes, columns->labels))));
 	return number;
 }
 
 /* An error if there are none. */
 void
-header_require_attributes(const abacus_header *header)
+header_require_attributes(const abacus_facts *facts)
 {
-	if (header->attributes == 0)
+	if (facts->columns.attributes == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("%s has no attributes", type_name(header->type)),
-				 header->type == ABACUS_OCTREE ? errhint("Name them in abacus_octree_create().")
+				 errmsg("%s has no attributes", type_name(facts->form.type)),
+				 facts->form.type == ABACUS_OCTREE ? errhint("Name them in abacus_octree_create().")
 				 : errhint("Columns that follow the coordinates in the query of abacus_triangulate() "
 						   "become attributes.")));
 }
 
 /* Number of the one attribute, where no name is given. */
 int
-header_only_attribute(const abacus_header *header)
+header_only_attribute(abacus_names names)
 {
-	header_require_attributes(header);
-	if (header->attributes > 1)
+	const abacus_columns *columns = &names.facts->columns;
+
+	header_require_attributes(names.facts);
+	if (columns->attributes > 1)
 		ereport(ERROR,
 				(errcode(ERRCODE_AMBIGUOUS_COLUMN),
-				 errmsg("%s has %u attributes", type_name(header->type), header->attributes),
-				 errdetail("Its attributes are %s.", list_names(header, 0, header->attributes)),
+				 errmsg("%s has %u attributes", type_name(names.facts->form.type), columns->attributes),
+				 errdetail("Its attributes are %s.", list_names(names, 0, columns->attributes)),
 				 errhint("Say which one with the argument attribute.")));
 	return 0;
 }

@@ -156,23 +156,23 @@ take_entry(Oid relid)
 }
 
 static void
-open_mesh(Entry *entry, const abacus_header *header)
+open_mesh(Entry *entry, const abacus_facts *facts)
 {
 	Host	   *host = entry->cached.host;
 	abacus_mesh *mesh = NULL;
 
-	host_run(host, abacus_mesh_open, &host->table, header, entry->bytes, &mesh);
+	host_run(host, abacus_mesh_open, &host->table, facts, entry->bytes, &mesh);
 	host_own(host, mesh, (void (*) (void *)) abacus_mesh_close);
 	entry->cached.mesh = mesh;
 }
 
 static void
-open_octree(Entry *entry, const abacus_header *header)
+open_octree(Entry *entry, const abacus_facts *facts)
 {
 	Host	   *host = entry->cached.host;
 	abacus_octree *octree = NULL;
 
-	host_run(host, abacus_octree_open, &host->table, header, entry->bytes, &octree);
+	host_run(host, abacus_octree_open, &host->table, facts, entry->bytes, &octree);
 	host_own(host, octree, (void (*) (void *)) abacus_octree_close);
 	entry->cached.octree = octree;
 }
@@ -182,11 +182,11 @@ static void
 open_handle(Entry *entry, const abacus_header *header)
 {
 	entry->bytes = setting_cache_bytes();
-	if (header->type == ABACUS_OCTREE)
-		open_octree(entry, header);
+	if (header->facts.form.type == ABACUS_OCTREE)
+		open_octree(entry, &header->facts);
 	else
-		open_mesh(entry, header);
-	entry->cached.dimension = header->dimension;
+		open_mesh(entry, &header->facts);
+	entry->cached.dimension = header->facts.form.dimension;
 	abacus_header_copy(&entry->cached.header, header);
 }
 
@@ -222,7 +222,7 @@ validate(Oid relid, Entry *entry, uint32 type)
 	mesh_pages_expect_moves(mesh_pages(host));
 	host->busy = true;
 	mesh_pages(host)->type = type;
-	header_require_type(host, &header);
+	header_require_type(host, &header.facts.form);
 	if (host->handle == NULL || entry->stamp != header.stamp)
 	{
 		/* the old handle must not be found under the new stamp, whatever happens */
@@ -251,7 +251,7 @@ get(Oid relid, uint32 type)
 	if (unlikely(entry == NULL || entry->cached.host->busy || entry->user != GetUserId() ||
 				 entry->statement != GetCurrentStatementStartTimestamp() ||
 				 entry->bytes != setting_cache_bytes() ||
-				 (entry->cached.header.type != type && type != ANY_TYPE) ||
+				 (entry->cached.header.facts.form.type != type && type != ANY_TYPE) ||
 				 !same_snapshot(&entry->valid, GetActiveSnapshot())))
 		entry = validate(relid, entry, type);
 	entry->last_use = ++uses;

@@ -26,7 +26,7 @@ names_find_invalid(const abacus_header *header)
 {
 	if (GetDatabaseEncoding() == PG_SQL_ASCII)
 		return -1;
-	for (uint32 i = 0; i < header->attributes + header->labels; i++)
+	for (uint32 i = 0; i < header->facts.columns.attributes + header->facts.columns.labels; i++)
 		if (!pg_verify_mbstr(PG_UTF8, header->names[i], strlen(header->names[i]), true))
 			return (int) i;
 	return -1;
@@ -98,12 +98,12 @@ to_database(const char *stored, uint32 number, char *name)
 void
 names_to_database(abacus_header *header, StoredNames *stored)
 {
-	for (uint32 i = 0; i < header->attributes + header->labels; i++)
+	for (uint32 i = 0; i < header->facts.columns.attributes + header->facts.columns.labels; i++)
 	{
 		strlcpy(stored->names[i], header->names[i], ABACUS_NAME_BYTES);
 		to_database(stored->names[i], i + 1, header->names[i]);
 	}
-	stored->count = header->attributes + header->labels;
+	stored->count = header->facts.columns.attributes + header->facts.columns.labels;
 }
 
 /*
@@ -113,14 +113,14 @@ names_to_database(abacus_header *header, StoredNames *stored)
 void
 names_move(abacus_header *header, StoredNames *stored, const uint32 *source)
 {
-	for (uint32 i = 0; i < header->attributes; i++)
+	for (uint32 i = 0; i < header->facts.columns.attributes; i++)
 		if (source[i] == ABACUS_NO_ATTRIBUTE)
 			header->names[i][0] = '\0';
 		else
 			strlcpy(header->names[i], stored->names[source[i]], ABACUS_NAME_BYTES);
-	for (uint32 i = 0; i < header->labels; i++)
-		strlcpy(header->names[header->attributes + i],
-				stored->names[stored->count - header->labels + i], ABACUS_NAME_BYTES);
+	for (uint32 i = 0; i < header->facts.columns.labels; i++)
+		strlcpy(header->names[header->facts.columns.attributes + i],
+				stored->names[stored->count - header->facts.columns.labels + i], ABACUS_NAME_BYTES);
 	names_to_database(header, stored);
 }
 
@@ -145,7 +145,7 @@ names_to_storage(abacus_header *header, const StoredNames *stored)
 {
 	char		known[ABACUS_NAME_BYTES];
 
-	for (uint32 i = 0; i < header->attributes + header->labels; i++)
+	for (uint32 i = 0; i < header->facts.columns.attributes + header->facts.columns.labels; i++)
 	{
 		if (stored != NULL && i < stored->count)
 		{

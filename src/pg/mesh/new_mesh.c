@@ -55,17 +55,18 @@ new_mesh(text *name, Oid extension_namespace, abacus_header *header, const char 
 	Oid			namespace;
 	Oid			mesh;
 	Oid			vertices;
-	bool		is_octree = header->type == ABACUS_OCTREE;
+	bool		is_octree = header->facts.form.type == ABACUS_OCTREE;
 	Host	   *host;
 
 	if (!is_octree)
-		header->apart = abacus_are_apart(header->dimension, header->attributes);
+		header->facts.columns.apart = abacus_are_apart(header->facts.form.dimension,
+													   header->facts.columns.attributes);
 	PreventCommandIfReadOnly(command);
 	PreventCommandIfParallelMode(command);
 	if (strlen(vertices_name) >= NAMEDATALEN)
 		ereport(ERROR,
 				(errcode(ERRCODE_NAME_TOO_LONG),
-				 errmsg("%s name \"%s\" is too long", type_name(header->type), range->relname),
+				 errmsg("%s name \"%s\" is too long", type_name(header->facts.form.type), range->relname),
 				 errdetail("The table \"%s\" stands beside it; names have at most %d bytes.",
 						   vertices_name, NAMEDATALEN - 1)));
 	namespace = new_table_schema(range);

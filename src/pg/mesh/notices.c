@@ -13,12 +13,12 @@
 void
 notice_duplicates(const Writer *writer, uint64 before, bool hint)
 {
-	const abacus_header *header = writer->header;
+	const abacus_facts *facts = &writer->header->facts;
 	uint64		points;
 
-	if (header->duplicates <= before)
+	if (facts->census.duplicates <= before)
 		return;
-	points = header->duplicates - before;
+	points = facts->census.duplicates - before;
 	ereport(NOTICE,
 			(errmsg_plural(UINT64_FORMAT " point equals a vertex of mesh \"%s\"",
 						   UINT64_FORMAT " points equal vertices of mesh \"%s\"",
@@ -34,19 +34,19 @@ notice_duplicates(const Writer *writer, uint64 before, bool hint)
 void
 notice_waiting(const Writer *writer)
 {
-	const abacus_header *header = writer->header;
-	uint64		points = header->staged - header->inserted;
+	const abacus_facts *facts = &writer->header->facts;
+	uint64		points = facts->census.staged - facts->census.inserted;
 
-	if (header->vertices > 0 || points == 0)
+	if (facts->census.vertices > 0 || points == 0)
 		return;
 	ereport(NOTICE,
 			(errmsg_plural(UINT64_FORMAT " point of mesh \"%s\" waits: it spans no simplex",
 						   UINT64_FORMAT " points of mesh \"%s\" wait: they span no simplex",
 						   (unsigned long) points, points,
 						   RelationGetRelationName(mesh_pages(writer->host)->simplices.heap)),
-			 points <= header->dimension
-			 ? errdetail("A %s has %u vertices.", header->dimension == 2 ? "triangle" : "tetrahedron",
-						 header->dimension + 1)
-			 : header->dimension == 2 ? errdetail("All are on one line.")
+			 points <= facts->form.dimension
+			 ? errdetail("A %s has %u vertices.", facts->form.dimension == 2 ? "triangle" : "tetrahedron",
+						 facts->form.dimension + 1)
+			 : facts->form.dimension == 2 ? errdetail("All are on one line.")
 			 : errdetail("All are in one plane.")));
 }

@@ -65,21 +65,21 @@ decode(const StoredPage *row, Numbering *numbering)
 
 /* Reads the numbers of a mesh, whose header the active snapshot sees; false if they are damaged. */
 bool
-numbering_try_read(Host *host, const abacus_header *header, Numbering *numbering)
+numbering_try_read(Host *host, const abacus_columns *columns, Numbering *numbering)
 {
 	StoredPage	row;
 
 	MemSet(numbering, 0, sizeof(*numbering));
-	numbering->count = header->attributes;
+	numbering->count = columns->attributes;
 	return !page_table_get(&mesh_pages(host)->simplices, numbering_key, &row) ||
 		decode(&row, numbering);
 }
 
 /* The same; an error if they are damaged. */
 void
-numbering_read(Host *host, const abacus_header *header, Numbering *numbering)
+numbering_read(Host *host, const abacus_columns *columns, Numbering *numbering)
 {
-	if (!numbering_try_read(host, header, numbering))
+	if (!numbering_try_read(host, columns, numbering))
 		ereport(ERROR,
 				(errcode(ERRCODE_DATA_CORRUPTED),
 				 errmsg("mesh is corrupted"),
@@ -142,13 +142,13 @@ store(Host *host, const Numbering *numbering)
  * position source[i], in their order, or a new one (ABACUS_NO_ATTRIBUTE). Before the header changes.
  */
 void
-numbering_change(Host *host, const abacus_header *header, const uint32 *source, uint32 count)
+numbering_change(Host *host, const abacus_columns *columns, const uint32 *source, uint32 count)
 {
 	Numbering  *former = palloc(sizeof(Numbering));
 	Numbering  *numbering = palloc0(sizeof(Numbering));
 	uint32		next;
 
-	numbering_read(host, header, former);
+	numbering_read(host, columns, former);
 	next = former->count + former->dropped;
 	for (uint32 i = 0; i < count; i++)
 		numbering->before[i] = (source[i] == ABACUS_NO_ATTRIBUTE

@@ -19,11 +19,11 @@ typedef struct Numbering
 /* The row that it is in, if an attribute has been dropped. */
 extern const int64 numbering_key[PAGE_TABLE_KEYS];
 
-extern bool numbering_try_read(Host *host, const abacus_header *header, Numbering *numbering);
-extern void numbering_read(Host *host, const abacus_header *header, Numbering *numbering);
+extern bool numbering_try_read(Host *host, const abacus_columns *columns, Numbering *numbering);
+extern void numbering_read(Host *host, const abacus_columns *columns, Numbering *numbering);
 extern uint32 numbering_number(const Numbering *numbering, uint32 position);
 extern int	numbering_position(const Numbering *numbering, uint32 number);
-extern void numbering_change(Host *host, const abacus_header *header, const uint32 *source,
+extern void numbering_change(Host *host, const abacus_columns *columns, const uint32 *source,
 							 uint32 count);
 
 #endif

@@ -12,13 +12,13 @@
 #include "pg/mesh/shape.h"
 
 void
-shape_dimension(abacus_header *header, int32 dimension)
+shape_dimension(abacus_form *form, int32 dimension)
 {
 	if (dimension < 2 || dimension > ABACUS_MAX_DIMENSION)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("dimension must be 2 or 3, not %d", dimension)));
-	header->dimension = (uint32) dimension;
+	form->dimension = (uint32) dimension;
 }
 
 void
@@ -33,12 +33,12 @@ shape_check_name(const char *name)
 
 /* An error if there is no room for one more attribute. */
 void
-shape_check_room(const abacus_header *header)
+shape_check_room(const abacus_facts *facts)
 {
-	bool		is_octree = header->type == ABACUS_OCTREE;
+	bool		is_octree = facts->form.type == ABACUS_OCTREE;
 	uint32		most = is_octree ? ABACUS_MAX_PAGE_ATTRIBUTES : ABACUS_MAX_ATTRIBUTES;
 
-	if (header->attributes == most)
+	if (facts->columns.attributes == most)
 		ereport(ERROR,
 				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
 				 errmsg("%s can have at most %u attributes", is_octree ? "an octree" : "a mesh", most),
@@ -50,24 +50,24 @@ shape_check_room(const abacus_header *header)
 void
 shape_attribute(abacus_header *header, const char *name)
 {
-	shape_check_room(header);
+	shape_check_room(&header->facts);
 	shape_check_name(name);
-	if (header_attribute(header, name) >= 0)
+	if (header_attribute(abacus_names_of(header), name) >= 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_DUPLICATE_COLUMN),
 				 errmsg("attribute \"%s\" is named twice", name),
 				 errhint("Attributes taken from a query have the names of its columns; "
 						 "give each its own with AS.")));
-	strlcpy(header->names[header->attributes++], name, ABACUS_NAME_BYTES);
+	strlcpy(header->names[header->facts.columns.attributes++], name, ABACUS_NAME_BYTES);
 }
 
 /* Adds one label of simplices; behind all attributes. */
 void
 shape_label(abacus_header *header, const char *name)
 {
-	uint32		names = header->attributes + header->labels;
+	uint32		names = header->facts.columns.attributes + header->facts.columns.labels;
 
-	if (header->labels == ABACUS_MAX_LABELS)
+	if (header->facts.columns.labels == ABACUS_MAX_LABELS)
 		ereport(ERROR,
 				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
 				 errmsg("a mesh can have at most %d labels", ABACUS_MAX_LABELS)));
@@ -76,11 +76,11 @@ shape_label(abacus_header *header, const char *name)
 		if (strcmp(header->names[i], name) == 0)
 			ereport(ERROR,
 					(errcode(ERRCODE_DUPLICATE_COLUMN),
-					 i < header->attributes
+					 i < header->facts.columns.attributes
 					 ? errmsg("\"%s\" is both an attribute and a label", name)
 					 : errmsg("label \"%s\" is named twice", name)));
 	strlcpy(header->names[names], name, ABACUS_NAME_BYTES);
-	header->labels++;
+	header->facts.columns.labels++;
 }
 
 /* Elements of a one-dimensional array without NULLs; `what` names it for messages. */
@@ -126,16 +126,16 @@ shape_numbers(ArrayType *numbers, const char *what, int *count)
 
 /* Reads a float8[] with as many elements as the mesh has dimensions. */
 void
-shape_point(const abacus_header *header, ArrayType *point, const char *what, double *values)
+shape_point(const abacus_form *form, ArrayType *point, const char *what, double *values)
 {
 	int			count;
 	Datum	   *elements = shape_numbers(point, what, &count);
 
-	if (count != (int) header->dimension)
+	if (count != (int) form->dimension)
 		ereport(ERROR,
 				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
 				 errmsg("%s has %d elements, but the %s has dimension %u", what, count,
-						type_name(header->type), header->dimension),
+						type_name(form->type), form->dimension),
 				 count == 3 ? errhint("One in space is made with dimension => 3.") : 0));
 	for (int i = 0; i < count; i++)
 		values[i] = DatumGetFloat8(elements[i]);
@@ -169,7 +169,7 @@ shape_range(ArrayType *range, const char *what, double *values)
 
 /* The domain, if both corners are given; else it comes from the first points. */
 void
-shape_domain(abacus_header *header, ArrayType *lower, ArrayType *upper)
+shape_domain(abacus_form *form, ArrayType *lower, ArrayType *upper)
 {
 	if (lower == NULL && upper == NULL)
 		return;
@@ -178,14 +178,14 @@ shape_domain(abacus_header *header, ArrayType *lower, ArrayType *upper)
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("lower and upper must be given together"),
 				 errhint("Leave both out to take them from the points.")));
-	shape_point(header, lower, "lower", header->lower);
-	shape_point(header, upper, "upper", header->upper);
-	for (uint32 i = 0; i < header->dimension; i++)
-		if (!isfinite(header->lower[i]) || !isfinite(header->upper[i]) ||
-			!(header->lower[i] < header->upper[i]))
+	shape_point(form, lower, "lower", form->lower);
+	shape_point(form, upper, "upper", form->upper);
+	for (uint32 i = 0; i < form->dimension; i++)
+		if (!isfinite(form->lower[i]) || !isfinite(form->upper[i]) ||
+			!(form->lower[i] < form->upper[i]))
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 					 errmsg("lower must be less than upper, and both finite, on axis %c",
 							"xyz"[i])));
-	header->has_domain = 1;
+	form->has_domain = 1;
 }

@@ -103,7 +103,7 @@ open_and_lock(Writer *writer, bool in_trigger)
 	}
 	/* otherwise the snapshot is newer than our lock on the vertex table */
 	if (IsolationUsesXactSnapshot())
-		header_open_vertices(host, writer->header);
+		header_open_vertices(host, &writer->header->facts);
 	if (mesh_pages(host)->simplices.superseded == NULL)
 		mesh_pages(host)->simplices.superseded = superseded_of_session(mesh_pages(host)->simplices.heap);
 	superseded_reclaim_earlier(mesh_pages(host)->simplices.superseded, mesh_pages(host)->simplices.heap, &sight);

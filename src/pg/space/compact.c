@@ -161,13 +161,13 @@ uint64
 compact(Writer *writer, bool simplices, bool vertices)
 {
 	MeshPages  *pages = mesh_pages(writer->host);
-	const abacus_header *header = writer->header;
+	const abacus_facts *facts = &writer->header->facts;
 	uint64		moved = 0;
 
 	if (simplices)
 		moved += compact_table(writer, &pages->simplices);
 	/* without such points all rows of the vertex table are dead, and it is truncated */
-	if (vertices && (header->duplicates > 0 || header->inserted < header->staged))
+	if (vertices && (facts->census.duplicates > 0 || facts->census.inserted < facts->census.staged))
 	{
 		mesh_pages_vertex_table(pages);
 		moved += compact_table(writer, &pages->vertices);

@@ -11,18 +11,18 @@
 void
 in_step_check_shape(const Change *change, ExpectedShape expected, const char *trigger)
 {
-	const abacus_header *header = change->writer.header;
+	const abacus_facts *facts = &change->writer.header->facts;
 	Numbering  *numbering = palloc(sizeof(Numbering));
 
-	if ((int) header->dimension != expected.dimension ||
-		(int) (1 + header->dimension + header->attributes) != expected.columns)
+	if ((int) facts->form.dimension != expected.dimension ||
+		(int) (1 + facts->form.dimension + facts->columns.attributes) != expected.columns)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("trigger \"%s\" was made for another mesh", trigger),
-				 errdetail("The mesh has dimension %u and %u attributes.", header->dimension,
-						   header->attributes),
+				 errdetail("The mesh has dimension %u and %u attributes.", facts->form.dimension,
+						   facts->columns.attributes),
 				 errhint("Drop the trigger, and call abacus_track().")));
-	numbering_read(change->writer.host, header, numbering);
+	numbering_read(change->writer.host, &facts->columns, numbering);
 	if (numbering->dropped != expected.dropped)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
@@ -39,7 +39,7 @@ in_step_check_shape(const Change *change, ExpectedShape expected, const char *tr
 void
 in_step_check_srid(Change *change, int32 srid)
 {
-	uint32		wanted = change->writer.header->srid;
+	uint32		wanted = change->writer.header->facts.form.srid;
 
 	if (srid > 0 && wanted != 0 && srid != (int32) wanted)
 		geometry_refuse_srid("a geometry of the tracked table", srid, (int32) wanted, "mesh");

@@ -81,7 +81,7 @@ srid_of_mesh(Oid mesh)
 	uint32		srid;
 
 	header_read(host, header, NULL);
-	srid = header->srid;
+	srid = header->facts.form.srid;
 	host_release(host);
 	host_destroy(host);
 	pfree(header);
@@ -222,7 +222,7 @@ stage(Pending *pending, bool gone, Change *change)
 	uint64	   *points = palloc(POINTS_A_BATCH * pending->shape.columns * sizeof(uint64));
 	uint64		at = pending->extent.start;
 
-	change_open_stage(change, change->writer.header);
+	change_open_stage(change, &change->writer.header->facts);
 	while (at < pending->extent.end)
 	{
 		size_t		size = Min(POINTS_A_BATCH * words * sizeof(uint64), pending->extent.end - at);

@@ -41,7 +41,7 @@ place_columns(Relation table, List *names, int dimension)
 }
 
 static List *
-given_names(ArrayType *given, const abacus_header *header, Relation table)
+given_names(ArrayType *given, const abacus_facts *facts, Relation table)
 {
 	List	   *names = NIL;
 	int			count;
@@ -50,7 +50,7 @@ given_names(ArrayType *given, const abacus_header *header, Relation table)
 
 	for (int i = 0; i < count; i++)
 		names = lappend(names, TextDatumGetCString(elements[i]));
-	wanted = 1 + place_columns(table, names, header->dimension) + header->attributes;
+	wanted = 1 + place_columns(table, names, facts->form.dimension) + facts->columns.attributes;
 	if (count != wanted)
 		ereport(ERROR,
 				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
@@ -81,15 +81,15 @@ only_geometry(Relation table)
 
 /* The names that the mesh has, and in a table without x its geometry. */
 static List *
-default_names(const abacus_header *header, Relation table)
+default_names(abacus_names mesh, Relation table)
 {
-	char	   *geometry = OidIsValid(column_type(table, row_packer_column(header, 1))) ? NULL
+	char	   *geometry = OidIsValid(column_type(table, row_packer_column(mesh, 1))) ? NULL
 		: only_geometry(table);
 	List	   *names = NIL;
 
-	for (int i = 0; i < (int) (1 + header->dimension + header->attributes); i++)
-		if (geometry == NULL || i == 0 || i > (int) header->dimension)
-			names = lappend(names, pstrdup(row_packer_column(header, i)));
+	for (int i = 0; i < (int) (1 + mesh.facts->form.dimension + mesh.facts->columns.attributes); i++)
+		if (geometry == NULL || i == 0 || i > (int) mesh.facts->form.dimension)
+			names = lappend(names, pstrdup(row_packer_column(mesh, i)));
 		else if (i == 1)
 			names = lappend(names, geometry);
 	return names;
@@ -116,9 +116,10 @@ tracked_check_column(Relation table, AttrNumber number)
 
 /* Names of the columns of a point: as given, or as the mesh names its own. */
 static List *
-column_names(ArrayType *given, const abacus_header *header, Relation table)
+column_names(ArrayType *given, abacus_names mesh, Relation table)
 {
-	List	   *names = given != NULL ? given_names(given, header, table) : default_names(header, table);
+	List	   *names = given != NULL ? given_names(given, mesh.facts, table)
+		: default_names(mesh, table);
 	ListCell   *cell;
 
 	foreach(cell, names)
@@ -139,7 +140,7 @@ column_names(ArrayType *given, const abacus_header *header, Relation table)
 
 /* Refuses types that the triggers would refuse, before there are triggers. */
 static void
-check_types(List *columns, const abacus_header *header, Relation table)
+check_types(List *columns, abacus_names mesh, Relation table)
 {
 	TupleDesc	point = CreateTemplateTupleDesc(list_length(columns));
 	ListCell   *cell;
@@ -147,16 +148,16 @@ check_types(List *columns, const abacus_header *header, Relation table)
 	foreach(cell, columns)
 		TupleDescCopyEntry(point, foreach_current_index(cell) + 1, RelationGetDescr(table),
 						   get_attnum(RelationGetRelid(table), lfirst(cell)));
-	row_packer_create_tracked(point, header, 1);
+	row_packer_create_tracked(point, mesh, 1);
 }
 
 /* Names of the columns of a point, which the table has, of types that can be read. */
 List *
-tracked_columns(ArrayType *given, const abacus_header *header, Relation table)
+tracked_columns(ArrayType *given, abacus_names mesh, Relation table)
 {
-	List	   *names = column_names(given, header, table);
+	List	   *names = column_names(given, mesh, table);
 
-	check_types(names, header, table);
+	check_types(names, mesh, table);
 	return names;
 }
 
@@ -255,16 +256,16 @@ tracked_points_of_table(Relation table, List *columns, int dimension, bool packe
  * has no geometries.
  */
 char *
-tracked_points_of_other_srid(Relation table, List *columns, const abacus_header *header)
+tracked_points_of_other_srid(Relation table, List *columns, const abacus_form *form)
 {
 	Oid			geometry = geometry_of(table, columns);
 
 	if (!OidIsValid(geometry))
 		return NULL;
 	return psprintf("%s AND %s(t.%s) OPERATOR(pg_catalog.<>) %u",
-					select_points(table, columns, header->dimension, false, "FROM"),
+					select_points(table, columns, form->dimension, false, "FROM"),
 					geometry_function(geometry, "st_srid"), quote_identifier(lsecond(columns)),
-					header->srid);
+					form->srid);
 }
 
 /* SELECT of the points in the table alone. */
@@ -276,14 +277,14 @@ tracked_points_of_one_table(Relation table, List *columns, int dimension)
 
 /* SELECT of the points of the mesh. */
 char *
-tracked_points_of_mesh(Oid mesh, const abacus_header *header, Oid extension_namespace)
+tracked_points_of_mesh(Oid mesh, const abacus_facts *facts, Oid extension_namespace)
 {
 	StringInfoData query;
 
 	initStringInfo(&query);
-	appendStringInfoString(&query, header->dimension == 2 ? "SELECT v.id, v.x, v.y"
+	appendStringInfoString(&query, facts->form.dimension == 2 ? "SELECT v.id, v.x, v.y"
 						   : "SELECT v.id, v.x, v.y, v.z");
-	for (uint32 i = 1; i <= header->attributes; i++)
+	for (uint32 i = 1; i <= facts->columns.attributes; i++)
 		appendStringInfo(&query, ", v.attributes[%u]", i);
 	appendStringInfo(&query, " FROM %s.abacus_vertices(%u::pg_catalog.regclass) AS v",
 					 quote_identifier(get_namespace_name(extension_namespace)), mesh);

@@ -11,12 +11,12 @@
 #include "abacus/mesh_header.h"
 
 extern void tracked_check_column(Relation table, AttrNumber number);
-extern List *tracked_columns(ArrayType *given, const abacus_header *header, Relation table);
+extern List *tracked_columns(ArrayType *given, abacus_names mesh, Relation table);
 extern char *tracked_points_of_table(Relation table, List *columns, int dimension, bool packed);
 extern char *tracked_points_of_other_srid(Relation table, List *columns,
-										  const abacus_header *header);
+										  const abacus_form *form);
 extern char *tracked_points_of_one_table(Relation table, List *columns, int dimension);
-extern char *tracked_points_of_mesh(Oid mesh, const abacus_header *header,
+extern char *tracked_points_of_mesh(Oid mesh, const abacus_facts *facts,
 									Oid extension_namespace);
 
 #endif

@@ -66,18 +66,20 @@ transition_expected(const Transition *transition)
 }
 
 /* The same as points have it. */
-const abacus_header *
+abacus_names
 transition_shape(const Transition *transition)
 {
-	abacus_header *shape = palloc0(sizeof(abacus_header));
+	abacus_facts *facts = palloc0(sizeof(abacus_facts));
+	char		(*names)[ABACUS_NAME_BYTES];
 
-	shape->dimension = transition->dimension;
-	shape->srid = transition->srid;
-	shape->attributes = transition->columns - 1 - transition->dimension;
-	for (uint32 i = 0; i < shape->attributes; i++)
-		strlcpy(shape->names[i], transition->names[transition->inputs - shape->attributes + i],
+	facts->form.dimension = transition->dimension;
+	facts->form.srid = transition->srid;
+	facts->columns.attributes = transition->columns - 1 - transition->dimension;
+	names = palloc0(Max(facts->columns.attributes, 1) * sizeof(*names));
+	for (uint32 i = 0; i < facts->columns.attributes; i++)
+		strlcpy(names[i], transition->names[transition->inputs - facts->columns.attributes + i],
 				ABACUS_NAME_BYTES);
-	return shape;
+	return (abacus_names) {facts, (const char (*)[ABACUS_NAME_BYTES]) names};
 }
 
 static void

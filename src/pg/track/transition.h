@@ -51,7 +51,7 @@ typedef void (*PointSink) (void *context, const uint64 *points, size_t count);
 extern Transition *transition_open(const TriggerData *trigger);
 extern void transition_open_rows(Transition *transition, uint32 srid);
 extern ExpectedShape transition_expected(const Transition *transition);
-extern const abacus_header *transition_shape(const Transition *transition);
+extern abacus_names transition_shape(const Transition *transition);
 extern int32 transition_srid(const Transition *transition);
 extern bool transition_changes(Transition *transition);
 extern bool transition_revises(Transition *transition);

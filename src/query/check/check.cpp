@@ -11,37 +11,37 @@
 namespace abacus {
 
 template <int D>
-Check<D>::Check(const Host &host, const abacus_header &header, std::size_t cache_bytes,
+Check<D>::Check(const Host &host, const abacus_facts &facts, std::size_t cache_bytes,
                 std::size_t limit)
-    : host_(host), header_(header), cache_bytes_(cache_bytes), domain_(domain_of<D>(header)),
+    : host_(host), facts_(facts), cache_bytes_(cache_bytes), domain_(domain_of<D>(facts.form)),
       faults_(host, limit) {
     check_header();
     std::optional<Together> together;
-    if (Together::is_worth_while(host, header)) together.emplace(*this);
+    if (Together::is_worth_while(host, facts)) together.emplace(*this);
     if (!together || !together->check_pages()) check_pages();
     is_counted_ = true;
-    if (counts_.simplices != header_.simplices || counts_.ghosts != header_.ghosts)
+    if (counts_.simplices != facts_.census.simplices || counts_.ghosts != facts_.census.ghosts)
         faults_.add("count", first_key, "The header counts other simplices than the pages hold.");
     const std::size_t before = faults_.size();
     check_links_and_points(together ? &*together : nullptr);
     // Two pages that differ about a vertex are found where the cache has both. In a Delaunay mesh
     // it has them at some time: all pages around a vertex are loaded together. In another one it
     // may not, and what is found otherwise is reported as if it had been looked for alone.
-    if (together && !abacus_is_delaunay(header.standing) && faults_.size() > before) {
+    if (together && !abacus_is_delaunay(facts.standing) && faults_.size() > before) {
         faults_.shorten(before);
         check_links_and_points(nullptr);
     }
     const auto is_sound = [&] { return faults_.is_sound(); };
-    const bool is_apart = header_.apart != 0;
-    if (is_apart || header_.labels > 0 || header_.marked > 0)
+    const bool is_apart = facts_.columns.apart != 0;
+    if (is_apart || facts_.columns.labels > 0 || facts_.census.marked > 0)
         faults_.run("attributes", [&] {
-            check_attribute_pages<1>("attributes", is_apart ? header_.attributes : 0,
-                                     header_.vertices);
+            check_attribute_pages<1>("attributes", is_apart ? facts_.columns.attributes : 0,
+                                     facts_.census.vertices);
         });
     if (is_apart && is_sound()) faults_.run("vertex", [&] { check_attributes(); });
-    check_labels("labels", header_.labels, header_.labelled, first_group<D + 1>);
-    check_labels("markers", D + 1, header_.marked, marker_group);
-    if (is_sound() && header_.marked > 0) faults_.run("markers", [&] { check_markers(); });
+    check_labels("labels", facts_.columns.labels, facts_.census.labelled, first_group<D + 1>);
+    check_labels("markers", D + 1, facts_.census.marked, marker_group);
+    if (is_sound() && facts_.census.marked > 0) faults_.run("markers", [&] { check_markers(); });
 }
 
 template <int D> void Check<D>::check_links_and_points(Together *together) {
@@ -53,25 +53,26 @@ template <int D> void Check<D>::check_links_and_points(Together *together) {
     if (is_sound()) faults_.run("point", [&] { check_repeated_points(); });
     if (is_sound())
         faults_.run("point", [&] {
-            abacus_lists_vertices(header_.standing) ? check_listed_vertices()
-                                                    : check_waiting_points();
+            abacus_lists_vertices(facts_.standing) ? check_listed_vertices()
+                                                   : check_waiting_points();
         });
 }
 
 template <int D> void Check<D>::report(std::uint64_t pages, unsigned threads) {
     // Every page is read twice, once more to look for attributes that are apart and for labels,
     // twice for markers; how many there are is known after the first time.
-    const std::uint64_t passes = 2 + (header_.apart != 0 ? 1 : 0) + (header_.labelled > 0 ? 1 : 0) +
-                                 (header_.marked > 0 ? 2 : 0);
+    const std::uint64_t passes = 2 + (facts_.columns.apart != 0 ? 1 : 0) +
+                                 (facts_.census.labelled > 0 ? 1 : 0) +
+                                 (facts_.census.marked > 0 ? 2 : 0);
     const std::uint64_t total = is_counted_ ? passes * pages_ : 0;
     host_.progress({ABACUS_PHASE_CHECKING, pages, total, pages, 0, threads});
 }
 
 /// What need not hold of a header that can be read; the rest capi/header.cpp has seen to.
 template <int D> void Check<D>::check_header() {
-    const abacus_header &h = header_;
-    if (D == 2 && h.simplices > 0 && abacus_is_delaunay(h.standing) &&
-        h.simplices + h.ghosts + 2 != 2 * h.vertices)
+    const abacus_facts &h = facts_;
+    if (D == 2 && h.census.simplices > 0 && abacus_is_delaunay(h.standing) &&
+        h.census.simplices + h.census.ghosts + 2 != 2 * h.census.vertices)
         faults_.add("euler", first_key, "Vertices, triangles and hull edges do not add up.");
 }
 
@@ -79,12 +80,12 @@ template <int D> void Check<D>::check_pages() {
     Key expected = first_key;
     bool is_expecting = true; // not after a page that tells nothing
     PageCheck<D> check(domain_, faults_);
-    PageScan<D> scan(host_, header_);
+    PageScan<D> scan(host_, facts_);
     pages_ = 0;
     while (scan.fetch()) {
         faults_.at = scan.key();
         report_some(++pages_);
-        const bool is_read = check.read(scan.bytes(), scan.size(), page_attributes(header_));
+        const bool is_read = check.read(scan.bytes(), scan.size(), page_attributes(facts_.columns));
         if (is_read) {
             if (is_expecting && !(check.page().lower() == expected))
                 faults_.add("interval", "The pages leave out or share a part of the curve.");
@@ -99,17 +100,17 @@ template <int D> void Check<D>::check_pages() {
 }
 
 template <int D> void Check<D>::check_topology() {
-    TopologyCheck<D> check(host_, header_, cache_bytes_, faults_);
+    TopologyCheck<D> check(host_, facts_, cache_bytes_, faults_);
     std::uint64_t pages = pages_;
     check.check(first_key, end_key, [&] {
         report_some(++pages);
         return true;
     });
-    if (abacus_is_delaunay(header_.standing)) check_stars(check.stars().counts());
+    if (abacus_is_delaunay(facts_.standing)) check_stars(check.stars().counts());
 }
 
 template <int D> void Check<D>::check_stars(const StarCounts &stars) {
-    if (stars.count != header_.vertices) faults_.add("count", first_key, other_vertex_count);
+    if (stars.count != facts_.census.vertices) faults_.add("count", first_key, other_vertex_count);
     if (stars.corners != (D + 1) * counts_.simplices + D * counts_.ghosts)
         faults_.add("overlap", first_key, "A vertex has two separate stars.");
     else if (stars.are_wound_once && stars.least != 1)
@@ -117,17 +118,17 @@ template <int D> void Check<D>::check_stars(const StarCounts &stars) {
 }
 
 template <int D> void Check<D>::check_repeated_points() {
-    Reader<D> mesh(host_, header_, {.budget = cache_bytes_, .verify_checksums = false});
-    RepeatedReader<D> points(host_, domain_, header_.attributes);
+    Reader<D> mesh(host_, facts_, {.budget = cache_bytes_, .verify_checksums = false});
+    RepeatedReader<D> points(host_, domain_, facts_.columns.attributes);
     std::uint64_t count = 0;
     for (; points.advance(); ++count) {
         faults_.at = points.key();
         if (!mesh.vertex_at(record_point<D>(points.record())))
             faults_.add("point", "A repeated point equals no vertex of the mesh.");
-        if (points.serial() >= header_.serials)
+        if (points.serial() >= facts_.census.serials)
             faults_.add("count", "A repeated point has a serial number yet to be given.");
     }
-    if (count != header_.duplicates)
+    if (count != facts_.census.duplicates)
         faults_.add("count", first_key, "The header counts other repeated points than there are.");
 }
 
@@ -140,18 +141,19 @@ template <int D> void Check<D>::check_follows(const Key &last, const Key &at) {
 }
 
 template <int D> void Check<D>::check_waiting_points() {
-    faults_.at = {header_.inserted, 0};
-    VertexReader<D> points(host_, header_.attributes, header_.inserted, header_.staged);
+    faults_.at = {facts_.census.inserted, 0};
+    VertexReader<D> points(host_, facts_.columns.attributes, facts_.census.inserted,
+                           facts_.census.staged);
     Key last = faults_.at;
     while (points.advance()) {
         faults_.at = {points.sequence(), 0};
-        if (points.sequence() > header_.inserted) check_follows(last, points.page_key());
+        if (points.sequence() > facts_.census.inserted) check_follows(last, points.page_key());
         last = points.page_key();
     }
-    const Key begin{header_.inserted, 0};
+    const Key begin{facts_.census.inserted, 0};
     abacus_page first, page;
     if (!host_.next(ABACUS_STAGED_PAGES, nullptr, first)) return;
-    if (header_.inserted == header_.staged)
+    if (facts_.census.inserted == facts_.census.staged)
         faults_.add("count", first.key, "There are points that wait, and the header counts none.");
     else if (!host_.find(ABACUS_STAGED_PAGES, begin, page) || !(page.key == first.key))
         faults_.add("count", first.key, "There are points before the first that waits.");
@@ -160,8 +162,9 @@ template <int D> void Check<D>::check_waiting_points() {
 }
 
 template <int D> void Check<D>::check_listed_vertices() {
-    Reader<D> mesh(host_, header_, {.budget = cache_bytes_, .verify_checksums = false});
-    VertexReader<D> list(host_, static_cast<unsigned>(page_attributes(header_)), 0, header_.staged);
+    Reader<D> mesh(host_, facts_, {.budget = cache_bytes_, .verify_checksums = false});
+    VertexReader<D> list(host_, static_cast<unsigned>(page_attributes(facts_.columns)), 0,
+                         facts_.census.staged);
     std::uint64_t in_pages = 0;
     // Along the curve, those of one code by their coordinates as words, those at one place by their
     // ids: so abacus_load sorts.
@@ -178,7 +181,7 @@ template <int D> void Check<D>::check_listed_vertices() {
         const std::int64_t id = record_id(list.record());
         const bool shares = list.sequence() > 0 && place == previous;
         if (list.sequence() > 0 &&
-            (shares ? header_.split == 0 || id <= previous_id : place < previous))
+            (shares ? facts_.census.split == 0 || id <= previous_id : place < previous))
             faults_.add("vertex", "The list of vertices is not in order.");
         at_place = shares ? at_place + 1 : 1;
         if (at_place > 1) split += at_place == 2 ? 2 : 1;
@@ -191,7 +194,7 @@ template <int D> void Check<D>::check_listed_vertices() {
     }
     if (in_pages != counts_.vertices)
         faults_.add("vertex", first_key, "The mesh has vertices that are not in the list.");
-    if (split != header_.split)
+    if (split != facts_.census.split)
         faults_.add("count", first_key,
                     "The header counts other vertices that share their places than there are.");
     abacus_page page;
@@ -222,14 +225,14 @@ void Check<D>::check_attribute_pages(const char *kind, unsigned attributes, std:
 /// There are as many vertices with attributes as vertices; so it is enough that each of these has
 /// some.
 template <int D> void Check<D>::check_attributes() {
-    AttributeReader<D> attributes(host_, domain_, header_.attributes, cache_bytes_ / 2);
-    PageScan<D> scan(host_, header_);
+    AttributeReader<D> attributes(host_, domain_, facts_.columns.attributes, cache_bytes_ / 2);
+    PageScan<D> scan(host_, facts_);
     PageView<D> page;
     std::uint64_t pages = passes_++ * pages_;
     while (scan.fetch()) {
         faults_.at = scan.key();
         report_some(++pages);
-        page.read(scan.bytes(), scan.size(), page_attributes(header_),
+        page.read(scan.bytes(), scan.size(), page_attributes(facts_.columns),
                   PageView<D>::Checksum::ignore);
         for (int v = 0; v < page.vertices(); ++v)
             if (!attributes.contains(page.point(v))) {
@@ -294,7 +297,7 @@ template <int D> void Check<D>::check_markers() {
     std::uint64_t ghosts = 0, marked = 0; // with the facet of the first
     bool agree = true;
     const auto end_facet = [&] {
-        const std::uint64_t sides_of_boundary = header_.split > 0 && ghosts == 2 ? 2 : 1;
+        const std::uint64_t sides_of_boundary = facts_.census.split > 0 && ghosts == 2 ? 2 : 1;
         const bool is_sound = ghosts == 0 ? marked == 0 || (marked == 2 && agree)
                                           : ghosts <= sides_of_boundary && marked <= ghosts;
         if (!is_sound)

@@ -50,8 +50,7 @@ namespace abacus {
 template <int D> class Check {
 public:
     /// Verifies at once; keeps at most `limit` faults.
-    Check(const Host &host, const abacus_header &header, std::size_t cache_bytes,
-          std::size_t limit);
+    Check(const Host &host, const abacus_facts &facts, std::size_t cache_bytes, std::size_t limit);
 
     /// False after the last fault.
     bool next(abacus_fault &fault) { return faults_.next(fault); }
@@ -81,12 +80,12 @@ private:
     void check_markers();
     /// Calls visit(page, simplex) for all of them.
     template <class Visit> void each_simplex(const Visit &visit) {
-        PageScan<D> scan(host_, header_);
+        PageScan<D> scan(host_, facts_);
         PageView<D> page;
         std::uint64_t pages = passes_++ * pages_;
         while (scan.fetch()) {
             report_some(++pages);
-            page.read(scan.bytes(), scan.size(), page_attributes(header_),
+            page.read(scan.bytes(), scan.size(), page_attributes(facts_.columns),
                       PageView<D>::Checksum::ignore);
             for (int s = 0; s < page.simplices(); ++s) visit(page, s);
         }
@@ -98,7 +97,7 @@ private:
     }
 
     const Host &host_;
-    const abacus_header &header_;
+    const abacus_facts &facts_;
     std::size_t cache_bytes_;
     Domain<D> domain_;
     FaultList faults_;

@@ -14,9 +14,10 @@ constexpr std::size_t parts_a_thread = 4;
 } // namespace
 
 template <int D>
-bool Check<D>::Together::is_worth_while(const Host &host, const abacus_header &header) {
-    return host.threads() > 1 && (header.simplices + header.ghosts >= simplices_worth_sharing ||
-                                  host.has_tiny_intervals());
+bool Check<D>::Together::is_worth_while(const Host &host, const abacus_facts &facts) {
+    return host.threads() > 1 &&
+           (facts.census.simplices + facts.census.ghosts >= simplices_worth_sharing ||
+            host.has_tiny_intervals());
 }
 
 template <int D>
@@ -94,7 +95,8 @@ private:
         for (std::size_t i = 0; i < batch.size; ++i) {
             const PageFeed::Page &page = batch.pages[i];
             faults.at = page.key;
-            if (!check.read(page.bytes, page.size, page_attributes(this->check().header_))) return;
+            if (!check.read(page.bytes, page.size, page_attributes(this->check().facts_.columns)))
+                return;
             check.check();
             const Key &behind = i + 1 < batch.size ? batch.pages[i + 1].key : batch.beyond;
             if (!(check.page().upper() == behind))
@@ -147,7 +149,7 @@ private:
     /// Of a thread.
     struct Links {
         Links(const Host &host, const Check &all, unsigned threads)
-            : faults(host, 1), check(host, all.header_, all.cache_bytes_ / threads, faults) {}
+            : faults(host, 1), check(host, all.facts_, all.cache_bytes_ / threads, faults) {}
 
         FaultList faults;
         TopologyCheck<D> check;
@@ -164,7 +166,7 @@ template <int D> bool Check<D>::Together::check_topology() {
     if (!check_.host_.has_tiny_intervals()) parts = std::min(parts, threads * parts_a_thread);
     Topology pass(*this, threads, parts);
     if (!crew_.run(threads, parts, pass) || pass.has_fault()) return false;
-    if (abacus_is_delaunay(check_.header_.standing)) check_.check_stars(pass.stars());
+    if (abacus_is_delaunay(check_.facts_.standing)) check_.check_stars(pass.stars());
     return true;
 }
 

@@ -21,7 +21,7 @@ template <int D> class Check<D>::Together {
 public:
     explicit Together(Check &check);
 
-    static bool is_worth_while(const Host &host, const abacus_header &header);
+    static bool is_worth_while(const Host &host, const abacus_facts &facts);
 
     /// The passes; false if a fault was found, or the system grants no thread: then the result is
     /// unknown.

@@ -5,10 +5,10 @@
 namespace abacus {
 
 template <int D>
-TopologyCheck<D>::TopologyCheck(const Host &host, const abacus_header &header,
+TopologyCheck<D>::TopologyCheck(const Host &host, const abacus_facts &facts,
                                 std::size_t cache_bytes, FaultList &faults)
-    : is_delaunay_(abacus_is_delaunay(header.standing)), faults_(faults),
-      reader_(host, header,
+    : is_delaunay_(abacus_is_delaunay(facts.standing)), faults_(faults),
+      reader_(host, facts,
               {.budget = cache_bytes, .verify_links = true, .verify_checksums = false}),
       cache_(reader_.cache()), own_(cache_), stars_(cache_) {}
 

@@ -11,7 +11,7 @@ namespace abacus {
 
 template <int D> class TopologyCheck {
 public:
-    TopologyCheck(const Host &host, const abacus_header &header, std::size_t cache_bytes,
+    TopologyCheck(const Host &host, const abacus_facts &facts, std::size_t cache_bytes,
                   FaultList &faults);
 
     /// Goes through the pages of [from, to), where pages begin; calls each_page() after each,

@@ -10,8 +10,8 @@ namespace abacus {
 
 namespace {
 
-const abacus_contouring &checked(const abacus_header &header, const abacus_contouring &how) {
-    if (header.dimension != 2)
+const abacus_contouring &checked(const abacus_facts &facts, const abacus_contouring &how) {
+    if (facts.form.dimension != 2)
         throw Error(ABACUS_ERROR_ARGUMENT, "contours need a mesh of dimension 2");
     return how;
 }
@@ -24,12 +24,12 @@ void report_path(abacus_contour_report report, void *context, std::int64_t id, d
 } // namespace
 
 // Two thirds of the memory for what is joined, the rest for the rim.
-Contours::Contours(const Host &host, const abacus_header &header, const abacus_window &window,
+Contours::Contours(const Host &host, const abacus_facts &facts, const abacus_window &window,
                    const abacus_contouring &contouring, std::size_t memory)
-    : host_(host), header_(header), simplices_(header.simplices + header.ghosts), pacer_(host),
-      how_(checked(header, contouring)), window_(window), bounds_(window), levels_(how_),
-      attribute_(&how_.attribute, 1), vertex_values_(host, header),
-      pages_(host, header, window_.region()), cut_(bounds_, levels_, how_.bands != 0),
+    : host_(host), facts_(facts), simplices_(facts.census.simplices + facts.census.ghosts),
+      pacer_(host), how_(checked(facts, contouring)), window_(window), bounds_(window),
+      levels_(how_), attribute_(&how_.attribute, 1), vertex_values_(host, facts),
+      pages_(host, facts, window_.region()), cut_(bounds_, levels_, how_.bands != 0),
       pieces_(host, memory / 3 * 2), rims_(host, bounds_, levels_, memory / 3), edges_(host) {}
 
 void Contours::each(abacus_contour_report report, void *context) {
@@ -59,7 +59,7 @@ void Contours::read() {
 }
 
 void Contours::count() {
-    RangeScan<2> pages(host_, header_, window_.region());
+    RangeScan<2> pages(host_, facts_, window_.region());
     double chains =
         0; // at least: of each level in a triangle one, which others of its page may join
     std::uint64_t seen = 0;

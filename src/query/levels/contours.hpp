@@ -17,7 +17,7 @@ namespace abacus {
 
 class Contours {
 public:
-    Contours(const Host &host, const abacus_header &header, const abacus_window &window,
+    Contours(const Host &host, const abacus_facts &facts, const abacus_window &window,
              const abacus_contouring &contouring, std::size_t memory);
 
     /// Reports all lines, or rings, in order; once.
@@ -59,7 +59,7 @@ private:
     static constexpr double few_pieces = 512;
 
     const Host &host_;
-    const abacus_header &header_;   // while all pages are read
+    const abacus_facts &facts_;     // as long as all is read
     const std::uint64_t simplices_; // of the mesh, ghosts included
     Pacer pacer_;
     const abacus_contouring how_;

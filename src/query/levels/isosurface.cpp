@@ -17,13 +17,14 @@ constexpr std::uint64_t number_mask = (std::uint64_t{1} << number_bits) - 1;
 
 } // namespace
 
-Isosurface::Isosurface(const Host &host, const abacus_header &header,
+Isosurface::Isosurface(const Host &host, const abacus_facts &facts,
                        const abacus_isosurface_query &query, std::size_t memory)
-    : query_(query), is_split_(header.split > 0), host_(host), header_(header),
-      filter_(query.window, query.max_edge), vertex_values_(host, header), pacer_(host),
-      edges_(host), numbers_(host, header.split > 0 ? 8 : 6, memory), pages_made_(host, 1),
+    : query_(query), is_split_(facts.census.split > 0), host_(host), facts_(facts),
+      filter_(query.window, query.max_edge), vertex_values_(host, facts), pacer_(host),
+      edges_(host), numbers_(host, facts.census.split > 0 ? 8 : 6, memory), pages_made_(host, 1),
       corners_(host, query.carried >= 0 ? 4 : 3), triangles_(host, 1), corners_here_(host) {
-    if (!host.spool_fits(most_bytes_a_simplex * static_cast<double>(header.simplices))) count();
+    if (!host.spool_fits(most_bytes_a_simplex * static_cast<double>(facts.census.simplices)))
+        count();
     scan();
     numbers_.finish();
     pages_made_.rewind();
@@ -36,8 +37,8 @@ Isosurface::Isosurface(const Host &host, const abacus_header &header,
 template <class End> void Isosurface::each_page(End end_page) {
     std::uint64_t seen = 0; // simplices
     pacer_.begin(ABACUS_PHASE_SCANNING,
-                 filter_.region() == nullptr ? header_.simplices + header_.ghosts : 0);
-    RangeScan<3> pages(host_, header_, filter_.region(), [&](const PageView<3> &page) {
+                 filter_.region() == nullptr ? facts_.census.simplices + facts_.census.ghosts : 0);
+    RangeScan<3> pages(host_, facts_, filter_.region(), [&](const PageView<3> &page) {
         pacer_.reached(seen += static_cast<std::uint64_t>(page.simplices()));
         return vertex_values_.may_have(page, static_cast<int>(query_.attribute), query_.value,
                                        query_.value);

@@ -22,8 +22,8 @@ namespace abacus {
 
 class Isosurface {
 public:
-    /// Numbers corners within `memory` bytes, and finds the whole surface.
-    Isosurface(const Host &host, const abacus_header &header, const abacus_isosurface_query &query,
+    /// Numbers corners within `memory` bytes, and finds all there is.
+    Isosurface(const Host &host, const abacus_facts &facts, const abacus_isosurface_query &query,
                std::size_t memory);
 
     /// Calls report(triangle) for each; once.
@@ -65,7 +65,7 @@ private:
     const abacus_isosurface_query query_;
     const bool is_split_; // vertices at one place are distinguished by their ids
     const Host &host_;
-    const abacus_header header_;
+    const abacus_facts facts_;
     const CellFilter<3> filter_;
     const VertexValues<3> vertex_values_;
     Pacer pacer_;

@@ -63,11 +63,11 @@ bool PlaneRegion::may_meet(const Box<3> &box) const {
 
 // ---- The section --------------------------------------------------------------------------
 
-PlaneSection::PlaneSection(const Host &host, const abacus_header &header,
+PlaneSection::PlaneSection(const Host &host, const abacus_facts &facts,
                            const abacus_section_query &query)
-    : plane_(plane_of(query)), values_(host, header, query.attribute), max_edge_(query.max_edge),
-      is_split_(header.split > 0), domain_(domain_of<3>(header)),
-      region_(plane_, domain_box<3>(header)), pages_(host, header, &region_) {}
+    : plane_(plane_of(query)), values_(host, facts, query.attribute), max_edge_(query.max_edge),
+      is_split_(facts.census.split > 0), domain_(domain_of<3>(facts.form)),
+      region_(plane_, domain_box<3>(facts.form)), pages_(host, facts, &region_) {}
 
 bool PlaneSection::next(abacus_polygon &polygon) {
     for (;;) {

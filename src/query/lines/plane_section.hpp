@@ -39,7 +39,7 @@ private:
 class PlaneSection {
 public:
     /// Throws an Error (argument) if there is no such plane.
-    PlaneSection(const Host &host, const abacus_header &header, const abacus_section_query &query);
+    PlaneSection(const Host &host, const abacus_facts &facts, const abacus_section_query &query);
 
     /// False after the last polygon.
     bool next(abacus_polygon &polygon);

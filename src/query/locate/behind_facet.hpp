@@ -11,11 +11,11 @@ namespace abacus {
 
 template <int D> class BehindFacet {
 public:
-    BehindFacet(const Host &host, const abacus_header &header) : host_(host), header_(header) {}
+    BehindFacet(const Host &host, const abacus_facts &facts) : host_(host), facts_(facts) {}
 
     Owner<D, D + 1> of(const std::array<Point<D>, D> &facet,
                        const std::array<std::int64_t, D> &ids) {
-        if (!mesh_) mesh_.emplace(host_, header_, cache_bytes);
+        if (!mesh_) mesh_.emplace(host_, facts_, cache_bytes);
         std::optional<Owner<D, D + 1>> behind;
         mesh_->star(facet[0], [&](const abacus_simplex &simplex) {
             std::array<Point<D>, D + 1> points;
@@ -34,8 +34,8 @@ private:
     static constexpr std::size_t cache_bytes = std::size_t{1} << 20;
 
     const Host &host_;
-    const abacus_header header_;
-    std::optional<Reader<D>> mesh_; // created when it is first needed
+    const abacus_facts facts_;
+    std::optional<Reader<D>> mesh_; // once it is needed
 };
 
 } // namespace abacus

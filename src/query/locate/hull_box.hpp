@@ -11,16 +11,16 @@ namespace abacus {
 /// A box that contains the whole mesh. It is infinite if the mesh is not Delaunay, so that all
 /// pages would have to be read, or if its hull lies on a great many pages.
 template <int D>
-Box<D> hull_box(const Host &host, const abacus_header &header, std::size_t cache_bytes) {
+Box<D> hull_box(const Host &host, const abacus_facts &facts, std::size_t cache_bytes) {
     constexpr int most_pages = 512;
     Box<D> everywhere;
     everywhere.lower.fill(-std::numeric_limits<double>::infinity());
     everywhere.upper.fill(std::numeric_limits<double>::infinity());
-    Reader<D> reader(host, header, cache_bytes);
+    Reader<D> reader(host, facts, cache_bytes);
     if (!reader.is_delaunay()) return everywhere;
     Box<D> box;
     if (reader.is_empty()) return box;
-    PageFlood<D> flood(host, header);
+    PageFlood<D> flood(host, facts);
     flood.reach(reader.cache().lower(hull_ghost<D>(reader)));
     for (int pages = 0; flood.advance(); ++pages) {
         if (pages == most_pages) return everywhere;

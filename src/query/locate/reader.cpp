@@ -16,10 +16,10 @@ namespace {
 /// Of the memory, what attributes get that are apart.
 constexpr std::size_t attributes_share = 8;
 
-CacheOptions linked_as(const abacus_header &header, CacheOptions options) {
-    options.linked_ghosts = abacus_links_ghosts(header.standing);
-    options.split_nodes = header.split > 0;
-    if (header.apart != 0) options.budget -= options.budget / attributes_share;
+CacheOptions linked_as(const abacus_facts &facts, CacheOptions options) {
+    options.linked_ghosts = abacus_links_ghosts(facts.standing);
+    options.split_nodes = facts.census.split > 0;
+    if (facts.columns.apart != 0) options.budget -= options.budget / attributes_share;
     return options;
 }
 
@@ -33,16 +33,18 @@ template <int D> [[noreturn]] void throw_no_such_simplex() {
 } // namespace
 
 template <int D>
-Reader<D>::Reader(const Host &host, const abacus_header &header, const CacheOptions &options,
+Reader<D>::Reader(const Host &host, const abacus_facts &facts, const CacheOptions &options,
                   bool in_order)
-    : header_(header), size_(header.simplices == 0 ? 0 : header.simplices + header.ghosts),
-      delaunay_(abacus_is_delaunay(header.standing)), in_order_(in_order),
-      budget_(linked_as(header, options).budget),
-      vertex_values_(host, header, options.budget / attributes_share),
-      cache_(host, domain_of<D>(header), page_attributes(header), linked_as(header, options)),
+    : facts_(facts),
+      size_(facts.census.simplices == 0 ? 0 : facts.census.simplices + facts.census.ghosts),
+      delaunay_(abacus_is_delaunay(facts.standing)), in_order_(in_order),
+      budget_(linked_as(facts, options).budget),
+      vertex_values_(host, facts, options.budget / attributes_share),
+      cache_(host, domain_of<D>(facts.form), page_attributes(facts.columns),
+             linked_as(facts, options)),
       glance_(cache_, vertex_values_, options.budget / 10, in_order), read_ahead_(cache_),
       walk_(cache_, /*far=*/true), around_(host),
-      pages_of_code_(host, page_attributes(header), options.budget / 16) {}
+      pages_of_code_(host, page_attributes(facts.columns), options.budget / 16) {}
 
 template <int D> Handle Reader<D>::start(const Point<D> &p, std::uint64_t code) {
     if (size_ == 0) return no_handle;
@@ -80,7 +82,7 @@ template <int D> Handle Reader<D>::walk_to_inside(const Point<D> &p) {
 }
 
 template <int D> const PageBoxes<D> &Reader<D>::boxes() {
-    if (!boxes_) boxes_.emplace(cache_.host(), header_, budget_ / 8);
+    if (!boxes_) boxes_.emplace(cache_.host(), facts_, budget_ / 8);
     return *boxes_;
 }
 
@@ -143,7 +145,7 @@ template <int D> std::uint64_t Reader<D>::pages_with(const std::uint64_t *vertex
             for (int i = 0; i < s.finite_vertices(); ++i) {
                 const VertexIndex v = s.vertex[i];
                 if (!(cache_.point(v) == p)) continue;
-                if (header_.split > 0 && heap.id(v) != record_id(vertex)) continue;
+                if (facts_.census.split > 0 && heap.id(v) != record_id(vertex)) continue;
                 here = true;
                 same = same && heap.id(v) == record_id(vertex) &&
                        (heap.attribute_count() == 0 ||

@@ -28,11 +28,11 @@ inline constexpr double no_max_edge = std::numeric_limits<double>::infinity();
 
 template <int D> class Reader {
 public:
-    Reader(const Host &host, const abacus_header &header, std::size_t cache_bytes)
-        : Reader(host, header, CacheOptions{.budget = cache_bytes}) {}
-    /// `in_order`: places come along the curve. Then a page need not be loaded to be searched,
+    Reader(const Host &host, const abacus_facts &facts, std::size_t cache_bytes)
+        : Reader(host, facts, CacheOptions{.budget = cache_bytes}) {}
+    /// `in_order`: places come along the curve. Then a page need not be loaded to be looked into,
     /// whether or not the cache has room for it.
-    Reader(const Host &host, const abacus_header &header, const CacheOptions &options,
+    Reader(const Host &host, const abacus_facts &facts, const CacheOptions &options,
            bool in_order = false);
 
     /// The simplex that contains p; of several, the first by comes_before(). False
@@ -139,7 +139,7 @@ private:
     void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex, CornerValues *values,
                       double max_edge);
 
-    const abacus_header header_;
+    const abacus_facts facts_;
     std::uint64_t size_; // simplices and ghosts
     bool delaunay_;
     const bool in_order_;

@@ -1,7 +1,7 @@
 // Values at the corners of a simplex: the one way in which queries read attributes.
 #pragma once
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 #include <array>
 #include <cstdint>

@@ -3,12 +3,12 @@
 namespace abacus {
 
 template <int D>
-PageBoxes<D>::PageBoxes(const Host &host, const abacus_header &header, std::size_t bytes)
+PageBoxes<D>::PageBoxes(const Host &host, const abacus_facts &facts, std::size_t bytes)
     : keys_(host), boxes_(host), tree_(host) {
     const std::size_t most =
         std::max<std::size_t>(16, bytes / (sizeof(Key) + BoxTree<D>::bytes_per_box));
     std::size_t pages = 1, in_last = 0; // pages of a box; of the last one
-    PageScan<D> scan(host, header);
+    PageScan<D> scan(host, facts);
     while (scan.advance()) {
         if (in_last == pages || keys_.empty()) {
             if (keys_.size() == most) {

@@ -12,7 +12,7 @@ namespace abacus {
 
 template <int D> class PageBoxes {
 public:
-    PageBoxes(const Host &host, const abacus_header &header, std::size_t bytes);
+    PageBoxes(const Host &host, const abacus_facts &facts, std::size_t bytes);
 
     /// Calls visit(from, to) for intervals of keys, which end at pages; no page outside them has p
     /// in its box. Stops when it returns false.

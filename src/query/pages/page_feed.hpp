@@ -9,7 +9,7 @@
 #include "host/arena.hpp"
 #include "keys/key.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 #include <array>
 #include <condition_variable>

@@ -17,8 +17,8 @@ constexpr Key last_of(std::uint64_t code) { return {code, key_word_end - 1}; }
 } // namespace
 
 template <int D>
-PageFlood<D>::PageFlood(const Host &host, const abacus_header &header)
-    : host_(host), attributes_(page_attributes(header)), domain_(domain_of<D>(header)),
+PageFlood<D>::PageFlood(const Host &host, const abacus_facts &facts)
+    : host_(host), attributes_(page_attributes(facts.columns)), domain_(domain_of<D>(facts.form)),
       memory_(host), open_(&less, &memory_), read_(&less, &memory_), inner_links_(host),
       slots_(host), border_(host), on_border_(host) {
     slots_.resize(block_slots<D>);

@@ -14,7 +14,7 @@
 #include "keys/locational_code.hpp"
 #include "mesh/inner_links.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 #include <map>
 
@@ -22,7 +22,7 @@ namespace abacus {
 
 template <int D> class PageFlood {
 public:
-    PageFlood(const Host &host, const abacus_header &header);
+    PageFlood(const Host &host, const abacus_facts &facts);
 
     /// The page that owns the key will be read.
     void reach(const Key &key);

@@ -8,7 +8,7 @@
 #include "mesh/page_attributes.hpp"
 #include "mesh/page_format.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 namespace abacus {
 
@@ -17,9 +17,9 @@ inline constexpr const char *other_vertex_count =
 
 template <int D> class PageScan {
 public:
-    PageScan(const Host &host, const abacus_header &header)
-        : cursor_(host, ABACUS_SIMPLEX_PAGES, "mesh"), attributes_(page_attributes(header)),
-          left_(header.simplices + header.ghosts) {}
+    PageScan(const Host &host, const abacus_facts &facts)
+        : cursor_(host, ABACUS_SIMPLEX_PAGES, "mesh"), attributes_(page_attributes(facts.columns)),
+          left_(facts.census.simplices + facts.census.ghosts) {}
 
     /// Goes to the next page; false after the last. Throws if it is damaged or does not follow
     /// the one before, and at the end if pages are missing.

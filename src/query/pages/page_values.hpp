@@ -12,8 +12,8 @@ namespace abacus {
 template <int D> class PageValues {
 public:
     /// Without an attribute (-1) all values are missing.
-    PageValues(const Host &host, const abacus_header &header, int attribute)
-        : vertex_values_(host, header), attribute_(attribute) {}
+    PageValues(const Host &host, const abacus_facts &facts, int attribute)
+        : vertex_values_(host, facts), attribute_(attribute) {}
 
     /// Goes to a page, which must exist until the next one.
     void enter(const PageView<D> &page) {

@@ -15,7 +15,7 @@
 #include "host/host.hpp"
 #include "mesh/page_format.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 namespace abacus {
 

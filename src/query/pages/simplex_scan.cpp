@@ -6,8 +6,8 @@
 namespace abacus {
 
 template <int D>
-SimplexScan<D>::SimplexScan(const Host &host, const abacus_header &header, bool ghosts)
-    : domain_(domain_of<D>(header)), pages_(host, header), ghosts_(ghosts) {}
+SimplexScan<D>::SimplexScan(const Host &host, const abacus_facts &facts, bool ghosts)
+    : domain_(domain_of<D>(facts.form)), pages_(host, facts), ghosts_(ghosts) {}
 
 template <int D> bool SimplexScan<D>::next(abacus_simplex &simplex) {
     for (;;) {

@@ -10,7 +10,7 @@ namespace abacus {
 
 template <int D> class SimplexScan {
 public:
-    SimplexScan(const Host &host, const abacus_header &header, bool ghosts);
+    SimplexScan(const Host &host, const abacus_facts &facts, bool ghosts);
 
     /// False after the last simplex.
     bool next(abacus_simplex &simplex);

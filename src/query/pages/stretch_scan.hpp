@@ -6,7 +6,7 @@
 #include "mesh/page_attributes.hpp"
 #include "mesh/page_format.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 #include <algorithm>
 #include <cstring>
@@ -15,12 +15,13 @@ namespace abacus {
 
 template <int D> class StretchScan {
 public:
-    /// For the codes from `least` to `greatest`.
-    StretchScan(const Host &host, const abacus_header &header, std::uint64_t least,
+    /// Of the codes from `least` to `greatest`.
+    StretchScan(const Host &host, const abacus_facts &facts, std::uint64_t least,
                 std::uint64_t greatest)
         : host_(host),
-          attributes_(page_attributes(header)), next_{least, 0}, last_{greatest, key_word_end - 1},
-          is_over_(header.simplices == 0 || least > greatest || least >= end_key.code) {}
+          attributes_(page_attributes(facts.columns)), next_{least, 0}, last_{greatest,
+                                                                              key_word_end - 1},
+          is_over_(facts.census.simplices == 0 || least > greatest || least >= end_key.code) {}
 
     /// Goes to the next page; false after the last. Throws if it is damaged or missing.
     bool advance() {

@@ -15,10 +15,11 @@ template <int D> class VertexValues {
 public:
     static constexpr std::size_t default_bytes = std::size_t{2} << 20;
 
-    /// Attributes that are apart are cached in about this many bytes.
-    VertexValues(const Host &host, const abacus_header &header, std::size_t bytes = default_bytes)
-        : attributes_(header.attributes) {
-        if (header.apart != 0) apart_.emplace(host, domain_of<D>(header), header.attributes, bytes);
+    /// Attributes that are apart are kept in about so many bytes.
+    VertexValues(const Host &host, const abacus_facts &facts, std::size_t bytes = default_bytes)
+        : attributes_(facts.columns.attributes) {
+        if (facts.columns.apart != 0)
+            apart_.emplace(host, domain_of<D>(facts.form), facts.columns.attributes, bytes);
     }
 
     unsigned count() const { return attributes_; }

@@ -22,9 +22,10 @@ public:
     void enter(const PageView<D> &page) { values_.enter(page); }
 
 protected:
-    MeshView(const Host &host, const abacus_header &header, const abacus_drawing &drawing)
-        : label_(drawing.attribute - static_cast<int>(header.attributes)), labels_(host, header),
-          values_(host, header, label_ < 0 ? drawing.attribute : -1), max_edge_(drawing.max_edge) {}
+    MeshView(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing)
+        : label_(drawing.attribute - static_cast<int>(facts.columns.attributes)),
+          labels_(host, facts), values_(host, facts, label_ < 0 ? drawing.attribute : -1),
+          max_edge_(drawing.max_edge) {}
 
     double value(int vertex) const { return values_.value(vertex); }
     /// What the simplex shows is of its label, if the drawing is of one.
@@ -51,8 +52,8 @@ class FlatView : public MeshView<2> {
 public:
     static constexpr double unit = 1; // of coordinates, in the picture
 
-    FlatView(const Host &host, const abacus_header &header, const abacus_drawing &drawing)
-        : MeshView(host, header, drawing), plane_(drawing.is_geographic != 0) {}
+    FlatView(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing)
+        : MeshView(host, facts, drawing), plane_(drawing.is_geographic != 0) {}
 
     bool show(const PageView<2> &page, int simplex, Patch &patch) {
         if (page.is_ghost(simplex) || is_too_long(page, simplex, 3)) return false;
@@ -77,9 +78,9 @@ class SectionView : public MeshView<3> {
 public:
     static constexpr double unit = Plane::scale;
 
-    SectionView(const Host &host, const abacus_header &header, const Plane &plane,
+    SectionView(const Host &host, const abacus_facts &facts, const Plane &plane,
                 const abacus_drawing &drawing)
-        : MeshView(host, header, drawing), plane_(plane) {}
+        : MeshView(host, facts, drawing), plane_(plane) {}
 
     void enter(const PageView<3> &page) {
         MeshView::enter(page);
@@ -180,33 +181,33 @@ void stream(RangeScan<D> &pages, View &view, Picture &picture) {
 
 /// `region` is what the drawing shows with its margin; null: all of the mesh.
 template <int D, class View>
-Portrait draw(const Host &host, const abacus_header &header, const abacus_drawing &drawing,
+Portrait draw(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing,
               std::int32_t margin, const Region<D> *region, View &&view, abacus_ramp usual) {
-    RangeScan<D> pages(host, header, region);
+    RangeScan<D> pages(host, facts, region);
     bool again = false;
     const auto show = [&](auto &picture) {
         if (std::exchange(again, true)) pages.rewind();
         stream(pages, view, picture);
     };
-    return draw_patches(host, header, drawing, margin, usual, View::unit, show);
+    return draw_patches(host, facts, drawing, margin, usual, View::unit, show);
 }
 
 } // namespace
 
-Portrait draw_mesh(const Host &host, const abacus_header &header, const abacus_drawing &drawing) {
+Portrait draw_mesh(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing) {
     if (shows_whole<2>(drawing))
-        return draw<2>(host, header, drawing, 0, nullptr, FlatView(host, header, drawing),
+        return draw<2>(host, facts, drawing, 0, nullptr, FlatView(host, facts, drawing),
                        ABACUS_RAMP_TERRAIN);
     const std::int32_t margin = Canvas::margin_of(drawing);
     const abacus_drawing wider = widened(drawing, margin);
     const MapPlane plane(drawing.is_geographic != 0);
     const BoxRegion<2> region(plane.unproject(
         Box<2>({wider.lower[0], wider.lower[1]}, {wider.upper[0], wider.upper[1]})));
-    return draw<2>(host, header, drawing, margin, &region, FlatView(host, header, drawing),
+    return draw<2>(host, facts, drawing, margin, &region, FlatView(host, facts, drawing),
                    ABACUS_RAMP_TERRAIN);
 }
 
-Portrait draw_section(const Host &host, const abacus_header &header, const abacus_section &section,
+Portrait draw_section(const Host &host, const abacus_facts &facts, const abacus_section &section,
                       const abacus_drawing &drawing) {
     const Plane plane(section);
     abacus_drawing sheet = drawing;
@@ -218,7 +219,7 @@ Portrait draw_section(const Host &host, const abacus_header &header, const abacu
     std::copy_n(window.upper, 2, sheet.upper);
     const std::int32_t margin = has_window ? Canvas::margin_of(drawing) : 0;
     const SectionRegion region(plane, section, has_window ? widened(sheet, margin) : sheet);
-    return draw<3>(host, header, sheet, margin, &region, SectionView(host, header, plane, drawing),
+    return draw<3>(host, facts, sheet, margin, &region, SectionView(host, facts, plane, drawing),
                    ABACUS_RAMP_STRATA);
 }
 

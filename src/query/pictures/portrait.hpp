@@ -12,10 +12,10 @@ namespace abacus {
 
 /// The picture of a mesh of dimension 2 as a PNG. Throws an Error (argument) if the
 /// drawing makes no sense for the mesh.
-Portrait draw_mesh(const Host &host, const abacus_header &header, const abacus_drawing &drawing);
+Portrait draw_mesh(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing);
 
-/// The same for a plane section of a mesh of dimension 3.
-Portrait draw_section(const Host &host, const abacus_header &header, const abacus_section &section,
+/// The same of a plane section of a mesh of dimension 3.
+Portrait draw_section(const Host &host, const abacus_facts &facts, const abacus_section &section,
                       const abacus_drawing &drawing);
 
 } // namespace abacus

@@ -12,12 +12,12 @@ namespace {
 
 class RayPortrait {
 public:
-    RayPortrait(const Host &host, const abacus_header &header, const abacus_camera &camera,
+    RayPortrait(const Host &host, const abacus_facts &facts, const abacus_camera &camera,
                 const abacus_drawing &drawing)
-        : host_(host), attribute_(drawing.attribute), vertex_values_(host, header),
-          box_(box_of(drawing)), camera_(camera, drawing, box_ ? *box_ : domain_box<3>(header)),
-          filter_(window_of(box_), drawing.max_edge), pages_(host, header, filter_.region()),
-          pacer_(host), total_(box_ ? 0 : header.simplices + header.ghosts) {
+        : host_(host), attribute_(drawing.attribute), vertex_values_(host, facts),
+          box_(box_of(drawing)), camera_(camera, drawing, box_ ? *box_ : domain_box<3>(facts.form)),
+          filter_(window_of(box_), drawing.max_edge), pages_(host, facts, filter_.region()),
+          pacer_(host), total_(box_ ? 0 : facts.census.simplices + facts.census.ghosts) {
         if (camera_.has_parallel_rays()) fit();
     }
 
@@ -96,13 +96,13 @@ private:
 
 } // namespace
 
-Portrait draw_rays(const Host &host, const abacus_header &header, const abacus_camera &camera,
+Portrait draw_rays(const Host &host, const abacus_facts &facts, const abacus_camera &camera,
                    const abacus_drawing &drawing) {
     check_drawing(drawing);
-    if (drawing.attribute >= static_cast<std::int32_t>(header.attributes))
+    if (drawing.attribute >= static_cast<std::int32_t>(facts.columns.attributes))
         throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
     const abacus_ray_mode mode = drawing.attribute < 0 ? ABACUS_RAY_SUM : camera.mode;
-    RayPortrait portrait(host, header, camera, drawing);
+    RayPortrait portrait(host, facts, camera, drawing);
     return portrait.draw(mode, drawing);
 }
 

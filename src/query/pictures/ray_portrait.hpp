@@ -10,7 +10,7 @@ namespace abacus {
 
 /// The picture of a mesh of dimension 3. Throws an Error (argument) if the camera or the drawing
 /// makes no sense for the mesh.
-Portrait draw_rays(const Host &host, const abacus_header &header, const abacus_camera &camera,
+Portrait draw_rays(const Host &host, const abacus_facts &facts, const abacus_camera &camera,
                    const abacus_drawing &drawing);
 
 } // namespace abacus

@@ -11,9 +11,9 @@ public:
     Visitor(const Places &places, const Question<D> &question)
         : places_(places), question_(question), tape_(places.host_) {
         const std::uint64_t total = places.stage_.points();
-        if (PlacesTogether<D>::is_worth_while(places.host_, places.header_, places.cache_bytes_,
+        if (PlacesTogether<D>::is_worth_while(places.host_, places.facts_, places.cache_bytes_,
                                               question, total))
-            together_.emplace(places.host_, places.header_, places.cache_bytes_, question, total);
+            together_.emplace(places.host_, places.facts_, places.cache_bytes_, question, total);
     }
 
     void add(const std::uint64_t *record) override {
@@ -36,7 +36,7 @@ public:
 
 private:
     void answer(const std::uint64_t *record) {
-        if (!answerer_) answerer_.emplace(places_.host_, places_.header_, places_.cache_bytes_);
+        if (!answerer_) answerer_.emplace(places_.host_, places_.facts_, places_.cache_bytes_);
         tape_.clear();
         question_.answer(*answerer_, record_point<D>(record), tape_);
         Tape::Player player(tape_);

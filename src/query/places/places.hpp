@@ -12,20 +12,19 @@
 #include "query/places/question.hpp"
 #include "staging/stage.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 namespace abacus {
 
 template <int D> class Places {
 public:
     /// Sorts within `memory` bytes and spools, and keeps `cache_bytes` of simplices.
-    Places(const Host &host, const abacus_header &header, std::size_t memory,
-           std::size_t cache_bytes)
-        : host_(host), header_(header), cache_bytes_(cache_bytes),
-          shape_(without_attributes(header)), stage_(host, shape_, memory, false) {}
+    Places(const Host &host, const abacus_facts &facts, std::size_t memory, std::size_t cache_bytes)
+        : host_(host), facts_(facts), cache_bytes_(cache_bytes), shape_(without_attributes(facts)),
+          stage_(host, shape_, memory, false) {}
 
-    /// The header of the mesh.
-    const abacus_header &header() const { return header_; }
+    /// Of the mesh.
+    const abacus_facts &facts() const { return facts_; }
     /// Adds places: an id and D coordinates each.
     void add(const std::uint64_t *places, std::size_t count) { stage_.add(places, count); }
     /// No more places come. Answers all of them and reports the answers along the curve; once.
@@ -34,15 +33,15 @@ public:
 private:
     class Visitor;
 
-    static abacus_header without_attributes(abacus_header header) {
-        header.attributes = 0;
-        return header;
+    static abacus_facts without_attributes(abacus_facts facts) {
+        facts.columns.attributes = 0;
+        return facts;
     }
 
     const Host &host_;
-    const abacus_header header_;
+    const abacus_facts facts_;
     const std::size_t cache_bytes_;
-    abacus_header shape_; ///< of places: a mesh's, without attributes
+    abacus_facts shape_; ///< of places: a mesh's, without attributes
     Stage<D> stage_;
 };
 

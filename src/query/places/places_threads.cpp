@@ -36,21 +36,22 @@ std::size_t room(const Host &host, std::size_t words, std::size_t cache_bytes) {
 } // namespace
 
 template <int D>
-bool PlacesTogether<D>::is_worth_while(const Host &host, const abacus_header &header,
+bool PlacesTogether<D>::is_worth_while(const Host &host, const abacus_facts &facts,
                                        std::size_t cache_bytes, const Question<D> &question,
                                        std::uint64_t total) {
     if (host.threads() == 1 || host.has_tiny_intervals()) return host.threads() > 1;
     const std::uint64_t least =
-        question.is_quick() ? (header.simplices + header.ghosts) / simplices_a_place : 0;
+        question.is_quick() ? (facts.census.simplices + facts.census.ghosts) / simplices_a_place
+                            : 0;
     return total >= std::max<std::uint64_t>(least, places_worth_sharing) &&
            room(host, stride + question.words(), cache_bytes) >= places_worth_sharing;
 }
 
 template <int D>
-PlacesTogether<D>::PlacesTogether(const Host &host, const abacus_header &header,
+PlacesTogether<D>::PlacesTogether(const Host &host, const abacus_facts &facts,
                                   std::size_t cache_bytes, const Question<D> &question,
                                   std::uint64_t total)
-    : host_(host), header_(header), question_(question), total_(total),
+    : host_(host), facts_(facts), question_(question), total_(total),
       most_gathered_(room(host, stride + question.words(), cache_bytes)),
       thread_bytes_((cache_bytes - cache_bytes / gathered_share) / host.threads()), places_(host),
       crew_(host), memory_(host), pieces_(&memory_), answerers_(host, host.threads()) {}
@@ -117,7 +118,7 @@ template <int D> bool PlacesTogether<D>::answer() {
 
 template <int D> void PlacesTogether<D>::answer(Piece &piece, const Host &host) {
     try {
-        Answerer<D> &by = answerers_.get(host, header_, thread_bytes_);
+        Answerer<D> &by = answerers_.get(host, facts_, thread_bytes_);
         piece.tape.reserve(most_words_);
         for (std::size_t i = piece.answered; i < piece.end; ++i) {
             if (i % poll_every == 0) host.poll();

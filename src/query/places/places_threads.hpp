@@ -22,13 +22,12 @@ namespace abacus {
 
 template <int D> class PlacesTogether {
 public:
-    /// Whether there are threads, enough places to be worth it, and room for them.
-    static bool is_worth_while(const Host &host, const abacus_header &header,
-                               std::size_t cache_bytes, const Question<D> &question,
-                               std::uint64_t total);
+    /// Whether there are threads, so many places that they are worth it, and room for them.
+    static bool is_worth_while(const Host &host, const abacus_facts &facts, std::size_t cache_bytes,
+                               const Question<D> &question, std::uint64_t total);
 
     /// `total`: places that will come.
-    PlacesTogether(const Host &host, const abacus_header &header, std::size_t cache_bytes,
+    PlacesTogether(const Host &host, const abacus_facts &facts, std::size_t cache_bytes,
                    const Question<D> &question, std::uint64_t total);
 
     /// Adds a place; true if it is time to answer.
@@ -78,7 +77,7 @@ private:
     void report_progress();
 
     const Host &host_;
-    const abacus_header &header_;
+    const abacus_facts &facts_;
     const Question<D> &question_;
     const std::uint64_t total_;
     const std::size_t most_gathered_, thread_bytes_;

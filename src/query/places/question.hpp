@@ -45,8 +45,8 @@ private:
 
 /// What a thread needs in order to answer.
 template <int D> struct Answerer {
-    Answerer(const Host &host, const abacus_header &header, std::size_t cache_bytes)
-        : reader(host, header, CacheOptions{.budget = cache_bytes}, true), interpolation(host) {}
+    Answerer(const Host &host, const abacus_facts &facts, std::size_t cache_bytes)
+        : reader(host, facts, CacheOptions{.budget = cache_bytes}, true), interpolation(host) {}
 
     Reader<D> reader; // of places in order
     Interpolation<D> interpolation;

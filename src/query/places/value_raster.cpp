@@ -110,13 +110,13 @@ private:
 } // namespace
 
 template <int D>
-ValueRaster<D>::ValueRaster(const Host &host, const abacus_header &header,
+ValueRaster<D>::ValueRaster(const Host &host, const abacus_facts &facts,
                             const abacus_raster &raster, const abacus_interpolation &how,
                             std::size_t memory, std::size_t cache_bytes)
-    : host_(host), header_(header), raster_(raster), width_(raster.upper[0] - raster.lower[0]),
+    : host_(host), facts_(facts), raster_(raster), width_(raster.upper[0] - raster.lower[0]),
       height_(raster.upper[1] - raster.lower[1]), how_(how), memory_(memory / 2),
       cache_bytes_(cache_bytes), latitudes_(host), values_(host), marks_(host),
-      carried_(how_.attribute, 1), vertex_values_(host, header) {
+      carried_(how_.attribute, 1), vertex_values_(host, facts) {
     if (!std::isfinite(width_ * raster.width) || !std::isfinite(height_ * raster.height))
         throw Error(ABACUS_ERROR_ARGUMENT, "the window is too large for the centres of its pixels",
                     {}, "Ask for a smaller window.");
@@ -144,22 +144,22 @@ template <int D> void ValueRaster<D>::fill_band() {
     const bool is_linear = how_.method == ABACUS_LINEAR && !is_finer;
     const bool has_value_outside = how_.outside == ABACUS_OUTSIDE_NEAREST;
     if (is_finer && !has_value_outside && !extent_)
-        extent_ = hull_box<D>(host_, header_, cache_bytes_);
+        extent_ = hull_box<D>(host_, facts_, cache_bytes_);
     std::fill(values_.begin(), values_.end(), NAN);
     std::fill(marks_.begin(), marks_.end(), is_linear && !has_value_outside ? filled : asked);
-    if (is_linear && header_.simplices > 0) fill_linear();
+    if (is_linear && facts_.census.simplices > 0) fill_linear();
     ask();
 }
 
 template <int D> bool ValueRaster<D>::is_finer_than_pixels() const {
     // A place takes as long as so many simplices that have nothing to fill.
     constexpr double most_read = 8;
-    if (D == 3 || header_.has_domain == 0) return false;
+    if (D == 3 || facts_.form.has_domain == 0) return false;
     double pixels = 1; // in the domain
     for (int axis = 0; axis < 2; ++axis)
-        pixels *= (header_.upper[axis] / 2 - header_.lower[axis] / 2) * 2 /
+        pixels *= (facts_.form.upper[axis] / 2 - facts_.form.lower[axis] / 2) * 2 /
                   (axis == 0 ? width_ / raster_.width : height_ / raster_.height);
-    return static_cast<double>(header_.simplices) > most_read * pixels;
+    return static_cast<double>(facts_.census.simplices) > most_read * pixels;
 }
 
 // ---- Asked for as places ----------------------------------------------------------------
@@ -171,7 +171,7 @@ template <int D> void ValueRaster<D>::ask() {
     std::size_t count = 0;
     const auto flush = [&] {
         if (count == 0) return;
-        if (!places) places.emplace(host_, header_, memory_, cache_bytes_);
+        if (!places) places.emplace(host_, facts_, memory_, cache_bytes_);
         places->add(records.data(), count);
         count = 0;
     };
@@ -198,13 +198,13 @@ template <int D>
 template <class Visit>
 void ValueRaster<D>::each_page(const Box<D> &band, Visit visit) {
     const BoxRegion<D> region(band);
-    if (abacus_floods_pages(header_.standing)) {
-        RangeScan<D> pages(host_, header_, &region);
+    if (abacus_floods_pages(facts_.standing)) {
+        RangeScan<D> pages(host_, facts_, &region);
         while (pages.advance()) visit(pages.page());
         return;
     }
-    if (!boxes_) boxes_.emplace(host_, header_, cache_bytes_ / 8);
-    PageFlood<D> pages(host_, header_);
+    if (!boxes_) boxes_.emplace(host_, facts_, cache_bytes_ / 8);
+    PageFlood<D> pages(host_, facts_);
     boxes_->meeting(band, [&](const Key &from, const Key &to) {
         for (Key key = from; key < to; key = pages.page().upper()) {
             pages.reach(key);
@@ -314,7 +314,7 @@ void ValueRaster<D>::fill_row(const PageView<D> &page, int simplex, std::uint32_
                                             : at_first & at_last;
         // A vertex has one value, unless it shares its place.
         if (facets != 0 &&
-            (header_.split > 0 || std::popcount(static_cast<unsigned>(facets)) < D)) {
+            (facts_.census.split > 0 || std::popcount(static_cast<unsigned>(facets)) < D)) {
             marks_[pixel(row, column)] = asked;
             continue;
         }

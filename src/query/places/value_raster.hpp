@@ -25,8 +25,8 @@ namespace abacus {
 
 template <int D> class ValueRaster {
 public:
-    /// Throws if doubles cannot represent the raster's centres, or a row has too many.
-    ValueRaster(const Host &host, const abacus_header &header, const abacus_raster &raster,
+    /// Throws if the raster's centres are no doubles, or a row has too many.
+    ValueRaster(const Host &host, const abacus_facts &facts, const abacus_raster &raster,
                 const abacus_interpolation &how, std::size_t memory, std::size_t cache_bytes);
 
     /// The values of the next row, valid until the next call; null after the last. NaN where there
@@ -74,7 +74,7 @@ private:
     }
 
     const Host &host_;
-    const abacus_header header_;
+    const abacus_facts facts_;
     const abacus_raster raster_;
     const double width_, height_; // of the window
     const abacus_interpolation how_;

@@ -6,23 +6,23 @@
 namespace abacus {
 
 template <int D>
-CellScan<D>::CellScan(const Host &host, const abacus_header &header, const abacus_window &window,
+CellScan<D>::CellScan(const Host &host, const abacus_facts &facts, const abacus_window &window,
                       double max_edge, const abacus_range *label)
-    : domain_(domain_of<D>(header)), filter_(window, max_edge), vertex_values_(host, header) {
+    : domain_(domain_of<D>(facts.form)), filter_(window, max_edge), vertex_values_(host, facts) {
     typename RangeScan<D>::Wants wants;
     if (label != nullptr) {
-        label_.emplace(host, header, *label);
+        label_.emplace(host, facts, *label);
         wants = [this](const PageView<D> &page) { return label_->may_be_in(page); };
     }
-    pages_.emplace(host, header, filter_.region(), wants);
+    pages_.emplace(host, facts, filter_.region(), wants);
 }
 
 template <int D>
-CellScan<D>::CellScan(const Host &host, const abacus_header &header, std::uint64_t least,
+CellScan<D>::CellScan(const Host &host, const abacus_facts &facts, std::uint64_t least,
                       std::uint64_t greatest)
-    : domain_(domain_of<D>(header)), filter_({}, 0), vertex_values_(host, header), least_(least),
+    : domain_(domain_of<D>(facts.form)), filter_({}, 0), vertex_values_(host, facts), least_(least),
       greatest_(greatest) {
-    stretch_.emplace(host, header, least, greatest);
+    stretch_.emplace(host, facts, least, greatest);
 }
 
 template <int D> bool CellScan<D>::wants(int simplex) {

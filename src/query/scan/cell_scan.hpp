@@ -16,13 +16,13 @@ namespace abacus {
 
 template <int D> class CellScan {
 public:
-    /// Leaves out simplices with an edge longer than max_edge, unless that is 0, and those whose
-    /// label is outside the range, unless that is null.
-    CellScan(const Host &host, const abacus_header &header, const abacus_window &window,
+    /// Simplices with an edge longer than max_edge are left out, unless that is 0, and those whose
+    /// label is not within a range, unless that is null.
+    CellScan(const Host &host, const abacus_facts &facts, const abacus_window &window,
              double max_edge, const abacus_range *label = nullptr);
 
-    /// The simplices with codes from `least` to `greatest`, page by page in key order.
-    CellScan(const Host &host, const abacus_header &header, std::uint64_t least,
+    /// Those with codes from `least` to `greatest`, page by page in key order.
+    CellScan(const Host &host, const abacus_facts &facts, std::uint64_t least,
              std::uint64_t greatest);
 
     /// False after the last simplex. `values` gets all attributes, unless it is null.

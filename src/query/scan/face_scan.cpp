@@ -25,12 +25,12 @@ typename RangeScan<D>::Wants pages_with(const std::optional<abacus_range> &range
 } // namespace
 
 template <int D>
-FaceScan<D>::FaceScan(const Host &host, const abacus_header &header, const abacus_window &window,
+FaceScan<D>::FaceScan(const Host &host, const abacus_facts &facts, const abacus_window &window,
                       int corners, double max_edge, std::size_t cache_bytes,
                       std::optional<abacus_range> range)
-    : host_(host), header_(header), corners_(corners), max_edge_(max_edge),
-      cache_bytes_(cache_bytes), range_(range), window_(window), vertex_values_(host, header),
-      pages_(host, header, window_.region(), pages_with<D>(range, vertex_values_)), memory_(host),
+    : host_(host), facts_(facts), corners_(corners), max_edge_(max_edge), cache_bytes_(cache_bytes),
+      range_(range), window_(window), vertex_values_(host, facts),
+      pages_(host, facts, window_.region(), pages_with<D>(range, vertex_values_)), memory_(host),
       known_(&memory_) {}
 
 template <int D> bool FaceScan<D>::advance() {
@@ -100,7 +100,7 @@ template <int D> bool FaceScan<D>::is_of_ghost(int ghost) {
 }
 
 template <int D> auto FaceScan<D>::find_owner() -> std::optional<FacetCorners> {
-    if (!reader_) reader_.emplace(host_, header_, cache_bytes_);
+    if (!reader_) reader_.emplace(host_, facts_, cache_bytes_);
     const Cache<D> &cache = reader_->cache();
     std::pmr::map<FacetCorners, int> facets(&memory_); // around the face: of how many simplices
     const auto add = [&](const Simplex<D> &s, int left_out) {

@@ -26,13 +26,13 @@ namespace abacus {
 template <int D> class FaceScan {
 public:
     /// Faces of one corner, or of two, which are then at most max_edge apart, unless that is 0.
-    FaceScan(const Host &host, const abacus_header &header, const abacus_window &window,
-             int corners, double max_edge, std::size_t cache_bytes)
-        : FaceScan(host, header, window, corners, max_edge, cache_bytes, std::nullopt) {}
-    /// Vertices with an attribute within a range.
-    FaceScan(const Host &host, const abacus_header &header, const abacus_window &window,
+    FaceScan(const Host &host, const abacus_facts &facts, const abacus_window &window, int corners,
+             double max_edge, std::size_t cache_bytes)
+        : FaceScan(host, facts, window, corners, max_edge, cache_bytes, std::nullopt) {}
+    /// Vertices of which an attribute is within a range.
+    FaceScan(const Host &host, const abacus_facts &facts, const abacus_window &window,
              const abacus_range &range, std::size_t cache_bytes)
-        : FaceScan(host, header, window, 1, 0, cache_bytes, range) {}
+        : FaceScan(host, facts, window, 1, 0, cache_bytes, range) {}
 
     /// Goes to the next face; false after the last.
     bool advance();
@@ -44,9 +44,8 @@ public:
     const VertexValues<D> &vertex_values() const { return vertex_values_; }
 
 private:
-    FaceScan(const Host &host, const abacus_header &header, const abacus_window &window,
-             int corners, double max_edge, std::size_t cache_bytes,
-             std::optional<abacus_range> range);
+    FaceScan(const Host &host, const abacus_facts &facts, const abacus_window &window, int corners,
+             double max_edge, std::size_t cache_bytes, std::optional<abacus_range> range);
 
     /// Vertices of different ids may be at one place.
     struct Corner {
@@ -78,7 +77,7 @@ private:
     Corner corner(int vertex) const { return {page().point(vertex), page().id(vertex)}; }
 
     const Host &host_;
-    const abacus_header header_;
+    const abacus_facts facts_;
     const int corners_;
     const double max_edge_;
     const std::size_t cache_bytes_;

@@ -5,12 +5,13 @@
 namespace abacus {
 
 template <int D>
-LabelRange<D>::LabelRange(const Host &host, const abacus_header &header, const abacus_range &range)
-    : host_(host), range_(range), has_labels_(header.labelled > 0),
-      group_(first_group<D + 1> + AttributeGroups(header.labels).group_of(range.attribute)),
-      columns_(AttributeGroups(header.labels).columns(group_ - first_group<D + 1>)),
-      column_(range.attribute - AttributeGroups(header.labels).first(group_ - first_group<D + 1>)),
-      labels_(host, header) {}
+LabelRange<D>::LabelRange(const Host &host, const abacus_facts &facts, const abacus_range &range)
+    : host_(host), range_(range), has_labels_(facts.census.labelled > 0),
+      group_(first_group<D + 1> + AttributeGroups(facts.columns.labels).group_of(range.attribute)),
+      columns_(AttributeGroups(facts.columns.labels).columns(group_ - first_group<D + 1>)),
+      column_(range.attribute -
+              AttributeGroups(facts.columns.labels).first(group_ - first_group<D + 1>)),
+      labels_(host, facts) {}
 
 /// Of the page of labels that owns a key of the group.
 template <int D> auto LabelRange<D>::stretch_of(const Key &key) -> const Stretch & {

@@ -15,7 +15,7 @@ namespace abacus {
 template <int D> class LabelRange {
 public:
     /// `range` names the label by its number.
-    LabelRange(const Host &host, const abacus_header &header, const abacus_range &range);
+    LabelRange(const Host &host, const abacus_facts &facts, const abacus_range &range);
 
     /// Whether some simplex of the page may be wanted; true if one is.
     bool may_be_in(const PageView<D> &page);

@@ -9,20 +9,20 @@
 namespace abacus {
 
 template <int D>
-MarkedFacets<D>::MarkedFacets(const Host &host, const abacus_header &header,
+MarkedFacets<D>::MarkedFacets(const Host &host, const abacus_facts &facts,
                               std::optional<double> marker, std::size_t memory,
                               std::size_t cache_bytes)
-    : is_split_(header.split > 0), mesh_(host, header, cache_bytes),
+    : is_split_(facts.census.split > 0), mesh_(host, facts, cache_bytes),
       sort_(host, key_words, key_words, memory) {
-    if (!marker) sort_.expect(static_cast<double>(header.marked)); // at least a facet of each
-    if (header.marked > 0) read(host, header, marker);
+    if (!marker) sort_.expect(static_cast<double>(facts.census.marked)); // at least a facet of each
+    if (facts.census.marked > 0) read(host, facts, marker);
     sort_.finish();
 }
 
 template <int D>
-void MarkedFacets<D>::read(const Host &host, const abacus_header &header,
+void MarkedFacets<D>::read(const Host &host, const abacus_facts &facts,
                            std::optional<double> marker) {
-    const auto domain = domain_of<D>(header);
+    const auto domain = domain_of<D>(facts.form);
     AttributeScan<D, D + 1> scan(host, domain, D + 1, marker_group);
     while (scan.fetch()) {
         scan.read();

@@ -16,8 +16,8 @@ namespace abacus {
 
 template <int D> class MarkedFacets {
 public:
-    /// The facets with this marker, or all if none is given.
-    MarkedFacets(const Host &host, const abacus_header &header, std::optional<double> marker,
+    /// Those with this marker, or all if there is none.
+    MarkedFacets(const Host &host, const abacus_facts &facts, std::optional<double> marker,
                  std::size_t memory, std::size_t cache_bytes);
 
     /// False after the last.
@@ -31,7 +31,7 @@ private:
     /// The ids of the corners of a record's facet, in their order.
     Ids ids_of(const std::uint64_t *record);
     Ids ids_beside(const std::uint64_t *record);
-    void read(const Host &host, const abacus_header &header, std::optional<double> marker);
+    void read(const Host &host, const abacus_facts &facts, std::optional<double> marker);
 
     const bool is_split_;
     Reader<D> mesh_;

@@ -13,19 +13,19 @@ namespace {
 
 /// Words that tell a vertex from others, in its order among them: its code, its coordinates; if
 /// vertices share their places its id, with its sign turned.
-template <int D> std::size_t key_words(const abacus_header &header) {
-    return 1 + D + (header.split > 0 ? 1 : 0);
+template <int D> std::size_t key_words(const abacus_facts &facts) {
+    return 1 + D + (facts.census.split > 0 ? 1 : 0);
 }
 constexpr std::uint64_t sign = std::uint64_t{1} << 63;
 
 /// Calls add(page, vertex) for all vertices of all pages; it returns room for the key.
 template <int D, class Add>
-void name_vertices(const Host &host, const abacus_header &header, Add add) {
-    const Domain<D> domain = domain_of<D>(header);
-    PageScan<D> pages(host, header);
+void name_vertices(const Host &host, const abacus_facts &facts, Add add) {
+    const Domain<D> domain = domain_of<D>(facts.form);
+    PageScan<D> pages(host, facts);
     Pacer pacer(host);
     std::uint64_t seen = 0; // simplices
-    pacer.begin(ABACUS_PHASE_SCANNING, header.simplices + header.ghosts);
+    pacer.begin(ABACUS_PHASE_SCANNING, facts.census.simplices + facts.census.ghosts);
     while (pages.advance()) {
         const PageView<D> &page = pages.page();
         pacer.reached(seen += static_cast<std::uint64_t>(page.simplices()));
@@ -34,7 +34,7 @@ void name_vertices(const Host &host, const abacus_header &header, Add add) {
             std::uint64_t *key = add(page, v);
             *key++ = domain.code(p);
             for (const double x : p) *key++ = ordered(x);
-            if (header.split > 0) *key = static_cast<std::uint64_t>(page.id(v)) ^ sign;
+            if (facts.census.split > 0) *key = static_cast<std::uint64_t>(page.id(v)) ^ sign;
         }
     }
 }
@@ -43,13 +43,13 @@ void name_vertices(const Host &host, const abacus_header &header, Add add) {
 
 // Pages agree in what they say of a vertex, so any of its names will do.
 template <int D>
-NumberedVertices<D>::NumberedVertices(const Host &host, const abacus_header &header,
+NumberedVertices<D>::NumberedVertices(const Host &host, const abacus_facts &facts,
                                       std::size_t memory)
-    : vertex_values_(host, header), key_(key_words<D>(header)),
-      named_(host, 1 + D + 1 + static_cast<unsigned>(page_attributes(header)), key_, memory),
-      left_(header.vertices), current_(host), apart_(host) {
-    named_.expect(static_cast<double>(header.vertices)); // most are named by several pages
-    name_vertices<D>(host, header, [&](const PageView<D> &page, int v) {
+    : vertex_values_(host, facts), key_(key_words<D>(facts)),
+      named_(host, 1 + D + 1 + static_cast<unsigned>(page_attributes(facts.columns)), key_, memory),
+      left_(facts.census.vertices), current_(host), apart_(host) {
+    named_.expect(static_cast<double>(facts.census.vertices)); // most are named by several pages
+    name_vertices<D>(host, facts, [&](const PageView<D> &page, int v) {
         std::uint64_t *const name = named_.add(), *rest = name + 1 + D;
         *rest++ = static_cast<std::uint64_t>(page.id(v)) ^ sign;
         if (!vertex_values_.are_apart())
@@ -57,8 +57,8 @@ NumberedVertices<D>::NumberedVertices(const Host &host, const abacus_header &hea
         return name;
     });
     named_.finish();
-    current_.resize(1 + D + 1 + static_cast<unsigned>(page_attributes(header)));
-    if (vertex_values_.are_apart()) apart_.resize(header.attributes);
+    current_.resize(1 + D + 1 + static_cast<unsigned>(page_attributes(facts.columns)));
+    if (vertex_values_.are_apart()) apart_.resize(facts.columns.attributes);
     ahead_ = named_.next();
 }
 
@@ -88,13 +88,13 @@ template <int D> bool NumberedVertices<D>::next(abacus_vertex &vertex) {
 }
 
 template <int D>
-NumberedSimplices<D>::NumberedSimplices(const Host &host, const abacus_header &header,
+NumberedSimplices<D>::NumberedSimplices(const Host &host, const abacus_facts &facts,
                                         std::size_t memory)
-    : domain_(domain_of<D>(header)), ranks_(host, key_words<D>(header), memory),
-      pages_(host, header), numbers_(host) {
-    ranks_.expect(static_cast<double>(header.vertices));
-    name_vertices<D>(host, header, [&](const PageView<D> &, int) { return ranks_.add(); });
-    if (ranks_.finish() != header.vertices) throw_corrupted(other_vertex_count);
+    : domain_(domain_of<D>(facts.form)), ranks_(host, key_words<D>(facts), memory),
+      pages_(host, facts), numbers_(host) {
+    ranks_.expect(static_cast<double>(facts.census.vertices));
+    name_vertices<D>(host, facts, [&](const PageView<D> &, int) { return ranks_.add(); });
+    if (ranks_.finish() != facts.census.vertices) throw_corrupted(other_vertex_count);
 }
 
 template <int D> void NumberedSimplices<D>::enter_page() {

@@ -22,7 +22,7 @@ namespace abacus {
 template <int D> class NumberedVertices {
 public:
     /// Reads all pages.
-    NumberedVertices(const Host &host, const abacus_header &header, std::size_t memory);
+    NumberedVertices(const Host &host, const abacus_facts &facts, std::size_t memory);
 
     /// False after the last one. The attributes stay valid until the next call.
     bool next(abacus_vertex &vertex);
@@ -41,7 +41,7 @@ private:
 template <int D> class NumberedSimplices {
 public:
     /// Reads all pages.
-    NumberedSimplices(const Host &host, const abacus_header &header, std::size_t memory);
+    NumberedSimplices(const Host &host, const abacus_facts &facts, std::size_t memory);
 
     /// False after the last one. The numbers of the corners are in the order of the description.
     bool next(abacus_simplex &simplex, std::uint64_t *numbers);

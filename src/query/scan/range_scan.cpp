@@ -70,21 +70,22 @@ template <int D> bool BoxRegion<D>::has_much_of(const Domain<D> &domain) const {
 // ---- The scan ---------------------------------------------------------------------------
 
 template <int D>
-RangeScan<D>::RangeScan(const Host &host, const abacus_header &header, const Region<D> *region,
+RangeScan<D>::RangeScan(const Host &host, const abacus_facts &facts, const Region<D> *region,
                         Wants wants)
-    : host_(host), header_(header), region_(region), wants_(std::move(wants)) {
-    const bool is_whole = region == nullptr || !abacus_floods_pages(header.standing) ||
-                          header.simplices == 0 || region->has_much_of(domain_of<D>(header));
+    : host_(host), facts_(facts), region_(region), wants_(std::move(wants)) {
+    const bool is_whole = region == nullptr || !abacus_floods_pages(facts.standing) ||
+                          facts.census.simplices == 0 ||
+                          region->has_much_of(domain_of<D>(facts.form));
     if (is_whole) {
-        whole_.emplace(host, header_);
+        whole_.emplace(host, facts_);
     } else {
-        flood_.emplace(host, header_);
+        flood_.emplace(host, facts_);
         begin();
     }
 }
 
 template <int D> void RangeScan<D>::begin() {
-    Reader<D> reader(host_, header_, walk_bytes);
+    Reader<D> reader(host_, facts_, walk_bytes);
     const Point<D> p = region_->inside(reader.cache().domain());
     const auto around = reader.page_around(p);
     if (around->is_inside)
@@ -94,7 +95,7 @@ template <int D> void RangeScan<D>::begin() {
 }
 
 template <int D> void RangeScan<D>::begin_outside(const Point<D> &p, const Key &first) {
-    PageFlood<D> hull(host_, header_);
+    PageFlood<D> hull(host_, facts_);
     const PageView<D> &page = hull.page();
     const auto sees = [&](int ghost) {
         return page.is_ghost(ghost) && facet_side<D>(ghost_corners<D>(page, ghost, p), D, p) > 0;
@@ -137,7 +138,7 @@ template <int D> bool RangeScan<D>::advance() {
 
 template <int D> void RangeScan<D>::rewind() {
     if (whole_)
-        whole_.emplace(host_, header_);
+        whole_.emplace(host_, facts_);
     else
         flood_->rewind();
 }

@@ -37,7 +37,7 @@
 #include "query/pages/page_flood.hpp"
 #include "query/pages/page_scan.hpp"
 
-#include <abacus/mesh_header.h>
+#include <abacus/facts.h>
 
 #include <functional>
 #include <optional>
@@ -81,9 +81,9 @@ public:
     /// Whether a page is wanted, decided by its heads: see PageView::open().
     using Wants = std::function<bool(const PageView<D> &)>;
 
-    /// All pages if `region` is null. `region` is used as long as the scan. Pages that `wants`
-    /// refuses are skipped; many of them are not decoded.
-    RangeScan(const Host &host, const abacus_header &header, const Region<D> *region,
+    /// Of all pages if `region` is null. It is read as long as the scan. Pages that `wants` refuses
+    /// are passed over; many of them are not decoded.
+    RangeScan(const Host &host, const abacus_facts &facts, const Region<D> *region,
               Wants wants = {});
 
     /// Goes to the next page whose box may meet the region; false after the last. The caller
@@ -107,7 +107,7 @@ private:
     bool may_cross(int simplex, int facet) const;
 
     const Host &host_;
-    const abacus_header header_;
+    const abacus_facts facts_;
     const Region<D> *const region_;
     const Wants wants_;
     // One of these two is used.

@@ -16,12 +16,13 @@ template <int D> class SimplexLabels {
 public:
     static constexpr std::size_t default_bytes = std::size_t{2} << 20;
 
-    /// Caches them in about this many bytes.
-    SimplexLabels(const Host &host, const abacus_header &header, std::size_t bytes = default_bytes)
-        : behind_(host, header), values_(host) {
-        values_.resize(header.labels);
+    /// Keeps them in about so many bytes.
+    SimplexLabels(const Host &host, const abacus_facts &facts, std::size_t bytes = default_bytes)
+        : behind_(host, facts), values_(host) {
+        values_.resize(facts.columns.labels);
         std::fill(values_.begin(), values_.end(), null_value);
-        if (header.labelled > 0) pages_.emplace(host, domain_of<D>(header), header.labels, bytes);
+        if (facts.census.labelled > 0)
+            pages_.emplace(host, domain_of<D>(facts.form), facts.columns.labels, bytes);
     }
 
     /// All labels of a finite simplex, NULL where it has none; valid until the next call.

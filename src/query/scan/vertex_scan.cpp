@@ -17,14 +17,17 @@ template <int D> void fill(abacus_vertex &vertex, const std::uint64_t *record) {
 } // namespace
 
 template <int D>
-VertexScan<D>::VertexScan(const Host &host, const abacus_header &header, std::size_t cache_bytes)
-    : attributes_(header.attributes), listed_(abacus_lists_vertices(header.standing)),
-      mesh_(host, header, cache_bytes), own_(mesh_.cache()),
-      page_(header.vertices > 0 ? first_key : end_key), records_(host),
-      vertices_left_(header.vertices), repeated_(host, domain_of<D>(header), header.attributes),
-      repeated_left_(header.duplicates),
-      waiting_(host, listed_ ? static_cast<unsigned>(page_attributes(header)) : header.attributes,
-               listed_ ? 0 : header.inserted, header.staged) {}
+VertexScan<D>::VertexScan(const Host &host, const abacus_facts &facts, std::size_t cache_bytes)
+    : attributes_(facts.columns.attributes), listed_(abacus_lists_vertices(facts.standing)),
+      mesh_(host, facts, cache_bytes), own_(mesh_.cache()),
+      page_(facts.census.vertices > 0 ? first_key : end_key), records_(host),
+      vertices_left_(facts.census.vertices),
+      repeated_(host, domain_of<D>(facts.form), facts.columns.attributes),
+      repeated_left_(facts.census.duplicates),
+      waiting_(host,
+               listed_ ? static_cast<unsigned>(page_attributes(facts.columns))
+                       : facts.columns.attributes,
+               listed_ ? 0 : facts.census.inserted, facts.census.staged) {}
 
 template <int D> void VertexScan<D>::collect() {
     Cache<D> &cache = mesh_.cache();

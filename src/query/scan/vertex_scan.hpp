@@ -13,7 +13,7 @@ namespace abacus {
 
 template <int D> class VertexScan {
 public:
-    VertexScan(const Host &host, const abacus_header &header, std::size_t cache_bytes);
+    VertexScan(const Host &host, const abacus_facts &facts, std::size_t cache_bytes);
 
     /// False after the last point.
     bool next(abacus_vertex &vertex);

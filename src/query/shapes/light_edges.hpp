@@ -21,9 +21,9 @@ public:
         std::int64_t id[2];
     };
 
-    LightEdges(const Host &host, const abacus_header &header, std::size_t cache_bytes)
-        : reader_(host, header, cache_bytes), cache_(reader_.cache()), pacer_(host), handles_(host),
-          simplices_(header.simplices + header.ghosts) {}
+    LightEdges(const Host &host, const abacus_facts &facts, std::size_t cache_bytes)
+        : reader_(host, facts, cache_bytes), cache_(reader_.cache()), pacer_(host), handles_(host),
+          simplices_(facts.census.simplices + facts.census.ghosts) {}
 
     /// Calls visit(edge) for all of them.
     template <class Visit> void each(Visit visit) {

@@ -26,12 +26,13 @@ template <int D> void require(const Reader<D> &reader, const abacus_outline_kind
 
 // ---- The plane --------------------------------------------------------------------------
 
-Outline<2>::Outline(const Host &host, const abacus_header &header, const abacus_outline_kind &kind,
+Outline<2>::Outline(const Host &host, const abacus_facts &facts, const abacus_outline_kind &kind,
                     std::size_t memory, std::size_t cache_bytes)
-    : reader_(host, header, cache_bytes),
+    : reader_(host, facts, cache_bytes),
       rings_((require(reader_, kind), reader_), kept_by(kind), memory) {
     if (kind.fills_holes != 0)
-        nesting_.emplace(reader_, kept_by(kind), rings_, header.simplices + header.ghosts, memory);
+        nesting_.emplace(reader_, kept_by(kind), rings_,
+                         facts.census.simplices + facts.census.ghosts, memory);
 }
 
 bool Outline<2>::next(abacus_outline_row &row) {
@@ -47,14 +48,14 @@ bool Outline<2>::next(abacus_outline_row &row) {
 
 // ---- Space ------------------------------------------------------------------------------
 
-Outline<3>::Outline(const Host &host, const abacus_header &header, const abacus_outline_kind &kind,
+Outline<3>::Outline(const Host &host, const abacus_facts &facts, const abacus_outline_kind &kind,
                     std::size_t memory, std::size_t cache_bytes)
     : borders_(host), triangles_(host, words, 9, kind.fills_holes != 0 ? memory / 2 : memory) {
-    Reader<3> reader(host, header, cache_bytes);
+    Reader<3> reader(host, facts, cache_bytes);
     require(reader, kind);
     const Kept kept = kept_by(kind);
     if (!reader.is_empty() && kept.is_all() && reader.is_delaunay())
-        find_hull(host, header, reader);
+        find_hull(host, facts, reader);
     else if (!reader.is_empty()) {
         if (kind.fills_holes != 0) cavities_.emplace(host, memory / 2);
         find_border(reader, kept);
@@ -77,9 +78,9 @@ void Outline<3>::add(std::array<Corner, 3> corners, std::uint32_t part) {
     record[12] = part;
 }
 
-void Outline<3>::find_hull(const Host &host, const abacus_header &header, Reader<3> &reader) {
-    triangles_.expect(static_cast<double>(header.ghosts));
-    PageFlood<3> flood(host, header);
+void Outline<3>::find_hull(const Host &host, const abacus_facts &facts, Reader<3> &reader) {
+    triangles_.expect(static_cast<double>(facts.census.ghosts));
+    PageFlood<3> flood(host, facts);
     flood.reach(reader.cache().lower(hull_ghost<3>(reader)));
     while (flood.advance()) {
         const PageView<3> &page = flood.page();

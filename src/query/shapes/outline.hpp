@@ -16,7 +16,7 @@ template <int D> class Outline;
 
 template <> class Outline<2> {
 public:
-    Outline(const Host &host, const abacus_header &header, const abacus_outline_kind &kind,
+    Outline(const Host &host, const abacus_facts &facts, const abacus_outline_kind &kind,
             std::size_t memory, std::size_t cache_bytes);
     /// False after the last.
     bool next(abacus_outline_row &row);
@@ -31,7 +31,7 @@ private:
 
 template <> class Outline<3> {
 public:
-    Outline(const Host &host, const abacus_header &header, const abacus_outline_kind &kind,
+    Outline(const Host &host, const abacus_facts &facts, const abacus_outline_kind &kind,
             std::size_t memory, std::size_t cache_bytes);
     bool next(abacus_outline_row &row);
     void close() { triangles_.close(); }
@@ -45,8 +45,8 @@ private:
     static constexpr std::size_t words = 13;
 
     void add(std::array<Corner, 3> corners, std::uint32_t part);
-    /// Only the hull: no other page is read.
-    void find_hull(const Host &host, const abacus_header &header, Reader<3> &reader);
+    /// The hull alone: no other page is read.
+    void find_hull(const Host &host, const abacus_facts &facts, Reader<3> &reader);
     void find_border(Reader<3> &reader, const Kept &kept);
     /// Collects the facets of the border, page by page, in borders_; calls end_page() after each
     /// page.

@@ -30,17 +30,18 @@ void put(RecordSort &sort, std::initializer_list<std::uint64_t> words) {
 } // namespace
 
 template <int D>
-SpanningTree<D>::SpanningTree(const Host &host, const abacus_header &header, std::size_t memory,
+SpanningTree<D>::SpanningTree(const Host &host, const abacus_facts &facts, std::size_t memory,
                               std::size_t cache_bytes, const Report &report)
     : host_(host), share_(memory / 4),
       room_(std::clamp<std::uint64_t>(share_ / bytes_per_vertex, least_room, most_room)),
       details_(host, detail_words), tree_(host, 1, 1, share_) {
     {
-        LightEdges<D> light(host, header, cache_bytes);
+        LightEdges<D> light(host, facts, cache_bytes);
         RecordSort ends(host_, end_words, D + 2, share_);
         // As many as join all places of vertices.
         rank(light, ends,
-             static_cast<double>(header.vertices) - static_cast<double>(header.split) - 1);
+             static_cast<double>(facts.census.vertices) - static_cast<double>(facts.census.split) -
+                 1);
         number(ends);
         ends.close();
     }

@@ -35,9 +35,9 @@ public:
     /// Ids of an edge's ends, the lesser one first, and its length.
     using Report = std::function<void(const std::int64_t *ids, double length)>;
 
-    /// Reports all edges, the shortest first. Sorts and the data about vertices take `memory`
-    /// bytes. Throws if the vertices do not become fewer and there is no room for all of them.
-    SpanningTree(const Host &host, const abacus_header &header, std::size_t memory,
+    /// Reports all edges, the shortest first. Sorts and what is known of vertices take `memory`
+    /// bytes. Throws if vertices become no fewer, and there is no room for all of them.
+    SpanningTree(const Host &host, const abacus_facts &facts, std::size_t memory,
                  std::size_t cache_bytes, const Report &report);
 
 private:

@@ -31,9 +31,9 @@ template <int D> bool may_meet(const Corners<D> &corners, bool is_ghost, const B
 } // namespace
 
 template <int D>
-Voronoi<D>::Voronoi(const Host &host, const abacus_header &header, const abacus_window &window,
+Voronoi<D>::Voronoi(const Host &host, const abacus_facts &facts, const abacus_window &window,
                     std::size_t cache_bytes)
-    : host_(host), header_(header), reader_(host, header, cache_bytes), cache_(reader_.cache()),
+    : host_(host), facts_(facts), reader_(host, facts, cache_bytes), cache_(reader_.cache()),
       open_(host), numbers_(host), star_(host), neighbours_(host), labels_(host), centres_(host),
       shape_(host) {
     if (!reader_.is_delaunay())
@@ -48,7 +48,7 @@ Voronoi<D>::Voronoi(const Host &host, const abacus_header &header, const abacus_
     if (reader_.is_empty() || !box_) return;
     const BoxRegion<D> region(*box_);
     if (region.has_much_of(cache_.domain())) return;
-    flood_.emplace(host_, header_);
+    flood_.emplace(host_, facts_);
     flood_->reach(reader_.page_around(region.inside(cache_.domain()))->page);
 }
 

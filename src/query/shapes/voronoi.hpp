@@ -29,8 +29,8 @@ template <int D> class Voronoi {
 public:
     using Shape = CellShape<D>;
 
-    /// The whole mesh if `window` has no box. Throws if the mesh is not Delaunay.
-    Voronoi(const Host &host, const abacus_header &header, const abacus_window &window,
+    /// All of the mesh if `window` has no box. Throws if the mesh is not Delaunay.
+    Voronoi(const Host &host, const abacus_facts &facts, const abacus_window &window,
             std::size_t cache_bytes);
 
     /// Goes to the next cell; false after the last.
@@ -74,7 +74,7 @@ private:
     int label(VertexIndex v);
 
     const Host &host_;
-    const abacus_header header_;
+    const abacus_facts facts_;
     std::optional<Box<D>> box_;
     Reader<D> reader_;
     Cache<D> &cache_;

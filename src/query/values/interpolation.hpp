@@ -14,8 +14,8 @@ namespace abacus {
 template <int D> class Interpolation {
 public:
     explicit Interpolation(const Host &host) : sibson_(host), weights_(host), values_(host) {}
-    /// With the arguments of everything that is created by a mesh's dimension.
-    Interpolation(const Host &host, const abacus_header &) : Interpolation(host) {}
+    /// As what is made by a mesh's dimension.
+    Interpolation(const Host &host, const abacus_facts &) : Interpolation(host) {}
 
     /// Finds the weights at p; false outside.
     bool weigh(Reader<D> &reader, const abacus_interpolation &what, const Point<D> &p);

@@ -54,11 +54,12 @@ private:
     const Box<2> &window_;
 };
 
-Overlaps::Overlaps(const Host &host, const abacus_header &header, std::uint32_t attribute,
+Overlaps::Overlaps(const Host &host, const abacus_facts &facts, std::uint32_t attribute,
                    double max_edge, const Box<2> &window, std::size_t cache_bytes)
-    : host_(host), header_(header), attribute_(static_cast<int>(attribute)), max_edge_(max_edge),
-      window_(window), reader_(host, header, cache_bytes) {
-    if (!reader_.is_delaunay()) search_.emplace(host, page_attributes(header), cache_bytes / 2);
+    : host_(host), facts_(facts), attribute_(static_cast<int>(attribute)), max_edge_(max_edge),
+      window_(window), reader_(host, facts, cache_bytes) {
+    if (!reader_.is_delaunay())
+        search_.emplace(host, page_attributes(facts.columns), cache_bytes / 2);
 }
 
 // The hull's edges, from one that is seen from far away.
@@ -66,7 +67,7 @@ Box<2> Overlaps::around_all() {
     if (reader_.is_empty()) return {};
     if (!reader_.is_delaunay()) return reader_.boxes().around_all();
     constexpr double far = std::numeric_limits<double>::max();
-    PageFlood<2> hull(host_, header_);
+    PageFlood<2> hull(host_, facts_);
     const PageView<2> &page = hull.page();
     hull.reach(reader_.page_around({far, far})->page);
     Box<2> box;
@@ -173,7 +174,7 @@ bool Overlaps::flood(const Asked &t, const Visit &visit) {
 
 void Overlaps::scan_pages(const Asked &t, const Visit &visit) {
     const Area area(t, window_);
-    RangeScan<2> pages(host_, header_, &area);
+    RangeScan<2> pages(host_, facts_, &area);
     while (pages.advance())
         for (int s = 0; s < pages.page().simplices(); ++s)
             if (!pages.page().is_ghost(s)) show(t, pages.page(), s, visit);

@@ -29,10 +29,10 @@ namespace abacus {
 
 class Overlaps {
 public:
-    /// `attribute`: the one whose values are reported. Triangles with an edge longer than max_edge
-    /// are left out, unless that is 0.
-    Overlaps(const Host &host, const abacus_header &header, std::uint32_t attribute,
-             double max_edge, const Box<2> &window, std::size_t cache_bytes);
+    /// `attribute`: of the values handed out. Triangles with an edge longer than max_edge are left
+    /// out, unless that is 0.
+    Overlaps(const Host &host, const abacus_facts &facts, std::uint32_t attribute, double max_edge,
+             const Box<2> &window, std::size_t cache_bytes);
 
     /// Gets a triangle of positive orientation and the values at its corners.
     using Visit = std::function<void(const Corners<2> &, const std::array<double, 3> &)>;
@@ -65,7 +65,7 @@ private:
               const Visit &visit) const;
 
     const Host &host_;
-    const abacus_header header_;
+    const abacus_facts facts_;
     const int attribute_;
     const double max_edge_;
     const Box<2> window_;

@@ -108,11 +108,12 @@ double surface_of(const Piece<3> &piece) { return section_area(piece, piece.valu
 /// Calls visit(simplex, values) for each simplex of a window with what its corners carry, and says
 /// how many have been.
 template <int D, class Visit>
-void each_simplex(const Host &host, const abacus_header &header, const abacus_surface &surface,
+void each_simplex(const Host &host, const abacus_facts &facts, const abacus_surface &surface,
                   const abacus_window &window, Visit visit) {
     Pacer pacer(host);
-    pacer.begin(ABACUS_PHASE_SCANNING, window.kind == ABACUS_NO_WINDOW ? header.simplices : 0);
-    CellScan<D> cells(host, header, window, surface.max_edge);
+    pacer.begin(ABACUS_PHASE_SCANNING,
+                window.kind == ABACUS_NO_WINDOW ? facts.census.simplices : 0);
+    CellScan<D> cells(host, facts, window, surface.max_edge);
     CornerValues values(&surface.attribute, 1);
     abacus_simplex simplex;
     std::uint64_t seen = 0;
@@ -226,11 +227,11 @@ template <int D> void Volume<D>::add_sides(const Piece<D> &piece) {
 // ---- Meshes ------------------------------------------------------------------------------
 
 template <int D>
-abacus_volume volume_above(const Host &host, const abacus_header &header,
+abacus_volume volume_above(const Host &host, const abacus_facts &facts,
                            const abacus_surface &surface, double base) {
     const Box<D> window = box_of<D>(surface.window);
     Volume<D> volume;
-    each_simplex<D>(host, header, surface, surface.window,
+    each_simplex<D>(host, facts, surface, surface.window,
                     [&](const abacus_simplex &simplex, const CornerValues &values) {
                         ValuedSimplex<D> cell = cell_of<D>(simplex, values);
                         if (!cell.has_values()) return;
@@ -241,9 +242,9 @@ abacus_volume volume_above(const Host &host, const abacus_header &header,
     return volume.sums();
 }
 
-abacus_volume volume_between(const Host &host, const abacus_header &header,
+abacus_volume volume_between(const Host &host, const abacus_facts &facts,
                              const abacus_surface &surface, const Host &other_host,
-                             const abacus_header &other, std::uint32_t other_attribute,
+                             const abacus_facts &other, std::uint32_t other_attribute,
                              std::size_t cache_bytes) {
     const Box<2> window = box_of<2>(surface.window);
     Overlaps overlaps(other_host, other, other_attribute, surface.max_edge, window, cache_bytes);
@@ -252,7 +253,7 @@ abacus_volume volume_between(const Host &host, const abacus_header &header,
         surface.window.kind == ABACUS_NO_WINDOW ? window_of(overlaps.around_all()) : surface.window;
     Volume<2> volume;
     each_simplex<2>(
-        host, header, surface, around,
+        host, facts, surface, around,
         [&](const abacus_simplex &simplex, const CornerValues &values) {
             const ValuedSimplex<2> first = cell_of<2>(simplex, values);
             if (!first.has_values()) return;
@@ -273,9 +274,9 @@ abacus_volume volume_between(const Host &host, const abacus_header &header,
 
 template class Volume<2>;
 template class Volume<3>;
-template abacus_volume volume_above<2>(const Host &, const abacus_header &, const abacus_surface &,
+template abacus_volume volume_above<2>(const Host &, const abacus_facts &, const abacus_surface &,
                                        double);
-template abacus_volume volume_above<3>(const Host &, const abacus_header &, const abacus_surface &,
+template abacus_volume volume_above<3>(const Host &, const abacus_facts &, const abacus_surface &,
                                        double);
 
 } // namespace abacus

@@ -41,13 +41,13 @@ private:
 
 /// For a mesh over a base. Simplices with a corner that has no finite value are left out.
 template <int D>
-abacus_volume volume_above(const Host &host, const abacus_header &header,
+abacus_volume volume_above(const Host &host, const abacus_facts &facts,
                            const abacus_surface &surface, double base);
 
-/// For the space between two meshes, both of dimension 2; `cache_bytes` for the other's simplices.
-abacus_volume volume_between(const Host &host, const abacus_header &header,
+/// Between a mesh and another one, both of dimension 2; `cache_bytes` for the other's simplices.
+abacus_volume volume_between(const Host &host, const abacus_facts &facts,
                              const abacus_surface &surface, const Host &other_host,
-                             const abacus_header &other, std::uint32_t other_attribute,
+                             const abacus_facts &other, std::uint32_t other_attribute,
                              std::size_t cache_bytes);
 
 extern template class Volume<2>;

@@ -10,7 +10,7 @@
 
 /* The number of the attribute, or -1 if none is given. */
 int
-attribute_or_none(FunctionCallInfo fcinfo, int argument, const abacus_header *header)
+attribute_or_none(FunctionCallInfo fcinfo, int argument, abacus_names names)
 {
 	char	   *name;
 	int			number;
@@ -18,16 +18,16 @@ attribute_or_none(FunctionCallInfo fcinfo, int argument, const abacus_header *he
 	if (PG_ARGISNULL(argument))
 		return -1;
 	name = text_to_cstring(PG_GETARG_TEXT_PP(argument));
-	number = header_find_attribute(header, name);
+	number = header_find_attribute(names, name);
 	pfree(name);
 	return number;
 }
 
 /* Of a mesh that has one attribute this, if none is given. */
 uint32
-attribute_argument(FunctionCallInfo fcinfo, int argument, const abacus_header *header)
+attribute_argument(FunctionCallInfo fcinfo, int argument, abacus_names names)
 {
-	int			number = attribute_or_none(fcinfo, argument, header);
+	int			number = attribute_or_none(fcinfo, argument, names);
 
-	return (uint32) (number < 0 ? header_only_attribute(header) : number);
+	return (uint32) (number < 0 ? header_only_attribute(names) : number);
 }

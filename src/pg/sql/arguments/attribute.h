@@ -9,7 +9,7 @@
 #include "abacus/mesh_header.h"
 
 extern uint32 attribute_argument(FunctionCallInfo fcinfo, int argument,
-								 const abacus_header *header);
-extern int	attribute_or_none(FunctionCallInfo fcinfo, int argument, const abacus_header *header);
+								 abacus_names names);
+extern int	attribute_or_none(FunctionCallInfo fcinfo, int argument, abacus_names names);
 
 #endif

@@ -56,11 +56,11 @@ interpolation_how(FunctionCallInfo fcinfo, int method, abacus_interpolation *how
 
 /* One attribute, by its name; the only one if no name is given. */
 void
-interpolation_attribute(FunctionCallInfo fcinfo, int argument, const abacus_header *header,
+interpolation_attribute(FunctionCallInfo fcinfo, int argument, abacus_names names,
 						abacus_interpolation *how)
 {
 	how->attributes = 1;
-	how->attribute[0] = attribute_argument(fcinfo, argument, header);
+	how->attribute[0] = attribute_argument(fcinfo, argument, names);
 }
 
 /*
@@ -87,26 +87,26 @@ names_argument(FunctionCallInfo fcinfo, int argument)
 
 /* Any number of attributes, in the order of their names; all of them if none are given. */
 void
-interpolation_attributes(FunctionCallInfo fcinfo, int argument, const abacus_header *header,
+interpolation_attributes(FunctionCallInfo fcinfo, int argument, abacus_names names,
 						 abacus_interpolation *how)
 {
-	Datum	   *names;
+	Datum	   *given;
 	int			count;
 
 	if (PG_ARGISNULL(argument))
 	{
-		header_require_attributes(header);
-		how->attributes = header->attributes;
-		for (uint32 i = 0; i < header->attributes; i++)
+		header_require_attributes(names.facts);
+		how->attributes = names.facts->columns.attributes;
+		for (uint32 i = 0; i < names.facts->columns.attributes; i++)
 			how->attribute[i] = i;
 		return;
 	}
-	names = shape_names(names_argument(fcinfo, argument), "attributes", &count);
+	given = shape_names(names_argument(fcinfo, argument), "attributes", &count);
 	if (count > ABACUS_MAX_ATTRIBUTES)
 		ereport(ERROR,
 				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
 				 errmsg("at most %d attributes can be asked for", ABACUS_MAX_ATTRIBUTES)));
 	how->attributes = (uint32) count;
 	for (int i = 0; i < count; i++)
-		how->attribute[i] = (uint32) header_find_attribute(header, TextDatumGetCString(names[i]));
+		how->attribute[i] = (uint32) header_find_attribute(names, TextDatumGetCString(given[i]));
 }

@@ -6,6 +6,7 @@
 
 #include "fmgr.h"
 
+#include "abacus/mesh_header.h"
 #include "abacus/values.h"
 
 extern bool interpolation_of_null(FunctionCallInfo fcinfo, int given);
@@ -13,8 +14,8 @@ extern void interpolation_how(FunctionCallInfo fcinfo, int method, abacus_interp
 extern void interpolation_max_edge(FunctionCallInfo fcinfo, int argument,
 								   abacus_interpolation *how);
 extern void interpolation_attribute(FunctionCallInfo fcinfo, int argument,
-									const abacus_header *header, abacus_interpolation *how);
+									abacus_names names, abacus_interpolation *how);
 extern void interpolation_attributes(FunctionCallInfo fcinfo, int argument,
-									 const abacus_header *header, abacus_interpolation *how);
+									 abacus_names names, abacus_interpolation *how);
 
 #endif

@@ -23,9 +23,9 @@ notice_missing_values(Reader *reader, uint32 attribute)
 	abacus_vertex vertex;
 	abacus_status status;
 
-	if (reader->header.vertices == 0)
+	if (reader->header.facts.census.vertices == 0)
 		return;
-	host_run(host, abacus_faces_open_range, &host->table, &reader->header, &whole, &any,
+	host_run(host, abacus_faces_open_range, &host->table, &reader->header.facts, &whole, &any,
 			 setting_cache_bytes(), &vertices);
 	host_own(host, vertices, (void (*) (void *)) abacus_faces_close);
 	status = host_run(host, abacus_faces_next_vertex, vertices, &vertex);

@@ -13,18 +13,18 @@
  * infinite; NaN is an error.
  */
 bool
-place_arguments(FunctionCallInfo fcinfo, int given, const abacus_header *header, double *point)
+place_arguments(FunctionCallInfo fcinfo, int given, const abacus_form *form, double *point)
 {
-	uint32		dimension = header->dimension;
+	uint32		dimension = form->dimension;
 	bool		finite = true;
 
 	if (given != (int) dimension)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("z is %s, but the %s has dimension %u",
-						dimension == 2 ? "given" : "missing", type_name(header->type), dimension),
+						dimension == 2 ? "given" : "missing", type_name(form->type), dimension),
 				 dimension == 2
-				 ? errhint("Leave z out, or make the %s with dimension => 3.", type_name(header->type))
+				 ? errhint("Leave z out, or make the %s with dimension => 3.", type_name(form->type))
 				 : errhint("Give all three coordinates of the point.")));
 	for (uint32 i = 0; i < dimension; i++)
 	{
@@ -40,13 +40,13 @@ place_arguments(FunctionCallInfo fcinfo, int given, const abacus_header *header,
 
 /* Where k follows: a z that is missing may have been taken for it. */
 void
-place_require_z(int given, const abacus_header *header)
+place_require_z(int given, const abacus_form *form)
 {
-	if (given < (int) header->dimension)
+	if (given < (int) form->dimension)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("z is missing, but the %s has dimension %u", type_name(header->type),
-						header->dimension),
+				 errmsg("z is missing, but the %s has dimension %u", type_name(form->type),
+						form->dimension),
 				 errhint("Give z with a decimal point or as z => 1: a whole number behind y is "
 						 "taken for k.")));
 }
@@ -67,10 +67,10 @@ place_count_argument(FunctionCallInfo fcinfo, int argument, const char *rows)
 
 /* Reads coordinates where an infinite coordinate is an error, too. */
 void
-place_arguments_finite(FunctionCallInfo fcinfo, int given, const abacus_header *header,
+place_arguments_finite(FunctionCallInfo fcinfo, int given, const abacus_form *form,
 					   double *point)
 {
-	if (!place_arguments(fcinfo, given, header, point))
+	if (!place_arguments(fcinfo, given, form, point))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("a coordinate of the place is infinite"),

@@ -6,13 +6,13 @@
 
 #include "fmgr.h"
 
-#include "abacus/mesh_header.h"
+#include "abacus/facts.h"
 
-extern bool place_arguments(FunctionCallInfo fcinfo, int given, const abacus_header *header,
+extern bool place_arguments(FunctionCallInfo fcinfo, int given, const abacus_form *form,
 							double *point);
 extern void place_arguments_finite(FunctionCallInfo fcinfo, int given,
-								   const abacus_header *header, double *point);
-extern void place_require_z(int given, const abacus_header *header);
+								   const abacus_form *form, double *point);
+extern void place_require_z(int given, const abacus_form *form);
 extern uint64 place_count_argument(FunctionCallInfo fcinfo, int argument, const char *rows);
 
 #endif

@@ -21,8 +21,8 @@ places_open(PlacesRead *read, Oid mesh, uint32 type, const char *query)
 	source_prepare(&read->source, query);
 	reader = reader_open_of(mesh, type, CurrentMemoryContext);
 	read->host = reader->host;
-	read->dimension = reader->header.dimension;
-	read->header = &reader->header;
+	read->dimension = reader->header.facts.form.dimension;
+	read->names = abacus_names_of(&reader->header);
 	read->places = NULL;
 	read->octants = NULL;
 	read->count = 0;
@@ -34,10 +34,10 @@ begin_places(PlacesRead *read)
 {
 	Host	   *host = read->host;
 
-	host_run(host, abacus_places_open, &host->table, read->header, setting_query_sort_bytes(),
+	host_run(host, abacus_places_open, &host->table, read->names.facts, setting_query_sort_bytes(),
 			 setting_cache_bytes(), &read->places);
 	host_own(host, read->places, (void (*) (void *)) abacus_places_close);
-	source_open_places(&read->source, read->header);
+	source_open_places(&read->source, read->names);
 }
 
 static void
@@ -45,10 +45,10 @@ begin_octants(PlacesRead *read)
 {
 	Host	   *host = read->host;
 
-	host_run(host, abacus_octree_places_open, &host->table, read->header,
+	host_run(host, abacus_octree_places_open, &host->table, read->names.facts,
 			 setting_query_sort_bytes(), setting_cache_bytes(), &read->octants);
 	host_own(host, read->octants, (void (*) (void *)) abacus_octree_places_close);
-	source_open_octants(&read->source, read->header, OCTANT_POINTS, false);
+	source_open_octants(&read->source, read->names, OCTANT_POINTS, false);
 }
 
 /* Reads the places. */
@@ -58,7 +58,7 @@ places_fetch(PlacesRead *read)
 	const uint64 *records;
 	size_t		count;
 
-	if (read->header->type == ABACUS_OCTREE)
+	if (read->names.facts->form.type == ABACUS_OCTREE)
 		begin_octants(read);
 	else
 		begin_places(read);

@@ -19,7 +19,7 @@ typedef struct PlacesRead
 	Source		source;
 	Host	   *host;
 	uint32		dimension;
-	const abacus_header *header;
+	abacus_names names;
 	abacus_places *places;		/* of a mesh */
 	abacus_octree_places *octants;	/* of an octree */
 	uint64		count;			/* places */

@@ -46,9 +46,9 @@ look_at_statement(void)
 }
 
 static bool
-is_geographic(const abacus_header *header)
+is_geographic(const abacus_form *form)
 {
-	int32		srid = (int32) header->srid;
+	int32		srid = (int32) form->srid;
 
 	if (srid != current.srid)
 	{
@@ -70,39 +70,39 @@ begins(UnitsNote note)
 
 /* Of a mesh in degrees gradients and slopes are of no use. */
 void
-units_tell_slopes(const abacus_header *header)
+units_tell_slopes(const abacus_form *form)
 {
 	look_at_statement();
-	if (is_geographic(header) && begins(NOTE_SLOPES))
+	if (is_geographic(form) && begins(NOTE_SLOPES))
 		ereport(NOTICE,
 				(errmsg("slopes and gradients are per degree: the coordinates are longitude and latitude"),
-				 errdetail("The mesh has SRID %u.", header->srid),
+				 errdetail("The mesh has SRID %u.", form->srid),
 				 errhint("Transform the points to a system in metres before they are triangulated, for "
 						 "instance by ST_Transform of PostGIS.")));
 }
 
 /* Nor are areas and volumes. */
 void
-units_tell_volumes(const abacus_header *header)
+units_tell_volumes(const abacus_form *form)
 {
 	look_at_statement();
-	if (is_geographic(header) && begins(NOTE_VOLUMES))
+	if (is_geographic(form) && begins(NOTE_VOLUMES))
 		ereport(NOTICE,
 				(errmsg("areas and volumes are over square degrees: the coordinates are longitude and latitude"),
-				 errdetail("The mesh has SRID %u.", header->srid),
+				 errdetail("The mesh has SRID %u.", form->srid),
 				 errhint("Transform the points to a system in metres before they are triangulated, for "
 						 "instance by ST_Transform of PostGIS.")));
 }
 
 /* Hill shading of heights in metres over degrees sees cliffs only. */
 void
-units_tell_shading(const abacus_header *header, double exaggeration)
+units_tell_shading(const abacus_form *form, double exaggeration)
 {
 	look_at_statement();
-	if (exaggeration > 1e-3 && is_geographic(header) && begins(NOTE_SHADING))
+	if (exaggeration > 1e-3 && is_geographic(form) && begins(NOTE_SHADING))
 		ereport(NOTICE,
 				(errmsg("hills are shaded as if degrees were metres: the coordinates are longitude and latitude"),
-				 errdetail("The mesh has SRID %u.", header->srid),
+				 errdetail("The mesh has SRID %u.", form->srid),
 				 errhint("A degree of latitude has 111,320 m: of heights in metres exaggeration => 9e-6 shows "
 						 "slopes as they are.")));
 }
@@ -119,30 +119,30 @@ may_be_degrees(const double *lower, const double *upper)
  * answer is as good as any.
  */
 void
-units_tell_window(const abacus_header *header, const double *lower, const double *upper)
+units_tell_window(const abacus_form *form, const double *lower, const double *upper)
 {
 	bool		meets = true;
 	bool		window_may;
 	bool		mesh_may;
 
-	if (header->has_domain == 0)
+	if (form->has_domain == 0)
 		return;
-	for (uint32 i = 0; i < header->dimension; i++)
-		meets &= lower[i] <= header->upper[i] && upper[i] >= header->lower[i];
+	for (uint32 i = 0; i < form->dimension; i++)
+		meets &= lower[i] <= form->upper[i] && upper[i] >= form->lower[i];
 	window_may = may_be_degrees(lower, upper);
-	mesh_may = may_be_degrees(header->lower, header->upper);
+	mesh_may = may_be_degrees(form->lower, form->upper);
 	if (meets || window_may == mesh_may)
 		return;
 	look_at_statement();
-	if (mesh_may && !is_geographic(header))
+	if (mesh_may && !is_geographic(form))
 		return;
 	if (!begins(NOTE_WINDOW))
 		return;
 	ereport(NOTICE,
 			(errmsg("the window does not meet the mesh"),
 			 errdetail("The window reaches from (%.9g, %.9g) to (%.9g, %.9g), the domain of the mesh from (%.9g, %.9g) to (%.9g, %.9g).",
-					   lower[0], lower[1], upper[0], upper[1], header->lower[0], header->lower[1],
-					   header->upper[0], header->upper[1]),
+					   lower[0], lower[1], upper[0], upper[1], form->lower[0], form->lower[1],
+					   form->upper[0], form->upper[1]),
 			 window_may ? errhint("The window looks like longitude and latitude, the mesh does not. Transform the "
 								  "window to the system of the mesh.")
 			 : errhint("The mesh is in longitude and latitude, the window is not. Transform the window.")));

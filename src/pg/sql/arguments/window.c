@@ -19,7 +19,7 @@
 
 /* A closed box; all of the mesh if neither corner is given. */
 static void
-window_of_box(const abacus_header *header, ArrayType *lower, ArrayType *upper,
+window_of_box(const abacus_form *form, ArrayType *lower, ArrayType *upper,
 			  abacus_window *window)
 {
 	window->kind = ABACUS_NO_WINDOW;
@@ -29,11 +29,11 @@ window_of_box(const abacus_header *header, ArrayType *lower, ArrayType *upper,
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("lower and upper must be given together"),
-				 errhint("Leave both out for all of the %s.", type_name(header->type))));
+				 errhint("Leave both out for all of the %s.", type_name(form->type))));
 	window->kind = ABACUS_BOX_WINDOW;
-	shape_point(header, lower, "lower", window->lower);
-	shape_point(header, upper, "upper", window->upper);
-	for (uint32 i = 0; i < header->dimension; i++)
+	shape_point(form, lower, "lower", window->lower);
+	shape_point(form, upper, "upper", window->upper);
+	for (uint32 i = 0; i < form->dimension; i++)
 		if (!isfinite(window->lower[i]) || !isfinite(window->upper[i]) ||
 			window->lower[i] > window->upper[i])
 			ereport(ERROR,
@@ -41,21 +41,21 @@ window_of_box(const abacus_header *header, ArrayType *lower, ArrayType *upper,
 					 errmsg("lower must not be greater than upper, and both finite, on axis %c",
 							"xyz"[i]),
 					 errhint("lower is the corner of the window with the least coordinates.")));
-	units_tell_window(header, window->lower, window->upper);
+	units_tell_window(form, window->lower, window->upper);
 }
 
 /* A closed ball. */
 static void
-window_of_ball(const abacus_header *header, ArrayType *center, double radius,
+window_of_ball(const abacus_form *form, ArrayType *center, double radius,
 			   abacus_window *window)
 {
 	double		lower[ABACUS_MAX_DIMENSION];
 	double		upper[ABACUS_MAX_DIMENSION];
 
 	window->kind = ABACUS_BALL_WINDOW;
-	shape_point(header, center, "center", window->center);
+	shape_point(form, center, "center", window->center);
 	window->radius = radius;
-	for (uint32 i = 0; i < header->dimension; i++)
+	for (uint32 i = 0; i < form->dimension; i++)
 		if (!isfinite(window->center[i]))
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
@@ -65,13 +65,13 @@ window_of_ball(const abacus_header *header, ArrayType *center, double radius,
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("radius must be a finite number, at least 0"),
-				 errhint("A ball of radius 0 is the center alone.")));
-	for (uint32 i = 0; i < header->dimension; i++)
+				 errhint("Of radius 0 is the center alone.")));
+	for (uint32 i = 0; i < form->dimension; i++)
 	{
 		lower[i] = window->center[i] - radius;
 		upper[i] = window->center[i] + radius;
 	}
-	units_tell_window(header, lower, upper);
+	units_tell_window(form, lower, upper);
 }
 
 /*
@@ -101,18 +101,18 @@ corner(FunctionCallInfo fcinfo, int argument)
 
 /* The window of a call: the first of two arguments. */
 void
-window_arguments(FunctionCallInfo fcinfo, int first, WindowForm form,
-				 const abacus_header *header, abacus_window *window)
+window_arguments(FunctionCallInfo fcinfo, int first, WindowForm kind,
+				 const abacus_form *form, abacus_window *window)
 {
-	if (form == WINDOW_BOX)
-		window_of_box(header, corner(fcinfo, first), corner(fcinfo, first + 1), window);
+	if (kind == WINDOW_BOX)
+		window_of_box(form, corner(fcinfo, first), corner(fcinfo, first + 1), window);
 	else if (PG_ARGISNULL(first) || PG_ARGISNULL(first + 1))
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
 				 errmsg("center and radius must not be NULL"),
-				 errhint("Leave both out for all of the %s.", type_name(header->type))));
+				 errhint("Leave both out for all of the %s.", type_name(form->type))));
 	else
-		window_of_ball(header, PG_GETARG_ARRAYTYPE_P(first), PG_GETARG_FLOAT8(first + 1), window);
+		window_of_ball(form, PG_GETARG_ARRAYTYPE_P(first), PG_GETARG_FLOAT8(first + 1), window);
 }
 
 /* The longest edge that is wanted, or that simplices may have; 0 if any may be. */
@@ -162,22 +162,22 @@ has_range(FunctionCallInfo fcinfo, int first, const char *what, const char *exam
 
 /* The label that simplices must have, and its range; false if no label is wanted. */
 bool
-window_label(FunctionCallInfo fcinfo, int first, const abacus_header *header, abacus_range *range)
+window_label(FunctionCallInfo fcinfo, int first, abacus_names names, abacus_range *range)
 {
 	if (!has_range(fcinfo, first, "a label", "label => 'material'", range))
 		return false;
-	range->attribute = (uint32) header_find_label(header,
+	range->attribute = (uint32) header_find_label(names,
 												  text_to_cstring(PG_GETARG_TEXT_PP(first)));
 	return true;
 }
 
 /* The attribute that vertices must have, and its range; false if no attribute is wanted. */
 bool
-window_attribute(FunctionCallInfo fcinfo, int first, const abacus_header *header,
+window_attribute(FunctionCallInfo fcinfo, int first, abacus_names names,
 				 abacus_range *range)
 {
 	if (!has_range(fcinfo, first, "an attribute", "attribute => 'height'", range))
 		return false;
-	range->attribute = attribute_argument(fcinfo, first, header);
+	range->attribute = attribute_argument(fcinfo, first, names);
 	return true;
 }

@@ -41,7 +41,7 @@ end(Change *change, const uint32 *source, uint32 count, const char *added)
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
 
-	numbering_change(host, header, source, count);
+	numbering_change(host, &header->facts.columns, source, count);
 	change_attributes(change, source, count);
 	if (host->names != NULL)
 		names_move(header, host->names, source);
@@ -56,16 +56,16 @@ abacus_sql_add_attribute(PG_FUNCTION_ARGS)
 {
 	char	   *name = text_to_cstring(PG_GETARG_TEXT_PP(1));
 	Change	   *change;
-	const abacus_header *header;
+	abacus_names names;
 	uint32		count;
 	uint32	   *source;
 
 	shape_check_name(name);
 	change = begin(fcinfo, "abacus_add_attribute()");
-	header = change->writer.header;
-	count = header->attributes;
-	header_require_new_name(header, name);
-	shape_check_room(header);
+	names = abacus_names_of(change->writer.header);
+	count = names.facts->columns.attributes;
+	header_require_new_name(names, name);
+	shape_check_room(names.facts);
 	source = palloc((count + 1) * sizeof(uint32));
 	for (uint32 i = 0; i < count; i++)
 		source[i] = i;
@@ -120,11 +120,11 @@ check_shown(Oid mesh, const char *attribute)
 
 /* What comes behind the attribute moves up, which nobody sees who takes it by its position. */
 static void
-tell_of_moved(const abacus_header *header, uint32 dropped)
+tell_of_moved(abacus_names names, uint32 dropped)
 {
-	if (dropped + 1 < header->attributes)
+	if (dropped + 1 < names.facts->columns.attributes)
 		ereport(NOTICE,
-				(errmsg("attributes behind \"%s\" move up by one position", header->names[dropped]),
+				(errmsg("attributes behind \"%s\" move up by one position", names.of[dropped]),
 				 errdetail("Expressions that take values by position, as attributes[%u], get another "
 						   "attribute now.", dropped + 2)));
 }
@@ -136,14 +136,14 @@ abacus_sql_drop_attribute(PG_FUNCTION_ARGS)
 	Oid			mesh = PG_GETARG_OID(0);
 	char	   *name = text_to_cstring(PG_GETARG_TEXT_PP(1));
 	Change	   *change = begin(fcinfo, "abacus_drop_attribute()");
-	const abacus_header *header = change->writer.header;
-	uint32		dropped = (uint32) header_find_attribute(header, name);
+	abacus_names names = abacus_names_of(change->writer.header);
+	uint32		dropped = (uint32) header_find_attribute(names, name);
 	uint32		count = 0;
-	uint32	   *source = palloc(header->attributes * sizeof(uint32));
+	uint32	   *source = palloc(names.facts->columns.attributes * sizeof(uint32));
 
 	check_shown(mesh, name);
-	tell_of_moved(header, dropped);
-	for (uint32 i = 0; i < header->attributes; i++)
+	tell_of_moved(names, dropped);
+	for (uint32 i = 0; i < names.facts->columns.attributes; i++)
 		if (i != dropped)
 			source[count++] = i;
 	end(change, source, count, NULL);

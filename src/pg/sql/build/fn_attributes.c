@@ -60,14 +60,14 @@ static void
 read_values(Reader *reader, Values *values)
 {
 	Host	   *host = reader->host;
-	uint32		attributes = reader->header.attributes;
+	uint32		attributes = reader->header.facts.columns.attributes;
 	abacus_vertex_scan *scan = NULL;
 	abacus_vertex vertex;
 
 	for (uint32 i = 0; i < attributes; i++)
 		values[i] = (Values) {NAN, NAN, 0};
-	header_open_vertices(host, &reader->header);
-	host_run(host, abacus_vertex_scan_open, &host->table, &reader->header, setting_cache_bytes(),
+	header_open_vertices(host, &reader->header.facts);
+	host_run(host, abacus_vertex_scan_open, &host->table, &reader->header.facts, setting_cache_bytes(),
 			 &scan);
 	host_own(host, scan, (void (*) (void *)) abacus_vertex_scan_close);
 	while (host_run(host, abacus_vertex_scan_next, scan, &vertex) == ABACUS_OK)
@@ -80,14 +80,14 @@ static void
 read_octree_values(Reader *reader, Values *values)
 {
 	Host	   *host = reader->host;
-	uint32		attributes = reader->header.attributes;
+	uint32		attributes = reader->header.facts.columns.attributes;
 	abacus_window all = {0};
 	abacus_octree_scan *scan = NULL;
 	abacus_octant octant;
 
 	for (uint32 i = 0; i < attributes; i++)
 		values[i] = (Values) {NAN, NAN, 0};
-	host_run(host, abacus_octree_scan_open, &host->table, &reader->header, &all,
+	host_run(host, abacus_octree_scan_open, &host->table, &reader->header.facts, &all,
 			 setting_cache_bytes(), &scan);
 	host_own(host, scan, (void (*) (void *)) abacus_octree_scan_close);
 	while (host_run(host, abacus_octree_scan_next, scan, &octant) == ABACUS_OK)
@@ -105,12 +105,12 @@ abacus_sql_attributes(PG_FUNCTION_ARGS)
 
 	InitMaterializedSRF(fcinfo, 0);
 	reader = reader_open_of(PG_GETARG_OID(0), ANY_TYPE, CurrentMemoryContext);
-	all = palloc(Max(1, reader->header.attributes) * sizeof(Values));
-	if (reader->header.attributes > 0 && reader->header.type == ABACUS_OCTREE)
+	all = palloc(Max(1, reader->header.facts.columns.attributes) * sizeof(Values));
+	if (reader->header.facts.columns.attributes > 0 && reader->header.facts.form.type == ABACUS_OCTREE)
 		read_octree_values(reader, all);
-	else if (reader->header.attributes > 0)
+	else if (reader->header.facts.columns.attributes > 0)
 		read_values(reader, all);
-	for (uint32 i = 0; i < reader->header.attributes; i++)
+	for (uint32 i = 0; i < reader->header.facts.columns.attributes; i++)
 	{
 		Datum		values[ATTRIBUTE_COLUMNS];
 		bool		isnull[ATTRIBUTE_COLUMNS] = {false};
@@ -141,8 +141,8 @@ abacus_sql_rename_attribute(PG_FUNCTION_ARGS)
 	shape_check_name(name);
 	writer_begin_of(&writer, PG_GETARG_OID(0), ANY_TYPE, "abacus_rename_attribute()");
 	header = writer.header;
-	number = header_find_attribute(header, attribute);
-	header_require_new_name(header, name);
+	number = header_find_attribute(abacus_names_of(header), attribute);
+	header_require_new_name(abacus_names_of(header), name);
 	strlcpy(header->names[number], name, ABACUS_NAME_BYTES);
 	writer_end(&writer);
 	PG_RETURN_VOID();

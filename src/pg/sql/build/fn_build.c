@@ -56,16 +56,16 @@ static bool
 insert_batch(Writer *writer, abacus_build *build, uint64 limit)
 {
 	Host	   *host = writer->host;
-	abacus_header *header = writer->header;
-	uint64		inserted = header->inserted;
-	abacus_counters before = header->counters;
+	const abacus_facts *facts = &writer->header->facts;
+	uint64		inserted = facts->census.inserted;
+	abacus_counters before = writer->header->counters;
 
-	host_run(host, abacus_build_run, build, limit, header);
-	if (header->inserted == inserted)
+	host_run(host, abacus_build_run, build, limit, writer->header);
+	if (facts->census.inserted == inserted)
 		return false;			/* the points span no simplex yet */
-	progress_batch_done(&host->progress, header->inserted - inserted,
-						header->counters.loads - before.loads,
-						header->counters.stores - before.stores);
+	progress_batch_done(&host->progress, facts->census.inserted - inserted,
+						writer->header->counters.loads - before.loads,
+						writer->header->counters.stores - before.stores);
 	return true;
 }
 
@@ -77,16 +77,16 @@ static bool
 rekey(Writer *writer, abacus_build *build)
 {
 	Host	   *host = writer->host;
-	abacus_header *header = writer->header;
-	uint64		outside = header->outside;
+	const abacus_facts *facts = &writer->header->facts;
+	uint64		outside = facts->census.outside;
 	int			done;
 
-	host_run(host, abacus_build_rekey, build, setting_sort_bytes(), header, &done);
+	host_run(host, abacus_build_rekey, build, setting_sort_bytes(), writer->header, &done);
 	if (done)
 		ereport(NOTICE,
 				(errmsg("mesh \"%s\" has another domain", get_rel_name(mesh_pages(host)->mesh)),
 				 errdetail("The one before did not fit its points; the simplices are the same.")));
-	return done || header->outside != outside;
+	return done || facts->census.outside != outside;
 }
 
 /*
@@ -97,22 +97,22 @@ static void
 move_attributes_apart(Writer *writer)
 {
 	Host	   *host = writer->host;
-	abacus_header *header = writer->header;
-	uint32	   *same = palloc(header->attributes * sizeof(uint32));
+	const abacus_facts *facts = &writer->header->facts;
+	uint32	   *same = palloc(facts->columns.attributes * sizeof(uint32));
 	abacus_build *build = NULL;
 
-	for (uint32 i = 0; i < header->attributes; i++)
+	for (uint32 i = 0; i < facts->columns.attributes; i++)
 		same[i] = i;
-	host_run(host, abacus_build_open, &host->table, header, setting_cache_bytes(), &build);
+	host_run(host, abacus_build_open, &host->table, facts, setting_cache_bytes(), &build);
 	host_own(host, build, (void (*) (void *)) abacus_build_close);
-	host_run(host, abacus_build_change_attributes, build, same, header->attributes,
-			 setting_sort_bytes(), header);
+	host_run(host, abacus_build_change_attributes, build, same, facts->columns.attributes,
+			 setting_sort_bytes(), writer->header);
 	host_own(host, NULL, NULL);
 	pfree(same);
 	ereport(NOTICE,
 			(errmsg("mesh \"%s\" has its attributes in pages of their own",
 					get_rel_name(mesh_pages(host)->mesh)),
-			 header->labels > 0 || header->marked > 0 ? 0 :
+			 facts->columns.labels > 0 || facts->census.marked > 0 ? 0 :
 			 errdetail("It has format 4 now; versions of Abacus that read format 3 only do not read it.")));
 }
 
@@ -133,20 +133,20 @@ static void
 insert_all(Writer *writer, uint64 batch)
 {
 	Host	   *host = writer->host;
-	abacus_header *header = writer->header;
-	uint64		duplicates = header->duplicates;
+	const abacus_facts *facts = &writer->header->facts;
+	uint64		duplicates = facts->census.duplicates;
 	abacus_build *build = NULL;
 
-	if (!header->apart && abacus_are_apart(header->dimension, header->attributes))
+	if (!facts->columns.apart && abacus_are_apart(facts->form.dimension, facts->columns.attributes))
 	{
 		move_attributes_apart(writer);
 		commit(writer);
 	}
-	host_run(host, abacus_build_open, &host->table, header, setting_cache_bytes(), &build);
+	host_run(host, abacus_build_open, &host->table, facts, setting_cache_bytes(), &build);
 	host_own(host, build, (void (*) (void *)) abacus_build_close);
 	if (rekey(writer, build))
 		commit(writer);
-	while (header->inserted < header->staged && insert_batch(writer, build, batch))
+	while (facts->census.inserted < facts->census.staged && insert_batch(writer, build, batch))
 		commit(writer);
 	notice_duplicates(writer, duplicates, false);
 	notice_waiting(writer);
@@ -162,7 +162,7 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 	int64		batch;
 	LockRelId	lock;
 	Writer		writer;
-	abacus_header *header;
+	const abacus_facts *facts;
 	Host	   *host;
 	PageTable  *simplices;
 
@@ -184,12 +184,12 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 	lock = mesh_lock_for_session(mesh);
 	writer_begin(&writer, mesh, MESH_WRITE, "abacus_build()");
 	host = writer.host;
-	header = writer.header;
+	facts = &writer.header->facts;
 	simplices = &mesh_pages(host)->simplices;
 	simplices->superseded = superseded_create(host->home);
-	progress_in_batches(&host->progress, header->staged - header->inserted);
+	progress_in_batches(&host->progress, facts->census.staged - facts->census.inserted);
 	/* what is no Delaunay triangulation has no points that wait, and may yet have to be bound */
-	if (abacus_is_editable(header->standing))
+	if (abacus_is_editable(facts->standing))
 		insert_all(&writer, (uint64) batch);
 	compact(&writer, true, true);
 	vertices = mesh_pages_vertex_table(mesh_pages(host));

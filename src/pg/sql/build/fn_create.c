@@ -24,10 +24,10 @@ abacus_sql_create(PG_FUNCTION_ARGS)
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
 				 errmsg("mesh and dimension must not be NULL")));
-	shape_dimension(header, PG_GETARG_INT32(1));
+	shape_dimension(&header->facts.form, PG_GETARG_INT32(1));
 	if (!PG_ARGISNULL(2))
 		shape_attributes(header, PG_GETARG_ARRAYTYPE_P(2));
-	shape_domain(header, PG_ARGISNULL(3) ? NULL : PG_GETARG_ARRAYTYPE_P(3),
+	shape_domain(&header->facts.form, PG_ARGISNULL(3) ? NULL : PG_GETARG_ARRAYTYPE_P(3),
 				 PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4));
 	PG_RETURN_OID(new_mesh(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid),
 						   header, "abacus_create()"));

@@ -92,7 +92,7 @@ end(Change *change, Answers *answers)
 	if (answers != NULL)
 	{
 		answers->host = change->writer.host;
-		answers->dimension = change->writer.header->dimension;
+		answers->dimension = change->writer.header->facts.form.dimension;
 		change_report(change, put_simplex, answers);
 	}
 	change_end(change);
@@ -152,14 +152,14 @@ static uint64
 delete_query(Oid mesh, Source *source, Answers *answers, const char *command)
 {
 	Change	   *change = begin(mesh, answers, command);
-	abacus_header *shape = palloc(sizeof(abacus_header));
+	abacus_names names = abacus_names_of(change->writer.header);
+	abacus_facts shape = *names.facts;
 	uint64		deleted;
 
 	/* id and coordinates say which points; attributes may follow, as in abacus_insert() */
-	abacus_header_copy(shape, change->writer.header);
-	if (source_columns(source) == source_first_attribute(source, shape->dimension))
-		shape->attributes = 0;
-	change_read_gone(change, source, shape);
+	if (source_columns(source) == source_first_attribute(source, shape.form.dimension))
+		shape.columns.attributes = 0;
+	change_read_gone(change, source, (abacus_names) {&shape, names.of});
 	deleted = change_delete(change, false);
 	end(change, answers);
 	return deleted;

@@ -18,7 +18,7 @@ SQL_FUNCTION(abacus_sql_set_srid);
 Datum
 abacus_sql_srid(PG_FUNCTION_ARGS)
 {
-	PG_RETURN_INT32((int32) mesh_cache_get_any(PG_GETARG_OID(0))->header.srid);
+	PG_RETURN_INT32((int32) mesh_cache_get_any(PG_GETARG_OID(0))->header.facts.form.srid);
 }
 
 /* abacus_set_srid(mesh regclass, srid int) */
@@ -34,7 +34,7 @@ abacus_sql_set_srid(PG_FUNCTION_ARGS)
 				 errmsg("srid must be from 0 to %d, not %d", ABACUS_MAX_SRID, srid),
 				 errhint("0 stands for no spatial reference system.")));
 	writer_begin_of(&writer, PG_GETARG_OID(0), ANY_TYPE, "abacus_set_srid()");
-	writer.header->srid = (uint32) srid;
+	writer.header->facts.form.srid = (uint32) srid;
 	writer_end(&writer);
 	PG_RETURN_VOID();
 }

@@ -26,7 +26,7 @@ abacus_sql_stage(PG_FUNCTION_ARGS)
 	by_hand_refuse_points(change);
 	host = change->writer.host;
 	change_read(change, &source);
-	host_run(host, abacus_stage_finish, change->stage, change->writer.header);
+	host_run(host, abacus_stage_finish, change->stage, &change->writer.header->facts);
 	points = change->points;
 	change_end(change);
 	source_finish(&source);

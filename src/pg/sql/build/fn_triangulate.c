@@ -29,7 +29,7 @@ abacus_sql_triangulate(PG_FUNCTION_ARGS)
 	change_open_build(change);
 	host_run(host, abacus_build_rekey, change->build, setting_sort_bytes(), header, &rekeyed);
 	host_run(host, abacus_build_run, change->build, 0, header);
-	simplices = header->simplices;
+	simplices = header->facts.census.simplices;
 	change->inserts = true;
 	change_end(change);
 	PG_RETURN_INT64((int64) simplices);
@@ -39,14 +39,14 @@ abacus_sql_triangulate(PG_FUNCTION_ARGS)
 static void
 name_attributes(abacus_header *header, const Source *source)
 {
-	int			first = source_first_attribute(source, header->dimension);
+	int			first = source_first_attribute(source, header->facts.form.dimension);
 
 	for (int i = first; i < source_columns(source); i++)
 	{
 		const char *name = source_column_name(source, i);
 
 		shape_attribute(header, name);
-		if (header->dimension == 2 && first == 3 && strcmp(name, "z") == 0) /* beside x and y */
+		if (header->facts.form.dimension == 2 && first == 3 && strcmp(name, "z") == 0) /* beside x and y */
 			ereport(NOTICE,
 					(errmsg("column \"z\" is an attribute of a mesh of dimension 2"),
 					 errhint("With dimension => 3 it is a coordinate. To keep it as an attribute without this notice, "
@@ -69,10 +69,10 @@ abacus_sql_triangulate_query(PG_FUNCTION_ARGS)
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
 				 errmsg("mesh, query and dimension must not be NULL")));
-	shape_dimension(header, PG_GETARG_INT32(3));
+	shape_dimension(&header->facts.form, PG_GETARG_INT32(3));
 	if (!PG_ARGISNULL(2))
 		shape_attributes(header, PG_GETARG_ARRAYTYPE_P(2));
-	shape_domain(header, PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4),
+	shape_domain(&header->facts.form, PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4),
 				 PG_ARGISNULL(5) ? NULL : PG_GETARG_ARRAYTYPE_P(5));
 
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
@@ -82,5 +82,5 @@ abacus_sql_triangulate_query(PG_FUNCTION_ARGS)
 					"abacus_triangulate()");
 	change_insert_query(mesh, &source, "abacus_triangulate()", header);
 	source_finish(&source);
-	PG_RETURN_INT64((int64) header->simplices);
+	PG_RETURN_INT64((int64) header->facts.census.simplices);
 }

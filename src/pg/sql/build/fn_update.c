@@ -23,11 +23,11 @@ static abacus_header *
 shape_of_rows(const Source *source, const abacus_header *header, uint32 *attributes)
 {
 	abacus_header *shape = palloc(sizeof(abacus_header));
-	int			first = source_first_attribute(source, header->dimension);
+	int			first = source_first_attribute(source, header->facts.form.dimension);
 	int			columns = source_columns(source);
 
 	abacus_header_copy(shape, header);
-	shape->attributes = 0;
+	shape->facts.columns.attributes = 0;
 	if (columns <= first)
 		ereport(ERROR,
 				(errcode(ERRCODE_DATATYPE_MISMATCH),
@@ -37,7 +37,7 @@ shape_of_rows(const Source *source, const abacus_header *header, uint32 *attribu
 	{
 		const char *name = source_column_name(source, i);
 
-		attributes[i - first] = (uint32) header_find_attribute(header, name);
+		attributes[i - first] = (uint32) header_find_attribute(abacus_names_of(header), name);
 		shape_attribute(shape, name);
 	}
 	return shape;
@@ -50,7 +50,7 @@ refuse_missing(const Change *change, const abacus_named_place *missing)
 	StringInfoData place;
 
 	initStringInfo(&place);
-	for (uint32 i = 0; i < change->writer.header->dimension; i++)
+	for (uint32 i = 0; i < change->writer.header->facts.form.dimension; i++)
 		appendStringInfo(&place, "%s%s", i > 0 ? ", " : "",
 						 DatumGetCString(DirectFunctionCall1(float8out,
 															 Float8GetDatum(missing->point[i]))));
@@ -68,16 +68,17 @@ update_query(Oid mesh, Source *source)
 {
 	Change	   *change = change_begin(mesh, "abacus_update()");
 	const abacus_header *header = change->writer.header;
-	uint32	   *attributes = palloc(Max(header->attributes, source_columns(source)) * sizeof(uint32));
+	uint32	   *attributes = palloc(Max(header->facts.columns.attributes, source_columns(source)) *
+								sizeof(uint32));
 	abacus_header *shape;
 	abacus_named_place missing;
 	uint64		points;
 
 	by_hand_refuse_points(change);
 	shape = shape_of_rows(source, header, attributes);
-	change_read_gone(change, source, shape);
+	change_read_gone(change, source, abacus_names_of(shape));
 	points = change->points;
-	if (change_update(change, attributes, shape->attributes, false, &missing) < points)
+	if (change_update(change, attributes, shape->facts.columns.attributes, false, &missing) < points)
 		refuse_missing(change, &missing);
 	change_end(change);
 	return points;

@@ -56,26 +56,27 @@ read_header(Checking *checking, abacus_header *header)
 
 /* Notes a damaged row with the numbers of attributes. */
 static void
-check_numbers(Checking *checking, const abacus_header *header)
+check_numbers(Checking *checking, const abacus_columns *columns)
 {
 	Numbering  *numbering = palloc(sizeof(Numbering));
 
-	if (!numbering_try_read(checking->host, header, numbering))
+	if (!numbering_try_read(checking->host, columns, numbering))
 		note_fault(checking, "header", numbering_key, "The numbers of attributes are not valid.");
 	pfree(numbering);
 }
 
 /* Notes the first row besides those of the header where no page can be. */
 static void
-look_before_pages(Checking *checking, const abacus_header *header)
+look_before_pages(Checking *checking, const abacus_facts *facts)
 {
 	static const int64 attributes_end[PAGE_TABLE_KEYS] = {-2, PG_INT64_MAX};
 	PageTable  *table = &mesh_pages(checking->host)->simplices;
 	StoredPage	row;
-	bool		has_attributes = header->apart || header->labels > 0 || header->marked > 0;
+	bool		has_attributes = facts->columns.apart || facts->columns.labels > 0 ||
+		facts->census.marked > 0;
 	bool		found = page_table_next(table, has_attributes ? attributes_end : NULL, &row);
 
-	for (uint32 i = 0; i <= abacus_header_name_rows(header) && found; i++)
+	for (uint32 i = 0; i <= abacus_header_name_rows(&facts->columns) && found; i++)
 	{
 		int64		key[PAGE_TABLE_KEYS] = {header_key[0], header_key[1] + i};
 
@@ -90,14 +91,14 @@ look_before_pages(Checking *checking, const abacus_header *header)
 
 /* Lets the core verify everything; it keeps at most so many faults. */
 static void
-check_pages(Checking *checking, Oid mesh, const abacus_header *header, int32 limit)
+check_pages(Checking *checking, Oid mesh, const abacus_facts *facts, int32 limit)
 {
 	Host	   *host = checking->host;
 	abacus_check *check = NULL;
 
-	header_open_vertices(host, header);
+	header_open_vertices(host, facts);
 	progress_begin(&host->progress, mesh);
-	host_run(host, abacus_check_open, &host->table, header, setting_cache_bytes(), limit, &check);
+	host_run(host, abacus_check_open, &host->table, facts, setting_cache_bytes(), limit, &check);
 	progress_end(&host->progress);
 	host_own(host, check, (void (*) (void *)) abacus_check_close);
 }
@@ -128,14 +129,14 @@ look_for_first_fault(Checking *checking)
 
 /* Says how many simplices of a sound mesh are so flat that doubles do not tell their volume. */
 static void
-notice_flat(const Checking *checking, Relation table, const abacus_header *header)
+notice_flat(const Checking *checking, Relation table, const abacus_form *form)
 {
 	uint64		flat = abacus_check_flat(checking->host->handle);
 
 	if (flat == 0)
 		return;
 	ereport(NOTICE,
-			(header->dimension == 2
+			(form->dimension == 2
 			 ? errmsg_plural(UINT64_FORMAT " triangle of mesh \"%s\" is flat in doubles",
 							 UINT64_FORMAT " triangles of mesh \"%s\" are flat in doubles",
 							 (unsigned long) flat, flat, RelationGetRelationName(table))
@@ -143,7 +144,7 @@ notice_flat(const Checking *checking, Relation table, const abacus_header *heade
 							 UINT64_FORMAT " tetrahedra of mesh \"%s\" are flat in doubles",
 							 (unsigned long) flat, flat, RelationGetRelationName(table)),
 			 errdetail("The mesh is sound, and values there are right. Only %s this small are lost in rounding.",
-					   header->dimension == 2 ? "areas" : "volumes")));
+					   form->dimension == 2 ? "areas" : "volumes")));
 }
 
 static Checking *
@@ -157,19 +158,19 @@ begin_check(Oid mesh, int32 limit, MemoryContext memory)
 	mesh_pages(checking->host)->type = ANY_TYPE;
 	if (read_header(checking, &header))
 	{
-		look_before_pages(checking, &header);
+		look_before_pages(checking, &header.facts);
 		if (!checking->has_fault)
-			check_numbers(checking, &header);
+			check_numbers(checking, &header.facts.columns);
 		limit -= checking->has_fault;
 		if (limit > 0)
-			check_pages(checking, mesh, &header, limit);
+			check_pages(checking, mesh, &header.facts, limit);
 	}
 	if (!checking->has_fault)
 		look_for_first_fault(checking);
 	if (checking->has_fault)
 		host_doubt_pages(checking->host);
 	else if (checking->host->handle != NULL)
-		notice_flat(checking, table, &header);
+		notice_flat(checking, table, &header.facts.form);
 	host_release(checking->host);
 	table_close(table, NoLock);
 	return checking;

@@ -91,8 +91,8 @@ put_sizes(Figures *figures, const Reader *reader, Oid vertices)
 			   "size of the table of points that wait or are repeated");
 	put_figure(figures, "vertex_index_bytes", bytes_of(pg_indexes_size, vertices),
 			   "size of its index");
-	if (reader->header.simplices > 0)
-		put_figure(figures, "bytes_per_simplex", (table + index) / reader->header.simplices,
+	if (reader->header.facts.census.simplices > 0)
+		put_figure(figures, "bytes_per_simplex", (table + index) / reader->header.facts.census.simplices,
 				   "simplex table and index, per simplex");
 }
 
@@ -112,37 +112,37 @@ put_delaunay(Figures *figures, abacus_delaunay delaunay)
 }
 
 static void
-put_srid(Figures *figures, const abacus_header *header)
+put_srid(Figures *figures, const abacus_form *form)
 {
-	if (header->srid != 0)
-		put_figure(figures, "srid", header->srid,
+	if (form->srid != 0)
+		put_figure(figures, "srid", form->srid,
 				   "spatial reference system of the coordinates, as PostGIS numbers it");
 }
 
 /* Rows about what only some meshes have. */
 static void
-put_labels(Figures *figures, const abacus_header *header)
+put_labels(Figures *figures, const abacus_facts *facts)
 {
-	if (header->labels > 0)
+	if (facts->columns.labels > 0)
 	{
-		put_figure(figures, "labels", header->labels, "labels that a simplex may have");
-		put_figure(figures, "labelled", (double) header->labelled, "simplices that have labels");
-		put_figure(figures, "labels_inherited", header->inherits,
+		put_figure(figures, "labels", facts->columns.labels, "labels that a simplex may have");
+		put_figure(figures, "labelled", (double) facts->census.labelled, "simplices that have labels");
+		put_figure(figures, "labels_inherited", facts->columns.inherits,
 				   "1: new simplices get the labels of the one that their centroid lay in; 0: none");
 	}
-	if (header->marked > 0)
-		put_figure(figures, "marked", (double) header->marked,
+	if (facts->census.marked > 0)
+		put_figure(figures, "marked", (double) facts->census.marked,
 				   "simplices beside a facet with a marker");
 }
 
 static void
-put_octree_counts(Figures *figures, const abacus_header *header)
+put_octree_counts(Figures *figures, const abacus_facts *facts)
 {
-	put_figure(figures, "dimension", header->dimension, "2 for a quadtree, 3 for an octree");
-	put_figure(figures, "attributes", header->attributes, "attributes of a leaf");
-	put_figure(figures, "levels", header->levels, "the finest level that a leaf may have");
-	put_figure(figures, "leaves", (double) header->leaves, "leaves of the octree");
-	put_srid(figures, header);
+	put_figure(figures, "dimension", facts->form.dimension, "2 for a quadtree, 3 for an octree");
+	put_figure(figures, "attributes", facts->columns.attributes, "attributes of a leaf");
+	put_figure(figures, "levels", facts->form.levels, "the finest level that a leaf may have");
+	put_figure(figures, "leaves", (double) facts->census.leaves, "leaves of the octree");
+	put_srid(figures, &facts->form);
 }
 
 /* Its table has octants where that of a mesh has simplices. */
@@ -155,37 +155,37 @@ put_octree_sizes(Figures *figures, const Reader *reader)
 
 	put_figure(figures, "octant_table_bytes", table, "size of the table of octants");
 	put_figure(figures, "octant_index_bytes", index, "size of its page index");
-	put_figure(figures, "bytes_per_leaf", (table + index) / reader->header.leaves,
+	put_figure(figures, "bytes_per_leaf", (table + index) / reader->header.facts.census.leaves,
 			   "table of octants and index, per leaf");
 }
 
 static void
-put_counts(Figures *figures, const abacus_header *header)
+put_counts(Figures *figures, const abacus_facts *facts)
 {
-	double		inserted = (double) header->vertices + (double) header->duplicates;
-	double		waiting = (double) (header->staged - header->inserted);
+	double		inserted = (double) facts->census.vertices + (double) facts->census.duplicates;
+	double		waiting = (double) (facts->census.staged - facts->census.inserted);
 
-	put_figure(figures, "dimension", header->dimension, "2 for triangles, 3 for tetrahedra");
-	put_figure(figures, "attributes", header->attributes, "attributes of a vertex");
+	put_figure(figures, "dimension", facts->form.dimension, "2 for triangles, 3 for tetrahedra");
+	put_figure(figures, "attributes", facts->columns.attributes, "attributes of a vertex");
 	put_figure(figures, "points", inserted + waiting, "all points");
 	put_figure(figures, "inserted", inserted, "points in the triangulation");
 	put_figure(figures, "waiting", waiting, "points that wait to be inserted");
-	put_figure(figures, "vertices", (double) header->vertices,
+	put_figure(figures, "vertices", (double) facts->census.vertices,
 			   "distinct points in the triangulation; 0 while they span no simplex");
-	put_figure(figures, "duplicates", (double) header->duplicates,
+	put_figure(figures, "duplicates", (double) facts->census.duplicates,
 			   "points in the triangulation that equal an earlier one");
-	put_figure(figures, "simplices", (double) header->simplices, "simplices of the mesh");
-	put_figure(figures, "hull_facets", (double) header->ghosts,
-			   abacus_is_delaunay(header->standing) ? "facets of its convex hull"
+	put_figure(figures, "simplices", (double) facts->census.simplices, "simplices of the mesh");
+	put_figure(figures, "hull_facets", (double) facts->census.ghosts,
+			   abacus_is_delaunay(facts->standing) ? "facets of its convex hull"
 			   : "facets of its boundary");
-	put_figure(figures, "outside", (double) header->outside,
+	put_figure(figures, "outside", (double) facts->census.outside,
 			   "points that the domain does not fit, since it was last chosen");
-	put_delaunay(figures, header->standing);
-	if (header->split > 0)
-		put_figure(figures, "split_nodes", (double) header->split,
+	put_delaunay(figures, facts->standing);
+	if (facts->census.split > 0)
+		put_figure(figures, "split_nodes", (double) facts->census.split,
 				   "vertices that share their place with another one");
-	put_labels(figures, header);
-	put_srid(figures, header);
+	put_labels(figures, facts);
+	put_srid(figures, &facts->form);
 }
 
 /*
@@ -196,12 +196,12 @@ static void
 report_domain(Reader *reader)
 {
 	Host	   *host = reader->host;
-	const abacus_header *header = &reader->header;
+	const abacus_facts *facts = &reader->header.facts;
 	int			fits;
 
-	if (!abacus_is_editable(header->standing))
+	if (!abacus_is_editable(facts->standing))
 		return;
-	host_run(host, abacus_domain_fits, &host->table, header, &fits);
+	host_run(host, abacus_domain_fits, &host->table, facts, &fits);
 	if (!fits)
 		ereport(NOTICE,
 				(errmsg("the domain of mesh \"%s\" does not fit its points",
@@ -218,7 +218,7 @@ abacus_sql_stats(PG_FUNCTION_ARGS)
 	Oid			mesh = PG_GETARG_OID(0);
 	Figures		figures = {(ReturnSetInfo *) fcinfo->resultinfo, ""};
 	Reader	   *reader = reader_open_of(mesh, ANY_TYPE, CurrentMemoryContext);
-	bool		is_octree = reader->header.type == ABACUS_OCTREE;
+	bool		is_octree = reader->header.facts.form.type == ABACUS_OCTREE;
 	Oid			vertices = mesh_pages_vertex_table(mesh_pages(reader->host));
 	const CachedMesh *cached = mesh_cache_peek(mesh);
 
@@ -228,15 +228,15 @@ abacus_sql_stats(PG_FUNCTION_ARGS)
 	InitMaterializedSRF(fcinfo, 0);
 	if (is_octree)
 	{
-		put_octree_counts(&figures, &reader->header);
+		put_octree_counts(&figures, &reader->header.facts);
 		put_octree_sizes(&figures, reader);
 	}
 	else
 	{
-		put_counts(&figures, &reader->header);
+		put_counts(&figures, &reader->header.facts);
 		put_sizes(&figures, reader, vertices);
 	}
-	put_counters(&figures, &reader->header.counters, reader->header.type, false);
+	put_counters(&figures, &reader->header.counters, reader->header.facts.form.type, false);
 	if (cached != NULL)
 	{
 		abacus_counters counters;
@@ -246,7 +246,7 @@ abacus_sql_stats(PG_FUNCTION_ARGS)
 		else
 			abacus_mesh_counters(cached->mesh, &counters);
 		figures.prefix = "session_";
-		put_counters(&figures, &counters, reader->header.type, true);
+		put_counters(&figures, &counters, reader->header.facts.form.type, true);
 	}
 	host_destroy(reader->host);
 	PG_RETURN_NULL();

@@ -78,15 +78,14 @@ array(FunctionCallInfo fcinfo, int argument)
 
 /* The window, by the same rules as the domain of a new mesh; empty if not given. */
 static void
-window(const abacus_header *mesh, ArrayType *lower, ArrayType *upper, abacus_drawing *drawing)
+window(const abacus_form *mesh, ArrayType *lower, ArrayType *upper, abacus_drawing *drawing)
 {
-	abacus_header *shape = palloc0(sizeof(abacus_header));
+	abacus_form shape = {0};
 
-	shape->dimension = mesh->dimension;
-	shape_domain(shape, lower, upper);
-	memcpy(drawing->lower, shape->lower, sizeof(drawing->lower));
-	memcpy(drawing->upper, shape->upper, sizeof(drawing->upper));
-	pfree(shape);
+	shape.dimension = mesh->dimension;
+	shape_domain(&shape, lower, upper);
+	memcpy(drawing->lower, shape.lower, sizeof(drawing->lower));
+	memcpy(drawing->upper, shape.upper, sizeof(drawing->upper));
 }
 
 /* A text in the core's encoding; NULL if it is not given. */
@@ -144,21 +143,21 @@ open_drawn(Oid drawn)
 
 /* The number of an attribute, or, behind these, of a label, by its name; -1 if it is not given. */
 static int
-attribute_or_label(FunctionCallInfo fcinfo, int argument, const abacus_header *header)
+attribute_or_label(FunctionCallInfo fcinfo, int argument, abacus_names names)
 {
 	if (!PG_ARGISNULL(argument))
 	{
 		const char *name = text_to_cstring(PG_GETARG_TEXT_PP(argument));
-		int			label = header_label(header, name);
+		int			label = header_label(names, name);
 
 		if (label >= 0)
-			return (int) header->attributes + label;
-		if (header->labels > 0 && header_attribute(header, name) < 0)
+			return (int) names.facts->columns.attributes + label;
+		if (names.facts->columns.labels > 0 && header_attribute(names, name) < 0)
 			ereport(ERROR,
 					(errcode(ERRCODE_UNDEFINED_COLUMN),
 					 errmsg("mesh has no attribute or label \"%s\"", name)));
 	}
-	return attribute_or_none(fcinfo, argument, header);
+	return attribute_or_none(fcinfo, argument, names);
 }
 
 /*
@@ -166,12 +165,12 @@ attribute_or_label(FunctionCallInfo fcinfo, int argument, const abacus_header *h
  * simplex has one label of a name.
  */
 static void
-leave_contours_out(const abacus_header *header, abacus_drawing *drawing)
+leave_contours_out(const abacus_facts *facts, abacus_drawing *drawing)
 {
-	bool		is_octree = header->type == ABACUS_OCTREE;
+	bool		is_octree = facts->form.type == ABACUS_OCTREE;
 
 	if (drawing->contour_interval == 0 ||
-		!(is_octree || drawing->attribute >= (int) header->attributes))
+		!(is_octree || drawing->attribute >= (int) facts->columns.attributes))
 		return;
 	drawing->contour_interval = 0;
 	ereport(NOTICE, (errmsg("contours has no effect on %s", is_octree ? "an octree" : "a label")));
@@ -182,10 +181,10 @@ static void
 tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cells,
 		   const char *place)
 {
-	const abacus_header *header = &reader->header;
-	uint64		waiting = header->staged - header->inserted;
-	bool		is_octree = header->type == ABACUS_OCTREE;
-	bool		has_cells = is_octree || header->simplices > 0;
+	const abacus_facts *facts = &reader->header.facts;
+	uint64		waiting = facts->census.staged - facts->census.inserted;
+	bool		is_octree = facts->form.type == ABACUS_OCTREE;
+	bool		has_cells = is_octree || facts->census.simplices > 0;
 
 	if (is_octree)
 		cells = "leaves";
@@ -218,24 +217,24 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	reader = open_drawn(PG_GETARG_OID(DRAW_MESH));
 	host = reader->host;
-	header_require_dimension(&reader->header, 2, "Use abacus_draw_section for a cut through it.");
+	header_require_dimension(&reader->header.facts.form, 2, "Use abacus_draw_section for a cut through it.");
 	drawing.width = drawing_pixels(fcinfo, DRAW_WIDTH, 1024, "width");
 	drawing.height = drawing_pixels(fcinfo, DRAW_HEIGHT, 0, "height");
-	drawing.attribute = attribute_or_label(fcinfo, DRAW_ATTRIBUTE, &reader->header);
+	drawing.attribute = attribute_or_label(fcinfo, DRAW_ATTRIBUTE, abacus_names_of(&reader->header));
 	drawing.edges = PG_ARGISNULL(DRAW_EDGES) || PG_GETARG_BOOL(DRAW_EDGES);
 	drawing.exaggeration = drawing_factor(fcinfo, DRAW_EXAGGERATION, "exaggeration");
 	drawing.max_edge = drawing_factor(fcinfo, DRAW_MAX_EDGE, "max_edge");
 	drawing_range(fcinfo, DRAW_RANGE, &drawing);
 	style(fcinfo, DRAW_STYLE, &drawing);
-	leave_contours_out(&reader->header, &drawing);
+	leave_contours_out(&reader->header.facts, &drawing);
 	light(fcinfo, DRAW_LIGHT, &drawing);
 	if (drawing.exaggeration > 0 && drawing.attribute < 0)
 		ereport(NOTICE, (errmsg("exaggeration has no effect without an attribute")));
 	else if (drawing.exaggeration > 0)
-		units_tell_shading(&reader->header, drawing.exaggeration);
-	window(&reader->header, array(fcinfo, DRAW_LOWER), array(fcinfo, DRAW_UPPER), &drawing);
+		units_tell_shading(&reader->header.facts.form, drawing.exaggeration);
+	window(&reader->header.facts.form, array(fcinfo, DRAW_LOWER), array(fcinfo, DRAW_UPPER), &drawing);
 
-	host_run(host, abacus_draw, &host->table, &reader->header, &drawing, &picture);
+	host_run(host, abacus_draw, &host->table, &reader->header.facts, &drawing, &picture);
 	if (picture.is_blank)
 		tell_blank(reader, &drawing, "triangles", "in the window");
 	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
@@ -261,22 +260,22 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	reader = open_drawn(PG_GETARG_OID(SECTION_MESH));
 	host = reader->host;
-	header_require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
-	shape_point(&reader->header, array(fcinfo, SECTION_THROUGH), "through", section.through);
-	shape_point(&reader->header, array(fcinfo, SECTION_NORMAL), "normal", section.normal);
+	header_require_dimension(&reader->header.facts.form, 3, "Use abacus_draw for a mesh of dimension 2.");
+	shape_point(&reader->header.facts.form, array(fcinfo, SECTION_THROUGH), "through", section.through);
+	shape_point(&reader->header.facts.form, array(fcinfo, SECTION_NORMAL), "normal", section.normal);
 	section.exaggeration = PG_ARGISNULL(SECTION_EXAGGERATION) ? 1 :
 		PG_GETARG_FLOAT8(SECTION_EXAGGERATION);
 	drawing.width = drawing_pixels(fcinfo, SECTION_WIDTH, 1024, "width");
 	drawing.height = drawing_pixels(fcinfo, SECTION_HEIGHT, 0, "height");
-	drawing.attribute = attribute_or_label(fcinfo, SECTION_ATTRIBUTE, &reader->header);
+	drawing.attribute = attribute_or_label(fcinfo, SECTION_ATTRIBUTE, abacus_names_of(&reader->header));
 	drawing.edges = PG_ARGISNULL(SECTION_EDGES) || PG_GETARG_BOOL(SECTION_EDGES);
 	drawing.max_edge = drawing_factor(fcinfo, SECTION_MAX_EDGE, "max_edge");
 	drawing_range(fcinfo, SECTION_RANGE, &drawing);
 	style(fcinfo, SECTION_STYLE, &drawing);
-	leave_contours_out(&reader->header, &drawing);
-	window(&reader->header, array(fcinfo, SECTION_LOWER), array(fcinfo, SECTION_UPPER), &drawing);
+	leave_contours_out(&reader->header.facts, &drawing);
+	window(&reader->header.facts.form, array(fcinfo, SECTION_LOWER), array(fcinfo, SECTION_UPPER), &drawing);
 
-	host_run(host, abacus_draw_section, &host->table, &reader->header, &section, &drawing,
+	host_run(host, abacus_draw_section, &host->table, &reader->header.facts, &section, &drawing,
 			 &picture);
 	if (picture.is_blank)
 		tell_blank(reader, &drawing, "tetrahedra",
@@ -311,21 +310,21 @@ static const char *const ray_modes[] = {"mean", "max", "min", "sum", NULL};
 
 /* A point or direction of the camera; false if it is not given. */
 static bool
-camera_vector(FunctionCallInfo fcinfo, int argument, const abacus_header *header, const char *name,
+camera_vector(FunctionCallInfo fcinfo, int argument, const abacus_form *form, const char *name,
 			  double *vector)
 {
 	if (PG_ARGISNULL(argument))
 		return false;
-	shape_point(header, PG_GETARG_ARRAYTYPE_P(argument), name, vector);
+	shape_point(form, PG_GETARG_ARRAYTYPE_P(argument), name, vector);
 	return true;
 }
 
 static void
-camera_arguments(FunctionCallInfo fcinfo, const abacus_header *header, abacus_camera *camera)
+camera_arguments(FunctionCallInfo fcinfo, const abacus_form *form, abacus_camera *camera)
 {
-	camera->has_eye = camera_vector(fcinfo, VOLUME_EYE, header, "eye", camera->eye);
-	camera->has_toward = camera_vector(fcinfo, VOLUME_TOWARD, header, "toward", camera->toward);
-	camera->has_up = camera_vector(fcinfo, VOLUME_UP, header, "up", camera->up);
+	camera->has_eye = camera_vector(fcinfo, VOLUME_EYE, form, "eye", camera->eye);
+	camera->has_toward = camera_vector(fcinfo, VOLUME_TOWARD, form, "toward", camera->toward);
+	camera->has_up = camera_vector(fcinfo, VOLUME_UP, form, "up", camera->up);
 	camera->field_of_view = PG_ARGISNULL(VOLUME_FIELD_OF_VIEW) ? 0
 		: PG_GETARG_FLOAT8(VOLUME_FIELD_OF_VIEW);
 	camera->mode = word_argument(fcinfo, VOLUME_MODE, ray_modes, "mode",
@@ -351,11 +350,11 @@ abacus_sql_draw_volume(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	reader = reader_open(PG_GETARG_OID(VOLUME_MESH), CurrentMemoryContext);
 	host = reader->host;
-	header_require_dimension(&reader->header, 3, "Use abacus_draw for a mesh of dimension 2.");
-	camera_arguments(fcinfo, &reader->header, &camera);
+	header_require_dimension(&reader->header.facts.form, 3, "Use abacus_draw for a mesh of dimension 2.");
+	camera_arguments(fcinfo, &reader->header.facts.form, &camera);
 	drawing.width = drawing_pixels(fcinfo, VOLUME_WIDTH, 1024, "width");
 	drawing.height = drawing_pixels(fcinfo, VOLUME_HEIGHT, 0, "height");
-	drawing.attribute = attribute_or_none(fcinfo, VOLUME_ATTRIBUTE, &reader->header);
+	drawing.attribute = attribute_or_none(fcinfo, VOLUME_ATTRIBUTE, abacus_names_of(&reader->header));
 	drawing.max_edge = drawing_factor(fcinfo, VOLUME_MAX_EDGE, "max_edge");
 	if (!PG_ARGISNULL(VOLUME_RANGE))
 		shape_range(PG_GETARG_ARRAYTYPE_P(VOLUME_RANGE), "range", drawing.range);
@@ -363,10 +362,10 @@ abacus_sql_draw_volume(PG_FUNCTION_ARGS)
 		drawing.ramp = drawing_ramp_argument(fcinfo, VOLUME_RAMP);
 	drawing.legend = caption(fcinfo, VOLUME_LEGEND);
 	drawing.transparent = is_true(fcinfo, VOLUME_TRANSPARENT);
-	window(&reader->header, array(fcinfo, VOLUME_LOWER), array(fcinfo, VOLUME_UPPER), &drawing);
+	window(&reader->header.facts.form, array(fcinfo, VOLUME_LOWER), array(fcinfo, VOLUME_UPPER), &drawing);
 
 	progress_begin(&host->progress, PG_GETARG_OID(VOLUME_MESH));
-	host_run(host, abacus_draw_volume, &host->table, &reader->header, &camera, &drawing, &picture);
+	host_run(host, abacus_draw_volume, &host->table, &reader->header.facts, &camera, &drawing, &picture);
 	progress_end(&host->progress);
 	if (picture.is_blank)
 		tell_blank(reader, &drawing, "tetrahedra", "met by a ray");

@@ -92,11 +92,11 @@ own_world(ArrayType *array, abacus_tile *tile)
 
 /* What the coordinates of the mesh are: as its header says, unless it is silent. */
 static int32
-tile_srid(FunctionCallInfo fcinfo, const abacus_header *header)
+tile_srid(FunctionCallInfo fcinfo, const abacus_form *form)
 {
-	int32		srid = PG_ARGISNULL(TILE_SRID) ? (int32) header->srid : PG_GETARG_INT32(TILE_SRID);
+	int32		srid = PG_ARGISNULL(TILE_SRID) ? (int32) form->srid : PG_GETARG_INT32(TILE_SRID);
 
-	header_require_srid(header, srid);
+	header_require_srid(form, srid);
 	if (srid == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
@@ -112,14 +112,14 @@ tile_srid(FunctionCallInfo fcinfo, const abacus_header *header)
 
 /* The map that tiles are of: Web Mercator, or one of its own. */
 static void
-tile_world(FunctionCallInfo fcinfo, const abacus_header *header, abacus_tile *tile)
+tile_world(FunctionCallInfo fcinfo, const abacus_form *form, abacus_tile *tile)
 {
 	if (!PG_ARGISNULL(TILE_WORLD))
 	{
 		own_world(PG_GETARG_ARRAYTYPE_P(TILE_WORLD), tile);
 		return;
 	}
-	tile->is_geographic = tile_srid(fcinfo, header) == 4326;
+	tile->is_geographic = tile_srid(fcinfo, form) == 4326;
 	tile->lower[0] = tile->lower[1] = -HALF_WORLD;
 	tile->side = 2 * HALF_WORLD;
 }
@@ -135,8 +135,8 @@ tile_begin(FunctionCallInfo fcinfo, abacus_tile *tile, abacus_tile_memory *memor
 			return NULL;
 	memset(tile, 0, sizeof(*tile));
 	reader = reader_open(PG_GETARG_OID(TILE_MESH), CurrentMemoryContext);
-	header_require_dimension(&reader->header, 2, "Tiles are of meshes in the plane.");
-	tile_world(fcinfo, &reader->header, tile);
+	header_require_dimension(&reader->header.facts.form, 2, "Tiles are of meshes in the plane.");
+	tile_world(fcinfo, &reader->header.facts.form, tile);
 	tile->zoom = PG_GETARG_INT32(TILE_ZOOM);
 	tile->x = PG_GETARG_INT32(TILE_X);
 	tile->y = PG_GETARG_INT32(TILE_Y);
@@ -159,11 +159,11 @@ tile_size(FunctionCallInfo fcinfo, int argument)
 
 /* An attribute by its name, or the only one; -1 if the mesh has none. */
 static int
-tile_attribute(FunctionCallInfo fcinfo, int argument, const abacus_header *header)
+tile_attribute(FunctionCallInfo fcinfo, int argument, abacus_names names)
 {
 	if (PG_ARGISNULL(argument))
-		return header->attributes == 0 ? -1 : header_only_attribute(header);
-	return attribute_or_none(fcinfo, argument, header);
+		return names.facts->columns.attributes == 0 ? -1 : header_only_attribute(names);
+	return attribute_or_none(fcinfo, argument, names);
 }
 
 /*
@@ -186,7 +186,7 @@ abacus_sql_tile_picture(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	host = reader->host;
 	drawing.width = tile_size(fcinfo, PICTURE_SIZE);
-	drawing.attribute = attribute_or_none(fcinfo, PICTURE_ATTRIBUTE, &reader->header);
+	drawing.attribute = attribute_or_none(fcinfo, PICTURE_ATTRIBUTE, abacus_names_of(&reader->header));
 	drawing_range(fcinfo, PICTURE_RANGE, &drawing);
 	drawing.edges = PG_ARGISNULL(PICTURE_EDGES) || PG_GETARG_BOOL(PICTURE_EDGES);
 	drawing.exaggeration = drawing_factor(fcinfo, PICTURE_EXAGGERATION, "exaggeration");
@@ -194,7 +194,7 @@ abacus_sql_tile_picture(PG_FUNCTION_ARGS)
 	drawing_ramp(fcinfo, PICTURE_RAMP, &drawing);
 	drawing_contours(fcinfo, PICTURE_CONTOURS, &drawing);
 	drawing.transparent = true;
-	host_run(host, abacus_tile_picture, &host->table, &reader->header, &tile, &drawing, &memory,
+	host_run(host, abacus_tile_picture, &host->table, &reader->header.facts, &tile, &drawing, &memory,
 			 &picture);
 	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
 }
@@ -217,10 +217,10 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
 	if (reader == NULL)
 		PG_RETURN_NULL();
 	host = reader->host;
-	kind.attribute = tile_attribute(fcinfo, VECTOR_ATTRIBUTE, &reader->header);
+	kind.attribute = tile_attribute(fcinfo, VECTOR_ATTRIBUTE, abacus_names_of(&reader->header));
 	kind.contour_interval = drawing_interval(fcinfo, VECTOR_CONTOURS);
 	kind.max_edge = drawing_factor(fcinfo, VECTOR_MAX_EDGE, "max_edge");
-	host_run(host, abacus_tile_vector, &host->table, &reader->header, &tile, &kind, &memory,
+	host_run(host, abacus_tile_vector, &host->table, &reader->header.facts, &tile, &kind, &memory,
 			 &bytes);
 	PG_RETURN_BYTEA_P(drawing_finish(host, &bytes));
 }
@@ -243,9 +243,9 @@ abacus_sql_tile_terrain(PG_FUNCTION_ARGS)
 	if (reader == NULL)
 		PG_RETURN_NULL();
 	host = reader->host;
-	header_require_attributes(&reader->header);
+	header_require_attributes(&reader->header.facts);
 	kind.width = tile_size(fcinfo, TERRAIN_SIZE);
-	kind.attribute = (uint32) tile_attribute(fcinfo, TERRAIN_ATTRIBUTE, &reader->header);
+	kind.attribute = (uint32) tile_attribute(fcinfo, TERRAIN_ATTRIBUTE, abacus_names_of(&reader->header));
 	kind.max_edge = drawing_factor(fcinfo, TERRAIN_MAX_EDGE, "max_edge");
 	kind.fill = PG_ARGISNULL(TERRAIN_FILL) ? 0 : PG_GETARG_FLOAT8(TERRAIN_FILL);
 	if (!isfinite(kind.fill))
@@ -253,7 +253,7 @@ abacus_sql_tile_terrain(PG_FUNCTION_ARGS)
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("fill must be a finite number"),
 				 errhint("It is the height where there is no mesh.")));
-	host_run(host, abacus_tile_terrain, &host->table, &reader->header, &tile, &kind, &memory,
+	host_run(host, abacus_tile_terrain, &host->table, &reader->header.facts, &tile, &kind, &memory,
 			 &picture);
 	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
 }

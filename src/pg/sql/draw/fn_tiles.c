@@ -252,14 +252,14 @@ abacus_sql_tiles(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	mesh = PG_GETARG_OID(TILES_MESH);
 	reader = reader_open(mesh, CurrentMemoryContext);
-	header_require_dimension(&reader->header, 2, "Tiles are of meshes in the plane.");
-	has_attribute = reader->header.attributes > 0;
+	header_require_dimension(&reader->header.facts.form, 2, "Tiles are of meshes in the plane.");
+	has_attribute = reader->header.facts.columns.attributes > 0;
 	tiles.attribute = text_literal(fcinfo, TILES_ATTRIBUTE);
 	if (has_attribute)
 	{
 		int			attribute = PG_ARGISNULL(TILES_ATTRIBUTE) ?
-			header_only_attribute(&reader->header) :
-			attribute_or_none(fcinfo, TILES_ATTRIBUTE, &reader->header);
+			header_only_attribute(abacus_names_of(&reader->header)) :
+			attribute_or_none(fcinfo, TILES_ATTRIBUTE, abacus_names_of(&reader->header));
 
 		tiles.attribute = quote_literal_cstr(reader->header.names[attribute]);
 	}

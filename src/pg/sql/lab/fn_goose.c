@@ -101,14 +101,14 @@ triangulate(GooseTable *table, Source *source, abacus_header *header,
 
 	goose_table_own(table, host);
 	progress_begin(&host->progress, table->relid);
-	host_run(host, abacus_stage_open, &host->table, header, setting_sort_bytes(), &stage);
+	host_run(host, abacus_stage_open, &host->table, &header->facts, setting_sort_bytes(), &stage);
 	host_own(host, stage, (void (*) (void *)) abacus_stage_close);
-	source_open(source, header, true);
+	source_open(source, abacus_names_of(header), true);
 	while ((count = source_fetch(source, &points)) > 0)
 		host_run(host, abacus_stage_add, stage, points, count);
 	source_close(source);
-	host_run(host, abacus_stage_end, stage, header);
-	host_run(host, abacus_goose_run, &host->table, &table->rtree, stage, header, figures);
+	host_run(host, abacus_stage_end, stage, &header->facts);
+	host_run(host, abacus_goose_run, &host->table, &table->rtree, stage, &header->facts, figures);
 	progress_end(&host->progress);
 	host_destroy(host);
 }
@@ -130,10 +130,10 @@ abacus_sql_goose(PG_FUNCTION_ARGS)
 	PreventCommandIfReadOnly("abacus_goose()");
 	PreventCommandIfParallelMode("abacus_goose()");
 	InitMaterializedSRF(fcinfo, 0);
-	shape_dimension(header, PG_GETARG_INT32(2));
+	shape_dimension(&header->facts.form, PG_GETARG_INT32(2));
 
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	table = goose_table_create(PG_GETARG_TEXT_PP(0), header->dimension);
+	table = goose_table_create(PG_GETARG_TEXT_PP(0), header->facts.form.dimension);
 	triangulate(table, &source, header, goose);
 	goose_table_remove_ghosts(table);
 	goose_table_close(table);

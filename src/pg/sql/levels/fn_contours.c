@@ -168,15 +168,16 @@ abacus_sql_contours(PG_FUNCTION_ARGS)
 	if (PG_ARGISNULL(ARGUMENT_MESH))
 		PG_RETURN_NULL();
 	reader = reader_open(PG_GETARG_OID(ARGUMENT_MESH), CurrentMemoryContext);
-	header_require_dimension(&reader->header, 2, "Use abacus_isosurface for a mesh of dimension 3.");
+	header_require_dimension(&reader->header.facts.form, 2,
+							 "Use abacus_isosurface for a mesh of dimension 3.");
 	level_arguments(fcinfo, &how);
 	how.bands = !PG_ARGISNULL(ARGUMENT_POLYGONIZE) && PG_GETARG_BOOL(ARGUMENT_POLYGONIZE);
-	how.attribute = attribute_argument(fcinfo, ARGUMENT_ATTRIBUTE, &reader->header);
+	how.attribute = attribute_argument(fcinfo, ARGUMENT_ATTRIBUTE, abacus_names_of(&reader->header));
 	how.max_edge = window_max_edge(fcinfo, ARGUMENT_MAX_EDGE);
-	window_arguments(fcinfo, ARGUMENT_LOWER, WINDOW_BOX, &reader->header, &window);
+	window_arguments(fcinfo, ARGUMENT_LOWER, WINDOW_BOX, &reader->header.facts.form, &window);
 	answers.host = reader->host;
 	progress_begin(&reader->host->progress, PG_GETARG_OID(ARGUMENT_MESH));
-	host_run(reader->host, abacus_contours, &reader->host->table, &reader->header, &window, &how,
+	host_run(reader->host, abacus_contours, &reader->host->table, &reader->header.facts, &window, &how,
 			 setting_query_sort_bytes() + setting_cache_bytes(), put_contour, &answers);
 	progress_end(&reader->host->progress);
 	if (tuplestore_tuple_count(answers.set->setResult) == 0)

@@ -90,17 +90,17 @@ put_triangle(void *context, const abacus_surface_triangle *triangle)
 }
 
 static void
-surface_arguments(FunctionCallInfo fcinfo, const abacus_header *header,
+surface_arguments(FunctionCallInfo fcinfo, abacus_names names,
 				  abacus_isosurface_query *query)
 {
 	query->value = PG_GETARG_FLOAT8(SURFACE_VALUE);
 	if (!isfinite(query->value))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE), errmsg("value must be a finite number"),
-				 errhint("abacus_attributes() shows the range of each attribute.")));
-	query->attribute = attribute_argument(fcinfo, SURFACE_ATTRIBUTE, header);
-	query->carried = attribute_or_none(fcinfo, SURFACE_CARRY, header);
-	window_arguments(fcinfo, SURFACE_LOWER, WINDOW_BOX, header, &query->window);
+				 errhint("abacus_attributes() tells from which value to which an attribute goes.")));
+	query->attribute = attribute_argument(fcinfo, SURFACE_ATTRIBUTE, names);
+	query->carried = attribute_or_none(fcinfo, SURFACE_CARRY, names);
+	window_arguments(fcinfo, SURFACE_LOWER, WINDOW_BOX, &names.facts->form, &query->window);
 	query->max_edge = window_max_edge(fcinfo, SURFACE_MAX_EDGE);
 }
 
@@ -122,15 +122,15 @@ abacus_sql_isosurface(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	reader = reader_open(PG_GETARG_OID(SURFACE_MESH), CurrentMemoryContext);
 	host = reader->host;
-	header_require_dimension(&reader->header, 3,
+	header_require_dimension(&reader->header.facts.form, 3,
 							 "Use abacus_contours for a mesh of dimension 2.");
-	surface_arguments(fcinfo, &reader->header, &query);
+	surface_arguments(fcinfo, abacus_names_of(&reader->header), &query);
 	triangles.host = host;
 	triangles.carries = query.carried >= 0;
 	triangles.row = AllocSetContextCreate(CurrentMemoryContext, "Abacus row",
 										  ALLOCSET_SMALL_SIZES);
 	progress_begin(&host->progress, PG_GETARG_OID(SURFACE_MESH));
-	host_run(host, abacus_isosurface, &host->table, &reader->header, &query,
+	host_run(host, abacus_isosurface, &host->table, &reader->header.facts, &query,
 			 setting_query_sort_bytes(), put_triangle, &triangles);
 	progress_end(&host->progress);
 	if (tuplestore_tuple_count(triangles.set->setResult) == 0)
@@ -170,10 +170,10 @@ typedef struct Section
 
 /* Three finite coordinates. */
 static void
-vector_argument(FunctionCallInfo fcinfo, int argument, const abacus_header *header,
+vector_argument(FunctionCallInfo fcinfo, int argument, const abacus_form *form,
 				const char *name, double *vector)
 {
-	shape_point(header, PG_GETARG_ARRAYTYPE_P(argument), name, vector);
+	shape_point(form, PG_GETARG_ARRAYTYPE_P(argument), name, vector);
 	for (int i = 0; i < 3; i++)
 		if (!isfinite(vector[i]))
 			ereport(ERROR,
@@ -183,20 +183,20 @@ vector_argument(FunctionCallInfo fcinfo, int argument, const abacus_header *head
 }
 
 static void
-section_arguments(FunctionCallInfo fcinfo, const abacus_header *header,
+section_arguments(FunctionCallInfo fcinfo, abacus_names names,
 				  abacus_section_query *query)
 {
-	header_require_dimension(header, 3,
+	header_require_dimension(&names.facts->form, 3,
 							 "Use abacus_profile for the section of a mesh of dimension 2.");
-	vector_argument(fcinfo, SECTION_THROUGH, header, "through", query->through);
-	vector_argument(fcinfo, SECTION_NORMAL, header, "normal", query->normal);
+	vector_argument(fcinfo, SECTION_THROUGH, &names.facts->form, "through", query->through);
+	vector_argument(fcinfo, SECTION_NORMAL, &names.facts->form, "normal", query->normal);
 	if (query->normal[0] == 0 && query->normal[1] == 0 && query->normal[2] == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE), errmsg("normal must not be zero"),
 				 errhint("A normal of any other length will do.")));
-	query->attribute = attribute_or_none(fcinfo, SECTION_ATTRIBUTE, header);
-	if (query->attribute < 0 && header->attributes > 0)
-		query->attribute = header_only_attribute(header);
+	query->attribute = attribute_or_none(fcinfo, SECTION_ATTRIBUTE, names);
+	if (query->attribute < 0 && names.facts->columns.attributes > 0)
+		query->attribute = header_only_attribute(names);
 	query->max_edge = window_max_edge(fcinfo, SECTION_MAX_EDGE);
 }
 
@@ -209,11 +209,11 @@ begin_section(FunctionCallInfo fcinfo, FuncCallContext *set)
 	abacus_section_query query = {{0}};
 	abacus_sections *sections = NULL;
 
-	section_arguments(fcinfo, &reader->header, &query);
+	section_arguments(fcinfo, abacus_names_of(&reader->header), &query);
 	section->reader = reader;
 	section->has_values = query.attribute >= 0;
 	set->user_fctx = section;
-	host_run(host, abacus_sections_open, &host->table, &reader->header, &query, &sections);
+	host_run(host, abacus_sections_open, &host->table, &reader->header.facts, &query, &sections);
 	host_own(host, sections, (void (*) (void *)) abacus_sections_close);
 }
 
@@ -260,7 +260,7 @@ abacus_sql_section(PG_FUNCTION_ARGS)
 	set = SRF_PERCALL_SETUP();
 	section = set->user_fctx;
 	host = section->reader->host;
-	label_count = section->reader->header.labels;
+	label_count = section->reader->header.facts.columns.labels;
 	status = host_run(host, abacus_sections_next, host->handle, &polygon);
 	if (status != ABACUS_END && label_count > 0)
 		host_run(host, abacus_sections_labels, host->handle, &labels);

@@ -81,7 +81,7 @@ abacus_sql_profile(PG_FUNCTION_ARGS)
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	answers.host = cached->host;
 	answers.dimension = cached->dimension;
-	interpolation_attribute(fcinfo, 2, &cached->header, &how);
+	interpolation_attribute(fcinfo, 2, abacus_names_of(&cached->header), &how);
 	interpolation_max_edge(fcinfo, 3, &how);
 	path = path_argument(fcinfo, 1, cached->dimension, &corners);
 	host_run(answers.host, abacus_mesh_profile, cached->mesh, how.attribute[0], how.max_edge, path,

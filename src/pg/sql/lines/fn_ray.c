@@ -62,7 +62,7 @@ abacus_sql_ray(PG_FUNCTION_ARGS)
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	answers.host = cached->host;
 	answers.dimension = cached->dimension;
-	answers_have_arrays(&answers, cached->header.labels);
+	answers_have_arrays(&answers, cached->header.facts.columns.labels);
 	line_place(fcinfo, 1, "origin", cached->dimension, origin);
 	line_place(fcinfo, 2, "direction", cached->dimension, direction);
 	if (direction[0] == 0 && direction[1] == 0 && direction[2] == 0)

@@ -86,9 +86,9 @@ abacus_sql_visible(PG_FUNCTION_ARGS)
 	if (interpolation_of_null(fcinfo, SIGHT_TARGET))
 		PG_RETURN_NULL();
 	cached = mesh_cache_get(PG_GETARG_OID(SIGHT_MESH));
-	header_require_dimension(&cached->header, 2,
+	header_require_dimension(&cached->header.facts.form, 2,
 							 "A terrain is a mesh in the plane with the height as an attribute.");
-	interpolation_attribute(fcinfo, SIGHT_ATTRIBUTE, &cached->header, &how);
+	interpolation_attribute(fcinfo, SIGHT_ATTRIBUTE, abacus_names_of(&cached->header), &how);
 	interpolation_max_edge(fcinfo, SIGHT_MAX_EDGE, &how);
 	end_argument(fcinfo, SIGHT_OBSERVER, SIGHT_OBSERVER_HEIGHT, "observer", &observer);
 	end_argument(fcinfo, SIGHT_TARGET, SIGHT_TARGET_HEIGHT, "target", &target);

@@ -31,11 +31,11 @@ static abacus_header *
 shape_of_rows(const Source *source, abacus_header *header, uint32 *labels)
 {
 	abacus_header *shape = palloc(sizeof(abacus_header));
-	int			first = 2 + (int) header->dimension;	/* behind code and vertices */
+	int			first = 2 + (int) header->facts.form.dimension;	/* behind code and vertices */
 	int			columns = source_columns(source);
 
 	abacus_header_copy(shape, header);
-	shape->attributes = shape->labels = 0;
+	shape->facts.columns.attributes = shape->facts.columns.labels = 0;
 	if (columns <= first)
 		ereport(ERROR,
 				(errcode(ERRCODE_DATATYPE_MISMATCH),
@@ -44,12 +44,12 @@ shape_of_rows(const Source *source, abacus_header *header, uint32 *labels)
 	for (int i = first; i < columns; i++)
 	{
 		const char *name = source_column_name(source, i);
-		int			number = header_label(header, name);
+		int			number = header_label(abacus_names_of(header), name);
 
 		shape_label(shape, name);
 		if (number < 0)
 		{
-			number = (int) header->labels;
+			number = (int) header->facts.columns.labels;
 			shape_label(header, name);
 		}
 		labels[i - first] = (uint32) number;
@@ -64,17 +64,17 @@ label_query(Oid mesh, Source *source)
 	Change	   *change = change_begin(mesh, "abacus_label()");
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
-	uint32		known = header->labels;
+	uint32		known = header->facts.columns.labels;
 	uint32	   *labels = palloc(source_columns(source) * sizeof(uint32));
 	abacus_header *shape = shape_of_rows(source, header, labels);
 	const uint64 *rows;
 	size_t		count;
 	uint64		labelled = 0;
 
-	host_run(host, abacus_labelling_open, &host->table, header, known, labels,
-			 (size_t) shape->labels, setting_sort_bytes(), setting_cache_bytes(),
+	host_run(host, abacus_labelling_open, &host->table, &header->facts, known, labels,
+			 (size_t) shape->facts.columns.labels, setting_sort_bytes(), setting_cache_bytes(),
 			 &change->labelling);
-	source_open_labels(source, shape);
+	source_open_labels(source, abacus_names_of(shape));
 	while ((count = source_fetch(source, &rows)) > 0)
 	{
 		host_run(host, abacus_labelling_add, change->labelling, rows, count);
@@ -106,12 +106,12 @@ abacus_sql_inherit_labels(PG_FUNCTION_ARGS)
 	Writer		writer;
 
 	writer_begin_of(&writer, PG_GETARG_OID(0), ABACUS_MESH, "abacus_inherit_labels()");
-	if (writer.header->labels == 0)
+	if (writer.header->facts.columns.labels == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("mesh has no labels"),
 				 errhint("Give some to its simplices first, with abacus_label().")));
-	writer.header->inherits = PG_GETARG_BOOL(1) ? 1 : 0;
+	writer.header->facts.columns.inherits = PG_GETARG_BOOL(1) ? 1 : 0;
 	writer_end(&writer);
 	PG_RETURN_VOID();
 }
@@ -120,12 +120,13 @@ abacus_sql_inherit_labels(PG_FUNCTION_ARGS)
 Datum
 abacus_sql_labels(PG_FUNCTION_ARGS)
 {
-	const abacus_header *header = &mesh_cache_get(PG_GETARG_OID(0))->header;
-	Datum	   *names = palloc(Max(header->labels, 1) * sizeof(Datum));
+	abacus_names names = abacus_names_of(&mesh_cache_get(PG_GETARG_OID(0))->header);
+	uint32		count = names.facts->columns.labels;
+	Datum	   *labels = palloc(Max(count, 1) * sizeof(Datum));
 
-	for (uint32 i = 0; i < header->labels; i++)
-		names[i] = CStringGetTextDatum(header->names[header->attributes + i]);
-	PG_RETURN_ARRAYTYPE_P(construct_array(names, (int) header->labels, TEXTOID, -1, false,
+	for (uint32 i = 0; i < count; i++)
+		labels[i] = CStringGetTextDatum(names.of[names.facts->columns.attributes + i]);
+	PG_RETURN_ARRAYTYPE_P(construct_array(labels, (int) count, TEXTOID, -1, false,
 										  TYPALIGN_INT));
 }
 
@@ -139,9 +140,9 @@ abacus_sql_labels_of(PG_FUNCTION_ARGS)
 	const double *labels = NULL;
 
 	if (!simplex_from_argument(PG_GETARG_DATUM(1), cached->dimension, &code, ids) ||
-		cached->header.labels == 0)
+		cached->header.facts.columns.labels == 0)
 		PG_RETURN_NULL();
 	host_run(cached->host, abacus_mesh_labels, cached->mesh, code, ids, &labels);
 	host_release(cached->host);
-	PG_RETURN_DATUM(attribute_array(labels, (int) cached->header.labels));
+	PG_RETURN_DATUM(attribute_array(labels, (int) cached->header.facts.columns.labels));
 }

@@ -55,11 +55,11 @@ dimension_of(const Source *simplices, int labels)
  * its vertices for z.
  */
 static void
-tell_dimension(const abacus_header *header, const Source *vertices, const Source *simplices)
+tell_dimension(const abacus_form *form, const Source *vertices, const Source *simplices)
 {
 	const char *z;
 
-	if (header->dimension != 3 || source_first_attribute(vertices, 3) != 4 || source_columns(vertices) < 4)
+	if (form->dimension != 3 || source_first_attribute(vertices, 3) != 4 || source_columns(vertices) < 4)
 		return;
 	z = source_column_name(vertices, 3);
 	if (is_named(z) && strchr(z, 'z') == NULL)
@@ -110,20 +110,20 @@ read_triangulation(Change *change, Source *vertices, Source *simplices, Source *
 	const uint64 *records;
 	size_t		count;
 
-	host_run(host, abacus_load_open, &host->table, header, setting_sort_bytes(), reorient,
+	host_run(host, abacus_load_open, &host->table, &header->facts, setting_sort_bytes(), reorient,
 			 split_nodes, &change->load);
-	source_open(vertices, header, true);
+	source_open(vertices, abacus_names_of(header), true);
 	while ((count = source_fetch(vertices, &records)) > 0)
 		host_run(host, abacus_load_vertices, change->load, records, count);
 	change_take_srid(change, vertices->packer->srid);
 	source_close(vertices);
-	source_open_simplices(simplices, header);
+	source_open_simplices(simplices, abacus_names_of(header));
 	while ((count = source_fetch(simplices, &records)) > 0)
 		host_run(host, abacus_load_simplices, change->load, records, count);
 	source_close(simplices);
 	if (facets != NULL)
 	{
-		source_open_loaded_facets(facets, header);
+		source_open_loaded_facets(facets, abacus_names_of(header));
 		while ((count = source_fetch(facets, &records)) > 0)
 			host_run(host, abacus_load_facets, change->load, records, count);
 		source_close(facets);
@@ -159,8 +159,9 @@ triangulate_vertices(Change *change)
 	abacus_header *header = change->writer.header;
 
 	/* vertices at one place are repeated points now, as anywhere */
-	header->apart = abacus_are_apart(header->dimension, header->attributes);
-	change_open_stage(change, change->writer.header);
+	header->facts.columns.apart = abacus_are_apart(header->facts.form.dimension,
+												   header->facts.columns.attributes);
+	change_open_stage(change, &header->facts);
 	host_run(host, abacus_load_stage, change->load, change->stage);
 	abacus_load_close(change->load);
 	change->load = NULL;
@@ -202,23 +203,24 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 		source_prepare(&facets, text_to_cstring(PG_GETARG_TEXT_PP(9)));
 	if (!PG_ARGISNULL(8))
 		labels = shape_names(PG_GETARG_ARRAYTYPE_P(8), "labels", &label_count);
-	shape_dimension(header, dimension_of(&simplices, label_count));
+	shape_dimension(&header->facts.form, dimension_of(&simplices, label_count));
 	if (label_count == 0)
-		tell_dimension(header, &vertices, &simplices);
+		tell_dimension(&header->facts.form, &vertices, &simplices);
 	if (!PG_ARGISNULL(3))
 		shape_attributes(header, PG_GETARG_ARRAYTYPE_P(3));
 	else
-		for (int i = source_first_attribute(&vertices, header->dimension); i < source_columns(&vertices); i++)
+		for (int i = source_first_attribute(&vertices, header->facts.form.dimension);
+			 i < source_columns(&vertices); i++)
 			shape_attribute(header, source_column_name(&vertices, i));
 	for (int i = 0; i < label_count; i++)
 		shape_label(header, TextDatumGetCString(labels[i]));
-	if (split_nodes && header->attributes > ABACUS_MAX_PAGE_ATTRIBUTES)
+	if (split_nodes && header->facts.columns.attributes > ABACUS_MAX_PAGE_ATTRIBUTES)
 		ereport(ERROR,
 				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
 				 errmsg("a mesh with split nodes can have at most %u attributes",
 						ABACUS_MAX_PAGE_ATTRIBUTES),
 				 errhint("Name those that are needed, or keep the others in a table by id.")));
-	shape_domain(header, PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4),
+	shape_domain(&header->facts.form, PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4),
 				 PG_ARGISNULL(5) ? NULL : PG_GETARG_ARRAYTYPE_P(5));
 
 	mesh = new_mesh(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid), header,
@@ -227,7 +229,7 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 	host = change->writer.host;
 	/* attributes that are apart are found by place alone */
 	if (split_nodes)
-		change->writer.header->apart = 0;
+		change->writer.header->facts.columns.apart = 0;
 	delaunay = read_triangulation(change, &vertices, &simplices, has_facets ? &facets : NULL,
 								  PG_GETARG_BOOL(6), split_nodes);
 	retriangulate = PG_GETARG_BOOL(7) && delaunay != ABACUS_DELAUNAY;
@@ -235,7 +237,7 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 		triangulate_vertices(change);
 	else
 		host_run(host, abacus_load_write, change->load, change->writer.header);
-	loaded = change->writer.header->simplices;
+	loaded = change->writer.header->facts.census.simplices;
 	change_end(change);
 	if (delaunay != ABACUS_DELAUNAY)
 		tell(delaunay, retriangulate, label_count > 0, has_facets);

@@ -25,21 +25,20 @@ mark_query(Oid mesh, Source *source)
 {
 	Change	   *change = change_begin(mesh, "abacus_mark()");
 	Host	   *host = change->writer.host;
-	abacus_header *header = change->writer.header;
 	const uint64 *rows;
 	size_t		count;
 	uint64		marked = 0;
 
-	host_run(host, abacus_marking_open, &host->table, header, setting_sort_bytes(),
+	host_run(host, abacus_marking_open, &host->table, &change->writer.header->facts, setting_sort_bytes(),
 			 setting_cache_bytes(), &change->marking);
-	source_open_facets(source, header);
+	source_open_facets(source, abacus_names_of(change->writer.header));
 	while ((count = source_fetch(source, &rows)) > 0)
 	{
 		host_run(host, abacus_marking_add, change->marking, rows, count);
 		marked += count;
 	}
 	source_close(source);
-	host_run(host, abacus_marking_end, change->marking, header);
+	host_run(host, abacus_marking_end, change->marking, change->writer.header);
 	change_end(change);
 	return marked;
 }
@@ -109,7 +108,7 @@ abacus_sql_facets(PG_FUNCTION_ARGS)
 			SRF_RETURN_DONE(set);
 		reader = set_begin(fcinfo, set, result_row_type);
 		host = reader->host;
-		host_run(host, abacus_facets_open, &host->table, &reader->header, marker,
+		host_run(host, abacus_facets_open, &host->table, &reader->header.facts, marker,
 				 setting_query_sort_bytes(), setting_cache_bytes(), &facets);
 		host_own(host, facets, (void (*) (void *)) abacus_facets_close);
 	}
@@ -120,5 +119,5 @@ abacus_sql_facets(PG_FUNCTION_ARGS)
 	host_release(host);
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);
-	SRF_RETURN_NEXT(set, facet_row(set->tuple_desc, &facet, (int) reader->header.dimension));
+	SRF_RETURN_NEXT(set, facet_row(set->tuple_desc, &facet, (int) reader->header.facts.form.dimension));
 }

@@ -33,23 +33,23 @@ SQL_FUNCTION(abacus_sql_octree_balance);
 
 /* The finest level that leaves may have. */
 static void
-set_levels(abacus_header *header, int32 levels)
+set_levels(abacus_form *form, int32 levels)
 {
-	int32		most = (int32) abacus_octree_levels(header->dimension);
+	int32		most = (int32) abacus_octree_levels(form->dimension);
 
 	if (levels < 0 || levels > most)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("levels must be from 0 to %d, not %d", most, levels)));
-	header->levels = (uint32) levels;
+	form->levels = (uint32) levels;
 }
 
 /* A span that no double can hold is no domain. */
 static void
-check_span(const abacus_header *header)
+check_span(const abacus_form *form)
 {
-	for (uint32 i = 0; i < header->dimension; i++)
-		if (!isfinite(header->upper[i] - header->lower[i]))
+	for (uint32 i = 0; i < form->dimension; i++)
+		if (!isfinite(form->upper[i] - form->lower[i]))
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 					 errmsg("the domain is too long on axis %c", "xyz"[i])));
@@ -69,13 +69,14 @@ abacus_sql_octree_create(PG_FUNCTION_ARGS)
 			ereport(ERROR,
 					(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
 					 errmsg("octree, dimension, lower and upper must not be NULL")));
-	header->type = ABACUS_OCTREE;
-	shape_dimension(header, PG_GETARG_INT32(1));
-	shape_domain(header, PG_GETARG_ARRAYTYPE_P(2), PG_GETARG_ARRAYTYPE_P(3));
-	check_span(header);
+	header->facts.form.type = ABACUS_OCTREE;
+	shape_dimension(&header->facts.form, PG_GETARG_INT32(1));
+	shape_domain(&header->facts.form, PG_GETARG_ARRAYTYPE_P(2), PG_GETARG_ARRAYTYPE_P(3));
+	check_span(&header->facts.form);
 	if (!PG_ARGISNULL(4))
 		shape_attributes(header, PG_GETARG_ARRAYTYPE_P(4));
-	set_levels(header, PG_ARGISNULL(5) ? (int32) abacus_octree_levels(header->dimension)
+	set_levels(&header->facts.form,
+			   PG_ARGISNULL(5) ? (int32) abacus_octree_levels(header->facts.form.dimension)
 			   : PG_GETARG_INT32(5));
 	PG_RETURN_OID(new_mesh(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid),
 						   header, "abacus_octree_create()"));
@@ -113,7 +114,7 @@ read_rows(OctreeChange *change, OctantRows kind, AddRows add)
 	const uint64 *rows;
 	size_t		count;
 
-	source_open_octants(&change->source, header, kind, true);
+	source_open_octants(&change->source, abacus_names_of(header), kind, true);
 	while ((count = source_fetch(&change->source, &rows)) > 0)
 	{
 		host_run(host, add, host->handle, rows, count);
@@ -121,7 +122,7 @@ read_rows(OctreeChange *change, OctantRows kind, AddRows add)
 		progress_report(&host->progress, &progress);
 	}
 	if (change->source.packer->srid > 0)
-		header->srid = (uint32) change->source.packer->srid;
+		header->facts.form.srid = (uint32) change->source.packer->srid;
 	source_close(&change->source);
 }
 
@@ -129,7 +130,7 @@ read_rows(OctreeChange *change, OctantRows kind, AddRows add)
 static int64
 end(OctreeChange *change)
 {
-	int64		leaves = (int64) change->writer.header->leaves;
+	int64		leaves = (int64) change->writer.header->facts.census.leaves;
 
 	writer_end(&change->writer);
 	source_finish(&change->source);
@@ -143,7 +144,7 @@ octree_growth_open(Writer *writer)
 	abacus_octree_growth *growth = NULL;
 	Host	   *host = writer->host;
 
-	host_run(host, abacus_octree_growth_open, &host->table, writer->header, setting_sort_bytes(),
+	host_run(host, abacus_octree_growth_open, &host->table, &writer->header->facts, setting_sort_bytes(),
 			 &growth);
 	host_own(host, growth, (void (*) (void *)) abacus_octree_growth_close);
 }
@@ -154,7 +155,7 @@ open_edit(Writer *writer)
 	abacus_octree_edit *edit = NULL;
 	Host	   *host = writer->host;
 
-	host_run(host, abacus_octree_edit_open, &host->table, writer->header, setting_sort_bytes(),
+	host_run(host, abacus_octree_edit_open, &host->table, &writer->header->facts, setting_sort_bytes(),
 			 setting_cache_bytes(), &edit);
 	host_own(host, edit, (void (*) (void *)) abacus_octree_edit_close);
 }
@@ -249,7 +250,7 @@ abacus_sql_octree_update(PG_FUNCTION_ARGS)
 
 	begin(&change, fcinfo, "abacus_octree_update()");
 	host = change.writer.host;
-	header_require_attributes(change.writer.header);
+	header_require_attributes(&change.writer.header->facts);
 	open_edit(&change.writer);
 	read_rows(&change, OCTANT_VALUES, add_values);
 	host_run(host, abacus_octree_edit_set, host->handle, change.writer.header, &set);
@@ -267,7 +268,7 @@ abacus_sql_octree_from_rows(PG_FUNCTION_ARGS)
 
 	begin(&change, fcinfo, "abacus_octree_from_rows()");
 	host = change.writer.host;
-	host_run(host, abacus_octree_load_open, &host->table, change.writer.header,
+	host_run(host, abacus_octree_load_open, &host->table, &change.writer.header->facts,
 			 setting_sort_bytes(), &load);
 	host_own(host, load, (void (*) (void *)) abacus_octree_load_close);
 	read_rows(&change, OCTANT_LEAVES, add_leaves);
@@ -306,11 +307,11 @@ abacus_sql_octree_balance(PG_FUNCTION_ARGS)
 	int64		leaves;
 
 	writer_begin_of(&writer, PG_GETARG_OID(0), ABACUS_OCTREE, "abacus_octree_balance()");
-	across = across_what(PG_GETARG_TEXT_PP(1), writer.header->dimension);
+	across = across_what(PG_GETARG_TEXT_PP(1), writer.header->facts.form.dimension);
 	octree_growth_open(&writer);
 	host_run(writer.host, abacus_octree_growth_balance, writer.host->handle, across,
 			 writer.header);
-	leaves = (int64) writer.header->leaves;
+	leaves = (int64) writer.header->facts.census.leaves;
 	writer_end(&writer);
 	PG_RETURN_INT64(leaves);
 }

@@ -30,11 +30,11 @@ SQL_FUNCTION(abacus_sql_octree_interpolate_places);
 
 /* Rows have boxes and attributes of leaves. */
 static void
-answers_begin(Answers *answers, Host *host, const abacus_header *header)
+answers_begin(Answers *answers, Host *host, const abacus_facts *facts)
 {
 	answers->host = host;
-	answers->header = header;
-	answers_have_arrays(answers, header->attributes);
+	answers->facts = facts;
+	answers_have_arrays(answers, facts->columns.attributes);
 }
 
 /* The columns of a leaf, good for one row. */
@@ -43,7 +43,7 @@ octant_of_row(const Answers *answers, const abacus_octant *octant, Datum *values
 {
 	MemoryContext old = MemoryContextSwitchTo(answers->row);
 
-	octant_columns(octant, answers->header, values);
+	octant_columns(octant, answers->facts, values);
 	MemoryContextSwitchTo(old);
 }
 
@@ -78,7 +78,7 @@ abacus_sql_octree_neighbours(PG_FUNCTION_ARGS)
 
 	InitMaterializedSRF(fcinfo, 0);
 	cached = mesh_cache_get_octree(PG_GETARG_OID(0));
-	answers_begin(&answers, cached->host, &cached->header);
+	answers_begin(&answers, cached->host, &cached->header.facts);
 	host_run(cached->host, abacus_octree_neighbours, cached->octree,
 			 (uint64) PG_GETARG_INT64(1), put_neighbour, &answers);
 	host_release(cached->host);
@@ -118,9 +118,9 @@ abacus_sql_octree_nearest(PG_FUNCTION_ARGS)
 
 	InitMaterializedSRF(fcinfo, 0);
 	cached = mesh_cache_get_octree(PG_GETARG_OID(0));
-	place_require_z(given, &cached->header);
-	place_arguments_finite(fcinfo, given, &cached->header, place);
-	answers_begin(&answers, cached->host, &cached->header);
+	place_require_z(given, &cached->header.facts.form);
+	place_arguments_finite(fcinfo, given, &cached->header.facts.form, place);
+	answers_begin(&answers, cached->host, &cached->header.facts);
 	host_run(cached->host, abacus_octree_nearest, cached->octree, place, k, put_near, &answers);
 	host_release(cached->host);
 	PG_RETURN_NULL();
@@ -162,7 +162,7 @@ abacus_sql_octree_nearest_places(PG_FUNCTION_ARGS)
 
 	InitMaterializedSRF(fcinfo, 0);
 	places_read(&read, PG_GETARG_OID(0), ABACUS_OCTREE, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	answers_begin(&answers, read.host, read.header);
+	answers_begin(&answers, read.host, read.names.facts);
 	host_run(answers.host, abacus_octree_places_nearest, read.octants, k, put_ranked, &answers);
 	places_done(&read);
 	PG_RETURN_NULL();
@@ -201,7 +201,7 @@ abacus_sql_octree_locate_places(PG_FUNCTION_ARGS)
 
 	InitMaterializedSRF(fcinfo, 0);
 	places_read(&read, PG_GETARG_OID(0), ABACUS_OCTREE, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	answers_begin(&answers, read.host, read.header);
+	answers_begin(&answers, read.host, read.names.facts);
 	host_run(answers.host, abacus_octree_places_locate, read.octants, put_located, &answers);
 	places_done(&read);
 	PG_RETURN_NULL();
@@ -226,8 +226,8 @@ abacus_sql_octree_interpolate(PG_FUNCTION_ARGS)
 	if (interpolation_of_null(fcinfo, given))
 		PG_RETURN_NULL();
 	cached = mesh_cache_get_octree(PG_GETARG_OID(0));
-	interpolation_attribute(fcinfo, 1 + given, &cached->header, &how);
-	if (!place_arguments(fcinfo, given, &cached->header, place))
+	interpolation_attribute(fcinfo, 1 + given, abacus_names_of(&cached->header), &how);
+	if (!place_arguments(fcinfo, given, &cached->header.facts.form, place))
 		PG_RETURN_NULL();		/* outside of any domain */
 	status = host_run(cached->host, abacus_octree_interpolate, cached->octree, how.attribute,
 					  how.attributes, place, &value);
@@ -249,7 +249,7 @@ abacus_sql_octree_interpolate_places(PG_FUNCTION_ARGS)
 	if (interpolation_of_null(fcinfo, 1))
 		PG_RETURN_NULL();
 	places_open(&read, PG_GETARG_OID(0), ABACUS_OCTREE, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	interpolation_attributes(fcinfo, 2, read.header, &how);
+	interpolation_attributes(fcinfo, 2, read.names, &how);
 	places_fetch(&read);
 	answers.host = read.host;
 	answers_have_arrays(&answers, how.attributes);

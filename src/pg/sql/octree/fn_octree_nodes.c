@@ -37,7 +37,7 @@ begin_nodes(FunctionCallInfo fcinfo, FuncCallContext *set)
 	Host	   *host = reader->host;
 	abacus_octree_nodes *nodes = NULL;
 
-	host_run(host, abacus_octree_nodes_open, &host->table, &reader->header,
+	host_run(host, abacus_octree_nodes_open, &host->table, &reader->header.facts,
 			 setting_query_sort_bytes(), &nodes);
 	host_own(host, nodes, (void (*) (void *)) abacus_octree_nodes_close);
 }
@@ -49,7 +49,7 @@ begin_elements(FunctionCallInfo fcinfo, FuncCallContext *set)
 	Host	   *host = reader->host;
 	abacus_octree_elements *elements = NULL;
 
-	host_run(host, abacus_octree_elements_open, &host->table, &reader->header,
+	host_run(host, abacus_octree_elements_open, &host->table, &reader->header.facts,
 			 setting_query_sort_bytes(), &elements);
 	host_own(host, elements, (void (*) (void *)) abacus_octree_elements_close);
 }
@@ -61,7 +61,7 @@ begin_tetrahedra(FunctionCallInfo fcinfo, FuncCallContext *set)
 	Host	   *host = reader->host;
 	abacus_octree_simplices *simplices = NULL;
 
-	host_run(host, abacus_octree_simplices_open, &host->table, &reader->header,
+	host_run(host, abacus_octree_simplices_open, &host->table, &reader->header.facts,
 			 setting_query_sort_bytes(), &simplices);
 	host_own(host, simplices, (void (*) (void *)) abacus_octree_simplices_close);
 }
@@ -86,7 +86,7 @@ abacus_sql_octree_nodes(PG_FUNCTION_ARGS)
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);
 	values[0] = Int64GetDatum((int64) node.number);
-	values[1] = attribute_array(node.point, (int) reader->header.dimension);
+	values[1] = attribute_array(node.point, (int) reader->header.facts.form.dimension);
 	isnull[2] = node.anchors == 0;
 	values[2] = isnull[2] ? (Datum) 0 : number_array(node.anchor, node.anchors);
 	SRF_RETURN_NEXT(set, HeapTupleGetDatum(heap_form_tuple(set->tuple_desc, values, isnull)));
@@ -114,10 +114,10 @@ abacus_sql_octree_elements(PG_FUNCTION_ARGS)
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);
 	values[0] = Int64GetDatum((int64) set->call_cntr);
-	values[1] = number_array(corners, 1 << reader->header.dimension);
+	values[1] = number_array(corners, 1 << reader->header.facts.form.dimension);
 	values[2] = Int64GetDatum((int64) octant.code);
 	values[3] = Int32GetDatum(octant.level);
-	values[4] = attribute_array(octant.values, (int) reader->header.attributes);
+	values[4] = attribute_array(octant.values, (int) reader->header.facts.columns.attributes);
 	SRF_RETURN_NEXT(set, HeapTupleGetDatum(heap_form_tuple(set->tuple_desc, values, isnull)));
 }
 
@@ -143,6 +143,6 @@ abacus_sql_octree_tetrahedra(PG_FUNCTION_ARGS)
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);
 	values[0] = Int64GetDatum((int64) element);
-	values[1] = number_array(nodes, (int) reader->header.dimension + 1);
+	values[1] = number_array(nodes, (int) reader->header.facts.form.dimension + 1);
 	SRF_RETURN_NEXT(set, HeapTupleGetDatum(heap_form_tuple(set->tuple_desc, values, isnull)));
 }

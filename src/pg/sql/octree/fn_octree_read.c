@@ -44,13 +44,13 @@ abacus_sql_octree_locate(PG_FUNCTION_ARGS)
 	abacus_octant octant;
 	abacus_status status;
 
-	if (!place_arguments(fcinfo, PG_NARGS() - 1, &cached->header, place))
+	if (!place_arguments(fcinfo, PG_NARGS() - 1, &cached->header.facts.form, place))
 		PG_RETURN_NULL();		/* outside of any domain */
 	status = host_run(host, abacus_octree_locate, cached->octree, place, &octant);
 	host_release(host);
 	if (status == ABACUS_END)
 		PG_RETURN_NULL();
-	PG_RETURN_DATUM(octant_row(kept_row_type(fcinfo), &octant, &cached->header));
+	PG_RETURN_DATUM(octant_row(kept_row_type(fcinfo), &octant, &cached->header.facts));
 }
 
 static void
@@ -61,8 +61,8 @@ begin_octants(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form)
 	abacus_window window = {0};
 	abacus_octree_scan *scan = NULL;
 
-	window_arguments(fcinfo, 1, form, &reader->header, &window);
-	host_run(host, abacus_octree_scan_open, &host->table, &reader->header, &window,
+	window_arguments(fcinfo, 1, form, &reader->header.facts.form, &window);
+	host_run(host, abacus_octree_scan_open, &host->table, &reader->header.facts, &window,
 			 setting_cache_bytes(), &scan);
 	host_own(host, scan, (void (*) (void *)) abacus_octree_scan_close);
 }
@@ -89,7 +89,7 @@ octants(FunctionCallInfo fcinfo, WindowForm form)
 	host_release(reader->host);
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);
-	SRF_RETURN_NEXT(set, octant_row(set->tuple_desc, &octant, &reader->header));
+	SRF_RETURN_NEXT(set, octant_row(set->tuple_desc, &octant, &reader->header.facts));
 }
 
 /* abacus_octants(octree regclass, lower float8[], upper float8[]) -> SETOF abacus_octant */

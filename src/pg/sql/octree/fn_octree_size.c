@@ -112,7 +112,7 @@ abacus_sql_octree_from_size(PG_FUNCTION_ARGS)
 	SPI_connect();
 	writer_begin_of(&writer, PG_GETARG_OID(0), ABACUS_OCTREE, "abacus_octree_from_size()");
 	host = query.host = writer.host;
-	query.dimension = writer.header->dimension;
+	query.dimension = writer.header->facts.form.dimension;
 	query.plan = SPI_prepare(text_to_cstring(PG_GETARG_TEXT_PP(1)), (int) query.dimension, types);
 	if (query.plan == NULL)
 		elog(ERROR, "could not prepare the query: %s", SPI_result_code_string(SPI_result));
@@ -120,7 +120,7 @@ abacus_sql_octree_from_size(PG_FUNCTION_ARGS)
 										  ALLOCSET_DEFAULT_SIZES);
 	octree_growth_open(&writer);
 	host_run(host, abacus_octree_growth_sizes, host->handle, sizes_of, &query, writer.header);
-	leaves = (int64) writer.header->leaves;
+	leaves = (int64) writer.header->facts.census.leaves;
 	writer_end(&writer);
 	SPI_finish();
 	PG_RETURN_INT64(leaves);

@@ -30,21 +30,21 @@ octant_row_type(FunctionCallInfo fcinfo)
 
 /* The values of the columns, none of which is NULL. */
 void
-octant_columns(const abacus_octant *octant, const abacus_header *header, Datum *values)
+octant_columns(const abacus_octant *octant, const abacus_facts *facts, Datum *values)
 {
 	values[OCTANT_CODE] = Int64GetDatum((int64) octant->code);
 	values[OCTANT_LEVEL] = Int32GetDatum(octant->level);
-	values[OCTANT_LOWER] = attribute_array(octant->lower, (int) header->dimension);
-	values[OCTANT_UPPER] = attribute_array(octant->upper, (int) header->dimension);
-	values[OCTANT_ATTRIBUTES] = attribute_array(octant->values, (int) header->attributes);
+	values[OCTANT_LOWER] = attribute_array(octant->lower, (int) facts->form.dimension);
+	values[OCTANT_UPPER] = attribute_array(octant->upper, (int) facts->form.dimension);
+	values[OCTANT_ATTRIBUTES] = attribute_array(octant->values, (int) facts->columns.attributes);
 }
 
 Datum
-octant_row(TupleDesc row_type, const abacus_octant *octant, const abacus_header *header)
+octant_row(TupleDesc row_type, const abacus_octant *octant, const abacus_facts *facts)
 {
 	Datum		values[OCTANT_COLUMNS];
 	bool		isnull[OCTANT_COLUMNS] = {false};
 
-	octant_columns(octant, header, values);
+	octant_columns(octant, facts, values);
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
 }

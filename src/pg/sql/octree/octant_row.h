@@ -21,8 +21,8 @@ enum
 };
 
 extern TupleDesc octant_row_type(FunctionCallInfo fcinfo);
-extern void octant_columns(const abacus_octant *octant, const abacus_header *header, Datum *values);
+extern void octant_columns(const abacus_octant *octant, const abacus_facts *facts, Datum *values);
 extern Datum octant_row(TupleDesc row_type, const abacus_octant *octant,
-						const abacus_header *header);
+						const abacus_facts *facts);
 
 #endif

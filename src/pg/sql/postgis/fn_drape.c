@@ -246,7 +246,7 @@ drape_geometry(Drape *drape, bool inside)
 	if (head.kind < GEOMETRY_POINT || head.kind > GEOMETRY_COLLECTION)
 		geometry_refuse_kind("the geometry", head.kind, "made of points, lines or polygons");
 	if (!inside && drape->mesh != NULL)
-		geometry_check_srid(&drape->mesh->header, head.srid);
+		geometry_check_srid(&drape->mesh->header.facts.form, head.srid);
 	lifted.has_z = true;
 	drape->has_m = head.has_m;
 	geometry_put_head(&drape->out, &lifted);
@@ -281,9 +281,9 @@ abacus_sql_drape(PG_FUNCTION_ARGS)
 	if (interpolation_of_null(fcinfo, DRAPE_GEOMETRY))
 		PG_RETURN_NULL();
 	drape.mesh = mesh_cache_get(PG_GETARG_OID(DRAPE_MESH));
-	header_require_dimension(&drape.mesh->header, 2,
+	header_require_dimension(&drape.mesh->header.facts.form, 2,
 							 "A terrain is a mesh in the plane with the height as an attribute.");
-	interpolation_attribute(fcinfo, DRAPE_ATTRIBUTE, &drape.mesh->header, &drape.how);
+	interpolation_attribute(fcinfo, DRAPE_ATTRIBUTE, abacus_names_of(&drape.mesh->header), &drape.how);
 	drape.how.outside = word_argument(fcinfo, DRAPE_OUTSIDE, outsides, "outside",
 									  "Outside the mesh the value is null, or that of the nearest vertex.");
 	interpolation_max_edge(fcinfo, DRAPE_MAX_EDGE, &drape.how);

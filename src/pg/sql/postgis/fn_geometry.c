@@ -48,15 +48,15 @@ abacus_sql_geometry_facts(PG_FUNCTION_ARGS)
 {
 	Datum		values[3] = {0};
 	bool		isnull[3] = {false, false, PG_ARGISNULL(1)};
-	const abacus_header *header;
+	abacus_names names;
 
 	if (PG_ARGISNULL(0))
 		PG_RETURN_NULL();
-	header = &mesh_cache_get(PG_GETARG_OID(0))->header;
-	values[0] = Int32GetDatum((int32) header->srid);
-	values[1] = Int32GetDatum((int32) header->dimension);
+	names = abacus_names_of(&mesh_cache_get(PG_GETARG_OID(0))->header);
+	values[0] = Int32GetDatum((int32) names.facts->form.srid);
+	values[1] = Int32GetDatum((int32) names.facts->form.dimension);
 	if (!isnull[2])
-		values[2] = Int32GetDatum(1 + header_find_attribute(header, text_to_cstring(PG_GETARG_TEXT_PP(1))));
+		values[2] = Int32GetDatum(1 + header_find_attribute(names, text_to_cstring(PG_GETARG_TEXT_PP(1))));
 	PG_RETURN_DATUM(HeapTupleGetDatum(heap_form_tuple(result_row_type(fcinfo), values, isnull)));
 }
 
@@ -70,31 +70,31 @@ abacus_sql_geometry_facts(PG_FUNCTION_ARGS)
 Datum
 abacus_sql_geometry_corner(PG_FUNCTION_ARGS)
 {
-	const abacus_header *header = &mesh_cache_get(PG_GETARG_OID(0))->header;
+	const abacus_facts *facts = &mesh_cache_get(PG_GETARG_OID(0))->header.facts;
 	ArrayType  *array = PG_GETARG_ARRAYTYPE_P(2);
 	double		corner[ABACUS_MAX_DIMENSION] = {0};
 
-	geometry_check_srid(header, PG_GETARG_INT32(1));
+	geometry_check_srid(&facts->form, PG_GETARG_INT32(1));
 	if (!array_contains_nulls(array))
 		memcpy(corner, geometry_numbers(array, ABACUS_MAX_DIMENSION, &(size_t) {0}), sizeof(corner));
-	for (uint32 i = 0; i < header->dimension; i++)
+	for (uint32 i = 0; i < facts->form.dimension; i++)
 		if (isinf(corner[i]))
 			corner[i] = corner[i] < 0 ? -DBL_MAX : DBL_MAX;
-	PG_RETURN_DATUM(attribute_array(corner, (int) header->dimension));
+	PG_RETURN_DATUM(attribute_array(corner, (int) facts->form.dimension));
 }
 
 /* _abacus_area(mesh regclass, area geometry) -> geometry: the same, which must be polygons of the mesh's system */
 Datum
 abacus_sql_geometry_area(PG_FUNCTION_ARGS)
 {
-	const abacus_header *header = &mesh_cache_get(PG_GETARG_OID(0))->header;
+	const abacus_facts *facts = &mesh_cache_get(PG_GETARG_OID(0))->header.facts;
 	GeometryBytes bytes = geometry_bytes(geometry_argument_type(fcinfo, 1), PG_GETARG_DATUM(1));
 	GeometryHead head = geometry_head(&bytes);
 
-	header_require_dimension(header, 2, "Areas are for meshes of dimension 2.");
+	header_require_dimension(&facts->form, 2, "Areas are for meshes of dimension 2.");
 	if (head.kind != GEOMETRY_POLYGON && head.kind != GEOMETRY_MULTIPOLYGON)
 		geometry_refuse_kind("the geometry", head.kind, "a Polygon or MultiPolygon");
-	geometry_check_srid(header, head.srid);
+	geometry_check_srid(&facts->form, head.srid);
 	PG_RETURN_DATUM(PG_GETARG_DATUM(1));
 }
 
@@ -102,28 +102,28 @@ abacus_sql_geometry_area(PG_FUNCTION_ARGS)
 Datum
 abacus_sql_geometry_point(PG_FUNCTION_ARGS)
 {
-	const abacus_header *header = &mesh_cache_get(PG_GETARG_OID(0))->header;
+	const abacus_facts *facts = &mesh_cache_get(PG_GETARG_OID(0))->header.facts;
 	double		place[ABACUS_MAX_DIMENSION];
 
-	if (!geometry_place(fcinfo, 1, "the geometry", header, place))
+	if (!geometry_place(fcinfo, 1, "the geometry", &facts->form, place))
 		PG_RETURN_NULL();
-	PG_RETURN_DATUM(attribute_array(place, (int) header->dimension));
+	PG_RETURN_DATUM(attribute_array(place, (int) facts->form.dimension));
 }
 
 /* _abacus_path(mesh regclass, line geometry) -> float8[]: its corners; NULL for an empty line */
 Datum
 abacus_sql_geometry_path(PG_FUNCTION_ARGS)
 {
-	const abacus_header *header = &mesh_cache_get(PG_GETARG_OID(0))->header;
+	const abacus_facts *facts = &mesh_cache_get(PG_GETARG_OID(0))->header.facts;
 	GeometryBytes bytes = geometry_bytes(geometry_argument_type(fcinfo, 1), PG_GETARG_DATUM(1));
 	GeometryHead head = geometry_head(&bytes);
-	int			dimension = (int) header->dimension;
+	int			dimension = (int) facts->form.dimension;
 	double	   *path;
 	uint32		count;
 
 	if (head.kind != GEOMETRY_LINE)
 		geometry_refuse_kind("the geometry", head.kind, "a LineString");
-	geometry_check_srid(header, head.srid);
+	geometry_check_srid(&facts->form, head.srid);
 	if (dimension > 2 && !head.has_z)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),

@@ -46,17 +46,17 @@ static Datum
 with_place(FunctionCallInfo fcinfo, PGFunction function)
 {
 	LOCAL_FCINFO(inner, MOST_ARGUMENTS);
-	const abacus_header *header;
+	const abacus_facts *facts;
 	double		place[ABACUS_MAX_DIMENSION];
 	int			count = 0;
 
 	if (PG_ARGISNULL(0) || PG_ARGISNULL(1))
 		return no_answer(fcinfo);
-	header = &mesh_cache_get(PG_GETARG_OID(0))->header;
-	if (!geometry_place(fcinfo, 1, "the geometry", header, place))
+	facts = &mesh_cache_get(PG_GETARG_OID(0))->header.facts;
+	if (!geometry_place(fcinfo, 1, "the geometry", &facts->form, place))
 		return no_answer(fcinfo);
 	inner->args[count++] = fcinfo->args[0];
-	for (uint32 i = 0; i < header->dimension; i++)
+	for (uint32 i = 0; i < facts->form.dimension; i++)
 		inner->args[count++] = (NullableDatum) {Float8GetDatum(place[i]), false};
 	for (int i = 2; i < PG_NARGS(); i++)
 		inner->args[count++] = fcinfo->args[i];
@@ -90,20 +90,20 @@ abacus_sql_visible_geometry(PG_FUNCTION_ARGS)
 {
 	static const char *const names[] = {NULL, "the observer", "the target"};
 	LOCAL_FCINFO(inner, MOST_ARGUMENTS);
-	const abacus_header *header;
+	const abacus_facts *facts;
 
 	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(2))
 		return no_answer(fcinfo);
-	header = &mesh_cache_get(PG_GETARG_OID(0))->header;
+	facts = &mesh_cache_get(PG_GETARG_OID(0))->header.facts;
 	for (int i = 0; i < PG_NARGS(); i++)
 		inner->args[i] = fcinfo->args[i];
 	for (int i = 1; i <= 2; i++)
 	{
 		double		place[ABACUS_MAX_DIMENSION];
 
-		if (!geometry_place(fcinfo, i, names[i], header, place))
+		if (!geometry_place(fcinfo, i, names[i], &facts->form, place))
 			return no_answer(fcinfo);
-		inner->args[i].value = attribute_array(place, (int) header->dimension);
+		inner->args[i].value = attribute_array(place, (int) facts->form.dimension);
 	}
 	return call(fcinfo, abacus_sql_visible, inner, PG_NARGS());
 }

@@ -18,29 +18,29 @@ geometry_argument_type(FunctionCallInfo fcinfo, int argument)
 
 /* A geometry is of the system of the mesh. */
 void
-geometry_check_srid(const abacus_header *header, int32 srid)
+geometry_check_srid(const abacus_form *form, int32 srid)
 {
-	if (srid != (int32) header->srid)
-		geometry_refuse_srid("the geometry", srid, (int32) header->srid, "mesh");
+	if (srid != (int32) form->srid)
+		geometry_refuse_srid("the geometry", srid, (int32) form->srid, "mesh");
 }
 
 /* The coordinates of a point; a z in the plane is passed over. False for an empty one. */
 bool
 geometry_place(FunctionCallInfo fcinfo, int argument, const char *what,
-			   const abacus_header *header, double *place)
+			   const abacus_form *form, double *place)
 {
 	GeometryPoint point;
 
 	geometry_point(geometry_argument_type(fcinfo, argument), PG_GETARG_DATUM(argument), what, &point);
-	geometry_check_srid(header, point.srid);
+	geometry_check_srid(form, point.srid);
 	if (point.is_empty)
 		return false;
-	if (header->dimension > 2 && !point.has_z)
+	if (form->dimension > 2 && !point.has_z)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("%s has no z, but the mesh has dimension %u", what, header->dimension),
+				 errmsg("%s has no z, but the mesh has dimension %u", what, form->dimension),
 				 errhint("ST_Force3DZ(geometry, z) gives it one.")));
-	memcpy(place, point.at, header->dimension * sizeof(double));
+	memcpy(place, point.at, form->dimension * sizeof(double));
 	return true;
 }
 

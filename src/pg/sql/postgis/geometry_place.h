@@ -6,13 +6,13 @@
 
 #include "utils/array.h"
 
-#include "abacus/mesh_header.h"
+#include "abacus/facts.h"
 #include "pg/postgis/geometry_read.h"
 
 extern const GeometryType *geometry_argument_type(FunctionCallInfo fcinfo, int argument);
-extern void geometry_check_srid(const abacus_header *header, int32 srid);
+extern void geometry_check_srid(const abacus_form *form, int32 srid);
 extern bool geometry_place(FunctionCallInfo fcinfo, int argument, const char *what,
-						   const abacus_header *header, double *place);
+						   const abacus_form *form, double *place);
 extern const double *geometry_numbers(ArrayType *array, int of, size_t *count);
 extern bool geometry_corner_values(ArrayType *array, int attribute, double *values);
 

@@ -31,7 +31,7 @@ abacus_sql_locate(PG_FUNCTION_ARGS)
 	abacus_status status;
 
 	cached = mesh_cache_get(PG_GETARG_OID(0));
-	if (!place_arguments(fcinfo, PG_NARGS() - 1, &cached->header, point))
+	if (!place_arguments(fcinfo, PG_NARGS() - 1, &cached->header.facts.form, point))
 		PG_RETURN_NULL();		/* outside of any hull */
 
 	host = cached->host;

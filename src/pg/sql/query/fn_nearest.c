@@ -77,11 +77,11 @@ abacus_sql_nearest(PG_FUNCTION_ARGS)
 
 	InitMaterializedSRF(fcinfo, 0);
 	cached = mesh_cache_get(PG_GETARG_OID(0));
-	place_require_z(given, &cached->header);
-	place_arguments_finite(fcinfo, given, &cached->header, point);
+	place_require_z(given, &cached->header.facts.form);
+	place_arguments_finite(fcinfo, given, &cached->header.facts.form, point);
 	answers.host = cached->host;
 	answers.dimension = cached->dimension;
-	answers_have_arrays(&answers, cached->header.attributes);
+	answers_have_arrays(&answers, cached->header.facts.columns.attributes);
 	host_run(cached->host, abacus_mesh_nearest, cached->mesh, point, k, put_near, &answers);
 	host_release(cached->host);
 	PG_RETURN_NULL();

@@ -62,7 +62,7 @@ abacus_sql_locate_places(PG_FUNCTION_ARGS)
 	places_read(&read, PG_GETARG_OID(0), ABACUS_MESH, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	answers.host = read.host;
 	answers.dimension = read.dimension;
-	answers_have_arrays(&answers, read.header->labels);
+	answers_have_arrays(&answers, read.names.facts->columns.labels);
 	temp_room_require_rows((double) read.count, (int) sizeof(Datum));
 	host_run(read.host, abacus_places_locate, read.places, put_answer, &answers);
 	places_done(&read);

@@ -35,7 +35,7 @@ abacus_sql_simplices(PG_FUNCTION_ARGS)
 		set = SRF_FIRSTCALL_INIT();
 		reader = set_begin(fcinfo, set, simplex_row_type);
 		host = reader->host;
-		host_run(host, abacus_scan_open, &host->table, &reader->header, 0, &scan);
+		host_run(host, abacus_scan_open, &host->table, &reader->header.facts, 0, &scan);
 		host_own(host, scan, (void (*) (void *)) abacus_scan_close);
 	}
 	set = SRF_PERCALL_SETUP();
@@ -45,7 +45,7 @@ abacus_sql_simplices(PG_FUNCTION_ARGS)
 	host_release(host);
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);
-	SRF_RETURN_NEXT(set, simplex_row(set->tuple_desc, &simplex, reader->header.dimension));
+	SRF_RETURN_NEXT(set, simplex_row(set->tuple_desc, &simplex, reader->header.facts.form.dimension));
 }
 
 /* All points. */
@@ -65,8 +65,8 @@ all_points(FunctionCallInfo fcinfo)
 		set = SRF_FIRSTCALL_INIT();
 		reader = set_begin(fcinfo, set, result_row_type);
 		host = reader->host;
-		header_open_vertices(host, &reader->header);
-		host_run(host, abacus_vertex_scan_open, &host->table, &reader->header,
+		header_open_vertices(host, &reader->header.facts);
+		host_run(host, abacus_vertex_scan_open, &host->table, &reader->header.facts,
 				 setting_cache_bytes(), &scan);
 		host_own(host, scan, (void (*) (void *)) abacus_vertex_scan_close);
 	}
@@ -77,7 +77,7 @@ all_points(FunctionCallInfo fcinfo)
 	host_release(host);
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);
-	SRF_RETURN_NEXT(set, vertex_row(set->tuple_desc, &vertex, &reader->header));
+	SRF_RETURN_NEXT(set, vertex_row(set->tuple_desc, &vertex, &reader->header.facts));
 }
 
 /* Whether a call has a window, or the range of an attribute. In 0.1.0 the mesh was the only argument. */

@@ -40,7 +40,7 @@ abacus_sql_star(PG_FUNCTION_ARGS)
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	answers.host = cached->host;
 	answers.dimension = cached->dimension;
-	if (!place_arguments(fcinfo, PG_NARGS() - 1, &cached->header, point))
+	if (!place_arguments(fcinfo, PG_NARGS() - 1, &cached->header.facts.form, point))
 		PG_RETURN_NULL();		/* outside of any hull */
 	host_run(answers.host, abacus_mesh_star, cached->mesh, point, put_simplex, &answers);
 	host_release(answers.host);

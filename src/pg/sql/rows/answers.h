@@ -7,7 +7,7 @@
 
 #include "nodes/execnodes.h"
 
-#include "abacus/mesh_header.h"
+#include "abacus/facts.h"
 #include "pg/host/host.h"
 
 /* What the function that the core reports to needs: the context of the report. */
@@ -15,7 +15,7 @@ typedef struct Answers
 {
 	Host	   *host;
 	ReturnSetInfo *set;			/* into whose tuplestore rows go */
-	const abacus_header *header;	/* of the mesh or the octree */
+	const abacus_facts *facts;	/* of the mesh or the octree */
 	uint32		dimension;		/* of it */
 	uint32		attributes;		/* of a row */
 	MemoryContext row;			/* for arrays of a row; NULL: there are none */

@@ -21,7 +21,7 @@ enum
 };
 
 Datum
-vertex_row(TupleDesc row_type, const abacus_vertex *vertex, const abacus_header *header)
+vertex_row(TupleDesc row_type, const abacus_vertex *vertex, const abacus_facts *facts)
 {
 	Datum		values[VERTEX_COLUMNS];
 	bool		isnull[VERTEX_COLUMNS] = {false};
@@ -31,10 +31,10 @@ vertex_row(TupleDesc row_type, const abacus_vertex *vertex, const abacus_header 
 	values[VERTEX_ID] = Int64GetDatum(vertex->id);
 	for (uint32 i = 0; i < ABACUS_MAX_DIMENSION; i++)
 	{
-		isnull[VERTEX_X + i] = i >= header->dimension;
+		isnull[VERTEX_X + i] = i >= facts->form.dimension;
 		values[VERTEX_X + i] = isnull[VERTEX_X + i] ? (Datum) 0 : Float8GetDatum(vertex->point[i]);
 	}
-	values[VERTEX_ATTRIBUTES] = attribute_array(vertex->attributes, header->attributes);
+	values[VERTEX_ATTRIBUTES] = attribute_array(vertex->attributes, facts->columns.attributes);
 	isnull[VERTEX_VERTEX] = vertex->waits;
 	values[VERTEX_VERTEX] = Int64GetDatum(vertex->vertex);
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));

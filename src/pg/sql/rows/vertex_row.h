@@ -9,6 +9,6 @@
 #include "abacus/simplex.h"
 
 extern Datum vertex_row(TupleDesc row_type, const abacus_vertex *vertex,
-						const abacus_header *header);
+						const abacus_facts *facts);
 
 #endif

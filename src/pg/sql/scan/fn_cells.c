@@ -37,31 +37,31 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, bool is_ce
 	abacus_cells *cells = NULL;
 	abacus_range label;
 	double		max_edge = is_cells ? window_max_edge(fcinfo, 3) : 0;
-	bool		has_label = is_cells && window_label(fcinfo, 4, &reader->header, &label);
+	bool		has_label = is_cells && window_label(fcinfo, 4, abacus_names_of(&reader->header), &label);
 
-	window_arguments(fcinfo, 1, form, &reader->header, &window);
-	host_run(host, abacus_cells_open, &host->table, &reader->header, &window, max_edge,
+	window_arguments(fcinfo, 1, form, &reader->header.facts.form, &window);
+	host_run(host, abacus_cells_open, &host->table, &reader->header.facts, &window, max_edge,
 			 has_label ? &label : NULL, &cells);
 	host_own(host, cells, (void (*) (void *)) abacus_cells_close);
 }
 
 static Datum
 cell_row(TupleDesc row_type, const abacus_simplex *simplex, const double *attributes,
-		 const double *labels, const abacus_header *header)
+		 const double *labels, const abacus_facts *facts)
 {
-	int			dimension = (int) header->dimension;
+	int			dimension = (int) facts->form.dimension;
 	double		corners[(ABACUS_MAX_DIMENSION + 1) * ABACUS_MAX_DIMENSION];
 	Datum		values[CELL_COLUMNS];
 	bool		isnull[CELL_COLUMNS] = {false};
 
 	for (int i = 0; i <= dimension; i++)
 		memcpy(corners + i * dimension, simplex->corner[i], dimension * sizeof(double));
-	simplex_columns(simplex, header->dimension, values, isnull);
+	simplex_columns(simplex, facts->form.dimension, values, isnull);
 	values[CELL_CORNERS] = float_matrix(corners, dimension + 1, dimension);
-	values[CELL_VALUES] = float_matrix(attributes, dimension + 1, (int) header->attributes);
-	isnull[CELL_LABELS] = header->labels == 0;
-	values[CELL_LABELS] = header->labels == 0 ? (Datum) 0
-		: attribute_array(labels, (int) header->labels);
+	values[CELL_VALUES] = float_matrix(attributes, dimension + 1, (int) facts->columns.attributes);
+	isnull[CELL_LABELS] = facts->columns.labels == 0;
+	values[CELL_LABELS] = facts->columns.labels == 0 ? (Datum) 0
+		: attribute_array(labels, (int) facts->columns.labels);
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
 }
 
@@ -87,13 +87,13 @@ next(FunctionCallInfo fcinfo, WindowForm form, bool is_cells)
 	reader = set->user_fctx;
 	host = reader->host;
 	status = host_run(host, abacus_cells_next, host->handle, &simplex, is_cells ? values : NULL);
-	if (is_cells && status != ABACUS_END && reader->header.labels > 0)
+	if (is_cells && status != ABACUS_END && reader->header.facts.columns.labels > 0)
 		host_run(host, abacus_cells_labels, host->handle, &simplex, &labels);
 	host_release(host);
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);
-	SRF_RETURN_NEXT(set, is_cells ? cell_row(set->tuple_desc, &simplex, values, labels, &reader->header)
-					: simplex_row(set->tuple_desc, &simplex, reader->header.dimension));
+	SRF_RETURN_NEXT(set, is_cells ? cell_row(set->tuple_desc, &simplex, values, labels, &reader->header.facts)
+					: simplex_row(set->tuple_desc, &simplex, reader->header.facts.form.dimension));
 }
 
 /* abacus_simplices(mesh regclass, lower float8[], upper float8[]) -> SETOF abacus_simplex */

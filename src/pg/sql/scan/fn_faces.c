@@ -54,14 +54,14 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, Wanted wan
 	abacus_faces *faces = NULL;
 	double		max_edge = are_edges(wanted) ? window_max_edge(fcinfo, 3) : 0;
 	bool		has_range = wanted == VERTICES && form == WINDOW_BOX &&
-		window_attribute(fcinfo, 3, &reader->header, &range);
+		window_attribute(fcinfo, 3, abacus_names_of(&reader->header), &range);
 
-	window_arguments(fcinfo, 1, form, &reader->header, &window);
+	window_arguments(fcinfo, 1, form, &reader->header.facts.form, &window);
 	if (has_range)
-		host_run(host, abacus_faces_open_range, &host->table, &reader->header, &window, &range,
+		host_run(host, abacus_faces_open_range, &host->table, &reader->header.facts, &window, &range,
 				 setting_cache_bytes(), &faces);
 	else
-		host_run(host, abacus_faces_open, &host->table, &reader->header, &window, are_edges(wanted),
+		host_run(host, abacus_faces_open, &host->table, &reader->header.facts, &window, are_edges(wanted),
 				 max_edge, setting_cache_bytes(), &faces);
 	host_own(host, faces, (void (*) (void *)) abacus_faces_close);
 }
@@ -97,8 +97,8 @@ next_row(FuncCallContext *set, Wanted wanted, Datum *row)
 	if (status == ABACUS_END)
 		return false;
 	*row = are_edges(wanted)
-		? edge_row(set->tuple_desc, &edge, ends, reader->header.dimension)
-		: vertex_row(set->tuple_desc, &vertex, &reader->header);
+		? edge_row(set->tuple_desc, &edge, ends, reader->header.facts.form.dimension)
+		: vertex_row(set->tuple_desc, &vertex, &reader->header.facts);
 	return true;
 }
 

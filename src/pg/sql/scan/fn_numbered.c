@@ -48,11 +48,11 @@ begin(FunctionCallInfo fcinfo, bool of_simplices)
 	InitMaterializedSRF(fcinfo, 0);
 	reader = reader_open(mesh, CurrentMemoryContext);
 	/* number, id and coordinates; or code and numbers */
-	temp_room_require_rows(of_simplices ? (double) reader->header.simplices
-						   : (double) reader->header.vertices,
-						   (2 + (int) reader->header.dimension) * (int) sizeof(Datum));
+	temp_room_require_rows(of_simplices ? (double) reader->header.facts.census.simplices
+						   : (double) reader->header.facts.census.vertices,
+						   (2 + (int) reader->header.facts.form.dimension) * (int) sizeof(Datum));
 	progress_begin(&reader->host->progress, mesh);
-	host_run(reader->host, abacus_numbered_open, &reader->host->table, &reader->header,
+	host_run(reader->host, abacus_numbered_open, &reader->host->table, &reader->header.facts,
 			 of_simplices, setting_query_sort_bytes(), &numbered);
 	host_own(reader->host, numbered, (void (*) (void *)) abacus_numbered_close);
 	return reader;
@@ -68,7 +68,7 @@ done(Reader *reader)
 
 static void
 put_vertex(ReturnSetInfo *set, int64 number, const abacus_vertex *vertex,
-		   const abacus_header *header)
+		   const abacus_facts *facts)
 {
 	Datum		values[VERTEX_COLUMNS] = {0};
 	bool		isnull[VERTEX_COLUMNS] = {false};
@@ -77,10 +77,10 @@ put_vertex(ReturnSetInfo *set, int64 number, const abacus_vertex *vertex,
 	values[VERTEX_ID] = Int64GetDatum(vertex->id);
 	for (uint32 i = 0; i < ABACUS_MAX_DIMENSION; i++)
 	{
-		isnull[VERTEX_X + i] = i >= header->dimension;
+		isnull[VERTEX_X + i] = i >= facts->form.dimension;
 		values[VERTEX_X + i] = Float8GetDatum(vertex->point[i]);
 	}
-	values[VERTEX_ATTRIBUTES] = attribute_array(vertex->attributes, (int) header->attributes);
+	values[VERTEX_ATTRIBUTES] = attribute_array(vertex->attributes, (int) facts->columns.attributes);
 	tuplestore_putvalues(set->setResult, set->setDesc, values, isnull);
 	pfree(DatumGetPointer(values[VERTEX_ATTRIBUTES]));
 }
@@ -96,7 +96,7 @@ abacus_sql_numbered_vertices(PG_FUNCTION_ARGS)
 	for (int64 number = 0;
 		 host_run(host, abacus_numbered_next_vertex, host->handle, &vertex) != ABACUS_END;
 		 number++)
-		put_vertex((ReturnSetInfo *) fcinfo->resultinfo, number, &vertex, &reader->header);
+		put_vertex((ReturnSetInfo *) fcinfo->resultinfo, number, &vertex, &reader->header.facts);
 	done(reader);
 	PG_RETURN_NULL();
 }
@@ -129,7 +129,7 @@ abacus_sql_numbered_simplices(PG_FUNCTION_ARGS)
 	while (host_run(host, abacus_numbered_next_simplex, host->handle, &simplex, numbers) !=
 		   ABACUS_END)
 		put_simplex((ReturnSetInfo *) fcinfo->resultinfo, &simplex, numbers,
-					reader->header.dimension);
+					reader->header.facts.form.dimension);
 	done(reader);
 	PG_RETURN_NULL();
 }

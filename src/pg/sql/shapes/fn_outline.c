@@ -30,7 +30,7 @@ enum
 
 /* Arguments 1 and 2 of abacus_alpha_shape; what every circle is within asks for no bound. */
 static void
-alpha_arguments(FunctionCallInfo fcinfo, const abacus_header *header, abacus_outline_kind *kind)
+alpha_arguments(FunctionCallInfo fcinfo, const abacus_form *form, abacus_outline_kind *kind)
 {
 	if (PG_ARGISNULL(1))
 		ereport(ERROR,
@@ -45,7 +45,7 @@ alpha_arguments(FunctionCallInfo fcinfo, const abacus_header *header, abacus_out
 				 errhint("alpha is the square of a radius, as in ST_AlphaShape.")));
 	kind->has_alpha = isfinite(kind->alpha) != 0;
 	if (PG_ARGISNULL(2))
-		kind->fills_holes = header->dimension == 2;
+		kind->fills_holes = form->dimension == 2;
 	else
 		kind->fills_holes = !PG_GETARG_BOOL(2);
 }
@@ -83,13 +83,13 @@ outline(FunctionCallInfo fcinfo, bool is_alpha)
 		PG_RETURN_NULL();
 	reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
 	host = answers.host = reader->host;
-	answers.dimension = reader->header.dimension;
+	answers.dimension = reader->header.facts.form.dimension;
 	if (is_alpha)
-		alpha_arguments(fcinfo, &reader->header, &kind);
+		alpha_arguments(fcinfo, &reader->header.facts.form, &kind);
 	else
 		kind.max_edge = window_max_edge(fcinfo, 1);
 	progress_begin(&host->progress, PG_GETARG_OID(0));
-	host_run(host, abacus_outline, &host->table, &reader->header, &kind, setting_query_sort_bytes(),
+	host_run(host, abacus_outline, &host->table, &reader->header.facts, &kind, setting_query_sort_bytes(),
 			 setting_cache_bytes(), put_row, &answers);
 	progress_end(&host->progress);
 	host_release(host);

@@ -43,16 +43,18 @@ Datum
 abacus_sql_spanning_tree(PG_FUNCTION_ARGS)
 {
 	Reader	   *reader;
+	const abacus_census *census;
 	Host	   *host;
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
 	InitMaterializedSRF(fcinfo, 0);
 	reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
+	census = &reader->header.facts.census;
 	host = answers.host = reader->host;
-	temp_room_require_rows((double) reader->header.vertices - (double) reader->header.split - 1,
+	temp_room_require_rows((double) census->vertices - (double) census->split - 1,
 						   EDGE_COLUMNS * (int) sizeof(Datum));
 	progress_begin(&host->progress, PG_GETARG_OID(0));
-	host_run(host, abacus_spanning_tree, &host->table, &reader->header, setting_query_sort_bytes(),
+	host_run(host, abacus_spanning_tree, &host->table, &reader->header.facts, setting_query_sort_bytes(),
 			 setting_cache_bytes(), put_edge, &answers);
 	progress_end(&host->progress);
 	host_release(host);

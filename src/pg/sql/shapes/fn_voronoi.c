@@ -40,13 +40,13 @@ enum
 };
 
 static Datum
-ring_matrix(const double *ring, size_t corners, const abacus_header *header)
+ring_matrix(const double *ring, size_t corners, const abacus_form *form)
 {
-	return float_matrix(ring, (int) corners, (int) header->dimension);
+	return float_matrix(ring, (int) corners, (int) form->dimension);
 }
 
 static Datum
-cell_row(TupleDesc row_type, const abacus_voronoi_cell *cell, const abacus_header *header)
+cell_row(TupleDesc row_type, const abacus_voronoi_cell *cell, const abacus_form *form)
 {
 	Datum		values[CELL_COLUMNS] = {0};
 	bool		isnull[CELL_COLUMNS] = {false};
@@ -55,15 +55,15 @@ cell_row(TupleDesc row_type, const abacus_voronoi_cell *cell, const abacus_heade
 	values[CELL_BOUNDED] = BoolGetDatum(cell->bounded != 0);
 	values[CELL_AREA] = Float8GetDatum(cell->area);
 	values[CELL_VOLUME] = Float8GetDatum(cell->volume);
-	isnull[CELL_VOLUME] = header->dimension == 2;
+	isnull[CELL_VOLUME] = form->dimension == 2;
 	isnull[CELL_RING] = cell->corners == 0;
 	if (cell->corners > 0)
-		values[CELL_RING] = ring_matrix(cell->ring, cell->corners, header);
+		values[CELL_RING] = ring_matrix(cell->ring, cell->corners, form);
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
 }
 
 static Datum
-facet_row(TupleDesc row_type, const abacus_voronoi_facet *facet, const abacus_header *header)
+facet_row(TupleDesc row_type, const abacus_voronoi_facet *facet, const abacus_form *form)
 {
 	Datum		values[FACET_COLUMNS] = {0};
 	bool		isnull[FACET_COLUMNS] = {false};
@@ -75,7 +75,7 @@ facet_row(TupleDesc row_type, const abacus_voronoi_facet *facet, const abacus_he
 	values[FACET_SIZE] = Float8GetDatum(facet->size);
 	isnull[FACET_RING] = facet->corners == 0;
 	if (facet->corners > 0)
-		values[FACET_RING] = ring_matrix(facet->ring, facet->corners, header);
+		values[FACET_RING] = ring_matrix(facet->ring, facet->corners, form);
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
 }
 
@@ -87,8 +87,8 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set)
 	abacus_window window = {0};
 	abacus_voronoi *voronoi = NULL;
 
-	window_arguments(fcinfo, 1, WINDOW_BOX, &reader->header, &window);
-	host_run(host, abacus_voronoi_open, &host->table, &reader->header, &window,
+	window_arguments(fcinfo, 1, WINDOW_BOX, &reader->header.facts.form, &window);
+	host_run(host, abacus_voronoi_open, &host->table, &reader->header.facts, &window,
 			 setting_cache_bytes(), &voronoi);
 	host_own(host, voronoi, (void (*) (void *)) abacus_voronoi_close);
 }
@@ -107,8 +107,8 @@ next_row(FuncCallContext *set, bool is_facets, Datum *row)
 	host_release(host);
 	if (status == ABACUS_END)
 		return false;
-	*row = is_facets ? facet_row(set->tuple_desc, &facet, &reader->header)
-		: cell_row(set->tuple_desc, &cell, &reader->header);
+	*row = is_facets ? facet_row(set->tuple_desc, &facet, &reader->header.facts.form)
+		: cell_row(set->tuple_desc, &cell, &reader->header.facts.form);
 	return true;
 }
 

@@ -234,11 +234,11 @@ static bool
 make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchronize,
 		   Oid extension_namespace)
 {
-	abacus_header *header = change->writer.header;
-	char	   *here = tracked_points_of_table(table, columns, header->dimension, true);
-	char	   *there = tracked_points_of_mesh(mesh, header, extension_namespace);
-	char	   *elsewhere = tracked_points_of_other_srid(table, columns, header);
-	uint32		srid = header->srid;
+	const abacus_facts *facts = &change->writer.header->facts;
+	char	   *here = tracked_points_of_table(table, columns, facts->form.dimension, true);
+	char	   *there = tracked_points_of_mesh(mesh, facts, extension_namespace);
+	char	   *elsewhere = tracked_points_of_other_srid(table, columns, &facts->form);
+	uint32		srid = facts->form.srid;
 	uint64		missing;
 	uint64		surplus;
 
@@ -266,7 +266,7 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 	if (surplus > 0)
 		change_delete(change, true);
 	change_settle(change);
-	return missing + surplus > 0 || srid != header->srid;
+	return missing + surplus > 0 || srid != facts->form.srid;
 }
 
 /* How many attributes the mesh has had and has no more. */
@@ -276,7 +276,7 @@ dropped_attributes(const Change *change)
 	Numbering  *numbering = palloc(sizeof(Numbering));
 	uint32		dropped;
 
-	numbering_read(change->writer.host, change->writer.header, numbering);
+	numbering_read(change->writer.host, &change->writer.header->facts.columns, numbering);
 	dropped = numbering->dropped;
 	pfree(numbering);
 	return dropped;
@@ -297,7 +297,7 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 	TriggerCall call = {0};
 	ListCell   *cell;
 	Change	   *change;
-	abacus_header header;
+	abacus_facts facts;
 	uint64		points;
 	bool		changed = true;
 
@@ -321,23 +321,24 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 
 	pending_settle(mesh);
 	change = change_begin(mesh, "abacus_track()");
-	header = *change->writer.header;
+	facts = change->writer.header->facts;
 	call.function = tracking_function(extension_namespace);
 	call.mesh = mesh;
 	call.former = present_triggers(call.function, mesh, table);
-	call.dimension = header.dimension;
+	call.dimension = facts.form.dimension;
 	call.dropped = dropped_attributes(change);
 	call.deferred = PG_GETARG_BOOL(4);
-	call.columns = tracked_columns(PG_ARGISNULL(2) ? NULL : PG_GETARG_ARRAYTYPE_P(2), &header, table);
-	if (header.vertices == 0 && header.inserted == header.staged)
+	call.columns = tracked_columns(PG_ARGISNULL(2) ? NULL : PG_GETARG_ARRAYTYPE_P(2),
+								   abacus_names_of(change->writer.header), table);
+	if (facts.census.vertices == 0 && facts.census.inserted == facts.census.staged)
 	{
-		read_points(change, tracked_points_of_table(table, call.columns, header.dimension, false));
+		read_points(change, tracked_points_of_table(table, call.columns, facts.form.dimension, false));
 		change_insert(change);
 	}
 	else
 		changed = make_equal(change, mesh, table, call.columns, PG_GETARG_BOOL(3), extension_namespace);
-	header = *change->writer.header;
-	points = header.vertices + header.duplicates + (header.staged - header.inserted);
+	facts = change->writer.header->facts;
+	points = facts.census.vertices + facts.census.duplicates + (facts.census.staged - facts.census.inserted);
 	if (changed)
 		change_end(change);
 	else

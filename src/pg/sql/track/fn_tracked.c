@@ -77,7 +77,7 @@ to_stage(void *context, const uint64 *points, size_t count)
 static uint64
 stage(Transition *transition, bool new, Change *change)
 {
-	change_open_stage(change, change->writer.header);
+	change_open_stage(change, &change->writer.header->facts);
 	return transition_send(transition, new, to_stage, change);
 }
 
@@ -85,32 +85,30 @@ stage(Transition *transition, bool new, Change *change)
 static void
 revise(const TriggerData *trigger, Transition *transition, Change *change)
 {
-	abacus_header *header = change->writer.header;
-	abacus_header *shape = palloc(sizeof(abacus_header));
-	uint32	   *attributes = palloc(header->attributes * sizeof(uint32));
+	abacus_facts shape = change->writer.header->facts;
+	uint32		count = shape.columns.attributes;
+	uint32	   *attributes = palloc(count * sizeof(uint32));
 	abacus_named_place missing;
 	uint64		rows;
 
-	for (uint32 i = 0; i < header->attributes; i++)
+	for (uint32 i = 0; i < count; i++)
 		attributes[i] = i;
-	abacus_header_copy(shape, header);
-	shape->attributes = 2 * header->attributes;
-	change_open_stage(change, shape);
+	shape.columns.attributes = 2 * count;
+	change_open_stage(change, &shape);
 	rows = transition_send_revisions(transition, to_stage, change);
 	change_take_srid(change, transition_srid(transition));
 	in_step_check_found(change, RelationGetRelationName(trigger->tg_relation), "change", rows,
-						change_update(change, attributes, header->attributes, true, &missing));
+						change_update(change, attributes, count, true, &missing));
 	pfree(attributes);
-	pfree(shape);
 }
 
 /* Whether revise() can do it: points that wait are found by id and place only. */
 static bool
 can_be_revised(Transition *transition, const Change *change)
 {
-	const abacus_header *header = change->writer.header;
+	const abacus_facts *facts = &change->writer.header->facts;
 
-	return header->simplices > 0 && 2 * header->attributes <= ABACUS_MAX_ATTRIBUTES &&
+	return facts->census.simplices > 0 && 2 * facts->columns.attributes <= ABACUS_MAX_ATTRIBUTES &&
 		transition_revises(transition);
 }
 
@@ -121,7 +119,7 @@ follow(const TriggerData *trigger, Transition *transition, Change *change)
 	uint64		gone;
 
 	in_step_check_shape(change, transition_expected(transition), trigger->tg_trigger->tgname);
-	transition->srid = change->writer.header->srid;
+	transition->srid = change->writer.header->facts.form.srid;
 	if (can_be_revised(transition, change))
 	{
 		revise(trigger, transition, change);

@@ -32,7 +32,7 @@ static void
 require_plane(FunctionCallInfo fcinfo)
 {
 	if (!PG_ARGISNULL(0))
-		header_require_dimension(&mesh_cache_get(PG_GETARG_OID(0))->header, 2,
+		header_require_dimension(&mesh_cache_get(PG_GETARG_OID(0))->header.facts.form, 2,
 								 "In space take abacus_gradient().");
 }
 
@@ -49,10 +49,10 @@ find_gradient(FunctionCallInfo fcinfo, double *gradient)
 	if (interpolation_of_null(fcinfo, first - 1))
 		return 0;
 	cached = mesh_cache_get(PG_GETARG_OID(0));
-	interpolation_attribute(fcinfo, first + HOW_ATTRIBUTE, &cached->header, &how);
+	interpolation_attribute(fcinfo, first + HOW_ATTRIBUTE, abacus_names_of(&cached->header), &how);
 	interpolation_max_edge(fcinfo, first + HOW_MAX_EDGE, &how);
-	units_tell_slopes(&cached->header);
-	if (!place_arguments(fcinfo, first - 1, &cached->header, point))
+	units_tell_slopes(&cached->header.facts.form);
+	if (!place_arguments(fcinfo, first - 1, &cached->header.facts.form, point))
 		return 0;
 	status = host_run(cached->host, abacus_mesh_gradient, cached->mesh, &how, point, gradient);
 	host_release(cached->host);

@@ -48,9 +48,9 @@ abacus_sql_interpolate(PG_FUNCTION_ARGS)
 	if (interpolation_of_null(fcinfo, first - 1))
 		PG_RETURN_NULL();
 	cached = mesh_cache_get(PG_GETARG_OID(0));
-	interpolation_attribute(fcinfo, first + HOW_ATTRIBUTE, &cached->header, &how);
+	interpolation_attribute(fcinfo, first + HOW_ATTRIBUTE, abacus_names_of(&cached->header), &how);
 	interpolation_how(fcinfo, first + HOW_METHOD, &how);
-	if (!place_arguments(fcinfo, first - 1, &cached->header, point))
+	if (!place_arguments(fcinfo, first - 1, &cached->header.facts.form, point))
 		PG_RETURN_NULL();
 	status = host_run(cached->host, abacus_mesh_interpolate, cached->mesh, &how, point, &value);
 	host_release(cached->host);
@@ -75,7 +75,7 @@ abacus_sql_interpolate_places(PG_FUNCTION_ARGS)
 	if (interpolation_of_null(fcinfo, 1))
 		PG_RETURN_NULL();
 	places_open(&read, PG_GETARG_OID(0), ABACUS_MESH, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	interpolation_attributes(fcinfo, 2 + HOW_ATTRIBUTE, read.header, &how);
+	interpolation_attributes(fcinfo, 2 + HOW_ATTRIBUTE, read.names, &how);
 	interpolation_how(fcinfo, 2 + HOW_METHOD, &how);
 	places_fetch(&read);
 	answers.host = read.host;

@@ -108,15 +108,15 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set)
 	abacus_interpolation how;
 	abacus_raster_scan *scan = NULL;
 
-	interpolation_attribute(fcinfo, RASTER_ATTRIBUTE, &reader->header, &how);
+	interpolation_attribute(fcinfo, RASTER_ATTRIBUTE, abacus_names_of(&reader->header), &how);
 	interpolation_how(fcinfo, RASTER_METHOD, &how);
-	raster_arguments(fcinfo, reader->header.dimension, &raster);
-	units_tell_window(&reader->header, raster.lower, raster.upper);
+	raster_arguments(fcinfo, reader->header.facts.form.dimension, &raster);
+	units_tell_window(&reader->header.facts.form, raster.lower, raster.upper);
 	rows->reader = reader;
 	rows->width = (int) raster.width;
 	rows->next = 0;
 	set->user_fctx = rows;
-	host_run(host, abacus_raster_open, &host->table, &reader->header, &raster, &how,
+	host_run(host, abacus_raster_open, &host->table, &reader->header.facts, &raster, &how,
 			 setting_query_sort_bytes(), setting_cache_bytes(), &scan);
 	host_own(host, scan, (void (*) (void *)) abacus_raster_close);
 }

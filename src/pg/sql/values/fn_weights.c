@@ -48,7 +48,7 @@ abacus_sql_weights(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	interpolation_how(fcinfo, 1 + given + HOW_METHOD, &how);
-	if (!place_arguments(fcinfo, given, &cached->header, point))
+	if (!place_arguments(fcinfo, given, &cached->header.facts.form, point))
 		PG_RETURN_NULL();
 	status = host_run(cached->host, abacus_mesh_weigh, cached->mesh, &how, point, &weights,
 					  &count);

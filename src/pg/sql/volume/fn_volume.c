@@ -48,20 +48,20 @@ enum
 };
 
 static uint32
-attribute(FunctionCallInfo fcinfo, int argument, const abacus_header *header)
+attribute(FunctionCallInfo fcinfo, int argument, abacus_names names)
 {
 	abacus_interpolation which;
 
-	interpolation_attribute(fcinfo, argument, header, &which);
+	interpolation_attribute(fcinfo, argument, names, &which);
 	return which.attribute[0];
 }
 
 static void
-surface_arguments(FunctionCallInfo fcinfo, const abacus_header *header, abacus_surface *surface)
+surface_arguments(FunctionCallInfo fcinfo, abacus_names names, abacus_surface *surface)
 {
-	window_arguments(fcinfo, OF_LOWER, WINDOW_BOX, header, &surface->window);
+	window_arguments(fcinfo, OF_LOWER, WINDOW_BOX, &names.facts->form, &surface->window);
 	surface->max_edge = window_max_edge(fcinfo, OF_MAX_EDGE);
-	surface->attribute = attribute(fcinfo, OF_ATTRIBUTE, header);
+	surface->attribute = attribute(fcinfo, OF_ATTRIBUTE, names);
 }
 
 static Datum
@@ -95,10 +95,10 @@ volume_above(FunctionCallInfo fcinfo, double base)
 				 errhint("Give the height above which volumes are cut, and below which they are fill.")));
 	reader = reader_open(PG_GETARG_OID(OF_MESH), CurrentMemoryContext);
 	host = reader->host;
-	surface_arguments(fcinfo, &reader->header, &surface);
-	units_tell_volumes(&reader->header);
+	surface_arguments(fcinfo, abacus_names_of(&reader->header), &surface);
+	units_tell_volumes(&reader->header.facts.form);
 	progress_begin(&host->progress, PG_GETARG_OID(OF_MESH));
-	host_run(host, abacus_volume_above, &host->table, &reader->header, &surface, base, &volume);
+	host_run(host, abacus_volume_above, &host->table, &reader->header.facts, &surface, base, &volume);
 	progress_end(&host->progress);
 	host_release(host);
 	host_destroy(host);
@@ -120,11 +120,11 @@ abacus_sql_volume(PG_FUNCTION_ARGS)
 static void
 require_plane(const Reader *reader)
 {
-	if (reader->header.dimension != 2)
+	if (reader->header.facts.form.dimension != 2)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("mesh \"%s\" has dimension %u, not 2",
-						get_rel_name(mesh_pages(reader->host)->mesh), reader->header.dimension),
+						get_rel_name(mesh_pages(reader->host)->mesh), reader->header.facts.form.dimension),
 				 errhint("In space abacus_volume() takes a base, the value that divides one mesh.")));
 }
 
@@ -139,8 +139,8 @@ measure_between(Reader *first, Reader *second, const abacus_surface *surface,
 
 	host_enter(host);
 	host_enter(other);
-	status = abacus_volume_between(&host->table, &first->header, surface, &other->table,
-								   &second->header, second_attribute, setting_cache_bytes(),
+	status = abacus_volume_between(&host->table, &first->header.facts, surface, &other->table,
+								   &second->header.facts, second_attribute, setting_cache_bytes(),
 								   volume, &host->failure);
 	if (status == ABACUS_HOST_ERROR && host->error == NULL)
 		host_leave(other, status);
@@ -162,9 +162,9 @@ volume_between(FunctionCallInfo fcinfo, Oid other)
 
 	require_plane(first);
 	require_plane(second);
-	surface_arguments(fcinfo, &first->header, &surface);
-	units_tell_volumes(&first->header);
-	other_attribute = attribute(fcinfo, other_name, &second->header);
+	surface_arguments(fcinfo, abacus_names_of(&first->header), &surface);
+	units_tell_volumes(&first->header.facts.form);
+	other_attribute = attribute(fcinfo, other_name, abacus_names_of(&second->header));
 	progress_begin(&first->host->progress, PG_GETARG_OID(OF_MESH));
 	measure_between(first, second, &surface, other_attribute, &volume);
 	progress_end(&first->host->progress);
