@@ -1,0 +1,48 @@
+# What the scripts of this folder share: a folder of their own, packages, a server. Read by them.
+tmp=$(mktemp -d)
+trap 'stop_server; rm -rf "$tmp"' EXIT
+server=
+libraries=$tmp/usr/lib/$(uname -m)-linux-gnu
+libraries=$libraries:$libraries/blas:$libraries/lapack:$tmp/lib/$(uname -m)-linux-gnu
+
+# unpack NAME=VERSION...: these packages of Debian 12, and what they need that is not installed here, below $tmp.
+# Nothing is installed. 77 says that the packages cannot be had here.
+unpack() {
+    local missing
+    missing=$(apt-get -s --no-install-recommends --allow-downgrades install "$@" |
+        awk -v "pinned=$*" '/^Inst/ && index(" " pinned, " " $2 "=") == 0 { print $2 }') || exit 77
+    # shellcheck disable=SC2086  # the names are words
+    (cd "$tmp" && apt-get -qq download "$@" $missing 2>errors || { cat errors >&2; exit 77; })
+    for package in "$tmp"/*.deb; do
+        dpkg -x "$package" "$tmp"
+        rm "$package"
+    done
+}
+
+# start_server: a server of the PostgreSQL 15 in $tmp, whose socket is there; no root may run it.
+start_server() {
+    PATH=$tmp/usr/lib/postgresql/15/bin:$PATH
+    export PGHOST=$tmp PGDATA=$tmp/data PGUSER=owner LD_LIBRARY_PATH=$libraries
+    as=()
+    if ((EUID == 0)); then
+        chown -R nobody "$tmp"
+        as=(runuser -u nobody --)
+    fi
+    "${as[@]}" "$(command -v initdb)" -U owner -A trust -E UTF8 --locale=C --no-sync >"$tmp/initdb.log"
+    server=started
+    "${as[@]}" "$(command -v pg_ctl)" -s -w -l "$tmp/server.log" \
+        -o "-k '$tmp' -c listen_addresses= -c fsync=off" start
+}
+
+stop_server() {
+    [[ -z $server ]] || "${as[@]}" "$(command -v pg_ctl)" -s -m immediate stop || true
+}
+
+# expect WHAT EXPECTED FOUND: ends with 1 if the behaviour is another one.
+expect() {
+    if [[ $2 != "$3" ]]; then
+        printf 'CHANGED: %s\n  it was: %s\n  it is:  %s\n' "$1" "$2" "$3" >&2
+        exit 1
+    fi
+    printf '%s: %s\n' "$1" "$3"
+}
