@@ -74,7 +74,7 @@ typedef struct abacus_key
 
 /*
  * The kind of a page's contents, as a number. A data type names its kinds where it describes its
- * pages (mesh_header.h: those of meshes); each is registered with the host before it is used. Each
+ * pages (page_kinds.h: those of meshes); each is registered with the host before it is used. Each
  * kind has its own keys.
  */
 typedef uint32_t abacus_page_kind;
