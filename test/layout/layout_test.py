@@ -102,6 +102,10 @@ class Layout(unittest.TestCase):
         self.assertEqual({room: files for room, files in count.items()
                           if files > 40 and room not in MANY}, {})
 
+    def test_no_file_is_too_long(self):
+        lines = {str(path): len((ROOT / path).read_text().splitlines()) for path in sources()}
+        self.assertEqual({path: count for path, count in lines.items() if count > 450}, {})
+
     def test_only_the_port_asks_for_the_version(self):
         wrong = [str(path) for path in sources() if "PG_VERSION_NUM" in (ROOT / path).read_text()
                  and path.parent.as_posix() != "src/pg/port"]

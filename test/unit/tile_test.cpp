@@ -258,7 +258,8 @@ TEST(VectorTile, ContoursOfTheGreatestValues) {
     const abacus_tile tile = tile_at(8, 7.5, 46.5);
     const double middle = ((7.5 + 180) / 360 * 256 - tile.x) * 4096;
     std::size_t lines = 0;
-    for (const ReadFeature &f : read_vector(mesh, tile, {0, 1e308, 0}).at("contours")) {
+    const ReadTile read = read_vector(mesh, tile, {0, 1e308, 0});
+    for (const ReadFeature &f : read.at("contours")) {
         if (f.tags.at("value") != 0) continue;
         for (const auto &line : f.parts)
             for (const TilePoint &p : line) EXPECT_NEAR(p.x, middle, 1.01);

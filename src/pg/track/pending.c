@@ -3,19 +3,17 @@
  *
  * Statements note the points that they have added and taken away in a log, one for each mesh.
  * Before the transaction commits, or is prepared, each mesh is changed once: first all new points
- * are inserted, then those that are gone are deleted. In that order every deleted point is there,
- * whether it is old or from the same transaction. By then deferred constraints have been checked
- * and deferred triggers have fired, so these may still change tables. An error ends the transaction
- * as one of theirs does. The meshes are changed in the order of their OIDs, and a transaction that
- * has locked one of them no longer waits for rows.
+ * are inserted, then those that are gone are deleted, so every deleted point is there, old or new.
+ * By then deferred constraints have been checked and deferred triggers have fired, so these may still
+ * change tables. An error ends the transaction as one of theirs does. Meshes are changed in the
+ * order of their OIDs, and a transaction that has locked one of them no longer waits for rows.
  *
  * A rollback to a savepoint takes back what came since. When a nested transaction first changes the
- * notes of a mesh, it saves the state before. A nested transaction that commits leaves this saved
- * state to the one around it, unless that has saved its own.
+ * notes of a mesh, it saves the state before; when it commits, it leaves this state to the one
+ * around it, unless that has saved its own.
  *
- * After SET CONSTRAINTS ALL IMMEDIATE all meshes catch up. From then on each statement
- * changes the meshes that follow, until the end of the transaction or SET CONSTRAINTS ALL
- * DEFERRED.
+ * After SET CONSTRAINTS ALL IMMEDIATE all meshes catch up. From then on each statement changes the
+ * meshes that follow, until the end of the transaction or SET CONSTRAINTS ALL DEFERRED.
  */
 #include "postgres.h"
 
@@ -286,10 +284,7 @@ catch_up(Pending *pending)
 	MemoryContextDelete(memory);
 }
 
-/*
- * The mesh with the least OID that has something to catch up with; only `mesh` counts
- * if it is valid.
- */
+/* The mesh with the least OID that has something to catch up with; only `mesh`, if it is valid. */
 static Pending *
 next_behind(Oid mesh)
 {
