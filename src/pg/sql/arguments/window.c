@@ -65,7 +65,7 @@ window_of_ball(const abacus_form *form, ArrayType *center, double radius,
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("radius must be a finite number, at least 0"),
-				 errhint("Of radius 0 is the center alone.")));
+				 errhint("A ball of radius 0 is the center alone.")));
 	for (uint32 i = 0; i < form->dimension; i++)
 	{
 		lower[i] = window->center[i] - radius;

@@ -97,7 +97,7 @@ surface_arguments(FunctionCallInfo fcinfo, abacus_names names,
 	if (!isfinite(query->value))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE), errmsg("value must be a finite number"),
-				 errhint("abacus_attributes() tells from which value to which an attribute goes.")));
+				 errhint("abacus_attributes() shows the range of each attribute.")));
 	query->attribute = attribute_argument(fcinfo, SURFACE_ATTRIBUTE, names);
 	query->carried = attribute_or_none(fcinfo, SURFACE_CARRY, names);
 	window_arguments(fcinfo, SURFACE_LOWER, WINDOW_BOX, &names.facts->form, &query->window);
