@@ -10,8 +10,8 @@
 #include "pg/fdw/published.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/space/vacuum.h"
-#include "pg/track/tracking.h"
 #include "pg/track/pending.h"
+#include "pg/track/tracking.h"
 
 PG_MODULE_MAGIC;
 

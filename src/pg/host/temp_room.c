@@ -14,8 +14,8 @@
 #include "storage/fd.h"
 #include "utils/guc.h"
 
-#include "pg/port/port.h"
 #include "pg/host/temp_room.h"
+#include "pg/port/port.h"
 
 #define MOST_TABLESPACES 64
 

@@ -4,8 +4,8 @@
 #ifndef ABACUS_CHANGE_OF_MESH_H
 #define ABACUS_CHANGE_OF_MESH_H
 
-#include "abacus/labels.h"
 #include "abacus/build.h"
+#include "abacus/labels.h"
 #include "abacus/load.h"
 #include "pg/input/source.h"
 #include "pg/mesh/writer.h"

@@ -4,8 +4,8 @@
 #ifndef ABACUS_MESH_CACHE_H
 #define ABACUS_MESH_CACHE_H
 
-#include "abacus/octree.h"
 #include "abacus/locate.h"
+#include "abacus/octree.h"
 #include "pg/mesh/header.h"
 
 typedef struct CachedMesh

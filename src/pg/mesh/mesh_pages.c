@@ -15,8 +15,8 @@
 #include "pg/base/location.h"
 #include "pg/mesh/header.h"
 #include "pg/mesh/mesh_pages.h"
-#include "pg/store/page_search.h"
 #include "pg/store/page_fetch.h"
+#include "pg/store/page_search.h"
 #include "pg/store/page_write.h"
 
 #define KEY_LIMIT UINT64CONST(0x7FFFFFFFFFFFFFFF)

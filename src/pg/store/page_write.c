@@ -19,8 +19,8 @@
 #include "pg/store/buffer_map.h"
 #include "pg/store/heap_room.h"
 #include "pg/store/own_versions.h"
-#include "pg/store/page_write.h"
 #include "pg/store/page_type.h"
+#include "pg/store/page_write.h"
 
 /* From so many rows on, a writer counts as one of very many. */
 #define MANY_ROWS 16

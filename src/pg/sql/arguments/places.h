@@ -5,8 +5,8 @@
 #ifndef ABACUS_PLACES_H
 #define ABACUS_PLACES_H
 
-#include "abacus/octree_ask.h"
 #include "abacus/locate.h"
+#include "abacus/octree_ask.h"
 #include "pg/input/source.h"
 #include "pg/mesh/reader.h"
 

@@ -4,6 +4,7 @@
 #ifndef ABACUS_WINDOW_H
 #define ABACUS_WINDOW_H
 
+#include "abacus/mesh_header.h"
 #include "abacus/windows.h"
 #include "fmgr.h"
 #include "utils/array.h"

@@ -10,8 +10,8 @@
 #include "utils/memutils.h"
 
 #include "pg/mesh/shape.h"
-#include "pg/sql/draw/drawing.h"
 #include "pg/sql/arguments/word.h"
+#include "pg/sql/draw/drawing.h"
 
 #define MAX_PIXELS 16384
 

@@ -16,9 +16,9 @@
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/arguments/attribute.h"
-#include "pg/sql/draw/drawing.h"
 #include "pg/sql/arguments/units.h"
 #include "pg/sql/arguments/word.h"
+#include "pg/sql/draw/drawing.h"
 
 SQL_FUNCTION(abacus_sql_draw);
 SQL_FUNCTION(abacus_sql_draw_section);

@@ -20,10 +20,10 @@
 #include "pg/host/guard.h"
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
-#include "pg/sql/rows/answers.h"
 #include "pg/sql/arguments/attribute.h"
 #include "pg/sql/arguments/missing.h"
 #include "pg/sql/arguments/window.h"
+#include "pg/sql/rows/answers.h"
 
 SQL_FUNCTION(abacus_sql_contours);
 

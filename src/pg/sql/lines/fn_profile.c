@@ -10,9 +10,9 @@
 #include "abacus/lines.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/sql/rows/answers.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/line.h"
+#include "pg/sql/rows/answers.h"
 
 SQL_FUNCTION(abacus_sql_profile);
 

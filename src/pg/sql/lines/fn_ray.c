@@ -9,8 +9,8 @@
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/sql/rows/answers.h"
 #include "pg/sql/arguments/line.h"
+#include "pg/sql/rows/answers.h"
 #include "pg/sql/rows/simplex_row.h"
 
 SQL_FUNCTION(abacus_sql_ray);

@@ -9,10 +9,10 @@
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/sql/octree/octant_row.h"
 #include "pg/sql/arguments/place.h"
-#include "pg/sql/rows/set.h"
 #include "pg/sql/arguments/window.h"
+#include "pg/sql/octree/octant_row.h"
+#include "pg/sql/rows/set.h"
 
 SQL_FUNCTION(abacus_sql_octree_locate);
 SQL_FUNCTION(abacus_sql_octants);

@@ -16,16 +16,16 @@
 
 #include "miscadmin.h"
 
-#include "abacus/values.h"
 #include "abacus/lines.h"
+#include "abacus/values.h"
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/postgis/geometry_errors.h"
 #include "pg/postgis/geometry_write.h"
-#include "pg/sql/postgis/geometry_place.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/word.h"
+#include "pg/sql/postgis/geometry_place.h"
 
 SQL_FUNCTION(abacus_sql_drape);
 SQL_FUNCTION(abacus_sql_cell_part);

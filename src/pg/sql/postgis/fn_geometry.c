@@ -21,8 +21,8 @@
 #include "pg/mesh/mesh_cache.h"
 #include "pg/postgis/geometry_errors.h"
 #include "pg/postgis/geometry_write.h"
-#include "pg/sql/postgis/geometry_place.h"
 #include "pg/sql/arguments/line.h"
+#include "pg/sql/postgis/geometry_place.h"
 #include "pg/sql/rows/result.h"
 
 SQL_FUNCTION(abacus_sql_geometry_facts);

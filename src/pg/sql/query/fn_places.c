@@ -9,8 +9,8 @@
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/host/temp_room.h"
-#include "pg/sql/rows/answers.h"
 #include "pg/sql/arguments/places.h"
+#include "pg/sql/rows/answers.h"
 #include "pg/sql/rows/result.h"
 #include "pg/sql/rows/simplex_row.h"
 

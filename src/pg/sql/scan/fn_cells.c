@@ -9,10 +9,10 @@
 
 #include "abacus/windows.h"
 #include "pg/base/sql_function.h"
+#include "pg/sql/arguments/window.h"
 #include "pg/sql/rows/result.h"
 #include "pg/sql/rows/set.h"
 #include "pg/sql/rows/simplex_row.h"
-#include "pg/sql/arguments/window.h"
 
 SQL_FUNCTION(abacus_sql_simplices_in_box);
 SQL_FUNCTION(abacus_sql_simplices_in_ball);

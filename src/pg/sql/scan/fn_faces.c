@@ -10,11 +10,11 @@
 #include "abacus/windows.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/sql/arguments/window.h"
 #include "pg/sql/rows/faces.h"
 #include "pg/sql/rows/result.h"
 #include "pg/sql/rows/set.h"
 #include "pg/sql/rows/vertex_row.h"
-#include "pg/sql/arguments/window.h"
 
 SQL_FUNCTION(abacus_sql_vertices_in_ball);
 SQL_FUNCTION(abacus_sql_edges);

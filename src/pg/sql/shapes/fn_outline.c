@@ -12,8 +12,8 @@
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
-#include "pg/sql/rows/answers.h"
 #include "pg/sql/arguments/window.h"
+#include "pg/sql/rows/answers.h"
 
 SQL_FUNCTION(abacus_sql_hull);
 SQL_FUNCTION(abacus_sql_alpha_shape);

@@ -10,9 +10,9 @@
 #include "abacus/shapes.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/sql/arguments/window.h"
 #include "pg/sql/rows/result.h"
 #include "pg/sql/rows/set.h"
-#include "pg/sql/arguments/window.h"
 
 SQL_FUNCTION(abacus_sql_voronoi);
 SQL_FUNCTION(abacus_sql_voronoi_facets);

@@ -13,8 +13,8 @@
 #include "pg/mesh/mesh_cache.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/place.h"
-#include "pg/sql/rows/result.h"
 #include "pg/sql/arguments/units.h"
+#include "pg/sql/rows/result.h"
 
 SQL_FUNCTION(abacus_sql_gradient);
 SQL_FUNCTION(abacus_sql_slope);

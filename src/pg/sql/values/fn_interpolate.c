@@ -13,10 +13,10 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/sql/rows/answers.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/place.h"
 #include "pg/sql/arguments/places.h"
+#include "pg/sql/rows/answers.h"
 
 SQL_FUNCTION(abacus_sql_interpolate);
 SQL_FUNCTION(abacus_sql_interpolate_places);

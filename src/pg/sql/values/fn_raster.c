@@ -14,9 +14,9 @@
 #include "pg/base/sql_function.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/line.h"
+#include "pg/sql/arguments/units.h"
 #include "pg/sql/rows/result.h"
 #include "pg/sql/rows/set.h"
-#include "pg/sql/arguments/units.h"
 
 SQL_FUNCTION(abacus_sql_raster);
 

@@ -9,10 +9,10 @@
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/sql/rows/answers.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/place.h"
 #include "pg/sql/arguments/places.h"
+#include "pg/sql/rows/answers.h"
 
 SQL_FUNCTION(abacus_sql_weights);
 SQL_FUNCTION(abacus_sql_weights_places);

@@ -16,9 +16,9 @@
 #include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
 #include "pg/sql/arguments/interpolation.h"
-#include "pg/sql/rows/result.h"
 #include "pg/sql/arguments/units.h"
 #include "pg/sql/arguments/window.h"
+#include "pg/sql/rows/result.h"
 
 SQL_FUNCTION(abacus_sql_volume);
 SQL_FUNCTION(abacus_sql_volume_between);
