@@ -39,7 +39,13 @@ typedef struct abacus_form
 	uint32_t levels;       /* of an octree: the finest that a leaf may have */
 } abacus_form;
 
-/* Which columns vertices (or leaves) and simplices have; their names are in the header. */
+/* What the values of a column are. */
+typedef enum abacus_column_type
+{
+	ABACUS_FLOAT8 = 0          /* doubles; NaN is no value */
+} abacus_column_type;
+
+/* Which columns vertices (or leaves) and simplices have; their names and types are in the header. */
 typedef struct abacus_columns
 {
 	uint32_t attributes;   /* number of attributes, 0 to ABACUS_MAX_ATTRIBUTES */

@@ -25,6 +25,7 @@ typedef struct abacus_header
 	abacus_facts facts;
 	uint64_t stamp;        /* never repeats; set by the host at each change */
 	abacus_counters counters; /* summed over all builds; peak_bytes: the largest */
+	unsigned char types[ABACUS_MAX_NAMES]; /* an abacus_column_type for each of the names */
 	char names[ABACUS_MAX_NAMES][ABACUS_NAME_BYTES]; /* of attributes, then of labels */
 #ifdef __cplusplus
 	abacus_header() = default;
@@ -80,7 +81,8 @@ abacus_names_of(const abacus_header *header)
 ABACUS_API size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes);
 /*
  * Checks and reads a header row; ABACUS_ERROR (corrupted) if it is not a header, (state) if it has
- * another format. If it has rows of names beside it, its names are empty until these are read.
+ * another format, or a column of a type that this version does not know. If it has rows of names
+ * beside it, its names are empty, and its types those of doubles, until these are read.
  */
 ABACUS_API abacus_status abacus_header_decode(const unsigned char *bytes, size_t size,
 											  abacus_header *header, abacus_error *error);

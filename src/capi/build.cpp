@@ -1,5 +1,5 @@
 // Building behind the C interface.
-#include "delaunay/build.hpp"
+#include "change/build.hpp"
 
 #include "capi/dimension.hpp"
 #include "capi/editable.hpp"
@@ -111,12 +111,17 @@ abacus_status abacus_build_change_attributes(abacus_build *build, const uint32_t
                                              abacus_error *error) {
     return run(build, header, error, [&](auto &opened, abacus_header &changed) {
         for (std::size_t i = 0; i < count; ++i)
-            if (source[i] == abacus::no_attribute)
+            if (source[i] == abacus::no_attribute) {
                 std::memset(changed.names[i], 0, ABACUS_NAME_BYTES);
-            else
+                changed.types[i] = ABACUS_FLOAT8;
+            } else {
                 std::memcpy(changed.names[i], header->names[source[i]], ABACUS_NAME_BYTES);
-        std::memcpy(changed.names[count], header->names[header->facts.columns.attributes],
-                    header->facts.columns.labels * std::size_t{ABACUS_NAME_BYTES});
+                changed.types[i] = header->types[source[i]];
+            }
+        const abacus_columns &before = header->facts.columns;
+        std::memcpy(changed.names[count], header->names[before.attributes],
+                    before.labels * std::size_t{ABACUS_NAME_BYTES});
+        std::memcpy(changed.types + count, header->types + before.attributes, before.labels);
         opened.change_attributes({source, count}, memory, changed);
     });
 }

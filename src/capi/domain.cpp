@@ -1,5 +1,5 @@
 // How well a mesh's domain fits, behind the C interface.
-#include "delaunay/crowding.hpp"
+#include "change/crowding.hpp"
 #include "keys/domain_of.hpp"
 
 #include "capi/guard.hpp"

@@ -1,9 +1,9 @@
 // The header row of a mesh, as bytes: little-endian, fixed fields, then the
-// names of the attributes, and last the SRID where there is one. Where simplices have labels or
-// facets markers, the SRID is there in any case, and what is known of these follows. What is newer
-// has one form: all these words, how many vertices share their places, and then the names, unless
-// there are so many that they have rows of their own. A user can write any bytes into these rows,
-// so decoding checks every field; it accepts exactly what encoding can produce.
+// names of the attributes with their types, and last the SRID where there is one. Where simplices
+// have labels or facets markers, the SRID is there in any case, and what is known of these follows.
+// What is newer has one form: all these words, how many vertices share their places, and then the
+// names, unless there are so many that they have rows of their own. A user can write any bytes into
+// these rows, so decoding checks every field; it accepts exactly what encoding can produce.
 #include "capi/guard.hpp"
 
 #include <abacus/mesh_header.h>
@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <string>
 
 namespace abacus {
 namespace {
@@ -35,6 +36,10 @@ static_assert(sizeof(abacus_counters) == counter_count * sizeof(std::uint64_t));
 /// Headers may have been written before the last of them were counted.
 constexpr std::size_t least_counters = offsetof(abacus_counters, passes) / sizeof(std::uint64_t);
 
+/// A name of 63 bytes at most, and zeros; then the type of the column. That of doubles is 0, so
+/// headers from before there were types say that all columns have doubles.
+constexpr std::size_t type_byte = ABACUS_NAME_BYTES - 1;
+
 class Writer {
 public:
     explicit Writer(unsigned char *bytes) : begin_(bytes), at_(bytes) {}
@@ -49,6 +54,7 @@ public:
             const std::size_t length = strnlen(header.names[i], ABACUS_NAME_BYTES - 1);
             std::memcpy(at_, header.names[i], length);
             std::memset(at_ + length, 0, ABACUS_NAME_BYTES - length);
+            at_[type_byte] = header.types[i];
             at_ += ABACUS_NAME_BYTES;
         }
     }
@@ -151,17 +157,26 @@ void check_counts(const abacus_facts &facts) {
         throw_corrupted("The header's counts of simplices contradict its count of vertices.");
 }
 
+/// The i-th column in words, counted from 1.
+std::string column(const abacus_columns &columns, unsigned i) {
+    return i < columns.attributes ? "attribute " + std::to_string(i + 1)
+                                  : "label " + std::to_string(i - columns.attributes + 1);
+}
+
 void read_names(HeaderReader &read, unsigned begin, unsigned end, abacus_header &header) {
     for (unsigned i = begin; i < end; ++i) {
         const char *name = read.text(ABACUS_NAME_BYTES);
-        const std::size_t length = strnlen(name, ABACUS_NAME_BYTES);
-        if (length == 0 || length == ABACUS_NAME_BYTES)
-            throw_corrupted((i < header.facts.columns.attributes ? "The name of attribute "
-                                                                 : "The name of label ") +
-                            std::to_string(i < header.facts.columns.attributes
-                                               ? i + 1
-                                               : i - header.facts.columns.attributes + 1) +
-                            " is not valid.");
+        const std::size_t length = strnlen(name, type_byte);
+        if (length == 0)
+            throw_corrupted("The name of " + column(header.facts.columns, i) + " is not valid.");
+        header.types[i] = static_cast<unsigned char>(name[type_byte]);
+        if (header.types[i] != ABACUS_FLOAT8)
+            throw Error(ABACUS_ERROR_STATE,
+                        column(header.facts.columns, i) + " has type " +
+                            std::to_string(header.types[i]) +
+                            ", but this version of Abacus reads type " +
+                            std::to_string(ABACUS_FLOAT8) + " (double precision)",
+                        {}, "Use the version that wrote it, or a later one.");
         std::memcpy(header.names[i], name, length);
         std::memset(header.names[i] + length, 0, ABACUS_NAME_BYTES - length);
     }

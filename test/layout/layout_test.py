@@ -56,6 +56,24 @@ def includes(path):
     return INCLUDE.findall((ROOT / path).read_text())
 
 
+def functions(path):
+    """Place and lines of each function, by the layout that the formatters give them."""
+    is_c = path.suffix in (".c", ".h")
+    head = re.compile(r"\{" if is_c else r"[^=]*\)[^=]*\{")
+    open_ones = []  # (indent, line), the innermost last
+    for number, line in enumerate((ROOT / path).read_text().splitlines(), 1):
+        text = line.lstrip(" ")
+        indent = len(line) - len(text)
+        if text.startswith("}"):
+            first = None
+            while open_ones and open_ones[-1][0] >= indent:  # a head of several lines is indented
+                first = open_ones.pop()[1]
+            if first:
+                yield f"{path}:{first}", number - first + 1
+        if head.fullmatch(line):
+            open_ones.append((indent, number))
+
+
 class Layout(unittest.TestCase):
     def test_every_file_has_a_room(self):
         known = rooms()
@@ -105,6 +123,10 @@ class Layout(unittest.TestCase):
     def test_no_file_is_too_long(self):
         lines = {str(path): len((ROOT / path).read_text().splitlines()) for path in sources()}
         self.assertEqual({path: count for path, count in lines.items() if count > 450}, {})
+
+    def test_no_function_is_too_long(self):
+        self.assertEqual({place: count for path in sources() for place, count in functions(path)
+                          if count > 80}, {})
 
     def test_only_the_port_asks_for_the_version(self):
         wrong = [str(path) for path in sources() if "PG_VERSION_NUM" in (ROOT / path).read_text()

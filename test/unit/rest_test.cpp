@@ -1,6 +1,6 @@
 // Deletions that cost more than triangulating the points that are left: then these are
 // triangulated, and it is the same mesh.
-#include "delaunay/outlay.hpp"
+#include "change/outlay.hpp"
 #include "support/point_model.hpp"
 #include "support/sanitized.hpp"
 

@@ -58,6 +58,7 @@ shape_attribute(abacus_header *header, const char *name)
 				 errmsg("attribute \"%s\" is named twice", name),
 				 errhint("Attributes taken from a query have the names of its columns; "
 						 "give each its own with AS.")));
+	header->types[header->facts.columns.attributes] = ABACUS_FLOAT8;
 	strlcpy(header->names[header->facts.columns.attributes++], name, ABACUS_NAME_BYTES);
 }
 
@@ -79,6 +80,7 @@ shape_label(abacus_header *header, const char *name)
 					 i < header->facts.columns.attributes
 					 ? errmsg("\"%s\" is both an attribute and a label", name)
 					 : errmsg("label \"%s\" is named twice", name)));
+	header->types[names] = ABACUS_FLOAT8;
 	strlcpy(header->names[names], name, ABACUS_NAME_BYTES);
 	header->facts.columns.labels++;
 }

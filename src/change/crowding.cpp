@@ -1,4 +1,4 @@
-#include "delaunay/crowding.hpp"
+#include "change/crowding.hpp"
 
 #include "keys/domain_of.hpp"
 #include "mesh/page_attributes.hpp"

@@ -37,10 +37,10 @@
 // the session's thread, they are left to that thread.
 #pragma once
 
+#include "change/outlay.hpp"
+#include "change/simplex_changes.hpp"
 #include "delaunay/insertion.hpp"
-#include "delaunay/outlay.hpp"
 #include "delaunay/removal.hpp"
-#include "delaunay/simplex_changes.hpp"
 
 #include <abacus/facts.h>
 #include <abacus/mesh_counters.h>

@@ -10,7 +10,7 @@
 // follow one another on the curve, which are close to one another.
 #pragma once
 
-#include "delaunay/cuts.hpp"
+#include "change/cuts.hpp"
 #include "geometry/box.hpp"
 #include "keys/locational_code.hpp"
 #include "points/record.hpp"

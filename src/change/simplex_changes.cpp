@@ -1,4 +1,4 @@
-#include "delaunay/simplex_changes.hpp"
+#include "change/simplex_changes.hpp"
 
 #include <chrono>
 #include <utility>

@@ -6,7 +6,7 @@
 // So each border is moved, within a share of what a thread gets, to the coarsest cell there is.
 #pragma once
 
-#include "delaunay/interval.hpp"
+#include "change/interval.hpp"
 
 #include <algorithm>
 #include <bit>

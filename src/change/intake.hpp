@@ -5,25 +5,26 @@
 // inserted from there.
 #pragma once
 
-#include "delaunay/build.hpp"
+#include "change/inserting.hpp"
 #include "points/vertex_page.hpp"
 
 #include <optional>
 
 namespace abacus {
 
-template <int D> class Build<D>::Intake final : public RecordSink {
+template <int D> class Intake final : public RecordSink {
 public:
     /// At most this many points come.
-    Intake(Build &build, std::uint64_t points)
-        : build_(build), stride_(record_words(D, build.attributes_)), held_(build.host_) {
-        build_.begin_to_gather(points, stride_);
-        if (build_.has_waiting() && !build_.has_simplices()) stage();
+    Intake(Inserting<D> &inserting, std::uint64_t points)
+        : inserting_(inserting), work_(inserting.work()), stride_(work_.record_size()),
+          held_(work_.host) {
+        inserting_.begin(points);
+        if (work_.has_waiting() && !work_.has_simplices()) stage();
     }
 
     void add(const std::uint64_t *record) override {
-        if (build_.has_simplices()) {
-            build_.add(record, 1);
+        if (work_.has_simplices()) {
+            inserting_.add(record, 1);
         } else if (pages_) {
             pages_->add(record);
         } else {
@@ -36,21 +37,19 @@ public:
         }
     }
     void add(const std::uint64_t *records, std::size_t n, std::size_t stride) override {
-        for (; n > 0 && !build_.has_simplices(); --n, records += stride) add(records);
-        build_.add(records, n);
+        for (; n > 0 && !work_.has_simplices(); --n, records += stride) add(records);
+        inserting_.add(records, n);
     }
     void finish() override {
-        if (build_.has_simplices()) return build_.change_gathered();
+        if (work_.has_simplices()) return inserting_.finish();
         if (!pages_) stage();
         pages_->finish();
-        build_.facts_->census.staged = pages_->next();
+        work_.facts->census.staged = pages_->next();
     }
 
-    std::size_t held_back() const override { return build_.gathered_.size(); }
+    std::size_t held_back() const override { return inserting_.held_back(); }
     abacus_phase phase() const override { return ABACUS_PHASE_INSERTING; }
-    PagesMoved pages_moved() const override {
-        return {build_.core_->cache.counters.loads, build_.core_->cache.counters.stores};
-    }
+    PagesMoved pages_moved() const override { return work_.pages_moved(); }
 
 private:
     static constexpr std::size_t most_held = 4096;
@@ -59,20 +58,21 @@ private:
     const std::uint64_t *held(std::size_t i) const { return held_.data() + i * stride_; }
 
     void start() {
-        std::array<VertexIndex, D + 1> vertices;
-        for (int i = 0; i <= D; ++i) vertices[i] = build_.create(held(first_.number(i)));
-        build_.start(vertices);
+        std::array<const std::uint64_t *, D + 1> corners;
+        for (int i = 0; i <= D; ++i) corners[i] = held(first_.number(i));
+        inserting_.start(corners);
         for (std::size_t i = 0; i < held(); ++i)
-            if (!first_.contains(i)) build_.add(held(i), 1);
+            if (!first_.contains(i)) inserting_.add(held(i), 1);
         held_.reset();
     }
     void stage() {
-        pages_.emplace(build_.host_, D, build_.attributes_, build_.facts_->census.staged);
+        pages_.emplace(work_.host, D, work_.attributes, work_.facts->census.staged);
         for (std::size_t i = 0; i < held(); ++i) pages_->add(held(i));
         held_.reset();
     }
 
-    Build &build_;
+    Inserting<D> &inserting_;
+    Workspace<D> &work_;
     const std::size_t stride_;
     FirstSimplex<D> first_; // of the points held
     Arena<std::uint64_t> held_;

@@ -6,8 +6,11 @@
 // meets the vertex it equals.
 #pragma once
 
-#include "delaunay/intake.hpp"
+#include "change/workspace.hpp"
 #include "points/waiting_points.hpp"
+#include "staging/stage.hpp"
+
+#include <string>
 
 namespace abacus {
 
@@ -21,11 +24,11 @@ namespace abacus {
     throw_duplicate("point " + std::to_string(id) + " is at the place of another point");
 }
 
-template <int D> class Build<D>::Distinct final : public RecordSink {
+template <int D> class Distinct final : public RecordSink {
 public:
-    Distinct(Build &build, Stage<D> &onward, bool refuses)
-        : build_(build), stride_(record_words(D, build.attributes_)), onward_(onward),
-          refuses_(refuses), last_(build.host_), waiting_(build.host_, build.attributes_, false) {}
+    Distinct(Workspace<D> &work, Stage<D> &onward, bool refuses)
+        : work_(work), stride_(work.record_size()), onward_(onward), refuses_(refuses),
+          last_(work.host), waiting_(work.host, work.attributes, false) {}
 
     void add(const std::uint64_t *record) override {
         if (!last_.empty()) {
@@ -42,27 +45,25 @@ public:
     }
 
     abacus_phase phase() const override { return ABACUS_PHASE_STAGING; }
-    PagesMoved pages_moved() const override {
-        return {build_.core_->cache.counters.loads, build_.core_->cache.counters.stores};
-    }
+    PagesMoved pages_moved() const override { return work_.pages_moved(); }
 
 private:
     void pass_on() {
         onward_.add(last_.data(), 1);
-        if (!build_.has_waiting()) return;
+        if (!work_.has_waiting()) return;
         waiting_.want(record_point<D>(last_.data()), 0, nullptr);
         if (waiting_.is_full()) displace();
     }
     void displace() {
-        if (!build_.has_waiting()) return;
+        if (!work_.has_waiting()) return;
         const std::uint64_t displaced =
-            waiting_.take_all(build_.facts_->census.inserted, build_.facts_->census.staged);
+            waiting_.take_all(work_.facts->census.inserted, work_.facts->census.staged);
         if (displaced > 0 && refuses_)
             throw_duplicate("a point is at the place of point " +
                             std::to_string(waiting_.last_taken()) + ", which waits");
     }
 
-    Build &build_;
+    Workspace<D> &work_;
     const std::size_t stride_;
     Stage<D> &onward_;
     const bool refuses_;

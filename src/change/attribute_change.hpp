@@ -16,8 +16,9 @@
 
 #include "attributes/rewriting.hpp"
 #include "blocks/counters.hpp"
-#include "delaunay/build.hpp"
+#include "change/workspace.hpp"
 #include "points/vertex_page.hpp"
+#include "points/vertex_reader.hpp"
 #include "sort/pacer.hpp"
 #include "sort/record_sort.hpp"
 #include "sort/record_spool.hpp"
@@ -26,30 +27,31 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <span>
 
 namespace abacus {
 
-template <int D> class Build<D>::Attributes {
+template <int D> class AttributeChange {
 public:
-    Attributes(Build &build, std::span<const std::uint32_t> source, std::size_t memory)
-        : build_(build), source_(source), host_(build.host_), memory_(memory),
+    AttributeChange(Workspace<D> &work, std::span<const std::uint32_t> source, std::size_t memory)
+        : work_(work), source_(source), host_(work.host), memory_(memory),
           count_(static_cast<unsigned>(source.size())), values_(host_), record_(host_) {
-        values_.resize(build.attributes_);
+        values_.resize(work.attributes);
         record_.resize(record_words(D, count_));
     }
 
     /// Writes everything; the header is as it was.
     void change(bool was_apart, bool will_be_apart) {
-        if (build_.has_waiting()) change_waiting();
-        if (build_.facts_->census.duplicates > 0) change_repeated();
-        if (!build_.has_simplices()) return build_.apart_.reset();
+        if (work_.has_waiting()) change_waiting();
+        if (work_.facts->census.duplicates > 0) change_repeated();
+        if (!work_.has_simplices()) return work_.apart.reset();
         if (will_be_apart)
             move_apart();
         else if (was_apart)
             erase_apart();
         if (!was_apart && will_be_apart)
             rewrite_simplices(0);
-        else if (!was_apart && count_ != build_.attributes_)
+        else if (!was_apart && count_ != work_.attributes)
             rewrite_simplices(static_cast<int>(count_));
     }
 
@@ -71,9 +73,9 @@ private:
     }
 
     void change_waiting() {
-        abacus_facts &facts = *build_.facts_;
-        VertexReader<D> reader(host_, build_.attributes_, facts.census.inserted,
-                               facts.census.staged, true);
+        abacus_facts &facts = *work_.facts;
+        VertexReader<D> reader(host_, work_.attributes, facts.census.inserted, facts.census.staged,
+                               true);
         VertexPageWriter pages(host_, D, count_, facts.census.staged);
         while (reader.advance()) pages.add(converted(reader.record()));
         pages.finish();
@@ -83,16 +85,16 @@ private:
 
     void change_repeated() {
         RecordSpool spool(host_, 1 + record_words(D, count_));
-        RepeatedReader<D> reader(host_, build_.domain_, build_.attributes_, true);
+        RepeatedReader<D> reader(host_, work_.domain, work_.attributes, true);
         while (reader.advance()) {
             std::uint64_t *const to = spool.add();
             to[0] = reader.serial();
             std::copy_n(converted(reader.record()), record_words(D, count_), to + 1);
         }
         spool.rewind();
-        build_.repeated_.emplace(host_, build_.domain_, count_);
+        work_.repeated.emplace(host_, work_.domain, count_);
         while (const std::uint64_t *record = spool.next())
-            build_.repeated_->add(record[0], record + 1);
+            work_.repeated->add(record[0], record + 1);
         spool.close();
     }
 
@@ -101,13 +103,13 @@ private:
         RecordSort sort(host_, 1 + D + count_, 1, memory_); // code, coordinates, attributes
         collect(sort);
         erase_apart();
-        build_.apart_.emplace(host_, build_.domain_, count_);
+        work_.apart.emplace(host_, work_.domain, count_);
         sort.finish();
         Pacer pacer(host_);
         pacer.begin(ABACUS_PHASE_FLUSHING, sort.size());
         std::uint64_t done = 0;
         while (const std::uint64_t *record = sort.next()) {
-            build_.apart_->put(record_point<D>(record), record[0], record_attributes<D>(record));
+            work_.apart->put(record_point<D>(record), record[0], record_attributes<D>(record));
             if (++done % report_every == 0) pacer.reached(done);
         }
         sort.close();
@@ -115,11 +117,11 @@ private:
 
     /// Adds the new attributes of vertices to the sort.
     void collect(RecordSort &sort) {
-        Cache<D> &cache = build_.core_->cache;
+        Cache<D> &cache = work_.core->cache;
         OwnVertices<D> own(cache);
         Arena<VertexIndex> vertices(host_);
         Pacer pacer(host_);
-        pacer.begin(ABACUS_PHASE_SORTING, build_.facts_->census.vertices);
+        pacer.begin(ABACUS_PHASE_SORTING, work_.facts->census.vertices);
         for (Key page = first_key; page < end_key;) {
             cache.trim();
             pacer.reached(sort.size());
@@ -142,28 +144,28 @@ private:
 
     /// The old attributes.
     const double *attributes_of(VertexIndex v) {
-        const VertexHeap<D> &vertices = build_.core_->cache.vertices();
-        if (!build_.apart_) return vertices.attributes(v);
-        build_.apart_->get(vertices[v].point, vertices[v].code, values_.data());
+        const VertexHeap<D> &vertices = work_.core->cache.vertices();
+        if (!work_.apart) return vertices.attributes(v);
+        work_.apart->get(vertices[v].point, vertices[v].code, values_.data());
         return values_.data();
     }
 
     void erase_apart() {
-        if (!build_.apart_) return;
-        build_.apart_->forget();
-        build_.core_->cache.counters += build_.apart_->take_counters();
-        build_.apart_.reset();
+        if (!work_.apart) return;
+        work_.apart->forget();
+        work_.core->cache.counters += work_.apart->take_counters();
+        work_.apart.reset();
         erase_attributes(host_, first_group<1>);
     }
 
     /// With this many attributes in the simplex pages.
     void rewrite_simplices(int attributes) {
-        Cache<D> cache(host_, build_.domain_, attributes,
-                       CacheOptions{.budget = std::min(build_.cache_bytes_, pass_bytes),
-                                    .former = {static_cast<int>(build_.attributes_), source_}});
+        Cache<D> cache(host_, work_.domain, attributes,
+                       CacheOptions{.budget = std::min(work_.cache_bytes, pass_bytes),
+                                    .former = {static_cast<int>(work_.attributes), source_}});
         Pacer pacer(host_);
         pacer.begin(ABACUS_PHASE_FLUSHING,
-                    build_.facts_->census.simplices + build_.facts_->census.ghosts);
+                    work_.facts->census.simplices + work_.facts->census.ghosts);
         std::uint64_t done = 0;
         for (Key page = first_key; page < end_key;) {
             cache.trim();
@@ -171,10 +173,10 @@ private:
             page = cache.visit(page, [&](Handle) { ++done; }); // once loaded, it is to be written
         }
         cache.flush();
-        build_.core_->cache.counters += cache.counters;
+        work_.core->cache.counters += cache.counters;
     }
 
-    Build &build_;
+    Workspace<D> &work_;
     const std::span<const std::uint32_t> source_;
     const Host &host_;
     const std::size_t memory_;

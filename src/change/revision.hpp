@@ -11,30 +11,34 @@
 // of it.
 #pragma once
 
-#include "delaunay/build.hpp"
+#include "change/workspace.hpp"
 #include "points/identities.hpp"
 #include "points/waiting_changes.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <optional>
+#include <span>
 
 namespace abacus {
 
-template <int D> class Build<D>::Revision final : public RecordSink {
+template <int D> class Revision final : public RecordSink {
 public:
     /// The values of a record are those of the attributes `which`; with `exactly`, those of all
     /// attributes before the change come behind them.
-    Revision(Build &build, std::span<const std::uint32_t> which, bool exactly)
-        : build_(build), which_(which), exactly_(exactly),
-          waiting_(build.host_, build.attributes_, which),
-          identities_(build.host_, exactly ? build.attributes_ : 0), wants_(build.host_),
-          values_(build.host_) {}
+    Revision(Workspace<D> &work, std::span<const std::uint32_t> which, bool exactly)
+        : work_(work), which_(which), exactly_(exactly),
+          waiting_(work.host, work.attributes, which),
+          identities_(work.host, exactly ? work.attributes : 0), wants_(work.host),
+          values_(work.host) {}
 
     void add(const std::uint64_t *record) override {
-        if (!build_.has_simplices()) {
+        if (!work_.has_simplices()) {
             wait_for(record);
             return;
         }
-        if (++done_ % 256 == 0) build_.host_.poll();
+        if (++done_ % 256 == 0) work_.host.poll();
         const Point<D> p = record_point<D>(record);
         if (!wants_.empty() && (!(p == place_) || is_full())) revise_place();
         place_ = p;
@@ -46,13 +50,11 @@ public:
     }
     void finish() override {
         if (!wants_.empty()) revise_place();
-        if (!build_.has_simplices()) change_waiting();
+        if (!work_.has_simplices()) change_waiting();
     }
 
     abacus_phase phase() const override { return ABACUS_PHASE_FLUSHING; }
-    PagesMoved pages_moved() const override {
-        return {build_.core_->cache.counters.loads, build_.core_->cache.counters.stores};
-    }
+    PagesMoved pages_moved() const override { return work_.pages_moved(); }
 
     /// How many records had a point in the mesh.
     std::uint64_t changed() const { return changed_; }
@@ -85,7 +87,7 @@ private:
     }
     void change_waiting() {
         changed_ +=
-            waiting_.apply(build_.facts_->census.inserted, build_.facts_->census.staged, missing_);
+            waiting_.apply(work_.facts->census.inserted, work_.facts->census.staged, missing_);
     }
     bool is_full() const {
         return wants_.size() * (sizeof(Want) + 8 * which_.size() + identities_.bytes_each()) >=
@@ -96,7 +98,7 @@ private:
     }
     /// All wants for a place at once, so that the points that equal its vertex are read once.
     void revise_place() {
-        if (build_.facts_->census.duplicates > 0 && build_.repeated_->contains(place_))
+        if (work_.facts->census.duplicates > 0 && work_.repeated->contains(place_))
             revise_repeated();
         else if (!exactly_)
             for (Want &want : wants_) want.is_of_vertex = true;
@@ -118,7 +120,7 @@ private:
             return a.identity < b.identity || (a.identity == b.identity && a.order < b.order);
         });
         std::size_t left = wants_.size() - give_to_vertex();
-        build_.repeated_->change(place_, [&](std::uint64_t *record, bool &is_changed) {
+        work_.repeated->change(place_, [&](std::uint64_t *record, bool &is_changed) {
             if (left > 0) {
                 const std::size_t met =
                     give(identity(record_id(record), record_attributes<D>(record)), record);
@@ -171,27 +173,26 @@ private:
     }
     /// The id of the vertex; exactly, now_ becomes what attributes it has.
     std::optional<std::int64_t> read_vertex() {
-        const std::size_t compared = exactly_ ? build_.attributes_ : 0;
-        return build_.core_->removal.id_at(place_, {now_.data(), compared});
+        const std::size_t compared = exactly_ ? work_.attributes : 0;
+        return work_.core->removal.id_at(place_, {now_.data(), compared});
     }
     /// Whether the vertex has the attributes that a want is for.
     bool vertex_has(const Want &want) {
-        if (build_.apart_) {
-            const std::uint64_t code = build_.domain_.code(place_);
-            if (!build_.apart_->contains(place_, code)) return false;
-            build_.apart_->get(place_, code, now_.data());
+        if (work_.apart) {
+            const std::uint64_t code = work_.domain.code(place_);
+            if (!work_.apart->contains(place_, code)) return false;
+            work_.apart->get(place_, code, now_.data());
         } else if (!read_vertex()) {
             return false;
         }
         return identities_.find(want.id, now_.data()) == want.identity;
     }
     bool set_of_vertex(const double *values) {
-        if (build_.apart_)
-            return build_.apart_->set(place_, build_.domain_.code(place_), which_, values);
-        return build_.core_->removal.set_attributes(place_, which_, values);
+        if (work_.apart) return work_.apart->set(place_, work_.domain.code(place_), which_, values);
+        return work_.core->removal.set_attributes(place_, which_, values);
     }
 
-    Build &build_;
+    Workspace<D> &work_;
     const std::span<const std::uint32_t> which_;
     const bool exactly_;
     WaitingChanges<D> waiting_;

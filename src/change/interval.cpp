@@ -1,4 +1,4 @@
-#include "delaunay/interval.hpp"
+#include "change/interval.hpp"
 
 #include "blocks/counters.hpp"
 #include "keys/domain_of.hpp"

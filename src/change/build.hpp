@@ -1,0 +1,82 @@
+// Changes of a mesh as a whole (dissertation §4.12.5). Each is made of parts that share one
+// workspace (workspace.hpp):
+//
+//   inserting     points that wait, or that a stage passes on (inserting.hpp)
+//   deleting      points, one by one or by triangulating the rest (deleting.hpp)
+//   updating      attributes of points (revision.hpp), or which attributes there are
+//                 (attribute_change.hpp)
+//   rekeying      another domain for a mesh that has outgrown its own (rekeying.hpp)
+//   gathering     points for several threads (gathering.hpp)
+//   label upkeep  labels and markers that follow the simplices (label_upkeep.hpp)
+//
+// Each change ends with all pages written and the header brought up to date.
+#pragma once
+
+#include "change/deleting.hpp"
+#include "change/inserting.hpp"
+#include "change/label_upkeep.hpp"
+#include "change/rekeying.hpp"
+#include "change/workspace.hpp"
+#include "mesh/stored_pages.hpp"
+#include "staging/stage.hpp"
+
+#include <abacus/build.h>
+#include <abacus/mesh_header.h>
+
+#include <span>
+
+namespace abacus {
+
+template <int D> class Build {
+public:
+    /// `stored` learns from the host which pages are stored; null if simplices have no labels and
+    /// facets no markers.
+    Build(const Host &host, const abacus_facts &facts, std::size_t cache_bytes,
+          StoredPages *stored = nullptr)
+        : work_(host, facts, cache_bytes), labels_(work_, stored), gathering_(work_),
+          inserting_(work_, gathering_), deleting_(work_, gathering_, inserting_),
+          rekeying_(work_, inserting_, labels_) {}
+
+    /// From now on logs the simplices that are created and removed.
+    void log_to(SimplexChanges<D> &changes) { work_.log_to(changes); }
+    /// Until settle() labels and markers stay with the simplices of now: all changes until then
+    /// count as one.
+    void hold() { labels_.hold(); }
+    void settle(abacus_header &header);
+    /// Inserts at most `limit` of the points that wait (0 = all).
+    void run(std::uint64_t limit, abacus_header &header);
+    /// Inserts what waits, then the points of a stage.
+    void insert(Stage<D> &stage, abacus_on_duplicate on_duplicate, abacus_header &header);
+    /// Inserts what waits, then removes a point for each point of a stage; with `exactly`, only one
+    /// that has its id and attributes. Returns how many there were.
+    std::uint64_t remove(Stage<D> &stage, bool exactly, abacus_header &header);
+    /// Inserts what waits, then gives the points of the mesh the new values in a stage, which has
+    /// only the attributes `which`. With `exactly` the old values of all attributes follow the new
+    /// ones, and a point must have them. Returns how many records had a point in the mesh;
+    /// `missing` becomes the first that had none.
+    std::uint64_t update(Stage<D> &stage, std::span<const std::uint32_t> which, bool exactly,
+                         abacus_header &header, abacus_named_place &missing);
+    /// Removes all points, waiting ones included; returns how many there were.
+    std::uint64_t clear(abacus_header &header);
+    /// Gives all points other attributes: the i-th is their former attribute source[i], or has no
+    /// value (no_attribute). `memory` is for sorting. No other change may follow.
+    void change_attributes(std::span<const std::uint32_t> source, std::size_t memory,
+                           abacus_header &header);
+    /// Gives a mesh whose domain does not fit its points another one, with `memory` bytes for
+    /// sorting; false if there is no better one.
+    bool rekey(std::size_t memory, abacus_header &header);
+
+private:
+    void check_attributes(const Stage<D> &stage, std::size_t attributes) const;
+    /// Runs a change, which returns how many points it has processed, and ends it.
+    template <class Change> void change(abacus_header &header, Change change);
+
+    Workspace<D> work_;
+    LabelUpkeep<D> labels_;
+    Gathering<D> gathering_;
+    Inserting<D> inserting_;
+    Deleting<D> deleting_;
+    Rekeying<D> rekeying_;
+};
+
+} // namespace abacus

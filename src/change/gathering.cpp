@@ -1,0 +1,296 @@
+#include "change/gathering.hpp"
+
+#include "blocks/counters.hpp"
+#include "change/near_border.hpp"
+#include "staging/rounds.hpp"
+
+#include <algorithm>
+#include <deque>
+
+namespace abacus {
+
+namespace {
+
+/// Points that are worth the pages written and read again, and the threads.
+template <int D> constexpr std::size_t worth_sharing = D == 2 ? 1 << 16 : 1 << 15;
+/// Share of the memory that gathered points may take, and bytes that they always may.
+constexpr std::size_t gathered_share = 3, least_gathered = std::size_t{4} << 20;
+/// Points from which on there is room for all: nothing is moved then.
+constexpr std::size_t worth_reserving = 1 << 15;
+/// For tests: points of an interval on average, unless there would be too many of them.
+constexpr std::size_t tiny_interval = 4, most_tiny_intervals = 256;
+
+} // namespace
+
+/// One pass of all threads: each takes one interval after the other.
+template <int D> class Gathering<D>::Pass final : public Crew::Work {
+public:
+    /// With `how`, points are taken away.
+    Pass(Gathering &gathering, const Cuts &cuts, const Removing *how)
+        : gathering_(gathering), work_(gathering.work_), cuts_(cuts), how_(how),
+          host_memory_(work_.host), results_(&host_memory_) {
+        Crew &crew = *gathering.crew_;
+        for (std::size_t i = 0; i < cuts.size(); ++i) results_.emplace_back(crew.memory().memory());
+        if (work_.changes != nullptr) work_.changes->work_with(crew);
+    }
+    Pass(const Pass &) = delete;
+    Pass &operator=(const Pass &) = delete;
+    ~Pass() {
+        if (work_.changes != nullptr) work_.changes->drop_handed();
+    }
+
+    void piece(std::size_t number, const Host &host) override {
+        const Batch &batch = gathering_.gathered_;
+        std::optional<Interval<D>> interval;
+        for (std::size_t run = 0; run < batch.runs(); ++run) {
+            const std::size_t begin = cuts_.begin(number, batch, run),
+                              end = cuts_.end(number, batch, run);
+            if (begin == end) continue;
+            if (!interval)
+                interval.emplace(host, *work_.facts, cuts_.first(number), cuts_.last(number),
+                                 gathering_.thread_cache_bytes(), work_.changes);
+            if (how_ != nullptr)
+                interval->remove(batch, begin, end, *how_, done_, results_[number]);
+            else
+                interval->insert(batch, begin, end, gathering_.user_->counts_crowded(), done_,
+                                 results_[number]);
+        }
+        if (interval) interval->finish(results_[number]);
+    }
+    void meanwhile() override {
+        if (work_.changes != nullptr) work_.changes->take_handed();
+        gathering_.report_pass(done_.load(std::memory_order_relaxed));
+    }
+    using AllResults = std::pmr::deque<typename Interval<D>::Results>;
+    /// Of each interval.
+    const AllResults &results() const { return results_; }
+
+private:
+    Gathering &gathering_;
+    Workspace<D> &work_;
+    const Cuts &cuts_;
+    const Removing *const how_;
+    HostMemory host_memory_;
+    AllResults results_;
+    std::atomic<std::uint64_t> done_ = 0;
+};
+
+template <int D>
+Gathering<D>::Gathering(Workspace<D> &work)
+    : work_(work), host_(work.host), gathered_(host_, work.record_size()) {}
+
+template <int D> void Gathering<D>::begin(User &user, std::uint64_t points, std::size_t words) {
+    user_ = &user;
+    done_ = 0;
+    to_do_ = points;
+    gathered_.begin(words);
+    // In equal parts: a small one at the end would take as many pages again.
+    const std::uint64_t room = std::max<std::uint64_t>(
+        1, std::max(work_.cache_bytes / gathered_share, least_gathered) / gathered_bytes(1));
+    const std::uint64_t parts = std::max<std::uint64_t>(1, (points + room - 1) / room);
+    most_gathered_ =
+        std::max((points + parts - 1) / parts, std::min<std::uint64_t>(room, worth_sharing<D>));
+    work_.budget = own_cache_bytes();
+    work_.core->cache.set_budget(work_.budget);
+}
+
+template <int D> bool Gathering<D>::gathers() const {
+    return host_.threads() > 1 &&
+           (most_gathered_ >= worth_sharing<D> || host_.has_tiny_intervals());
+}
+
+template <int D> std::size_t Gathering<D>::gathered_bytes(std::size_t points) const {
+    return gathered_.bytes(user_->keeps_left() ? 2 * points : points);
+}
+
+template <int D> std::size_t Gathering<D>::own_cache_bytes() const {
+    if (!gathers()) return work_.cache_bytes;
+    const std::size_t gathered = gathered_bytes(std::min<std::uint64_t>(most_gathered_, to_do_));
+    return work_.cache_bytes - std::min(gathered, work_.cache_bytes / gathered_share);
+}
+
+template <int D>
+void Gathering<D>::gather(const std::uint64_t *records, std::size_t n, std::size_t stride) {
+    work_.with_codes(records, n, stride,
+                     [&](const std::uint64_t *some, const std::uint64_t *codes, std::size_t count) {
+                         for (std::size_t i = 0; i < count; ++i)
+                             gather_one(some + i * stride, stride, codes[i]);
+                     });
+}
+
+template <int D>
+void Gathering<D>::gather_one(const std::uint64_t *record, std::size_t words, std::uint64_t code) {
+    const std::size_t n = gathered_.size();
+    const bool begins_round = n > 0 && code < gathered_.code(n - 1);
+    if (n >= most_gathered_ || (begins_round && !user_->removes()))
+        change();
+    else if (begins_round)
+        gathered_.begin_run();
+    if (gathered_.size() == worth_reserving) gathered_.reserve(most_gathered_);
+    gathered_.add(record, words, code);
+}
+
+/// An early round is hardly worth it: its mesh is in memory, and would have to be read again.
+template <int D> bool Gathering<D>::is_worth_sharing() const {
+    constexpr std::size_t looked_at = 8; // those of the last round are promoted by chance
+    const std::size_t n = gathered_.size();
+    if (n < worth_sharing<D>) return false;
+    if (user_->removes()) return true;
+    for (std::size_t i = 0; i < looked_at; ++i)
+        if (!Rounds<D>::is_promoted(record_point<D>(gathered_.record(i)))) return true;
+    return n >= most_gathered_ / 2;
+}
+
+template <int D> Cuts Gathering<D>::cuts_for_threads() const {
+    Cuts cuts(host_);
+    if (!user_->is_shared()) return cuts;
+    if (host_.has_tiny_intervals())
+        cuts.cut_at_random(gathered_,
+                           std::max(tiny_interval, gathered_.size() / most_tiny_intervals));
+    else if (is_worth_sharing())
+        cuts.cut_evenly(gathered_, host_.threads());
+    return cuts;
+}
+
+template <int D> void Gathering<D>::change() {
+    if (gathered_.size() == 0) return;
+    Cuts cuts = cuts_for_threads();
+    if (cuts.size() > 1) change_on_threads(cuts);
+    change_here();
+}
+
+template <int D> void Gathering<D>::change_here() {
+    constexpr std::size_t most = Workspace<D>::most_at_once;
+    for (std::size_t i = 0; i < gathered_.size(); i += most) {
+        host_.poll();
+        user_->take(gathered_.record(i), gathered_.codes() + i,
+                    std::min(most, gathered_.size() - i));
+    }
+    user_->finish_here();
+    done_ += gathered_.size();
+    gathered_.shorten(0);
+}
+
+template <int D> void Gathering<D>::report_pass(std::uint64_t done) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - reported_ < std::chrono::milliseconds(10)) return;
+    reported_ = now;
+    const PagesMoved moved = work_.pages_moved();
+    const Desk &desk = crew_->desk();
+    host_.progress({user_->removes() ? ABACUS_PHASE_DELETING : ABACUS_PHASE_INSERTING, done_ + done,
+                    to_do_, moved.read + desk.pages_read(), moved.written + desk.pages_written(),
+                    desk.at_work()});
+}
+
+/// What the cache of each may take.
+template <int D> std::size_t Gathering<D>::thread_cache_bytes() const {
+    return (work_.cache_bytes - work_.cache_bytes / gathered_share) / host_.threads();
+}
+
+template <int D> void Gathering<D>::change_on_threads(Cuts &cuts) {
+    if (!crew_) crew_.emplace(host_);
+    if (!user_->removes() && !host_.has_tiny_intervals()) insert_near_borders(cuts);
+    if (user_->removes()) {
+        work_.repeated->flush(); // threads read them
+        if (work_.apart) work_.apart->flush();
+    }
+    hand_over(cuts);
+    Batch left(host_, gathered_.stride());
+    run_passes(cuts, left, user_->begin_sharing());
+    user_->end_sharing();
+    work_.forget_cache();
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        if (i % 256 == 0) host_.poll();
+        user_->take_left(left.record(i));
+    }
+}
+
+template <int D> void Gathering<D>::run_passes(Cuts &cuts, Batch &left, const Removing *how) {
+    std::size_t least = 1; // points that are worth a pass: of the first one any number
+    for (; cuts.size() > 1 && gathered_.size() >= least; cuts.join_pairs()) {
+        Pass pass(*this, cuts, how);
+        if (!crew_->run(host_.threads(), cuts.size(), pass)) return;
+        if (work_.changes != nullptr) work_.changes->take_handed(); // the last one
+        Arena<std::size_t> put_off(host_);
+        for (const auto &results : pass.results()) take_results(results, left, put_off);
+        std::sort(put_off.begin(), put_off.end());
+        abacus_counters &counters = work_.counters();
+        ++counters.passes;
+        counters.put_off += put_off.size();
+        counters.waited_ns += crew_->desk().waited();
+        done_ += gathered_.size() - put_off.size();
+        gathered_.keep(put_off);
+        if (!host_.has_tiny_intervals()) least = worth_sharing<D>;
+        if (how != nullptr && how->outlay.is_too_much()) return;
+    }
+}
+
+template <int D>
+void Gathering<D>::take_results(const typename Interval<D>::Results &results, Batch &left,
+                                Arena<std::size_t> &put_off) {
+    abacus_census &census = work_.facts->census;
+    census.simplices += static_cast<std::uint64_t>(results.simplices);
+    census.ghosts += static_cast<std::uint64_t>(results.ghosts);
+    census.vertices += static_cast<std::uint64_t>(results.vertices);
+    census.outside += results.crowded;
+    work_.counters() += results.counters;
+    for (const std::size_t i : results.left) deal_with_left(i, left);
+    for (const std::size_t i : results.put_off) put_off.push_back(i);
+    for (const std::size_t i : results.gone)
+        work_.apart->drop(record_point<D>(gathered_.record(i)), gathered_.code(i));
+}
+
+/// What need not wait for the last pass does not take memory until then.
+template <int D> void Gathering<D>::deal_with_left(std::size_t i, Batch &left) {
+    host_.poll();
+    if (user_->keeps_left())
+        left.add(gathered_.record(i), gathered_.code(i));
+    else
+        user_->take_left(gathered_.record(i));
+}
+
+/// Of points with one code, which come one after the other, all or none: so of equal ones.
+template <int D> void Gathering<D>::insert_near_borders(const Cuts &cuts) {
+    NearBorder<D> border(work_.domain, cuts);
+    Batch near(host_, gathered_.stride());
+    const auto insert = [&] {
+        if (near.size() > 0) user_->take(near.record(0), near.codes(), near.size());
+        done_ += near.size();
+        near.shorten(0);
+    };
+    std::size_t kept = 0;
+    std::uint64_t last = 0;
+    bool is_near = false;
+    for (std::size_t begin = 0; begin < gathered_.size(); begin += border.together) {
+        const std::size_t end = std::min(begin + border.together, gathered_.size());
+        const bool may_be_near = border.look_at(gathered_, begin, end);
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint64_t code = gathered_.code(i);
+            if (i == 0 || code != last)
+                is_near = may_be_near && border.is_near(record_point<D>(gathered_.record(i)), code);
+            last = code;
+            if (is_near)
+                near.add(gathered_.record(i), gathered_.code(i));
+            else
+                gathered_.move(i, kept++);
+            if (near.size() == Workspace<D>::most_at_once) insert();
+        }
+        host_.poll();
+    }
+    insert();
+    gathered_.shorten(kept);
+}
+
+template <int D> void Gathering<D>::hand_over(const Cuts &cuts) {
+    typename Workspace<D>::Core &core = *work_.core;
+    for (std::size_t i = 1; i < cuts.size(); ++i) core.cache.cut(cuts.first(i));
+    core.cache.flush(false); // as packing would move the borders
+    work_.facts->census.simplices = static_cast<std::uint64_t>(core.mesh.simplices());
+    work_.facts->census.ghosts = static_cast<std::uint64_t>(core.mesh.ghosts());
+    work_.forget_cache();
+}
+
+template class Gathering<2>;
+template class Gathering<3>;
+
+} // namespace abacus

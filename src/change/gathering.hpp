@@ -1,0 +1,118 @@
+// Points inserted, or removed, by several threads.
+//
+// Points come in rounds, each along the curve. Those that are inserted are gathered until the next
+// round begins; those that are removed come in rounds from the last to the first, and are gathered
+// over all rounds: the mesh is not in memory yet, and is read once. Points are gathered at most
+// until they take a share of the memory that the build has. A few are dealt with here and now, as
+// with one thread: those of early rounds, or a small change. Many are dealt with together:
+//
+//   1. The mesh is cut where the threads' intervals begin (cuts.hpp). The session's thread inserts
+//      points near the borders (near_border.hpp), and all pages are written.
+//   2. Each thread inserts or removes the points of its interval, in a cache of its own
+//      (interval.hpp), and writes its pages. The session's thread serves it.
+//   3. Some points near borders have been put off. Each two intervals are joined, and the points
+//      put off there are dealt with in the same way: the border is inside now.
+//   4. When one interval is left, or few points are, the session's thread does the rest.
+//
+// The session's thread deals with points that equal a vertex after each pass, in their order, since
+// their pages are its own; at the end if they give the vertex another id. Points to be removed at a
+// place with such points are removed at the end.
+//
+// Points near borders are not removed first. The session's thread would have to read the mesh for
+// them, and the stars of the full mesh are small.
+#pragma once
+
+#include "change/cuts.hpp"
+#include "change/interval.hpp"
+#include "change/workspace.hpp"
+#include "host/crew.hpp"
+
+#include <chrono>
+#include <optional>
+
+namespace abacus {
+
+template <int D> class Gathering {
+public:
+    using Removing = typename Interval<D>::Removing;
+
+    /// What is done with the points.
+    class User {
+    public:
+        virtual bool removes() const = 0;
+        /// Whether threads may take part now.
+        virtual bool is_shared() const = 0;
+        /// Whether points that equal a vertex have to wait for the last pass.
+        virtual bool keeps_left() const = 0;
+        /// Deals with some points, in the session's thread.
+        virtual void take(const std::uint64_t *records, const std::uint64_t *codes,
+                          std::size_t n) = 0;
+        /// After the last of them: threads may go on from here.
+        virtual void finish_here() = 0;
+        /// Deals with a point that the threads have left to the session's thread.
+        virtual void take_left(const std::uint64_t *record) = 0;
+        /// How threads remove points, until end_sharing(); null if they insert them.
+        virtual const Removing *begin_sharing() = 0;
+        virtual void end_sharing() = 0;
+        /// See Interval::insert().
+        virtual bool counts_crowded() const = 0;
+
+    protected:
+        ~User() = default;
+    };
+
+    explicit Gathering(Workspace<D> &work);
+
+    /// About `points` points come, and `words` words of each are used. The user gets them until
+    /// the next begin().
+    void begin(User &user, std::uint64_t points, std::size_t words);
+    /// Whether there are threads, and room for enough points to be worth sharing.
+    bool gathers() const;
+    /// Records of points that are removed may come without attributes.
+    void gather(const std::uint64_t *records, std::size_t n, std::size_t stride);
+    void gather_one(const std::uint64_t *record, std::size_t words, std::uint64_t code);
+    /// Inserts the gathered points, or removes them. Comes after the last of them, too.
+    void change();
+    /// The points gathered so far.
+    std::size_t size() const { return gathered_.size(); }
+    /// The memory for the cache of each thread.
+    std::size_t thread_cache_bytes() const;
+
+private:
+    class Pass;
+
+    /// The memory for this many gathered points, with copies of those that have to wait.
+    std::size_t gathered_bytes(std::size_t points) const;
+    /// The memory for the session's cache: with threads, what the gathered points leave.
+    std::size_t own_cache_bytes() const;
+    bool is_worth_sharing() const;
+    Cuts cuts_for_threads() const;
+    void change_here();
+    void change_on_threads(Cuts &cuts);
+    /// Adds the points that the threads have left to the session's thread to `left`.
+    void run_passes(Cuts &cuts, Batch &left, const Removing *how);
+    void take_results(const typename Interval<D>::Results &results, Batch &left,
+                      Arena<std::size_t> &put_off);
+    /// For a gathered point that the threads have left to the session's thread: adds it to `left`
+    /// if it needs the mesh.
+    void deal_with_left(std::size_t i, Batch &left);
+    /// Inserts gathered points that threads would put off.
+    void insert_near_borders(const Cuts &cuts);
+    void report_pass(std::uint64_t done);
+    /// Writes everything and begins with an empty cache.
+    void hand_over(const Cuts &cuts);
+
+    Workspace<D> &work_;
+    const Host &host_;
+    User *user_ = nullptr;
+    Batch gathered_;
+    std::size_t most_gathered_ = 0;      ///< points
+    std::uint64_t done_ = 0, to_do_ = 0; ///< gathered points, for reports
+    std::chrono::steady_clock::time_point reported_{};
+    std::optional<Crew> crew_; ///< the last member: the first to go
+};
+
+extern template class Gathering<2>;
+extern template class Gathering<3>;
+
+} // namespace abacus

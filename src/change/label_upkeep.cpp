@@ -1,0 +1,71 @@
+#include "change/label_upkeep.hpp"
+
+#include "attributes/rewriting.hpp"
+#include "blocks/counters.hpp"
+#include "labels/label_heirs.hpp"
+#include "labels/marker_sweep.hpp"
+
+namespace abacus {
+
+namespace {
+constexpr std::size_t share = 4; // of the cache's memory, beside it
+} // namespace
+
+template <int D> void LabelUpkeep<D>::keep_unless_held() {
+    if (stored_ == nullptr || holds_) return;
+    work_.core->cache.flush();
+    stored_->clear();
+}
+
+template <int D> void LabelUpkeep<D>::sweep() {
+    abacus_census &census = work_.facts->census;
+    if (work_.core->mesh.simplices() == 0) {
+        erase_attributes(work_.host, first_group<D + 1>);
+        erase_attributes(work_.host, marker_group);
+        census.labelled = census.marked = 0;
+    }
+    if (census.labelled > 0) sweep_labels();
+    if (census.marked > 0) sweep_markers();
+    stored_->clear();
+}
+
+template <int D> void LabelUpkeep<D>::sweep_labels() {
+    abacus_census &census = work_.facts->census;
+    const abacus_columns &columns = work_.facts->columns;
+    LabelSweep<D> sweep(work_.host, *work_.facts, work_.domain, columns.labels, first_group<D + 1>);
+    std::optional<LabelHeirs<D>> heirs;
+    typename LabelSweep<D>::Report lose;
+    if (columns.inherits != 0) {
+        heirs.emplace(work_.host, columns.labels, work_.cache_bytes / share);
+        lose = [&](const auto &simplex, const double *v) { heirs->lose(simplex, v); };
+    }
+    std::uint64_t gone = 0;
+    for (const StoredPages::Stretch &stretch : stored_->stretches())
+        gone += sweep.sweep(stretch, lose);
+    if (gone > census.labelled) throw_corrupted("The header counts too few labels.");
+    census.labelled -= gone;
+    if (heirs) census.labelled += heirs->pass_on(sweep, stored_->stretches());
+    work_.counters() += sweep.finish();
+}
+
+template <int D> void LabelUpkeep<D>::sweep_markers() {
+    abacus_census &census = work_.facts->census;
+    MarkerSweep<D> sweep(work_.host, *work_.facts, work_.domain, work_.cache_bytes / share);
+    census.marked = sweep.sweep(stored_->stretches(), census.marked);
+    work_.counters() += sweep.finish();
+}
+
+template <int D> void LabelUpkeep<D>::rekey(const Domain<D> &from, std::size_t memory) {
+    const abacus_facts &facts = *work_.facts;
+    if (facts.census.labelled > 0)
+        work_.counters() += rekey_attributes<D, D + 1>(work_.host, from, work_.domain,
+                                                       facts.columns.labels, memory);
+    if (facts.census.marked > 0)
+        work_.counters() +=
+            rekey_attributes<D, D + 1>(work_.host, from, work_.domain, D + 1, memory, marker_group);
+}
+
+template class LabelUpkeep<2>;
+template class LabelUpkeep<3>;
+
+} // namespace abacus
