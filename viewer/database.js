@@ -76,7 +76,7 @@ export class Database {
             return await this.pool.connect();
         } catch (error) {
             // So the pool says that all its connections are in use.
-            throw error.message.startsWith("timeout exceeded") ? new Refused(503, "too many requests wait for the database") : new Away(error);
+            throw error.message.startsWith("timeout exceeded") ? new Refused(503, "too many requests are waiting for the database") : new Away(error);
         }
     }
 

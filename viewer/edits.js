@@ -10,7 +10,8 @@ const outcomeWait = 10_000; // ms that a server may take to start again
 
 const span = (ms) => (ms < 120_000 ? `${ms / 1000} seconds` : `${Math.round(ms / 60_000)} minutes`);
 const counted = (changes) => (changes === 1 ? "1 change" : `${changes} changes`);
-const unsaved = (changes) => `${counted(changes)} that ${changes === 1 ? "was not saved is" : "were not saved are"}`;
+const were = (changes) => (changes === 1 ? "was" : "were");
+const unsaved = (changes) => `${changes} unsaved change${changes === 1 ? "" : "s"} ${were(changes)}`;
 
 /** The answer to each further request of a session. */
 const ended = (message, lost = 0) => Object.assign(new Refused(410, message), { changes: 0, lost });
@@ -33,13 +34,13 @@ export class Sessions {
     /** One without changes: its page begins another when it needs one. */
     forget(sessions) {
         const oldest = sessions.find((one) => one !== this.holder && one.waiting === 0);
-        if (!oldest) throw new Refused(503, "too many pages edit", "Try again in a minute.");
+        if (!oldest) throw new Refused(503, "too many pages are editing", "Try again in a minute.");
         this.all.delete(oldest.token);
     }
 
     get(token) {
         const session = this.all.get(token);
-        if (!session) throw ended("this session has ended; what it had not saved is undone");
+        if (!session) throw ended("this session has ended; any unsaved changes were undone");
         this.all.delete(token);
         this.all.set(token, session);
         if (session.ended) throw session.ended;
@@ -96,8 +97,8 @@ class Session {
     claim() {
         const { holder, idle } = this.sessions;
         if (holder && holder !== this)
-            throw new Refused(423, "changes of another page are not saved yet",
-                `That page must save or undo them. They are undone when nobody uses it for ${span(idle)}.`);
+            throw new Refused(423, "another page has unsaved changes",
+                `Save or undo them there. They are undone when nobody uses that page for ${span(idle)}.`);
         this.sessions.holder = this;
     }
 
@@ -118,7 +119,7 @@ class Session {
         const left = () => Math.min(this.used + idle, this.seen + absent) - Date.now();
         this.timer = setTimeout(() => {
             if (this.waiting > 0 || left() > 0) return this.watch();
-            const why = this.used + idle <= Date.now() ? `nothing was asked for ${span(idle)}` : `the page did not report for ${span(absent)}`;
+            const why = this.used + idle <= Date.now() ? `nobody used the page for ${span(idle)}` : `the page did not report for ${span(absent)}`;
             this.over(`${why}; ${unsaved(this.changes)} undone`);
         }, Math.max(left(), 10));
         this.timer.unref();
@@ -151,7 +152,7 @@ class Session {
             edit.isSaving = true;
             try {
                 const { command } = await ask(edit.client, "COMMIT");
-                if (command !== "COMMIT") throw new Refused(409, "the database has not saved the changes");
+                if (command !== "COMMIT") throw new Refused(409, "the database did not save the changes");
             } catch (error) {
                 if (!(error instanceof Away)) throw Object.assign(error, { lost: changes });
                 await this.settle(edit, error);
@@ -167,7 +168,7 @@ class Session {
         const outcome = await this.outcome(edit.xid);
         if (outcome === "committed") return;
         if (outcome === "aborted") this.broken(error);
-        else this.over(`the database went away while it saved; whether ${counted(this.changes)} ${this.changes === 1 ? "is" : "are"} saved is not known`, { isOpen: false, lost: null });
+        else this.over(`the connection to the database broke during the save; it is not known whether ${counted(this.changes)} ${were(this.changes)} saved`, { isOpen: false, lost: null });
         throw this.ended;
     }
 
@@ -197,12 +198,12 @@ class Session {
     close() {
         return this.queue(async () => {
             this.sessions.all.delete(this.token);
-            await this.over("this session has ended; what it had not saved is undone");
+            await this.over("this session has ended; any unsaved changes were undone");
         });
     }
 
     broken({ cause }) {
-        console.error(`viewer: a connection that edits is gone: ${cause.message}`);
+        console.error(`viewer: an editing connection was lost: ${cause.message}`);
         return this.changes === 0 ? this.release(false) : this.over(`the connection to the database broke; ${unsaved(this.changes)} lost`, { isOpen: false });
     }
 

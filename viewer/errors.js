@@ -36,14 +36,14 @@ export function explain(error) {
     if (error instanceof Refused) return error;
     if (!(error instanceof pg.DatabaseError)) {
         console.error(error); // a fault of the viewer, so with its stack
-        return new Refused(500, "the viewer has failed");
+        return new Refused(500, "internal error in the viewer");
     }
     const { code = "", message, hint } = error;
     if (code === "42501") return new Refused(403, message);
     if (code === "23505") return new Refused(409, message);
-    if (code === "57014") return new Refused(504, "that took too long");
-    if (code === "55P03") return new Refused(423, "somebody else has locked the mesh", "Try again when their transaction has ended.");
+    if (code === "57014") return new Refused(504, "the query took too long");
+    if (code === "55P03") return new Refused(423, "another transaction has locked the mesh", "Try again after it has ended.");
     if (/^(22|42|54|55|40|25)/.test(code)) return new Refused(400, message, hint);
     console.error(`viewer: ${code} ${message}`);
-    return code.startsWith("53") ? new Refused(503, "the database has too few resources") : new Refused(500, "the database cannot answer");
+    return code.startsWith("53") ? new Refused(503, "the database is out of resources") : new Refused(500, "the database could not answer");
 }

@@ -23,7 +23,7 @@ export class Parameters {
     }
     numbers(name, least, most) {
         const parts = (this.text(name) ?? "").split(",");
-        if (parts.length < least || parts.length > most) throw wrong(`${name} must be from ${least} to ${most} numbers`);
+        if (parts.length < least || parts.length > most) throw wrong(`${name} must have ${least === most ? least : `${least} to ${most}`} numbers`);
         return parts.map((part) => new Parameters(new URLSearchParams([[name, part]])).number(name));
     }
 }
@@ -31,7 +31,7 @@ export class Parameters {
 /** Rows of a query that asks for one more than there may be. */
 async function bounded(query, values) {
     const rows = await query(values.text, [...values.values, mostRows + 1]);
-    if (rows.length > mostRows) throw new Refused(413, `the answer has more than ${mostRows} rows`, "Ask for a smaller part of the mesh.");
+    if (rows.length > mostRows) throw new Refused(413, `the result has more than ${mostRows} rows`, "Choose a smaller part of the mesh.");
     return rows;
 }
 
@@ -105,17 +105,17 @@ export function tile(kind, z, x, y, p, mesh) {
 /** An id, as text: numbers of JSON beyond 53 bits are others than were sent. */
 const id = (value) => {
     const text = typeof value === "string" || Number.isSafeInteger(value) ? String(value) : "";
-    if (!/^-?\d{1,19}$/.test(text) || BigInt.asIntN(64, BigInt(text)) !== BigInt(text)) throw wrong("id must be a whole number of 64 bits, as text if it has more than 53");
+    if (!/^-?\d{1,19}$/.test(text) || BigInt.asIntN(64, BigInt(text)) !== BigInt(text)) throw wrong("id must be a whole number of 64 bits, sent as text if it has more than 53");
     return String(BigInt(text));
 };
 const place = (value, dimension) => {
     if (!Array.isArray(value) || value.length !== dimension || !value.every((x) => typeof x === "number" && Number.isFinite(x)))
-        throw wrong(`a place must be ${dimension} numbers`);
+        throw wrong(`a place must have ${dimension} numbers`);
     return value;
 };
 const numbersOrNull = (value, count) => {
     if (!Array.isArray(value) || value.length !== count || !value.every((x) => x === null || (typeof x === "number" && Number.isFinite(x))))
-        throw wrong(`values must be ${count} numbers`);
+        throw wrong("values must be a list of numbers or nulls, one for each attribute");
     return value;
 };
 
@@ -131,7 +131,7 @@ export function change(name, body, mesh) {
     };
     const remove = async (query) => {
         const [vertex] = await query((dimension === 2 ? plane : space).nearest, at);
-        if (vertex?.vertex !== number || vertex.distance !== 0) throw new Refused(409, `no vertex with the id ${number} is at this place`);
+        if (vertex?.vertex !== number || vertex.distance !== 0) throw new Refused(409, `there is no vertex with the id ${number} at this place`);
         await query(sql.remove, [number, ...at]);
     };
     const actions = {

@@ -13,14 +13,14 @@ import { plane, space } from "./queries.js";
 const usage = `usage: viewer/serve --mesh NAME [-d CONNINFO] [options]
 
   --mesh NAME        the mesh, as in SQL: terrain, gis.terrain, '"TIN North"'
-  -d, --dbname TEXT  a database or connection string, as psql takes it; else PGHOST and so on
-  --srid N           coordinates are 4326, longitude and latitude, or 3857, Web Mercator; without it
-                     the mesh tells by its SRID, and one of another SRID is on a map of its own
-  --edit             points may be added, moved and deleted
-  --timeout SECONDS  of a statement (30)
-  --idle SECONDS     changes that are not saved are undone when nobody uses the page for so long (600)
-  --port N           (8080; 0: any)
-  --host NAME        address to listen at (127.0.0.1)
+  -d, --dbname TEXT  a database or connection string, as for psql; default: PGHOST and so on
+  --srid N           SRID of the coordinates: 4326 (longitude and latitude) or 3857 (Web Mercator);
+                     default: that of the mesh. With another SRID or none it has a map of its own
+  --edit             allow points to be added, moved and deleted
+  --timeout SECONDS  longest time for a statement (30)
+  --idle SECONDS     undo unsaved changes when nobody uses their page for this long (600)
+  --port N           port to listen on (8080; 0: any free port)
+  --host NAME        address to listen on (127.0.0.1)
 `;
 
 const types = { html: "text/html; charset=utf-8", css: "text/css; charset=utf-8", js: "text/javascript", mjs: "text/javascript" };
@@ -82,17 +82,17 @@ class Mesh {
 
 /** The object that a request sends as JSON. */
 async function body(request) {
-    if (!/^application\/json *(;|$)/i.test(request.headers["content-type"] ?? "")) throw new Refused(415, "send JSON");
+    if (!/^application\/json *(;|$)/i.test(request.headers["content-type"] ?? "")) throw new Refused(415, "the content type must be application/json");
     let text = "", given;
     request.setEncoding("utf8");
     for await (const part of request) if (text.length <= mostBody) text += part; // all is read, or the client does not read the answer
-    if (text.length > mostBody) throw new Refused(413, "that is too much");
+    if (text.length > mostBody) throw new Refused(413, "the request is too large");
     try {
         given = JSON.parse(text || "{}");
     } catch {
-        throw new Refused(400, "this is no JSON");
+        throw new Refused(400, "the body is not valid JSON");
     }
-    if (typeof given !== "object" || given === null || Array.isArray(given)) throw new Refused(400, "send an object");
+    if (typeof given !== "object" || given === null || Array.isArray(given)) throw new Refused(400, "the body must be a JSON object");
     return given;
 }
 
@@ -110,7 +110,7 @@ const json = (response, value, status = 200) => send(response, status, "applicat
 
 async function sendTile(request, response, url, mesh, reading) {
     const [, kind, z, x, y] = url.pathname.match(/^\/tiles\/(picture|vector|terrain)\/(\d+)\/(\d+)\/(\d+)$/) ?? [];
-    if (!kind || mesh.dimension !== 2) throw new Refused(404, "there is nothing here");
+    if (!kind || mesh.dimension !== 2) throw new Refused(404, "not found");
     const { etag, bytes } = await reading(async (query) => {
         const known = await mesh.describe(query);
         const drawn = JSON.stringify([known.srid, known.world, url.search]);
@@ -126,7 +126,7 @@ async function sendTile(request, response, url, mesh, reading) {
 async function read(response, url, mesh, reading) {
     const name = url.pathname.slice("/api/".length);
     const reads = { info: (_, query, known) => known, ...(mesh.dimension === 2 ? planeReads : spaceReads) };
-    if (!Object.hasOwn(reads, name)) throw new Refused(404, "there is nothing here");
+    if (!Object.hasOwn(reads, name)) throw new Refused(404, "not found");
     json(response, await reading(async (query) => reads[name](new Parameters(url.searchParams), query, await mesh.describe(query))));
 }
 
@@ -152,8 +152,8 @@ async function edit(request, response, url, mesh, token) {
 async function sendFile(response, url, mesh) {
     const name = url.pathname === "/" ? "index.html" : url.pathname.slice("/assets/".length);
     const known = /^[a-z-]+\.(html|css|js|mjs)$/.exec(name);
-    if (!known || (url.pathname !== "/" && !url.pathname.startsWith("/assets/"))) throw new Refused(404, "there is nothing here");
-    const content = await readFile(new URL(`dist/${name}`, import.meta.url)).catch(() => { throw new Refused(404, "there is nothing here"); });
+    if (!known || (url.pathname !== "/" && !url.pathname.startsWith("/assets/"))) throw new Refused(404, "not found");
+    const content = await readFile(new URL(`dist/${name}`, import.meta.url)).catch(() => { throw new Refused(404, "not found"); });
     send(response, 200, types[known[1]], name === "index.html" ? String(content).replaceAll("DIMENSION", mesh.dimension === 2 ? "plane" : "space") : content);
 }
 
@@ -163,15 +163,15 @@ function handler(mesh, hosts) {
         response.on("close", () => { if (!response.writableEnded) gone.abort(); });
         try {
             // Another host name that leads here is refused.
-            if (!hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""))) throw new Refused(421, "this server has another name");
+            if (!hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""))) throw new Refused(421, "this server does not answer to that host name");
             const url = address(request);
             const token = request.headers["x-session"] || null;
             const reading = (task) => mesh.read(token, task, gone.signal);
             if (url.pathname.startsWith("/edit/")) {
-                if (request.method !== "POST") throw new Refused(405, "send it by POST");
+                if (request.method !== "POST") throw new Refused(405, "only POST is allowed here");
                 return await edit(request, response, url, mesh, token);
             }
-            if (request.method !== "GET") throw new Refused(405, "only reading is possible here");
+            if (request.method !== "GET") throw new Refused(405, "only GET is allowed here");
             if (url.pathname.startsWith("/tiles/")) return await sendTile(request, response, url, mesh, reading);
             if (url.pathname.startsWith("/api/")) return await read(response, url, mesh, reading);
             await sendFile(response, url, mesh);
@@ -212,7 +212,7 @@ function commandLine() {
     if (values.help) return null;
     if (!values.mesh) throw new Error("--mesh is missing");
     const srid = number("srid", 0, 99999);
-    if (srid && !mapped.includes(srid)) throw new Error("--srid must be 4326 or 3857; without it the mesh tells, or is shown on a map of its own");
+    if (srid && !mapped.includes(srid)) throw new Error("--srid must be 4326 or 3857; without it the viewer uses the SRID of the mesh, or a map of its own");
     return { ...values, srid, timeout: number("timeout", 1, 86400), idle: number("idle", 10, 86400), port: number("port", 0, 65535) };
 }
 
@@ -222,7 +222,7 @@ if (process.argv[1] === new URL(import.meta.url).pathname) {
         if (!options) console.log(usage);
         else {
             const { port, stop } = await start(options);
-            console.log(`Mesh ${options.mesh} is at http://localhost:${port}/  (Ctrl+C ends)`);
+            console.log(`Mesh ${options.mesh} is at http://localhost:${port}/  (press Ctrl+C to stop)`);
             for (const signal of ["SIGINT", "SIGTERM"]) process.once(signal, () => stop().then(() => process.exit(0)));
         }
     } catch (error) {

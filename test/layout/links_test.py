@@ -43,6 +43,15 @@ def targets(text):
             yield target
 
 
+def installed(files):
+    """Those of the files that Debian's packages install as documents: dh_installdocs gets files, folders and -X with parts of paths."""
+    words = re.search(r"\tdh_installdocs --all ((?:[^\n\\]|\\\n)+)", (ROOT / "debian/rules").read_text()).group(1).replace("\\\n", " ").split()
+    left_out = [word[2:] for word in words if word.startswith("-X")]
+    listed = [ROOT / word for word in words if not word.startswith("-X")]
+    return {file for file in files if any(one == file or one in file.parents for one in listed)
+            and not any(part in file.relative_to(ROOT).as_posix() for part in left_out)}
+
+
 def wrong_links(documents, files):
     """(document, link, what is wrong with it) of {path: text}."""
     folders = {folder for file in files for folder in file.parents}
@@ -64,6 +73,15 @@ class Links(unittest.TestCase):
         self.assertGreater(sum(len(list(targets(text))) for text in documents.values()), 300)
         wrong = [f"{document.relative_to(ROOT)}: {target}: {why}" for document, target, why in wrong_links(documents, files)]
         self.assertEqual(wrong, [])
+
+    def test_links_of_installed_documents_lead_somewhere(self):
+        """All but those to the source itself."""
+        files = installed(tracked())
+        documents = {file: file.read_text() for file in files if file.suffix == ".md"}
+        self.assertGreater(len(documents), 40)
+        wrong = {(document.parent / target).resolve().relative_to(ROOT).as_posix() for document, target, _ in wrong_links(documents, files)}
+        self.assertEqual(wrong, {"CONTRIBUTING.md", "LICENSE", "scripts/guide_pictures.py", "viewer/queries.js"})
+        self.assertIn("\tdh_compress -X.md -X.json\n", (ROOT / "debian/rules").read_text())
 
     def test_what_is_wrong_is_found(self):
         page = ROOT / "page.md"

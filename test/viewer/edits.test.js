@@ -43,8 +43,8 @@ test("while a page has changes another is refused at once, and not when they are
         assert.equal((await insert(editing, one)).status, 200);
         const { status, body } = await insert(editing, other, "78", elsewhere);
         assert.equal(status, 423);
-        assert.match(body.error, /another page are not saved/);
-        assert.match(body.hint, /nobody uses it for 10 minutes/);
+        assert.match(body.error, /another page has unsaved changes/);
+        assert.match(body.hint, /nobody uses that page for 10 minutes/);
         assert.equal(body.changes, 0);
         assert.equal((await editing.get("/api/locate?x=400817&y=5200740", { headers: { "X-Session": other } })).status, 200);
         assert.equal((await editing.post(finish, {}, one)).status, 200);
@@ -76,7 +76,7 @@ test("who changes the mesh elsewhere is named, and soon", async () => {
         await locker.query(`BEGIN; SELECT abacus_insert('terrain', 'SELECT 5, ${elsewhere}, 900')`);
         const { status, body } = await insert(editing, session);
         assert.equal(status, 423);
-        assert.match(body.error, /somebody else/);
+        assert.match(body.error, /another transaction/);
     } finally {
         await locker.query("ROLLBACK");
         await locker.end();
@@ -86,7 +86,7 @@ test("who changes the mesh elsewhere is named, and soon", async () => {
 });
 
 test("what is not saved is undone when the page does not report, or nobody is at it", async () => {
-    for (const [limits, alive, why] of [[{ absent: 2 }, false, "the page did not report for 2 seconds"], [{ idle: 2, absent: 60 }, true, "nothing was asked for 2 seconds"]]) {
+    for (const [limits, alive, why] of [[{ absent: 2 }, false, "the page did not report for 2 seconds"], [{ idle: 2, absent: 60 }, true, "nobody used the page for 2 seconds"]]) {
         const server = await serve("terrain", { edit: true, ...limits }), before = count();
         try {
             const session = await begin(server);
@@ -96,7 +96,7 @@ test("what is not saved is undone when the page does not report, or nobody is at
                 return open() === "0";
             }, "the change is undone");
             for (const answer of [await server.post("alive", {}, session), await server.get("/api/info", { headers: { "X-Session": session } }), await server.post("save", {}, session)])
-                assert.deepEqual(answer, { status: 410, body: { error: `${why}; 1 change that was not saved is undone`, changes: 0, lost: 1 } });
+                assert.deepEqual(answer, { status: 410, body: { error: `${why}; 1 unsaved change was undone`, changes: 0, lost: 1 } });
             assert.equal(count(), before);
             assert.equal((await insert(server, await begin(server))).status, 200);
         } finally {
@@ -135,7 +135,7 @@ test("when the connection of a page breaks its changes are lost, and it is told;
     way.break();
     for (const { status, body } of [await fragile.get("/api/info", { headers: { "X-Session": one } }), await fragile.post("save", {}, one), await insert(fragile, one, "79")]) {
         assert.equal(status, 410);
-        assert.match(body.error, /the connection to the database broke; 2 changes that were not saved are lost/);
+        assert.match(body.error, /the connection to the database broke; 2 unsaved changes were lost/);
         assert.deepEqual([body.changes, body.lost], [0, 2]);
     }
     await eventually(async () => (await fragile.get("/api/locate?x=400817&y=5200740")).status === 200, "an answer");
@@ -190,7 +190,7 @@ test("whether changes are saved is found out when the connection breaks in betwe
         const answer = await fragile.post("save", {}, session);
         assert.equal(answer.status, status);
         if (isSent) assert.deepEqual(answer.body, { changes: 1 });
-        else assert.match(answer.body.error, /1 change that was not saved is lost/);
+        else assert.match(answer.body.error, /1 unsaved change was lost/);
         assert.equal(count(), before + (isSent ? 1 : 0));
         if (isSent) psql(`SELECT abacus_delete('terrain', 'SELECT 77, ${at}')`);
     }

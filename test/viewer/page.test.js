@@ -55,7 +55,7 @@ const click = (x, y) => canvas().click({ position: { x, y } });
 const choose = (name) => page.getByRole("radio", { name }).check();
 const askAt = async (...place) => {
     for (const [i, name] of [..."xyz"].slice(0, place.length).entries()) await page.locator(`#${name}`).fill(String(place[i]));
-    await page.getByRole("button", { name: "Ask here" }).click();
+    await page.getByRole("button", { name: "Go", exact: true }).click();
 };
 /** A picture, when nothing is being loaded any more. */
 const take = async (name) => {
@@ -71,8 +71,8 @@ test("a click shows the triangle, its circle, neighbours and values", async () =
     await click(300, 320);
     const text = await says(/circumcircle.*value, nearest/);
     const place = cell(text, "place");
-    assert.equal(cell(text, "triangle, by ids"), located(place));
-    assert.match(cell(text, "circumcircle"), /^radius [\d.]+ around/);
+    assert.equal(cell(text, "vertices of the triangle"), located(place));
+    assert.match(cell(text, "circumcircle"), /^radius [\d.]+, centre/);
     for (const method of ["linear", "natural", "nearest"])
         assert.ok(Math.abs(Number(cell(text, `value, ${method}`)) - Number(psql(`SELECT abacus_interpolate('terrain', ${place}, method => '${method}')`))) < 0.1);
     for (const facet of [0, 1, 2])
@@ -84,17 +84,17 @@ test("arrows and buttons walk to neighbours, by the keyboard alone", async () =>
     await open("terrain");
     await canvas().focus();
     await page.keyboard.press("Enter");
-    const first = await says(/triangle, by ids/);
+    const first = await says(/vertices of the triangle/);
     const neighbours = [0, 1, 2].map((facet) => cell(first, `across facet ${facet}`));
     await page.keyboard.press("ArrowRight");
     await page.waitForFunction((text) => document.getElementById("answer").innerText !== text, first);
     const second = await answer(page);
-    assert.ok(neighbours.includes(cell(second, "triangle, by ids")));
+    assert.ok(neighbours.includes(cell(second, "vertices of the triangle")));
     assert.ok(Number(cell(second, "place").split(",")[0]) > Number(cell(first, "place").split(",")[0]));
     const across = cell(second, "across facet 1");
     await page.getByRole("button", { name: "facet 1" }).press("Enter");
     await page.waitForFunction((text) => document.getElementById("answer").innerText !== text, second);
-    assert.equal(cell(await answer(page), "triangle, by ids"), across);
+    assert.equal(cell(await answer(page), "vertices of the triangle"), across);
     await canvas().focus();
     await page.keyboard.press("Escape");
     assert.equal(await page.locator("#walk").isVisible(), false);
@@ -104,7 +104,7 @@ test("a line gives its profile, with a place at each crossing", async () => {
     await open("terrain");
     await choose(/profile/);
     await askAt(400100, 5200100);
-    await says(/begins here/);
+    await says(/Start of the line/);
     await askAt(401500, 5201200);
     const text = await says(/Profile of height: \d+ places/);
     const expected = Number(psql("SELECT count(value) FROM abacus_profile('terrain', '{400100,5200100,401500,5201200}')"));
@@ -123,24 +123,24 @@ test("a profile of very many places is a line without dots", async () => {
     await page.route("**/api/profile?**", (route) => route.fulfill({ json: rows }));
     await choose(/profile/);
     await askAt(400000, 5200000);
-    await says(/begins here/);
+    await says(/Start of the line/);
     await askAt(401000, 5200000);
-    await says(/: 200000 places over 199999, from 900 to 1399/);
+    await says(/: 200000 places, length 199999, values 900 to 1399/);
     assert.equal(await page.locator("#chart circle").count(), 0);
     assert.equal(await page.locator("#chart table tr").count(), 1001);
 });
 
 test("two places: whether one sees the other, and what is between", async () => {
     await open("terrain");
-    await choose(/sees another/);
+    await choose(/line of sight/);
     for (const [to, height] of [["401700,5200700", 0], ["401700,5200700", 900]]) {
         await page.getByLabel("Height of the target").fill(String(height));
         await askAt(400030, 5200700);
-        await says(/observer is here/);
+        await says(/Observer set/);
         await askAt(...to.split(","));
-        const text = await says(/sight\s+the target/);
+        const text = await says(/line of sight\s+the target/);
         const [visible, x] = psql(`SELECT visible, x FROM abacus_visible('terrain', '{400030,5200700}', '{${to}}', target_height => ${height})`).split("|");
-        assert.equal(/is seen/.test(text), visible === "t");
+        assert.equal(/is visible/.test(text), visible === "t");
         assert.equal(/blocked at/.test(text), x !== "");
     }
 });
@@ -160,7 +160,7 @@ test("the slider sets the interval of contours", async () => {
 
 test("terrain rises from tiles of heights", async () => {
     await open("terrain");
-    const [response] = await Promise.all([page.waitForResponse((one) => one.url().includes("/tiles/terrain/")), page.getByLabel("terrain in three dimensions").check()]);
+    const [response] = await Promise.all([page.waitForResponse((one) => one.url().includes("/tiles/terrain/")), page.getByLabel("Terrain in three dimensions").check()]);
     assert.equal(response.status(), 200);
     await take("terrain");
 });
@@ -168,8 +168,8 @@ test("terrain rises from tiles of heights", async () => {
 test("a mesh of longitude and latitude, without attributes, lies where it is", async () => {
     await open("globe");
     await click(300, 320);
-    const text = await says(/triangle, by ids/);
-    assert.equal(cell(text, "triangle, by ids"), psql(`SELECT v0, v1, v2 FROM abacus_locate('globe', ${cell(text, "place")})`).replaceAll("|", " "));
+    const text = await says(/vertices of the triangle/);
+    assert.equal(cell(text, "vertices of the triangle"), psql(`SELECT v0, v1, v2 FROM abacus_locate('globe', ${cell(text, "place")})`).replaceAll("|", " "));
     assert.doesNotMatch(text, /value, linear/);
 });
 
@@ -179,36 +179,36 @@ test("a point is added, moved and deleted; undo and save", async () => {
     const before = vertices();
     for (let i = 0; i < 4; ++i) await page.getByRole("button", { name: "Zoom in" }).click();
     await page.waitForTimeout(700);
-    await choose(/adds a point/);
-    await page.getByLabel("Id of a new point").fill("4711");
+    await choose(/add a point/);
+    await page.getByLabel("Id for the next new point").fill("4711");
     await askAt(400892.5, 5200741.5);
-    assert.match(await says(/4711 is added/), /\d+ triangles are around it/);
+    assert.match(await says(/4711 added/), /\d+ triangles surround it/);
     await take("edit");
-    await choose(/moves a point/);
+    await choose(/move a point/);
     await askAt(400892.5, 5200741.5);
-    await says(/4711 is taken/);
+    await says(/4711 selected/);
     await askAt(400893.5, 5200740.5);
-    await says(/4711 is moved/);
-    await choose(/deletes the nearest/);
+    await says(/4711 moved/);
+    await choose(/delete the nearest/);
     await askAt(400893.5, 5200740.5);
-    await says(/4711 is deleted/);
-    assert.equal(await page.locator("#changes").innerText(), "3 not saved");
+    await says(/4711 deleted/);
+    assert.equal(await page.locator("#changes").innerText(), "3 unsaved changes");
     assert.equal(vertices(), before); // for others
     await page.getByRole("button", { name: "Undo" }).click();
-    await says(/Undone: 3 changes/);
-    await choose(/adds a point/);
-    await page.getByLabel("Id of a new point").fill("4712");
+    await says(/3 changes undone/);
+    await choose(/add a point/);
+    await page.getByLabel("Id for the next new point").fill("4712");
     await askAt(400892.5, 5200741.5);
-    await says(/4712 is added/);
+    await says(/4712 added/);
     await page.getByRole("button", { name: "Save" }).click();
-    await says(/Saved: 1 change/);
+    await says(/1 change saved/);
     assert.equal(Number(vertices()), Number(before) + 1);
     psql("SELECT abacus_delete('terrain', 'SELECT 4712, 400892.5, 5200741.5')");
 });
 
 const addAt = async (id, ...place) => {
-    await choose(/adds a point/);
-    await page.getByLabel("Id of a new point").fill(id);
+    await choose(/add a point/);
+    await page.getByLabel("Id for the next new point").fill(id);
     await askAt(...place);
 };
 const changes = () => page.locator("#changes").innerText();
@@ -219,14 +219,14 @@ test("beyond a fault there is no neighbour, and natural neighbours are left out"
     servers.fault ??= await serve("fault");
     await open("fault");
     await askAt(1.9, 1.5);
-    const text = await says(/triangle, by ids.*nearest vertex/);
-    assert.equal(cell(text, "triangle, by ids"), "1 2 5");
+    const text = await says(/vertices of the triangle.*nearest vertex/);
+    assert.equal(cell(text, "vertices of the triangle"), "1 2 5");
     assert.deepEqual([0, 1, 2].map((facet) => cell(text, `across facet ${facet}`)), ["none: the mesh ends here", "1 5 4", "none: the mesh ends here"]);
     assert.deepEqual(["linear", "nearest"].map((method) => cell(text, `value, ${method}`)), ["0", "0"]);
     assert.doesNotMatch(text, /value, natural/);
     assert.equal(await page.getByRole("button", { name: "facet 0" }).isDisabled(), true);
     await page.getByRole("button", { name: "facet 1" }).press("Enter");
-    await says(/by ids\s+1 5 4/);
+    await says(/vertices of the triangle\s+1 5 4/);
     psql("DROP TABLE fault CASCADE");
 });
 
@@ -235,17 +235,17 @@ test("ids beyond 53 bits are shown and changed as they are", async () => {
     servers.great ??= await serve("great", { edit: true });
     await open("great");
     await askAt(0.9, 0.05);
-    const text = await says(/triangle, by ids.*nearest vertex/);
-    assert.equal(cell(text, "triangle, by ids"), psql("SELECT v0, v1, v2 FROM abacus_locate('great', 0.9, 0.05)").replaceAll("|", " "));
+    const text = await says(/vertices of the triangle.*nearest vertex/);
+    assert.equal(cell(text, "vertices of the triangle"), psql("SELECT v0, v1, v2 FROM abacus_locate('great', 0.9, 0.05)").replaceAll("|", " "));
     assert.match(cell(text, "nearest vertex"), /^9007199254740993,/);
     await addAt("9007199254741993", 0.5, 0.25);
-    await says(/Point 9007199254741993 is added/);
-    assert.equal(await page.getByLabel("Id of a new point").inputValue(), "9007199254741994");
-    await choose(/deletes the nearest/);
+    await says(/Point 9007199254741993 added/);
+    assert.equal(await page.getByLabel("Id for the next new point").inputValue(), "9007199254741994");
+    await choose(/delete the nearest/);
     await askAt(1.01, 1.01);
-    await says(/Point 9007199254740996 is deleted/);
+    await says(/Point 9007199254740996 deleted/);
     await page.getByRole("button", { name: "Save" }).click();
-    await says(/Saved: 2 changes/);
+    await says(/2 changes saved/);
     assert.equal(psql("SELECT string_agg(id::text, ' ' ORDER BY id) FROM abacus_vertices('great') WHERE id IN (9007199254740996, 9007199254740995, 9007199254740997, 9007199254741993)"), "9007199254740995 9007199254740997 9007199254741993");
     psql("DROP TABLE great CASCADE");
 });
@@ -257,20 +257,20 @@ test("while another page has changes this is said at once, and when that page go
     other.on("dialog", (dialog) => dialog.accept());
     await other.goto(servers.terrain.origin);
     await other.waitForSelector("#view[data-ready=true]");
-    await other.getByRole("radio", { name: /adds a point/ }).check();
+    await other.getByRole("radio", { name: /add a point/ }).check();
     for (const [name, value] of [["x", 400892.5], ["y", 5200741.5]]) await other.locator(`#${name}`).fill(String(value));
-    await other.getByRole("button", { name: "Ask here" }).click();
-    await other.waitForFunction(() => document.getElementById("changes").textContent === "1 not saved");
+    await other.getByRole("button", { name: "Go", exact: true }).click();
+    await other.waitForFunction(() => document.getElementById("changes").textContent === "1 unsaved change");
     await open("terrain");
     await addAt("4713", 400892.5, 5200741.5);
-    await says(/changes of another page are not saved yet. That page must save or undo them/);
-    assert.equal(await changes(), "no changes");
+    await says(/another page has unsaved changes. Save or undo them there/);
+    assert.equal(await changes(), "No unsaved changes");
     await other.goto("about:blank");
     await eventually(() => psql("SELECT count(*) FROM pg_stat_activity WHERE application_name = 'abacus viewer' AND state LIKE 'idle in transaction%'") === "0", "the changes are undone");
     await addAt("4713", 400892.5, 5200741.5);
-    await says(/4713 is added/);
+    await says(/4713 added/);
     await page.getByRole("button", { name: "Undo" }).click();
-    await says(/Undone: 1 change/);
+    await says(/1 change undone/);
     await other.close();
 });
 
@@ -281,19 +281,19 @@ test("when the connection to the database breaks the page says by itself what is
     const server = servers.fragile = await serve("terrain", { edit: true, dbname: way.dbname, absent: 30 }); // so it asks every five seconds
     await open("fragile");
     await addAt("4714", 400892.5, 5200741.5);
-    await says(/4714 is added/);
-    assert.equal(await changes(), "1 not saved");
+    await says(/4714 added/);
+    assert.equal(await changes(), "1 unsaved change");
     const before = psql("SELECT value FROM abacus_stats('terrain') WHERE name = 'vertices'");
     assert.match(await page.locator("#summary").innerText(), new RegExp(`${Number(before) + 1} vertices`));
     way.open = false;
     way.break();
-    await says(/the connection to the database broke; 1 change that was not saved is lost/);
-    assert.equal(await changes(), "no changes");
+    await says(/the connection to the database broke; 1 unsaved change was lost/);
+    assert.equal(await changes(), "No unsaved changes");
     way.open = true;
     await page.waitForFunction((words) => document.getElementById("summary").textContent.includes(words), `, ${before} vertices`); // the mesh as it is
     await eventually(async () => {
         await addAt("4714", 400892.5, 5200741.5);
-        return /4714 is added/.test(await says(/is added|be reached|somebody else/));
+        return /4714 added/.test(await says(/4714 added|be reached|another transaction/));
     }, "the page goes on");
     await server.stop();
     servers.fragile = { stop: () => way.close() };
@@ -306,14 +306,14 @@ test("a Save that is refused says why, and what is undone", async () => {
     refusals = /status of 400/;
     await open("terrain");
     await addAt("4715", 400892.5, 5200741.5);
-    await says(/4715 is added/);
+    await says(/4715 added/);
     await page.route("**/edit/save", async (route) => {
         await route.fetch({ url: route.request().url().replace("save", "undo") });
         await route.fulfill({ status: 400, json: { error: "the mesh follows a table", hint: "Change the table.", changes: 0, lost: 1 } });
     });
     await page.getByRole("button", { name: "Save" }).click();
-    await says(/the mesh follows a table. Change the table. Changes that are undone: 1./);
-    assert.equal(await changes(), "no changes");
+    await says(/the mesh follows a table. Change the table. 1 unsaved change was undone./);
+    assert.equal(await changes(), "No unsaved changes");
     assert.equal(await page.getByRole("button", { name: "Save" }).isDisabled(), true);
 });
 
@@ -323,7 +323,7 @@ test("every control has a name, and what is wrong is said", async () => {
         .filter((one) => one.checkVisibility() && !one.labels?.length && !one.ariaLabel && !one.textContent.trim() && !one.title && !one.closest("[aria-label] svg")).map((one) => one.outerHTML));
     assert.deepEqual(nameless, []);
     assert.equal(await page.locator("#answer").getAttribute("aria-live"), "polite");
-    await page.getByRole("button", { name: "Ask here" }).click();
+    await page.getByRole("button", { name: "Go", exact: true }).click();
     await says(/must be numbers/);
     await askAt(0, 0);
     await says(/the place is outside/);
@@ -333,18 +333,18 @@ test("every control has a name, and what is wrong is said", async () => {
 
 const polygons = () => page.locator("#view").getAttribute("data-polygons");
 
-test("in space a click on the plane asks for the tetrahedron; keys walk", async () => {
+test("in space a click on the plane shows the tetrahedron; keys walk", async () => {
     await open("rock");
     assert.equal(await page.locator("#view").getAttribute("data-outline"), "hull");
     await click(340, 320);
-    const text = await says(/tetrahedron, by ids.*value, nearest/);
+    const text = await says(/vertices of the tetrahedron.*value, nearest/);
     const place = cell(text, "place");
-    assert.equal(cell(text, "tetrahedron, by ids"), psql(`SELECT v0, v1, v2, v3 FROM abacus_locate('rock', ${place})`).replaceAll("|", " "));
+    assert.equal(cell(text, "vertices of the tetrahedron"), psql(`SELECT v0, v1, v2, v3 FROM abacus_locate('rock', ${place})`).replaceAll("|", " "));
     assert.match(cell(text, "circumsphere"), /^radius/);
     const across = cell(text, "across facet 2");
     await page.keyboard.press("3");
     await page.waitForFunction((before) => document.getElementById("answer").innerText !== before, text);
-    assert.equal(cell(await answer(page), "tetrahedron, by ids"), across);
+    assert.equal(cell(await answer(page), "vertices of the tetrahedron"), across);
 });
 
 test("the plane is dragged, and moved by keys", async () => {
@@ -371,14 +371,14 @@ test("the plane is dragged, and moved by keys", async () => {
 test("a surface of one value, and a ray", async () => {
     await open("rock");
     await page.locator("#level").fill("500");
-    const text = await says(/surface of vs [\d.]+ has \d+ triangles/);
-    const [, value, triangles] = /of vs ([\d.]+) has (\d+)/.exec(text);
+    const text = await says(/surface at vs = [\d.]+ has \d+ triangles/);
+    const [, value, triangles] = /at vs = ([\d.]+) has (\d+)/.exec(text);
     assert.equal(triangles, psql(`SELECT count(*) FROM abacus_isosurface('rock', ${value})`));
     await page.locator("#axis").selectOption("1");
     await page.waitForTimeout(500);
     await choose(/ray/);
     await askAt(5.5, 4.5, -3);
-    assert.ok(Number(/meets (\d+) tetrahedra/.exec(await says(/meets \d+ tetrahedra/))[1]) > 5);
+    assert.ok(Number(/crosses (\d+) tetrahedra/.exec(await says(/crosses \d+ tetrahedra/))[1]) > 5);
     await take("space");
 });
 
@@ -396,19 +396,19 @@ test("around a mesh whose hull has very many triangles is its box", async () => 
 test("a point in space is added, moved and deleted; undo", async () => {
     await open("rock");
     const before = psql("SELECT value FROM abacus_stats('rock') WHERE name = 'vertices'");
-    await choose(/adds a point/);
-    await page.getByLabel("Id of a new point").fill("4711");
+    await choose(/add a point/);
+    await page.getByLabel("Id for the next new point").fill("4711");
     await askAt(5.25, 4.5, -3.1);
-    assert.match(await says(/4711 is added/), /\d+ tetrahedra are around it/);
-    await choose(/moves a point/);
+    assert.match(await says(/4711 added/), /\d+ tetrahedra surround it/);
+    await choose(/move a point/);
     await askAt(5.25, 4.5, -3.1);
-    await says(/4711 is taken/);
+    await says(/4711 selected/);
     await askAt(5.26, 4.51, -3.2);
-    await says(/4711 is moved/);
-    await choose(/deletes the nearest/);
+    await says(/4711 moved/);
+    await choose(/delete the nearest/);
     await askAt(5.26, 4.51, -3.2);
-    await says(/4711 is deleted/);
+    await says(/4711 deleted/);
     await page.getByRole("button", { name: "Undo" }).click();
-    await says(/Undone: 3 changes/);
+    await says(/3 changes undone/);
     assert.equal(psql("SELECT value FROM abacus_stats('rock') WHERE name = 'vertices'"), before);
 });

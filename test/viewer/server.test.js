@@ -214,7 +214,7 @@ test("a statement has a limit on its time", async () => {
     const locker = await connect();
     try {
         await locker.query("BEGIN; LOCK TABLE terrain IN ACCESS EXCLUSIVE MODE");
-        assert.deepEqual(await server.get("/api/info"), { status: 504, body: { error: "that took too long" } });
+        assert.deepEqual(await server.get("/api/info"), { status: 504, body: { error: "the query took too long" } });
     } finally {
         await locker.query("ROLLBACK");
         await locker.end();

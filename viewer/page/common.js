@@ -29,6 +29,15 @@ export function made(name, attributes = {}, ...children) {
     return node;
 }
 
+/** A number of things in words: 1 change, 2 changes. */
+export const counted = (count, one, many = `${one}s`) => `${count} ${count === 1 ? one : many}`;
+
+/** The same as a part of a sentence: 1 unsaved change was undone. */
+export const undone = (count) => `${counted(count, "unsaved change")} ${count === 1 ? "was" : "were"} undone`;
+
+/** 6 triangles surround it. */
+export const surround = (things, count, what) => `${things} ${count === 1 ? "surrounds" : "surround"} ${what}.`;
+
 export const number = (x) => (x === null || x === undefined ? "none" : Number(x.toPrecision(8)).toString());
 
 export function table(rows, heads) {
@@ -59,11 +68,11 @@ export const centroid = (corners) => corners[0].map((_, axis) => corners.reduce(
 /** What there is to say of a place. */
 export function describe(found, word) {
     const rows = [["place", found.place.map(number).join(", ")]];
-    if (!found.simplex) rows.push([word, "none: the place is outside"]);
+    if (!found.simplex) rows.push([word, "none: the place is outside the mesh"]);
     else {
         const { center, radius } = circumsphere(found.simplex.corners);
-        rows.push([`${word}, by ids`, found.simplex.ids.join(" ")], ["code", found.simplex.code],
-            [found.place.length === 2 ? "circumcircle" : "circumsphere", `radius ${number(radius)} around ${center.map(number).join(", ")}`]);
+        rows.push([`vertices of the ${word}`, found.simplex.ids.join(" ")], ["code", found.simplex.code],
+            [found.place.length === 2 ? "circumcircle" : "circumsphere", `radius ${number(radius)}, centre ${center.map(number).join(", ")}`]);
         found.neighbours.forEach((one, facet) => rows.push([`across facet ${facet}`, one ? one.ids.join(" ") : "none: the mesh ends here"]));
     }
     for (const [method, value] of Object.entries(found.values)) rows.push([`value, ${method}`, number(value)]);

@@ -1,5 +1,5 @@
 // Changes of the mesh: what is not saved, and what becomes of it.
-import { answering, element, say } from "./common.js";
+import { answering, counted, element, say, undone } from "./common.js";
 import { editor, leave, post } from "./requests.js";
 
 let beat, timer; // of the page's reports that it is there; in milliseconds
@@ -8,7 +8,7 @@ let redraw = async () => {};
 function show(changes) {
     editor.unsaved = changes;
     element("save").disabled = element("undo").disabled = changes === 0;
-    element("changes").textContent = changes === 0 ? "no changes" : `${changes} not saved`;
+    element("changes").textContent = changes === 0 ? "No unsaved changes" : counted(changes, "unsaved change");
     clearInterval(timer);
     if (changes > 0) timer = setInterval(stillThere, beat); // the server undoes what a page leaves behind
 }
@@ -49,13 +49,13 @@ export function setUpEditing(changed) {
         say(words(changes));
         await changed();
     });
-    element("save").addEventListener("click", () => finish("save", (n) => `Saved: ${n} changes.`));
-    element("undo").addEventListener("click", () => finish("undo", (n) => `Undone: ${n} changes.`));
+    element("save").addEventListener("click", () => finish("save", (n) => `${counted(n, "change")} saved.`));
+    element("undo").addEventListener("click", () => finish("undo", (n) => `${counted(n, "change")} undone.`));
     addEventListener("beforeunload", (event) => { if (editor.unsaved > 0) event.preventDefault(); });
     addEventListener("pagehide", leave);
     addEventListener("pageshow", ({ persisted }) => { // the browser has kept the page, the server not what it had changed
         if (!persisted || editor.unsaved === 0) return;
-        say(`You have left this page. Changes that are undone: ${editor.unsaved}.`, "error");
+        say(`You left this page: ${undone(editor.unsaved)}.`, "error");
         show(0);
         drawAgain();
     });

@@ -2,7 +2,7 @@
 // of the map around 0, 0 by a shift and a scale: the square `world` is the map of the world.
 import * as maplibre from "maplibre-gl";
 import { chart } from "./chart.js";
-import { answering, centroid, circumsphere, describe, element, number, offerWalk, say, table, tool } from "./common.js";
+import { answering, centroid, circumsphere, counted, describe, element, number, offerWalk, say, surround, table, tool } from "./common.js";
 import { change, setUpEditing, stillThere } from "./editing.js";
 import { ask, sessionHeaders } from "./requests.js";
 
@@ -83,8 +83,8 @@ const map = new maplibre.Map({
     },
 });
 map.addControl(new maplibre.NavigationControl({ visualizePitch: true }));
-map.getCanvas().setAttribute("aria-label", "Map of the mesh. Enter asks at its middle; arrows walk to neighbours once a triangle is found, Escape ends that.");
-map.on("error", ({ error }) => (error?.status === 410 ? stillThere() : say(error?.message ?? "a tile is missing", "error")));
+map.getCanvas().setAttribute("aria-label", "Map of the mesh. Press Enter to use the tool at the middle of the map. Once a triangle is shown, the arrow keys walk to its neighbours. Press Escape to start again.");
+map.on("error", ({ error }) => (error?.status === 410 ? stillThere() : say(error?.message ?? "A tile could not be loaded.", "error")));
 
 const feature = (kind, type, coordinates) => ({ type: "Feature", properties: { kind }, geometry: { type, coordinates } });
 const ring = (kind, corners) => feature(kind, "Polygon", [[...corners, corners[0]].map(toMap)]);
@@ -94,8 +94,8 @@ const show = (features) => map.getSource("found").setData({ type: "FeatureCollec
 async function refresh() {
     mesh = await ask("info");
     for (const [name, kind] of [["picture", "picture"], ["vector", "vector"], ["heights", "terrain"]]) map.getSource(name)?.setTiles(tiles(kind));
-    element("interval-value").textContent = interval() || "none";
-    element("summary").textContent = `${mesh.simplices} triangles, ${mesh.vertices} vertices`;
+    element("interval-value").textContent = interval() || "off";
+    element("summary").textContent = `${counted(mesh.simplices, "triangle")}, ${counted(mesh.vertices, "vertex", "vertices")}`;
 }
 
 // ---- Tools -------------------------------------------------------------------------------------
@@ -129,7 +129,7 @@ async function locate([x, y]) {
 
 const walk = (facet) => answering(async () => {
     const next = found?.neighbours[facet];
-    if (!next) return say("There is no triangle beyond this edge: the mesh ends there, or is torn by a fault.");
+    if (!next) return say("There is no triangle beyond this edge: it is on the boundary of the mesh or on a fault.");
     await locate(centroid(next.corners));
     if (!map.getBounds().contains(toMap(found.place))) map.panTo(toMap(found.place));
 });
@@ -137,63 +137,63 @@ const walk = (facet) => answering(async () => {
 async function profile(place) {
     path.push(place);
     show([...places(path), ...(path.length > 1 ? [feature("path", "LineString", path.map(toMap))] : [])]);
-    if (path.length < 2) return say("The line begins here. Where does it go?");
+    if (path.length < 2) return say("Start of the line. Click the next point.");
     const rows = await ask("profile", { path: path.flat().join(","), ...(attribute() && { attribute: attribute() }) });
     const { picture, details, words } = chart(rows, attribute());
     element("chart").replaceChildren(picture, details);
     element("chart").hidden = false;
     show([feature("path", "LineString", path.map(toMap)), ...places(rows.filter((row) => row.value !== null).map((row) => [row.x, row.y]))]);
-    say(`${words}. Another click goes on; Escape begins anew.`);
+    say(`${words}. Click to extend the line; press Escape to start again.`);
 }
 
 async function sight(place) {
     if (path.length === 2) path = [];
     path.push(place);
     show(places(path));
-    if (path.length < 2) return say("The observer is here. Where is the target?");
+    if (path.length < 2) return say("Observer set. Now click the target.");
     const seen = await ask("sight", { from: path[0].join(","), to: path[1].join(","), observer: element("observer").value || 0, target: element("target").value || 0,
         ...(attribute() && { attribute: attribute() }) });
     const block = seen?.x === null || seen?.x === undefined ? [] : [[seen.x, seen.y]];
     show([...places([...path, ...block]), feature(seen?.visible ? "path" : "blocked", "LineString", path.map(toMap))]);
     say(table([["observer", path[0].map(number).join(", ")], ["target", path[1].map(number).join(", ")],
-        ["sight", seen?.visible === true ? "the target is seen" : seen?.visible === false ? "the target is not seen" : "unknown: a place is outside"],
+        ["line of sight", seen?.visible === true ? "the target is visible" : seen?.visible === false ? "the target is not visible" : "unknown: a place is outside the mesh"],
         ...(block.length ? [["blocked at", `${block[0].map(number).join(", ")}, height ${number(seen.z)}`]] : [])]));
 }
 
 /** The triangles around a place: all of a vertex. */
-async function showStar([x, y], words) {
+async function showStar([x, y], words, what = "it") {
     const star = await ask("star", { x, y });
     await refresh();
     show([...star.map((one) => ring("star", one.corners)), ...places([[x, y]])]);
-    say(`${words} ${star.length} triangles are around it.`);
+    say(`${words} ${surround(counted(star.length, "triangle"), star.length, what)}`);
 }
 
 const nearest = async ([x, y]) => {
     const answer = await ask("locate", { x, y, ...(attribute() && { attribute: attribute() }) });
-    if (!answer.nearest) throw new Error("the mesh has no vertex");
+    if (!answer.nearest) throw new Error("the mesh has no vertices");
     return answer.nearest;
 };
 const editors = {
     async insert(place) {
         const id = element("id").value;
         await change("insert", { id, at: place });
-        await showStar(place, `Point ${id} is added.`);
+        await showStar(place, `Point ${id} added.`);
     },
     async remove(place) {
         const vertex = await nearest(place);
         await change("remove", { id: vertex.vertex, at: [vertex.x, vertex.y] });
-        await showStar([vertex.x, vertex.y], `Point ${vertex.vertex} is deleted; its place is in a triangle again.`);
+        await showStar([vertex.x, vertex.y], `Point ${vertex.vertex} deleted.`, "its place");
     },
     async move(place) {
         if (!moved) {
             moved = await nearest(place);
             show(places([[moved.x, moved.y]]));
-            return say(`Point ${moved.vertex} is taken. Where shall it go?`);
+            return say(`Point ${moved.vertex} selected. Click its new place.`);
         }
         const vertex = moved;
         moved = null;
         await change("move", { id: vertex.vertex, at: [vertex.x, vertex.y], to: place, values: vertex.attributes ?? undefined });
-        await showStar(place, `Point ${vertex.vertex} is moved.`);
+        await showStar(place, `Point ${vertex.vertex} moved.`);
     },
 };
 const tools = { locate, profile, sight, ...editors };
@@ -233,7 +233,7 @@ for (const id of ["attribute", "ramp", "edges", "interval"])
         if (id === "attribute") setSteps();
         await refresh();
     }));
-element("interval").addEventListener("input", () => { element("interval-value").textContent = interval() || "none"; });
+element("interval").addEventListener("input", () => { element("interval-value").textContent = interval() || "off"; });
 element("relief").addEventListener("change", ({ target }) => {
     // Heights are in units of the mesh; the map counts metres of the earth.
     const scale = world ? (2 * half) / world[2] : 1;

@@ -1,4 +1,5 @@
 // What the page asks the server, and its session, if it edits.
+import { undone } from "./common.js";
 
 /** The token of the session, and how many changes are not saved. */
 export const editor = { session: null, unsaved: 0, heard: () => {} };
@@ -13,12 +14,12 @@ const sentences = (...parts) => parts.filter(Boolean).map((part) => part.replace
 async function request(path, options) {
     const { session } = editor;
     const response = await fetch(path, options).catch(() => { throw new Error("The viewer's server cannot be reached."); });
-    const answer = await response.json().catch(() => ({ error: `the server answers ${response.status} ${response.statusText}` }));
+    const answer = await response.json().catch(() => ({ error: `the server answered ${response.status} ${response.statusText}` }));
     if (response.ok) return answer;
     const { error, hint, changes, lost } = answer, hasEnded = response.status === 410, had = editor.unsaved;
     if (hasEnded && session === editor.session) editor.session = null;
     if (changes !== undefined) editor.heard(changes, lost ?? 0);
-    throw Object.assign(new Error(sentences(error, hint, lost && !hasEnded && `Changes that are undone: ${lost}`)), { hasEnded, had });
+    throw Object.assign(new Error(sentences(error, hint, lost && !hasEnded && undone(lost))), { hasEnded, had });
 }
 
 export const ask = (name, parameters = {}) => request(`/api/${name}?${new URLSearchParams(parameters)}`, { headers: sessionHeaders() });

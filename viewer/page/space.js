@@ -2,7 +2,7 @@
 // what is at a place or along a ray.
 import * as three from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { answering, centroid, describe, element, number, offerWalk, say, table, tool } from "./common.js";
+import { answering, centroid, counted, describe, element, number, offerWalk, say, surround, table, tool } from "./common.js";
 import { change, setUpEditing } from "./editing.js";
 import { ask } from "./requests.js";
 
@@ -22,7 +22,7 @@ const renderer = new three.WebGLRenderer({ antialias: true, preserveDrawingBuffe
 const canvas = renderer.domElement;
 canvas.tabIndex = 0;
 canvas.setAttribute("role", "application");
-canvas.setAttribute("aria-label", "The mesh in space. Enter asks at the middle of the plane; the keys 1 to 4 walk across the facets of a tetrahedron; Page Up and Page Down move the plane.");
+canvas.setAttribute("aria-label", "The mesh in space. Press Enter to use the tool at the middle of the plane, 1 to 4 to walk across the facets of a tetrahedron, Page Up or Page Down to move the plane.");
 view.append(canvas);
 const scene = new three.Scene();
 scene.background = new three.Color(0xf4f1ea);
@@ -118,7 +118,7 @@ async function section() {
 async function surface() {
     const range = attribute(), step = Number(element("level").value);
     if (!range || step === 0) {
-        element("level-value").textContent = "none";
+        element("level-value").textContent = "off";
         return put("surface", null);
     }
     const value = range.least + (step / 1000) * (range.greatest - range.least);
@@ -127,7 +127,7 @@ async function surface() {
     put("surface", new three.Mesh(geometry(triangles.flatMap((row) => row.corners.flatMap(toScene))),
         new three.MeshLambertMaterial({ color: colour(value), side: three.DoubleSide })));
     view.dataset.triangles = triangles.length;
-    say(`The surface of ${range.name} ${number(value)} has ${triangles.length} triangles.`);
+    say(`The surface at ${range.name} = ${number(value)} has ${counted(triangles.length, "triangle")}.`);
 }
 
 /** One request at a time; of those that come meanwhile the last. */
@@ -166,7 +166,7 @@ async function locate(place) {
 }
 const walk = (facet) => answering(async () => {
     const next = found?.neighbours[facet];
-    if (!next) return say("There is no tetrahedron beyond this facet: the mesh ends there, or is torn by a fault.");
+    if (!next) return say("There is no tetrahedron beyond this facet: it is on the boundary of the mesh or on a fault.");
     await locate(centroid(next.corners));
 });
 
@@ -177,43 +177,43 @@ async function ray(place, from) {
     const inside = rows.reduce((sum, row) => sum + row.leaves - row.enters, 0) * Math.hypot(...direction);
     put("found", rows.length ? lines(rows.flatMap((row) => [end(row.enters), end(row.leaves)]), 0xb3261e) : null);
     offerWalk(null);
-    say([`The ray meets ${rows.length} tetrahedra, over a length of ${number(inside)}.`,
+    say([`The ray crosses ${counted(rows.length, "tetrahedron", "tetrahedra")}; its length inside the mesh is ${number(inside)}.`,
         ...(rows.length ? [table(rows.slice(0, 12).map((row) => [row.enters.toPrecision(5), row.leaves.toPrecision(5), [row.v0, row.v1, row.v2, row.v3].join(" ")]), ["enters", "leaves", "tetrahedron"])] : [])]);
 }
 
 async function nearest([x, y, z]) {
     const { nearest: vertex } = await ask("locate", named({ x, y, z }));
-    if (!vertex) throw new Error("the mesh has no vertex");
+    if (!vertex) throw new Error("the mesh has no vertices");
     return { ...vertex, at: [vertex.x, vertex.y, vertex.z] };
 }
 
-async function showStar(place, words) {
+async function showStar(place, words, what = "it") {
     const star = await ask("star", { x: place[0], y: place[1], z: place[2] });
     mesh = await ask("info");
     await Promise.all([section(), hull()]);
     put("found", lines(star.flatMap((one) => edges(one.corners)), 0x7a3e9d));
-    say(`${words} ${star.length} tetrahedra are around it.`);
+    say(`${words} ${surround(counted(star.length, "tetrahedron", "tetrahedra"), star.length, what)}`);
 }
 const editors = {
     async insert(place) {
         const id = element("id").value;
         await change("insert", { id, at: place });
-        await showStar(place, `Point ${id} is added.`);
+        await showStar(place, `Point ${id} added.`);
     },
     async remove(place) {
         const vertex = await nearest(place);
         await change("remove", { id: vertex.vertex, at: vertex.at });
-        await showStar(vertex.at, `Point ${vertex.vertex} is deleted; its place is in a tetrahedron again.`);
+        await showStar(vertex.at, `Point ${vertex.vertex} deleted.`, "its place");
     },
     async move(place) {
         if (!moved) {
             moved = await nearest(place);
-            return say(`Point ${moved.vertex} is taken. Where shall it go?`);
+            return say(`Point ${moved.vertex} selected. Click its new place.`);
         }
         const vertex = moved;
         moved = null;
         await change("move", { id: vertex.vertex, at: vertex.at, to: place, values: vertex.attributes ?? undefined });
-        await showStar(place, `Point ${vertex.vertex} is moved.`);
+        await showStar(place, `Point ${vertex.vertex} moved.`);
     },
 };
 const use = (place, from = toMesh(camera.position)) => answering(() => ({ locate, ray, ...editors })[tool()](place, from));
@@ -272,7 +272,7 @@ element("tools").addEventListener("submit", (event) => {
 element("tools").addEventListener("change", ({ target }) => {
     if (target.name !== "tool") return;
     moved = null;
-    say("Click a place of the plane.");
+    say("Click a place on the plane.");
 });
 element("cut").addEventListener("input", () => moveTo(Number(element("cut").value)));
 element("axis").addEventListener("change", () => moveTo(500));
@@ -281,7 +281,7 @@ element("attribute").addEventListener("change", () => (cutAgain(), surfaceAgain(
 
 element("name").textContent = `Mesh ${mesh.name}`;
 document.title = `${mesh.name} – Abacus`;
-element("summary").textContent = `${mesh.simplices} tetrahedra, ${mesh.vertices} vertices`;
+element("summary").textContent = `${counted(mesh.simplices, "tetrahedron", "tetrahedra")}, ${counted(mesh.vertices, "vertex", "vertices")}`;
 element("attribute").append(...mesh.attributes.map((one) => new Option(one.name)));
 if (mesh.edit) setUpEditing(async () => { mesh = await ask("info"); put("found", null); await Promise.all([section(), hull()]); });
 await answering(hull);

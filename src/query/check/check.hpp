@@ -25,9 +25,10 @@
 //
 // The vertices of such a mesh are listed beside it, and the list is compared with the pages.
 //
-// The ids, attributes and places of points are stored only once. So only the checksum shows that
-// they have changed in a simplex page. The other passes do not depend on it, and detect all other
-// changes.
+// A page stores the id, the attributes and the place of each of its vertices. If two pages have a
+// vertex, they have to agree. If one page alone has it, only the checksum shows that its id, its
+// attributes or, by a little, its place has changed. The other passes do not depend on the
+// checksum, and detect all other changes.
 //
 // A mesh that is locally Delaunay across every facet is globally Delaunay (Delaunay 1934), and
 // under the perturbation unique, if no place is covered twice: see query/check/stars.hpp.
