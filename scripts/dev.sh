@@ -21,7 +21,7 @@ usage() {
 }
 
 unit() {
-    build_unit_tests || fail "It does not compile."
+    build_unit_tests || fail "The unit tests do not compile."
     if (($#)); then unit_filter "$1"; else unit_tests build/release; fi
 }
 
@@ -40,7 +40,7 @@ filter_of_file() {
 }
 
 begin_server() {
-    install_extension || fail "It does not compile."
+    install_extension || fail "The extension does not compile."
     cluster_start dev
 }
 
@@ -104,7 +104,7 @@ run_file() {
     test/suite/*.py) report_tests "$name" ;;
     test/oracle/*.py) oracle_tests "$name" ;;
     test/viewer/*.js) viewer_tests "${name%.test.js}" ;;
-    *) fail "$1 is no test." ;;
+    *) fail "$1 is not a test." ;;
     esac
 }
 

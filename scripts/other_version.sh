@@ -11,7 +11,7 @@ other_postgresql() {
         exit 77
     fi
     if [[ -z ${ABACUS_BUILT:-} ]]; then
-        scripts/install-dependencies.sh test && install_extension || fail "It does not compile."
+        scripts/install-dependencies.sh test && install_extension || fail "The extension does not compile."
     fi
     bring_server "$ABACUS_BUILD/chroot-$version/root" opt/old
     if [[ ${1:-} == short ]]; then

@@ -33,7 +33,7 @@ turn_of() {
 # The suites of a size, those that take turns chosen by the seed: suites_of SIZE SEED.
 suites_of() {
     local size=$1 seed=$2 name other turn group members chosen=" "
-    [[ $size == @(quick|usual|everything) ]] || fail "There is no size $size: quick, usual or everything."
+    [[ $size == @(quick|usual|everything) ]] || fail "There is no size $size: choose quick, usual or everything."
     for name in "${size_suites[@]}"; do
         if [[ $size == quick && ${size_of[$name]} != quick ]]; then continue; fi
         if [[ $size == usual && ${size_of[$name]} == everything ]]; then continue; fi

@@ -147,7 +147,7 @@ choose() {
     local name kept=()
     declare -A chosen=()
     for name in "$@"; do
-        [[ -n ${command[$name]:-} ]] || fail "No suite $name. There are: ${suites[*]}"
+        [[ -n ${command[$name]:-} ]] || fail "There is no suite $name. The suites are: ${suites[*]}"
         while [[ -n $name ]]; do
             chosen[$name]=1
             name=${needs[$name]:-}

@@ -95,7 +95,7 @@ def died(status, size):
 def read(path, **options):
     """The grid of a file."""
     if not os.path.isfile(path):
-        raise Failed("is no file" if os.path.exists(path) else "No such file")
+        raise Failed("is not a file" if os.path.exists(path) else "No such file")
     size = os.path.getsize(path)
     code = f"import sys; sys.path[:] = {sys.path!r}; from abacus_files import apart; apart.main(sys.argv[1], {options!r})"
     reader = subprocess.Popen([sys.executable, "-c", code, path], stdout=subprocess.PIPE, env=dict(os.environ, OPENBLAS_NUM_THREADS="1"),

@@ -16,7 +16,7 @@ def unlike(names, taken):
 
 
 def no_coordinate(attribute):
-    return f"{attribute} is missing or infinite at some vertices, so it is no third coordinate"
+    return f"{attribute} is missing or infinite at some vertices, so it cannot be the third coordinate"
 
 
 class Mesh:
@@ -29,7 +29,7 @@ class Mesh:
             "SELECT " + ", ".join(f"coalesce(max(value) FILTER (WHERE name = '{figure}'), -1)::int8" for figure in ("dimension", "vertices", "simplices"))
             + f" FROM abacus_stats({self.sql})", ["int8"] * 3)[0]
         if self.simplices < 0:
-            raise Failed(f"{name} is an octree or a quadtree: it has no triangles or tetrahedra that could be written into a file")
+            raise Failed(f"{name} is an octree or a quadtree: it has no triangles or tetrahedra to write to a file")
         self.attributes = session.texts(f"SELECT name FROM abacus_attributes({self.sql}) ORDER BY position")
         self.axes = "xyz"[: self.dimension]
 

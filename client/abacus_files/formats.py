@@ -10,5 +10,5 @@ WRITERS = {suffix: module for module in (write_2dm, write_geojson, write_npz, wr
 def writer(path):
     suffix = pathlib.Path(path).suffix.lower()
     if suffix not in WRITERS:
-        raise Failed(f"{path}: no format that is known by this suffix; there are {', '.join(sorted(WRITERS))}")
+        raise Failed(f"{path}: the suffix is not that of a known format; known are {', '.join(sorted(WRITERS))}")
     return WRITERS[suffix].write

@@ -32,7 +32,7 @@ class Grid:
             if corners.size == 0:
                 corners = corners.reshape(0, corners.shape[-1] if corners.ndim == 2 else 0).astype(numpy.int64)
             if corners.ndim != 2 or corners.dtype.kind not in "iu":
-                raise Failed(f"corners of its cells ({kind}) are no whole numbers")
+                raise Failed(f"corners of its cells ({kind}) are not whole numbers")
             wrong = (corners < 0) | (corners >= len(points))
             if wrong.any():
                 raise Failed(f"a cell ({kind}) has the corner {corners[wrong][0]}, but there are {len(points)} points, counted from 0")
@@ -41,7 +41,7 @@ class Grid:
             if len(tags) != len(self.cells[kind]):
                 raise Failed(f"has {len(self.cells[kind])} cells ({kind}), but marks {len(tags)}")
         if self.ids is not None and len(self.ids) != len(points):
-            raise Failed(f"has {len(points)} points, but ids of {len(self.ids)}")
+            raise Failed(f"has {len(points)} points, but {len(self.ids)} ids")
         self.check_data()
 
     def check_data(self):

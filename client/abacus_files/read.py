@@ -29,7 +29,7 @@ class Input:
         self.simplices = grid.cells[kind]
         self.points = grid.points[:, : self.dimension]
         if grid.points.shape[1] < self.dimension:
-            raise Failed(f"points have {grid.points.shape[1]} coordinates, {self.dimension} are needed")
+            raise Failed(f"points have {grid.points.shape[1]} coordinates, but {self.dimension} are needed")
         self.ids = self.ids_of(grid)
         self.names, self.values = self.attributes_of(grid)
         self.materials = grid.tags.get(kind)
@@ -47,7 +47,7 @@ class Input:
         with numpy.errstate(invalid="ignore"):
             ids = grid.data["id"].astype(numpy.int64)
         if (ids != grid.data["id"]).any() or len(numpy.unique(ids)) != len(ids):
-            self.notes.append("the ids are no whole numbers, or not all different: points are numbered from 0")
+            self.notes.append("the ids are not whole numbers, or not all different: points are numbered from 0")
             return plain
         return ids
 
@@ -96,10 +96,10 @@ class Input:
             left[SMALL[self.dimension - 1]] = left.get(SMALL[self.dimension - 1], 0) - len(self.facets)
         texts = [f"{count} of the kind {name}" for name, count in left.items() if count > 0]
         if texts:
-            self.notes.append(f"cells that are no {'tetrahedra' if kind == 'tetra' else 'triangles'} are left out: {', '.join(texts)}")
+            self.notes.append(f"cells that are not {'tetrahedra' if kind == 'tetra' else 'triangles'} are left out: {', '.join(texts)}")
         unused = len(grid.points) - len(numpy.unique(self.simplices))
         if unused:
-            self.notes.append(f"{unused} points that no {'tetrahedron' if kind == 'tetra' else 'triangle'} has are left out")
+            self.notes.append(f"{unused} points that belong to no {'tetrahedron' if kind == 'tetra' else 'triangle'} are left out")
 
 
 def read_file(path, keep_apart):

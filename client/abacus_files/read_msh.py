@@ -19,7 +19,7 @@ SECTIONS = ("Entities", "Nodes", "Elements", "NodeData")
 
 def kind_of(number):
     if number not in KINDS:
-        raise Failed(f"has elements of Gmsh's type {number}")
+        raise Failed(f"has elements of Gmsh's type {number}, which is not known")
     return KINDS[number]
 
 

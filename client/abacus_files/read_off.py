@@ -20,7 +20,7 @@ def read(path):
         raise Failed("does not say how many vertices and faces it has")
     vertices, faces = int(head[0]), int(head[1])
     if min(vertices, faces) < 0 or len(rows) < vertices + faces:
-        raise Failed(f"says that it has {vertices} vertices and {faces} faces, and ends after {len(rows)} lines of them")
+        raise Failed(f"says that it has {vertices} vertices and {faces} faces, but ends after {len(rows)} lines of them")
     short = next((row for row in rows[:vertices] if len(row) < 3), None)
     if short:
         raise Failed(f"a vertex has fewer than three coordinates: {' '.join(short)}")

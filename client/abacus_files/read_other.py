@@ -49,7 +49,7 @@ def read(path):
     try:
         mesh = meshio.read(path)
     except SystemExit as error:  # meshio's way where it cannot go on
-        raise Failed("no file that meshio reads") from error
+        raise Failed("is not a file that meshio can read") from error
     blocks = {}
     for block in mesh.cells:
         blocks.setdefault(block.type, []).append(block.data)

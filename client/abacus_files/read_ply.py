@@ -42,7 +42,7 @@ def head(file):
         elif words[0] == "property" and elements and len(words) > 2:
             elements[-1][2].append(Property(words))
         else:
-            raise Failed(f"has a header with the line: {' '.join(words)}")
+            raise Failed(f"has an unknown line in its header: {' '.join(words)}")
     if order == "":
         raise Failed("does not say its format")
     return order, elements

@@ -31,7 +31,7 @@ def read_nodes(path, suffix):
     words, line = open_part(path, suffix)
     count, dimension, attributes, markers = head(words, line, 2)[:4]
     if dimension not in (2, 3):
-        raise Failed(f"its points have {dimension} coordinates")
+        raise Failed(f"its points have {dimension} coordinates, not 2 or 3")
     width = 1 + dimension + attributes + markers
     table = words.table(count, width, "points")
     values = floats(table).reshape(count, width)

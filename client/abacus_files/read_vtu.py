@@ -43,7 +43,7 @@ def parse(data):
         while open_:
             builder.end(open_.pop())
     except xml.parsers.expat.ExpatError as error:
-        raise Failed(f"is no XML, or cut off: {error}") from error
+        raise Failed(f"is not XML, or is cut off: {error}") from error
     return builder.close(), appended(data, **at) if at else None
 
 
@@ -107,7 +107,7 @@ class Piece:
                 self.cells[kind] = numpy.zeros((int(of.sum()), corners or 1), numpy.int64)  # refused or left out by their kind
                 continue
             if (ends[of] - begins[of] != corners).any():
-                raise Failed(f"a {kind} has another number of corners than {corners}")
+                raise Failed(f"a {kind} does not have {corners} corners")
             self.cells[kind] = parts["connectivity"][begins[of][:, None] + numpy.arange(corners)]
             if ((self.cells[kind] < 0) | (self.cells[kind] >= len(self.points))).any():
                 raise Failed(f"a {kind} names a point that its piece does not have")
@@ -157,7 +157,7 @@ def read(path, keep_apart=False):
     with open(path, "rb") as file:
         root, appended_data = parse(file.read())
     if root.tag != "VTKFile" or root.get("type") != "UnstructuredGrid":
-        raise Failed(f"is no unstructured grid of VTK, but {root.get('type') or root.tag}")
+        raise Failed(f"is not an unstructured grid of VTK, but {root.get('type') or root.tag}")
     arrays = Arrays(root, appended_data)
     pieces = [Piece(element, arrays) for element in root.iterfind("UnstructuredGrid/Piece")]
     if not pieces:

@@ -21,7 +21,7 @@ class Series:
         self.rows = f"({query}\n) AS series ({', '.join(['id', 'step', *self.values])})"
         self.steps = [step for step, in session.all(f"SELECT DISTINCT step::float8 FROM {self.rows} WHERE step IS NOT NULL ORDER BY 1", ["float8"])]
         if not self.steps:
-            raise Failed("the series has no steps, they are all NULL")
+            raise Failed("the series has no steps: all are NULL")
         if not all(map(math.isfinite, self.steps)):
             raise Failed("a step of the series is NaN or infinite")
 

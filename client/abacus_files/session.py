@@ -23,7 +23,7 @@ def check_form(rows, types, sent):
     for name, wanted in sizes.items():
         field, at = rows.dtype.fields[name]
         if at + field.itemsize <= sent and (rows[name] != wanted).any():
-            raise Failed("psql sent rows of another form")
+            raise Failed("psql sent rows in an unexpected form")
 
 
 class Session:

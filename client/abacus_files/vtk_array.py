@@ -99,7 +99,7 @@ class Arrays:
         for length, wanted in zip(packed, sizes):
             block = self.decompress(source.take(length), wanted)
             if len(block) != wanted:
-                raise Failed("a compressed block has another size than it says")
+                raise Failed("a compressed block does not have the size that it says")
             found.append(block)
         return b"".join(found)
 
@@ -112,7 +112,7 @@ class Arrays:
         encoding, data = self.appended
         at = int(element.get("offset", ""))
         if not 0 <= at <= len(data):
-            raise Failed("an array begins behind the end of the file")
+            raise Failed("an array begins after the end of the file")
         return Raw(data, at) if encoding == "raw" else Base64(data, at)
 
     def read(self, element, rows, columns):
@@ -120,7 +120,7 @@ class Arrays:
         name = element.get("Name", "")
         kind = TYPES.get(element.get("type"))
         if kind is None:
-            raise Failed(f"the array {name} has the type {element.get('type')}")
+            raise Failed(f"the array {name} has the unknown type {element.get('type')}")
         try:
             if element.get("format", "ascii") == "ascii":
                 values = numpy.array(list(map(float if kind[0] == "f" else int, (element.text or "").split())), dtype=kind)
@@ -129,5 +129,5 @@ class Arrays:
         except (ValueError, OverflowError, zlib.error, EOFError, Failed) as error:
             raise Failed(f"the array {name} cannot be read: {error}") from error
         if rows is not None and len(values) != rows * columns:
-            raise Failed(f"the array {name} has {len(values)} numbers, but {rows} times {columns} are said to be there")
+            raise Failed(f"the array {name} has {len(values)} numbers, but should have {rows} times {columns}")
         return values.astype(kind).reshape(-1, columns)

@@ -6,7 +6,7 @@ suffixes = (".2dm",)
 
 def write(mesh, file, z):
     if mesh.dimension != 2:
-        raise Failed("2DM has triangles only, no tetrahedra: take .vtu or .npz")
+        raise Failed("2DM has triangles only, no tetrahedra: use .vtu or .npz")
     file.write(b"MESH2D\n")
     number = 0
     for _, corners in mesh.cells():

@@ -45,7 +45,7 @@ class Places:
             said = (f"the coordinates are those of SRID {self.srid}, but readers of GeoJSON take them as longitude and latitude; "
                     "with the extension postgis in the database they are projected")
         elif self.outside:
-            said = ("the coordinates are no longitudes and latitudes, but readers of GeoJSON take them as such; with the extension postgis and "
+            said = ("the coordinates are not longitudes and latitudes, but readers of GeoJSON take them as such; with the extension postgis and "
                     "an SRID of the mesh (abacus_set_srid) they are projected")
         else:
             return
@@ -75,7 +75,7 @@ def feature(mesh, names, row, z, projected):
 
 def write(mesh, file, z):
     if mesh.dimension != 2:
-        raise Failed("GeoJSON has polygons only, no tetrahedra: take .vtu or .npz")
+        raise Failed("GeoJSON has polygons only, no tetrahedra: use .vtu or .npz")
     places = Places(mesh)
     count = len(mesh.attributes)
     columns = places.columns() + [f"coalesce(\"values\"[{i + 1}][{k + 1}], 'NaN')" for i in range(3) for k in range(count)]

@@ -9,10 +9,10 @@ suffixes = (".ply",)
 
 def write(mesh, file, z):
     if mesh.dimension != 2:
-        raise Failed("PLY has faces only, no tetrahedra: take .vtu or .npz")
+        raise Failed("PLY has faces only, no tetrahedra: use .vtu or .npz")
     number = "int" if mesh.vertices < 1 << 31 else "uint"
     if mesh.vertices >= 1 << 32:
-        raise Failed("PLY numbers at most 4,294,967,295 vertices: take .vtu or .npz")
+        raise Failed("PLY numbers at most 4,294,967,295 vertices: use .vtu or .npz")
     axes = ("x", "y", "z")
     names = unlike(("".join(c if c.isalnum() and c.isascii() else "_" for c in name) for name in mesh.attributes), (*axes, "id"))
     properties = "".join(f"property double {name}\n" for name in (*axes, *names))

@@ -156,7 +156,7 @@ template <int D, int K> void AttributeScan<D, K>::read() {
     const bool begins = group() != last_group_;
     const unsigned stored = group_of(key_);
     if (group() >= groups_.count() || (begins && !(key_ == group_begin(stored))))
-        throw_corrupted("An attribute page lies where none can be.");
+        throw_corrupted("An attribute page lies where no such page can be.");
     // The last owner of a page comes before the next page.
     if (!begins && key_ <= last_)
         throw_corrupted("An attribute page has attributes that another page owns.");

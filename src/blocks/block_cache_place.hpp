@@ -166,7 +166,7 @@ BlockIndex BlockCache<Owner, Type>::split_near(BlockIndex b, KeyCut &places, std
     if (cut == 0 || cut >= places.size())
         throw Error(ABACUS_ERROR_LIMIT, std::string("too many ") + Type::records + " share one key",
                     std::string("More ") + Type::records +
-                        " than fit a page cannot be told apart on the curve.");
+                        " than fit on a page have the same place on the curve.");
     return split_at(b, places, cut, places[cut].key);
 }
 

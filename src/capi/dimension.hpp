@@ -21,7 +21,7 @@ public:
             any_.template emplace<2>(host, facts, std::forward<Args>(args)...);
             break;
         default:
-            throw Error(ABACUS_ERROR_ARGUMENT, "a mesh has 2 or 3 dimensions");
+            throw Error(ABACUS_ERROR_ARGUMENT, "a mesh must have 2 or 3 dimensions");
         }
     }
 

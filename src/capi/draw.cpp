@@ -11,7 +11,7 @@ namespace {
 
 void require_dimension(const abacus_facts &facts, unsigned dimension) {
     if (facts.form.dimension != dimension)
-        throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the mesh has another dimension");
+        throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the mesh has the wrong dimension");
 }
 
 abacus_status hand_over(abacus::Portrait portrait, abacus_picture *picture) {

@@ -228,7 +228,7 @@ void check_labels(const abacus_facts &facts) {
     const abacus_census &census = facts.census;
     if (columns.apart > 1 ||
         (columns.apart == 0 && columns.attributes > ABACUS_MAX_PAGE_ATTRIBUTES))
-        throw_corrupted("The header's attributes are neither apart nor not.");
+        throw_corrupted("The header's mark of attributes in separate pages is not valid.");
     if (columns.labels > ABACUS_MAX_LABELS || census.labelled > census.simplices ||
         census.marked > census.simplices || (census.labelled > 0 && columns.labels == 0) ||
         columns.inherits > (columns.labels > 0 ? 1u : 0u))
@@ -251,7 +251,7 @@ void read_labels(HeaderReader &read, bool extended, abacus_header &header) {
     check_labels(facts);
     check_split(facts);
     if (is_extended(facts) != extended || !(extended || is_labelled(facts)))
-        throw_corrupted("The header's format does not fit what it tells.");
+        throw_corrupted("The header's format does not fit its contents.");
     if (is_wide(facts.columns))
         for (unsigned i = 0; i < names_of(facts.columns); ++i) header.names[i][0] = '\0';
     else
@@ -341,7 +341,7 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
     else
         read_srid(read, facts.form);
     if (facts.columns.apart != 0 && facts.columns.attributes == 0)
-        throw_corrupted("The header has no attributes, and says that they are apart.");
+        throw_corrupted("The header has no attributes, but says that they are in separate pages.");
 }
 
 /// An error names what the bytes say they are.

@@ -12,7 +12,7 @@ namespace {
 
 void require_space(const abacus_facts &facts) {
     if (facts.form.dimension != 3)
-        throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the mesh has another dimension");
+        throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the mesh has the wrong dimension");
 }
 
 } // namespace

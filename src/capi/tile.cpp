@@ -9,7 +9,7 @@ namespace {
 
 void require_plane(const abacus_facts &facts) {
     if (facts.form.dimension != 2)
-        throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the mesh has another dimension");
+        throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the mesh has the wrong dimension");
 }
 
 abacus_status hand_over(abacus::Png bytes, bool is_blank, abacus_picture *picture) {

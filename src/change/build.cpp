@@ -55,7 +55,7 @@ template <int D> void Build<D>::run(std::uint64_t limit, abacus_header &header) 
 template <int D>
 void Build<D>::check_attributes(const Stage<D> &stage, std::size_t attributes) const {
     if (!stage.has_attributes(static_cast<unsigned>(attributes)))
-        throw Error(ABACUS_ERROR_ARGUMENT, "the points have other attributes than the mesh", {},
+        throw Error(ABACUS_ERROR_ARGUMENT, "the points do not have the attributes of the mesh", {},
                     {});
 }
 

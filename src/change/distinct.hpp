@@ -15,10 +15,9 @@
 namespace abacus {
 
 [[noreturn]] inline void throw_duplicate(const std::string &message) {
-    throw Error(
-        ABACUS_ERROR_DUPLICATE, message, {},
-        "With on_duplicate => 'replace' a point takes the place of those that are there, with "
-        "'keep' it stays beside them.");
+    throw Error(ABACUS_ERROR_DUPLICATE, message, {},
+                "Use on_duplicate => 'replace' to replace the points that are there, or 'keep' to "
+                "keep all of them.");
 }
 [[noreturn]] inline void throw_duplicate(std::int64_t id) {
     throw_duplicate("point " + std::to_string(id) + " is at the place of another point");

@@ -102,7 +102,7 @@ Camera::Camera(const abacus_camera &camera, const abacus_drawing &drawing, const
 
 void Camera::set_directions(const abacus_camera &camera, const Point<3> &ahead) {
     if (dot(ahead, ahead) == 0)
-        refuse("the eye is where it looks", "eye and toward must be different points.");
+        refuse("eye and toward are the same point", "Give two different points.");
     Point<3> up = camera.has_up ? unit(point_of(camera.up)) : Point<3>{0, 0, 1};
     constexpr double parallel = 1e-9;
     const auto is_along = [&](const Point<3> &v) {

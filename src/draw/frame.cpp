@@ -45,8 +45,9 @@ void check_drawing(const abacus_drawing &drawing) {
     if (!std::isfinite(drawing.exaggeration)) throw_argument("exaggeration is not finite");
     if (!(std::isfinite(drawing.light[0]) && drawing.light[1] >= 0 && drawing.light[1] <= 90))
         throw_argument("light is not above the horizon",
-                       "It is given by degrees from north, and by degrees above the horizon.",
-                       "The latter must be more than 0 and at most 90.");
+                       "It has a direction in degrees from north, and an altitude in degrees above "
+                       "the horizon.",
+                       "Give an altitude above 0 and at most 90.");
     if (!(std::isfinite(drawing.contour_interval) && drawing.contour_interval >= 0))
         throw_argument("interval of the contours is negative or not finite");
     if (!(drawing.max_edge >= 0)) throw_argument("longest edge is negative or not a number");

@@ -44,11 +44,10 @@ private:
     static constexpr double degrees = 180 / std::numbers::pi;
 
     [[noreturn]] static void throw_no_latitude(const Point<2> &p) {
-        throw Error(
-            ABACUS_ERROR_ARGUMENT, "the mesh is not one of longitude and latitude",
-            "A vertex has the latitude " + std::to_string(p[1]) + ".",
-            "Give srid => 3857 if its coordinates are of Web Mercator, or world for a map of "
-            "its own.");
+        throw Error(ABACUS_ERROR_ARGUMENT, "the mesh is not in longitude and latitude",
+                    "A vertex has the latitude " + std::to_string(p[1]) + ".",
+                    "Give srid => 3857 if its coordinates are in Web Mercator, or world for a map "
+                    "of its own.");
     }
 
     bool is_geographic_;

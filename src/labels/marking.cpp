@@ -47,7 +47,7 @@ template <int D> void Marking<D>::add(const std::uint64_t *rows, std::size_t cou
                             "; facet i is the one opposite vertex i.");
         if (!std::isnan(marker) && !is_marker(marker))
             throw Error(ABACUS_ERROR_ARGUMENT, "a marker is not an integer", {},
-                        "Markers are integers of four bytes, or NULL.");
+                        "Give an integer of four bytes, or NULL.");
         std::uint64_t *record = sort_.add();
         record[0] = rows[0];
         record[1] = sort_.size();

@@ -51,7 +51,7 @@ template <int D> std::size_t ElementWriter<D>::cut(std::size_t most) const {
     for (std::size_t n = most; n > 0; --n)
         if (!(key(n - 1) == key(n))) return n;
     throw Error(ABACUS_ERROR_LIMIT, "too many simplices share one key",
-                "More simplices than fit a page cannot be told apart on the curve.");
+                "More simplices than fit on a page have the same place on the curve.");
 }
 
 template <int D> void ElementWriter<D>::write_page(bool last) {

@@ -28,11 +28,11 @@ Load<D>::Load(const Host &host, const abacus_facts &facts, std::size_t memory, b
       pacer_(host), spread_(host), used_(host, vertex_words_), ordered_(host, vertex_words_),
       simplices_(host, layout_.simplex), label_rows_(host, std::max(1u, labels_)) {
     if (facts.census.staged > 0 || facts.census.vertices > 0)
-        throw Error(ABACUS_ERROR_STATE, "the mesh has points already", {},
+        throw Error(ABACUS_ERROR_STATE, "the mesh already has points", {},
                     "Load into an empty mesh.");
     if (split_nodes && facts.columns.apart != 0)
         throw Error(ABACUS_ERROR_ARGUMENT,
-                    "attributes that are apart are found by place, which split nodes share");
+                    "attributes in separate pages are found by place, which split nodes share");
     if (facts.form.has_domain != 0) domain_ = domain_of<D>(facts.form);
     begin(vertices_, vertex_words_, 1);
     begin(corners_, 2, 2);

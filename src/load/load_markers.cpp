@@ -26,7 +26,7 @@ template <int D> void Load<D>::add_facets(const Word *facets, std::size_t count)
         if (std::isnan(marker)) continue;
         if (!is_marker(marker))
             faults_.add("the marker of facet " + sorted_name(ids) + " is not an integer", {},
-                        "Markers are integers of four bytes, or NULL.");
+                        "Give an integer of four bytes, or NULL.");
         Word *mark = std::copy(ids.begin(), ids.end(), marks_->add());
         *mark = facets[D];
     }
@@ -59,7 +59,7 @@ void Load<D>::mark_sides(const std::array<Word, D> &ids, std::span<const Word> s
     for (; mark_ != nullptr && std::equal(ids.begin(), ids.end(), mark_); mark_ = marks_->next()) {
         if (marker && *marker != mark_[D])
             faults_.add("facet " + sorted_name(ids) + " is given two markers", {},
-                        "A facet has one marker, whichever side it is seen from.");
+                        "Give each facet one marker, whichever side it is seen from.");
         if (marker) continue;
         marker = mark_[D];
         for (const Word side : sides) {

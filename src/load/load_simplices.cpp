@@ -44,7 +44,7 @@ template <int D> void Load<D>::assemble() {
                         "Leave flat simplices out, and join the simplices beside them.");
         if (sign < 0 && !reorient_)
             faults_.add("simplex " + name_of(ids) + " has negative orientation", {},
-                        "Exchange two of its vertices, or let reorient => true do it.");
+                        "Exchange two of its vertices, or use reorient => true.");
         if (sign < 0) std::swap(vertices[0], vertices[1]);
         const Key key = key_of(vertices, D + 1);
         Word *record = simplices_.add();
@@ -79,17 +79,17 @@ template <int D> void Load<D>::link() {
                 if (flanks[i].opposite != flanks[k].opposite) continue;
                 if (flanks[i].opposite < flanks[i].ids[0]) // at one of its facets
                     faults_.add("simplex " + name(i) + " is given twice", {},
-                                "Take each simplex once: SELECT DISTINCT.");
+                                "Give each simplex only once, for instance with SELECT DISTINCT.");
                 return;
             }
         if (n > 2)
             faults_.add("facet " + facet() + " belongs to " + std::to_string(n) + " simplices",
                         "Three of them are " + name(0) + ", " + name(1) + " and " + name(2) + ".",
-                        "A facet has two sides, and on each one simplex at most.");
+                        "Give at most one simplex on each of the two sides of a facet.");
         else if (flanks[0].odd() == flanks[1].odd())
             faults_.add(names_of(name(0), name(1)) + " overlap",
                         "They lie on the same side of their common facet " + facet() + ".",
-                        "A facet has two sides, and on each one simplex at most.");
+                        "Give at most one simplex on each of the two sides of a facet.");
         add_link(*links_, flanks[0], flanks[1]);
         add_link(*links_, flanks[1], flanks[0]);
     });

@@ -66,7 +66,7 @@ template <int D> void Load<D>::leave_out_split_facets() {
                         "They lie on the same side of their facets " +
                             sorted_name(facet_of(first)) + " and " + sorted_name(facet_of(side)) +
                             ", which are at one place.",
-                        "A fault has two sides, and on each one simplex at most at a place.");
+                        "Give at most one simplex at a place on each of the two sides of a fault.");
         }
         std::copy_n(side, of_first.size(), first);
         ++n;

@@ -18,7 +18,7 @@ template <int D> void Load<D>::find_corners() {
     while (const Word *vertex = vertices_->next()) {
         if (previous == vertex[0])
             faults_.add("two vertices have the id " + number(vertex[0]), {},
-                        "Ids name the vertices of simplices: each must be given once.");
+                        "Give each id only once: ids name the vertices of simplices.");
         previous = vertex[0];
         for (; corner != nullptr && corner[0] < vertex[0]; corner = corners_->next())
             add_unknown(corner);
@@ -70,7 +70,7 @@ template <int D> void Load<D>::name_unknown() {
     for (const Unknown &unknown : unknown_)
         faults_.add("simplex " + name_of(unknown.ids) + " names vertex " + number(unknown.id) +
                         ", which does not exist",
-                    {}, "The vertices query must return all vertices of the simplices.");
+                    {}, "Return all vertices of the simplices in the vertices query.");
     unknown_.reset();
 }
 
@@ -113,8 +113,8 @@ template <int D> void Load<D>::order_vertices() {
             faults_.add("vertices " + number(previous) + " and " + number(id) +
                             " have the same coordinates",
                         {},
-                        "Give the simplices one vertex for each place, or let split_nodes => true "
-                        "keep them apart.");
+                        "Give the simplices one vertex for each place, or keep them apart with "
+                        "split_nodes => true.");
         if (shares) split_count_ += is_split ? 1 : 2;
         is_split = shares;
         previous = id;

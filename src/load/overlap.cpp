@@ -6,7 +6,7 @@ namespace abacus {
 
 namespace {
 
-constexpr char common_faces[] = "Simplices of a mesh meet in common faces only.";
+constexpr char common_faces[] = "Give simplices that meet in common faces only.";
 
 std::string overlap_of(const std::string &a, const std::string &b) {
     return names_of(a, b) + " overlap";

@@ -178,7 +178,7 @@ template <int D> void Cache<D>::link_outside(Link link, std::uint32_t hash, cons
     if (facet(owner).odd == outer.odd) throw_corrupted("Neighbours have different orientations.");
     if (options_.verify_links &&
         !(leads_to(visible_[number].beyond, h) && leads_to(beyond, link_simplex(owner))))
-        throw_corrupted("A link has the key of another simplex than its neighbour.");
+        throw_corrupted("A link has the key of a simplex other than its neighbour.");
     visible_.remove(number);
     connect(owner, link);
 }

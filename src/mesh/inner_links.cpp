@@ -12,7 +12,7 @@ void InnerLinks<D>::connect(const PageView<D> &page, Simplex<D> *slots, Handle f
     match_open(page, slots, first, linked_ghosts);
     list_border(page, first, border, on_border);
     if (static_cast<int>(border.size()) != page.links())
-        throw_corrupted("A page has another number of links than of facets on its border.");
+        throw_corrupted("A page does not have as many links as facets on its border.");
 }
 
 template <int D>

@@ -105,7 +105,7 @@ void PageView<D>::read(const unsigned char *bytes, std::size_t size, int attribu
 template <int D> void PageView<D>::read_rest() {
     for (int i = 0; i < links(); ++i)
         require(link_vertex(i) < vertices() + header_.codes,
-                "A simplex page has a link to no code.");
+                "A simplex page has a link to a code that it does not have.");
     read_points();
     for (int i = 0; i < patches(); ++i) read_patch(i);
 }

@@ -176,7 +176,7 @@ template <int D> void Growth<D>::rewrite(SplitOctants<D> &octants, abacus_header
             Octant<D> leaf;
             do {
                 if (!octants.next_leaf(leaf) || !old.contains(leaf.code))
-                    throw_octree_corrupted("Leaves have changed while they were read.");
+                    throw_octree_corrupted("Leaves changed while they were being read.");
                 // Of leaves merged across a border: some of its children begin on later pages.
                 while (leaf.code >= before.upper()) turn_page();
                 writer.add(leaf, values, !(leaf == old));

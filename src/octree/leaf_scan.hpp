@@ -65,7 +65,7 @@ template <int D> bool LeafScan<D>::next_page() {
     view_.read(cursor_.bytes(), cursor_.size(), attributes_);
     cursor_.follow({view_.lower(), 0}, {view_.upper(), 0});
     if (view_.leaves() > 0 && view_.first() != code_)
-        throw_octree_corrupted("A page begins where the leaves before do not end.");
+        throw_octree_corrupted("A page does not begin where the leaves before it end.");
     leaves_ = view_.leaves();
     at_ = 0;
     return true;

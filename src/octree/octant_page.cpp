@@ -51,7 +51,7 @@ void OctantPageView<D>::read(const unsigned char *bytes, std::size_t size, int a
         require(level <= finest_level<D>, "A leaf has an impossible level.");
         const Octant<D> leaf{code, static_cast<int>(level)};
         require(leaf.is_aligned() && code < head_.upper && leaf.end() <= domain_cells<D>,
-                "A leaf lies where none of its level is.");
+                "A leaf lies where no leaf of its level can be.");
         code = leaf.end();
     }
 }

@@ -54,7 +54,7 @@ template <int D> void OctreeCheck<D>::check_pages() {
     if (upper_ != key_word_end) faults_.add("interval", "Pages do not reach the end of the curve.");
     if (end_ != domain_cells<D>) faults_.add("leaf", "Leaves do not reach the end of the domain.");
     if (faults_.size() == 0 && leaves_ != facts_.census.leaves)
-        faults_.add("count", "The header counts other leaves than there are.");
+        faults_.add("count", "The header counts more or fewer leaves than there are.");
 }
 
 template <int D> void OctreeCheck<D>::check_leaves() {
@@ -63,7 +63,7 @@ template <int D> void OctreeCheck<D>::check_leaves() {
     if (is_known_ && view_.lower() != upper_)
         faults_.add("interval", "Two pages own the same part of the curve, or none does.");
     if (is_known_ && view_.leaves() > 0 && view_.first() != end_)
-        faults_.add("leaf", "A page begins where the leaves before do not end.");
+        faults_.add("leaf", "A page does not begin where the leaves before it end.");
     upper_ = view_.upper();
     if (view_.leaves() > 0) end_ = view_.first();
     for (std::uint32_t i = 0; i < view_.leaves(); ++i) {

@@ -38,8 +38,8 @@ void OctreeLoad<D>::add(std::uint64_t code, std::int64_t level, const double *va
 template <int D> void OctreeLoad<D>::write(abacus_header &header) {
     LeafScan<D> before(host_, facts_);
     if (facts_.census.leaves != 1 || !before.next())
-        throw Error(ABACUS_ERROR_STATE, "the octree has leaves already",
-                    "Rows are loaded into a new octree.");
+        throw Error(ABACUS_ERROR_STATE, "the octree already has leaves", {},
+                    "Load the rows into a new octree.");
     LeafWriter<D> writer(host_, facts_);
     writer.begin(0, before.location());
     // Leaves that were merged may have left empty pages behind.
@@ -54,15 +54,16 @@ template <int D> void OctreeLoad<D>::write(abacus_header &header) {
         if (leaf.code < end)
             refuse("The octant of " + row(record[2]) + " overlaps that of " + row(last) + ".");
         if (leaf.code > end)
-            refuse("There is a gap before the octant of " + row(record[2]) +
-                   (n == 0 ? "." : ", behind that of " + row(last) + "."));
+            refuse(n == 0 ? "There is a gap before the octant of " + row(record[2]) + "."
+                          : "There is a gap between the octants of " + row(last) + " and " +
+                                row(record[2]) + ".");
         writer.add(leaf, reinterpret_cast<const double *>(record + 3), true);
         end = leaf.end();
         last = record[2];
         if (++n % Pacer::stride == 0) pacer.reached(n, {1, writer.counters().stores});
     }
-    if (n == 0) refuse("There are none.");
-    if (end != domain_cells<D>) refuse("There is a gap behind the octant of " + row(last) + ".");
+    if (n == 0) refuse("There are no octants.");
+    if (end != domain_cells<D>) refuse("There is a gap after the octant of " + row(last) + ".");
     leaves_.close();
     writer.end(key_word_end);
     header.facts.census.leaves = n;

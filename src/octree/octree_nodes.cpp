@@ -6,7 +6,7 @@ namespace abacus {
 
 void throw_unbalanced() {
     throw Error(ABACUS_ERROR_STATE, "the octree is not balanced",
-                "A node that hangs has anchors only where neighbours differ by one level at most.",
+                "A hanging node has anchors only where neighbours differ by at most one level.",
                 "Balance it with abacus_octree_balance.");
 }
 

@@ -59,7 +59,7 @@ BalancedOctree::BalancedOctree(double frequency, double points_per_wavelength) {
         throw Error(ABACUS_ERROR_ARGUMENT, "frequency is too high for the depth of the octree",
                     "Shear waves of " + text(slowest) + " m/s would need octants of " +
                         text(slowest / frequency / points_per_wavelength) +
-                        " m, the smallest have " + text(unit) + " m.",
+                        " m, but the smallest have " + text(unit) + " m.",
                     "The highest frequency with " + text(points_per_wavelength) +
                         " points per wavelength is about " +
                         text(slowest / (unit * points_per_wavelength)) + " Hz.");

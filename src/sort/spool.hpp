@@ -31,7 +31,7 @@ public:
     std::size_t read(const Host &host, std::uint64_t *to, std::size_t most, std::size_t stride) {
         const std::size_t n = std::min<std::uint64_t>(left_, most);
         if (n > 0 && !host.spool_read(handle_, to, n * stride * sizeof *to))
-            throw Error(ABACUS_ERROR_INTERNAL, "a spool is shorter than what was written");
+            throw Error(ABACUS_ERROR_INTERNAL, "a spool is shorter than the data that was written");
         left_ -= n;
         return n;
     }

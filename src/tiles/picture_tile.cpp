@@ -146,7 +146,7 @@ Portrait draw_picture_tile(const Host &host, const abacus_facts &facts, const ab
         throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
     if (drawing.attribute >= 0 && !has_range(drawing))
         throw Error(ABACUS_ERROR_ARGUMENT, "a picture tile of an attribute needs a range", {},
-                    "With the same range for all tiles a value has one colour everywhere.");
+                    "Give the same range for all tiles: a value then has one colour everywhere.");
     abacus_drawing of_tile = drawing;
     for (int axis = 0; axis < 2; ++axis) {
         of_tile.lower[axis] = window.box().lower[axis];

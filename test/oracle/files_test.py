@@ -92,7 +92,7 @@ class Files(unittest.TestCase):
         ):
             with self.subTest(query=query), self.assertRaisesRegex(Failed, said), Session(None) as session:
                 Series(session, query)
-        with self.assertRaisesRegex(Failed, "rows of another form"), Session(None) as session:
+        with self.assertRaisesRegex(Failed, "rows in an unexpected form"), Session(None) as session:
             session.all("SELECT NULL::int8, 1::int8", ["int8"] * 2)
 
     def test_comment_in_series(self):
@@ -173,7 +173,7 @@ class Files(unittest.TestCase):
         """Readers take coordinates as longitude and latitude: it is said where they are none, and PostGIS makes them of a mesh with an SRID."""
         triangle = "VALUES (1, 500000, 5500000), (2, 500100, 5500000), (3, 500000, 5500100)"
         abacus.psql(f"SELECT abacus_triangulate('files_places', '{triangle}')")
-        self.assertIn("no longitudes and latitudes", run("abacus-export", "files_places", self.at / "p.geojsonl").stderr)
+        self.assertIn("not longitudes and latitudes", run("abacus-export", "files_places", self.at / "p.geojsonl").stderr)
         abacus.psql("SELECT abacus_set_srid('files_places', 25832)")
         self.assertIn("are those of SRID 25832", run("abacus-export", "files_places", self.at / "p.geojsonl").stderr)
         abacus.psql('CREATE SCHEMA "files gis"; CREATE EXTENSION postgis SCHEMA "files gis"')
@@ -321,7 +321,7 @@ class Files(unittest.TestCase):
     def test_refused(self):
         """A clear word, status 1, and no file left."""
         for arguments, said in (
-            (("files_plane", self.at / "m.xyz"), "no format that is known by this suffix"),
+            (("files_plane", self.at / "m.xyz"), "the suffix is not that of a known format"),
             (("no_such_mesh", self.at / "n.ply"), 'relation "no_such_mesh" does not exist'),
             (("files_plane_points", self.at / "n.ply"), "is not a mesh"),
             (("files_plane'; DROP TABLE files_plane_points; --", self.at / "n.ply"), "syntax"),

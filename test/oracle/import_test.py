@@ -145,13 +145,13 @@ class Import(unittest.TestCase):
     def test_vtu_refused(self):
         piece = piece_of(1, ((0, 0), (4, 0), (0, 3)), 0)
         for old, new, said in (("0 1 2<", "0 1 3<", "names a point that its piece does not have"), ("0 1 2<", "0 1<", "offsets of cells end at 3"),
-                               ("0 1 2<", "0 -1 2<", "names a point"), ('NumberOfPoints="3"', 'NumberOfPoints="4"', "has 9 numbers, but 4 times 3"),
-                               ('NumberOfCells="1"', 'NumberOfCells="2"', "has 1 numbers, but 2 times 1"), ("</Cells>", "", "no XML, or cut off"),
+                               ("0 1 2<", "0 -1 2<", "names a point"), ('NumberOfPoints="3"', 'NumberOfPoints="4"', "has 9 numbers, but should have 4 times 3"),
+                               ('NumberOfCells="1"', 'NumberOfCells="2"', "has 1 numbers, but should have 2 times 1"), ("</Cells>", "", "is not XML, or is cut off"),
                                (">5<", ">9<", "quad"), (">5<", ">22<", "triangle6"), (">5<", ">99<", "type 99"),
                                (' format="ascii">1 1 1', ' format="odd">1', "format odd")):
             self.refused("wrong.vtu", vtu_of(piece).replace(old, new, 1), said)
         self.refused("wrong.vtu", vtu_of(), "has no piece")
-        self.refused("wrong.vtu", vtu_of(piece).replace("UnstructuredGrid", "PolyData"), "no unstructured grid")
+        self.refused("wrong.vtu", vtu_of(piece).replace("UnstructuredGrid", "PolyData"), "is not an unstructured grid")
 
     def test_ply(self):
         """Lists beside that of the corners, `vertex_index`, any order of properties; the same in binary."""
@@ -287,7 +287,7 @@ class Import(unittest.TestCase):
         self.assertEqual((grid.cells["triangle"].tolist(), grid.notes), (CELLS, ["left out: face texcoord, face red, edge"]))
         with self.assertRaisesRegex(Failed, "No such file"):
             apart.read(path + "x", keep_apart=False)
-        with self.assertRaisesRegex(Failed, "is no file"):
+        with self.assertRaisesRegex(Failed, "is not a file"):
             apart.read(str(self.at), keep_apart=False)
         reader = self.at / "reader"
         reader.mkdir()
@@ -295,7 +295,7 @@ class Import(unittest.TestCase):
         sys.path.insert(0, str(reader))  # a library named meshio that harms
         began = time.monotonic()
         for does, said in (("while True: pass", "not read within"), ("bytearray(1 << 50)", "more memory"), ("import os; os.abort()", "status -6"),
-                           ("raise SystemExit(1)", "no file that meshio reads"), ("1 / 0", "cannot be read: division by zero")):
+                           ("raise SystemExit(1)", "is not a file that meshio can read"), ("1 / 0", "cannot be read: division by zero")):
             (reader / "meshio.py").write_text(f"import resource\nresource.setrlimit(resource.RLIMIT_CPU, (2, 2))\ndef read(path):\n    {does}\n")
             with self.assertRaisesRegex(Failed, said):
                 apart.read(self.file("a.other", "nothing"), keep_apart=False)

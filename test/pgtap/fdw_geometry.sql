@@ -63,10 +63,10 @@ FROM unnest(ARRAY['slanted_cells', 'slanted_points']) AS source, unnest(ARRAY['g
     'ST_Intersects(geom, ''SRID=25832;TIN M (((40 10 1, 44 10 1, 44 13 1, 40 10 1)))''::geometry)']) AS condition
 WHERE condition !~ 'TIN' OR source = 'slanted_points';
 SELECT throws_ok(format('SELECT count(*) FROM slanted_%s WHERE %s', what, condition), '22023', 'the geometry has ' || problem, format('%s: another SRID, %s', what, condition))
-FROM unnest(ARRAY['cells', 'points']) AS what, (VALUES ('ST_Intersects(geom, ST_MakeEnvelope(50, 10, 51, 11, 4326))', 'SRID 4326, but those of the foreign table have SRID 25832'),
-    ('ST_Intersects(geom, ST_MakeEnvelope(5000, 10, 5100, 11, 4326))', 'SRID 4326, but those of the foreign table have SRID 25832'),
-    ('ST_DWithin(ST_MakePoint(-1e4, 5), geom, 2)', 'no SRID, but those of the foreign table have SRID 25832'),
-    ('ST_Within(geom, (SELECT ST_MakeEnvelope(5000, 10, 5100, 11, 3857)))', 'SRID 3857, but those of the foreign table have SRID 25832')) AS c (condition, problem);
+FROM unnest(ARRAY['cells', 'points']) AS what, (VALUES ('ST_Intersects(geom, ST_MakeEnvelope(50, 10, 51, 11, 4326))', 'SRID 4326, but the geometries of the foreign table have SRID 25832'),
+    ('ST_Intersects(geom, ST_MakeEnvelope(5000, 10, 5100, 11, 4326))', 'SRID 4326, but the geometries of the foreign table have SRID 25832'),
+    ('ST_DWithin(ST_MakePoint(-1e4, 5), geom, 2)', 'no SRID, but the geometries of the foreign table have SRID 25832'),
+    ('ST_Within(geom, (SELECT ST_MakeEnvelope(5000, 10, 5100, 11, 3857)))', 'SRID 3857, but the geometries of the foreign table have SRID 25832')) AS c (condition, problem);
 SELECT throws_ok(format('SELECT count(*) FROM slanted_%s WHERE ST_DWithin(geom, ''SRID=25832;POINT(50 10)'', -1)', what), 'XX000', NULL, what || ': a distance below 0')
 FROM unnest(ARRAY['cells', 'points']) AS what;
 SELECT pg_temp.finds('slanted_' || what, format('ST_DWithin(geom, ''SRID=25832;POINT(50 10)'', ''%s'')', distance), format('%s: a distance of %s', what, distance))
@@ -112,7 +112,7 @@ SELECT abacus_publish('empty');
 SELECT is_empty('SELECT FROM empty_cells WHERE geom && ST_MakeEnvelope(0, 0, 1, 1)', 'an empty mesh');
 SELECT is_empty('SELECT FROM empty_points WHERE ST_Intersects(geom, ST_MakeEnvelope(0, 0, 1, 1))', 'its points');
 SELECT throws_ok($$ SELECT abacus_publish('rock', 'a', 'b', z => 'number') $$, '22023', 'mesh has dimension 3, not 2', 'Z is taken');
-SELECT throws_ok($$ SELECT abacus_publish('ring', 'a', 'b', geometry => false, srid => 5) $$, '22023', 'srid and z are of geometries, and none are published', 'no geometry');
+SELECT throws_ok($$ SELECT abacus_publish('ring', 'a', 'b', geometry => false, srid => 5) $$, '22023', 'srid and z apply to geometries, but no geometries are published', 'no geometry');
 SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', z => 'depth') $$, '42703', NULL, 'no such attribute');
 -- The SRID of the mesh, and one for a mesh without.
 SELECT abacus_set_srid('partial', 2154);
@@ -127,7 +127,7 @@ SELECT results_eq('SELECT ST_SRID(geom) FROM own_cells', 'VALUES (2154)', 'cells
 SELECT pg_temp.finds('own_points', 'geom && ST_MakeEnvelope(3, -1, 5, 1, 2154)', 'points in a window of the system');
 SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', srid => 4326) $$, '22023', 'srid is 4326, but the mesh has SRID 2154', 'another SRID');
 SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', srid => 0) $$, '22023', 'srid is 0, but the mesh has SRID 2154', 'none');
-SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', geometry => false, srid => 2154) $$, '22023', 'srid and z are of geometries, and none are published', 'no geometry to have it');
+SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', geometry => false, srid => 2154) $$, '22023', 'srid and z apply to geometries, but no geometries are published', 'no geometry to have it');
 SELECT lives_ok('ANALYZE slanted_cells, slanted_points, rock_cells', 'ANALYZE');
 -- Z is an attribute by a number that never comes again
 SELECT abacus_triangulate('heights', 'VALUES (1, 0, 0, 7, 8, 9), (2, 4, 0, 7, 8, 9), (3, 0, 4, 7, 8, 9)', '{a,b,c}');

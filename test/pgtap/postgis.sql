@@ -60,8 +60,8 @@ SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, ''SRID=4326;POINT
 SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, ''POINT(1 2)''::geometry, 3') $$, '22023', 'geometry of point 7 has no SRID, but the mesh has SRID 2154', 'none');
 SELECT throws_ok($$ SELECT abacus_delete('plain', 'SELECT 7, ''SRID=4326;POINT(1 2)''::geometry') $$, '22023', 'geometry of point 7 has SRID 4326, but the mesh has none', 'one where the mesh has none');
 SELECT throws_ok($$ SELECT abacus_locate('plain', 'SELECT 7, ''SRID=4326;POINT(1 2)''::geometry') $$, '22023', 'geometry of point 7 has SRID 4326, but the mesh has none', 'also of places');
-SELECT throws_ok($$ SELECT abacus_triangulate('mixed', 'VALUES (1, ''SRID=4326;POINT(1 2)''::geometry), (8, ''SRID=3857;POINT(1 3)'')') $$, '22023', 'geometry of point 8 has SRID 3857, but those before it have SRID 4326', 'mixed SRIDs');
-SELECT throws_ok($$ SELECT abacus_triangulate('mixed', 'VALUES (1, ''POINT(1 2)''::geometry), (8, ''SRID=3857;POINT(1 3)'')') $$, '22023', 'geometry of point 8 has SRID 3857, but those before it have SRID 0', 'none first, and then one');
+SELECT throws_ok($$ SELECT abacus_triangulate('mixed', 'VALUES (1, ''SRID=4326;POINT(1 2)''::geometry), (8, ''SRID=3857;POINT(1 3)'')') $$, '22023', 'geometry of point 8 has SRID 3857, but earlier geometries have SRID 4326', 'mixed SRIDs');
+SELECT throws_ok($$ SELECT abacus_triangulate('mixed', 'VALUES (1, ''POINT(1 2)''::geometry), (8, ''SRID=3857;POINT(1 3)'')') $$, '22023', 'geometry of point 8 has SRID 3857, but earlier geometries have SRID 0', 'none first, and then one');
 SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, ''SRID=2154;POINT EMPTY''::geometry, 3') $$, '22023', 'geometry of point 7 is empty', 'an empty point');
 SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, ''SRID=2154;LINESTRING(1 2, 3 4)''::geometry, 3') $$, '22023', 'geometry of point 7 is a LineString, not a Point', 'no point');
 SELECT throws_ok($$ SELECT abacus_insert('terrain', 'SELECT 7, ''SRID=2154;MULTIPOINT(1 2)''::geometry, 3') $$, '22023', 'geometry of point 7 is a MultiPoint, not a Point', 'several');
@@ -362,7 +362,7 @@ RESET ROLE;
 
 -- wrong arguments of what is inside
 SELECT throws_ok($$ SELECT _abacus_nest('LINESTRING(0 0, 1 1)') $$, '22023', NULL, 'no rings');
-SELECT throws_ok($$ SELECT _abacus_nest('MULTILINESTRING((0 0, 0 9, 9 0, 0 0))') $$, '22023', 'a hole is in no outline', 'a hole alone');
+SELECT throws_ok($$ SELECT _abacus_nest('MULTILINESTRING((0 0, 0 9, 9 0, 0 0))') $$, '22023', 'a hole does not lie in an outline', 'a hole alone');
 SELECT is(ST_AsText(_abacus_nest('MULTILINESTRING((0 0, 9 0, 9 0, 0 9, 0 0, 0 0))')), 'POLYGON((0 0,9 0,0 9,0 0))', 'places that are repeated');
 SELECT throws_ok($$ SELECT _abacus_nest('MULTILINESTRING Z ((0 0 0, 0 9 0, 9 0 0, 0 0 0))') $$, '22023', NULL, 'rings in space');
 SELECT is(ST_AsText(_abacus_nest('MULTILINESTRING((0 0, 0 0, 0 0), (0 0, 1 1, 0 0, 0 0), EMPTY)')), 'MULTIPOLYGON EMPTY', 'a ring without area');

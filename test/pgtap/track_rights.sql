@@ -196,7 +196,7 @@ CREATE TABLE own.notes (id int, x float8, y float8);
 ALTER TABLE own.notes OWNER TO pgtap_owner;
 SET ROLE pgtap_owner;
 SELECT throws_ok($$ SELECT abacus_track('own.field', 'own.notes') $$, '55006',
-    'mesh "field" follows table "wells" already', 'a restored trigger of the owner''s table counts');
+    'mesh "field" already follows table "wells"', 'a restored trigger of the owner''s table counts');
 RESET ROLE;
 DROP TRIGGER g ON own.wells;
 

@@ -34,7 +34,7 @@ SELECT is((SELECT cardinality("values") FROM abacus_cells('solid') LIMIT 1), 400
 SELECT bag_eq($$ SELECT id, "values"[777] FROM abacus_interpolate('wide', 'SELECT id, x - 0.25, y FROM points') $$, $$ SELECT id, "values"[1] FROM abacus_interpolate('narrow', 'SELECT id, x - 0.25, y FROM points') $$, 'interpolated, all attributes at once');
 SELECT bag_eq($$ SELECT id, x, y FROM abacus_vertices('wide', 'a777', 0.2, 0.3) $$, $$ SELECT id, x, y FROM abacus_vertices('narrow', 'h', 0.2, 0.3) $$, 'a range');
 SELECT bag_eq($$ SELECT id, "values"[1000] FROM abacus_interpolate('wide', 'SELECT id, x, y FROM points', attributes => (SELECT array_agg('a5'::text ORDER BY i) FROM generate_series(1, 1000) i)) $$, $$ SELECT id, value_of(id, 5) FROM points $$, 'one attribute a thousand times');
-SELECT throws_ok($$ SELECT * FROM abacus_interpolate('wide', 'SELECT id, x, y FROM points', attributes => (SELECT array_agg('a5'::text) FROM generate_series(1, 1001))) $$, '54000', 'at most 1000 attributes can be asked for');
+SELECT throws_ok($$ SELECT * FROM abacus_interpolate('wide', 'SELECT id, x, y FROM points', attributes => (SELECT array_agg('a5'::text) FROM generate_series(1, 1001))) $$, '54000', 'at most 1000 attributes can be requested');
 SELECT results_eq($$ SELECT vertex, attributes FROM abacus_nearest('wide', 100, 100, 5) $$, $$ SELECT id::bigint, values_of(id, 1000) FROM points ORDER BY (x - 100) ^ 2 + (y - 100) ^ 2 LIMIT 5 $$, 'the nearest');
 
 -- changed

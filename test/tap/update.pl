@@ -90,7 +90,7 @@ for my $old (@released)
 		like($err, qr/mesh is stored in format \d+, but this version of Abacus reads formats \d+ to \d+\n.*HINT:  Read its points with the version that wrote it/,
 			"$old: what became of the format is said");
 		($status, $out, $err) = $node->psql($database, "SELECT abacus_triangulate('field')");
-		like($err, qr/stored in format \d+|of a type of another version of Abacus/, "$old: and that it cannot be changed");
+		like($err, qr/stored in format \d+|has a type of another version of Abacus/, "$old: and that it cannot be changed");
 		is($node->safe_psql($database, "SELECT fault FROM abacus_check('field')"), 'header', "$old: abacus_check says so too");
 		($status, $out, $err) = $node->psql($database, 'ALTER EXTENSION abacus UPDATE');
 		like($err, qr/cannot update meshes of Abacus \Q$old\E.*There are the tables field, field_vertices\..*HINT/s,

@@ -60,7 +60,7 @@ for my $statement ("SELECT abacus_insert('plane', 'SELECT 0, 0.5, 0.5')",
 	$holder->query_safe("BEGIN; $statement");
 	my $before = sql($header);
 	my $told = told("SET statement_timeout = '60s'; VACUUM (VERBOSE) plane");
-	like($told, qr/pages of mesh "public.plane" are not moved, since somebody has it locked/, "$statement: is not waited for");
+	like($told, qr/pages of mesh "public.plane" are not moved, since the mesh is locked/, "$statement: is not waited for");
 	like($told, qr/finished vacuuming "postgres.public.plane"/, "$statement: VACUUM does the rest");
 	unlike($told, qr/ERROR|WARNING/, "$statement: no error");
 	is(sql($header), $before, "$statement: nothing is moved");

@@ -159,14 +159,14 @@ TYPED_TEST(OctreesEdited, are_loaded_leaf_by_leaf) {
     };
     auto rows = leaves;
     rows.erase(rows.begin() + 3);
-    EXPECT_EQ(detail(rows), "There is a gap before the octant of row 4, behind that of row 3.");
+    EXPECT_EQ(detail(rows), "There is a gap between the octants of row 3 and row 4.");
     rows = leaves;
     rows.push_back(leaves[7].parent());
     EXPECT_THAT(detail(rows), testing::HasSubstr("overlaps that of row"));
     rows = leaves;
     rows.pop_back();
-    EXPECT_THAT(detail(rows), testing::HasSubstr("There is a gap behind the octant of row"));
-    EXPECT_EQ(detail({}), "There are none.");
+    EXPECT_THAT(detail(rows), testing::HasSubstr("There is a gap after the octant of row"));
+    EXPECT_EQ(detail({}), "There are no octants.");
     EXPECT_EQ(detail({leaves.begin() + 1, leaves.end()}),
               "There is a gap before the octant of row 1.");
 }

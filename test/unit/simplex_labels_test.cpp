@@ -95,7 +95,7 @@ TYPED_TEST(SimplexLabels, WhoseNobodyHasOrTooFewAreFaults) {
     pages.erase(std::next(pages.begin()));
     EXPECT_EQ(mesh.mesh.check(),
               std::vector<std::string>{
-                  "labels: The pages have another number of simplices than the header counts."});
+                  "labels: The pages have more or fewer simplices than the header counts."});
     pages = sound;
     --mesh.mesh.header.facts.census.labelled;
     EXPECT_FALSE(mesh.mesh.check().empty());

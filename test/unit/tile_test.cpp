@@ -557,7 +557,7 @@ TEST(Tile, NeedsLatitudes) {
     EXPECT_EQ(error_of([&] {
                   vector_tile(host, mesh.header, {0, 0, 0, 1, {}, 0}, {-1, 0, 0}, plenty);
               }),
-              "the mesh is not one of longitude and latitude");
+              "the mesh is not in longitude and latitude");
 }
 
 TEST(Tile, MemoryIsGivenBack) {

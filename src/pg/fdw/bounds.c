@@ -192,11 +192,11 @@ limit_geometry(Limits *limits, const Condition *condition, Datum geometry, doubl
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 srid == 0
-				 ? errmsg("the geometry has no SRID, but those of the foreign table have SRID %d",
+				 ? errmsg("the geometry has no SRID, but the geometries of the foreign table have SRID %d",
 						  limits->srid)
-				 : errmsg("the geometry has SRID %d, but those of the foreign table have SRID %d",
+				 : errmsg("the geometry has SRID %d, but the geometries of the foreign table have SRID %d",
 						  srid, limits->srid),
-				 errhint("Transform it. If the SRID of the mesh has been changed, publish the mesh again.")));
+				 errhint("Transform the geometry. If the SRID of the mesh has been changed, publish the mesh again.")));
 	if (!(distance >= 0))		/* PostGIS says what is wrong with it */
 		return;
 	switch (place)

@@ -187,8 +187,8 @@ table_name(FunctionCallInfo fcinfo, int argument, Oid mesh, const char *what)
 	if (name[0] == '\0' || strlen(name) >= NAMEDATALEN)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_NAME),
-				 errmsg("invalid name \"%s\" of a foreign table", name),
-				 errhint("A name has 1 to %d bytes.", NAMEDATALEN - 1)));
+				 errmsg("invalid name \"%s\" for a foreign table", name),
+				 errhint("Use a name of 1 to %d bytes.", NAMEDATALEN - 1)));
 	return name;
 }
 
@@ -199,7 +199,7 @@ z_argument(FunctionCallInfo fcinfo, const Publishing *publication)
 	if (PG_ARGISNULL(PUBLISH_Z))
 		return -1;
 	header_require_dimension(&publication->names.facts->form, 2,
-							 "Geometries of a mesh in space have a Z already: leave out z.");
+							 "Leave out z: geometries of a mesh in space already have a Z.");
 	return header_find_attribute(publication->names, text_to_cstring(PG_GETARG_TEXT_PP(PUBLISH_Z)));
 }
 
@@ -227,14 +227,14 @@ geometry_arguments(FunctionCallInfo fcinfo, Publishing *publication)
 	if (!is_wanted && (publication->z >= 0 || has_srid))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("srid and z are of geometries, and none are published"),
+				 errmsg("srid and z apply to geometries, but no geometries are published"),
 				 errhint(is_installed ? "Leave out geometry => false." :
-						 "Geometries need PostGIS: CREATE EXTENSION postgis.")));
+						 "Install PostGIS with CREATE EXTENSION postgis.")));
 	if (is_wanted && !is_installed)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("the type geometry does not exist"),
-				 errhint("Geometries need PostGIS: CREATE EXTENSION postgis.")));
+				 errmsg("type \"geometry\" does not exist"),
+				 errhint("Install PostGIS with CREATE EXTENSION postgis.")));
 	if (!is_wanted)
 		return;
 	publication->srid = srid_argument(fcinfo, publication);

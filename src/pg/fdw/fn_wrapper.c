@@ -62,9 +62,8 @@ abacus_sql_fdw_validator(PG_FUNCTION_ARGS)
 		if (!is_valid(catalogue, option->defname, defGetString(option)))
 			ereport(ERROR,
 					(errcode(ERRCODE_FDW_INVALID_OPTION_NAME),
-					 errmsg("invalid option \"%s\" '%s'", option->defname, defGetString(option)),
-					 errhint("abacus_publish() makes foreign tables with the options that there "
-							 "are.")));
+					 errmsg("invalid option \"%s\" with value \"%s\"", option->defname, defGetString(option)),
+					 errhint("Make foreign tables with abacus_publish(), which sets their options.")));
 	}
 	PG_RETURN_VOID();
 }

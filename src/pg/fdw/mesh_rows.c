@@ -80,7 +80,7 @@ check_column(const MeshRows *rows, Relation table, int at)
 	if (!has)
 		ereport(ERROR,
 				(errcode(ERRCODE_FDW_COLUMN_NAME_NOT_FOUND),
-				 errmsg("mesh has nothing for column \"%s\" of foreign table \"%s\"",
+				 errmsg("mesh has no data for column \"%s\" of foreign table \"%s\"",
 						NameStr(TupleDescAttr(RelationGetDescr(table), at)->attname),
 						RelationGetRelationName(table)),
 				 errhint("Unpublish the mesh and publish it again.")));

@@ -170,13 +170,13 @@ read_column(Relation table, Content content, Form_pg_attribute attribute, Column
 	if (word == NULL || !published_holds(word, column) || !belongs(column, content))
 		ereport(ERROR,
 				(errcode(ERRCODE_FDW_INVALID_COLUMN_NAME),
-				 errmsg("column \"%s\" of foreign table \"%s\" shows nothing of the mesh",
+				 errmsg("column \"%s\" of foreign table \"%s\" does not show any part of the mesh",
 						NameStr(attribute->attname), RelationGetRelationName(table)),
-				 errhint("Drop the column; abacus_publish() makes those that there are.")));
+				 errhint("Drop the column. abacus_publish() makes all columns that the mesh has.")));
 	if (attribute->atttypid != type_of(column))
 		ereport(ERROR,
 				(errcode(ERRCODE_FDW_INVALID_DATA_TYPE),
-				 errmsg("column \"%s\" of foreign table \"%s\" has another type than it must have",
+				 errmsg("column \"%s\" of foreign table \"%s\" has the wrong type",
 						NameStr(attribute->attname), RelationGetRelationName(table)),
 				 errhint("Unpublish the mesh and publish it again.")));
 	if (z != NULL && column->holds == HOLDS_GEOMETRY)
@@ -248,10 +248,10 @@ published_read(Relation table)
 		!published_content(content, &published->content))
 		ereport(ERROR,
 				(errcode(ERRCODE_FDW_TABLE_NOT_FOUND),
-				 errmsg("foreign table \"%s\" shows no mesh", RelationGetRelationName(table)),
+				 errmsg("foreign table \"%s\" does not show a mesh", RelationGetRelationName(table)),
 				 errdetail("A constraint of the table, CHECK (%s(mesh)), names the mesh, and an "
-						   "option tells its content.", FDW_MESH_FUNCTION),
-				 errhint("Drop the table; abacus_publish() makes such tables.")));
+						   "option says what the table shows.", FDW_MESH_FUNCTION),
+				 errhint("Drop the table, and make it with abacus_publish().")));
 	published->count = row->natts;
 	for (int i = 0; i < row->natts; i++)
 		if (!TupleDescAttr(row, i)->attisdropped)

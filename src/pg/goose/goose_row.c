@@ -26,7 +26,7 @@ goose_box_type(int dimension)
 				(errcode(ERRCODE_UNDEFINED_OBJECT),
 				 errmsg("type \"cube\" does not exist"),
 				 errdetail("In three dimensions abacus_goose() finds simplices by boxes of this type."),
-				 errhint("CREATE EXTENSION cube.")));
+				 errhint("Install it with CREATE EXTENSION cube.")));
 	return type;
 }
 

@@ -90,9 +90,9 @@ check_shape(const GooseTable *table, List *indexes)
 	if (!is)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("table \"%s\" is not as it was made",
+				 errmsg("table \"%s\" was changed as soon as it had been made",
 						RelationGetRelationName(table->heap)),
-				 errhint("An event trigger may have changed it.")));
+				 errhint("Look for an event trigger that changes it.")));
 }
 
 static void
@@ -149,7 +149,7 @@ read_row(const GooseTable *table, abacus_boxed_simplex *row)
 				(errcode(ERRCODE_DATA_CORRUPTED),
 				 errmsg("table \"%s\" holds a row that is not a simplex",
 						RelationGetRelationName(table->heap)),
-				 errhint("Nothing else may write the table while abacus_goose() makes it.")));
+				 errhint("Do not write to the table while abacus_goose() makes it.")));
 }
 
 static void

@@ -102,11 +102,11 @@ temp_room_require(double bytes)
 
 	if (temp_file_limit >= 0 && bytes > (double) temp_file_limit * 1024)
 		refuse(bytes, psprintf("temp_file_limit (%d kB)", temp_file_limit),
-			   "Ask for less, or for parts; or have temp_file_limit raised.");
+			   "Ask for less, or for one part at a time, or have temp_file_limit raised.");
 	room = all_free_bytes();
 	if (room >= 0 && bytes > room)
 		refuse(bytes, psprintf("the %.0f MB free on the disk", floor(room / (1024 * 1024))),
-			   "Ask for less, or for parts; or name a tablespace with more room in temp_tablespaces.");
+			   "Ask for less, or for one part at a time, or name a tablespace with more room in temp_tablespaces.");
 }
 
 /* The same for so many rows of a tuplestore, each of at least so many bytes. */

@@ -115,7 +115,7 @@ are_misplaced(const RowPacker *packer, TupleDesc desc)
 	return false;
 }
 
-/* "x" is taken for id, "y" for x; of many attributes the first ones are enough */
+/* "x" is taken as id, "y" as x; of many attributes the first ones are enough */
 static char *
 taken_columns(const RowPacker *packer, TupleDesc desc)
 {
@@ -125,7 +125,7 @@ taken_columns(const RowPacker *packer, TupleDesc desc)
 
 	initStringInfo(&text);
 	for (int i = 0; i < Min(columns, most); i++)
-		appendStringInfo(&text, "%s\"%s\" %sfor %s", i > 0 ? ", " : "",
+		appendStringInfo(&text, "%s\"%s\" %sas %s", i > 0 ? ", " : "",
 						 NameStr(TupleDescAttr(desc, i)->attname), i > 0 ? "" : "is taken ",
 						 column_name(packer, i));
 	if (columns > most)
@@ -146,8 +146,8 @@ row_tell_order(const RowPacker *packer, TupleDesc desc)
 {
 	if (are_misplaced(packer, desc))
 		ereport(NOTICE,
-				(errmsg("columns go by position, not by name: %s", taken_columns(packer, desc)),
-				 errhint("The order is %s, %s%s.", packer->origin->id,
+				(errmsg("columns are matched by position, not by name: %s", taken_columns(packer, desc)),
+				 errhint("Put the columns in the order %s, %s%s.", packer->origin->id,
 						 packer->names.facts->form.dimension == 2 ? "x, y" : "x, y, z",
 						 packer->inputs > 1 + packer->coordinates ? ", then attributes" : "")));
 }
@@ -162,10 +162,10 @@ geometry_hint(const RowPacker *packer, const char *column, Oid type)
 	if (packer->origin->geometry_hint == NULL)
 		return NULL;
 	if (geometry_is_type(type) && packer->origin->takes_geometry)
-		return pstrdup("A geometry stands behind the id, in place of all coordinates.");
+		return pstrdup("Put the geometry after the id, in place of all coordinates.");
 	name = geometry_type_name(type);
 	if (strcmp(name, "geography") == 0)
-		return psprintf("Give a geometry of it, %s::geometry.", quoted);
+		return psprintf("Cast it to geometry: %s::geometry.", quoted);
 	if (strcmp(name, "geometry") != 0)
 		return NULL;
 	return psprintf(packer->names.facts->form.dimension == 2 ? "%2$s, ST_X(%1$s) and ST_Y(%1$s)."
@@ -187,13 +187,13 @@ row_refuse_type(const RowPacker *packer, int column, TupleDesc desc)
 	Form_pg_attribute attribute = TupleDescAttr(desc, column);
 	bool		is_id = column < packer->ids;
 	const char *hint = geometry_hint(packer, NameStr(attribute->attname), attribute->atttypid);
-	const char *kinds = is_id ? psprintf("%s is smallint, integer or bigint.", packer->origin->an_id)
-		: packer->ids > 1 ? "Labels are double precision, real, numeric or integers."
-		: "Coordinates and attributes are double precision, real, numeric or integers.";
+	const char *kinds = is_id ? psprintf("%s must be smallint, integer or bigint.", packer->origin->an_id)
+		: packer->ids > 1 ? "Labels must be double precision, real, numeric or integers."
+		: "Coordinates and attributes must be double precision, real, numeric or integers.";
 
 	if (hint == NULL && is_id && lacks_id(packer, desc))
-		hint = "The id comes first. If the rows have none, row_number() OVER () makes one; if this is it, "
-			"cast it.";
+		hint = "Put the id first. If the rows have none, make one with row_number() OVER (); "
+			"if this column is the id, cast it.";
 	ereport(ERROR,
 			(errcode(ERRCODE_DATATYPE_MISMATCH),
 			 errmsg("column %d (%s) of %s has type %s", column + 1, column_name(packer, column),
@@ -215,10 +215,10 @@ count_hint(const RowPacker *packer, TupleDesc desc)
 		return hint;
 	if (desc->natts > packer->inputs && packer->names.facts->form.dimension == 2 && desc->natts > 3 &&
 		pg_strcasecmp(NameStr(TupleDescAttr(desc, 3)->attname), "z") == 0)
-		return psprintf("The %s has dimension 2; one in space is made with dimension => 3.",
+		return psprintf("The %s has dimension 2. To make one in space, use dimension => 3.",
 						packer->origin->whole);
 	if (desc->natts < packer->inputs && lacks_id(packer, desc))
-		return "The id comes first. If the rows have none, row_number() OVER () makes one.";
+		return "Put the id first. If the rows have none, make one with row_number() OVER ().";
 	return NULL;
 }
 
@@ -231,7 +231,7 @@ row_refuse_count(const RowPacker *packer, TupleDesc desc)
 			(errcode(ERRCODE_DATATYPE_MISMATCH),
 			 errmsg("source query returns %d columns, but the %s takes %d", desc->natts,
 					packer->origin->whole, packer->inputs),
-			 errdetail("Columns go by position: %s.%s", expected_columns(packer),
+			 errdetail("Columns are matched by position: %s.%s", expected_columns(packer),
 					   taken_sentence(packer, desc)),
 			 hint != NULL ? errhint("%s", hint) : 0));
 }
@@ -264,6 +264,6 @@ row_refuse_srid(const RowPacker *packer, const char *what, int32 srid)
 		geometry_refuse_srid(what, srid, (int32) packer->names.facts->form.srid, packer->origin->whole);
 	ereport(ERROR,
 			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-			 errmsg("%s has SRID %d, but those before it have SRID %d", what, srid, packer->srid),
-			 errhint("Transform all of them to one system by ST_Transform.")));
+			 errmsg("%s has SRID %d, but earlier geometries have SRID %d", what, srid, packer->srid),
+			 errhint("Transform all geometries to one system with ST_Transform.")));
 }

@@ -37,7 +37,7 @@ static const RowOrigin query_of_labels = {
 };
 static const RowOrigin tracked_table = {
 	"the tracked table", "the statement", "Track other columns, generated ones for instance.",
-	"Track generated columns", "A row without a point has NULL for a coordinate.", false,
+	"Track generated columns", "Set a coordinate to NULL in rows without a point.", false,
 	"mesh", "id", "An id", NULL, false, true, false
 };
 #define QUERY_OF_OCTANTS(geometry_hint) \
@@ -167,7 +167,7 @@ pack_geometry(RowPacker *packer, const TupleTableSlot *slot, uint64 *record)
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("%s has no z, but the %s has dimension %u", what, packer->origin->whole,
 						dimension),
-				 errhint("ST_Force3DZ(geometry, z) gives it one.")));
+				 errhint("Add one with ST_Force3DZ(geometry, z).")));
 	if (packer->srid < 0)
 		packer->srid = point.srid;
 	if (point.srid != packer->srid)

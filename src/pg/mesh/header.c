@@ -208,11 +208,11 @@ header_require_type(Host *host, const abacus_form *form)
 		ereport(ERROR,
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
 				 errmsg("\"%s\" is an octree, not a mesh", name),
-				 errhint("Functions for octrees are abacus_octants() and those that begin with abacus_octree_.")));
+				 errhint("Use abacus_octants() or a function whose name begins with abacus_octree_.")));
 	ereport(ERROR,
 			(errcode(ERRCODE_WRONG_OBJECT_TYPE),
 			 errmsg("\"%s\" is a mesh, not an octree", name),
-			 errhint("Octrees are made with abacus_octree_create().")));
+			 errhint("Make an octree with abacus_octree_create().")));
 }
 
 /* Finds and decodes the header, which must be there; its place goes to *tid unless NULL. */
@@ -265,7 +265,7 @@ header_require_dimension(const abacus_form *form, uint32 dimension, const char *
 				 errmsg("%s has dimension %u, not %u", type_name(form->type), form->dimension,
 						dimension),
 				 errhint("%s%s", hint,
-						 dimension == 3 ? " One in space is made with dimension => 3." : "")));
+						 dimension == 3 ? " To make one in space, use dimension => 3." : "")));
 }
 
 /* An SRID that is given for a mesh: an error if the mesh has another one. */
@@ -276,7 +276,7 @@ header_require_srid(const abacus_form *form, int32 srid)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("srid is %d, but the mesh has SRID %u", srid, form->srid),
-				 errhint("Leave out srid. If the mesh is of another system, say so by "
+				 errhint("Leave out srid. If the mesh is in another system, say so with "
 						 "abacus_set_srid(mesh, %d).", srid)));
 }
 
@@ -311,9 +311,9 @@ header_require_new_name(abacus_names names, const char *name)
 	if (is_attribute || header_label(names, name) >= 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_DUPLICATE_COLUMN),
-				 is_attribute ? errmsg("%s has an attribute \"%s\" already",
+				 is_attribute ? errmsg("%s already has an attribute \"%s\"",
 									   type_name(names.facts->form.type), name)
-				 : errmsg("mesh has a label \"%s\" already", name)));
+				 : errmsg("mesh already has a label \"%s\"", name)));
 }
 
 /* Some of the names, for messages. */
@@ -370,8 +370,8 @@ header_require_attributes(const abacus_facts *facts)
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("%s has no attributes", type_name(facts->form.type)),
 				 facts->form.type == ABACUS_OCTREE ? errhint("Name them in abacus_octree_create().")
-				 : errhint("Columns that follow the coordinates in the query of abacus_triangulate() "
-						   "become attributes.")));
+				 : errhint("Add attributes as columns after the coordinates in the query of "
+						   "abacus_triangulate().")));
 }
 
 /* Number of the one attribute, where no name is given. */
@@ -384,8 +384,9 @@ header_only_attribute(abacus_names names)
 	if (columns->attributes > 1)
 		ereport(ERROR,
 				(errcode(ERRCODE_AMBIGUOUS_COLUMN),
-				 errmsg("%s has %u attributes", type_name(names.facts->form.type), columns->attributes),
+				 errmsg("%s has %u attributes, and none is named",
+						type_name(names.facts->form.type), columns->attributes),
 				 errdetail("Its attributes are %s.", list_names(names, 0, columns->attributes)),
-				 errhint("Say which one with the argument attribute.")));
+				 errhint("Name one with the argument attribute.")));
 	return 0;
 }

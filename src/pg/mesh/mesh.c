@@ -120,7 +120,7 @@ open_mesh_table(Oid relid, MeshAccess access, LOCKMODE lock)
 		ereport(ERROR,
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
 				 errmsg("\"%s\" is not a mesh", RelationGetRelationName(rel)),
-				 errhint("Meshes are made with abacus_create() or abacus_triangulate().")));
+				 errhint("Make a mesh with abacus_create() or abacus_triangulate().")));
 	mesh_check_access(rel, access, NULL);
 	return rel;
 }

@@ -57,14 +57,14 @@ check_privileges(Relation rel, MeshAccess access, Relation mesh)
 				 errmsg("permission denied for table %s", RelationGetRelationName(rel)),
 				 detail[0] == '\0' ? 0 : errdetail_internal("%s", detail),
 				 mesh == NULL ? 0 :
-				 errhint("Privileges, and the owner, are given to both tables of a mesh.")));
+				 errhint("Grant privileges on both tables of a mesh, and give both the same owner.")));
 	}
 	if (check_enable_rls(relid, InvalidOid, false) == RLS_ENABLED)
 		ereport(ERROR,
 				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
 				 errmsg("row-level security on mesh table \"%s\" applies to user \"%s\"",
 						RelationGetRelationName(rel), GetUserNameFromId(GetUserId(), false)),
-				 errdetail("A page holds many simplices; policies on its rows have no meaning."),
+				 errdetail("A page holds many simplices, so policies on rows have no meaning."),
 				 errhint("Disable row-level security on the table and use GRANT.")));
 }
 
@@ -93,7 +93,7 @@ check_columns(Relation rel)
 	if (row->natts < PAGE_TABLE_KEYS + 1)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("mesh table \"%s\" is of a type of another version of Abacus",
+				 errmsg("mesh table \"%s\" has a type of another version of Abacus",
 						RelationGetRelationName(rel)),
 				 errhint("Read the mesh's points with the version that wrote it "
 						 "(abacus_vertices), and build it anew.")));
@@ -102,7 +102,7 @@ check_columns(Relation rel)
 	if (!are || TupleDescAttr(row, PAGE_TABLE_KEYS)->attlen != -1)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("mesh table \"%s\" has had other columns than those of its type",
+				 errmsg("mesh table \"%s\" has had columns other than those of its type",
 						RelationGetRelationName(rel)),
 				 errhint("Copy its rows into a table made with CREATE TABLE ... OF.")));
 }
@@ -132,7 +132,7 @@ mesh_check_access(Relation rel, MeshAccess access, Relation mesh)
 				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
 				 errmsg("cannot access unlogged mesh table \"%s\" during recovery",
 						RelationGetRelationName(rel)),
-				 errdetail("What is unlogged does not reach standbys.")));
+				 errdetail("Unlogged tables do not reach standbys.")));
 	if (IsParallelWorker() && RelationUsesLocalBuffers(rel))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_TRANSACTION_STATE),

@@ -67,7 +67,7 @@ new_mesh(text *name, Oid extension_namespace, abacus_header *header, const char 
 		ereport(ERROR,
 				(errcode(ERRCODE_NAME_TOO_LONG),
 				 errmsg("%s name \"%s\" is too long", type_name(header->facts.form.type), range->relname),
-				 errdetail("The table \"%s\" stands beside it; names have at most %d bytes.",
+				 errdetail("The table \"%s\" belongs to it; names have at most %d bytes.",
 						   vertices_name, NAMEDATALEN - 1)));
 	namespace = new_table_schema(range);
 	new_table_check_name(namespace, range->relname);

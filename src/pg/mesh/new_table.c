@@ -24,11 +24,11 @@ new_table_name(text *name)
 	if (!SplitIdentifierString(pstrdup(given), '.', &parts) || parts == NIL)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_NAME),
-				 errmsg("invalid name of a mesh: \"%s\"", given),
+				 errmsg("invalid name \"%s\"", given),
 				 strpbrk(given, ".\"") != NULL || given[0] == '\0'
-				 ? errhint("It is written as in SQL: schema.name, each in double quotes unless it is a "
-						   "plain identifier.")
-				 : errhint("It is written as in SQL, in double quotes unless it is a plain identifier: "
+				 ? errhint("Write it as in SQL: schema.name, each part in double quotes unless it "
+						   "is a plain identifier.")
+				 : errhint("Write it as in SQL, in double quotes unless it is a plain identifier: "
 						   "'\"%s\"'.", given)));
 	return makeRangeVarFromNameList(textToQualifiedNameList(name));
 }
@@ -52,8 +52,8 @@ new_table_check_name(Oid schema, const char *name)
 	is_mesh = mesh_of_table(other) == other;
 	ereport(ERROR,
 			(errcode(ERRCODE_DUPLICATE_TABLE),
-			 is_mesh ? errmsg("mesh \"%s\" exists already", name)
-			 : errmsg("relation \"%s\" exists already", name),
+			 is_mesh ? errmsg("mesh \"%s\" already exists", name)
+			 : errmsg("relation \"%s\" already exists", name),
 			 is_mesh ? errhint("Drop it with DROP TABLE, add points to it with abacus_insert(), or "
 							   "choose another name.")
 			 : errhint("Choose another name for the mesh, or drop the relation.")));
@@ -89,9 +89,9 @@ new_table_create(const char *command, const char *name)
 		FlushErrorState();
 		ereport(ERROR,
 				(errcode(ERRCODE_DUPLICATE_TABLE),
-				 errmsg("relation \"%s\" exists already", name),
+				 errmsg("relation \"%s\" already exists", name),
 				 errdetail("Another session has made it at the same time."),
-				 errhint("Choose another name, or use the one that is there.")));
+				 errhint("Choose another name, or use the existing relation.")));
 	}
 	PG_END_TRY();
 }
@@ -105,7 +105,7 @@ new_table_id(Oid schema, const char *name)
 	if (!OidIsValid(table))
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_TABLE),
-				 errmsg("table \"%s\" does not exist any more", name),
+				 errmsg("table \"%s\" no longer exists", name),
 				 errdetail("It was dropped or renamed as soon as it had been made."),
 				 errhint("Look for an event trigger that does so.")));
 	return table;

@@ -26,8 +26,8 @@ notice_duplicates(const Writer *writer, uint64 before, bool hint)
 						   RelationGetRelationName(mesh_pages(writer->host)->simplices.heap)),
 			 errdetail("A vertex has the id and the attributes of the point that came first; "
 					   "the others are kept beside it."),
-			 hint ? errhint("With on_duplicate => 'replace' it gets those of the point that comes "
-							"last.") : 0));
+			 hint ? errhint("Use on_duplicate => 'replace' to take the id and the attributes from "
+							"the last point.") : 0));
 }
 
 /* Points that wait since they span no simplex. */

@@ -28,7 +28,7 @@ shape_check_name(const char *name)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_NAME),
 				 errmsg("invalid attribute name \"%s\"", name),
-				 errhint("A name has 1 to %d bytes.", ABACUS_NAME_BYTES - 1)));
+				 errhint("Use a name of 1 to %d bytes.", ABACUS_NAME_BYTES - 1)));
 }
 
 /* An error if there is no room for one more attribute. */
@@ -56,8 +56,8 @@ shape_attribute(abacus_header *header, const char *name)
 		ereport(ERROR,
 				(errcode(ERRCODE_DUPLICATE_COLUMN),
 				 errmsg("attribute \"%s\" is named twice", name),
-				 errhint("Attributes taken from a query have the names of its columns; "
-						 "give each its own with AS.")));
+				 errhint("Give each column of the query its own name with AS; attributes are named "
+						 "after columns.")));
 	header->types[header->facts.columns.attributes] = ABACUS_FLOAT8;
 	strlcpy(header->names[header->facts.columns.attributes++], name, ABACUS_NAME_BYTES);
 }
@@ -138,7 +138,7 @@ shape_point(const abacus_form *form, ArrayType *point, const char *what, double 
 				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
 				 errmsg("%s has %d elements, but the %s has dimension %u", what, count,
 						type_name(form->type), form->dimension),
-				 count == 3 ? errhint("One in space is made with dimension => 3.") : 0));
+				 count == 3 ? errhint("To make one in space, use dimension => 3.") : 0));
 	for (int i = 0; i < count; i++)
 		values[i] = DatumGetFloat8(elements[i]);
 }
@@ -187,7 +187,7 @@ shape_domain(abacus_form *form, ArrayType *lower, ArrayType *upper)
 			!(form->lower[i] < form->upper[i]))
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-					 errmsg("lower must be less than upper, and both finite, on axis %c",
+					 errmsg("lower must be less than upper, and both must be finite, on axis %c",
 							"xyz"[i])));
 	form->has_domain = 1;
 }

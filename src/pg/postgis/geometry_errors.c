@@ -29,8 +29,8 @@ geometry_refuse_kind(const char *what, uint32 kind, const char *wanted)
 	ereport(ERROR,
 			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 			 errmsg("%s is a %s, not %s", what, kind_name(kind), wanted),
-			 is_curved ? errhint("ST_CurveToLine makes straight lines of curves.") :
-			 is_collection ? errhint("ST_Dump gives the parts of a collection.") : 0));
+			 is_curved ? errhint("Convert curves to straight lines with ST_CurveToLine.") :
+			 is_collection ? errhint("Split the collection into its parts with ST_Dump.") : 0));
 }
 
 /* Of two systems; `wanted` is that of the whole, a mesh or an octree. */
@@ -41,13 +41,13 @@ geometry_refuse_srid(const char *what, int32 srid, int32 wanted, const char *who
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("%s has SRID %d, but the %s has none", what, srid, whole),
-				 errhint("If the coordinates of the %s are of that system, say so by "
+				 errhint("If the coordinates of the %s are in that system, say so with "
 						 "abacus_set_srid(%s, %d).", whole, whole, srid)));
 	ereport(ERROR,
 			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 			 srid == 0 ? errmsg("%s has no SRID, but the %s has SRID %d", what, whole, wanted)
 			 : errmsg("%s has SRID %d, but the %s has SRID %d", what, srid, whole, wanted),
-			 srid == 0 ? errhint("If its coordinates are of that system, say so by "
+			 srid == 0 ? errhint("If its coordinates are in that system, say so with "
 								 "ST_SetSRID(geometry, %d).", wanted)
-			 : errhint("Transform it by ST_Transform(geometry, %d).", wanted)));
+			 : errhint("Transform it with ST_Transform(geometry, %d).", wanted)));
 }

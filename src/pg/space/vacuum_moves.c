@@ -119,7 +119,7 @@ move_mesh(VacuumJob *job, const VacuumOptions *options, MemoryContext memory)
 	if (!mesh_try_lock_for_session(job->mesh, OidIsValid(job->vertices), &locks))
 	{
 		ereport(level,
-				(errmsg("pages of mesh \"%s\" are not moved, since somebody has it locked",
+				(errmsg("pages of mesh \"%s\" are not moved, since the mesh is locked",
 						full_name(job->mesh))));
 		return false;
 	}

@@ -48,10 +48,9 @@ check_node(PageTable *table)
 	else if (!table->writable && !RelFileLocatorEquals(table->node, table->heap->rd_locator))
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_IN_USE),
-				 errmsg("table \"%s\" was rewritten while this query reads it",
+				 errmsg("table \"%s\" was rewritten while this query was reading it",
 						RelationGetRelationName(table->heap)),
-				 errhint("CLUSTER, TRUNCATE, or alter a mesh after queries and loops over it "
-						 "have ended.")));
+				 errhint("End queries and loops over a mesh before you CLUSTER, TRUNCATE or alter it.")));
 }
 
 /* Opens the table, which our own transaction may have dropped between two rows of a cursor. */
@@ -63,8 +62,8 @@ open_heap(PageTable *table)
 	if (heap == NULL)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_IN_USE),
-				 errmsg("table of a mesh was dropped while this query reads it"),
-				 errhint("Drop a mesh after queries and loops over it have ended.")));
+				 errmsg("table of a mesh was dropped while this query was reading it"),
+				 errhint("End queries and loops over a mesh before you drop it.")));
 	return heap;
 }
 

@@ -52,7 +52,7 @@ by_hand_refuse_points(const Change *change)
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("points of mesh \"%s\" are rows of table \"%s\", which it follows",
 						RelationGetRelationName(mesh_of(change)), table),
-				 errhint("Change the table, and the mesh follows; or call abacus_untrack() before.")));
+				 errhint("Change the table, and the mesh follows; or call abacus_untrack() first.")));
 }
 
 /* The same for functions that give points other attributes. */
@@ -66,6 +66,6 @@ by_hand_refuse_attributes(const Change *change)
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("attributes of mesh \"%s\" are columns of table \"%s\", which it follows",
 						RelationGetRelationName(mesh_of(change)), table),
-				 errhint("Call abacus_untrack() before, and afterwards abacus_track() with "
+				 errhint("Call abacus_untrack() first, and afterwards abacus_track() with "
 						 "synchronize => true.")));
 }

@@ -368,8 +368,8 @@ tracking_mesh(const TriggerData *data, Oid *user)
 				(errcode(ERRCODE_UNDEFINED_TABLE),
 				 errmsg("mesh \"%s\", which follows table \"%s\", does not exist",
 						trigger->tgargs[0], get_rel_name(original.table)),
-				 errhint("Restore the mesh under that name, or drop the trigger \"%s\" and those "
-						 "like it.", trigger->tgname)));
+				 errhint("Restore the mesh under that name, or drop the trigger \"%s\" and the "
+						 "others like it.", trigger->tgname)));
 	check_schema(mesh, original.table);
 	if (!bind_triggers(trigger->tgfoid, mesh, original.table) ||
 		bound_mesh(original.oid, original.table, original.from) != mesh)

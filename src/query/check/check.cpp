@@ -21,7 +21,8 @@ Check<D>::Check(const Host &host, const abacus_facts &facts, std::size_t cache_b
     if (!together || !together->check_pages()) check_pages();
     is_counted_ = true;
     if (counts_.simplices != facts_.census.simplices || counts_.ghosts != facts_.census.ghosts)
-        faults_.add("count", first_key, "The header counts other simplices than the pages hold.");
+        faults_.add("count", first_key,
+                    "The header counts more or fewer simplices than the pages hold.");
     const std::size_t before = faults_.size();
     check_links_and_points(together ? &*together : nullptr);
     // Two pages that differ about a vertex are found where the cache has both. In a Delaunay mesh
@@ -126,10 +127,12 @@ template <int D> void Check<D>::check_repeated_points() {
         if (!mesh.vertex_at(record_point<D>(points.record())))
             faults_.add("point", "A repeated point equals no vertex of the mesh.");
         if (points.serial() >= facts_.census.serials)
-            faults_.add("count", "A repeated point has a serial number yet to be given.");
+            faults_.add("count",
+                        "A repeated point has a serial number that has not been assigned yet.");
     }
     if (count != facts_.census.duplicates)
-        faults_.add("count", first_key, "The header counts other repeated points than there are.");
+        faults_.add("count", first_key,
+                    "The header counts more or fewer repeated points than there are.");
 }
 
 /// A reader goes from a page to the one with the next point; who begins with a point further on
@@ -137,7 +140,7 @@ template <int D> void Check<D>::check_repeated_points() {
 template <int D> void Check<D>::check_follows(const Key &last, const Key &at) {
     abacus_page page;
     if (at == last || !host_.next(ABACUS_STAGED_PAGES, &last, page) || page.key == at) return;
-    faults_.add("point", page.key, "A page of points lies where another one has its points.");
+    faults_.add("point", page.key, "A page of points lies among the points of another page.");
 }
 
 template <int D> void Check<D>::check_waiting_points() {
@@ -154,11 +157,11 @@ template <int D> void Check<D>::check_waiting_points() {
     abacus_page first, page;
     if (!host_.next(ABACUS_STAGED_PAGES, nullptr, first)) return;
     if (facts_.census.inserted == facts_.census.staged)
-        faults_.add("count", first.key, "There are points that wait, and the header counts none.");
+        faults_.add("count", first.key, "There are points that wait, but the header counts none.");
     else if (!host_.find(ABACUS_STAGED_PAGES, begin, page) || !(page.key == first.key))
         faults_.add("count", first.key, "There are points before the first that waits.");
     else if (host_.next(ABACUS_STAGED_PAGES, &last, page))
-        faults_.add("count", page.key, "There are points behind the last that waits.");
+        faults_.add("count", page.key, "There are points after the last that waits.");
 }
 
 template <int D> void Check<D>::check_listed_vertices() {
@@ -189,17 +192,20 @@ template <int D> void Check<D>::check_listed_vertices() {
         previous_id = id;
         const std::uint64_t pages = mesh.pages_with(list.record());
         if (pages == 0)
-            faults_.add("vertex", "A vertex of the list is not in the mesh, or is another one.");
+            faults_.add(
+                "vertex",
+                "A vertex of the list is not in the mesh, or differs from the vertex there.");
         in_pages += pages;
     }
     if (in_pages != counts_.vertices)
         faults_.add("vertex", first_key, "The mesh has vertices that are not in the list.");
     if (split != facts_.census.split)
-        faults_.add("count", first_key,
-                    "The header counts other vertices that share their places than there are.");
+        faults_.add(
+            "count", first_key,
+            "The header counts more or fewer vertices that share their places than there are.");
     abacus_page page;
     if (host_.next(ABACUS_STAGED_PAGES, &last, page))
-        faults_.add("count", page.key, "There are pages behind the list of vertices.");
+        faults_.add("count", page.key, "There are pages after the list of vertices.");
 }
 
 template <int D>
@@ -217,9 +223,8 @@ void Check<D>::check_attribute_pages(const char *kind, unsigned attributes, std:
     for (unsigned group = 0; group < groups.count(); ++group)
         if (rows[group] != owners)
             faults_.add(kind, group_begin(first + group),
-                        K == 1
-                            ? "The attribute pages have another number of vertices than the mesh."
-                            : "The pages have another number of simplices than the header counts.");
+                        K == 1 ? "The attribute pages have more or fewer vertices than the mesh."
+                               : "The pages have more or fewer simplices than the header counts.");
 }
 
 /// There are as many vertices with attributes as vertices; so it is enough that each of these has
@@ -260,7 +265,7 @@ void Check<D>::check_labels(const char *kind, unsigned columns, std::uint64_t ow
         });
         if (found != owners)
             faults_.add(kind, group_begin(first),
-                        "Some are of simplices that the mesh does not have.");
+                        "Some belong to simplices that the mesh does not have.");
     });
 }
 

@@ -30,7 +30,7 @@ template <int D> void PageCheck<D>::check() {
     bool has_parts = false;
     for (int i = 0; i < page_.links(); ++i) has_parts = has_parts || page_.link_part(i) != 0;
     if (page_.has_parts() && !has_parts)
-        faults_.add("link", "A page has room for parts of keys but none in it.");
+        faults_.add("link", "A page has room for parts of keys, but contains none.");
 }
 
 template <int D> void PageCheck<D>::check_simplices() {

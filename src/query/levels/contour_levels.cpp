@@ -18,7 +18,8 @@ void ContourLevels::include(const ContourRanks &ranks) {
     all_.greatest = std::max(all_.greatest, ranks.greatest);
     if (all_.greatest - all_.least > most)
         throw Error(ABACUS_ERROR_ARGUMENT, "more than a thousand million levels are asked for",
-                    "The values of the mesh are that many times level_interval apart.",
+                    "The least and the greatest value of the mesh are that many times "
+                    "level_interval apart.",
                     "Give a greater level_interval, or fixed_levels.");
 }
 
@@ -31,7 +32,7 @@ std::int64_t ContourLevels::multiple_below(double value) const {
             if (level(rank) <= value && value < level(rank + 1)) return rank;
     }
     throw Error(ABACUS_ERROR_ARGUMENT, "level_interval is too small for the values of the mesh",
-                "Levels are nearer to one another than numbers of double precision there.",
+                "Levels there are closer to one another than numbers of double precision.",
                 "Give a greater level_interval, or fixed_levels.");
 }
 

@@ -235,7 +235,7 @@ template <int D> void LineScan<D>::trim() {
             !comes_before<D>(found_->simplex, simplex))
             at_ = h;
     });
-    if (at_ == no_handle) throw_corrupted("A simplex is not in its page any more.");
+    if (at_ == no_handle) throw_corrupted("A simplex is no longer in its page.");
 }
 
 // ---- Other meshes ----------------------------------------------------------------------

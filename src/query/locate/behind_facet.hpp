@@ -26,7 +26,7 @@ public:
                     found += points[k] == facet[i] && simplex.id[k] == ids[i];
             if (found == D) behind = owner_of<D, D + 1>(points);
         });
-        if (!behind) throw_corrupted("A facet of the boundary is one of no simplex.");
+        if (!behind) throw_corrupted("A facet of the boundary belongs to no simplex.");
         return *behind;
     }
 

@@ -25,8 +25,8 @@ CacheOptions linked_as(const abacus_facts &facts, CacheOptions options) {
 
 template <int D> [[noreturn]] void throw_no_such_simplex() {
     throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such simplex", {},
-                "Take a simplex that abacus_locate, abacus_walk or abacus_simplices returned "
-                "for this mesh, and a facet from 0 to " +
+                "Use a simplex that abacus_locate, abacus_walk or abacus_simplices returned for "
+                "this mesh, and a facet from 0 to " +
                     std::to_string(D) + ".");
 }
 
@@ -327,7 +327,7 @@ template <int D> Handle Reader<D>::named(std::uint64_t code, const std::int64_t 
     if (!is_unique)
         throw Error(ABACUS_ERROR_ARGUMENT,
                     "several simplices of the mesh have this code and these ids",
-                    "Points with equal ids are vertices of them.",
+                    "Their vertices include points with equal ids.",
                     "Give the points unique ids to walk from one simplex to another.");
     if (!is_it(h)) // evicted, for other pages with the code
         cache_.visit(page, [&](Handle candidate) {

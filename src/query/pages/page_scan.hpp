@@ -13,7 +13,7 @@
 namespace abacus {
 
 inline constexpr const char *other_vertex_count =
-    "The header counts other vertices than the pages hold.";
+    "The header counts more or fewer vertices than the pages hold.";
 
 template <int D> class PageScan {
 public:
@@ -68,7 +68,7 @@ private:
     }
 
     static constexpr const char *other_count =
-        "The header counts other simplices than the pages hold.";
+        "The header counts more or fewer simplices than the pages hold.";
 
     PageCursor cursor_;
     int attributes_;

@@ -110,7 +110,7 @@ template <int D> bool PlacesTogether<D>::answer() {
         if (has_to_tell())
             tell_some();
         else if (!run(1, 1)) // its tape was full
-            throw Error(ABACUS_ERROR_MEMORY, "the system grants no thread");
+            throw Error(ABACUS_ERROR_MEMORY, "could not start a thread");
     }
     forget_gathered();
     return true;

@@ -92,7 +92,7 @@ template <int D> auto MarkedFacets<D>::ids_beside(const std::uint64_t *record) -
             }
         if (found == D + 1) std::copy_n(here.begin(), D, ids.emplace().begin());
     });
-    if (!ids) throw_corrupted("A facet with a marker is one of no simplex.");
+    if (!ids) throw_corrupted("A facet with a marker belongs to no simplex.");
     return *ids;
 }
 

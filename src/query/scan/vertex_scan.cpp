@@ -65,7 +65,7 @@ template <int D> bool VertexScan<D>::next_repeated(abacus_vertex &vertex) {
     more_repeated_ = repeated_.advance();
     // Nothing else tells that pages of them are lost.
     if (more_repeated_ != (repeated_left_ > 0))
-        throw_corrupted("The header counts other repeated points than there are.");
+        throw_corrupted("The header counts more or fewer repeated points than there are.");
     if (!more_repeated_) return false;
     --repeated_left_;
     fill<D>(vertex, repeated_.record());

@@ -60,7 +60,7 @@ void Cavities::finish() {
     std::array<std::uint64_t, facet_words> side{};
     std::uint64_t n = 0; // sides of the facet at hand; of a fault's four, all beside its ghosts
     const auto end_facet = [&] {
-        if (n % 2 != 0) throw_corrupted("A facet has one side alone.");
+        if (n % 2 != 0) throw_corrupted("A facet has only one side.");
     };
     while (const std::uint64_t *facet = facets_.next()) {
         if (n > 0 && std::equal(facet, facet + corner_words, side.begin())) {

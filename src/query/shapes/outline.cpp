@@ -19,7 +19,7 @@ Kept kept_by(const abacus_outline_kind &kind) {
 template <int D> void require(const Reader<D> &reader, const abacus_outline_kind &kind) {
     if (kind.has_alpha != 0 && !reader.is_delaunay())
         throw Error(ABACUS_ERROR_STATE, "an alpha shape needs a Delaunay mesh", "",
-                    "Take abacus_hull with max_edge, or load the mesh with retriangulate => true.");
+                    "Use abacus_hull with max_edge, or load the mesh with retriangulate => true.");
 }
 
 } // namespace

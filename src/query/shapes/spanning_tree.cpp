@@ -132,8 +132,8 @@ template <int D> void SpanningTree<D>::contract() {
     shift_ = room_ / 2 - shift_;
     if (vertices_ > room_ && vertices_ > before - before / 16)
         throw Error(ABACUS_ERROR_LIMIT, "the memory of a query is too small for this tree",
-                    "Even along the curve the vertices hang together from one end to the other.",
-                    "Increase work_mem to 64 bytes a vertex.");
+                    "Even along the curve, the vertices are connected from one end to the other.",
+                    "Increase work_mem to 64 bytes per vertex.");
 }
 
 template <int D> void SpanningTree<D>::sort_by_chunk(RecordSort &by_chunk) {

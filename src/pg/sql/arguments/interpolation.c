@@ -48,9 +48,9 @@ interpolation_max_edge(FunctionCallInfo fcinfo, int argument, abacus_interpolati
 void
 interpolation_how(FunctionCallInfo fcinfo, int method, abacus_interpolation *how)
 {
-	how->method = word_argument(fcinfo, method, methods, "method", "Methods are linear, natural and nearest.");
+	how->method = word_argument(fcinfo, method, methods, "method", "Use linear, natural or nearest.");
 	how->outside = word_argument(fcinfo, method + 1, outsides, "outside",
-						"Outside the mesh the value is null, or that of the nearest vertex.");
+						"Use null, or nearest for the value of the nearest vertex.");
 	interpolation_max_edge(fcinfo, method + 2, how);
 }
 
@@ -105,7 +105,7 @@ interpolation_attributes(FunctionCallInfo fcinfo, int argument, abacus_names nam
 	if (count > ABACUS_MAX_ATTRIBUTES)
 		ereport(ERROR,
 				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
-				 errmsg("at most %d attributes can be asked for", ABACUS_MAX_ATTRIBUTES)));
+				 errmsg("at most %d attributes can be requested", ABACUS_MAX_ATTRIBUTES)));
 	how->attributes = (uint32) count;
 	for (int i = 0; i < count; i++)
 		how->attribute[i] = (uint32) header_find_attribute(names, TextDatumGetCString(given[i]));

@@ -53,6 +53,6 @@ line_place(FunctionCallInfo fcinfo, int argument, const char *what, uint32 dimen
 				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
 				 errmsg("%s has %zu elements, but the mesh has dimension %u", what, count,
 						dimension),
-				 count == 3 ? errhint("One in space is made with dimension => 3.") : 0));
+				 count == 3 ? errhint("To make one in space, use dimension => 3.") : 0));
 	memcpy(place, values, dimension * sizeof(double));
 }

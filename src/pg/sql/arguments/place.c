@@ -47,8 +47,8 @@ place_require_z(int given, const abacus_form *form)
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("z is missing, but the %s has dimension %u", type_name(form->type),
 						form->dimension),
-				 errhint("Give z with a decimal point or as z => 1: a whole number behind y is "
-						 "taken for k.")));
+				 errhint("Give z with a decimal point or as z => 1: a whole number after y is "
+						 "taken as k.")));
 }
 
 /* The argument k of a function that returns the k nearest rows. */
@@ -61,7 +61,7 @@ place_count_argument(FunctionCallInfo fcinfo, int argument, const char *rows)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("k must be at least 1, not %d", k),
-				 errhint("k is the number of %s that are wanted.", rows)));
+				 errhint("Set k to the number of %s to return.", rows)));
 	return (uint64) k;
 }
 

@@ -77,8 +77,8 @@ units_tell_slopes(const abacus_form *form)
 		ereport(NOTICE,
 				(errmsg("slopes and gradients are per degree: the coordinates are longitude and latitude"),
 				 errdetail("The mesh has SRID %u.", form->srid),
-				 errhint("Transform the points to a system in metres before they are triangulated, for "
-						 "instance by ST_Transform of PostGIS.")));
+				 errhint("Transform the points to a system in metres before they are triangulated, "
+						 "for instance with ST_Transform of PostGIS.")));
 }
 
 /* Nor are areas and volumes. */
@@ -90,8 +90,8 @@ units_tell_volumes(const abacus_form *form)
 		ereport(NOTICE,
 				(errmsg("areas and volumes are over square degrees: the coordinates are longitude and latitude"),
 				 errdetail("The mesh has SRID %u.", form->srid),
-				 errhint("Transform the points to a system in metres before they are triangulated, for "
-						 "instance by ST_Transform of PostGIS.")));
+				 errhint("Transform the points to a system in metres before they are triangulated, "
+						 "for instance with ST_Transform of PostGIS.")));
 }
 
 /* Hill shading of heights in metres over degrees sees cliffs only. */
@@ -103,8 +103,8 @@ units_tell_shading(const abacus_form *form, double exaggeration)
 		ereport(NOTICE,
 				(errmsg("hills are shaded as if degrees were metres: the coordinates are longitude and latitude"),
 				 errdetail("The mesh has SRID %u.", form->srid),
-				 errhint("A degree of latitude has 111,320 m: of heights in metres exaggeration => 9e-6 shows "
-						 "slopes as they are.")));
+				 errhint("Use exaggeration => 9e-6 to show slopes of heights in metres as they "
+						 "are: a degree of latitude has 111,320 m.")));
 }
 
 static bool

@@ -38,7 +38,7 @@ window_of_box(const abacus_form *form, ArrayType *lower, ArrayType *upper,
 			window->lower[i] > window->upper[i])
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-					 errmsg("lower must not be greater than upper, and both finite, on axis %c",
+					 errmsg("lower must not be greater than upper, and both must be finite, on axis %c",
 							"xyz"[i]),
 					 errhint("lower is the corner of the window with the least coordinates.")));
 	units_tell_window(form, window->lower, window->upper);
@@ -144,7 +144,7 @@ has_range(FunctionCallInfo fcinfo, int first, const char *what, const char *exam
 		if (!PG_ARGISNULL(first + 1))
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-					 errmsg("range is that of %s, and none is given", what),
+					 errmsg("range needs %s, but none is given", what),
 					 errhint("Name it, as in %s.", example)));
 		return false;
 	}
@@ -153,8 +153,8 @@ has_range(FunctionCallInfo fcinfo, int first, const char *what, const char *exam
 	if (!(ends[0] <= ends[1]))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("range must be two numbers that do not descend"),
-				 errhint("Give -Infinity or Infinity for a range without an end.")));
+				 errmsg("range must be two numbers, the first not greater than the second"),
+				 errhint("Use -Infinity or Infinity for a range that is open at one end.")));
 	range->least = ends[0];
 	range->greatest = ends[1];
 	return true;

@@ -109,13 +109,13 @@ check_shown(Oid mesh, const char *attribute)
 				 errmsg("cannot drop attribute \"%s\" of mesh \"%s\" because foreign tables show the mesh",
 						attribute, get_rel_name(mesh)),
 				 errdetail("The foreign tables are %s.", shown_names(own)),
-				 errhint("Call abacus_unpublish() before, and abacus_publish() afterwards.")));
+				 errhint("Call abacus_unpublish() first, and abacus_publish() afterwards.")));
 	if (of_others != NIL)
 		ereport(NOTICE,
 				(errmsg("foreign tables of other users, which show mesh \"%s\", can no longer show attribute \"%s\"",
 						get_rel_name(mesh), attribute),
 				 errdetail("The foreign tables are %s.", shown_names(of_others)),
-				 errhint("Their owners can unpublish the mesh and publish it again.")));
+				 errhint("Ask their owners to unpublish the mesh and publish it again.")));
 }
 
 /* What comes behind the attribute moves up, which nobody sees who takes it by its position. */
@@ -124,9 +124,9 @@ tell_of_moved(abacus_names names, uint32 dropped)
 {
 	if (dropped + 1 < names.facts->columns.attributes)
 		ereport(NOTICE,
-				(errmsg("attributes behind \"%s\" move up by one position", names.of[dropped]),
-				 errdetail("Expressions that take values by position, as attributes[%u], get another "
-						   "attribute now.", dropped + 2)));
+				(errmsg("attributes after \"%s\" move up by one position", names.of[dropped]),
+				 errdetail("Expressions that take values by position, such as attributes[%u], now "
+						   "get another attribute.", dropped + 2)));
 }
 
 /* abacus_drop_attribute(mesh regclass, attribute text) */

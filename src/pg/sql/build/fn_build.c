@@ -84,8 +84,8 @@ rekey(Writer *writer, abacus_build *build)
 	host_run(host, abacus_build_rekey, build, setting_sort_bytes(), writer->header, &done);
 	if (done)
 		ereport(NOTICE,
-				(errmsg("mesh \"%s\" has another domain", get_rel_name(mesh_pages(host)->mesh)),
-				 errdetail("The one before did not fit its points; the simplices are the same.")));
+				(errmsg("mesh \"%s\" has a new domain", get_rel_name(mesh_pages(host)->mesh)),
+				 errdetail("The previous domain did not fit its points; the simplices are the same.")));
 	return done || facts->census.outside != outside;
 }
 
@@ -110,10 +110,10 @@ move_attributes_apart(Writer *writer)
 	host_own(host, NULL, NULL);
 	pfree(same);
 	ereport(NOTICE,
-			(errmsg("mesh \"%s\" has its attributes in pages of their own",
+			(errmsg("mesh \"%s\" now has its attributes in pages of their own",
 					get_rel_name(mesh_pages(host)->mesh)),
 			 facts->columns.labels > 0 || facts->census.marked > 0 ? 0 :
-			 errdetail("It has format 4 now; versions of Abacus that read format 3 only do not read it.")));
+			 errdetail("It now has format 4; versions of Abacus that read only format 3 cannot read it.")));
 }
 
 /* Ends a change and goes on with the next one. */

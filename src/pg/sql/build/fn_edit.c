@@ -48,7 +48,7 @@ on_duplicate(text *given)
 	ereport(ERROR,
 			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 			 errmsg("on_duplicate must not be \"%s\"", name),
-			 errhint("It is 'keep', 'replace' or 'error'.")));
+			 errhint("Use 'keep', 'replace' or 'error'.")));
 	return ABACUS_KEEP;			/* not reached */
 }
 

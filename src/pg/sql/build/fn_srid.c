@@ -32,7 +32,7 @@ abacus_sql_set_srid(PG_FUNCTION_ARGS)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("srid must be from 0 to %d, not %d", ABACUS_MAX_SRID, srid),
-				 errhint("0 stands for no spatial reference system.")));
+				 errhint("Use 0 for no spatial reference system.")));
 	writer_begin_of(&writer, PG_GETARG_OID(0), ANY_TYPE, "abacus_set_srid()");
 	writer.header->facts.form.srid = (uint32) srid;
 	writer_end(&writer);

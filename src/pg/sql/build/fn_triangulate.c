@@ -49,8 +49,8 @@ name_attributes(abacus_header *header, const Source *source)
 		if (header->facts.form.dimension == 2 && first == 3 && strcmp(name, "z") == 0) /* beside x and y */
 			ereport(NOTICE,
 					(errmsg("column \"z\" is an attribute of a mesh of dimension 2"),
-					 errhint("With dimension => 3 it is a coordinate. To keep it as an attribute without this notice, "
-							 "rename it or give attributes => '{z}'.")));
+					 errhint("Use dimension => 3 to make it a coordinate. To keep it as an "
+							 "attribute without this notice, rename it or give attributes => '{z}'.")));
 	}
 }
 

@@ -31,8 +31,8 @@ shape_of_rows(const Source *source, const abacus_header *header, uint32 *attribu
 	if (columns <= first)
 		ereport(ERROR,
 				(errcode(ERRCODE_DATATYPE_MISMATCH),
-				 errmsg("source query has no column of an attribute"),
-				 errhint("Behind id and coordinates come columns that are named after attributes.")));
+				 errmsg("source query has no column for an attribute"),
+				 errhint("After the id and the coordinates, add columns that are named after attributes.")));
 	for (int i = first; i < columns; i++)
 	{
 		const char *name = source_column_name(source, i);
@@ -59,7 +59,7 @@ refuse_missing(const Change *change, const abacus_named_place *missing)
 			 errmsg("mesh \"%s\" has no point at the place of point " INT64_FORMAT ", (%s)",
 					RelationGetRelationName(mesh_pages(change->writer.host)->simplices.heap),
 					missing->id, place.data),
-			 errhint("Points keep their coordinates. abacus_insert() adds points.")));
+			 errhint("Points keep their coordinates. Add points with abacus_insert().")));
 }
 
 /* Changes the points of a prepared query; returns how many rows it had. */

@@ -206,9 +206,9 @@ report_domain(Reader *reader)
 		ereport(NOTICE,
 				(errmsg("the domain of mesh \"%s\" does not fit its points",
 						get_rel_name(mesh_pages(host)->mesh)),
-				 errdetail("Pages are found more slowly than need be."),
-				 errhint("CALL abacus_build for the mesh: it gets another domain, and its pages other "
-						 "keys. That takes as long as building it did.")));
+				 errdetail("Finding pages takes longer than necessary."),
+				 errhint("CALL abacus_build for the mesh to give it a new domain and its pages new "
+						 "keys. This takes as long as building the mesh.")));
 }
 
 /* abacus_stats(mesh regclass) -> name, value, description */

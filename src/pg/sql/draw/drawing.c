@@ -73,7 +73,7 @@ drawing_ramp_argument(FunctionCallInfo fcinfo, int argument)
 {
 	return ABACUS_RAMP_TERRAIN +
 		word_argument(fcinfo, argument, ramps, "ramp",
-					  "Ramps are terrain, strata, viridis, magma, cividis, grey and diverging.");
+					  "Use terrain, strata, viridis, magma, cividis, grey or diverging.");
 }
 
 void
@@ -96,7 +96,7 @@ drawing_interval(FunctionCallInfo fcinfo, int argument)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("contours must be a finite number above 0"),
-				 errhint("It is the difference of values from one line to the next.")));
+				 errhint("Give the difference in value from one line to the next.")));
 	return interval;
 }
 

@@ -129,7 +129,7 @@ light(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("light must be a direction in degrees, and an altitude above 0 and at most 90"),
-				 errhint("The direction counts clockwise from north: {315,45} is in the north-west, halfway up.")));
+				 errhint("The direction is counted clockwise from north: {315,45} is in the north-west, halfway up.")));
 	if (drawing->attribute < 0 || drawing->exaggeration == 0)
 		ereport(NOTICE, (errmsg("light has no effect without exaggeration")));
 }
@@ -193,10 +193,10 @@ tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cell
 					get_rel_name(mesh_pages(reader->host)->mesh)),
 			 has_cells ? errdetail("None of its %s is %s.", cells, place) :
 			 waiting == 0 ? errdetail("It has no %s.", cells) :
-			 errdetail("It has no %s. %llu points wait: they are staged only, or span none.", cells,
+			 errdetail("It has no %s. %llu points wait: they are only staged, or span none.", cells,
 					   (unsigned long long) waiting),
 			 has_cells && drawing->max_edge > 0 ?
-			 errhint("Those with an edge longer than max_edge are left out.") : 0));
+			 errhint("Increase max_edge: %s with a longer edge are left out.", cells) : 0));
 }
 
 /*
@@ -328,7 +328,7 @@ camera_arguments(FunctionCallInfo fcinfo, const abacus_form *form, abacus_camera
 	camera->field_of_view = PG_ARGISNULL(VOLUME_FIELD_OF_VIEW) ? 0
 		: PG_GETARG_FLOAT8(VOLUME_FIELD_OF_VIEW);
 	camera->mode = word_argument(fcinfo, VOLUME_MODE, ray_modes, "mode",
-								 "Modes are mean, max, min and sum.");
+								 "Use mean, max, min or sum.");
 }
 
 /*

@@ -80,7 +80,7 @@ own_world(ArrayType *array, abacus_tile *tile)
 		ereport(ERROR,
 				(errcode(ERRCODE_ARRAY_SUBSCRIPT_ERROR),
 				 errmsg("world must have 3 elements, not %d", count),
-				 errhint("They are x and y of its lower left corner, and its side.")));
+				 errhint("Give x and y of its lower left corner, and its side.")));
 	for (int i = 0; i < 2; i++)
 		tile->lower[i] = DatumGetFloat8(world[i]);
 	tile->side = DatumGetFloat8(world[2]);
@@ -101,12 +101,17 @@ tile_srid(FunctionCallInfo fcinfo, const abacus_form *form)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("the mesh has no SRID, so its place on the map is not known"),
-				 errhint("Say by abacus_set_srid(mesh, 4326) that its coordinates are longitude and latitude, or by abacus_set_srid(mesh, 3857) that they are of Web Mercator; or give srid, or world for a map of their own.")));
+				 errhint("Say with abacus_set_srid(mesh, 4326) that its coordinates are longitude "
+						 "and latitude, or with abacus_set_srid(mesh, 3857) that they are in Web "
+						 "Mercator; or give srid, or world for a map of their own.")));
 	if (srid != 4326 && srid != 3857)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("srid must be 4326 or 3857, not %d", srid),
-				 errhint("Tiles are of meshes in longitude and latitude (4326) or in Web Mercator (3857). Transform other points before they are triangulated, for instance by ST_Transform of PostGIS, or give world for a map of their own.")));
+				 errhint("Tiles need a mesh in longitude and latitude (4326) or in Web Mercator "
+						 "(3857). Transform other points before they are triangulated, for "
+						 "instance with ST_Transform of PostGIS, or give world for a map of their "
+						 "own.")));
 	return srid;
 }
 
@@ -135,7 +140,7 @@ tile_begin(FunctionCallInfo fcinfo, abacus_tile *tile, abacus_tile_memory *memor
 			return NULL;
 	memset(tile, 0, sizeof(*tile));
 	reader = reader_open(PG_GETARG_OID(TILE_MESH), CurrentMemoryContext);
-	header_require_dimension(&reader->header.facts.form, 2, "Tiles are of meshes in the plane.");
+	header_require_dimension(&reader->header.facts.form, 2, "Use a mesh in the plane.");
 	tile_world(fcinfo, &reader->header.facts.form, tile);
 	tile->zoom = PG_GETARG_INT32(TILE_ZOOM);
 	tile->x = PG_GETARG_INT32(TILE_X);
@@ -252,7 +257,7 @@ abacus_sql_tile_terrain(PG_FUNCTION_ARGS)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("fill must be a finite number"),
-				 errhint("It is the height where there is no mesh.")));
+				 errhint("Give the height where there is no mesh.")));
 	host_run(host, abacus_tile_terrain, &host->table, &reader->header.facts, &tile, &kind, &memory,
 			 &picture);
 	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));

@@ -107,7 +107,7 @@ find_range(const Tiles *tiles, double *range)
 	if (isnull)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("no vertex has a value of the attribute"),
+				 errmsg("no vertex has a value for the attribute"),
 				 errhint("Give the range of the colours.")));
 	if (!(range[0] < range[1]))
 		range[1] = range[0] + 1;
@@ -252,7 +252,7 @@ abacus_sql_tiles(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	mesh = PG_GETARG_OID(TILES_MESH);
 	reader = reader_open(mesh, CurrentMemoryContext);
-	header_require_dimension(&reader->header.facts.form, 2, "Tiles are of meshes in the plane.");
+	header_require_dimension(&reader->header.facts.form, 2, "Use a mesh in the plane.");
 	has_attribute = reader->header.facts.columns.attributes > 0;
 	tiles.attribute = text_literal(fcinfo, TILES_ATTRIBUTE);
 	if (has_attribute)

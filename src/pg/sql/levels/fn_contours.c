@@ -65,7 +65,7 @@ path_array(const double *path, size_t points)
 		ereport(ERROR,
 				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
 				 errmsg("a contour has %zu points, more than an array can hold", points),
-				 errhint("Ask for the contours of parts of the mesh, by lower and upper.")));
+				 errhint("Ask for the contours of one part of the mesh at a time, with lower and upper.")));
 	array = palloc0(bytes);
 	SET_VARSIZE(array, bytes);
 	array->ndim = 1;
@@ -142,13 +142,13 @@ level_arguments(FunctionCallInfo fcinfo, abacus_contouring *how)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("level_interval must be a finite number greater than 0"),
-				 errhint("It is the difference between a level and the next one.")));
+				 errhint("Give the difference between a level and the next one.")));
 	if (!isfinite(how->base))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("level_base must be finite"),
-				 errhint("It is one of the levels; the others are multiples of level_interval "
-						 "away from it.")));
+				 errhint("Give one of the levels; the others are multiples of level_interval away "
+						 "from it.")));
 }
 
 /*

@@ -179,7 +179,7 @@ vector_argument(FunctionCallInfo fcinfo, int argument, const abacus_form *form,
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 					 errmsg("%s must be finite on axis %c", name, "xyz"[i]),
-					 errhint("A plane is given by a point of it and the direction at right angles.")));
+					 errhint("Give a point of the plane and the direction at right angles to it.")));
 }
 
 static void
@@ -193,7 +193,7 @@ section_arguments(FunctionCallInfo fcinfo, abacus_names names,
 	if (query->normal[0] == 0 && query->normal[1] == 0 && query->normal[2] == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE), errmsg("normal must not be zero"),
-				 errhint("A normal of any other length will do.")));
+				 errhint("Give a normal of any other length.")));
 	query->attribute = attribute_or_none(fcinfo, SECTION_ATTRIBUTE, names);
 	if (query->attribute < 0 && names.facts->columns.attributes > 0)
 		query->attribute = header_only_attribute(names);

@@ -69,7 +69,7 @@ abacus_sql_ray(PG_FUNCTION_ARGS)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("direction must not have length 0"),
-				 errhint("abacus_star() gives the simplices around one place.")));
+				 errhint("Use abacus_star() for the simplices around one place.")));
 	host_run(answers.host, abacus_mesh_ray, cached->mesh, origin, direction, put_simplex,
 			 &answers);
 	host_release(answers.host);

@@ -60,7 +60,7 @@ end_argument(FunctionCallInfo fcinfo, int argument, int height_argument, const c
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("%s has z, so %s_height must not be given", name, name),
-				 errhint("The height is that above the ground, of an end without z.")));
+				 errhint("Give a height above the ground only for an end without z.")));
 	end->place[0] = place[0];
 	end->place[1] = place[1];
 	end->stands = count == 2;
@@ -87,7 +87,7 @@ abacus_sql_visible(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	cached = mesh_cache_get(PG_GETARG_OID(SIGHT_MESH));
 	header_require_dimension(&cached->header.facts.form, 2,
-							 "A terrain is a mesh in the plane with the height as an attribute.");
+							 "Use a terrain: a mesh in the plane with the height as an attribute.");
 	interpolation_attribute(fcinfo, SIGHT_ATTRIBUTE, abacus_names_of(&cached->header), &how);
 	interpolation_max_edge(fcinfo, SIGHT_MAX_EDGE, &how);
 	end_argument(fcinfo, SIGHT_OBSERVER, SIGHT_OBSERVER_HEIGHT, "observer", &observer);

@@ -39,8 +39,8 @@ shape_of_rows(const Source *source, abacus_header *header, uint32 *labels)
 	if (columns <= first)
 		ereport(ERROR,
 				(errcode(ERRCODE_DATATYPE_MISMATCH),
-				 errmsg("source query has no column of a label"),
-				 errhint("Behind code and vertices of a simplex come columns that are named after labels.")));
+				 errmsg("source query has no column for a label"),
+				 errhint("After the code and the vertices of a simplex, add columns that are named after labels.")));
 	for (int i = first; i < columns; i++)
 	{
 		const char *name = source_column_name(source, i);

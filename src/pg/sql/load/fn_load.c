@@ -41,12 +41,12 @@ dimension_of(const Source *simplices, int labels)
 			(errcode(ERRCODE_DATATYPE_MISMATCH),
 			 errmsg("simplices query returns %d columns, not %d or %d", columns, 3 + labels, 4 + labels),
 			 labels > 0
-			 ? errdetail("Columns go by position: v0, v1, v2 of triangles or v0, v1, v2, v3 of "
-						 "tetrahedra, then the labels.")
-			 : errdetail("Columns go by position: v0, v1, v2 of triangles; v0, v1, v2, v3 of "
-						 "tetrahedra."),
+			 ? errdetail("Columns are matched by position: v0, v1, v2 of triangles or v0, v1, v2, "
+						 "v3 of tetrahedra, then the labels.")
+			 : errdetail("Columns are matched by position: v0, v1, v2 of triangles; v0, v1, v2, v3 "
+						 "of tetrahedra."),
 			 vertices > 3
-			 ? errhint("Labels behind the vertices are taken if all are named, as in labels => '{%s}'.",
+			 ? errhint("To take labels after the vertices, name all of them, as in labels => '{%s}'.",
 					   is_named(last) ? last : "material") : 0));
 }
 
@@ -64,8 +64,8 @@ tell_dimension(const abacus_form *form, const Source *vertices, const Source *si
 	z = source_column_name(vertices, 3);
 	if (is_named(z) && strchr(z, 'z') == NULL)
 		ereport(NOTICE,
-				(errmsg("simplices of four columns are tetrahedra: \"%s\" of the vertices is taken for z, "
-						"\"%s\" for v3", z, source_column_name(simplices, 3)),
+				(errmsg("simplices with four columns are tetrahedra: \"%s\" of the vertices is "
+						"taken as z, \"%s\" as v3", z, source_column_name(simplices, 3)),
 				 errhint("If these are triangles with a label, name it, as in labels => '{%s}'.",
 						 is_named(source_column_name(simplices, 3))
 						 ? source_column_name(simplices, 3) : "material")));
@@ -140,15 +140,15 @@ tell(abacus_delaunay delaunay, bool retriangulated, bool labelled, bool marked)
 	if (retriangulated)
 		ereport(NOTICE,
 				(errmsg("the vertices have been triangulated anew"),
-				 errdetail("Of the triangulation that was given: %s", reason),
-				 labelled ? errhint("The simplices are others: their labels are NULL.") :
-				 marked ? errhint("The facets are others: they have no markers.") : 0));
+				 errdetail("About the triangulation that was given: %s", reason),
+				 labelled ? errhint("The simplices are new: their labels are NULL.") :
+				 marked ? errhint("The facets are new: they have no markers.") : 0));
 	else
 		ereport(NOTICE,
 				(errmsg("%s", abacus_delaunay_clause(delaunay)),
-				 errdetail("%s The mesh can be read, not changed.", reason),
-				 errhint("With retriangulate => true it is Abacus' own triangulation of the "
-						 "vertices, which can be changed.")));
+				 errdetail("%s The mesh can be read, but not changed.", reason),
+				 errhint("Use retriangulate => true for Abacus' own triangulation of the vertices, "
+						 "which can be changed.")));
 }
 
 /* Triangulates the vertices that were loaded. */
@@ -219,7 +219,7 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
 				 errmsg("a mesh with split nodes can have at most %u attributes",
 						ABACUS_MAX_PAGE_ATTRIBUTES),
-				 errhint("Name those that are needed, or keep the others in a table by id.")));
+				 errhint("Name only the attributes that are needed, and keep the others in a table by id.")));
 	shape_domain(&header->facts.form, PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4),
 				 PG_ARGISNULL(5) ? NULL : PG_GETARG_ARRAYTYPE_P(5));
 

@@ -293,8 +293,8 @@ across_what(text *given, uint32 dimension)
 	ereport(ERROR,
 			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 			 errmsg("across must not be \"%s\"", name),
-			 dimension == 3 ? errhint("It is 'faces', 'edges' or 'corners'.")
-			 : errhint("In the plane it is 'faces' or 'corners'.")));
+			 dimension == 3 ? errhint("Use 'faces', 'edges' or 'corners'.")
+			 : errhint("In the plane, use 'faces' or 'corners'.")));
 	return 0;					/* not reached */
 }
 

@@ -37,8 +37,9 @@ refuse_answer(const char *detail)
 			(errcode(ERRCODE_DATATYPE_MISMATCH),
 			 errmsg("the query does not return one array of sizes"),
 			 errdetail("%s", detail),
-			 errhint("It gets the arrays $1, $2 (and $3) of coordinates of centers, and returns one "
-					 "float8[] with a size for each: SELECT my_sizes($1, $2).")));
+			 errhint("Write a query that takes the arrays $1, $2 (and $3) of the coordinates of "
+					 "centres and returns one float8[] with a size for each: "
+					 "SELECT my_sizes($1, $2).")));
 }
 
 static void
@@ -71,7 +72,7 @@ run(SizeQuery *query, size_t count, const double *const *centers, double *sizes)
 		refuse_answer("It is not a SELECT.");
 	MemoryContextSwitchTo(query->scratch);	/* SPI has gone to its own */
 	if (SPI_processed != 1 || SPI_tuptable->tupdesc->natts != 1)
-		refuse_answer("It returned another number of rows or columns than one.");
+		refuse_answer("It did not return exactly one row with one column.");
 	if (SPI_gettypeid(SPI_tuptable->tupdesc, 1) != FLOAT8ARRAYOID)
 		refuse_answer(psprintf("It returned a value of type %s.",
 							   format_type_be(SPI_gettypeid(SPI_tuptable->tupdesc, 1))));

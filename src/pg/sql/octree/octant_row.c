@@ -23,8 +23,8 @@ octant_row_type(FunctionCallInfo fcinfo)
 	result_require_type(row_type, "abacus_octant", types, OCTANT_COLUMNS,
 						"code, a bigint, level, an integer, and lower, upper and attributes, all "
 						"of type double precision[]",
-						"abacus_octree_elements() still returns the leaves: save them, and make the "
-						"extension and its octrees anew.");
+						"Save the leaves, which abacus_octree_elements() still returns, and make "
+						"the extension and its octrees anew.");
 	return row_type;
 }
 

@@ -282,10 +282,10 @@ abacus_sql_drape(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	drape.mesh = mesh_cache_get(PG_GETARG_OID(DRAPE_MESH));
 	header_require_dimension(&drape.mesh->header.facts.form, 2,
-							 "A terrain is a mesh in the plane with the height as an attribute.");
+							 "Use a terrain: a mesh in the plane with the height as an attribute.");
 	interpolation_attribute(fcinfo, DRAPE_ATTRIBUTE, abacus_names_of(&drape.mesh->header), &drape.how);
 	drape.how.outside = word_argument(fcinfo, DRAPE_OUTSIDE, outsides, "outside",
-									  "Outside the mesh the value is null, or that of the nearest vertex.");
+									  "Use null, or nearest for the value of the nearest vertex.");
 	interpolation_max_edge(fcinfo, DRAPE_MAX_EDGE, &drape.how);
 	drape.densifies = !PG_ARGISNULL(DRAPE_DENSIFY) && PG_GETARG_BOOL(DRAPE_DENSIFY);
 	drape.in = geometry_bytes(type, PG_GETARG_DATUM(DRAPE_GEOMETRY));

@@ -91,7 +91,7 @@ abacus_sql_geometry_area(PG_FUNCTION_ARGS)
 	GeometryBytes bytes = geometry_bytes(geometry_argument_type(fcinfo, 1), PG_GETARG_DATUM(1));
 	GeometryHead head = geometry_head(&bytes);
 
-	header_require_dimension(&facts->form, 2, "Areas are for meshes of dimension 2.");
+	header_require_dimension(&facts->form, 2, "Use a mesh of dimension 2.");
 	if (head.kind != GEOMETRY_POLYGON && head.kind != GEOMETRY_MULTIPOLYGON)
 		geometry_refuse_kind("the geometry", head.kind, "a Polygon or MultiPolygon");
 	geometry_check_srid(&facts->form, head.srid);
@@ -128,7 +128,7 @@ abacus_sql_geometry_path(PG_FUNCTION_ARGS)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("the geometry has no z, but the mesh has dimension %d", dimension),
-				 errhint("ST_Force3DZ(geometry, z) gives it one.")));
+				 errhint("Add one with ST_Force3DZ(geometry, z).")));
 	count = geometry_count(&bytes);
 	if (count == 0)
 		PG_RETURN_NULL();

@@ -226,8 +226,8 @@ outline_of(const Nesting *nesting, size_t hole)
 		if (steps == nesting->rings.count || ring == NO_RING)
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-					 errmsg("a hole is in no outline"),
-					 errhint("Rings must not cross, and go counterclockwise around what is inside.")));
+					 errmsg("a hole does not lie in an outline"),
+					 errhint("Give rings that do not cross and that run counterclockwise around what is inside.")));
 	}
 	return ring;
 }

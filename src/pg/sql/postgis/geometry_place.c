@@ -39,7 +39,7 @@ geometry_place(FunctionCallInfo fcinfo, int argument, const char *what,
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("%s has no z, but the mesh has dimension %u", what, form->dimension),
-				 errhint("ST_Force3DZ(geometry, z) gives it one.")));
+				 errhint("Add one with ST_Force3DZ(geometry, z).")));
 	memcpy(place, point.at, form->dimension * sizeof(double));
 	return true;
 }

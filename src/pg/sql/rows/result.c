@@ -36,7 +36,7 @@ result_require_type(TupleDesc row_type, const char *name, const Oid *types, int 
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("type %s has been altered", name),
-				 errdetail("Its attributes are %s.", attributes), errhint("%s", hint)));
+				 errdetail("Its attributes must be %s.", attributes), errhint("%s", hint)));
 }
 
 void

@@ -20,7 +20,7 @@ require_type(TupleDesc row_type)
 
 	result_require_type(row_type, "abacus_simplex", types, SIMPLEX_COLUMNS,
 						"code, v0, v1, v2 and v3, all of type bigint",
-						"abacus_vertices() still returns the points: save them, and make the "
+						"Save the points, which abacus_vertices() still returns, and make the "
 						"extension and its meshes anew.");
 }
 

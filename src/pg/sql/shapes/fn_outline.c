@@ -41,7 +41,7 @@ alpha_arguments(FunctionCallInfo fcinfo, const abacus_form *form, abacus_outline
 	if (!(kind->alpha > 0))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("alpha must be greater than 0, and a number"),
+				 errmsg("alpha must be a number greater than 0"),
 				 errhint("alpha is the square of a radius, as in ST_AlphaShape.")));
 	kind->has_alpha = isfinite(kind->alpha) != 0;
 	if (PG_ARGISNULL(2))

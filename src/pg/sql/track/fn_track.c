@@ -136,7 +136,7 @@ check_persistence(Relation table, char of_mesh)
 		ereport(ERROR,
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
 				 errmsg("a temporary mesh cannot follow a permanent table"),
-				 errdetail("Other sessions could not write the table any more.")));
+				 errdetail("Other sessions could no longer write to the table.")));
 	if (of_mesh != of_table)
 		ereport(ERROR,
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
@@ -209,7 +209,7 @@ present_triggers(Oid function, Oid mesh, Relation table)
 		else if (!trigger->auxiliary && (trigger->bound || !is_bound))
 			ereport(ERROR,
 					(errcode(ERRCODE_OBJECT_IN_USE),
-					 errmsg("mesh \"%s\" follows table \"%s\" already", get_rel_name(mesh),
+					 errmsg("mesh \"%s\" already follows table \"%s\"", get_rel_name(mesh),
 							get_rel_name(trigger->table)),
 					 errdetail("A mesh follows one table; a table may be followed by many meshes."),
 					 errhint("Call abacus_untrack() first, or make another mesh.")));
@@ -254,9 +254,9 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("mesh \"%s\" does not hold the points of table \"%s\"", get_rel_name(mesh),
 						RelationGetRelationName(table)),
-				 errdetail("Points that the mesh lacks: " UINT64_FORMAT "; points that it has too many: "
+				 errdetail("Points missing from the mesh: " UINT64_FORMAT "; surplus points in the mesh: "
 						   UINT64_FORMAT ".", missing, surplus),
-				 errhint("With synchronize => true they are inserted and deleted.")));
+				 errhint("Use synchronize => true to insert and delete them.")));
 	/* inserted first, a point whose attributes alone differ takes over from the other */
 	change_hold(change);
 	change_swap_stages(change);

@@ -33,7 +33,7 @@ require_plane(FunctionCallInfo fcinfo)
 {
 	if (!PG_ARGISNULL(0))
 		header_require_dimension(&mesh_cache_get(PG_GETARG_OID(0))->header.facts.form, 2,
-								 "In space take abacus_gradient().");
+								 "In space, use abacus_gradient().");
 }
 
 /* Sets the gradient, of as many numbers as it returns; 0 where there is none. */

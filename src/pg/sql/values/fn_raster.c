@@ -60,7 +60,7 @@ pixels_argument(FunctionCallInfo fcinfo, int argument, const char *name, int mos
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("%s must be at least 1, not %d", name, count),
-				 errhint("It is the number of pixels.")));
+				 errhint("Give the number of pixels.")));
 	if (count > most)
 		ereport(ERROR,
 				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),

@@ -125,7 +125,7 @@ require_plane(const Reader *reader)
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("mesh \"%s\" has dimension %u, not 2",
 						get_rel_name(mesh_pages(reader->host)->mesh), reader->header.facts.form.dimension),
-				 errhint("In space abacus_volume() takes a base, the value that divides one mesh.")));
+				 errhint("In space, give abacus_volume() a base, the value that divides one mesh.")));
 }
 
 /* A call of the core that reads two meshes: either may be the one that has failed. */
@@ -221,7 +221,7 @@ abacus_sql_volume_between_named(PG_FUNCTION_ARGS)
 		if (!PG_ARGISNULL(OF_OTHER_ATTRIBUTE))
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-					 errmsg("other_attribute is that of another mesh, but %s is a base", given),
+					 errmsg("other_attribute needs another mesh, but %s is a base", given),
 					 errhint("Name another mesh, or leave other_attribute out.")));
 		PG_RETURN_DATUM(volume_above(fcinfo, base));
 	}

@@ -1,0 +1,138 @@
+#include "staging/distributor_threads.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace abacus {
+
+namespace {
+/// The session's thread looks for interrupts so often while it waits.
+constexpr std::chrono::milliseconds longest_wait{20};
+} // namespace
+
+template <int D>
+DistributorThreads<D>::DistributorThreads(const Host &host, Distributor<D> &distributor,
+                                          std::size_t stride, std::size_t piece)
+    : host_(host), distributor_(distributor), stride_(stride),
+      threads_(std::min(host.threads(), most_threads)), memory_(host), part_memory_(host),
+      blocks_(host), empty_(host), crew_(host) {
+    const std::size_t blocks = blocks_for(threads_), words = piece * stride;
+    memory_.resize((blocks + pieces) * words);
+    part_memory_.resize(blocks * piece);
+    for (std::size_t i = 0; i < blocks; ++i)
+        blocks_.push_back({memory_.data() + i * words, part_memory_.data() + i * piece, 0});
+    empty_.reserve(pieces);
+    for (std::size_t i = 0; i < pieces; ++i)
+        empty_.push_back(memory_.data() + (blocks + i) * words);
+}
+
+// ---- The session's thread ---------------------------------------------------------------
+
+template <int D> template <class IsReady> void DistributorThreads<D>::wait(IsReady is_ready) {
+    for (bool ready = false; !ready;) {
+        {
+            std::unique_lock guard(lock_);
+            for_session_.wait_for(guard, longest_wait,
+                                  [&] { return is_ready() || written_ < sent_; });
+            ready = is_ready();
+        }
+        host_.poll();
+        empty_outbox();
+    }
+}
+
+template <int D> void DistributorThreads<D>::add(const std::uint64_t *records, std::size_t n) {
+    wait([&] { return brought_ - dealt_ < blocks_.size(); });
+    Block &block = blocks_[brought_ % blocks_.size()];
+    std::copy_n(records, n * stride_, block.records);
+    block.n = n;
+    const std::lock_guard guard(lock_);
+    ++brought_;
+    for_threads_.notify_all();
+}
+
+template <int D> void DistributorThreads<D>::finish() {
+    {
+        const std::lock_guard guard(lock_);
+        is_over_ = true;
+        for_threads_.notify_all();
+    }
+    wait([&] { return dealt_ == brought_; });
+    crew_.finish();
+}
+
+template <int D> void DistributorThreads<D>::empty_outbox() {
+    const auto next = [&]() -> const FullPiece * {
+        const std::lock_guard guard(lock_);
+        return written_ < sent_ ? &outbox_[written_ % pieces] : nullptr;
+    };
+    while (const FullPiece *full = next()) {
+        distributor_.write(full->part, full->records);
+        const std::lock_guard guard(lock_);
+        empty_.push_back(full->records);
+        ++written_;
+        for_threads_.notify_all();
+    }
+}
+
+// ---- The other threads ------------------------------------------------------------------
+
+template <int D> void DistributorThreads<D>::piece(std::size_t, const Host &) {
+    for (std::uint64_t number; take(number);) {
+        const Block &block = blocks_[number % blocks_.size()];
+        for (std::size_t i = 0; i < block.n; ++i)
+            block.parts[i] = distributor_.part_of(block.records + i * stride_);
+        if (!wait_for_turn(number) || !deal_out(block)) return;
+        count_dealt();
+    }
+}
+
+template <int D> bool DistributorThreads<D>::take(std::uint64_t &number) {
+    std::unique_lock guard(lock_);
+    for_threads_.wait(guard, [&] { return gives_up_ || is_over_ || taken_ < brought_; });
+    if (gives_up_ || taken_ == brought_) return false;
+    number = taken_++;
+    return true;
+}
+
+template <int D> bool DistributorThreads<D>::wait_for_turn(std::uint64_t number) {
+    std::unique_lock guard(lock_);
+    for_threads_.wait(guard, [&] { return gives_up_ || dealt_ == number; });
+    return !gives_up_;
+}
+
+template <int D> bool DistributorThreads<D>::deal_out(const Block &block) {
+    for (std::size_t i = 0; i < block.n; ++i)
+        if (distributor_.put(block.parts[i], block.records + i * stride_) && !send(block.parts[i]))
+            return false;
+    return true;
+}
+
+template <int D> bool DistributorThreads<D>::send(unsigned part) {
+    std::unique_lock guard(lock_);
+    for_threads_.wait(guard, [&] { return gives_up_ || empty_.size() > 0; });
+    if (gives_up_) return false;
+    std::uint64_t *const empty = empty_.back();
+    empty_.pop_back();
+    outbox_[sent_++ % pieces] = {part, distributor_.exchange(part, empty)};
+    for_session_.notify_one();
+    return true;
+}
+
+template <int D> void DistributorThreads<D>::count_dealt() {
+    const std::lock_guard guard(lock_);
+    ++dealt_;
+    for_threads_.notify_all();
+    for_session_.notify_one();
+}
+
+template <int D> void DistributorThreads<D>::give_up() noexcept {
+    const std::lock_guard guard(lock_);
+    gives_up_ = true;
+    for_threads_.notify_all();
+}
+
+template class DistributorThreads<2>;
+template class DistributorThreads<3>;
+
+} // namespace abacus
