@@ -80,6 +80,7 @@ CORE.staging += src/points/waiting_points.cpp
 CORE.staging += src/staging/curve_sort.cpp
 CORE.staging += src/staging/density.cpp
 CORE.staging += src/staging/distributor.cpp
+CORE.staging += src/staging/distributor_threads.cpp
 CORE.staging += src/staging/external_sort.cpp
 CORE.staging += src/staging/splitters.cpp
 CORE.staging += src/staging/stage.cpp

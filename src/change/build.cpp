@@ -25,12 +25,15 @@ void Build<D>::change(abacus_header &header, Change change) {
     work_.core->cache.expect_last_pass(false);
     work_.facts = &header.facts;
     std::uint64_t time = 0;
-    {
+    try {
         const Stopwatch stopwatch(time);
         const std::uint64_t done = change();
         work_.report(ABACUS_PHASE_FLUSHING, done, done);
         work_.flush();
         labels_.follow();
+    } catch (...) {
+        gathering_.stop();
+        throw;
     }
     header.facts.census.simplices = static_cast<std::uint64_t>(work_.core->mesh.simplices());
     header.facts.census.ghosts = static_cast<std::uint64_t>(work_.core->mesh.ghosts());

@@ -5,7 +5,6 @@
 #include "staging/rounds.hpp"
 
 #include <algorithm>
-#include <deque>
 
 namespace abacus {
 
@@ -17,67 +16,17 @@ template <int D> constexpr std::size_t worth_sharing = D == 2 ? 1 << 16 : 1 << 1
 constexpr std::size_t gathered_share = 3, least_gathered = std::size_t{4} << 20;
 /// Points from which on there is room for all: nothing is moved then.
 constexpr std::size_t worth_reserving = 1 << 15;
+/// Points that are gathered between two looks at what threads ask for: some microseconds.
+constexpr std::size_t served_every = 64;
 /// For tests: points of an interval on average, unless there would be too many of them.
 constexpr std::size_t tiny_interval = 4, most_tiny_intervals = 256;
 
 } // namespace
 
-/// One pass of all threads: each takes one interval after the other.
-template <int D> class Gathering<D>::Pass final : public Crew::Work {
-public:
-    /// With `how`, points are taken away.
-    Pass(Gathering &gathering, const Cuts &cuts, const Removing *how)
-        : gathering_(gathering), work_(gathering.work_), cuts_(cuts), how_(how),
-          host_memory_(work_.host), results_(&host_memory_) {
-        Crew &crew = *gathering.crew_;
-        for (std::size_t i = 0; i < cuts.size(); ++i) results_.emplace_back(crew.memory().memory());
-        if (work_.changes != nullptr) work_.changes->work_with(crew);
-    }
-    Pass(const Pass &) = delete;
-    Pass &operator=(const Pass &) = delete;
-    ~Pass() {
-        if (work_.changes != nullptr) work_.changes->drop_handed();
-    }
-
-    void piece(std::size_t number, const Host &host) override {
-        const Batch &batch = gathering_.gathered_;
-        std::optional<Interval<D>> interval;
-        for (std::size_t run = 0; run < batch.runs(); ++run) {
-            const std::size_t begin = cuts_.begin(number, batch, run),
-                              end = cuts_.end(number, batch, run);
-            if (begin == end) continue;
-            if (!interval)
-                interval.emplace(host, *work_.facts, cuts_.first(number), cuts_.last(number),
-                                 gathering_.thread_cache_bytes(), work_.changes);
-            if (how_ != nullptr)
-                interval->remove(batch, begin, end, *how_, done_, results_[number]);
-            else
-                interval->insert(batch, begin, end, gathering_.user_->counts_crowded(), done_,
-                                 results_[number]);
-        }
-        if (interval) interval->finish(results_[number]);
-    }
-    void meanwhile() override {
-        if (work_.changes != nullptr) work_.changes->take_handed();
-        gathering_.report_pass(done_.load(std::memory_order_relaxed));
-    }
-    using AllResults = std::pmr::deque<typename Interval<D>::Results>;
-    /// Of each interval.
-    const AllResults &results() const { return results_; }
-
-private:
-    Gathering &gathering_;
-    Workspace<D> &work_;
-    const Cuts &cuts_;
-    const Removing *const how_;
-    HostMemory host_memory_;
-    AllResults results_;
-    std::atomic<std::uint64_t> done_ = 0;
-};
-
 template <int D>
 Gathering<D>::Gathering(Workspace<D> &work)
-    : work_(work), host_(work.host), gathered_(host_, work.record_size()) {}
+    : work_(work), host_(work.host), gathered_(host_, work.record_size()),
+      working_(host_, work.record_size()), left_(host_, work.record_size()) {}
 
 template <int D> void Gathering<D>::begin(User &user, std::uint64_t points, std::size_t words) {
     user_ = &user;
@@ -85,8 +34,11 @@ template <int D> void Gathering<D>::begin(User &user, std::uint64_t points, std:
     to_do_ = points;
     gathered_.begin(words);
     // In equal parts: a small one at the end would take as many pages again.
-    const std::uint64_t room = std::max<std::uint64_t>(
-        1, std::max(work_.cache_bytes / gathered_share, least_gathered) / gathered_bytes(1));
+    const std::size_t bytes = std::max(work_.cache_bytes / gathered_share, least_gathered);
+    std::uint64_t room = std::max<std::uint64_t>(1, bytes / gathered_bytes(1));
+    // Of several batches the next one is gathered while threads insert one.
+    gathers_ahead_ = !user.removes() && points > room;
+    if (gathers_ahead_) room = std::max<std::uint64_t>(1, room / 2);
     const std::uint64_t parts = std::max<std::uint64_t>(1, (points + room - 1) / room);
     most_gathered_ =
         std::max((points + parts - 1) / parts, std::min<std::uint64_t>(room, worth_sharing<D>));
@@ -105,7 +57,8 @@ template <int D> std::size_t Gathering<D>::gathered_bytes(std::size_t points) co
 
 template <int D> std::size_t Gathering<D>::own_cache_bytes() const {
     if (!gathers()) return work_.cache_bytes;
-    const std::size_t gathered = gathered_bytes(std::min<std::uint64_t>(most_gathered_, to_do_));
+    const std::size_t gathered =
+        gathered_bytes(std::min<std::uint64_t>(most_gathered_, to_do_)) * (gathers_ahead_ ? 2 : 1);
     return work_.cache_bytes - std::min(gathered, work_.cache_bytes / gathered_share);
 }
 
@@ -128,6 +81,11 @@ void Gathering<D>::gather_one(const std::uint64_t *record, std::size_t words, st
         gathered_.begin_run();
     if (gathered_.size() == worth_reserving) gathered_.reserve(most_gathered_);
     gathered_.add(record, words, code);
+    if (pass_ && gathered_.size() % served_every == 0) serve();
+}
+
+template <int D> void Gathering<D>::serve() {
+    if (crew_->serve()) pass_->meanwhile();
 }
 
 /// An early round is hardly worth it: its mesh is in memory, and would have to be read again.
@@ -153,22 +111,33 @@ template <int D> Cuts Gathering<D>::cuts_for_threads() const {
 }
 
 template <int D> void Gathering<D>::change() {
+    end_work();
     if (gathered_.size() == 0) return;
-    Cuts cuts = cuts_for_threads();
-    if (cuts.size() > 1) change_on_threads(cuts);
-    change_here();
+    cuts_.emplace(cuts_for_threads());
+    gathered_.swap(working_);
+    gathered_.begin(working_.stride());
+    const bool is_shared = cuts_->size() > 1 && begin_work();
+    if (is_shared && gathers_ahead_) return; // and goes on while the threads insert
+    if (is_shared)
+        end_work();
+    else
+        change_here();
+}
+
+template <int D> void Gathering<D>::finish() {
+    change();
+    end_work();
 }
 
 template <int D> void Gathering<D>::change_here() {
     constexpr std::size_t most = Workspace<D>::most_at_once;
-    for (std::size_t i = 0; i < gathered_.size(); i += most) {
+    for (std::size_t i = 0; i < working_.size(); i += most) {
         host_.poll();
-        user_->take(gathered_.record(i), gathered_.codes() + i,
-                    std::min(most, gathered_.size() - i));
+        user_->take(working_.record(i), working_.codes() + i, std::min(most, working_.size() - i));
     }
     user_->finish_here();
-    done_ += gathered_.size();
-    gathered_.shorten(0);
+    done_ += working_.size();
+    working_.shorten(0);
 }
 
 template <int D> void Gathering<D>::report_pass(std::uint64_t done) {
@@ -187,46 +156,68 @@ template <int D> std::size_t Gathering<D>::thread_cache_bytes() const {
     return (work_.cache_bytes - work_.cache_bytes / gathered_share) / host_.threads();
 }
 
-template <int D> void Gathering<D>::change_on_threads(Cuts &cuts) {
+/// Starts the first pass; false if the system grants no thread, or no points are left for it.
+template <int D> bool Gathering<D>::begin_work() {
     if (!crew_) crew_.emplace(host_);
-    if (!user_->removes() && !host_.has_tiny_intervals()) insert_near_borders(cuts);
+    if (!user_->removes() && !host_.has_tiny_intervals()) insert_near_borders(*cuts_);
     if (user_->removes()) {
         work_.repeated->flush(); // threads read them
         if (work_.apart) work_.apart->flush();
     }
-    hand_over(cuts);
-    Batch left(host_, gathered_.stride());
-    run_passes(cuts, left, user_->begin_sharing());
+    hand_over(*cuts_);
+    left_.begin(working_.stride());
+    how_ = user_->begin_sharing();
+    if (working_.size() > 0 && begin_pass()) return true;
     user_->end_sharing();
-    work_.forget_cache();
-    for (std::size_t i = 0; i < left.size(); ++i) {
-        if (i % 256 == 0) host_.poll();
-        user_->take_left(left.record(i));
-    }
+    return false;
 }
 
-template <int D> void Gathering<D>::run_passes(Cuts &cuts, Batch &left, const Removing *how) {
-    std::size_t least = 1; // points that are worth a pass: of the first one any number
-    for (; cuts.size() > 1 && gathered_.size() >= least; cuts.join_pairs()) {
-        Pass pass(*this, cuts, how);
-        if (!crew_->run(host_.threads(), cuts.size(), pass)) return;
-        if (work_.changes != nullptr) work_.changes->take_handed(); // the last one
-        Arena<std::size_t> put_off(host_);
-        for (const auto &results : pass.results()) take_results(results, left, put_off);
-        std::sort(put_off.begin(), put_off.end());
-        abacus_counters &counters = work_.counters();
-        ++counters.passes;
-        counters.put_off += put_off.size();
-        counters.waited_ns += crew_->desk().waited();
-        done_ += gathered_.size() - put_off.size();
-        gathered_.keep(put_off);
-        if (!host_.has_tiny_intervals()) least = worth_sharing<D>;
-        if (how != nullptr && how->outlay.is_too_much()) return;
+template <int D> bool Gathering<D>::begin_pass() {
+    pass_.emplace(work_, *crew_,
+                  typename Pass<D>::Task{working_, *cuts_, thread_cache_bytes(),
+                                         user_->counts_crowded(), how_},
+                  [this](std::uint64_t done) { report_pass(done); });
+    if (!crew_->begin(host_.threads(), cuts_->size(), *pass_)) pass_.reset();
+    return pass_.has_value();
+}
+
+/// Waits for the threads, if they are at work, and does what they leave.
+template <int D> void Gathering<D>::end_work() {
+    if (!pass_) return;
+    while (end_pass() && begin_pass()) {
     }
+    user_->end_sharing();
+    work_.forget_cache();
+    for (std::size_t i = 0; i < left_.size(); ++i) {
+        if (i % 256 == 0) host_.poll();
+        user_->take_left(left_.record(i));
+    }
+    left_.shorten(0);
+    change_here();
+}
+
+/// Returns whether so many points are left that they are worth another pass.
+template <int D> bool Gathering<D>::end_pass() {
+    crew_->finish();
+    if (work_.changes != nullptr) work_.changes->take_handed(); // the last one
+    Arena<std::size_t> put_off(host_);
+    for (const auto &results : pass_->results()) take_results(results, put_off);
+    pass_.reset();
+    std::sort(put_off.begin(), put_off.end());
+    abacus_counters &counters = work_.counters();
+    ++counters.passes;
+    counters.put_off += put_off.size();
+    counters.waited_ns += crew_->desk().waited();
+    done_ += working_.size() - put_off.size();
+    working_.keep(put_off);
+    cuts_->join_pairs();
+    const bool is_too_much = how_ != nullptr && how_->outlay.is_too_much();
+    const std::size_t least = host_.has_tiny_intervals() ? 1 : worth_sharing<D>;
+    return !is_too_much && cuts_->size() > 1 && working_.size() >= least;
 }
 
 template <int D>
-void Gathering<D>::take_results(const typename Interval<D>::Results &results, Batch &left,
+void Gathering<D>::take_results(const typename Interval<D>::Results &results,
                                 Arena<std::size_t> &put_off) {
     abacus_census &census = work_.facts->census;
     census.simplices += static_cast<std::uint64_t>(results.simplices);
@@ -234,25 +225,25 @@ void Gathering<D>::take_results(const typename Interval<D>::Results &results, Ba
     census.vertices += static_cast<std::uint64_t>(results.vertices);
     census.outside += results.crowded;
     work_.counters() += results.counters;
-    for (const std::size_t i : results.left) deal_with_left(i, left);
+    for (const std::size_t i : results.left) deal_with_left(i);
     for (const std::size_t i : results.put_off) put_off.push_back(i);
     for (const std::size_t i : results.gone)
-        work_.apart->drop(record_point<D>(gathered_.record(i)), gathered_.code(i));
+        work_.apart->drop(record_point<D>(working_.record(i)), working_.code(i));
 }
 
 /// What need not wait for the last pass does not take memory until then.
-template <int D> void Gathering<D>::deal_with_left(std::size_t i, Batch &left) {
+template <int D> void Gathering<D>::deal_with_left(std::size_t i) {
     host_.poll();
     if (user_->keeps_left())
-        left.add(gathered_.record(i), gathered_.code(i));
+        left_.add(working_.record(i), working_.code(i));
     else
-        user_->take_left(gathered_.record(i));
+        user_->take_left(working_.record(i));
 }
 
 /// Of points with one code, which come one after the other, all or none: so of equal ones.
 template <int D> void Gathering<D>::insert_near_borders(const Cuts &cuts) {
     NearBorder<D> border(work_.domain, cuts);
-    Batch near(host_, gathered_.stride());
+    Batch near(host_, working_.stride());
     const auto insert = [&] {
         if (near.size() > 0) user_->take(near.record(0), near.codes(), near.size());
         done_ += near.size();
@@ -261,24 +252,24 @@ template <int D> void Gathering<D>::insert_near_borders(const Cuts &cuts) {
     std::size_t kept = 0;
     std::uint64_t last = 0;
     bool is_near = false;
-    for (std::size_t begin = 0; begin < gathered_.size(); begin += border.together) {
-        const std::size_t end = std::min(begin + border.together, gathered_.size());
-        const bool may_be_near = border.look_at(gathered_, begin, end);
+    for (std::size_t begin = 0; begin < working_.size(); begin += border.together) {
+        const std::size_t end = std::min(begin + border.together, working_.size());
+        const bool may_be_near = border.look_at(working_, begin, end);
         for (std::size_t i = begin; i < end; ++i) {
-            const std::uint64_t code = gathered_.code(i);
+            const std::uint64_t code = working_.code(i);
             if (i == 0 || code != last)
-                is_near = may_be_near && border.is_near(record_point<D>(gathered_.record(i)), code);
+                is_near = may_be_near && border.is_near(record_point<D>(working_.record(i)), code);
             last = code;
             if (is_near)
-                near.add(gathered_.record(i), gathered_.code(i));
+                near.add(working_.record(i), working_.code(i));
             else
-                gathered_.move(i, kept++);
+                working_.move(i, kept++);
             if (near.size() == Workspace<D>::most_at_once) insert();
         }
         host_.poll();
     }
     insert();
-    gathered_.shorten(kept);
+    working_.shorten(kept);
 }
 
 template <int D> void Gathering<D>::hand_over(const Cuts &cuts) {

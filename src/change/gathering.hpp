@@ -9,7 +9,8 @@
 //   1. The mesh is cut where the threads' intervals begin (cuts.hpp). The session's thread inserts
 //      points near the borders (near_border.hpp), and all pages are written.
 //   2. Each thread inserts or removes the points of its interval, in a cache of its own
-//      (interval.hpp), and writes its pages. The session's thread serves it.
+//      (interval.hpp), and writes its pages. The session's thread serves it. Meanwhile it gathers
+//      the next points to be inserted, if they come in several batches.
 //   3. Some points near borders have been put off. Each two intervals are joined, and the points
 //      put off there are dealt with in the same way: the border is inside now.
 //   4. When one interval is left, or few points are, the session's thread does the rest.
@@ -24,6 +25,7 @@
 
 #include "change/cuts.hpp"
 #include "change/interval.hpp"
+#include "change/pass.hpp"
 #include "change/workspace.hpp"
 #include "host/crew.hpp"
 
@@ -71,31 +73,39 @@ public:
     /// Records of points that are removed may come without attributes.
     void gather(const std::uint64_t *records, std::size_t n, std::size_t stride);
     void gather_one(const std::uint64_t *record, std::size_t words, std::uint64_t code);
-    /// Inserts the gathered points, or removes them. Comes after the last of them, too.
-    void change();
-    /// The points gathered so far.
-    std::size_t size() const { return gathered_.size(); }
+    /// After the last point: inserts the gathered points, or removes them.
+    void finish();
+    /// After a failure: stops threads that are at work.
+    void stop() noexcept {
+        if (crew_) crew_->stop();
+    }
+    /// If threads are at work: gives them what they ask for now.
+    void meanwhile() {
+        if (pass_) serve();
+    }
+    /// The points that are gathered, and not yet done.
+    std::size_t size() const { return gathered_.size() + working_.size(); }
     /// The memory for the cache of each thread.
     std::size_t thread_cache_bytes() const;
 
 private:
-    class Pass;
-
     /// The memory for this many gathered points, with copies of those that have to wait.
     std::size_t gathered_bytes(std::size_t points) const;
     /// The memory for the session's cache: with threads, what the gathered points leave.
     std::size_t own_cache_bytes() const;
     bool is_worth_sharing() const;
     Cuts cuts_for_threads() const;
+    /// Inserts the gathered points, or begins to, or removes them.
+    void change();
     void change_here();
-    void change_on_threads(Cuts &cuts);
-    /// Adds the points that the threads have left to the session's thread to `left`.
-    void run_passes(Cuts &cuts, Batch &left, const Removing *how);
-    void take_results(const typename Interval<D>::Results &results, Batch &left,
-                      Arena<std::size_t> &put_off);
-    /// For a gathered point that the threads have left to the session's thread: adds it to `left`
-    /// if it needs the mesh.
-    void deal_with_left(std::size_t i, Batch &left);
+    bool begin_work();
+    void end_work();
+    bool begin_pass();
+    bool end_pass();
+    void serve();
+    /// For a point that the threads have left to the session's thread.
+    void deal_with_left(std::size_t i);
+    void take_results(const typename Interval<D>::Results &results, Arena<std::size_t> &put_off);
     /// Inserts gathered points that threads would put off.
     void insert_near_borders(const Cuts &cuts);
     void report_pass(std::uint64_t done);
@@ -105,8 +115,14 @@ private:
     Workspace<D> &work_;
     const Host &host_;
     User *user_ = nullptr;
-    Batch gathered_;
+    Batch gathered_;           ///< so far
+    Batch working_;            ///< being inserted, or removed
+    Batch left_;               ///< what the threads have left to the session's thread
+    std::optional<Cuts> cuts_; ///< of the points being inserted, or removed
+    const Removing *how_ = nullptr;
+    std::optional<Pass<D>> pass_;        ///< while threads are at work
     std::size_t most_gathered_ = 0;      ///< points
+    bool gathers_ahead_ = false;         ///< while threads are at work
     std::uint64_t done_ = 0, to_do_ = 0; ///< gathered points, for reports
     std::chrono::steady_clock::time_point reported_{};
     std::optional<Crew> crew_; ///< the last member: the first to go

@@ -34,7 +34,9 @@ public:
     /// Adds points, which may be gathered.
     void add(const std::uint64_t *records, std::size_t n);
     /// After the last.
-    void finish() { gathering_.change(); }
+    void finish() { gathering_.finish(); }
+    /// While the next ones are looked for.
+    void meanwhile() { gathering_.meanwhile(); }
     std::size_t held_back() const { return gathering_.size(); }
     Workspace<D> &work() { return work_; }
 

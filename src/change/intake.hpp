@@ -47,6 +47,7 @@ public:
         work_.facts->census.staged = pages_->next();
     }
 
+    void meanwhile() override { inserting_.meanwhile(); }
     std::size_t held_back() const override { return inserting_.held_back(); }
     abacus_phase phase() const override { return ABACUS_PHASE_INSERTING; }
     PagesMoved pages_moved() const override { return work_.pages_moved(); }

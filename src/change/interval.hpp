@@ -55,6 +55,12 @@ public:
     Batch(const Memory &memory, std::size_t stride)
         : stride_(stride), records_(memory), codes_(memory), later_runs_(memory) {}
 
+    void swap(Batch &other) noexcept {
+        std::swap(stride_, other.stride_);
+        records_.swap(other.records_);
+        codes_.swap(other.codes_);
+        later_runs_.swap(other.later_runs_);
+    }
     /// Starts afresh with records of this many words.
     void begin(std::size_t stride) {
         shorten(0);

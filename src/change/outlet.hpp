@@ -31,11 +31,11 @@ public:
     void add(const std::uint64_t *record) override { add(record, 1, words_); }
     void add(const std::uint64_t *records, std::size_t n, std::size_t stride) override {
         if (is_shared()) return gathering_.gather(records, n, stride);
-        gathering_.change(); // if any points are left
+        gathering_.finish(); // if any points are left
         for (; n > 0; --n, records += stride) take_left(records);
     }
     void finish() override {
-        gathering_.change();
+        gathering_.finish();
         finish_here();
         if (work_.has_waiting()) take_waiting();
     }

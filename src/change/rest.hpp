@@ -59,6 +59,7 @@ private:
             pass_on();
             sink_.finish();
         }
+        void meanwhile() override { sink_.meanwhile(); }
         std::size_t held_back() const override { return held() + sink_.held_back(); }
         abacus_phase phase() const override { return sink_.phase(); }
         PagesMoved pages_moved() const override { return sink_.pages_moved(); }

@@ -36,6 +36,14 @@ public:
           data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)),
           capacity_(std::exchange(other.capacity_, 0)), ready_(std::exchange(other.ready_, 0)) {}
     ~Arena() { memory_.release(block_); }
+    /// Both in the same memory.
+    void swap(Arena &other) noexcept {
+        std::swap(block_, other.block_);
+        std::swap(data_, other.data_);
+        std::swap(size_, other.size_);
+        std::swap(capacity_, other.capacity_);
+        std::swap(ready_, other.ready_);
+    }
 
     T &operator[](Index i) { return data_[static_cast<std::size_t>(i)]; }
     const T &operator[](Index i) const { return data_[static_cast<std::size_t>(i)]; }

@@ -27,6 +27,8 @@ public:
     bool has_tiny_intervals() const { return table_->tiny_intervals != 0; }
     /// For tests: bytes that threads may have in all; 0: any number.
     std::size_t most_thread_bytes() const { return table_->most_thread_bytes; }
+    /// Whether both are of one host.
+    bool is_same(const Control &other) const { return table_ == other.table_; }
     void progress(const abacus_progress &progress) const {
         host::require(table_->progress(table_->context, &progress));
     }

@@ -10,6 +10,9 @@ namespace abacus {
 
 namespace {
 
+/// How long the session's thread waits at a desk while another one has threads, too.
+constexpr std::chrono::microseconds soon{100};
+
 /// Threads that are started inherit the mask.
 class SignalsBlocked {
 public:
@@ -28,7 +31,7 @@ private:
 
 } // namespace
 
-Crew *Crew::at_work_ = nullptr;
+Crew *Crew::first_ = nullptr;
 
 Crew::Crew(const Host &host)
     : host_(host), host_memory_(host), couriers_(&host_memory_), threads_(&host_memory_) {
@@ -41,18 +44,23 @@ Crew::~Crew() { stop(); }
 
 void Crew::stop() noexcept {
     desk_.close();
+    if (work_ != nullptr) work_->give_up();
     for (std::thread &thread : threads_) thread.join();
     threads_.clear();
-    if (at_work_ == this) at_work_ = nullptr;
+    work_ = nullptr;
+    for (Crew **at = &first_; *at != nullptr; at = &(*at)->next_)
+        if (*at == this) {
+            *at = next_;
+            return;
+        }
 }
 
 void Crew::stop_all() noexcept {
-    if (at_work_ != nullptr) at_work_->stop();
+    while (first_ != nullptr) first_->stop();
 }
 
-bool Crew::run(unsigned threads, std::size_t pieces, Work &work) {
+bool Crew::begin(unsigned threads, std::size_t pieces, Work &work) {
     threads = static_cast<unsigned>(std::min<std::size_t>(threads, pieces));
-    work_ = &work;
     pieces_ = pieces;
     next_piece_ = 0;
     has_failure_.clear();
@@ -60,20 +68,54 @@ bool Crew::run(unsigned threads, std::size_t pieces, Work &work) {
     while (couriers_.size() < threads) couriers_.emplace_back(desk_, memory_.memory());
     threads_.reserve(threads);
     desk_.open(threads);
-    at_work_ = this;
+    work_ = &work;
+    next_ = first_;
+    first_ = this;
     try {
         start(threads);
-        if (threads_.empty()) {
-            stop();
-            return false;
+    } catch (...) {
+        stop();
+        throw;
+    }
+    if (threads_.empty()) stop();
+    return has_begun();
+}
+
+bool Crew::serve() {
+    try {
+        return desk_.serve(host_, false);
+    } catch (...) {
+        stop();
+        throw;
+    }
+}
+
+/// While this crew's threads sort, say, those of another one insert points.
+bool Crew::serve_others() {
+    bool any = false;
+    for (Crew *crew = first_; crew != nullptr; crew = crew->next_)
+        any |= crew != this && crew->host_.is_same(host_) && crew->desk_.serve(crew->host_, soon);
+    return any;
+}
+
+void Crew::finish() {
+    try {
+        bool others = serve_others();
+        while (desk_.serve(host_, !work_->is_busy() && !others)) {
+            work_->meanwhile();
+            others = serve_others();
         }
-        while (desk_.serve(host_, !work.is_busy())) work.meanwhile();
     } catch (...) {
         stop();
         throw;
     }
     stop();
     if (failure_) std::rethrow_exception(failure_);
+}
+
+bool Crew::run(unsigned threads, std::size_t pieces, Work &work) {
+    if (!begin(threads, pieces, work)) return false;
+    finish();
     return true;
 }
 
@@ -98,6 +140,7 @@ void Crew::thread(Courier &courier) noexcept {
     } catch (...) {
         keep_failure();
         desk_.close();
+        work_->give_up();
     }
     desk_.leave();
 }

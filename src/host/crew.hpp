@@ -5,8 +5,10 @@
 // session's thread serves until all work is done.
 //
 // Invariants
-//   1. No thread outlives run(), whatever ends it; nor stop(), which a session that ends in the
-//      middle of run() calls before anything that threads use goes away.
+//   1. No thread outlives run(), whatever ends it; nor, after begin(), finish(), stop() or the
+//   crew.
+//      A session that ends while threads compute calls stop_all() before anything that they use
+//      goes away.
 //   2. All signals are blocked in the threads: they are the session's.
 //   3. The threads round to nearest, whatever the session does.
 //   4. Threads use memory of memory() alone, and what the session's thread lends them for as long
@@ -44,6 +46,8 @@ public:
         virtual void meanwhile() {}
         /// Whether meanwhile() has more to do, and is to be called soon.
         virtual bool is_busy() const { return false; }
+        /// Threads that wait in piece() for anything but pages are to return; for any thread.
+        virtual void give_up() noexcept {}
 
     protected:
         ~Work() = default;
@@ -70,11 +74,21 @@ public:
         Each each(piece);
         return run(threads, pieces, each);
     }
+    /// Starts threads that do all pieces, and returns; false, and nothing is done, if the system
+    /// grants no thread. The work has to last until finish() or stop(). The session's thread may
+    /// compute meanwhile; it calls serve() now and then if the threads use pages.
+    bool begin(unsigned threads, std::size_t pieces, Work &work);
+    /// Whether threads have begun, and not been finished or stopped.
+    bool has_begun() const { return work_ != nullptr; }
+    /// Serves what is asked for now. False once all threads have ended.
+    bool serve();
+    /// Serves until all threads have ended. Throws what the first that failed has thrown.
+    void finish();
     /// Stops and joins the threads, in the middle of run() too. For the session's thread.
     void stop() noexcept;
     /// For a thread: meanwhile() is to be called soon.
     void ring() noexcept { desk_.ring(); }
-    /// Stops the threads of whatever crew is at work in this process: for a session that ends.
+    /// Stops the threads of all crews at work in this process: for a session that ends.
     static void stop_all() noexcept;
 
     ThreadMemory &memory() { return memory_; }
@@ -82,6 +96,8 @@ public:
 
 private:
     void start(unsigned threads);
+    /// Serves the other crews of this host that are at work; false if there are none.
+    bool serve_others();
     void thread(Courier &courier) noexcept;
     void keep_failure() noexcept;
 
@@ -97,7 +113,8 @@ private:
     std::atomic_flag has_failure_; // the first one counts
     std::exception_ptr failure_;
 
-    static Crew *at_work_; // the session's thread alone reads and writes it
+    static Crew *first_; // of those at work; the session's thread alone reads and writes the list
+    Crew *next_ = nullptr;
 };
 
 /// What each thread of a crew keeps from piece to piece. It is made in that thread, with its

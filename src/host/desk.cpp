@@ -6,17 +6,12 @@
 
 namespace abacus {
 
-namespace {
-/// The session's thread looks for interrupts so often when nobody asks for anything.
-constexpr std::chrono::milliseconds longest_wait{20};
-} // namespace
-
 void Desk::open(unsigned threads) {
     const std::lock_guard guard(lock_);
     open_requests_ = 0;
     read_ = written_ = waited_ = 0;
     at_work_ = threads;
-    is_rung_ = false;
+    is_rung_ = is_urgent_ = false;
     for (Courier *courier = first_; courier != nullptr; courier = courier->next_)
         courier->begin_anew();
     __atomic_store_n(&closed_, 0, __ATOMIC_RELAXED);
@@ -52,13 +47,12 @@ void Desk::ring() noexcept {
     asked_.notify_all();
 }
 
-bool Desk::serve(const Host &host, bool may_wait) {
+bool Desk::serve(const Host &host, std::chrono::microseconds wait) {
     {
         std::unique_lock guard(lock_);
-        if (may_wait)
-            asked_.wait_for(guard, longest_wait,
-                            [&] { return open_requests_ > 0 || at_work_ == 0 || is_rung_; });
-        is_rung_ = false;
+        if (wait.count() > 0)
+            asked_.wait_for(guard, wait, [&] { return is_urgent_ || at_work_ == 0 || is_rung_; });
+        is_rung_ = is_urgent_ = false;
         if (open_requests_ == 0 && at_work_ == 0) return false;
     }
     host.poll();
@@ -119,7 +113,7 @@ bool Desk::serve(const Host &host, Courier &courier) {
     if (is_put) courier.places_[request->ticket] = page.location;
     ++courier.served_;
     --open_requests_;
-    courier.answered_.notify_one();
+    if (courier.served_ == courier.awaited_) courier.answered_.notify_one();
     return true;
 }
 
@@ -164,12 +158,12 @@ struct Courier::Functions {
             return ABACUS_HOST_FAILED;
         }
         page->location = ticket_bit | request->ticket;
-        self(context).ask();
+        self(context).ask(false);
         return ABACUS_HOST_OK;
     }
     static abacus_host_status erase(void *context, abacus_page_kind kind, const abacus_page *page) {
         if (self(context).begin(Wish::erase, kind, *page) == nullptr) return ABACUS_HOST_FAILED;
-        self(context).ask();
+        self(context).ask(false);
         return ABACUS_HOST_OK;
     }
 };
@@ -194,20 +188,22 @@ Courier::Courier(Desk &desk, const Memory &memory)
 }
 
 void Courier::begin_anew() {
-    asked_ = served_ = 0;
+    asked_ = served_ = awaited_ = 0;
     places_.clear();
 }
 
-template <class IsReady> void Courier::wait(std::unique_lock<std::mutex> &guard, IsReady is_ready) {
-    if (desk_.closed_ != 0 || is_ready()) return;
+void Courier::wait_until_served(std::unique_lock<std::mutex> &guard, std::size_t requests) {
+    if (desk_.closed_ != 0 || served_ >= requests) return;
     const Stopwatch watch(desk_.waited_);
-    answered_.wait(guard, [&] { return desk_.closed_ != 0 || is_ready(); });
+    awaited_ = requests;
+    answered_.wait(guard, [&] { return desk_.closed_ != 0 || served_ >= requests; });
 }
 
 Courier::Request *Courier::begin(Wish wish, abacus_page_kind kind, const abacus_page &page) {
     {
         std::unique_lock guard(desk_.lock_);
-        wait(guard, [&] { return asked_ - served_ < most_requests; });
+        // Once it has to wait, it waits for more than one place.
+        if (asked_ - served_ == most_requests) wait_until_served(guard, asked_ - most_requests / 2);
         if (desk_.closed_ != 0) return nullptr;
     }
     Request &request = requests_[asked_ % most_requests];
@@ -217,18 +213,21 @@ Courier::Request *Courier::begin(Wish wish, abacus_page_kind kind, const abacus_
     return &request;
 }
 
-void Courier::ask() {
+void Courier::ask(bool waits) {
     const std::lock_guard guard(desk_.lock_);
     ++asked_;
     ++desk_.open_requests_;
-    desk_.asked_.notify_one();
+    if (waits || asked_ - served_ >= most_requests / 2) {
+        desk_.is_urgent_ = true;
+        desk_.asked_.notify_one();
+    }
 }
 
 abacus_host_status Courier::look(Request *request, abacus_page &page) {
     if (request == nullptr) return ABACUS_HOST_FAILED;
-    ask();
+    ask(true);
     std::unique_lock guard(desk_.lock_);
-    wait(guard, [&] { return asked_ == served_; });
+    wait_until_served(guard, asked_);
     if (asked_ != served_) return ABACUS_HOST_FAILED;
     page = request->page;
     return request->answer;

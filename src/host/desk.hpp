@@ -20,6 +20,7 @@
 #include "host/arena.hpp"
 #include "host/host.hpp"
 
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 
@@ -43,10 +44,13 @@ public:
     /// For a thread: there is something to do for the session's thread besides pages.
     void ring() noexcept;
 
-    /// For the session's thread: serves what is asked for, or waits for it or a ring for a moment,
-    /// if it may. False once all threads have left and everything is served. Throws what the host
-    /// throws.
-    bool serve(const Host &host, bool may_wait = true);
+    /// For the session's thread: serves what is asked for, or waits for it or a ring so long at
+    /// most, or for a moment, if it may. False once all threads have left and everything is served.
+    /// Throws what the host throws.
+    bool serve(const Host &host, std::chrono::microseconds wait);
+    bool serve(const Host &host, bool may_wait) {
+        return serve(host, may_wait ? longest_wait : std::chrono::microseconds{0});
+    }
 
     /// Pages handed to threads and stored for them since open(); for the session's thread.
     std::uint64_t pages_read() const { return read_; }
@@ -59,6 +63,9 @@ public:
 private:
     friend class Courier;
 
+    /// The session's thread looks for interrupts so often when nobody asks for anything.
+    static constexpr std::chrono::microseconds longest_wait{20000};
+
     /// Serves the courier's next request; false if there is none.
     bool serve(const Host &host, Courier &courier);
 
@@ -68,6 +75,7 @@ private:
     std::size_t open_requests_ = 0; // asked and not served
     unsigned at_work_ = 0;          // threads
     bool is_rung_ = false;
+    bool is_urgent_ = false; // a thread waits for a page, or soon for room
     std::uint64_t read_ = 0, written_ = 0;
     std::uint64_t waited_ = 0;
     volatile int closed_ = 0; // what the threads' hosts show as an interrupt
@@ -102,12 +110,13 @@ private:
 
     /// Forgets requests and tickets.
     void begin_anew();
-    /// Waits until the desk is closed or is_ready().
-    template <class IsReady> void wait(std::unique_lock<std::mutex> &guard, IsReady is_ready);
+    /// Waits until so many requests have been served, or the desk is closed.
+    void wait_until_served(std::unique_lock<std::mutex> &guard, std::size_t requests);
     /// The thread's next request, once there is room; nullptr if the desk is closed.
     Request *begin(Wish wish, abacus_page_kind kind, const abacus_page &page);
-    /// Hands it in.
-    void ask();
+    /// Hands it in. The session's thread is woken only if the thread `waits` for it, or many are
+    /// there: to wake up costs more than to store a page.
+    void ask(bool waits);
     /// Hands it in, and waits for the page.
     abacus_host_status look(Request *request, abacus_page &page);
     std::uint64_t new_ticket();
@@ -122,6 +131,7 @@ private:
     Arena<Request> requests_;     // a ring
     Arena<std::uint64_t> places_; // by ticket
     std::size_t asked_ = 0, served_ = 0;
+    std::size_t awaited_ = 0; // how many are to be served before the thread is woken
     std::condition_variable answered_;
 };
 

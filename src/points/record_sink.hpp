@@ -16,6 +16,8 @@ public:
     }
     /// After the last point.
     virtual void finish() = 0;
+    /// Called now and then while the next points are looked for.
+    virtual void meanwhile() {}
     /// Of the points taken, how many it holds back: nothing has been done with them.
     virtual std::size_t held_back() const { return 0; }
     /// The name of its work, and the pages that it has moved so far.

@@ -5,6 +5,8 @@
 #include "sort/spool.hpp"
 #include "staging/splitters.hpp"
 
+#include <utility>
+
 namespace abacus {
 
 /// What is left of a slice to be sorted by itself.
@@ -25,20 +27,38 @@ public:
     std::uint64_t size() const { return size_; }
 
     void add(const std::uint64_t *record) {
-        const unsigned part = splitters_.part(record_point<D>(record));
-        std::uint64_t *to = buffers_.data() + (part * piece_ + waiting_[part]) * stride_;
-        for (std::size_t word = 0; word < stride_; ++word) to[word] = record[word];
-        if (++waiting_[part] == piece_) write(part);
-        ++size_;
+        const unsigned part = part_of(record);
+        if (put(part, record)) write(part, exchange(part, piece(part)));
     }
     /// After the last record: the parts in their order.
     Arena<Part<D>> finish();
 
-private:
-    void write(unsigned part) {
-        parts_[part].spool.write(host_, buffers_.data() + part * piece_ * stride_, waiting_[part],
-                                 stride_);
+    // What add() does, for threads (distributor_threads.hpp):
+
+    /// The part of a record; for any thread.
+    unsigned part_of(const std::uint64_t *record) const {
+        return splitters_.part(record_point<D>(record));
+    }
+    /// Copies a record to the piece of its part. True if that is full now; it must be exchanged
+    /// before the next record comes.
+    bool put(unsigned part, const std::uint64_t *record) {
+        std::uint64_t *to = piece(part) + waiting_[part] * stride_;
+        for (std::size_t word = 0; word < stride_; ++word) to[word] = record[word];
+        ++size_;
+        return ++waiting_[part] == piece_;
+    }
+    std::uint64_t *piece(unsigned part) const { return buffer_[part]; }
+    /// Gives a part an empty piece, and returns the one that it had.
+    std::uint64_t *exchange(unsigned part, std::uint64_t *empty) {
         waiting_[part] = 0;
+        return std::exchange(buffer_[part], empty);
+    }
+    /// Writes a full piece; for the session's thread.
+    void write(unsigned part, const std::uint64_t *full) { write(part, full, piece_); }
+
+private:
+    void write(unsigned part, const std::uint64_t *records, std::size_t n) {
+        parts_[part].spool.write(host_, records, n, stride_);
     }
 
     const Host &host_;
@@ -47,8 +67,9 @@ private:
     const Splitters<D> splitters_;
     std::uint64_t size_ = 0;
     Arena<Part<D>> parts_;
-    Arena<std::uint64_t> buffers_; ///< a piece of each part
-    Arena<std::size_t> waiting_;   ///< records in the buffer of each part
+    Arena<std::uint64_t> buffers_;  ///< a piece of each part
+    Arena<std::uint64_t *> buffer_; ///< that of each part
+    Arena<std::size_t> waiting_;    ///< records in it
 };
 
 extern template class Distributor<2>;

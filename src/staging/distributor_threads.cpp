@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace abacus {
 
@@ -13,17 +14,17 @@ constexpr std::chrono::milliseconds longest_wait{20};
 template <int D>
 DistributorThreads<D>::DistributorThreads(const Host &host, Distributor<D> &distributor,
                                           std::size_t stride, std::size_t piece)
-    : host_(host), distributor_(distributor), stride_(stride),
+    : host_(host), distributor_(distributor), stride_(stride), room_(block_pieces * piece),
       threads_(std::min(host.threads(), most_threads)), memory_(host), part_memory_(host),
       blocks_(host), empty_(host), crew_(host) {
-    const std::size_t blocks = blocks_for(threads_), words = piece * stride;
-    memory_.resize((blocks + pieces) * words);
-    part_memory_.resize(blocks * piece);
-    for (std::size_t i = 0; i < blocks; ++i)
-        blocks_.push_back({memory_.data() + i * words, part_memory_.data() + i * piece, 0});
+    const std::size_t blocks = blocks_for(threads_);
+    memory_.resize((blocks * room_ + pieces * piece) * stride);
+    part_memory_.resize(blocks * room_);
+    std::uint64_t *at = memory_.data();
+    for (std::size_t i = 0; i < blocks; ++i, at += room_ * stride)
+        blocks_.push_back({at, part_memory_.data() + i * room_, 0});
     empty_.reserve(pieces);
-    for (std::size_t i = 0; i < pieces; ++i)
-        empty_.push_back(memory_.data() + (blocks + i) * words);
+    for (std::size_t i = 0; i < pieces; ++i, at += piece * stride) empty_.push_back(at);
 }
 
 // ---- The session's thread ---------------------------------------------------------------
@@ -42,16 +43,22 @@ template <int D> template <class IsReady> void DistributorThreads<D>::wait(IsRea
 }
 
 template <int D> void DistributorThreads<D>::add(const std::uint64_t *records, std::size_t n) {
-    wait([&] { return brought_ - dealt_ < blocks_.size(); });
+    if (filled_ + n > room_) bring();
+    if (filled_ == 0) wait([&] { return brought_ - dealt_ < blocks_.size(); });
     Block &block = blocks_[brought_ % blocks_.size()];
-    std::copy_n(records, n * stride_, block.records);
-    block.n = n;
+    std::copy_n(records, n * stride_, block.records + filled_ * stride_);
+    filled_ += n;
+}
+
+template <int D> void DistributorThreads<D>::bring() {
+    blocks_[brought_ % blocks_.size()].n = std::exchange(filled_, 0);
     const std::lock_guard guard(lock_);
     ++brought_;
     for_threads_.notify_all();
 }
 
 template <int D> void DistributorThreads<D>::finish() {
+    if (filled_ > 0) bring();
     {
         const std::lock_guard guard(lock_);
         is_over_ = true;

@@ -42,8 +42,9 @@ public:
 
     /// Bytes that it takes.
     static std::size_t bytes(unsigned threads, std::size_t stride, std::size_t piece) {
-        return (blocks_for(threads) * (stride * sizeof(std::uint64_t) + sizeof(unsigned)) +
-                pieces * stride * sizeof(std::uint64_t)) *
+        const std::size_t record = stride * sizeof(std::uint64_t);
+        return (blocks_for(threads) * block_pieces * (record + sizeof(unsigned)) +
+                pieces * record) *
                piece;
     }
 
@@ -58,6 +59,8 @@ private:
         std::uint64_t *records;
     };
     static constexpr std::size_t pieces = 8; ///< in the outbox, or empty
+    /// Of a block. To hand one over costs some microseconds, most of them for waking up.
+    static constexpr std::size_t block_pieces = 4;
     static constexpr unsigned most_threads = 4;
 
     static std::size_t blocks_for(unsigned threads) {
@@ -73,6 +76,8 @@ private:
     /// Puts a full piece into the outbox; false if threads give up.
     bool send(unsigned part);
     void count_dealt();
+    /// Brings the block that the session has filled.
+    void bring();
     /// Writes what is in the outbox.
     void empty_outbox();
     /// Empties the outbox until is_ready().
@@ -81,6 +86,7 @@ private:
     const Host &host_;
     Distributor<D> &distributor_;
     const std::size_t stride_;
+    const std::size_t room_; ///< records of a block
     const unsigned threads_;
     Arena<std::uint64_t> memory_; ///< of blocks and pieces
     Arena<unsigned> part_memory_;
@@ -89,6 +95,7 @@ private:
     std::array<FullPiece, pieces> outbox_; ///< a ring
     std::mutex lock_;
     std::condition_variable for_threads_, for_session_;
+    std::size_t filled_ = 0;                            ///< records of the block to be brought
     std::uint64_t brought_ = 0, taken_ = 0, dealt_ = 0; ///< blocks
     std::uint64_t sent_ = 0, written_ = 0;              ///< full pieces
     bool is_over_ = false;                              ///< no more blocks come

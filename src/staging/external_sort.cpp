@@ -129,6 +129,7 @@ template <int D> void ExternalSort<D>::read(Spool &spool, std::uint64_t *to) {
     spool.rewind(host_);
     while (const std::size_t n = spool.read(host_, to, budget_.piece, stride_)) {
         to += n * stride_;
+        sink_.meanwhile();
         pacer_.poll();
     }
     close(spool);

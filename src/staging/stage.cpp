@@ -14,6 +14,8 @@ namespace {
 // Vertices of a mesh for each point that is looked up there; a page has a hundred or
 // more.
 constexpr double vertices_a_sample = 32;
+// Threads that distribute may take this share of the memory beside it.
+constexpr std::size_t thread_share = 16;
 } // namespace
 
 template <int D>
@@ -27,13 +29,18 @@ Stage<D>::Stage(const Host &host, const abacus_facts &facts, std::size_t memory,
 }
 
 template <int D> void Stage<D>::add(const std::uint64_t *points, std::size_t count) {
-    while (count > 0) {
-        if (buffered_ == room_) spill();
-        const std::size_t n = std::min({count, room_ - buffered_, Pacer::stride});
-        copy(points, n);
-        points += n * stride_;
-        count -= n;
-        pacer_.reached(this->points());
+    try {
+        while (count > 0) {
+            if (buffered_ == room_) spill();
+            const std::size_t n = std::min({count, room_ - buffered_, Pacer::stride});
+            copy(points, n);
+            points += n * stride_;
+            count -= n;
+            pacer_.reached(this->points());
+        }
+    } catch (...) {
+        threads_.reset();
+        throw;
     }
 }
 
@@ -71,7 +78,7 @@ template <int D> void Stage<D>::spill() {
         const std::size_t n = std::min(buffered_ - at, budget_.piece);
         const std::uint64_t *records = buffer_.data() + at * stride_;
         if (distributor_)
-            for (std::size_t i = 0; i < n; ++i) distributor_->add(records + i * stride_);
+            distribute(records, n);
         else
             piles_.back().write(host_, records, n, stride_);
         at += n;
@@ -93,10 +100,32 @@ template <int D> void Stage<D>::begin_to_distribute() {
     const Slice<D> slice{domain_ ? *domain_ : domain_so_far(), rounds_ ? &*rounds_ : nullptr};
     distributor_.emplace(host_, stride_, budget_.piece, slice, sample_,
                          budget_.parts(rounds_ ? rounds_->size() : 0), with_rounds_);
+    using Threads = DistributorThreads<D>;
+    const std::size_t bytes = Threads::bytes(host_.threads(), stride_, budget_.piece);
+    if (host_.threads() == 1 || (bytes > memory_ / thread_share && !host_.has_tiny_intervals()))
+        return;
+    if (!threads_.emplace(host_, *distributor_, stride_, budget_.piece).begin()) threads_.reset();
+}
+
+template <int D> void Stage<D>::distribute(const std::uint64_t *records, std::size_t n) {
+    if (threads_) return threads_->add(records, n);
+    for (std::size_t i = 0; i < n; ++i) distributor_->add(records + i * stride_);
+}
+
+template <int D> Arena<Part<D>> Stage<D>::finish_distributing() {
+    try {
+        if (threads_) threads_->finish();
+        Arena<Part<D>> parts = distributor_->finish();
+        threads_.reset();
+        return parts;
+    } catch (...) {
+        threads_.reset();
+        throw;
+    }
 }
 
 template <int D> void Stage<D>::stop_distributing() {
-    for (const Part<D> &part : distributor_->finish())
+    for (const Part<D> &part : finish_distributing())
         if (part.spool.size() > 0) piles_.push_back(part.spool);
     distributor_.reset();
     piles_.push_back(Spool());
@@ -160,7 +189,7 @@ template <int D> void Stage<D>::emit(RecordSink &sink, const abacus_facts &facts
         buffer_.reset();
         if (distributor_ && !is_distributed_by(all)) stop_distributing();
         if (distributor_) {
-            Arena<Part<D>> parts = distributor_->finish();
+            Arena<Part<D>> parts = finish_distributing();
             // There may be more rounds now than there were: of those promoted most often.
             if (in_rounds) parts[0].slice = all;
             if (reversed) // inside a round the order is the same

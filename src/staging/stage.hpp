@@ -14,6 +14,7 @@
 #pragma once
 
 #include "points/spread.hpp"
+#include "staging/distributor_threads.hpp"
 #include "staging/external_sort.hpp"
 
 #include <abacus/facts.h>
@@ -57,6 +58,10 @@ private:
     /// Begins to distribute the points that come, if they are enough for several
     /// rounds.
     void begin_to_distribute();
+    /// Adds records to the distributor.
+    void distribute(const std::uint64_t *records, std::size_t n);
+    /// Ends it: its parts in their order.
+    Arena<Part<D>> finish_distributing();
     void stop_distributing();
     /// What the points so far would have.
     Domain<D> domain_so_far();
@@ -80,6 +85,7 @@ private:
     std::uint64_t outside_ = 0;       ///< points that it does not contain
     std::optional<Rounds<D>> rounds_; ///< of the distributor's slice, if it has any
     std::optional<Distributor<D>> distributor_;
+    std::optional<DistributorThreads<D>> threads_; ///< that work on it
     Box<D> distributed_; ///< box of the points when its domain was last looked at
     Arena<Spool> piles_; ///< what is in no distributor; the last one takes more
 };

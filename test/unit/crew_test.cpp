@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstring>
+#include <thread>
 
 namespace abacus::test {
 namespace {
@@ -93,6 +95,79 @@ TEST(Crew, WorksAfterAFailure) {
         EXPECT_TRUE(store.pages.empty());
     }
     EXPECT_EQ(store.violations, std::vector<std::string>{});
+}
+
+TEST(Crew, WorksBesideTheSessionsThread) {
+    MemoryHost store;
+    const Host host = store.host();
+    Crew crew(host);
+    Storing work;
+    for (int i = 0; i < 20; ++i) {
+        ASSERT_TRUE(crew.begin(2, 10, work));
+        EXPECT_TRUE(crew.has_begun());
+        while (crew.serve()) std::this_thread::yield();
+        crew.finish();
+        EXPECT_FALSE(crew.has_begun());
+    }
+    EXPECT_TRUE(store.pages.empty());
+    Storing fails(true);
+    ASSERT_TRUE(crew.begin(2, 10, fails));
+    EXPECT_THROW(crew.finish(), Error);
+    EXPECT_FALSE(crew.has_begun());
+    EXPECT_EQ(store.violations, std::vector<std::string>{});
+}
+
+// While the session waits for the second crew, threads of the first one get their pages.
+TEST(Crew, IsServedWhileAnotherOneRuns) {
+    MemoryHost store;
+    const Host host = store.host();
+    Crew first(host), second(host);
+    std::atomic<bool> has_ended = false;
+    class Watched final : public Crew::Work {
+    public:
+        explicit Watched(std::atomic<bool> &has_ended) : has_ended_(has_ended) {}
+        void piece(std::size_t number, const Host &host) override {
+            Storing().piece(number, host);
+            abacus_page page = left_over();
+            EXPECT_FALSE(host.find(ABACUS_SIMPLEX_PAGES, {number, 0}, page));
+            has_ended_ = true;
+        }
+
+    private:
+        std::atomic<bool> &has_ended_;
+    } work(has_ended);
+    ASSERT_TRUE(first.begin(1, 1, work));
+    EXPECT_TRUE(second.run_each(1, 1, [&](std::size_t, const Host &) {
+        while (!has_ended) std::this_thread::yield();
+    }));
+    first.finish();
+    EXPECT_TRUE(store.pages.empty());
+    EXPECT_EQ(store.violations, std::vector<std::string>{});
+}
+
+// A thread that waits for anything but a page ends when the crew is stopped, or goes.
+TEST(Crew, GivesUp) {
+    class Waiting final : public Crew::Work {
+    public:
+        void piece(std::size_t, const Host &) override { gives_up_.wait(false); }
+        void give_up() noexcept override {
+            gives_up_ = true;
+            gives_up_.notify_all();
+        }
+
+    private:
+        std::atomic<bool> gives_up_ = false;
+    };
+    MemoryHost store;
+    const Host host = store.host();
+    for (int i = 0; i < 3; ++i) {
+        Waiting work; // outlives the crew
+        Crew crew(host);
+        ASSERT_TRUE(crew.begin(3, 3, work));
+        if (i == 0) crew.stop();
+        if (i == 1) Crew::stop_all();
+    }
+    EXPECT_EQ(store.bytes, 0u);
 }
 
 } // namespace
